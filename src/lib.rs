@@ -1,0 +1,10 @@
+//! Hachure draws 3D models: edge-enhanced, as technical illustrations, and in further styles to come.
+//!
+//! The rooms of the house, from the top floor down; a room imports only from floors below its own:
+//! [`app`] the window, [`export`] pictures without a window, [`render`] one frame of one scene, [`import`] files
+//! become scenes, [`gpu`] the device, [`document`] what is saved and undone, [`scene`] nodes, cameras, lights and
+//! materials, [`style`] the parameters of every effect, [`geometry`] meshes.
+
+pub mod geometry;
+pub mod import;
+pub mod scene;

@@ -1,0 +1,128 @@
+//! The scene graph: a flat list of nodes in tree order.
+
+use std::sync::Arc;
+
+use glam::DMat4;
+
+use super::{Camera, Light, Material, Texture};
+use crate::geometry::{Bounds, Mesh};
+
+/// Index into [`Scene::nodes`].
+pub type NodeId = usize;
+
+/// Everything loaded from one or more files.
+#[derive(Debug, Clone, Default)]
+pub struct Scene {
+    /// Nodes in depth-first order: a parent stands before its children, a subtree is contiguous.
+    pub nodes: Vec<Node>,
+    /// Meshes; several nodes may show the same one.
+    pub meshes: Vec<Arc<Mesh>>,
+    /// Materials that mesh parts refer to.
+    pub materials: Vec<Material>,
+    /// Decoded images that materials refer to.
+    pub textures: Vec<Arc<Texture>>,
+    /// Cameras found in the files, in world space, with the name of their node. Starting values only.
+    pub cameras: Vec<(String, Camera)>,
+    /// Lights found in the files, in world space. Starting values only.
+    pub lights: Vec<Light>,
+    /// What could not be loaded or was repaired, for a person to read.
+    pub warnings: Vec<Warning>,
+    /// The axis that the first file's format declares to be up: 1 for +Y (glTF, OBJ, PLY), 2 for +Z (STL).
+    pub up: Up,
+    /// Metres per unit where the format states it (glTF: 1).
+    pub metres_per_unit: Option<f64>,
+}
+
+/// A signed coordinate axis that points up.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
+pub enum Up {
+    /// +X
+    #[serde(rename = "+X")]
+    PosX,
+    /// −X
+    #[serde(rename = "-X")]
+    NegX,
+    /// +Y, as in glTF
+    #[default]
+    #[serde(rename = "+Y")]
+    PosY,
+    /// −Y
+    #[serde(rename = "-Y")]
+    NegY,
+    /// +Z, as in STL
+    #[serde(rename = "+Z")]
+    PosZ,
+    /// −Z
+    #[serde(rename = "-Z")]
+    NegZ,
+}
+
+/// One node of the hierarchy. A node with a mesh is an *object*.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Node {
+    /// Name of the node, unique among its siblings, without `/`.
+    pub name: String,
+    /// The names from the root down, each after a `/`: `/crank/rod.3`. Unique in the scene.
+    pub path: String,
+    /// The node above; `None` for the root of each file.
+    pub parent: Option<NodeId>,
+    /// Number of nodes below this one (children, their children, …); they follow it directly.
+    pub descendants: usize,
+    /// Transform of the node in the file's coordinates.
+    pub world_from_local: DMat4,
+    /// Index into [`Scene::meshes`].
+    pub mesh: Option<usize>,
+}
+
+/// Something that a person should know about a file, after which loading went on.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Warning {
+    /// Where: the file, with a line, node or image where known.
+    pub place: String,
+    /// What happened and, where something can be done, what to do.
+    pub message: String,
+}
+
+impl std::fmt::Display for Warning {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{}: {}", self.place, self.message)
+    }
+}
+
+impl Scene {
+    /// The box around the given nodes' meshes in world space.
+    pub fn bounds_of(&self, nodes: impl IntoIterator<Item = NodeId>) -> Bounds {
+        nodes
+            .into_iter()
+            .filter_map(|id| {
+                let node = self.nodes.get(id)?;
+                let mesh = self.meshes.get(node.mesh?)?;
+                Some(mesh.bounds().transformed(&node.world_from_local))
+            })
+            .fold(Bounds::EMPTY, |all, b| all.union(&b))
+    }
+
+    /// The box around everything.
+    pub fn bounds(&self) -> Bounds {
+        self.bounds_of(0..self.nodes.len())
+    }
+
+    /// The node itself and all nodes below it.
+    pub fn subtree(&self, id: NodeId) -> std::ops::Range<NodeId> {
+        id..id + 1 + self.nodes.get(id).map_or(0, |n| n.descendants)
+    }
+
+    /// The node with this path.
+    pub fn find(&self, path: &str) -> Option<NodeId> {
+        self.nodes.iter().position(|n| n.path == path)
+    }
+
+    /// Number of triangles drawn, counting a mesh once for every node that shows it.
+    pub fn triangle_count(&self) -> usize {
+        self.nodes
+            .iter()
+            .filter_map(|n| self.meshes.get(n.mesh?))
+            .map(|m| m.triangle_count())
+            .sum()
+    }
+}

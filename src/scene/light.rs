@@ -1,0 +1,47 @@
+//! Light sources.
+
+use glam::{DVec3, Vec3};
+
+/// One light, in world space or in the space of the eye.
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Light {
+    /// Kind of source.
+    pub kind: LightKind,
+    /// Linear RGB colour, 0 to 1.
+    pub color: Vec3,
+    /// Relative brightness; 1 lights a white surface facing it fully white.
+    pub intensity: f32,
+    /// Whether the light moves with the camera: its direction or position is then in view space.
+    pub attached_to_camera: bool,
+}
+
+/// Kind of light source, without physical units: drawings do not need them.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum LightKind {
+    /// Parallel light that travels along `direction` (unit length, from the light to the scene).
+    Directional {
+        /// Direction in which the light travels.
+        direction: DVec3,
+    },
+    /// A point that shines in all directions, without fall-off.
+    Point {
+        /// Where it stands.
+        position: DVec3,
+    },
+}
+
+impl Light {
+    /// The default rig: a key light over the viewer's left shoulder and a weaker fill from the right.
+    pub fn default_rig() -> Vec<Self> {
+        let light = |x: f64, y: f64, z: f64, intensity| Self {
+            kind: LightKind::Directional {
+                direction: -DVec3::new(x, y, z).normalize_or(DVec3::Z),
+            },
+            color: Vec3::ONE,
+            intensity,
+            attached_to_camera: true,
+        };
+        vec![light(-0.5, 0.7, 0.75, 0.85), light(0.8, 0.1, 0.4, 0.25)]
+    }
+}

@@ -1,0 +1,11 @@
+//! What a file becomes: nodes, materials, cameras, lights. Plain data in the file's own coordinates.
+
+pub mod camera;
+pub mod graph;
+pub mod light;
+pub mod material;
+
+pub use camera::{Camera, Projection};
+pub use graph::{Node, NodeId, Scene, Up, Warning};
+pub use light::{Light, LightKind};
+pub use material::{AlphaMode, Material, Texture, TextureRef, UvTransform, Wrap};
