@@ -82,9 +82,7 @@ struct ProgressState {
 impl Progress {
     /// Reports the share of the work that is done, 0 to 1.
     pub fn report(&self, share: f32) {
-        self.0
-            .permille
-            .store((share.clamp(0.0, 1.0) * 1000.0) as u32, Ordering::Relaxed);
+        self.0.permille.store((share.clamp(0.0, 1.0) * 1000.0) as u32, Ordering::Relaxed);
     }
 
     /// The share of the work that is done, 0 to 1.
@@ -104,11 +102,7 @@ impl Progress {
 
     /// `Err(ImportError::Cancelled)` once the job was asked to stop.
     pub fn check(&self) -> Result<(), ImportError> {
-        if self.is_cancelled() {
-            Err(ImportError::Cancelled)
-        } else {
-            Ok(())
-        }
+        if self.is_cancelled() { Err(ImportError::Cancelled) } else { Ok(()) }
     }
 }
 
@@ -117,11 +111,7 @@ impl Progress {
 /// # Errors
 /// When the file cannot be read, is malformed, needs something unsupported, or holds nothing to draw. Whatever can
 /// be shown is shown; the rest is in [`Scene::warnings`].
-pub fn load(
-    path: &Path,
-    options: &ImportOptions,
-    progress: &Progress,
-) -> Result<Scene, ImportError> {
+pub fn load(path: &Path, options: &ImportOptions, progress: &Progress) -> Result<Scene, ImportError> {
     let _ = (options, progress);
     Err(ImportError::UnknownFormat { path: path.into() })
 }

@@ -119,10 +119,6 @@ impl Scene {
 
     /// Number of triangles drawn, counting a mesh once for every node that shows it.
     pub fn triangle_count(&self) -> usize {
-        self.nodes
-            .iter()
-            .filter_map(|n| self.meshes.get(n.mesh?))
-            .map(|m| m.triangle_count())
-            .sum()
+        self.nodes.iter().filter_map(|n| self.meshes.get(n.mesh?)).map(|m| m.triangle_count()).sum()
     }
 }
