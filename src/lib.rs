@@ -7,6 +7,8 @@
 
 pub mod document;
 pub mod geometry;
+pub mod gpu;
 pub mod import;
+pub mod render;
 pub mod scene;
 pub mod style;
