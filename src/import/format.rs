@@ -50,14 +50,9 @@ fn is_gltf_json(data: &[u8]) -> bool {
     const LOOK: usize = 4096;
     let data = data.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(data);
     let begins = data.iter().find(|b| !b.is_ascii_whitespace()) == Some(&b'{');
-    let names_asset = |part: Option<&[u8]>| {
-        part.unwrap_or(data)
-            .windows(7)
-            .any(|window| window == b"\"asset\"")
-    };
-    begins
-        && (names_asset(data.get(..LOOK))
-            || names_asset(data.get(data.len().saturating_sub(LOOK)..)))
+    let names_asset =
+        |part: Option<&[u8]>| part.unwrap_or(data).windows(7).any(|window| window == b"\"asset\"");
+    begins && (names_asset(data.get(..LOOK)) || names_asset(data.get(data.len().saturating_sub(LOOK)..)))
 }
 
 /// A binary STL is exactly as long as its number of triangles says.
@@ -72,8 +67,7 @@ fn is_binary_stl(data: &[u8]) -> bool {
 /// A text STL begins with `solid` and soon has a `facet`.
 fn is_text_stl(data: &[u8]) -> bool {
     let begin = data.get(..1024).unwrap_or(data).to_ascii_lowercase();
-    begin.trim_ascii_start().starts_with(b"solid")
-        && begin.windows(6).any(|window| window == b"facet ")
+    begin.trim_ascii_start().starts_with(b"solid") && begin.windows(6).any(|window| window == b"facet ")
 }
 
 #[cfg(test)]
@@ -86,10 +80,7 @@ mod tests {
         assert_eq!(detect("a.obj", b"glTF...."), Some(Format::Gltf));
         assert_eq!(detect("a.stl", b"ply\nformat"), Some(Format::Ply));
         assert_eq!(detect("a", b" { \"asset\" : {} }"), Some(Format::Gltf));
-        assert_eq!(
-            detect("a.txt", b"solid x\n facet normal 0 0 1"),
-            Some(Format::Stl)
-        );
+        assert_eq!(detect("a.txt", b"solid x\n facet normal 0 0 1"), Some(Format::Stl));
         assert_eq!(detect("a.OBJ", b"v 0 0 0"), Some(Format::Obj));
         assert_eq!(detect("a.fbx", b"Kaydara"), None);
         let mut stl = vec![0; 84 + 50];

@@ -52,11 +52,7 @@ fn import(path: &Path, data: &[u8], progress: &Progress) -> Result<Scene> {
     let file = path.file_name().unwrap_or(path.as_os_str());
     let file = file.to_string_lossy().into_owned();
     let warning = |place: &str, message: String| Warning {
-        place: if place.is_empty() {
-            file.clone()
-        } else {
-            format!("{file}, {place}")
-        },
+        place: if place.is_empty() { file.clone() } else { format!("{file}, {place}") },
         message,
     };
     let mut warnings = Vec::new();
@@ -64,10 +60,8 @@ fn import(path: &Path, data: &[u8], progress: &Progress) -> Result<Scene> {
     let chunks = container::split(data)?;
     let (root, repaired) = container::parse(chunks.json)?;
     if repaired {
-        warnings.push(warning(
-            "",
-            "its text is not UTF-8; unreadable characters in names were replaced".into(),
-        ));
+        warnings
+            .push(warning("", "its text is not UTF-8; unreadable characters in names were replaced".into()));
     }
     progress.report(0.1);
     let folder = Folder::of(path);
@@ -129,8 +123,7 @@ fn import(path: &Path, data: &[u8], progress: &Progress) -> Result<Scene> {
         }
     }
     let mut notes = Vec::new();
-    let (mut materials, textures) =
-        materials::convert(&document, &folder, &used, progress, &mut notes)?;
+    let (mut materials, textures) = materials::convert(&document, &folder, &used, progress, &mut notes)?;
     if used.last() == Some(&false) {
         materials.pop();
     }
@@ -165,17 +158,10 @@ fn requests(document: &Document<'_>, hierarchy: &Hierarchy) -> (Vec<Request>, Ve
             let mesh = node.mesh?.value();
             let declared = root.meshes.get(mesh);
             let morphs = declared.is_some_and(|m| m.primitives.iter().any(|p| p.targets.is_some()));
-            let weights = if morphs {
-                block::morph_weights(root, index)
-            } else {
-                Vec::new()
-            };
+            let weights = if morphs { block::morph_weights(root, index) } else { Vec::new() };
             let request = Request {
                 mesh,
-                skin: node
-                    .skin
-                    .map(|s| s.value())
-                    .filter(|_| meshes::is_skinnable(document, mesh)),
+                skin: node.skin.map(|s| s.value()).filter(|_| meshes::is_skinnable(document, mesh)),
                 weights: weights.into_iter().map(f32::to_bits).collect(),
             };
             Some(*known.entry(request.clone()).or_insert_with(|| {
@@ -207,9 +193,7 @@ fn build_all(
             let pose = request.skin.and_then(|skin| poses.get(&skin));
             meshes::build(document, request, pose, node_of).map_err(|f| {
                 let mesh = document.root.meshes.get(request.mesh);
-                f.at(|| {
-                    label("mesh", request.mesh, mesh.and_then(|m| m.name.as_ref())).into_owned()
-                })
+                f.at(|| label("mesh", request.mesh, mesh.and_then(|m| m.name.as_ref())).into_owned())
             })
         })
         .collect()

@@ -63,11 +63,7 @@ pub(super) fn decode_all(
             working += job.1.as_ref().map_or(0, |bytes| bytes * 3);
             batch.push(job);
         }
-        out.par_extend(
-            batch
-                .into_par_iter()
-                .map(|(image, size)| size.and_then(|_| decode(image))),
-        );
+        out.par_extend(batch.into_par_iter().map(|(image, size)| size.and_then(|_| decode(image))));
     }
     Ok(out)
 }
@@ -87,9 +83,7 @@ fn probe(image: &EncodedImage) -> Result<u64, String> {
         ));
     }
     if width.max(height) > 1 << 16 {
-        return Err(format!(
-            "it declares {width} × {height} pixels; at most 65536 a side are read"
-        ));
+        return Err(format!("it declares {width} × {height} pixels; at most 65536 a side are read"));
     }
     Ok(pixels * 4)
 }
@@ -111,16 +105,13 @@ fn open(image: &EncodedImage) -> Result<impl ImageDecoder + '_, String> {
         None => return Err("it is neither a PNG nor a JPEG image".into()),
     }
     let mut limits = Limits::no_limits();
-    limits.max_alloc =
-        Some((image.bytes.len() as u64 * LARGEST_RATIO).max(ALWAYS_ACCEPTED_PIXELS * 8));
+    limits.max_alloc = Some((image.bytes.len() as u64 * LARGEST_RATIO).max(ALWAYS_ACCEPTED_PIXELS * 8));
     reader.limits(limits);
     reader.into_decoder().map_err(|e| e.to_string())
 }
 
 fn decode(image: &EncodedImage) -> Result<Texture, String> {
-    let pixels = DynamicImage::from_decoder(open(image)?)
-        .map_err(|e| e.to_string())?
-        .into_rgba8();
+    let pixels = DynamicImage::from_decoder(open(image)?).map_err(|e| e.to_string())?.into_rgba8();
     Ok(Texture {
         name: image.name.clone(),
         width: pixels.width(),
@@ -135,35 +126,21 @@ mod tests {
 
     fn png(width: u32, height: u32) -> Vec<u8> {
         let mut out = Vec::new();
-        DynamicImage::new_rgb8(width, height)
-            .write_to(&mut Cursor::new(&mut out), ImageFormat::Png)
-            .unwrap();
+        DynamicImage::new_rgb8(width, height).write_to(&mut Cursor::new(&mut out), ImageFormat::Png).unwrap();
         out
     }
 
     fn decode_bytes(bytes: Vec<u8>) -> Result<Texture, String> {
-        let image = EncodedImage {
-            name: "test".into(),
-            bytes: Arc::new(bytes),
-        };
-        decode_all(&[image], 1 << 30, &Progress::default())
-            .unwrap()
-            .remove(0)
+        let image = EncodedImage { name: "test".into(), bytes: Arc::new(bytes) };
+        decode_all(&[image], 1 << 30, &Progress::default()).unwrap().remove(0)
     }
 
     #[test]
     fn good_images_decode_and_bad_ones_say_why() {
         let texture = decode_bytes(png(3, 2)).unwrap();
-        assert_eq!(
-            (texture.width, texture.height, texture.rgba.len()),
-            (3, 2, 24)
-        );
+        assert_eq!((texture.width, texture.height, texture.rgba.len()), (3, 2, 24));
         assert!(decode_bytes(Vec::new()).unwrap_err().contains("empty"));
-        assert!(
-            decode_bytes(b"hello".to_vec())
-                .unwrap_err()
-                .contains("neither")
-        );
+        assert!(decode_bytes(b"hello".to_vec()).unwrap_err().contains("neither"));
         let mut cut = png(64, 64);
         cut.truncate(60);
         assert!(decode_bytes(cut).is_err());
@@ -183,22 +160,18 @@ mod tests {
 
     fn crc32(data: &[u8]) -> u32 {
         !data.iter().fold(!0_u32, |crc, &byte| {
-            (0..8).fold(crc ^ u32::from(byte), |c, _| {
-                if c & 1 == 1 {
-                    (c >> 1) ^ 0xEDB8_8320
-                } else {
-                    c >> 1
-                }
-            })
+            (0..8).fold(
+                crc ^ u32::from(byte),
+                |c, _| {
+                    if c & 1 == 1 { (c >> 1) ^ 0xEDB8_8320 } else { c >> 1 }
+                },
+            )
         })
     }
 
     #[test]
     fn images_beyond_the_budget_are_left_out() {
-        let image = EncodedImage {
-            name: "big".into(),
-            bytes: Arc::new(png(64, 64)),
-        };
+        let image = EncodedImage { name: "big".into(), bytes: Arc::new(png(64, 64)) };
         let results = decode_all(&[image.clone(), image], 64 * 64 * 4, &Progress::default());
         let results = results.unwrap();
         assert!(results[0].is_ok());

@@ -88,10 +88,7 @@ pub struct Progress {
 
 impl Default for Progress {
     fn default() -> Self {
-        Self {
-            state: Arc::default(),
-            range: (0.0, 1.0),
-        }
+        Self { state: Arc::default(), range: (0.0, 1.0) }
     }
 }
 
@@ -106,9 +103,7 @@ impl Progress {
     pub fn report(&self, share: f32) {
         let (from, to) = self.range;
         let share = from + (to - from) * share.clamp(0.0, 1.0);
-        self.state
-            .permille
-            .store((share * 1000.0) as u32, Ordering::Relaxed);
+        self.state.permille.store((share * 1000.0) as u32, Ordering::Relaxed);
     }
 
     /// The share of the work that is done, 0 to 1.
@@ -122,10 +117,7 @@ impl Progress {
         let (from, to) = self.range;
         let width = (to - from) / count.max(1) as f32;
         let start = from + width * index as f32;
-        Self {
-            state: self.state.clone(),
-            range: (start, start + width),
-        }
+        Self { state: self.state.clone(), range: (start, start + width) }
     }
 
     /// Asks the job to stop at the next opportunity.
@@ -140,11 +132,7 @@ impl Progress {
 
     /// `Err(ImportError::Cancelled)` once the job was asked to stop.
     pub fn check(&self) -> Result<(), ImportError> {
-        if self.is_cancelled() {
-            Err(ImportError::Cancelled)
-        } else {
-            Ok(())
-        }
+        if self.is_cancelled() { Err(ImportError::Cancelled) } else { Ok(()) }
     }
 }
 
@@ -155,16 +143,10 @@ impl Progress {
 /// # Errors
 /// When the file cannot be read, is malformed, needs something unsupported, or holds nothing to draw. Whatever can
 /// be shown is shown; the rest is in [`Scene::warnings`].
-pub fn load(
-    path: &Path,
-    options: &ImportOptions,
-    progress: &Progress,
-) -> Result<Scene, ImportError> {
+pub fn load(path: &Path, options: &ImportOptions, progress: &Progress) -> Result<Scene, ImportError> {
     progress.check()?;
-    let data = source::read_regular_file(path).map_err(|source| ImportError::Read {
-        path: path.into(),
-        source,
-    })?;
+    let data =
+        source::read_regular_file(path).map_err(|source| ImportError::Read { path: path.into(), source })?;
     progress.report(0.05);
     // The importers check what they read; should one of them or a library panic all the same, only this file is lost.
     let guarded = AssertUnwindSafe(|| load_bytes(path, &data, options, progress));
@@ -211,15 +193,8 @@ fn shorten_warnings(warnings: &mut Vec<Warning>) {
     let more = warnings.len().saturating_sub(MOST);
     if more > 0 {
         warnings.truncate(MOST);
-        let place = warnings
-            .first()
-            .and_then(|w| w.place.split(',').next())
-            .unwrap_or_default()
-            .to_owned();
-        warnings.push(Warning {
-            place,
-            message: format!("{more} more warnings are not listed"),
-        });
+        let place = warnings.first().and_then(|w| w.place.split(',').next()).unwrap_or_default().to_owned();
+        warnings.push(Warning { place, message: format!("{more} more warnings are not listed") });
     }
 }
 

@@ -29,24 +29,14 @@ impl SiblingNames {
 
 /// Replaces `/` and control characters by `_`; an empty name becomes `node`.
 fn clean_name(name: &str) -> String {
-    let name: String = name
-        .trim()
-        .chars()
-        .map(|c| if c == '/' || c.is_control() { '_' } else { c })
-        .collect();
-    if name.is_empty() {
-        "node".to_owned()
-    } else {
-        name
-    }
+    let name: String =
+        name.trim().chars().map(|c| if c == '/' || c.is_control() { '_' } else { c }).collect();
+    if name.is_empty() { "node".to_owned() } else { name }
 }
 
 /// The name of the node that stands for a file: its name without the last ending.
 pub(super) fn file_stem(path: &std::path::Path) -> String {
-    path.file_stem()
-        .unwrap_or(path.as_os_str())
-        .to_string_lossy()
-        .into_owned()
+    path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
 }
 
 #[cfg(test)]
@@ -57,9 +47,6 @@ mod tests {
     fn siblings_get_different_names() {
         let mut names = SiblingNames::default();
         let given = ["rod", "rod", "rod.2", "rod", "", " ", "a/b\n"].map(|n| names.unique(n));
-        assert_eq!(
-            given,
-            ["rod", "rod.2", "rod.2.2", "rod.3", "node", "node.2", "a_b"]
-        );
+        assert_eq!(given, ["rod", "rod.2", "rod.2.2", "rod.3", "node", "node.2", "a_b"]);
     }
 }

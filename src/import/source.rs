@@ -47,10 +47,7 @@ impl Folder {
             Some(p) if !p.as_os_str().is_empty() => p,
             _ => Path::new("."),
         };
-        Self {
-            root: parent.to_path_buf(),
-            read: Mutex::default(),
-        }
+        Self { root: parent.to_path_buf(), read: Mutex::default() }
     }
 
     /// The bytes behind a URI: a `data:` payload, or a file in the folder or below it.
@@ -84,9 +81,7 @@ impl Folder {
             ))
         };
         if relative.contains('\0') {
-            return Err(SourceError::Refused(
-                "a file name contains a zero byte".into(),
-            ));
+            return Err(SourceError::Refused("a file name contains a zero byte".into()));
         }
         let relative_path = relative.replace('\\', "/");
         if has_drive(&relative_path) {
@@ -106,10 +101,7 @@ impl Folder {
             }
         }
         let wanted = self.root.join(&inside);
-        let read_error = |source| SourceError::Read {
-            path: wanted.clone(),
-            source,
-        };
+        let read_error = |source| SourceError::Read { path: wanted.clone(), source };
         let root = self.root.canonicalize().map_err(read_error)?;
         let real = wanted.canonicalize().map_err(read_error)?;
         if !real.starts_with(&root) {
@@ -141,10 +133,7 @@ pub(super) fn read_regular_file(path: &Path) -> std::io::Result<Vec<u8>> {
         ));
     }
     if !metadata.is_file() {
-        return Err(std::io::Error::new(
-            std::io::ErrorKind::InvalidInput,
-            "it is no regular file",
-        ));
+        return Err(std::io::Error::new(std::io::ErrorKind::InvalidInput, "it is no regular file"));
     }
     std::fs::read(path)
 }
@@ -204,15 +193,12 @@ const BASE64: GeneralPurpose = GeneralPurpose::new(
 /// Decodes what follows `data:`.
 fn decode_data_uri(rest: &str) -> Result<Vec<u8>, SourceError> {
     let Some((header, payload)) = rest.split_once(',') else {
-        return Err(SourceError::Refused(
-            "a data: URI has no comma before its payload".into(),
-        ));
+        return Err(SourceError::Refused("a data: URI has no comma before its payload".into()));
     };
     if !header.to_ascii_lowercase().ends_with(";base64") {
         return Ok(percent_bytes(payload));
     }
-    let broken =
-        |e| SourceError::Refused(format!("a data: URI holds no valid base64 payload: {e}"));
+    let broken = |e| SourceError::Refused(format!("a data: URI holds no valid base64 payload: {e}"));
     match BASE64.decode(payload) {
         Ok(bytes) => Ok(bytes),
         // Rare: line breaks, percent-encoding or the URL alphabet inside the payload.
@@ -248,10 +234,7 @@ mod tests {
         assert_eq!(scheme("a/b:c.png"), None);
         assert_eq!(scheme("plain.png"), None);
         assert_eq!(percent_decode("a%20b%C3%A4%zz").unwrap(), "a bä%zz");
-        assert_eq!(
-            decode_data_uri("application/octet-stream;base64,AQID").unwrap(),
-            [1, 2, 3]
-        );
+        assert_eq!(decode_data_uri("application/octet-stream;base64,AQID").unwrap(), [1, 2, 3]);
         assert_eq!(decode_data_uri(";base64,AQ I\nD").unwrap(), [1, 2, 3]);
         assert_eq!(decode_data_uri("text/plain,a%20b").unwrap(), b"a b");
     }
@@ -284,10 +267,7 @@ mod tests {
         #[cfg(unix)]
         {
             std::os::unix::fs::symlink(&absolute, inside.join("link.bin")).unwrap();
-            assert!(matches!(
-                folder.fetch("link.bin"),
-                Err(SourceError::Refused(_))
-            ));
+            assert!(matches!(folder.fetch("link.bin"), Err(SourceError::Refused(_))));
         }
     }
 }

@@ -140,19 +140,14 @@ impl Scene {
             }
             mesh
         }));
-        self.materials
-            .extend(other.materials.into_iter().map(|mut material| {
-                for texture in [
-                    &mut material.base_color_texture,
-                    &mut material.normal_texture,
-                ]
-                .into_iter()
-                .flatten()
-                {
-                    texture.texture += textures;
-                }
-                material
-            }));
+        self.materials.extend(other.materials.into_iter().map(|mut material| {
+            for texture in
+                [&mut material.base_color_texture, &mut material.normal_texture].into_iter().flatten()
+            {
+                texture.texture += textures;
+            }
+            material
+        }));
         self.textures.extend(other.textures);
         self.cameras.extend(other.cameras);
         self.lights.extend(other.lights);
@@ -161,10 +156,6 @@ impl Scene {
 
     /// Number of triangles drawn, counting a mesh once for every node that shows it.
     pub fn triangle_count(&self) -> usize {
-        self.nodes
-            .iter()
-            .filter_map(|n| self.meshes.get(n.mesh?))
-            .map(|m| m.triangle_count())
-            .sum()
+        self.nodes.iter().filter_map(|n| self.meshes.get(n.mesh?)).map(|m| m.triangle_count()).sum()
     }
 }

@@ -51,13 +51,11 @@ impl Document<'_> {
         let Some(declared) = self.root.accessors.get(number) else {
             return malformed(format!("there is no accessor {number}"));
         };
-        self.check(number, declared)
-            .map_err(|f| f.at(|| format!("accessor {number}")))
+        self.check(number, declared).map_err(|f| f.at(|| format!("accessor {number}")))
     }
 
     fn check(&self, index: usize, declared: &Declared) -> Result<Accessor<'_>> {
-        let (Checked::Valid(component), Checked::Valid(kind)) =
-            (declared.component_type, declared.type_)
+        let (Checked::Valid(component), Checked::Valid(kind)) = (declared.component_type, declared.type_)
         else {
             return malformed("its type or component type is unknown");
         };
@@ -77,10 +75,9 @@ impl Document<'_> {
             None => None,
         };
         let sparse = match &declared.sparse {
-            Some(sparse) => Some(
-                self.check_sparse(sparse, element)
-                    .map_err(|f| f.at(|| "its sparse part".into()))?,
-            ),
+            Some(sparse) => {
+                Some(self.check_sparse(sparse, element).map_err(|f| f.at(|| "its sparse part".into()))?)
+            }
             None => None,
         };
         Ok(Accessor {
@@ -95,11 +92,7 @@ impl Document<'_> {
         })
     }
 
-    fn check_sparse(
-        &self,
-        sparse: &accessor::sparse::Sparse,
-        element: usize,
-    ) -> Result<Sparse<'_>> {
+    fn check_sparse(&self, sparse: &accessor::sparse::Sparse, element: usize) -> Result<Sparse<'_>> {
         let Checked::Valid(index_type) = sparse.indices.component_type else {
             return malformed("the component type of its indices is unknown");
         };
@@ -108,17 +101,9 @@ impl Document<'_> {
         let part = |view, offset, size| elements(self.view(view)?.bytes, offset, None, size, count);
         Ok(Sparse {
             count,
-            indices: part(
-                sparse.indices.buffer_view,
-                sparse.indices.byte_offset.0,
-                index_type.size(),
-            )?,
+            indices: part(sparse.indices.buffer_view, sparse.indices.byte_offset.0, index_type.size())?,
             index_type,
-            values: part(
-                sparse.values.buffer_view,
-                sparse.values.byte_offset.0,
-                element,
-            )?,
+            values: part(sparse.values.buffer_view, sparse.values.byte_offset.0, element)?,
         })
     }
 }
@@ -126,10 +111,7 @@ impl Document<'_> {
 fn count_of(declared: u64) -> Result<usize> {
     match u32::try_from(declared) {
         Ok(count) => Ok(count as usize),
-        Err(_) => malformed(format!(
-            "it declares {declared} elements; at most {} are read",
-            u32::MAX
-        )),
+        Err(_) => malformed(format!("it declares {declared} elements; at most {} are read", u32::MAX)),
     }
 }
 
@@ -141,28 +123,17 @@ fn elements(
     size: usize,
     count: usize,
 ) -> Result<Elements<'_>> {
-    let stride = if count > 1 {
-        stride.unwrap_or(size)
-    } else {
-        size
-    };
+    let stride = if count > 1 { stride.unwrap_or(size) } else { size };
     if stride < size {
-        return malformed(format!(
-            "its stride of {stride} bytes is less than its elements' {size} bytes"
-        ));
+        return malformed(format!("its stride of {stride} bytes is less than its elements' {size} bytes"));
     }
     let need = match count {
         0 => Some(0),
-        _ => (count - 1)
-            .checked_mul(stride)
-            .and_then(|n| n.checked_add(size)),
+        _ => (count - 1).checked_mul(stride).and_then(|n| n.checked_add(size)),
     };
     let bytes_from = usize::try_from(offset).ok().and_then(|o| bytes.get(o..));
     match (bytes_from, need) {
-        (Some(from), Some(need)) if need <= from.len() => Ok(Elements {
-            bytes: from,
-            stride,
-        }),
+        (Some(from), Some(need)) if need <= from.len() => Ok(Elements { bytes: from, stride }),
         _ => malformed(format!(
             "its {count} elements of {size} bytes (offset {offset}, stride {stride}) lie outside its buffer view of \
              {} bytes",
@@ -185,16 +156,10 @@ impl Accessor<'_> {
         match (self.component, self.normalized) {
             (ComponentType::F32, _) => self.read(picks, true, f32::from_le_bytes),
             (ComponentType::U32, _) => self.read(picks, false, |b| u32::from_le_bytes(b) as f32),
-            (ComponentType::U16, false) => {
-                self.read(picks, false, |b| f32::from(u16::from_le_bytes(b)))
-            }
-            (ComponentType::I16, false) => {
-                self.read(picks, false, |b| f32::from(i16::from_le_bytes(b)))
-            }
+            (ComponentType::U16, false) => self.read(picks, false, |b| f32::from(u16::from_le_bytes(b))),
+            (ComponentType::I16, false) => self.read(picks, false, |b| f32::from(i16::from_le_bytes(b))),
             (ComponentType::U8, false) => self.read(picks, false, |[b]: [u8; 1]| f32::from(b)),
-            (ComponentType::I8, false) => {
-                self.read(picks, false, |b| f32::from(i8::from_le_bytes(b)))
-            }
+            (ComponentType::I8, false) => self.read(picks, false, |b| f32::from(i8::from_le_bytes(b))),
             (ComponentType::U16, true) => {
                 let scale = unsigned(65535.0);
                 self.read(picks, false, |b| scale(f32::from(u16::from_le_bytes(b))))
@@ -224,10 +189,7 @@ impl Accessor<'_> {
             ComponentType::U32 => self.read(picks, true, u32::from_le_bytes),
             ComponentType::U16 => self.read(picks, false, |b| u32::from(u16::from_le_bytes(b))),
             ComponentType::U8 => self.read(picks, false, |[b]: [u8; 1]| u32::from(b)),
-            _ => malformed(format!(
-                "accessor {}: unsigned integers are needed here",
-                self.index
-            )),
+            _ => malformed(format!("accessor {}: unsigned integers are needed here", self.index)),
         }
     }
 
@@ -254,10 +216,7 @@ impl Accessor<'_> {
         if let (Some(picks), Some(_)) = (picks, self.sparse) {
             let all = self.read(None, same_bits, convert)?;
             let zero = [T::zeroed(); N];
-            return Ok(picks
-                .iter()
-                .map(|&i| all.get(i as usize).copied().unwrap_or(zero))
-                .collect());
+            return Ok(picks.iter().map(|&i| all.get(i as usize).copied().unwrap_or(zero)).collect());
         }
         let count = picks.map_or(self.count, <[u32]>::len);
         let size = size_of::<[T; N]>();
@@ -265,9 +224,7 @@ impl Accessor<'_> {
             format!("accessor {}: its {count} elements", self.index)
         })?;
         let mut out = match (self.dense, picks) {
-            (Some(dense), None)
-                if same_bits && dense.stride == size && cfg!(target_endian = "little") =>
-            {
+            (Some(dense), None) if same_bits && dense.stride == size && cfg!(target_endian = "little") => {
                 // Checked at look-up: count · size bytes are there.
                 let packed = dense.bytes.get(..count * size).unwrap_or_default();
                 bytemuck::pod_collect_to_vec(packed)
@@ -311,11 +268,7 @@ impl Sparse<'_> {
             .bytes
             .chunks_exact(size)
             .take(self.count)
-            .map(|b| {
-                b.iter()
-                    .rev()
-                    .fold(0, |value, &byte| value << 8 | u32::from(byte))
-            })
+            .map(|b| b.iter().rev().fold(0, |value, &byte| value << 8 | u32::from(byte)))
     }
 }
 

@@ -65,10 +65,7 @@ fn attribute(primitive: &Primitive, semantic: Semantic) -> Option<Index<Declared
 ///
 /// # Errors
 /// When the accessor of the positions is broken.
-pub(super) fn vertex_count(
-    document: &Document<'_>,
-    primitive: &Primitive,
-) -> Result<Option<usize>> {
+pub(super) fn vertex_count(document: &Document<'_>, primitive: &Primitive) -> Result<Option<usize>> {
     match attribute(primitive, Semantic::Positions) {
         Some(index) => Ok(Some(document.accessor(index)?.count)),
         None => Ok(None),
@@ -108,10 +105,8 @@ pub(super) fn read(
         ));
         Ok(None)
     };
-    let mut block = Block {
-        positions: bytemuck::cast_vec(positions.floats::<3>(picks)?),
-        ..Block::default()
-    };
+    let mut block =
+        Block { positions: bytemuck::cast_vec(positions.floats::<3>(picks)?), ..Block::default() };
     if let Some(normals) = find(Semantic::Normals, notes)? {
         block.normals = bytemuck::cast_vec(normals.floats::<3>(picks)?);
     }
@@ -135,22 +130,13 @@ pub(super) fn read(
         let tangents = tangents.floats::<4>(picks)?;
         block.tangents = tangents.into_iter().map(Vec4::from_array).collect();
     }
-    apply_morph(
-        document,
-        primitive,
-        picks,
-        declared,
-        morph_weights,
-        &mut block,
-    )?;
+    apply_morph(document, primitive, picks, declared, morph_weights, &mut block)?;
     if let Some(pose) = pose
         && let Some(joints) = find(Semantic::Joints(0), notes)?
         && let Some(weights) = find(Semantic::Weights(0), notes)?
     {
         if attribute(primitive, Semantic::Joints(1)).is_some() {
-            notes.push(
-                "it has more than four joints per vertex; only the first four move it".into(),
-            );
+            notes.push("it has more than four joints per vertex; only the first four move it".into());
         }
         let joints = joints.integers::<4>(picks)?;
         let weights = weights.floats::<4>(picks)?;
@@ -164,10 +150,7 @@ fn read_colors(accessor: &Accessor<'_>, picks: Option<&[u32]>) -> Result<Vec<[u8
     let unorm = |v: f32| (v.clamp(0.0, 1.0) * 255.0 + 0.5) as u8;
     if accessor.width == 3 {
         let colors = accessor.floats::<3>(picks)?;
-        Ok(colors
-            .into_iter()
-            .map(|[r, g, b]| [unorm(r), unorm(g), unorm(b), 255])
-            .collect())
+        Ok(colors.into_iter().map(|[r, g, b]| [unorm(r), unorm(g), unorm(b), 255]).collect())
     } else {
         let colors = accessor.floats::<4>(picks)?;
         Ok(colors.into_iter().map(|c| c.map(unorm)).collect())
@@ -267,10 +250,8 @@ impl Block {
     /// Makes tangents unit length and their signs ±1.
     pub(super) fn repair_tangents(&mut self) {
         for (tangent, normal) in self.tangents.iter_mut().zip(&self.normals) {
-            let direction = tangent
-                .truncate()
-                .try_normalize()
-                .unwrap_or_else(|| normal.any_orthonormal_vector());
+            let direction =
+                tangent.truncate().try_normalize().unwrap_or_else(|| normal.any_orthonormal_vector());
             *tangent = direction.extend(if tangent.w < 0.0 { -1.0 } else { 1.0 });
         }
     }
@@ -281,10 +262,7 @@ pub(super) fn gather<T: Copy + Default>(all: &[T], picks: &[u32]) -> Vec<T> {
     if all.is_empty() {
         return Vec::new();
     }
-    picks
-        .iter()
-        .map(|&i| all.get(i as usize).copied().unwrap_or_default())
-        .collect()
+    picks.iter().map(|&i| all.get(i as usize).copied().unwrap_or_default()).collect()
 }
 
 /// The weights of the morph targets: the node's, else the mesh's.

@@ -60,9 +60,8 @@ impl<'a> Document<'a> {
             progress.check()?;
             buffers.push(match (&buffer.uri, bin) {
                 (Some(uri), _) => {
-                    let bytes = folder
-                        .fetch(uri)
-                        .map_err(|e| Fault::from(e).at(|| format!("buffer {index}")))?;
+                    let bytes =
+                        folder.fetch(uri).map_err(|e| Fault::from(e).at(|| format!("buffer {index}")))?;
                     if !uri.starts_with("data:") {
                         input = input.saturating_add(bytes.len() as u64);
                     }
@@ -72,12 +71,7 @@ impl<'a> Document<'a> {
                 _ => Content::Absent,
             });
         }
-        let mut document = Self {
-            budget: Budget::for_input(input),
-            unpacked: Vec::new(),
-            buffers,
-            root,
-        };
+        let mut document = Self { budget: Budget::for_input(input), unpacked: Vec::new(), buffers, root };
         document.unpacked = document
             .root
             .buffer_views
@@ -93,9 +87,7 @@ impl<'a> Document<'a> {
                     let bytes = document.slice(packed.buffer, packed.offset, packed.length)?;
                     meshopt::unpack(&packed, bytes, &document.budget)
                 };
-                unpack(packed)
-                    .map(Some)
-                    .map_err(|f| f.at(|| format!("compressed buffer view {index}")))
+                unpack(packed).map(Some).map_err(|f| f.at(|| format!("compressed buffer view {index}")))
             })
             .collect::<Result<_>>()?;
         Ok(document)
@@ -141,11 +133,7 @@ impl<'a> Document<'a> {
             return Ok(View { bytes, stride });
         }
         let bytes = self
-            .slice(
-                view.buffer.value(),
-                view.byte_offset.unwrap_or_default().0,
-                view.byte_length.0,
-            )
+            .slice(view.buffer.value(), view.byte_offset.unwrap_or_default().0, view.byte_length.0)
             .map_err(|f| f.at(|| format!("buffer view {index}")))?;
         Ok(View { bytes, stride })
     }
@@ -154,10 +142,9 @@ impl<'a> Document<'a> {
 /// A name for messages: the given one, or the kind and the number.
 pub(super) fn label<'n>(kind: &str, index: usize, name: Option<&'n String>) -> Cow<'n, str> {
     match name {
-        Some(name) if !name.is_empty() => Cow::Owned(format!(
-            "{kind} {index} \"{}\"",
-            crate::import::source::shorten(name)
-        )),
+        Some(name) if !name.is_empty() => {
+            Cow::Owned(format!("{kind} {index} \"{}\"", crate::import::source::shorten(name)))
+        }
         _ => Cow::Owned(format!("{kind} {index}")),
     }
 }

@@ -30,18 +30,13 @@ pub(super) struct Chunks<'a> {
 /// When the container is damaged or of another version.
 pub(super) fn split(data: &[u8]) -> Result<Chunks<'_>> {
     if !data.starts_with(b"glTF") {
-        return Ok(Chunks {
-            json: data,
-            bin: None,
-        });
+        return Ok(Chunks { json: data, bin: None });
     }
     let (Some(version), Some(length)) = (u32_at(data, 4), u32_at(data, 8)) else {
         return malformed("the GLB header is cut off; the file is incomplete");
     };
     if version != 2 {
-        return Err(Fault::Unsupported(format!(
-            "version {version} of the GLB container"
-        )));
+        return Err(Fault::Unsupported(format!("version {version} of the GLB container")));
     }
     if u64::from(length) > data.len() as u64 {
         return malformed(format!(
@@ -57,10 +52,7 @@ pub(super) fn split(data: &[u8]) -> Result<Chunks<'_>> {
             break;
         };
         let start = at + 8;
-        let Some(content) = start
-            .checked_add(size as usize)
-            .and_then(|end| data.get(start..end))
-        else {
+        let Some(content) = start.checked_add(size as usize).and_then(|end| data.get(start..end)) else {
             return malformed(format!(
                 "the GLB chunk at byte {at} declares {size} bytes but only {} follow; the file is incomplete",
                 data.len() - start
@@ -125,10 +117,7 @@ fn check_expansion(json: &[u8]) -> Result<()> {
     const BYTES_PER_ITEM: u64 = 64;
     const ALWAYS_FINE: u64 = 256 << 20;
     let (objects, items) = json.iter().fold((0_u64, 0_u64), |(objects, items), &byte| {
-        (
-            objects + u64::from(byte == b'{'),
-            items + u64::from(byte == b','),
-        )
+        (objects + u64::from(byte == b'{'), items + u64::from(byte == b','))
     });
     let parsed = objects * BYTES_PER_OBJECT + items * BYTES_PER_ITEM;
     if parsed > ALWAYS_FINE + 16 * json.len() as u64 {

@@ -75,11 +75,7 @@ impl Budget {
 
     /// The budget of a model whose files have so many bytes altogether.
     pub(super) fn for_input(bytes: u64) -> Self {
-        Self(AtomicU64::new(
-            bytes
-                .saturating_mul(Self::PER_BYTE)
-                .saturating_add(Self::BASE),
-        ))
+        Self(AtomicU64::new(bytes.saturating_mul(Self::PER_BYTE).saturating_add(Self::BASE)))
     }
 
     /// The number of bytes that are left.
@@ -92,11 +88,7 @@ impl Budget {
     /// # Errors
     /// When fewer are left; `what` then begins the message.
     pub(super) fn take(&self, bytes: u64, what: impl FnOnce() -> String) -> Result<()> {
-        let taken = self
-            .0
-            .fetch_update(Ordering::Relaxed, Ordering::Relaxed, |left| {
-                left.checked_sub(bytes)
-            });
+        let taken = self.0.fetch_update(Ordering::Relaxed, Ordering::Relaxed, |left| left.checked_sub(bytes));
         if taken.is_err() {
             return malformed(format!(
                 "{} would take {} MB, more than the file's size justifies",

@@ -37,10 +37,7 @@ pub(super) struct SurfaceNeeds {
 /// What the material number `index` needs of a mesh.
 pub(super) fn needs(root: &Root, index: usize) -> SurfaceNeeds {
     let Some(material) = root.materials.get(index) else {
-        return SurfaceNeeds {
-            uv_set: None,
-            tangents: false,
-        };
+        return SurfaceNeeds { uv_set: None, tangents: false };
     };
     let base = base_use(material);
     let normal = normal_use(material);
@@ -96,10 +93,9 @@ pub(super) fn convert(
                 images.insert(image, Some(textures.len()));
                 textures.push(Arc::new(texture));
             }
-            Err(message) => warnings.push((
-                image_label(root, image),
-                format!("the image cannot be used: {message}"),
-            )),
+            Err(message) => {
+                warnings.push((image_label(root, image), format!("the image cannot be used: {message}")))
+            }
         }
     }
     let mut materials = Vec::with_capacity(root.materials.len() + 1);
@@ -146,10 +142,7 @@ fn convert_one(
     };
     let base = base_use(declared);
     let normal = normal_use(declared);
-    let uv_sets = (
-        base.as_ref().map(|u| u.uv_set),
-        normal.as_ref().map(|u| u.uv_set),
-    );
+    let uv_sets = (base.as_ref().map(|u| u.uv_set), normal.as_ref().map(|u| u.uv_set));
     let normal = match uv_sets {
         (Some(base), Some(normal)) if base != normal => {
             notes.push(
@@ -172,13 +165,7 @@ fn convert_one(
     };
     Material {
         name: declared.name.clone().unwrap_or_default(),
-        base_color: Vec4::from_array(factor.map(|c| {
-            if c.is_finite() {
-                c.clamp(0.0, 1.0)
-            } else {
-                1.0
-            }
-        })),
+        base_color: Vec4::from_array(factor.map(|c| if c.is_finite() { c.clamp(0.0, 1.0) } else { 1.0 })),
         base_color_texture: base.and_then(|u| texture(u, notes)),
         normal_scale: declared
             .normal_texture
@@ -192,21 +179,12 @@ fn convert_one(
 }
 
 fn base_use(material: &Declared) -> Option<Use> {
-    let legacy = material
-        .extensions
-        .as_ref()
-        .and_then(|e| e.pbr_specular_glossiness.as_ref());
+    let legacy = material.extensions.as_ref().and_then(|e| e.pbr_specular_glossiness.as_ref());
     let info = match legacy {
         Some(legacy) => legacy.diffuse_texture.as_ref()?,
-        None => material
-            .pbr_metallic_roughness
-            .base_color_texture
-            .as_ref()?,
+        None => material.pbr_metallic_roughness.base_color_texture.as_ref()?,
     };
-    let transform = info
-        .extensions
-        .as_ref()
-        .and_then(|e| e.texture_transform.as_ref());
+    let transform = info.extensions.as_ref().and_then(|e| e.texture_transform.as_ref());
     Some(texture_use(info.index.value(), info.tex_coord, transform))
 }
 
@@ -217,20 +195,12 @@ fn normal_use(material: &Declared) -> Option<Use> {
         .as_ref()
         .and_then(|e| e.others.get("KHR_texture_transform"))
         .and_then(|value: &Value| ::gltf::json::deserialize::from_value(value.clone()).ok());
-    Some(texture_use(
-        info.index.value(),
-        info.tex_coord,
-        transform.as_ref(),
-    ))
+    Some(texture_use(info.index.value(), info.tex_coord, transform.as_ref()))
 }
 
 fn texture_use(texture: usize, uv_set: u32, transform: Option<&TextureTransform>) -> Use {
     let Some(t) = transform else {
-        return Use {
-            texture,
-            uv_set,
-            transform: UvTransform::default(),
-        };
+        return Use { texture, uv_set, transform: UvTransform::default() };
     };
     // uv' = T · R · S · uv, with the extension's R, which turns counter-clockwise as the image is seen.
     let (sin, cos) = t.rotation.0.sin_cos();
@@ -241,11 +211,7 @@ fn texture_use(texture: usize, uv_set: u32, transform: Option<&TextureTransform>
     Use {
         texture,
         uv_set: t.tex_coord.unwrap_or(uv_set),
-        transform: if matrix.is_finite() {
-            UvTransform(matrix)
-        } else {
-            UvTransform::default()
-        },
+        transform: if matrix.is_finite() { UvTransform(matrix) } else { UvTransform::default() },
     }
 }
 
@@ -276,16 +242,8 @@ fn encoded_image(
             .map_err(|e| format!("the image cannot be used: {e}")),
         (None, Some(view)) => document
             .view(view)
-            .map(|view| EncodedImage {
-                name,
-                bytes: Arc::new(view.bytes.to_vec()),
-            })
-            .map_err(|f| {
-                format!(
-                    "the image cannot be used: {}",
-                    f.of_file("the model".as_ref())
-                )
-            }),
+            .map(|view| EncodedImage { name, bytes: Arc::new(view.bytes.to_vec()) })
+            .map_err(|f| format!("the image cannot be used: {}", f.of_file("the model".as_ref()))),
         (None, None) => Err("the image has neither a URI nor a buffer view".into()),
     }
 }

@@ -62,10 +62,7 @@ pub(super) fn is_skinnable(document: &Document<'_>, mesh: usize) -> bool {
 }
 
 fn is_filled(primitive: &Primitive) -> bool {
-    matches!(
-        primitive.mode,
-        Checked::Valid(Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan)
-    )
+    matches!(primitive.mode, Checked::Valid(Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan))
 }
 
 /// Reads a mesh. `node_of` tells where a joint stands among the scene's nodes.
@@ -90,33 +87,25 @@ pub(super) fn build(
     let mut unfilled = 0;
     for (number, primitive) in declared.primitives.iter().enumerate() {
         let mode = match primitive.mode {
-            Checked::Valid(mode @ (Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan)) => {
-                mode
-            }
+            Checked::Valid(mode @ (Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan)) => mode,
             Checked::Valid(_) => {
                 unfilled += 1;
                 continue;
             }
             Checked::Invalid => {
-                notes.push(format!(
-                    "primitive {number} is of an unknown kind and is left out"
-                ));
+                notes.push(format!("primitive {number} is of an unknown kind and is left out"));
                 continue;
             }
         };
         let at = |f: super::fault::Fault| f.at(|| format!("primitive {number}"));
         let Some(count) = block::vertex_count(document, primitive).map_err(at)? else {
-            notes.push(format!(
-                "primitive {number} has no positions and is left out"
-            ));
+            notes.push(format!("primitive {number} has no positions and is left out"));
             continue;
         };
         let material = match primitive.material {
             Some(index) if index.value() < root.materials.len() => index.value(),
             Some(index) => {
-                notes.push(format!(
-                    "primitive {number} uses material {index}, which does not exist"
-                ));
+                notes.push(format!("primitive {number} uses material {index}, which does not exist"));
                 root.materials.len()
             }
             None => root.materials.len(),
@@ -126,16 +115,7 @@ pub(super) fn build(
         let picks = pick_used(&mut indices, count);
         let mut first_notes = Vec::new();
         let mut read = |picks: Option<&[u32]>| {
-            block::read(
-                document,
-                primitive,
-                needs,
-                picks,
-                &weights,
-                pose,
-                &mut first_notes,
-            )
-            .map_err(at)
+            block::read(document, primitive, needs, picks, &weights, pose, &mut first_notes).map_err(at)
         };
         let block = match &picks {
             Some(picks) => {
@@ -151,18 +131,9 @@ pub(super) fn build(
                 }
             },
         };
-        notes.extend(
-            first_notes
-                .into_iter()
-                .map(|n| format!("primitive {number}: {n}")),
-        );
+        notes.extend(first_notes.into_iter().map(|n| format!("primitive {number}: {n}")));
         let indices = triangles(document, mode, indices, number, &mut notes).map_err(at)?;
-        pieces.push(Piece {
-            block,
-            indices,
-            material,
-            needs,
-        });
+        pieces.push(Piece { block, indices, material, needs });
     }
     if unfilled > 0 {
         notes.push(format!(
@@ -196,20 +167,14 @@ pub(super) fn build(
 }
 
 /// The indices of a primitive, or 0, 1, 2, … where it has none.
-fn read_indices(
-    document: &Document<'_>,
-    primitive: &Primitive,
-    vertices: usize,
-) -> Result<Vec<u32>> {
+fn read_indices(document: &Document<'_>, primitive: &Primitive, vertices: usize) -> Result<Vec<u32>> {
     match primitive.indices {
         Some(index) => {
             let indices = document.accessor(index)?.integers::<1>(None)?;
             Ok(bytemuck::cast_vec(indices))
         }
         None => {
-            document
-                .budget
-                .take(vertices as u64 * 4, || "its triangles".into())?;
+            document.budget.take(vertices as u64 * 4, || "its triangles".into())?;
             Ok((0..vertices as u32).collect())
         }
     }
@@ -220,17 +185,11 @@ fn pick_used(indices: &mut [u32], vertices: usize) -> Option<Vec<u32>> {
     if vertices / 2 <= indices.len() {
         return None;
     }
-    let mut used: Vec<u32> = indices
-        .iter()
-        .copied()
-        .filter(|&i| (i as usize) < vertices)
-        .collect();
+    let mut used: Vec<u32> = indices.iter().copied().filter(|&i| (i as usize) < vertices).collect();
     used.sort_unstable();
     used.dedup();
     for index in indices {
-        *index = used
-            .binary_search(index)
-            .map_or(u32::MAX, |place| place as u32);
+        *index = used.binary_search(index).map_or(u32::MAX, |place| place as u32);
     }
     Some(used)
 }
@@ -255,9 +214,7 @@ fn triangles(
         return Ok(indices);
     }
     let count = indices.len().saturating_sub(2);
-    document
-        .budget
-        .take(count as u64 * 12, || format!("its {count} triangles"))?;
+    document.budget.take(count as u64 * 12, || format!("its {count} triangles"))?;
     let first = indices.first().copied().unwrap_or(0);
     let mut out = Vec::with_capacity(count * 3);
     for (number, window) in indices.windows(3).enumerate() {
@@ -274,11 +231,7 @@ fn triangles(
 
 /// Missing normals stay missing (the mesh is flat), unless other parts of the mesh have some or a normal map needs
 /// them: then these parts get the normals of their faces.
-fn complete_normals(
-    document: &Document<'_>,
-    blocks: &mut Vec<Block>,
-    pieces: &mut [Piece],
-) -> Result<()> {
+fn complete_normals(document: &Document<'_>, blocks: &mut Vec<Block>, pieces: &mut [Piece]) -> Result<()> {
     let some_have = blocks.iter().any(|b| !b.normals.is_empty());
     for piece in pieces {
         let Some(block) = blocks.get(piece.block) else {
@@ -288,9 +241,7 @@ fn complete_normals(
         if !block.normals.is_empty() || !needed {
             continue;
         }
-        document.budget.take(piece.indices.len() as u64 * 48, || {
-            "flat normals for its triangles".into()
-        })?;
+        document.budget.take(piece.indices.len() as u64 * 48, || "flat normals for its triangles".into())?;
         let mut flat = block.unshared(&piece.indices);
         flat.set_flat_normals();
         piece.indices = (0..flat.positions.len() as u32).collect();
@@ -301,11 +252,7 @@ fn complete_normals(
 }
 
 /// Computes tangents for parts with a normal map that have none.
-fn complete_tangents(
-    document: &Document<'_>,
-    blocks: &mut Vec<Block>,
-    pieces: &mut [Piece],
-) -> Result<()> {
+fn complete_tangents(document: &Document<'_>, blocks: &mut Vec<Block>, pieces: &mut [Piece]) -> Result<()> {
     for block in blocks.iter_mut() {
         block.repair_tangents();
     }
@@ -317,9 +264,7 @@ fn complete_tangents(
         if !(piece.needs.tangents && missing && !block.uvs.is_empty()) {
             continue;
         }
-        document.budget.take(piece.indices.len() as u64 * 100, || {
-            "tangents for its triangles".into()
-        })?;
+        document.budget.take(piece.indices.len() as u64 * 100, || "tangents for its triangles".into())?;
         block.normalize();
         let count = block.positions.len();
         let valid = |t: &&[u32; 3]| t.iter().all(|&i| (i as usize) < count);
@@ -356,11 +301,7 @@ fn merge(blocks: Vec<Block>, mut pieces: Vec<Piece>) -> Result<(Mesh, Option<Ski
     // For each block its first vertex in the mesh and the number of its vertices.
     let mut places = Vec::with_capacity(blocks.len());
     for (index, mut block) in blocks.into_iter().enumerate() {
-        let count = if shown(&index) {
-            block.positions.len()
-        } else {
-            0
-        };
+        let count = if shown(&index) { block.positions.len() } else { 0 };
         places.push((mesh.positions.len(), count));
         if count == 0 {
             continue;
@@ -376,11 +317,8 @@ fn merge(blocks: Vec<Block>, mut pieces: Vec<Piece>) -> Result<(Mesh, Option<Ski
             block.colors = vec![[255; 4]; count];
         }
         if filled(has_tangents, block.tangents.is_empty()) {
-            block.tangents = block
-                .normals
-                .iter()
-                .map(|n| n.any_orthonormal_vector().extend(1.0))
-                .collect::<Vec<Vec4>>();
+            block.tangents =
+                block.normals.iter().map(|n| n.any_orthonormal_vector().extend(1.0)).collect::<Vec<Vec4>>();
         }
         if skinned {
             let mut more = block.skinning.take().unwrap_or_default();
@@ -411,11 +349,7 @@ fn merge(blocks: Vec<Block>, mut pieces: Vec<Piece>) -> Result<(Mesh, Option<Ski
         let mut indices = piece.indices;
         if (first, count) != (0, total) {
             for index in &mut indices {
-                *index = if (*index as usize) < count {
-                    *index + first as u32
-                } else {
-                    u32::MAX
-                };
+                *index = if (*index as usize) < count { *index + first as u32 } else { u32::MAX };
             }
         }
         let index_count = indices.len() as u32;
@@ -444,11 +378,7 @@ fn append<T: Copy>(all: &mut Vec<T>, more: Vec<T>) {
 /// The rig, unless a joint is no node of the scene.
 fn rig(skinning: Skinning, pose: &Pose, node_of: impl Fn(usize) -> Option<NodeId>) -> Option<Rig> {
     Some(Rig {
-        joints: pose
-            .joints
-            .iter()
-            .map(|&j| node_of(j))
-            .collect::<Option<_>>()?,
+        joints: pose.joints.iter().map(|&j| node_of(j)).collect::<Option<_>>()?,
         joint_from_rest: pose.joint_from_rest.clone(),
         rest_positions: skinning.rest_positions,
         rest_normals: skinning.rest_normals,

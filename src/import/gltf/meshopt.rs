@@ -43,9 +43,8 @@ pub(super) struct Packing {
 /// The packing of a view, if it has one.
 pub(super) fn packing_of(view: &buffer::View) -> Option<Result<Packing>> {
     let extensions = &view.extensions.as_ref()?.others;
-    let value = extensions
-        .get("EXT_meshopt_compression")
-        .or_else(|| extensions.get("KHR_meshopt_compression"))?;
+    let value =
+        extensions.get("EXT_meshopt_compression").or_else(|| extensions.get("KHR_meshopt_compression"))?;
     Some(parse(value))
 }
 
@@ -139,9 +138,7 @@ pub(super) fn unpack(packing: &Packing, packed: &[u8], budget: &Budget) -> Resul
 )]
 fn decode(packing: &Packing, packed: &[u8], out: &mut [u32]) -> bool {
     let (count, stride) = (packing.count, packing.stride);
-    let fits = count
-        .checked_mul(stride)
-        .is_some_and(|size| size <= size_of_val(out));
+    let fits = count.checked_mul(stride).is_some_and(|size| size <= size_of_val(out));
     if !fits || packing.check().is_err() {
         return false;
     }
@@ -151,27 +148,15 @@ fn decode(packing: &Packing, packed: &[u8], out: &mut [u32]) -> bool {
     // untrusted input: they stay within both ranges and report damage by their result.
     unsafe {
         let code: c_int = match packing.mode {
-            Mode::Attributes => ffi::meshopt_decodeVertexBuffer(
-                target.cast(),
-                count,
-                stride,
-                packed.as_ptr(),
-                packed.len(),
-            ),
-            Mode::Triangles => ffi::meshopt_decodeIndexBuffer(
-                target.cast(),
-                count,
-                stride,
-                packed.as_ptr(),
-                packed.len(),
-            ),
-            Mode::Indices => ffi::meshopt_decodeIndexSequence(
-                target.cast(),
-                count,
-                stride,
-                packed.as_ptr(),
-                packed.len(),
-            ),
+            Mode::Attributes => {
+                ffi::meshopt_decodeVertexBuffer(target.cast(), count, stride, packed.as_ptr(), packed.len())
+            }
+            Mode::Triangles => {
+                ffi::meshopt_decodeIndexBuffer(target.cast(), count, stride, packed.as_ptr(), packed.len())
+            }
+            Mode::Indices => {
+                ffi::meshopt_decodeIndexSequence(target.cast(), count, stride, packed.as_ptr(), packed.len())
+            }
         };
         if code != 0 {
             return false;

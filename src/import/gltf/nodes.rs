@@ -66,13 +66,8 @@ pub(super) fn flatten(root: &Root, file_name: &str, budget: &Budget) -> Result<H
     push_children(&mut waiting, &roots, 0);
     while let Some((source, parent, name)) = waiting.pop() {
         let id = out.nodes.len();
-        let above = out
-            .nodes
-            .get(parent)
-            .map_or(String::new(), |n| n.path.clone());
-        budget.take((above.len() + 2 * name.len() + 256) as u64, || {
-            "the paths of the nodes".into()
-        })?;
+        let above = out.nodes.get(parent).map_or(String::new(), |n| n.path.clone());
+        budget.take((above.len() + 2 * name.len() + 256) as u64, || "the paths of the nodes".into())?;
         out.nodes.push(Node {
             path: format!("{above}/{name}"),
             name,
@@ -105,10 +100,7 @@ pub(super) fn count_descendants(nodes: &mut [Node]) {
 }
 
 fn children_of(node: Option<&Declared>) -> impl Iterator<Item = usize> + '_ {
-    node.and_then(|n| n.children.as_ref())
-        .into_iter()
-        .flatten()
-        .map(|c| c.value())
+    node.and_then(|n| n.children.as_ref()).into_iter().flatten().map(|c| c.value())
 }
 
 /// The node's own name, else that of its mesh, camera, …
@@ -124,12 +116,7 @@ fn wanted_name(root: &Root, index: usize) -> String {
         let camera = root.cameras.get(node.camera?.value())?;
         camera.name.clone().filter(|n| !n.is_empty())
     };
-    node.name
-        .clone()
-        .filter(|n| !n.is_empty())
-        .or_else(mesh_name)
-        .or_else(camera_name)
-        .unwrap_or_default()
+    node.name.clone().filter(|n| !n.is_empty()).or_else(mesh_name).or_else(camera_name).unwrap_or_default()
 }
 
 /// A node's name for messages.
@@ -180,29 +167,20 @@ fn top_down(root: &Root, parents: &[Option<usize>]) -> Result<Vec<usize>> {
     }
     match placed.iter().position(|p| !p) {
         None => Ok(order),
-        Some(index) => malformed(format!(
-            "{} is its own ancestor; the node graph has a cycle",
-            node_label(root, index)
-        )),
+        Some(index) => {
+            malformed(format!("{} is its own ancestor; the node graph has a cycle", node_label(root, index)))
+        }
     }
 }
 
-fn worlds(
-    root: &Root,
-    parents: &[Option<usize>],
-    order: &[usize],
-    warnings: &mut Vec<String>,
-) -> Vec<DMat4> {
+fn worlds(root: &Root, parents: &[Option<usize>], order: &[usize], warnings: &mut Vec<String>) -> Vec<DMat4> {
     let mut worlds = vec![DMat4::IDENTITY; root.nodes.len()];
     for &index in order {
         let Some(node) = root.nodes.get(index) else {
             continue;
         };
         let parent = parents.get(index).copied().flatten();
-        let above = parent
-            .and_then(|p| worlds.get(p))
-            .copied()
-            .unwrap_or_default();
+        let above = parent.and_then(|p| worlds.get(p)).copied().unwrap_or_default();
         let mut world = above * local_transform(node);
         if !world.is_finite() {
             warnings.push(format!(
@@ -222,16 +200,11 @@ fn local_transform(node: &Declared) -> DMat4 {
     if let Some(matrix) = node.matrix {
         return DMat4::from_cols_array(&matrix.map(f64::from));
     }
-    let vector =
-        |v: Option<[f32; 3]>, default| v.map_or(default, |v| DVec3::from_array(v.map(f64::from)));
+    let vector = |v: Option<[f32; 3]>, default| v.map_or(default, |v| DVec3::from_array(v.map(f64::from)));
     let rotation = node.rotation.map_or(DQuat::IDENTITY, |q| {
         let q = DQuat::from_array(q.0.map(f64::from));
         let length = q.length();
-        if length.is_finite() && length > 0.0 {
-            q / length
-        } else {
-            DQuat::IDENTITY
-        }
+        if length.is_finite() && length > 0.0 { q / length } else { DQuat::IDENTITY }
     });
     DMat4::from_translation(vector(node.translation, DVec3::ZERO))
         * DMat4::from_quat(rotation)
@@ -253,9 +226,7 @@ fn scene_roots(
                 root.scenes.len()
             ));
         }
-        return Ok((0..parents.len())
-            .filter(|&n| parents.get(n).copied().flatten().is_none())
-            .collect());
+        return Ok((0..parents.len()).filter(|&n| parents.get(n).copied().flatten().is_none()).collect());
     };
     let mut listed = vec![false; parents.len()];
     let mut roots = Vec::with_capacity(scene.nodes.len());
@@ -267,9 +238,7 @@ fn scene_roots(
                 roots.push(node);
             }
             None => {
-                return malformed(format!(
-                    "scene {chosen} shows node {node}, but there is no such node"
-                ));
+                return malformed(format!("scene {chosen} shows node {node}, but there is no such node"));
             }
         }
     }

@@ -58,10 +58,8 @@ pub(super) fn pose(document: &Document<'_>, skin: usize, worlds: &[DMat4]) -> Re
     }
     let mut joint_from_rest = vec![Mat4::IDENTITY; joints.len()];
     if let Some(index) = declared.inverse_bind_matrices {
-        let matrices = document
-            .accessor(index)
-            .and_then(|a| a.floats::<16>(None))
-            .map_err(|f| f.at(place))?;
+        let matrices =
+            document.accessor(index).and_then(|a| a.floats::<16>(None)).map_err(|f| f.at(place))?;
         for (matrix, read) in joint_from_rest.iter_mut().zip(matrices) {
             let read = Mat4::from_cols_array(&read);
             if read.is_finite() {
@@ -72,28 +70,17 @@ pub(super) fn pose(document: &Document<'_>, skin: usize, worlds: &[DMat4]) -> Re
     let mut world_from_rest = Vec::with_capacity(joints.len());
     for (&joint, bind) in joints.iter().zip(&joint_from_rest) {
         let Some(world) = worlds.get(joint) else {
-            return malformed(format!(
-                "{} has joint {joint}, but there is no such node",
-                place()
-            ));
+            return malformed(format!("{} has joint {joint}, but there is no such node", place()));
         };
         world_from_rest.push((*world * bind.as_dmat4()).as_mat4());
     }
-    Ok(Pose {
-        joints,
-        joint_from_rest,
-        world_from_rest,
-    })
+    Ok(Pose { joints, joint_from_rest, world_from_rest })
 }
 
 impl Pose {
     /// Whether the pose mirrors what it moves, so that triangles must be wound the other way.
     pub(super) fn mirrors(&self) -> bool {
-        let mirrored = self
-            .world_from_rest
-            .iter()
-            .filter(|m| m.determinant() < 0.0)
-            .count();
+        let mirrored = self.world_from_rest.iter().filter(|m| m.determinant() < 0.0).count();
         mirrored * 2 > self.world_from_rest.len()
     }
 
@@ -101,11 +88,7 @@ impl Pose {
     pub(super) fn apply(&self, joints: Vec<[u32; 4]>, weights: Vec<[f32; 4]>, block: &mut Block) {
         let mut skinning = Skinning {
             rest_positions: block.positions.clone(),
-            rest_normals: block
-                .normals
-                .iter()
-                .map(|n| n.normalize_or(Vec3::Z))
-                .collect(),
+            rest_normals: block.normals.iter().map(|n| n.normalize_or(Vec3::Z)).collect(),
             joints: Vec::with_capacity(joints.len()),
             weights: Vec::with_capacity(weights.len()),
         };
@@ -161,9 +144,5 @@ impl Pose {
 fn normal_matrix(matrix: &Mat4) -> Mat3 {
     let m = Mat3::from_mat4(*matrix);
     let sign = if m.determinant() < 0.0 { -1.0 } else { 1.0 };
-    Mat3::from_cols(
-        m.y_axis.cross(m.z_axis),
-        m.z_axis.cross(m.x_axis),
-        m.x_axis.cross(m.y_axis),
-    ) * sign
+    Mat3::from_cols(m.y_axis.cross(m.z_axis), m.z_axis.cross(m.x_axis), m.x_axis.cross(m.y_axis)) * sign
 }

@@ -16,9 +16,7 @@ struct Corners<'a> {
 
 impl Corners<'_> {
     fn vertex(&self, face: usize, corner: usize) -> usize {
-        self.indices
-            .get(face * 3 + corner)
-            .map_or(usize::MAX, |&i| i as usize)
+        self.indices.get(face * 3 + corner).map_or(usize::MAX, |&i| i as usize)
     }
 }
 
@@ -56,11 +54,7 @@ impl Geometry for Corners<'_> {
 /// Computes tangents for a block that has normals and texture coordinates, and the triangles that use it. Vertices
 /// at which tangents differ are split. `indices` must hold whole triangles within the block.
 pub(super) fn generate(block: &Block, indices: &[u32]) -> Option<(Block, Vec<u32>)> {
-    let mut corners = Corners {
-        block,
-        indices,
-        tangents: vec![None; indices.len()],
-    };
+    let mut corners = Corners { block, indices, tangents: vec![None; indices.len()] };
     generate_tangents(&mut corners).ok()?;
     let mut split = HashMap::with_capacity(block.positions.len());
     let mut picks = Vec::with_capacity(block.positions.len());
@@ -69,10 +63,7 @@ pub(super) fn generate(block: &Block, indices: &[u32]) -> Option<(Block, Vec<u32
     for (&index, tangent) in indices.iter().zip(corners.tangents) {
         let tangent = tangent.unwrap_or_else(|| {
             let normal = block.normals.get(index as usize).copied();
-            normal
-                .unwrap_or(glam::Vec3::Z)
-                .any_orthonormal_vector()
-                .extend(1.0)
+            normal.unwrap_or(glam::Vec3::Z).any_orthonormal_vector().extend(1.0)
         });
         let key = (index, tangent.to_array().map(f32::to_bits));
         let vertex = *split.entry(key).or_insert_with(|| {

@@ -15,8 +15,7 @@ pub(super) fn add(root: &Root, sources: &[Option<usize>], worlds: &[DMat4], scen
     let mut cameras = Vec::new();
     let mut lights = Vec::new();
     for (shown, source) in scene.nodes.iter().zip(sources) {
-        let Some((node, world)) =
-            source.and_then(|index| Some((root.nodes.get(index)?, worlds.get(index)?)))
+        let Some((node, world)) = source.and_then(|index| Some((root.nodes.get(index)?, worlds.get(index)?)))
         else {
             continue;
         };
@@ -25,27 +24,16 @@ pub(super) fn add(root: &Root, sources: &[Option<usize>], worlds: &[DMat4], scen
             let forward = camera.forward();
             // Orbits turn about what is seen, so the focal point lies as deep as the model's middle.
             let depth = (bounds.center() - camera.position).dot(forward);
-            let depth = if depth > 0.0 {
-                depth
-            } else {
-                bounds.diagonal().max(1e-6)
-            };
+            let depth = if depth > 0.0 { depth } else { bounds.diagonal().max(1e-6) };
             cameras.push((
                 shown.name.clone(),
-                Camera {
-                    focal_point: camera.position + forward * depth,
-                    ..camera
-                },
+                Camera { focal_point: camera.position + forward * depth, ..camera },
             ));
         }
-        let declared = node
-            .extensions
-            .as_ref()
-            .and_then(|e| e.khr_lights_punctual.as_ref())
-            .and_then(|l| {
-                let all = root.extensions.as_ref()?.khr_lights_punctual.as_ref()?;
-                all.lights.get(l.light.value())
-            });
+        let declared = node.extensions.as_ref().and_then(|e| e.khr_lights_punctual.as_ref()).and_then(|l| {
+            let all = root.extensions.as_ref()?.khr_lights_punctual.as_ref()?;
+            all.lights.get(l.light.value())
+        });
         lights.extend(declared.and_then(|l| light(l, world)));
     }
     normalize(&mut lights);
@@ -69,38 +57,25 @@ fn camera(declared: &Declared, world: &DMat4) -> Option<Camera> {
         if !(height.is_finite() && height > 0.0) {
             return None;
         }
-        Projection::Orthographic {
-            view_height: height,
-        }
+        Projection::Orthographic { view_height: height }
     };
     let position = world.w_axis.truncate();
     let forward = world.transform_vector3(DVec3::NEG_Z).try_normalize()?;
     let view_up = world.transform_vector3(DVec3::Y).try_normalize()?;
-    Some(Camera {
-        position,
-        focal_point: position + forward,
-        view_up,
-        projection,
-    })
+    Some(Camera { position, focal_point: position + forward, view_up, projection })
 }
 
 /// The light at a node, shining along its −Z; spots become points.
 fn light(declared: &DeclaredLight, world: &DMat4) -> Option<Light> {
     let kind = match declared.type_ {
-        Checked::Valid(Type::Directional) => LightKind::Directional {
-            direction: world.transform_vector3(DVec3::NEG_Z).try_normalize()?,
-        },
-        Checked::Valid(Type::Point | Type::Spot) => LightKind::Point {
-            position: world.w_axis.truncate(),
-        },
+        Checked::Valid(Type::Directional) => {
+            LightKind::Directional { direction: world.transform_vector3(DVec3::NEG_Z).try_normalize()? }
+        }
+        Checked::Valid(Type::Point | Type::Spot) => LightKind::Point { position: world.w_axis.truncate() },
         Checked::Invalid => return None,
     };
     let sane = |v: f32, max: f32| {
-        if v.is_finite() {
-            v.clamp(0.0, max)
-        } else {
-            0.0
-        }
+        if v.is_finite() { v.clamp(0.0, max) } else { 0.0 }
     };
     Some(Light {
         kind,
@@ -114,10 +89,6 @@ fn light(declared: &DeclaredLight, world: &DMat4) -> Option<Light> {
 fn normalize(lights: &mut [Light]) {
     let brightest = lights.iter().map(|l| l.intensity).fold(0.0, f32::max);
     for light in lights {
-        light.intensity = if brightest > 0.0 {
-            light.intensity / brightest
-        } else {
-            1.0
-        };
+        light.intensity = if brightest > 0.0 { light.intensity / brightest } else { 1.0 };
     }
 }
