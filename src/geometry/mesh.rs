@@ -1,8 +1,10 @@
 //! The triangle mesh that importers fill and the renderer uploads.
 
+use std::sync::Arc;
+
 use glam::{Vec2, Vec3, Vec4};
 
-use super::Bounds;
+use super::{Bounds, Rig};
 
 /// Triangles in their node's local coordinates (the file's units).
 ///
@@ -24,6 +26,8 @@ pub struct Mesh {
     pub indices: Vec<u32>,
     /// Consecutive ranges of `indices`, one per material, that cover all of it.
     pub parts: Vec<MeshPart>,
+    /// What a skinned mesh needs to be posed again; `None` for all others.
+    pub rig: Option<Arc<Rig>>,
 }
 
 /// A range of a mesh's triangles that share one material.
@@ -46,5 +50,78 @@ impl Mesh {
     /// The box around all positions, local space.
     pub fn bounds(&self) -> Bounds {
         Bounds::of_points(&self.positions)
+    }
+
+    /// Corners of each triangle, as indices of vertices.
+    pub fn triangles(&self) -> &[[u32; 3]] {
+        self.indices.as_chunks().0
+    }
+
+    /// The three corner positions of a triangle given by its vertex indices, which must be in range.
+    pub fn corners(&self, triangle: [u32; 3]) -> [Vec3; 3] {
+        triangle.map(|v| self.positions[v as usize])
+    }
+
+    /// The mesh whose vertex `i` is this mesh's vertex `sources[i]`, with all attributes; indices and parts are left
+    /// empty. Every source must be in range.
+    #[must_use]
+    pub fn gather(&self, sources: &[u32]) -> Self {
+        fn pick<T: Copy>(from: &[T], sources: &[u32]) -> Vec<T> {
+            if from.is_empty() {
+                Vec::new()
+            } else {
+                sources.iter().map(|&v| from[v as usize]).collect()
+            }
+        }
+        Self {
+            positions: pick(&self.positions, sources),
+            normals: pick(&self.normals, sources),
+            uvs: pick(&self.uvs, sources),
+            colors: pick(&self.colors, sources),
+            tangents: pick(&self.tangents, sources),
+            indices: Vec::new(),
+            parts: Vec::new(),
+            rig: self.rig.as_ref().map(|r| Arc::new(r.gather(sources))),
+        }
+    }
+
+    /// Appends a copy of each of these vertices, with all attributes.
+    pub fn append_copies(&mut self, sources: &[u32]) {
+        let copies = self.gather(sources);
+        self.positions.extend(copies.positions);
+        self.normals.extend(copies.normals);
+        self.uvs.extend(copies.uvs);
+        self.colors.extend(copies.colors);
+        self.tangents.extend(copies.tangents);
+        if let (Some(rig), Some(copies)) = (&mut self.rig, copies.rig) {
+            Arc::make_mut(rig).append_vertices(&copies);
+        }
+    }
+
+    /// The same triangles without the vertices that none of them uses; the order of the vertices is kept.
+    #[must_use]
+    pub fn without_unused_vertices(mut self) -> Self {
+        let mut new_index = vec![u32::MAX; self.positions.len()];
+        for &v in &self.indices {
+            new_index[v as usize] = 0;
+        }
+        let mut sources = Vec::new();
+        for (v, new) in new_index.iter_mut().enumerate() {
+            if *new == 0 {
+                *new = sources.len() as u32;
+                sources.push(v as u32);
+            }
+        }
+        if sources.len() == self.positions.len() {
+            return self;
+        }
+        for v in &mut self.indices {
+            *v = new_index[*v as usize];
+        }
+        Self {
+            indices: std::mem::take(&mut self.indices),
+            parts: std::mem::take(&mut self.parts),
+            ..self.gather(&sources)
+        }
     }
 }

@@ -1,7 +1,19 @@
 //! Triangle meshes and what can be computed from them. Plain data: no file, no GPU.
 
 pub mod bounds;
+pub mod clean;
 pub mod mesh;
+pub mod normals;
+pub mod primitives;
+pub mod rig;
+pub mod surfaces;
+pub mod topology;
+pub mod weld;
 
 pub use bounds::Bounds;
+pub use clean::{Report, clean};
 pub use mesh::{Mesh, MeshPart};
+pub use rig::Rig;
+pub use surfaces::{Provoking, Surfaces, provoking};
+pub use topology::{Adjacency, Edge, EdgeKind};
+pub use weld::Weld;

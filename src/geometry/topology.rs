@@ -1,0 +1,354 @@
+//! The edges of a mesh: which triangles meet where, and at what angle.
+//!
+//! Built once per mesh; what depends on the crease angle is in [`super::surfaces`].
+
+use glam::Vec3;
+use rayon::prelude::*;
+
+use super::normals::face_normals;
+use super::{Mesh, Weld};
+
+/// Stands for "no triangle".
+pub const NO_FACE: u32 = u32::MAX;
+
+/// What kind of place an edge is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum EdgeKind {
+    /// One triangle.
+    Border,
+    /// Two triangles that agree about inside and outside.
+    Manifold,
+    /// Two triangles, one of which is turned inside out against the other.
+    Flipped,
+    /// Three triangles or more; all of them are in [`Adjacency::non_manifold`].
+    NonManifold,
+}
+
+/// One edge, whose ends are welded by position.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Edge {
+    /// Indices of two vertices of the mesh (not of welded points) in the direction in which `faces[0]` runs.
+    pub vertices: [u32; 2],
+    /// The triangles that meet here, the smallest index first. [`NO_FACE`] where there is no second one. Of a
+    /// non-manifold edge, the first two.
+    pub faces: [u32; 2],
+    /// Angle between the normals of `faces`, in radians, −π to π: 0 flat, positive convex (ridge), negative concave
+    /// (valley). A flipped triangle counts as if it were turned. 0 at a border.
+    pub dihedral: f32,
+    /// How many triangles meet, and whether they agree.
+    pub kind: EdgeKind,
+}
+
+/// All edges of a mesh, sorted by their smaller, then their larger welded end.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Adjacency {
+    /// Which vertices are one point.
+    pub weld: Weld,
+    /// The edges.
+    pub edges: Vec<Edge>,
+    /// `edges[first_edge[v]..first_edge[v + 1]]` are the edges whose smaller end is the welded vertex `v`
+    /// ([`Weld::representative`]). One entry more than there are vertices.
+    pub first_edge: Vec<u32>,
+    /// Every (edge, triangle) of the non-manifold edges, in order.
+    pub non_manifold: Vec<(u32, u32)>,
+    /// Triangles with two corners at one welded point, which take part in no edge, each with a triangle that it
+    /// borders on ([`NO_FACE`] if there is none).
+    pub collapsed: Vec<(u32, u32)>,
+    /// Number of triangles.
+    pub face_count: usize,
+    /// Number of border edges.
+    pub border_count: usize,
+    /// Number of edges with more than two triangles.
+    pub non_manifold_count: usize,
+    /// Number of edges between triangles that disagree about inside and outside.
+    pub flipped_count: usize,
+}
+
+impl Adjacency {
+    /// Finds the edges of a clean mesh (indices in range, positions finite; see [`super::clean()`]).
+    ///
+    /// # Panics
+    /// When an index is out of range.
+    pub fn new(mesh: &Mesh) -> Self {
+        let (weld, normals) = rayon::join(|| Weld::near(&mesh.positions), || face_normals(mesh));
+        let mut half_edges = HalfEdges::new(mesh, &weld);
+        let chunks = half_edges.sorted_chunks();
+        let mut edges = vec![
+            Edge {
+                vertices: [0; 2],
+                faces: [NO_FACE; 2],
+                dihedral: 0.0,
+                kind: EdgeKind::Border
+            };
+            chunks.iter().map(|c| c.edge_count).sum()
+        ];
+        let mut first_edge = vec![edges.len() as u32; mesh.positions.len() + 1];
+
+        // Each chunk fills its own stretch of both arrays.
+        let mut jobs = Vec::with_capacity(chunks.len());
+        let (mut edges_left, mut first_left) = (edges.as_mut_slice(), first_edge.as_mut_slice());
+        let mut base = 0;
+        for chunk in &chunks {
+            let (own_edges, rest) = edges_left.split_at_mut(chunk.edge_count);
+            edges_left = rest;
+            let (own_first, rest) = first_left.split_at_mut(chunk.vertices.len());
+            first_left = rest;
+            jobs.push((chunk.vertices.clone(), base, own_edges, own_first));
+            base += chunk.edge_count as u32;
+        }
+        let context = Context {
+            mesh,
+            weld: &weld,
+            normals: &normals,
+        };
+        let tallies: Vec<Tally> = jobs
+            .into_par_iter()
+            .map(|(vertices, base, edges, first)| {
+                let mut tally = Tally::default();
+                let mut next = 0;
+                for (v, first) in vertices.zip(first) {
+                    *first = base + next as u32;
+                    for same in half_edges.of(v).chunk_by(|a, b| a >> 32 == b >> 32) {
+                        edges[next] = context.edge(v as u32, same);
+                        tally.add(base + next as u32, edges[next].kind, same);
+                        next += 1;
+                    }
+                }
+                tally
+            })
+            .collect();
+
+        let mut all = Self {
+            weld,
+            edges,
+            first_edge,
+            non_manifold: Vec::new(),
+            collapsed: Vec::new(),
+            face_count: mesh.triangle_count(),
+            border_count: 0,
+            non_manifold_count: 0,
+            flipped_count: 0,
+        };
+        for tally in tallies {
+            all.border_count += tally.border;
+            all.non_manifold_count += tally.non_manifold;
+            all.flipped_count += tally.flipped;
+            all.non_manifold.extend(tally.faces);
+        }
+        all.collapsed = half_edges
+            .collapsed
+            .iter()
+            .map(|&face| (face, all.neighbour_of(mesh.triangles()[face as usize])))
+            .collect();
+        all
+    }
+
+    /// Whether the mesh encloses a volume: no borders and nothing non-manifold.
+    pub fn is_closed(&self) -> bool {
+        !self.edges.is_empty() && self.border_count == 0 && self.non_manifold_count == 0
+    }
+
+    /// Index of the edge between two vertices, which may be any copies of its ends.
+    pub fn edge_between(&self, a: u32, b: u32) -> Option<usize> {
+        let point = |v: u32| self.weld.representative.get(v as usize).copied();
+        let (a, b) = (point(a)?, point(b)?);
+        if a == b {
+            return None;
+        }
+        let (low, high) = (a.min(b), a.max(b));
+        let mut range = *self.first_edge.get(low as usize)? as usize
+            ..*self.first_edge.get(low as usize + 1)? as usize;
+        range.find(|&e| {
+            let [u, v] = self.edges[e].vertices;
+            point(u) == Some(high) || point(v) == Some(high)
+        })
+    }
+
+    /// A triangle on any edge between these vertices.
+    fn neighbour_of(&self, [a, b, c]: [u32; 3]) -> u32 {
+        [(a, b), (b, c), (c, a)]
+            .into_iter()
+            .find_map(|(from, to)| self.edge_between(from, to))
+            .map_or(NO_FACE, |edge| self.edges[edge].faces[0])
+    }
+}
+
+#[derive(Default)]
+struct Tally {
+    border: usize,
+    non_manifold: usize,
+    flipped: usize,
+    faces: Vec<(u32, u32)>,
+}
+
+impl Tally {
+    fn add(&mut self, edge: u32, kind: EdgeKind, half_edges: &[u64]) {
+        match kind {
+            EdgeKind::Border => self.border += 1,
+            EdgeKind::Manifold => {}
+            EdgeKind::Flipped => self.flipped += 1,
+            EdgeKind::NonManifold => {
+                self.non_manifold += 1;
+                let faces = half_edges.iter().map(|&h| (edge, h as u32 / 3));
+                self.faces.extend(faces);
+            }
+        }
+    }
+}
+
+/// What is needed to describe one edge.
+struct Context<'a> {
+    mesh: &'a Mesh,
+    weld: &'a Weld,
+    normals: &'a [Vec3],
+}
+
+impl Context<'_> {
+    /// The edge made of these half-edges, whose smaller end is the welded vertex `low`.
+    fn edge(&self, low: u32, half_edges: &[u64]) -> Edge {
+        let start = |h: u32| self.mesh.indices[h as usize];
+        let runs_up = |h: u32| self.weld.representative[start(h) as usize] == low;
+        let first = half_edges[0] as u32;
+        let vertices = [start(first), start(next_in_triangle(first))];
+        let Some(&second) = half_edges.get(1) else {
+            return Edge {
+                vertices,
+                faces: [first / 3, NO_FACE],
+                dihedral: 0.0,
+                kind: EdgeKind::Border,
+            };
+        };
+        let second = second as u32;
+        let flipped = runs_up(first) == runs_up(second);
+        let kind = match (half_edges.len(), flipped) {
+            (2, false) => EdgeKind::Manifold,
+            (2, true) => EdgeKind::Flipped,
+            _ => EdgeKind::NonManifold,
+        };
+        let faces = [first / 3, second / 3];
+        let [n0, n1] = faces.map(|f| self.normals[f as usize]);
+        let n1 = if flipped { -n1 } else { n1 };
+        let [a, b] = vertices.map(|v| self.mesh.positions[v as usize]);
+        let turn = n0.cross(n1);
+        let angle = turn.length().atan2(n0.dot(n1));
+        Edge {
+            vertices,
+            faces,
+            dihedral: if turn.dot(b - a) < 0.0 { -angle } else { angle },
+            kind,
+        }
+    }
+}
+
+/// Half-edge `3 t + k` runs from corner `k` of triangle `t` to the next.
+fn next_in_triangle(half_edge: u32) -> u32 {
+    if half_edge % 3 == 2 {
+        half_edge - 2
+    } else {
+        half_edge + 1
+    }
+}
+
+/// All half-edges in buckets by their smaller welded end.
+struct HalfEdges {
+    /// Per half-edge: the larger welded end (high 32 bits) and the half-edge (low 32 bits).
+    entries: Vec<u64>,
+    /// Bucket `v` is `entries[offsets[v]..offsets[v + 1]]`.
+    offsets: Vec<u32>,
+    collapsed: Vec<u32>,
+}
+
+/// A stretch of buckets that one thread works on.
+struct Chunk {
+    vertices: std::ops::Range<usize>,
+    edge_count: usize,
+}
+
+impl HalfEdges {
+    fn new(mesh: &Mesh, weld: &Weld) -> Self {
+        let vertex_count = mesh.positions.len();
+        let points = |t: &[u32; 3]| t.map(|v| weld.representative[v as usize]);
+        let is_collapsed = |[a, b, c]: [u32; 3]| a == b || b == c || c == a;
+
+        // A counting sort. Counts are kept two places ahead, so that filling leaves the offsets behind.
+        let mut offsets = vec![0_u32; vertex_count + 2];
+        let mut collapsed = Vec::new();
+        for (t, triangle) in mesh.triangles().iter().enumerate() {
+            let [a, b, c] = points(triangle);
+            if is_collapsed([a, b, c]) {
+                collapsed.push(t as u32);
+                continue;
+            }
+            for low in [a.min(b), b.min(c), c.min(a)] {
+                offsets[low as usize + 2] += 1;
+            }
+        }
+        for v in 2..offsets.len() {
+            offsets[v] += offsets[v - 1];
+        }
+        let mut entries = vec![0_u64; offsets[vertex_count + 1] as usize];
+        for (t, triangle) in mesh.triangles().iter().enumerate() {
+            let [a, b, c] = points(triangle);
+            if is_collapsed([a, b, c]) {
+                continue;
+            }
+            for (k, (from, to)) in [(a, b), (b, c), (c, a)].into_iter().enumerate() {
+                let slot = &mut offsets[from.min(to) as usize + 1];
+                entries[*slot as usize] = u64::from(from.max(to)) << 32 | (3 * t + k) as u64;
+                *slot += 1;
+            }
+        }
+        offsets.pop();
+        Self {
+            entries,
+            offsets,
+            collapsed,
+        }
+    }
+
+    fn of(&self, v: usize) -> &[u64] {
+        &self.entries[self.offsets[v] as usize..self.offsets[v + 1] as usize]
+    }
+
+    /// Sorts every bucket, and counts the edges of stretches of about equal work.
+    fn sorted_chunks(&mut self) -> Vec<Chunk> {
+        let vertex_count = self.offsets.len() - 1;
+        let wanted = rayon::current_num_threads() * 8;
+        let per_chunk = self.entries.len() / wanted + 1024;
+        let mut jobs = Vec::with_capacity(wanted);
+        let mut entries = self.entries.as_mut_slice();
+        let mut start = 0;
+        while start < vertex_count {
+            let begin = self.offsets[start] as usize;
+            let end = (start
+                + 1
+                + self.offsets[start + 1..vertex_count]
+                    .partition_point(|&o| (o as usize) < begin + per_chunk))
+            .min(vertex_count);
+            let (own, rest) = entries.split_at_mut(self.offsets[end] as usize - begin);
+            entries = rest;
+            jobs.push((start..end, begin, own));
+            start = end;
+        }
+        let offsets = &self.offsets;
+        jobs.into_par_iter()
+            .map(|(vertices, begin, entries)| {
+                let mut edge_count = 0;
+                for v in vertices.clone() {
+                    let bucket =
+                        &mut entries[offsets[v] as usize - begin..offsets[v + 1] as usize - begin];
+                    bucket.sort_unstable();
+                    edge_count += bucket.chunk_by(|a, b| a >> 32 == b >> 32).count();
+                }
+                Chunk {
+                    vertices,
+                    edge_count,
+                }
+            })
+            .collect()
+    }
+}
+
+#[cfg(test)]
+#[path = "topology_tests.rs"]
+mod tests;
