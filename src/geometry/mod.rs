@@ -1,5 +1,6 @@
 //! Triangle meshes and what can be computed from them. Plain data: no file, no GPU.
 
+pub mod angle;
 pub mod bounds;
 pub mod clean;
 pub mod mesh;

@@ -6,7 +6,7 @@ use glam::Vec3;
 use rayon::prelude::*;
 
 use super::normals::face_normals;
-use super::{Mesh, Weld};
+use super::{Mesh, Weld, angle};
 
 /// Stands for "no triangle".
 pub const NO_FACE: u32 = u32::MAX;
@@ -230,7 +230,7 @@ impl Context<'_> {
         let n1 = if flipped { -n1 } else { n1 };
         let [a, b] = vertices.map(|v| self.mesh.positions[v as usize]);
         let turn = n0.cross(n1);
-        let angle = turn.length().atan2(n0.dot(n1));
+        let angle = angle::from_sine_and_cosine(turn.length(), n0.dot(n1));
         Edge {
             vertices,
             faces,
