@@ -45,15 +45,15 @@ fn materials() -> Vec<Material> {
         roughness,
     };
     vec![
-        finish("forged steel", 0x7d_848c, 0.5, 0.6),
-        finish("ground steel", 0xc9_cfd4, 0.7, 0.3),
-        finish("aluminium", 0xdd_ddd8, 0.4, 0.5),
-        finish("steel", 0x9f_aab5, 0.6, 0.45),
-        finish("brass", 0xd0_a04a, 0.6, 0.4),
-        finish("red paint", 0xb5_3b2c, 0.0, 0.6),
-        finish("black oxide", 0x45_4a50, 0.3, 0.6),
-        finish("cast iron", 0x63_6a70, 0.2, 0.8),
-        finish("blue paint", 0x3d_6a8f, 0.0, 0.6),
+        finish("forged steel", 0xa3_abb3, 0.0, 0.6),
+        finish("ground steel", 0xd6_dbdf, 0.0, 0.3),
+        finish("aluminium", 0xe6_e5df, 0.0, 0.5),
+        finish("steel", 0xb4_c0cc, 0.0, 0.45),
+        finish("brass", 0xd9_a441, 0.0, 0.4),
+        finish("red paint", 0xc9_4431, 0.0, 0.6),
+        finish("black oxide", 0x4f_555c, 0.0, 0.6),
+        finish("cast iron", 0x87_8e94, 0.0, 0.8),
+        finish("blue paint", 0x4d_86b8, 0.0, 0.6),
     ]
 }
 
@@ -198,18 +198,12 @@ fn pistons(shop: &mut Shop) -> Vec<Node> {
         .collect()
 }
 
-/// The shells of the main bearings.
+/// The lower shells of the main bearings.
 fn bearings(shop: &mut Shop) -> Vec<Node> {
     let shell = shop.make("main_shell", Finish::Brass, crankshaft::main_shell());
-    let half_turn = DQuat::from_rotation_x(std::f64::consts::PI);
     (0..4)
         .map(|i| {
-            Node::new(format!("bearing.{}", i + 1), None)
-                .at(PITCH * (1.5 - i as f64), 0.0, 0.0)
-                .with(vec![
-                    Node::new("upper", shell),
-                    Node::new("lower", shell).turned(half_turn),
-                ])
+            Node::new(format!("bearing.{}", i + 1), shell).at(PITCH * (1.5 - i as f64), 0.0, 0.0)
         })
         .collect()
 }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use glam::{DVec2, dvec2};
+use glam::DVec2;
 
 use crate::outline::{circle, gear};
 use crate::plate::{Hole, Plate, Step, chamfered};
@@ -18,11 +18,11 @@ pub(crate) const BOLTS: usize = 6;
 /// Radius of the circle that they stand on.
 pub(crate) const BOLT_CIRCLE: f64 = 25.0;
 /// Where their heads touch, from the flywheel's middle.
-pub(crate) const BOLT_X: f64 = -9.5;
+pub(crate) const BOLT_X: f64 = -9.1;
 /// The timing gear's middle.
 pub(crate) const GEAR_AT: f64 = 157.5;
 /// The pulley's middle.
-pub(crate) const PULLEY_AT: f64 = 184.0;
+pub(crate) const PULLEY_AT: f64 = 179.0;
 
 /// The angle of a bolt around the axis.
 pub(crate) fn bolt_angle(i: usize) -> f64 {
@@ -42,20 +42,20 @@ pub(crate) fn disc() -> Solid {
         })
     };
     let mut holes = vec![Hole {
-        outline: circle(DVec2::ZERO, 11.0, 24),
-        chamfer: 0.8,
+        outline: circle(DVec2::ZERO, 11.0, 18),
+        chamfer: 0.0,
     }];
-    holes.extend(around(BOLT_CIRCLE, 4.4, 0.0, 14, 0.0));
-    holes.extend(around(63.0, 13.0, TAU / 12.0, 28, 1.0));
+    holes.extend(around(BOLT_CIRCLE, 4.4, 0.0, 10, 0.0));
+    holes.extend(around(63.0, 13.0, TAU / 12.0, 17, 0.0));
     let sunk = |hub: f64| {
-        Step::new(circle(DVec2::ZERO, 90.0, 72), 4.0, -7.0).with(vec![Step::new(
-            circle(DVec2::ZERO, 40.0, 48),
+        Step::new(circle(DVec2::ZERO, 90.0, 64), 4.0, -7.0).with(vec![Step::new(
+            circle(DVec2::ZERO, 40.0, 28),
             3.0,
             hub,
         )])
     };
     Plate {
-        outline: circle(DVec2::ZERO, 108.0, 80),
+        outline: circle(DVec2::ZERO, 108.0, 72),
         rim: chamfered(HALF, 1.5),
         front: vec![sunk(7.0)],
         back: vec![sunk(3.0)],
@@ -68,10 +68,10 @@ pub(crate) fn disc() -> Solid {
 /// The ring gear shrunk onto the disc.
 pub(crate) fn ring_gear() -> Solid {
     Plate {
-        outline: gear(84, 109.6, 114.6),
+        outline: gear(60, 109.6, 114.6),
         rim: vec![(0.0, -2.0), (0.0, 8.0)],
         holes: vec![Hole {
-            outline: circle(DVec2::ZERO, 104.0, 64),
+            outline: circle(DVec2::ZERO, 104.0, 48),
             chamfer: 0.0,
         }],
         ..Plate::default()
@@ -82,88 +82,66 @@ pub(crate) fn ring_gear() -> Solid {
 
 /// A bolt of the flywheel, head towards +X.
 pub(crate) fn bolt() -> Solid {
-    hex_bolt(12.0, 7.0, 4.0, 26.0, 14).along(Axis::X)
+    hex_bolt(12.0, 7.0, 4.0, 26.0, 12).along(Axis::X)
 }
 
 /// The gear that drives the valves.
 pub(crate) fn timing_gear() -> Solid {
-    let hub = || vec![Step::new(circle(DVec2::ZERO, 26.0, 32), 0.6, 2.0)];
     Plate {
-        outline: gear(26, 31.0, 36.0),
-        rim: chamfered(6.0, 0.8),
-        front: hub(),
-        back: hub(),
-        holes: vec![Hole {
-            outline: circle(DVec2::ZERO, 19.0, 24),
-            chamfer: 0.0,
-        }],
+        outline: gear(20, 31.0, 36.0),
+        rim: vec![(0.0, -6.0), (0.0, 6.0)],
+        front: vec![Step::new(circle(DVec2::ZERO, 26.0, 24), 0.6, 2.0)],
+        ..Plate::default()
     }
     .solid()
     .along(Axis::X)
 }
 
-/// The belt pulley: two V grooves, a sunk face with round windows.
+/// The belt pulley: a V groove, a sunk face with round windows.
 pub(crate) fn pulley() -> Solid {
     let mut wheel = Plate::turned(
         &[
-            (55.0, -13.0),
-            (56.0, -12.0),
-            (56.0, -10.0),
-            (48.0, -7.2),
-            (48.0, -4.8),
-            (56.0, -2.0),
-            (56.0, 2.0),
-            (48.0, 4.8),
-            (48.0, 7.2),
-            (56.0, 10.0),
-            (56.0, 12.0),
-            (55.0, 13.0),
+            (54.5, -11.0),
+            (56.0, -9.5),
+            (56.0, -7.0),
+            (47.0, -3.0),
+            (47.0, 3.0),
+            (56.0, 7.0),
+            (56.0, 9.5),
+            (54.5, 11.0),
         ],
-        64,
+        56,
     );
-    let sunk = |hub: f64| {
-        vec![
-            Step::new(circle(DVec2::ZERO, 43.0, 64), 2.0, -8.0).with(vec![Step::new(
-                circle(DVec2::ZERO, 22.0, 32),
-                1.0,
-                hub,
-            )]),
-        ]
-    };
-    wheel.front = sunk(6.0);
-    wheel.back = sunk(8.5);
+    let hub = Step::new(circle(DVec2::ZERO, 22.0, 24), 1.0, 6.0);
+    wheel.front = vec![Step::new(circle(DVec2::ZERO, 43.0, 48), 2.0, -8.0).with(vec![hub])];
     wheel.holes = (0..5)
         .map(|i| Hole {
             outline: circle(
                 31.5 * DVec2::from_angle(TAU * f64::from(i) / 5.0),
                 6.5,
-                24,
+                16,
             ),
-            chamfer: 0.6,
+            chamfer: 0.0,
         })
         .collect();
-    wheel.holes.push(Hole {
-        outline: circle(dvec2(0.0, 0.0), 16.0, 24),
-        chamfer: 0.0,
-    });
     wheel.solid().along(Axis::X)
 }
 
 /// The washer between the pulley and its bolt.
 pub(crate) fn washer() -> Solid {
     Plate {
-        outline: circle(DVec2::ZERO, 18.5, 32),
-        rim: chamfered(1.5, 0.4),
+        outline: circle(DVec2::ZERO, 18.5, 24),
+        rim: vec![(0.0, -1.5), (0.0, 1.5)],
         ..Plate::default()
     }
     .solid()
     .along(Axis::X)
-    .moved(12.3, 0.0, 0.0)
+    .moved(10.3, 0.0, 0.0)
 }
 
 /// The bolt that holds the pulley.
 pub(crate) fn nose_bolt() -> Solid {
-    hex_bolt(21.0, 11.0, 7.0, 40.0, 20)
+    hex_bolt(21.0, 11.0, 7.0, 40.0, 16)
         .along(Axis::X)
-        .moved(13.6, 0.0, 0.0)
+        .moved(11.6, 0.0, 0.0)
 }

@@ -7,13 +7,13 @@ use glam::{DVec2, DVec3, dvec2, dvec3};
 use crate::crankshaft::tube;
 use crate::delaunay;
 use crate::outline::arc;
-use crate::plate::{Plate, chamfered};
+use crate::plate::Plate;
 use crate::solid::{Axis, Solid};
 
 /// Heights of the rings' middles above the wrist pin.
 pub(crate) const RINGS: [f64; 3] = [25.0, 19.4, 14.4];
 /// Columns around the body.
-const COLUMNS: usize = 40;
+const COLUMNS: usize = 32;
 /// Columns on either side of a pin boss's middle that make room for it.
 const BESIDE: i32 = 4;
 /// Radius of the skirt.
@@ -56,20 +56,19 @@ fn edge(angle: f64) -> f64 {
 }
 
 /// Rows of the outer skirt around the bore.
-const OUTER_ROWS: [f64; 4] = [-15.0, -5.5, 4.0, 13.0];
+const OUTER_ROWS: [f64; 2] = [-15.0, 13.0];
 /// Rows of the inner skirt around the boss.
-const INNER_ROWS: [f64; 4] = [-18.0, -6.0, 6.0, 17.5];
+const INNER_ROWS: [f64; 2] = [-18.0, 17.5];
 
 /// The body: crown, ring grooves, skirt, hollow, bosses with their bore.
 pub(crate) fn body() -> Solid {
     let mut out = Solid::default();
     let flat = |r, y| ring_at(r, move |_| y);
     // From the middle of the ceiling down the inside, around the edge, up the outside, to the middle of the crown.
-    let mut path = vec![flat(22.0, 23.0), flat(30.0, 21.5)];
+    let mut path = vec![flat(31.0, 22.5)];
     path.extend(INNER_ROWS.iter().rev().map(|&y| flat(INNER, y)));
     path.push(ring_at(INNER + 0.6, edge));
-    path.push(ring_at(SKIRT - 0.6, edge));
-    path.push(ring_at(SKIRT, |a| edge(a) + 0.9));
+    path.push(ring_at(SKIRT, edge));
     path.extend(OUTER_ROWS.iter().map(|&y| flat(SKIRT, y)));
     let mut land = SKIRT;
     for (i, &middle) in RINGS.iter().enumerate().rev() {
@@ -88,8 +87,8 @@ pub(crate) fn body() -> Solid {
         flat(28.0, 30.0),
         flat(25.0, 27.8),
     ]);
-    let inner_rows = 2..5;
-    let outer_rows = 9..12;
+    let inner_rows = 1..2;
+    let outer_rows = 5..6;
     for (i, pair) in path.windows(2).enumerate() {
         let open = inner_rows.contains(&i) || outer_rows.contains(&i);
         strip(&mut out, &pair[0], &pair[1], open);
@@ -155,24 +154,15 @@ fn boss(out: &mut Solid, half_turn: bool) {
     let flat = |radius: f64, x: f64| -> Vec<DVec3> {
         round(radius).iter().map(|p| dvec3(x, p.y, -p.x)).collect()
     };
-    let mouth = wrap(round(BORE + 0.8), SKIRT);
-    let root = wrap(round(BOSS + 0.8), INNER);
-    let x_of = |radius: f64, depth: f64| -> Vec<DVec3> {
-        round(radius)
-            .iter()
-            .map(|p| dvec3((SKIRT * SKIRT - p.x * p.x).sqrt() - depth, p.y, -p.x))
-            .collect()
-    };
+    let mouth = wrap(round(BORE), SKIRT);
+    let root = wrap(round(BOSS), INNER);
     let rings = [
         on(SKIRT, &outer),
         on(SKIRT, &between(&outer, &mouth, 0.55)),
         on(SKIRT, &mouth),
-        x_of(BORE, 1.0),
         flat(BORE, BOSS_END),
         flat(BOSS, BOSS_END),
-        flat(BOSS, 27.0),
         on(INNER, &root),
-        on(INNER, &between(&root, &inner, 0.5)),
         on(INNER, &inner),
     ];
     let turned = |ring: &Vec<DVec3>| -> Vec<DVec3> {
@@ -187,20 +177,16 @@ fn boss(out: &mut Solid, half_turn: bool) {
 }
 
 /// The border of the cells that a boss replaces: angle and height, counter-clockwise from outside.
-fn frame(rows: [f64; 4]) -> Vec<DVec2> {
+fn frame(rows: [f64; 2]) -> Vec<DVec2> {
     let mut out = Vec::new();
     for c in -BESIDE..BESIDE {
         out.push(dvec2(angle(c), rows[0]));
     }
-    for &y in &rows[..3] {
-        out.push(dvec2(angle(BESIDE), y));
-    }
+    out.push(dvec2(angle(BESIDE), rows[0]));
     for c in (-BESIDE + 1..=BESIDE).rev() {
-        out.push(dvec2(angle(c), rows[3]));
+        out.push(dvec2(angle(c), rows[1]));
     }
-    for &y in rows[1..].iter().rev() {
-        out.push(dvec2(angle(-BESIDE), y));
-    }
+    out.push(dvec2(angle(-BESIDE), rows[1]));
     out
 }
 
@@ -209,8 +195,8 @@ pub(crate) fn ring(height: f64) -> Solid {
     let gap: f64 = 1.0;
     let (outer, inner): (f64, f64) = (39.3, GROOVE + 0.5);
     let (a, b) = ((gap / outer).asin(), (gap / inner).asin());
-    let mut outline = arc(DVec2::ZERO, outer, a, TAU - a, 44);
-    outline.extend(arc(DVec2::ZERO, inner, TAU - b, b, 44));
+    let mut outline = arc(DVec2::ZERO, outer, a, TAU - a, 32);
+    outline.extend(arc(DVec2::ZERO, inner, TAU - b, b, 32));
     let half = height / 2.0;
     Plate {
         outline,
@@ -223,7 +209,6 @@ pub(crate) fn ring(height: f64) -> Solid {
 
 /// The hollow wrist pin.
 pub(crate) fn pin() -> Solid {
-    let mut tube = tube(5.5, 10.0, 33.0, 0.8, 24);
-    tube.rim = chamfered(33.0, 0.8);
-    tube.solid().along(Axis::X)
+    tube(5.5, 10.0, 33.0, 0.8, 16)
+        .solid().along(Axis::X)
 }

@@ -71,17 +71,6 @@ pub(crate) fn chamfered(half: f64, chamfer: f64) -> Rim {
     ]
 }
 
-/// A straight rim from `-half` to `half`, rounded by `radius` in `n` chords.
-pub(crate) fn rounded_rim(half: f64, radius: f64, n: usize) -> Rim {
-    let quarter = |i: usize| {
-        let angle = std::f64::consts::FRAC_PI_2 * i as f64 / n as f64;
-        (radius * (1.0 - angle.cos()), half - radius + radius * angle.sin())
-    };
-    let front: Rim = (0..=n).map(quarter).collect();
-    let back = front.iter().rev().map(|&(d, w)| (d, -w));
-    back.chain(front.iter().copied()).collect()
-}
-
 impl Plate {
     /// A turned part: radii and heights from back to front; the first is the outline's own radius.
     pub(crate) fn turned(profile: &[(f64, f64)], segments: usize) -> Self {

@@ -16,7 +16,7 @@ const BORE: f64 = 25.25;
 const EYE: f64 = 17.0;
 /// Half the gap between shank and cap.
 const GAP: f64 = 0.2;
-/// Half the thickness without the pads around the bores.
+/// Half the thickness without the pads around the big end.
 const HALF: f64 = 9.0;
 /// The height of those pads.
 const PAD: f64 = 2.0;
@@ -37,7 +37,7 @@ fn shank_side() -> Vec<DVec2> {
             (foot.x, foot.y, 22.0),
             (neck.x, neck.y, 0.0),
         ],
-        0.2,
+        0.35,
     );
     side.pop();
     // The fillet of radius `f` that touches the beam's flank and the eye.
@@ -50,20 +50,20 @@ fn shank_side() -> Vec<DVec2> {
     let centre = eye + start - up * (along + reach.sqrt());
     let to_eye = (eye - centre).to_angle();
     let from = (-out).to_angle().rem_euclid(2.0 * PI);
-    side.extend(arc(centre, f, from, to_eye, 5));
-    side.extend(arc(eye, EYE, to_eye - PI, FRAC_PI_2, 12).iter().skip(1));
+    side.extend(arc(centre, f, from, to_eye, 4));
+    side.extend(arc(eye, EYE, to_eye - PI, FRAC_PI_2, 9).iter().skip(1));
     side
 }
 
 /// The pad around half the big end's bore.
 fn pad() -> Step {
-    Step::new(half_ring(BORE + 1.2, 33.0, 2.5, 14), 0.4, PAD)
+    Step::new(half_ring(BORE + 2.2, 33.5, 2.5, 9), 0.4, PAD)
 }
 
 /// The shank: eye, I-beam and the upper half of the big end.
 pub(crate) fn shank() -> Solid {
     let mut outline = mirrored(&shank_side());
-    let bore = arc(DVec2::ZERO, BORE, PI - (GAP / BORE).asin(), (GAP / BORE).asin(), 24);
+    let bore = arc(DVec2::ZERO, BORE, PI - (GAP / BORE).asin(), (GAP / BORE).asin(), 16);
     outline.extend(&bore[1..bore.len() - 1]);
     let pocket = rounded(
         &[
@@ -72,22 +72,18 @@ pub(crate) fn shank() -> Solid {
             (6.4, 118.0, 4.0),
             (-6.4, 118.0, 4.0),
         ],
-        0.5,
+        0.8,
     );
     let eye = dvec2(0.0, ROD);
-    let steps = vec![
-        pad(),
-        Step::new(pocket, 1.2, -5.5),
-        Step::new(circle(eye, EYE - 1.2, 32), 0.4, PAD),
-    ];
+    let steps = vec![pad(), Step::new(pocket, 1.2, -5.5)];
     Plate {
         outline,
         rim: chamfered(HALF, 1.0),
         front: steps.clone(),
         back: steps,
         holes: vec![Hole {
-            outline: circle(eye, 12.25, 32),
-            chamfer: 0.6,
+            outline: circle(eye, 12.25, 20),
+            chamfer: 0.0,
         }],
     }
     .solid()
@@ -96,7 +92,7 @@ pub(crate) fn shank() -> Solid {
 
 /// The cap below the parting face, with shoulders for the bolts' heads.
 pub(crate) fn cap() -> Solid {
-    let outer: f64 = 31.5;
+    let outer: f64 = 33.4;
     let shoulder = -BOLT_Y - 0.4;
     let corner: f64 = 25.4;
     let mut upper: Vec<(f64, f64, f64)> = vec![
@@ -107,16 +103,19 @@ pub(crate) fn cap() -> Solid {
     ];
     let from = (corner / outer).acos();
     upper.extend(
-        arc(DVec2::ZERO, outer, from, FRAC_PI_2, 6)
+        arc(DVec2::ZERO, outer, from, FRAC_PI_2, 5)
             .iter()
             .map(|p| (p.x, p.y, 0.0)),
     );
     let left = upper.iter().rev().skip(1).map(|&(x, y, r)| (-x, y, r));
     let corners: Vec<_> = upper.iter().copied().chain(left).collect();
     let mut outline: Outline = rounded(&corners, 0.6);
-    let bore = arc(DVec2::ZERO, BORE, PI - (GAP / BORE).asin(), (GAP / BORE).asin(), 24);
+    let bore = arc(DVec2::ZERO, BORE, PI - (GAP / BORE).asin(), (GAP / BORE).asin(), 16);
     outline.extend(&bore[1..bore.len() - 1]);
-    let narrow = Step::new(half_ring(BORE + 1.2, 30.0, 2.5, 14), 0.4, PAD);
+    // Between the bolts' shoulders.
+    let mut crescent = arc(DVec2::ZERO, 31.4, 0.9, PI - 0.9, 6);
+    crescent.extend(arc(DVec2::ZERO, BORE + 2.2, PI - 0.9, 0.9, 6));
+    let narrow = Step::new(crescent, 0.4, PAD);
     let turned = Step {
         outline: upside_down(&narrow.outline),
         ..narrow
@@ -134,19 +133,17 @@ pub(crate) fn cap() -> Solid {
 
 /// A bolt with its head's bearing face at the origin, head down, thread up.
 pub(crate) fn bolt() -> Solid {
-    hex_bolt(11.0, 7.0, 3.8, 40.0, 16).along(Axis::Down)
+    hex_bolt(11.0, 7.0, 3.8, 23.0, 12).along(Axis::Down)
 }
 
 /// A hexagon bolt: head towards +w from the origin, shank towards −w.
 pub(crate) fn hex_bolt(flats: f64, head: f64, radius: f64, length: f64, segments: usize) -> Solid {
     let mut shank = Step::new(circle(DVec2::ZERO, radius, segments), 0.0, length - 0.8);
     shank.rim.push((0.8, length));
-    let washer_face = Step::new(circle(DVec2::ZERO, flats * 0.46, 24), 0.2, 0.6);
     Plate {
         outline: hexagon(flats),
-        rim: vec![(0.0, 0.6), (0.0, head - 0.8), (1.0, head)],
-        back: vec![washer_face.with(vec![shank])],
-        front: vec![Step::new(circle(DVec2::ZERO, flats * 0.3, 16), 0.5, -0.8)],
+        rim: vec![(0.0, 0.0), (0.0, head - 0.8), (1.0, head)],
+        back: vec![shank],
         ..Plate::default()
     }
     .solid()
@@ -154,7 +151,7 @@ pub(crate) fn hex_bolt(flats: f64, head: f64, radius: f64, length: f64, segments
 
 /// The bushing in the eye.
 pub(crate) fn bushing() -> Solid {
-    tube(10.25, 12.0, HALF + PAD + 0.4, 0.3, 32)
+    tube(10.25, 12.0, HALF + 0.4, 0.0, 20)
         .solid()
         .along(Axis::X)
 }
@@ -162,8 +159,8 @@ pub(crate) fn bushing() -> Solid {
 /// The upper shell of the big end's bearing.
 pub(crate) fn shell() -> Solid {
     Plate {
-        outline: half_ring(pin_radius() + 0.3, BORE - 0.25, 0.15, 20),
-        rim: chamfered(10.0, 0.4),
+        outline: half_ring(pin_radius() + 0.3, BORE - 0.25, 0.15, 10),
+        rim: vec![(0.0, -10.0), (0.0, 10.0)],
         ..Plate::default()
     }
     .solid()
