@@ -5,7 +5,9 @@
 //! become scenes, [`gpu`] the device, [`document`] what is saved and undone, [`scene`] nodes, cameras, lights and
 //! materials, [`style`] the parameters of every effect, [`geometry`] meshes.
 
+pub mod cli;
 pub mod document;
+pub mod export;
 pub mod geometry;
 pub mod gpu;
 pub mod import;

@@ -9,8 +9,8 @@ use super::frame_uniform::View;
 use super::passes::edge_map::EdgeUniform;
 use super::passes::gbuffer::DrawUniform;
 use crate::document::Document;
-use crate::geometry::Bounds;
-use crate::gpu::geometry::{MeshSource, SurfaceIds};
+use crate::geometry::{Bounds, Provoking};
+use crate::gpu::geometry::MeshSource;
 use crate::gpu::{GeometryBuffers, Gpu, GpuError, MaterialBindings};
 use crate::scene::{NodeId, Scene};
 
@@ -37,7 +37,7 @@ impl GpuScene {
         gpu: &Gpu,
         material_layout: &wgpu::BindGroupLayout,
         scene: &Arc<Scene>,
-        surfaces: &[SurfaceIds],
+        surfaces: &[Provoking],
     ) -> Result<Self, GpuError> {
         let sources: Vec<_> = scene
             .meshes

@@ -8,7 +8,7 @@ use super::frame::{FrameInputs, FrameState, Picture};
 use super::frame_uniform::{FrameUniform, View};
 use super::groups::{GpuScene, Objects, node_of};
 use crate::document::Document;
-use crate::gpu::geometry::SurfaceIds;
+use crate::geometry::Provoking;
 use crate::gpu::readback::Readback;
 use crate::gpu::recorder::Pipelines;
 use crate::gpu::{Gpu, GpuError, Recorder, ShaderError, Shaders, TargetPool, Timers, UniformBuffer};
@@ -106,7 +106,7 @@ impl Renderer {
     ///
     /// # Errors
     /// [`GpuError::TooLarge`]; the last scene then stays.
-    pub fn set_scene(&mut self, scene: &Arc<Scene>, surfaces: &[SurfaceIds]) -> Result<(), RenderError> {
+    pub fn set_scene(&mut self, scene: &Arc<Scene>, surfaces: &[Provoking]) -> Result<(), RenderError> {
         self.scene = Some(GpuScene::new(&self.gpu, self.state.material_layout(), scene, surfaces)?);
         self.scene_revision += 1;
         Ok(())
