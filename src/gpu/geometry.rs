@@ -106,6 +106,10 @@ impl GeometryBuffers {
             .then(|| mapped(gpu, "attributes", vertices * size_of::<Attributes>(), vertex_usage))
             .transpose()?;
 
+        let mut position_view = view(&position_buffer)?;
+        let mut surface_view = view(&surface_buffer)?;
+        let mut index_view = view(&index_buffer)?;
+        let mut attribute_view = attribute_buffer.as_ref().map(view).transpose()?;
         let mut meshes = Vec::with_capacity(sources.len());
         let (mut vertex, mut index) = (0, 0);
         for source in sources {
@@ -113,25 +117,26 @@ impl GeometryBuffers {
             let mesh = source.mesh;
             let duplicated = source.surfaces.map_or(&[][..], |s| &s.duplicates);
             let own = mesh.positions.len();
-            write(&position_buffer, vertex * 12, bytemuck::cast_slice(&mesh.positions))?;
+            write(&mut position_view, vertex * 12, bytemuck::cast_slice(&mesh.positions));
             let copies: Vec<Vec3> =
                 duplicated.iter().filter_map(|v| mesh.positions.get(*v as usize).copied()).collect();
-            write(&position_buffer, (vertex + own) * 12, bytemuck::cast_slice(&copies))?;
+            write(&mut position_view, (vertex + own) * 12, bytemuck::cast_slice(&copies));
             if let Some(surfaces) = source.surfaces {
-                write(&surface_buffer, vertex * 4, bytemuck::cast_slice(&surfaces.surface_of_vertex))?;
+                write(&mut surface_view, vertex * 4, bytemuck::cast_slice(&surfaces.surface_of_vertex));
             }
-            if let Some(buffer) = &attribute_buffer {
+            if let Some(buffer) = &mut attribute_view {
                 let all: Vec<Attributes> = (0..own)
                     .chain(duplicated.iter().map(|v| *v as usize))
                     .map(|v| Attributes::of(mesh, v))
                     .collect();
-                write(buffer, vertex * size_of::<Attributes>(), bytemuck::cast_slice(&all))?;
+                write(buffer, vertex * size_of::<Attributes>(), bytemuck::cast_slice(&all));
             }
             let source_indices = source.surfaces.map_or(&mesh.indices, |s| &s.indices);
-            write(&index_buffer, index * 4, bytemuck::cast_slice(source_indices))?;
+            write(&mut index_view, index * 4, bytemuck::cast_slice(source_indices));
             vertex += own + duplicated.len();
             index += mesh.indices.len();
         }
+        drop((position_view, surface_view, index_view, attribute_view));
         for buffer in [&position_buffer, &surface_buffer, &index_buffer].into_iter().chain(&attribute_buffer)
         {
             buffer.unmap();
@@ -157,14 +162,12 @@ fn mapped(gpu: &Gpu, label: &str, bytes: usize, usage: wgpu::BufferUsages) -> Re
     }))
 }
 
-fn write(buffer: &wgpu::Buffer, offset: usize, bytes: &[u8]) -> Result<(), GpuError> {
-    if bytes.is_empty() {
-        return Ok(());
-    }
-    let range = offset as u64..(offset + bytes.len()) as u64;
-    let mut view = buffer.get_mapped_range_mut(range).map_err(|e| GpuError::Lost(e.to_string()))?;
-    view.copy_from_slice(bytes);
-    Ok(())
+fn view(buffer: &wgpu::Buffer) -> Result<wgpu::BufferViewMut, GpuError> {
+    buffer.get_mapped_range_mut(..).map_err(|e| GpuError::Lost(e.to_string()))
+}
+
+fn write(view: &mut wgpu::BufferViewMut, offset: usize, bytes: &[u8]) {
+    view.slice(offset..offset + bytes.len()).copy_from_slice(bytes);
 }
 
 #[cfg(test)]

@@ -142,7 +142,7 @@ impl Renderer {
         let size = request.size.map(|s| s.max(1));
         let objects = Objects::new(request.document, scene);
         let view = View::new(request.camera, &objects.visible_bounds, UVec2::from_array(size));
-        let depth_range = view.fitted_depth_range(&objects.enhanced_bounds);
+        let depth_range = view.fitted_depth_range(objects.enhanced_boxes(scene));
         let paper = request.document.view.background.to_linear();
         let background = paper.extend(if request.transparent { 0.0 } else { 1.0 });
         let uniform = FrameUniform::new(&view, depth_range, &request.document.lights, background);
