@@ -127,7 +127,7 @@ fn wanted_name(root: &Root, index: usize) -> String {
 /// A node's name for messages.
 pub(super) fn node_label(root: &Root, index: usize) -> String {
     let name = root.nodes.get(index).and_then(|n| n.name.as_ref());
-    label("node", index, name).into_owned()
+    label("node", index, name)
 }
 
 fn parents(root: &Root) -> Result<Vec<Option<usize>>> {
