@@ -8,6 +8,7 @@ pub mod normals;
 pub mod primitives;
 pub mod surfaces;
 pub mod topology;
+pub mod triangulate;
 pub mod weld;
 
 pub use bounds::Bounds;
@@ -15,4 +16,5 @@ pub use clean::{Report, clean};
 pub use mesh::{Mesh, MeshPart};
 pub use surfaces::{Provoking, Surfaces, provoking};
 pub use topology::{Adjacency, Edge, EdgeKind};
+pub use triangulate::Triangulator;
 pub use weld::Weld;
