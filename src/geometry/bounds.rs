@@ -13,10 +13,7 @@ pub struct Bounds {
 
 impl Bounds {
     /// The box that contains nothing; the identity of [`Bounds::union`].
-    pub const EMPTY: Self = Self {
-        min: DVec3::splat(f64::INFINITY),
-        max: DVec3::splat(f64::NEG_INFINITY),
-    };
+    pub const EMPTY: Self = Self { min: DVec3::splat(f64::INFINITY), max: DVec3::splat(f64::NEG_INFINITY) };
 
     /// The smallest box around `points`; points that are not finite are left out.
     pub fn of_points(points: &[Vec3]) -> Self {
@@ -26,10 +23,7 @@ impl Bounds {
             min = min.min(p);
             max = max.max(p);
         }
-        Self {
-            min: min.as_dvec3(),
-            max: max.as_dvec3(),
-        }
+        Self { min: min.as_dvec3(), max: max.as_dvec3() }
     }
 
     /// Whether the box contains no point at all.
@@ -40,28 +34,17 @@ impl Bounds {
     /// The smallest box around both.
     #[must_use]
     pub fn union(&self, other: &Self) -> Self {
-        Self {
-            min: self.min.min(other.min),
-            max: self.max.max(other.max),
-        }
+        Self { min: self.min.min(other.min), max: self.max.max(other.max) }
     }
 
     /// The middle of the box; the origin when it is empty.
     pub fn center(&self) -> DVec3 {
-        if self.is_empty() {
-            DVec3::ZERO
-        } else {
-            (self.min + self.max) * 0.5
-        }
+        if self.is_empty() { DVec3::ZERO } else { (self.min + self.max) * 0.5 }
     }
 
     /// Length of the diagonal, 0 when empty.
     pub fn diagonal(&self) -> f64 {
-        if self.is_empty() {
-            0.0
-        } else {
-            (self.max - self.min).length()
-        }
+        if self.is_empty() { 0.0 } else { (self.max - self.min).length() }
     }
 
     /// The eight corners, in no particular order. Of no use when empty.

@@ -1,8 +1,10 @@
 //! The triangle mesh that importers fill and the renderer uploads.
 
+use std::sync::Arc;
+
 use glam::{Vec2, Vec3, Vec4};
 
-use super::Bounds;
+use super::{Bounds, Rig};
 
 /// Triangles in their node's local coordinates (the file's units).
 ///
@@ -24,6 +26,8 @@ pub struct Mesh {
     pub indices: Vec<u32>,
     /// Consecutive ranges of `indices`, one per material, that cover all of it.
     pub parts: Vec<MeshPart>,
+    /// What a skinned mesh needs to be posed again; `None` for all others.
+    pub rig: Option<Arc<Rig>>,
 }
 
 /// A range of a mesh's triangles that share one material.
@@ -77,6 +81,7 @@ impl Mesh {
             tangents: pick(&self.tangents, sources),
             indices: Vec::new(),
             parts: Vec::new(),
+            rig: self.rig.as_ref().map(|r| Arc::new(r.gather(sources))),
         }
     }
 
@@ -88,6 +93,9 @@ impl Mesh {
         self.uvs.extend(copies.uvs);
         self.colors.extend(copies.colors);
         self.tangents.extend(copies.tangents);
+        if let (Some(rig), Some(copies)) = (&mut self.rig, copies.rig) {
+            Arc::make_mut(rig).append_vertices(&copies);
+        }
     }
 
     /// The same triangles without the vertices that none of them uses; the order of the vertices is kept.

@@ -43,9 +43,7 @@ impl Default for Camera {
             position: DVec3::new(0.0, 0.0, 1.0),
             focal_point: DVec3::ZERO,
             view_up: DVec3::Y,
-            projection: Projection::Perspective {
-                view_angle: DEFAULT_VIEW_ANGLE,
-            },
+            projection: Projection::Perspective { view_angle: DEFAULT_VIEW_ANGLE },
         }
     }
 }
@@ -72,14 +70,7 @@ impl Up {
     }
 
     /// All six, in the order of a menu.
-    pub const ALL: [Self; 6] = [
-        Self::PosY,
-        Self::PosZ,
-        Self::PosX,
-        Self::NegY,
-        Self::NegZ,
-        Self::NegX,
-    ];
+    pub const ALL: [Self; 6] = [Self::PosY, Self::PosZ, Self::PosX, Self::NegY, Self::NegZ, Self::NegX];
 
     /// `+Y` and the like.
     pub fn name(self) -> &'static str {
@@ -113,9 +104,7 @@ impl std::str::FromStr for Up {
 impl Camera {
     /// Distance from the eye to the focal point, never 0.
     pub fn distance(&self) -> f64 {
-        (self.focal_point - self.position)
-            .length()
-            .max(f64::MIN_POSITIVE)
+        (self.focal_point - self.position).length().max(f64::MIN_POSITIVE)
     }
 
     /// Unit vector from the eye to the focal point.
@@ -174,19 +163,14 @@ impl Camera {
     pub fn with_orthographic(&self, orthographic: bool) -> Self {
         let height = self.view_height();
         match (self.projection, orthographic) {
-            (Projection::Perspective { .. }, true) => Self {
-                projection: Projection::Orthographic {
-                    view_height: height,
-                },
-                ..*self
-            },
+            (Projection::Perspective { .. }, true) => {
+                Self { projection: Projection::Orthographic { view_height: height }, ..*self }
+            }
             (Projection::Orthographic { .. }, false) => {
                 let distance = height / (2.0 * (DEFAULT_VIEW_ANGLE.to_radians() * 0.5).tan());
                 Self {
                     position: self.focal_point - self.forward() * distance,
-                    projection: Projection::Perspective {
-                        view_angle: DEFAULT_VIEW_ANGLE,
-                    },
+                    projection: Projection::Perspective { view_angle: DEFAULT_VIEW_ANGLE },
                     ..*self
                 }
             }
@@ -217,23 +201,15 @@ impl Camera {
                     .iter()
                     .map(|p| (p.y / tan).max(p.x / (tan * aspect)) * MARGIN - p.z)
                     .fold(smallest, f64::max);
-                Self {
-                    position: center - f * distance,
-                    focal_point: center,
-                    ..*self
-                }
+                Self { position: center - f * distance, focal_point: center, ..*self }
             }
             Projection::Orthographic { .. } => {
-                let height = local
-                    .iter()
-                    .map(|p| 2.0 * MARGIN * p.y.max(p.x / aspect))
-                    .fold(smallest, f64::max);
+                let height =
+                    local.iter().map(|p| 2.0 * MARGIN * p.y.max(p.x / aspect)).fold(smallest, f64::max);
                 Self {
                     position: center - f * bounds.diagonal().max(smallest),
                     focal_point: center,
-                    projection: Projection::Orthographic {
-                        view_height: height,
-                    },
+                    projection: Projection::Orthographic { view_height: height },
                     ..*self
                 }
             }
@@ -287,10 +263,7 @@ mod tests {
     use super::*;
 
     fn unit_box() -> Bounds {
-        Bounds {
-            min: DVec3::splat(-1.0),
-            max: DVec3::ONE,
-        }
+        Bounds { min: DVec3::splat(-1.0), max: DVec3::ONE }
     }
 
     #[test]

@@ -117,12 +117,45 @@ impl Scene {
         self.nodes.iter().position(|n| n.path == path)
     }
 
+    /// Adds the contents of another scene behind this one's. Root names are not made unique.
+    ///
+    /// `up` and `metres_per_unit` stay those of this scene.
+    pub fn append(&mut self, other: Self) {
+        let (nodes, meshes) = (self.nodes.len(), self.meshes.len());
+        let (materials, textures) = (self.materials.len(), self.textures.len());
+        self.nodes.extend(other.nodes.into_iter().map(|mut node| {
+            node.parent = node.parent.map(|p| p + nodes);
+            node.mesh = node.mesh.map(|m| m + meshes);
+            node
+        }));
+        self.meshes.extend(other.meshes.into_iter().map(|mut mesh| {
+            let moved = Arc::make_mut(&mut mesh);
+            for part in &mut moved.parts {
+                part.material += materials;
+            }
+            if let Some(rig) = &mut moved.rig {
+                for joint in &mut Arc::make_mut(rig).joints {
+                    *joint += nodes;
+                }
+            }
+            mesh
+        }));
+        self.materials.extend(other.materials.into_iter().map(|mut material| {
+            for texture in
+                [&mut material.base_color_texture, &mut material.normal_texture].into_iter().flatten()
+            {
+                texture.texture += textures;
+            }
+            material
+        }));
+        self.textures.extend(other.textures);
+        self.cameras.extend(other.cameras);
+        self.lights.extend(other.lights);
+        self.warnings.extend(other.warnings);
+    }
+
     /// Number of triangles drawn, counting a mesh once for every node that shows it.
     pub fn triangle_count(&self) -> usize {
-        self.nodes
-            .iter()
-            .filter_map(|n| self.meshes.get(n.mesh?))
-            .map(|m| m.triangle_count())
-            .sum()
+        self.nodes.iter().filter_map(|n| self.meshes.get(n.mesh?)).map(|m| m.triangle_count()).sum()
     }
 }

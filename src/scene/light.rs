@@ -35,9 +35,7 @@ impl Light {
     /// The default rig: a key light over the viewer's left shoulder and a weaker fill from the right.
     pub fn default_rig() -> Vec<Self> {
         let light = |x: f64, y: f64, z: f64, intensity| Self {
-            kind: LightKind::Directional {
-                direction: -DVec3::new(x, y, z).normalize_or(DVec3::Z),
-            },
+            kind: LightKind::Directional { direction: -DVec3::new(x, y, z).normalize_or(DVec3::Z) },
             color: Vec3::ONE,
             intensity,
             attached_to_camera: true,

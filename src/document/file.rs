@@ -1,0 +1,265 @@
+//! Documents as `.hachure` files (TOML).
+
+use std::collections::BTreeMap;
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+
+use super::{Document, NodeSettings, View};
+use crate::scene::{Camera, Light, Up};
+use crate::style::param::Param;
+use crate::style::{Style, StyleError, diff_to_toml, set_from_toml};
+
+/// A document is text that a person could have written; anything larger is a mistake.
+const MAX_FILE_BYTES: u64 = 64 << 20;
+
+/// Why a document could not be opened or saved.
+#[derive(Debug, thiserror::Error)]
+pub enum DocumentError {
+    /// The file could not be read.
+    #[error("cannot read {}: {source}", path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// The file could not be written; the old one, if any, is untouched.
+    #[error("cannot write {}: {source}", path.display())]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// The content is no document.
+    #[error("{}: {message}", path.display())]
+    Malformed {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong and in which line.
+        message: String,
+    },
+    /// A style or view parameter in it is wrong.
+    #[error("{}, {place}: {source}", path.display())]
+    Style {
+        /// The file.
+        path: PathBuf,
+        /// `style`, `view` or the path of the node.
+        place: String,
+        /// What is wrong.
+        source: StyleError,
+    },
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Form {
+    #[serde(default)]
+    models: Vec<PathBuf>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    up: Option<Up>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    metres_per_unit: Option<f64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    camera: Option<Camera>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    lights: Option<Vec<Light>>,
+    #[serde(default, skip_serializing_if = "toml::Table::is_empty")]
+    view: toml::Table,
+    #[serde(default, skip_serializing_if = "toml::Table::is_empty")]
+    style: toml::Table,
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    nodes: BTreeMap<String, NodeForm>,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct NodeForm {
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    visible: Option<bool>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    enhanced: Option<bool>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    style: Option<toml::Table>,
+}
+
+impl Document {
+    /// Reads a `.hachure` file. Model paths become relative to the current folder.
+    ///
+    /// # Errors
+    /// See [`DocumentError`]; nothing is half read.
+    pub fn open(path: &Path) -> Result<Self, DocumentError> {
+        let read_error = |source| DocumentError::Read { path: path.into(), source };
+        let size = std::fs::metadata(path).map_err(read_error)?.len();
+        if size > MAX_FILE_BYTES {
+            return Err(DocumentError::Malformed {
+                path: path.into(),
+                message: format!("{size} bytes are too many for a document"),
+            });
+        }
+        let text = std::fs::read_to_string(path).map_err(read_error)?;
+        Self::from_text(&text, path)
+    }
+
+    fn from_text(text: &str, path: &Path) -> Result<Self, DocumentError> {
+        let form: Form = toml::from_str(text).map_err(|e| DocumentError::Malformed {
+            path: path.into(),
+            message: e.to_string().trim_end().to_owned(),
+        })?;
+        let fill = |params: &mut [Param<'_>], table: &toml::Table, place: &str| {
+            set_from_toml(params, &table.to_string(), place).map_err(|e| DocumentError::Style {
+                path: path.into(),
+                place: place.to_owned(),
+                source: match e {
+                    StyleError::InFile { source, .. } => *source,
+                    other => other,
+                },
+            })
+        };
+        let folder = path.parent().unwrap_or(Path::new(""));
+        let mut document = Self {
+            models: form.models.iter().map(|m| folder.join(m)).collect(),
+            up: form.up,
+            metres_per_unit: form.metres_per_unit.filter(|u| u.is_finite() && *u > 0.0),
+            camera: form.camera,
+            lights: form.lights.unwrap_or_else(Light::default_rig),
+            style: Style::default(),
+            ..Self::default()
+        };
+        // A view table holds the keys of one section; the list of parameters has them with their prefix.
+        let mut view = toml::Table::new();
+        view.insert("view".to_owned(), form.view.into());
+        fill(&mut document.view.params(), &view, "view")?;
+        fill(&mut document.style.params(), &form.style, "style")?;
+        for (node, form) in form.nodes {
+            let style = form
+                .style
+                .map(|table| {
+                    let mut style = Style::default();
+                    fill(&mut style.params(), &table, &node).map(|()| style)
+                })
+                .transpose()?;
+            let settings = NodeSettings { style, visible: form.visible, enhanced: form.enhanced };
+            document.nodes.insert(node, settings);
+        }
+        document.tidy();
+        Ok(document)
+    }
+
+    /// Writes a `.hachure` file; model paths are written relative to it where they lie beside or below it.
+    ///
+    /// # Errors
+    /// [`DocumentError::Write`]; an existing file is then untouched.
+    pub fn save(&self, path: &Path) -> Result<(), DocumentError> {
+        let text = self.to_text(path)?;
+        write_atomically(path, text.as_bytes())
+            .map_err(|source| DocumentError::Write { path: path.into(), source })
+    }
+
+    fn to_text(&self, path: &Path) -> Result<String, DocumentError> {
+        let style_table =
+            |style: &Style| diff_to_toml(&mut style.clone().params(), &mut Style::default().params());
+        let view = diff_to_toml(&mut self.view.clone().params(), &mut View::default().params());
+        let form = Form {
+            models: self.models.iter().map(|m| relative_to(m, path)).collect(),
+            up: self.up,
+            metres_per_unit: self.metres_per_unit,
+            camera: self.camera,
+            lights: (self.lights != Light::default_rig()).then(|| self.lights.clone()),
+            view: view.get("view").and_then(|v| v.as_table()).cloned().unwrap_or_default(),
+            style: style_table(&self.style),
+            nodes: self
+                .nodes
+                .iter()
+                .map(|(node, own)| {
+                    let form = NodeForm {
+                        visible: own.visible,
+                        enhanced: own.enhanced,
+                        style: own.style.as_ref().map(style_table),
+                    };
+                    (node.clone(), form)
+                })
+                .collect(),
+        };
+        toml::to_string(&form)
+            .map_err(|e| DocumentError::Malformed { path: path.into(), message: e.to_string() })
+    }
+}
+
+/// `model` as it is seen from the folder of `document`; absolute where the two share no folder.
+fn relative_to(model: &Path, document: &Path) -> PathBuf {
+    let absolute = |p: &Path| std::path::absolute(p).unwrap_or_else(|_unknown| p.to_owned());
+    let model = absolute(model);
+    let document = absolute(document);
+    let folder = document.parent().unwrap_or(Path::new("/"));
+    let shared = model.components().zip(folder.components()).take_while(|(a, b)| a == b).count();
+    // Sharing only the root is sharing nothing.
+    if shared < 2 {
+        return model;
+    }
+    let up = folder.components().skip(shared).map(|_| "..");
+    let down = model.components().skip(shared).map(|c| c.as_os_str());
+    up.map(std::ffi::OsStr::new).chain(down).collect()
+}
+
+/// Writes a file beside its target and renames it, so that nobody ever sees half of it.
+///
+/// # Errors
+/// What the system says; the target is then as it was.
+pub fn write_atomically(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
+    let mut name = path.file_name().unwrap_or_default().to_owned();
+    name.push(format!(".{}.part", std::process::id()));
+    let part = path.with_file_name(name);
+    let written = std::fs::File::create(&part)
+        .and_then(|mut file| file.write_all(bytes).and_then(|()| file.sync_data()))
+        .and_then(|()| std::fs::rename(&part, path));
+    if written.is_err() {
+        // The error that is returned says more than a failure to clean up would.
+        let _ = std::fs::remove_file(&part);
+    }
+    written
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::style::Technique;
+
+    #[test]
+    fn a_document_survives_saving_and_opening() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.hachure");
+        let mut document = Document {
+            models: vec![folder.path().join("models/crank.glb")],
+            up: Some(Up::PosZ),
+            camera: Some(Camera::default()),
+            ..Document::default()
+        };
+        document.view.background = "#102030".parse().unwrap();
+        document.node_mut("/crank/rod.3").style =
+            Some(Style { technique: Technique::Plain, ..Style::default() });
+        document.node_mut("/crank/rod.4").visible = Some(false);
+        document.save(&path).unwrap();
+        assert!(std::fs::read_to_string(&path).unwrap().contains("\"models/crank.glb\""));
+        assert_eq!(Document::open(&path).unwrap(), document);
+    }
+
+    #[test]
+    fn mistakes_name_the_file_and_the_place() {
+        let open = |text: &str| Document::from_text(text, Path::new("a.hachure")).unwrap_err().to_string();
+        assert!(open("modles = []").contains("a.hachure: TOML parse error at line 1"));
+        assert!(
+            open("[style]\ngooch.alhpa = 1").contains("a.hachure, style: unknown parameter `gooch.alhpa`")
+        );
+        assert!(open("[nodes.\"/crank\".style]\ngooch.alpha = 9").contains("a.hachure, /crank: "));
+        assert!(open("\u{0}").contains("a.hachure"));
+    }
+
+    #[test]
+    fn saving_where_nothing_can_be_written_is_an_error_that_names_the_file() {
+        let error = Document::default().save(Path::new("/nonexistent/a.hachure")).unwrap_err();
+        assert!(error.to_string().starts_with("cannot write /nonexistent/a.hachure: "));
+    }
+}

@@ -1,0 +1,251 @@
+//! What a person can change, save and undo: models, styles and roles per object, camera, lights, view.
+
+pub mod file;
+pub mod history;
+pub mod pattern;
+pub mod view;
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+use crate::scene::{Camera, Light, NodeId, Scene, Up};
+use crate::style::{Style, StyleError, Value, param};
+
+pub use file::DocumentError;
+pub use history::History;
+pub use pattern::{Pattern, PatternError};
+pub use view::{Show, View};
+
+/// A drawing: everything about it that is not in the model files.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Document {
+    /// The model files, in the order in which they were added.
+    pub models: Vec<PathBuf>,
+    /// The axis that is up, for navigation and standard views; `None`: as the file's format has it.
+    pub up: Option<Up>,
+    /// The unit of the files' coordinates in metres; `None`: as the file states, if it does.
+    pub metres_per_unit: Option<f64>,
+    /// Where the eye is; `None` until a scene has been framed.
+    pub camera: Option<Camera>,
+    /// The lights.
+    pub lights: Vec<Light>,
+    /// How the picture is shown.
+    pub view: View,
+    /// The style of every object that has none and inherits none.
+    pub style: Style,
+    /// What single nodes have of their own, by node path.
+    pub nodes: BTreeMap<String, NodeSettings>,
+}
+
+/// What a person set for one node; what is `None` is inherited from the parent.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct NodeSettings {
+    /// Complete look.
+    pub style: Option<Style>,
+    /// Whether the node and what hangs below it is drawn. A node is hidden when any node above it is.
+    pub visible: Option<bool>,
+    /// Whether its edges are drawn.
+    pub enhanced: Option<bool>,
+}
+
+/// What holds for one node after inheritance.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Resolved<'a> {
+    /// The look.
+    pub style: &'a Style,
+    /// Whether it is drawn.
+    pub visible: bool,
+    /// Whether its edges are drawn.
+    pub enhanced: bool,
+}
+
+impl Default for Document {
+    fn default() -> Self {
+        Self {
+            models: Vec::new(),
+            up: None,
+            metres_per_unit: None,
+            camera: None,
+            lights: Light::default_rig(),
+            view: View::default(),
+            style: default_style(),
+            nodes: BTreeMap::new(),
+        }
+    }
+}
+
+/// The style of a new document: the preset `gooch`.
+fn default_style() -> Style {
+    crate::style::preset::load("gooch").map_or_else(|_missing| Style::default(), |p| p.style)
+}
+
+impl Document {
+    /// The axis that is up for a scene.
+    pub fn up(&self, scene: &Scene) -> Up {
+        self.up.unwrap_or(scene.up)
+    }
+
+    /// Metres per unit of a scene, where anybody said so.
+    pub fn metres_per_unit(&self, scene: &Scene) -> Option<f64> {
+        self.metres_per_unit.or(scene.metres_per_unit)
+    }
+
+    /// Style and roles of every node, in the order of `scene.nodes`.
+    pub fn resolve(&self, scene: &Scene) -> Vec<Resolved<'_>> {
+        let root = Resolved { style: &self.style, visible: true, enhanced: true };
+        let mut resolved: Vec<Resolved<'_>> = Vec::with_capacity(scene.nodes.len());
+        for node in &scene.nodes {
+            let above = node.parent.and_then(|p| resolved.get(p)).copied().unwrap_or(root);
+            let own = self.nodes.get(&node.path);
+            resolved.push(Resolved {
+                style: own.and_then(|n| n.style.as_ref()).unwrap_or(above.style),
+                visible: above.visible && own.and_then(|n| n.visible).unwrap_or(true),
+                enhanced: own.and_then(|n| n.enhanced).unwrap_or(above.enhanced),
+            });
+        }
+        resolved
+    }
+
+    /// The settings of one node, made if there are none.
+    pub fn node_mut(&mut self, path: &str) -> &mut NodeSettings {
+        self.nodes.entry(path.to_owned()).or_default()
+    }
+
+    /// Removes entries that say nothing, so that equal documents compare equal.
+    pub fn tidy(&mut self) {
+        self.nodes.retain(|_, n| *n != NodeSettings::default());
+    }
+
+    /// The nodes that a pattern matches, without those below another one that it matches.
+    ///
+    /// # Errors
+    /// When it matches nothing, which is a mistake on the command line.
+    pub fn matching(scene: &Scene, pattern: &Pattern) -> Result<Vec<NodeId>, PatternError> {
+        let mut matches: Vec<NodeId> = Vec::new();
+        let mut covered = 0;
+        for (id, node) in scene.nodes.iter().enumerate() {
+            if id >= covered && pattern.matches(&node.path) {
+                matches.push(id);
+                covered = scene.subtree(id).end;
+            }
+        }
+        if matches.is_empty() { Err(pattern.unmatched(scene)) } else { Ok(matches) }
+    }
+
+    /// Gives nodes a style; what hangs below them inherits it.
+    pub fn set_style(&mut self, scene: &Scene, nodes: &[NodeId], style: &Style) {
+        for &id in nodes {
+            for inner in scene.subtree(id) {
+                if let Some(own) = scene.nodes.get(inner).and_then(|n| self.nodes.get_mut(&n.path)) {
+                    own.style = None;
+                }
+            }
+            if let Some(node) = scene.nodes.get(id) {
+                self.node_mut(&node.path).style = Some(style.clone());
+            }
+        }
+        self.tidy();
+    }
+
+    /// Sets one parameter of the default style or of the view, and in all styles that single nodes have.
+    ///
+    /// # Errors
+    /// See [`param::set`].
+    pub fn set(&mut self, key: &str, value: &Value) -> Result<(), StyleError> {
+        let mut params = self.view.params();
+        params.extend(self.style.params());
+        param::set(&mut params, key, value)?;
+        if !key.starts_with("view.") {
+            for style in self.nodes.values_mut().filter_map(|n| n.style.as_mut()) {
+                param::set(&mut style.params(), key, value)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Sets one parameter of the given nodes and of everything below them.
+    ///
+    /// # Errors
+    /// See [`param::set`].
+    pub fn set_for(
+        &mut self,
+        scene: &Scene,
+        nodes: &[NodeId],
+        key: &str,
+        value: &Value,
+    ) -> Result<(), StyleError> {
+        for &id in nodes {
+            let Some(node) = scene.nodes.get(id) else { continue };
+            let inherited = self.resolve(scene).get(id).map_or_else(Style::default, |r| r.style.clone());
+            for inner in scene.subtree(id).skip(1) {
+                if let Some(style) = scene
+                    .nodes
+                    .get(inner)
+                    .and_then(|n| self.nodes.get_mut(&n.path))
+                    .and_then(|n| n.style.as_mut())
+                {
+                    param::set(&mut style.params(), key, value)?;
+                }
+            }
+            let style = self.node_mut(&node.path).style.get_or_insert(inherited);
+            param::set(&mut style.params(), key, value)?;
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Node;
+    use crate::style::Technique;
+
+    fn scene() -> Scene {
+        let node = |path: &str, parent, descendants| Node {
+            name: path.rsplit('/').next().unwrap_or_default().to_owned(),
+            path: path.to_owned(),
+            parent,
+            descendants,
+            world_from_local: glam::DMat4::IDENTITY,
+            mesh: None,
+        };
+        Scene {
+            nodes: vec![
+                node("/m", None, 3),
+                node("/m/rod.1", Some(0), 1),
+                node("/m/rod.1/bolt", Some(1), 0),
+                node("/m/wheel", Some(0), 0),
+            ],
+            ..Scene::default()
+        }
+    }
+
+    #[test]
+    fn styles_and_roles_are_inherited() {
+        let (scene, mut document) = (scene(), Document::default());
+        let plain = Style { technique: Technique::Plain, ..Style::default() };
+        document.set_style(&scene, &[1], &plain);
+        document.node_mut("/m").visible = Some(false);
+        document.node_mut("/m/rod.1/bolt").enhanced = Some(false);
+        let r = document.resolve(&scene);
+        assert_eq!(r[2].style, &plain);
+        assert_eq!(r[3].style, &document.style);
+        assert!(r.iter().all(|r| !r.visible));
+        assert!(r[1].enhanced && !r[2].enhanced);
+    }
+
+    #[test]
+    fn a_parameter_set_for_a_node_reaches_what_is_below_and_nothing_else() {
+        let (scene, mut document) = (scene(), Document::default());
+        let pattern = Pattern::new("rod*").unwrap();
+        let nodes = Document::matching(&scene, &pattern).unwrap();
+        assert_eq!(nodes, [1]);
+        document.set_for(&scene, &nodes, "gooch.alpha", &Value::Number(0.9)).unwrap();
+        let r = document.resolve(&scene);
+        assert_eq!(r[2].style.gooch.alpha, 0.9);
+        assert_ne!(r[3].style.gooch.alpha, 0.9);
+        assert!(document.set("gooch.alpah", &Value::Number(0.9)).is_err());
+        document.set("gooch.alpha", &Value::Number(0.1)).unwrap();
+        assert!(document.resolve(&scene).iter().all(|r| r.style.gooch.alpha == 0.1));
+    }
+}

@@ -1,0 +1,76 @@
+//! How the picture is shown, whatever the styles are.
+
+use crate::style::Color;
+use crate::style::param::{Param, Params};
+
+/// View settings of a document.
+#[derive(Debug, Clone, PartialEq)]
+pub struct View {
+    /// Colour of the paper behind everything.
+    pub background: Color,
+    /// The picture, or one of the buffers it is made from.
+    pub show: Show,
+}
+
+/// What the picture shows: the drawing, or an intermediate result for a closer look.
+#[derive(
+    Debug,
+    Clone,
+    Copy,
+    PartialEq,
+    Eq,
+    Hash,
+    Default,
+    strum::EnumString,
+    strum::IntoStaticStr,
+    strum::VariantNames,
+)]
+#[strum(serialize_all = "snake_case")]
+pub enum Show {
+    /// The drawing.
+    #[default]
+    Picture,
+    /// Eye-space shading normals as colours, 0.5 + 0.5 n.
+    Normals,
+    /// Eye-space face normals as colours.
+    FaceNormals,
+    /// Linear depth over the range of the enhanced objects: black near, white far.
+    Depth,
+    /// A colour per object.
+    Objects,
+    /// A colour per connected smooth surface.
+    Surfaces,
+    /// Unlit base colour.
+    BaseColor,
+    /// Normal discontinuities `I_N` (1 = none).
+    NormalOperator,
+    /// Depth discontinuities `I_Z` by the diagonal operator (1 = none).
+    DepthOperator,
+    /// Depth discontinuities by the C1 operator, as 1 − C1.
+    C1Operator,
+    /// The edge map: profile and inner ink, black on white.
+    EdgeMap,
+}
+
+impl Default for View {
+    fn default() -> Self {
+        Self { background: Color([250, 248, 242]), show: Show::Picture }
+    }
+}
+
+impl View {
+    /// Every parameter, like [`crate::style::Style::params`].
+    pub fn params(&mut self) -> Vec<Param<'_>> {
+        let mut list = Params::default();
+        list.section("view", None, |list| {
+            list.color(
+                "background",
+                "Background",
+                "Colour of the paper behind everything.",
+                &mut self.background,
+            );
+            list.choice("show", "Show", "The picture, or a buffer that it is made from.", &mut self.show);
+        });
+        list.finish()
+    }
+}

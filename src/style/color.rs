@@ -1,0 +1,65 @@
+//! Colours as people write them.
+
+use std::fmt;
+use std::str::FromStr;
+
+use glam::Vec3;
+
+/// An opaque sRGB colour, 8 bits per channel, written `#rrggbb`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub struct Color(pub [u8; 3]);
+
+impl Color {
+    /// `#000000`
+    pub const BLACK: Self = Self([0; 3]);
+    /// `#ffffff`
+    pub const WHITE: Self = Self([255; 3]);
+
+    /// Linear RGB, 0 to 1 (IEC 61966-2-1).
+    pub fn to_linear(self) -> Vec3 {
+        Vec3::from_array(self.0.map(|c| {
+            let c = f32::from(c) / 255.0;
+            if c <= 0.04045 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) }
+        }))
+    }
+}
+
+impl fmt::Display for Color {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [r, g, b] = self.0;
+        write!(f, "#{r:02x}{g:02x}{b:02x}")
+    }
+}
+
+impl FromStr for Color {
+    type Err = String;
+
+    fn from_str(s: &str) -> Result<Self, String> {
+        let wrong = || format!("`{s}` is no colour; write it as #rrggbb");
+        let digits = s.strip_prefix('#').ok_or_else(wrong)?;
+        if !digits.bytes().all(|b| b.is_ascii_hexdigit()) {
+            return Err(wrong());
+        }
+        let value = u32::from_str_radix(digits, 16).map_err(|_not_hex| wrong())?;
+        match digits.len() {
+            6 => Ok(Self([(value >> 16) as u8, (value >> 8) as u8, value as u8])),
+            3 => Ok(Self([8, 4, 0].map(|shift| ((value >> shift & 15) * 17) as u8))),
+            _ => Err(wrong()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn colours_are_read_and_written() {
+        assert_eq!("#0a80ff".parse(), Ok(Color([10, 128, 255])));
+        assert_eq!("#f80".parse(), Ok(Color([255, 136, 0])));
+        assert_eq!(Color([10, 128, 255]).to_string(), "#0a80ff");
+        for wrong in ["", "red", "#12345", "#xyzxyz", "#+12345"] {
+            assert!(wrong.parse::<Color>().is_err(), "{wrong}");
+        }
+    }
+}

@@ -1,0 +1,80 @@
+//! Gooch shading: cool-to-warm technical illustration (Gooch et al. 1998; edge-enhancement paper, section 5).
+
+use super::Color;
+use super::param::Params;
+
+/// Parameters of the technique `gooch`.
+///
+/// The shade runs from `cool + alpha · base` where the surface turns away from the light to `warm + beta · base`
+/// where it faces it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Gooch {
+    /// Blue that is mixed into the side turned away from the light.
+    pub cool: Color,
+    /// Yellow that is mixed into the side that faces the light.
+    pub warm: Color,
+    /// Share of the base colour on the cool side, 0 to 1.
+    pub alpha: f32,
+    /// Share of the base colour on the warm side, 0 to 1.
+    pub beta: f32,
+    /// Strength of the highlight, 0 (none) to 1 (white).
+    pub highlight: f32,
+    /// Phong exponent of the highlight, 1 (wide) to 256 (small).
+    pub shininess: f32,
+}
+
+impl Default for Gooch {
+    fn default() -> Self {
+        Self {
+            cool: Color([66, 84, 166]),
+            warm: Color([168, 142, 62]),
+            alpha: 0.3,
+            beta: 0.65,
+            highlight: 0.45,
+            shininess: 32.0,
+        }
+    }
+}
+
+impl Gooch {
+    pub(super) fn params<'a>(&'a mut self, list: &mut Params<'a>) {
+        list.color("cool", "Cool", "Blue of the side turned away from the light.", &mut self.cool);
+        list.color("warm", "Warm", "Yellow of the side that faces the light.", &mut self.warm);
+        list.number(
+            "alpha",
+            "Base in cool",
+            "",
+            0.0..=1.0,
+            0.0..=1.0,
+            "Share of the object's own colour on the cool side.",
+            &mut self.alpha,
+        );
+        list.number(
+            "beta",
+            "Base in warm",
+            "",
+            0.0..=1.0,
+            0.0..=1.0,
+            "Share of the object's own colour on the warm side.",
+            &mut self.beta,
+        );
+        list.number(
+            "highlight",
+            "Highlight",
+            "",
+            0.0..=1.0,
+            0.0..=1.0,
+            "Strength of the highlight; 0 switches it off.",
+            &mut self.highlight,
+        );
+        list.number(
+            "shininess",
+            "Shininess",
+            "",
+            1.0..=128.0,
+            1.0..=256.0,
+            "Phong exponent: a larger one makes the highlight smaller.",
+            &mut self.shininess,
+        );
+    }
+}

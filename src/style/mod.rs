@@ -1,0 +1,198 @@
+//! The complete look of one object: technique, its parameters, edges. Plain data.
+//!
+//! Every parameter is declared once, in the `params` function of its effect; panels, style files, `--set` and the
+//! reference of `hachure styles` all read that list (see [`param`]).
+
+pub mod color;
+pub mod edges;
+pub mod gooch;
+pub mod param;
+pub mod plain;
+pub mod preset;
+mod toml_file;
+
+pub use color::Color;
+pub use edges::{DepthOperator, EdgeGroup, Edges};
+pub use gooch::Gooch;
+pub use param::{Param, Slot, Value};
+pub use plain::Plain;
+pub use toml_file::{diff_to_toml, set_from_toml};
+
+use param::Params;
+
+/// How a surface is shaded. The literal ids stand in files and on the command line.
+#[derive(
+    Debug,
+    Clone,
+    Copy,
+    PartialEq,
+    Eq,
+    Hash,
+    Default,
+    strum::EnumString,
+    strum::IntoStaticStr,
+    strum::VariantNames,
+)]
+#[strum(serialize_all = "snake_case")]
+pub enum Technique {
+    /// Paper only, for pure line drawings.
+    Blank,
+    /// Lit by the scene's lights.
+    Plain,
+    /// The base colour, unlit.
+    Unlit,
+    /// Cool-to-warm technical illustration.
+    #[default]
+    Gooch,
+}
+
+/// The complete look of one object.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Style {
+    /// How surfaces are shaded.
+    pub technique: Technique,
+    /// Parameters of [`Technique::Plain`].
+    pub plain: Plain,
+    /// Parameters of [`Technique::Gooch`].
+    pub gooch: Gooch,
+    /// Lines.
+    pub edges: Edges,
+}
+
+impl Style {
+    /// Every parameter, in the order of the panel, with a slot through which it is read and written.
+    pub fn params(&mut self) -> Vec<Param<'_>> {
+        let mut list = Params::default();
+        list.choice("technique", "Technique", "How surfaces are shaded.", &mut self.technique);
+        list.section("plain", Some(Technique::Plain), |list| self.plain.params(list));
+        list.section("gooch", Some(Technique::Gooch), |list| self.gooch.params(list));
+        list.section("edges", None, |list| self.edges.params(list));
+        list.finish()
+    }
+}
+
+/// Why a style or one of its parameters was refused.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum StyleError {
+    /// No parameter has this key.
+    #[error("unknown parameter `{key}`{}", suggestion(nearest))]
+    UnknownKey {
+        /// As written.
+        key: String,
+        /// The most similar key that exists.
+        nearest: Option<String>,
+    },
+    /// The value has another type than the parameter.
+    #[error("`{key}` takes {expected}, not {found}")]
+    WrongType {
+        /// The parameter.
+        key: String,
+        /// What it takes, in words.
+        expected: String,
+        /// What was given.
+        found: String,
+    },
+    /// The number lies outside of the parameter's hard range.
+    #[error("`{key}` = {found} is out of range: {min} to {max}")]
+    OutOfRange {
+        /// The parameter.
+        key: String,
+        /// What was given.
+        found: f64,
+        /// Least allowed value.
+        min: f32,
+        /// Greatest allowed value.
+        max: f32,
+    },
+    /// No preset and no file has this name.
+    #[error(
+        "unknown style `{name}`{}; `hachure styles` lists the presets, or give the path of a .toml file",
+        suggestion(nearest)
+    )]
+    UnknownPreset {
+        /// As written.
+        name: String,
+        /// The most similar preset.
+        nearest: Option<String>,
+    },
+    /// A style file could not be read.
+    #[error("cannot read style {path}: {reason}")]
+    Read {
+        /// The file.
+        path: String,
+        /// What the system said.
+        reason: String,
+    },
+    /// Something is wrong in a file.
+    #[error("{path}, line {line}: {source}")]
+    InFile {
+        /// The file.
+        path: String,
+        /// Line, from 1.
+        line: usize,
+        /// What is wrong there.
+        source: Box<StyleError>,
+    },
+    /// The text is no TOML.
+    #[error("{message}")]
+    Syntax {
+        /// What the parser said.
+        message: String,
+    },
+}
+
+fn suggestion(nearest: &Option<String>) -> String {
+    nearest.as_ref().map(|n| format!("; did you mean `{n}`?")).unwrap_or_default()
+}
+
+/// The candidate most similar to `wanted`, if any is similar at all.
+pub(crate) fn nearest<'a>(wanted: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<String> {
+    candidates
+        .into_iter()
+        .map(|c| (strsim::jaro_winkler(wanted, c), c))
+        .filter(|(similarity, _)| *similarity > 0.6)
+        .max_by(|a, b| a.0.total_cmp(&b.0))
+        .map(|(_, c)| c.to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn keys_are_unique_and_defaults_lie_in_their_ranges() {
+        let mut style = Style::default();
+        let params = style.params();
+        for (i, param) in params.iter().enumerate() {
+            assert!(params.iter().skip(i + 1).all(|p| p.key != param.key), "{} twice", param.key);
+            assert!(!param.help.is_empty(), "{} has no help", param.key);
+            if let Slot::Number { value, soft, hard } = &param.slot {
+                assert!(soft.contains(value), "{}", param.key);
+                assert!(hard.contains(soft.start()) && hard.contains(soft.end()), "{}", param.key);
+            }
+        }
+    }
+
+    #[test]
+    fn every_parameter_survives_a_round_trip_through_text() {
+        let mut style = Style::default();
+        for i in 0..style.params().len() {
+            let (key, value) = {
+                let mut params = style.params();
+                let param = &mut params[i];
+                let value = match &mut param.slot {
+                    Slot::Bool(b) => Value::Bool(!**b),
+                    Slot::Number { hard, .. } => Value::Number(f64::from(*hard.start())),
+                    Slot::Color(_) => Value::Text("#123456".to_owned()),
+                    Slot::Choice(c) => Value::Text(c.names()[c.names().len() - 1].to_owned()),
+                };
+                (param.key.clone(), value)
+            };
+            param::set(&mut style.params(), &key, &value).unwrap();
+        }
+        let text = diff_to_toml(&mut style.params(), &mut Style::default().params()).to_string();
+        let mut read = Style::default();
+        set_from_toml(&mut read.params(), &text, "test").unwrap();
+        assert_eq!(read, style);
+    }
+}

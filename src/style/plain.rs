@@ -1,0 +1,30 @@
+//! Plain shading: the surface lit by the scene's lights.
+
+use super::param::Params;
+
+/// Parameters of the technique `plain`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Plain {
+    /// Light that reaches every point from everywhere, 0 to 1.
+    pub ambient: f32,
+}
+
+impl Default for Plain {
+    fn default() -> Self {
+        Self { ambient: 0.2 }
+    }
+}
+
+impl Plain {
+    pub(super) fn params<'a>(&'a mut self, list: &mut Params<'a>) {
+        list.number(
+            "ambient",
+            "Ambient",
+            "",
+            0.0..=1.0,
+            0.0..=1.0,
+            "Light that reaches every point, lit or not.",
+            &mut self.ambient,
+        );
+    }
+}

@@ -1,0 +1,90 @@
+//! Styles with a name: the built-in ones of `assets/styles/` and the user's own files.
+
+use std::path::Path;
+
+use include_dir::{Dir, include_dir};
+
+use super::{Style, StyleError, nearest, set_from_toml};
+
+static STYLES: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/assets/styles");
+
+/// Style files are small texts; anything larger is a mistake.
+const MAX_FILE_BYTES: u64 = 1 << 20;
+
+/// A style with a name.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Preset {
+    /// Its name: the file's stem.
+    pub name: String,
+    /// One line that says what it is good for.
+    pub description: String,
+    /// The look.
+    pub style: Style,
+}
+
+/// The built-in presets, by name.
+pub fn all() -> Vec<Preset> {
+    let mut presets: Vec<_> = STYLES
+        .files()
+        .filter_map(|file| {
+            let name = file.path().file_stem()?.to_str()?;
+            read(name, file.contents_utf8()?, name).ok()
+        })
+        .collect();
+    presets.sort_by(|a, b| a.name.cmp(&b.name));
+    presets
+}
+
+/// The preset of that name, or the style file at that path.
+///
+/// # Errors
+/// [`StyleError::UnknownPreset`] when there is neither, otherwise what is wrong in the file.
+pub fn load(name_or_path: &str) -> Result<Preset, StyleError> {
+    if let Some(preset) = all().into_iter().find(|p| p.name == name_or_path) {
+        return Ok(preset);
+    }
+    let path = Path::new(name_or_path);
+    if path.extension().is_none() && !path.exists() {
+        return Err(StyleError::UnknownPreset {
+            name: name_or_path.to_owned(),
+            nearest: nearest(name_or_path, all().iter().map(|p| p.name.as_str())),
+        });
+    }
+    let unreadable = |reason: String| StyleError::Read { path: name_or_path.to_owned(), reason };
+    let size = std::fs::metadata(path).map_err(|e| unreadable(e.to_string()))?.len();
+    if size > MAX_FILE_BYTES {
+        return Err(unreadable(format!("it has {size} bytes, a style file has at most {MAX_FILE_BYTES}")));
+    }
+    let text = std::fs::read_to_string(path).map_err(|e| unreadable(e.to_string()))?;
+    let stem = path.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned());
+    read(&stem, &text, name_or_path)
+}
+
+fn read(name: &str, text: &str, place: &str) -> Result<Preset, StyleError> {
+    let mut style = Style::default();
+    set_from_toml(&mut style.params(), text, place)?;
+    let description = text
+        .parse::<toml::Table>()
+        .ok()
+        .and_then(|t| Some(t.get("description")?.as_str()?.to_owned()))
+        .unwrap_or_default();
+    Ok(Preset { name: name.to_owned(), description, style })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_built_in_preset_is_valid_and_described() {
+        let presets = all();
+        assert_eq!(presets.len(), STYLES.files().count());
+        assert!(presets.iter().all(|p| !p.description.is_empty()));
+    }
+
+    #[test]
+    fn an_unknown_name_suggests_the_nearest() {
+        let message = load("goch").unwrap_err().to_string();
+        assert!(message.contains("did you mean `gooch`?"), "{message}");
+    }
+}

@@ -1,0 +1,126 @@
+//! Parameters as TOML: only what differs from the defaults is written, every mistake is told with its line.
+
+use toml::de::{DeTable, DeValue};
+use toml::{Spanned, Table};
+
+use super::param::{self, Param};
+use super::{StyleError, Value};
+
+/// The parameters of `params` that differ from `defaults`, as nested tables.
+pub fn diff_to_toml(params: &mut [Param<'_>], defaults: &mut [Param<'_>]) -> Table {
+    let mut root = Table::new();
+    for (param, default) in params.iter().zip(defaults.iter()) {
+        let value = param.value();
+        if value == default.value() {
+            continue;
+        }
+        let mut table = &mut root;
+        let mut names = param.key.split('.').peekable();
+        while let Some(name) = names.next() {
+            if names.peek().is_none() {
+                table.insert(
+                    name.to_owned(),
+                    match &value {
+                        Value::Bool(b) => (*b).into(),
+                        Value::Number(n) => (*n).into(),
+                        Value::Text(t) => t.clone().into(),
+                    },
+                );
+                break;
+            }
+            let entry = table.entry(name).or_insert_with(|| toml::Value::Table(Table::new()));
+            let toml::Value::Table(inner) = entry else {
+                break;
+            };
+            table = inner;
+        }
+    }
+    root
+}
+
+/// Sets what the TOML text `text` says. The keys `name` and `description` are left to the caller.
+///
+/// # Errors
+/// The first mistake, with `place` (a file name) and line. Parameters before it have been set.
+pub fn set_from_toml(params: &mut [Param<'_>], text: &str, place: &str) -> Result<(), StyleError> {
+    let line_of = |offset: usize| 1 + text.bytes().take(offset).filter(|b| *b == b'\n').count();
+    let in_file = |offset: usize, source| StyleError::InFile {
+        path: place.to_owned(),
+        line: line_of(offset),
+        source: Box::new(source),
+    };
+    let table = DeTable::parse(text).map_err(|e| {
+        in_file(e.span().map_or(0, |s| s.start), StyleError::Syntax { message: e.message().to_owned() })
+    })?;
+    let mut values = Vec::new();
+    collect(table.get_ref(), "", &mut values);
+    for (key, offset, value) in values {
+        if key == "name" || key == "description" {
+            continue;
+        }
+        value.and_then(|value| param::set(params, &key, &value)).map_err(|e| in_file(offset, e))?;
+    }
+    Ok(())
+}
+
+type Found = (String, usize, Result<Value, StyleError>);
+
+fn collect(table: &DeTable<'_>, prefix: &str, out: &mut Vec<Found>) {
+    for (name, value) in table {
+        let key = format!("{prefix}{}", name.get_ref());
+        match value.get_ref() {
+            DeValue::Table(inner) => collect(inner, &format!("{key}."), out),
+            _ => out.push((key.clone(), name.span().start, scalar(&key, value))),
+        }
+    }
+}
+
+fn scalar(key: &str, value: &Spanned<DeValue<'_>>) -> Result<Value, StyleError> {
+    let wrong = |found: &str| StyleError::WrongType {
+        key: key.to_owned(),
+        expected: "a switch, a number or a text".to_owned(),
+        found: found.to_owned(),
+    };
+    match value.get_ref() {
+        DeValue::Boolean(b) => Ok(Value::Bool(*b)),
+        DeValue::Integer(i) => i64::from_str_radix(i.as_str(), i.radix())
+            .map(|i| Value::Number(i as f64))
+            .map_err(|_too_large| wrong("an integer that is too large")),
+        DeValue::Float(f) => {
+            f.as_str().parse().map(Value::Number).map_err(|_malformed| wrong("a malformed number"))
+        }
+        DeValue::String(s) => Ok(Value::Text(s.to_string())),
+        DeValue::Array(_) => Err(wrong("an array")),
+        _ => Err(wrong("something else")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Style;
+    use super::*;
+
+    fn error(text: &str) -> String {
+        set_from_toml(&mut Style::default().params(), text, "my.toml").unwrap_err().to_string()
+    }
+
+    #[test]
+    fn mistakes_are_told_with_place_line_and_remedy() {
+        assert_eq!(
+            error("technique = \"gooch\"\n[gooch]\nalhpa = 0.3\n"),
+            "my.toml, line 3: unknown parameter `gooch.alhpa`; did you mean `gooch.alpha`?"
+        );
+        assert_eq!(
+            error("[gooch]\nalpha = 3\n"),
+            "my.toml, line 2: `gooch.alpha` = 3 is out of range: 0 to 1"
+        );
+        assert_eq!(
+            error("[gooch]\nalpha = \"much\"\n"),
+            "my.toml, line 2: `gooch.alpha` takes a number from 0 to 1, not the text `much`"
+        );
+        assert!(error("technique = \"oil\"").contains("one of blank, plain, unlit, gooch"));
+        assert!(error("x = [").starts_with("my.toml, line 1: "));
+        assert!(error("[gooch]\nalpha = nan").contains("out of range"));
+        assert!(error(&"nonsense\n".repeat(100_000)).starts_with("my.toml, line 1: "));
+    }
+}
