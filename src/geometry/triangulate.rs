@@ -13,11 +13,7 @@ pub struct Triangulator {
 
 impl Default for Triangulator {
     fn default() -> Self {
-        Self {
-            tests_left: 200_000_000,
-            points: Vec::new(),
-            ring: Vec::new(),
-        }
+        Self { tests_left: 200_000_000, points: Vec::new(), ring: Vec::new() }
     }
 }
 
@@ -82,12 +78,7 @@ impl Triangulator {
         self.tests_left = self.tests_left.saturating_sub(self.ring.len());
         !self.ring.iter().any(|&i| {
             let p = self.points[i as usize];
-            p != a
-                && p != b
-                && p != c
-                && turn(a, b, p) >= 0.0
-                && turn(b, c, p) >= 0.0
-                && turn(c, a, p) >= 0.0
+            p != a && p != b && p != c && turn(a, b, p) >= 0.0 && turn(b, c, p) >= 0.0 && turn(c, a, p) >= 0.0
         })
     }
 }
@@ -110,10 +101,7 @@ fn normal(corners: &[Vec3]) -> DVec3 {
         return DVec3::ZERO;
     };
     let origin = origin.as_dvec3();
-    corners
-        .windows(2)
-        .map(|w| (w[0].as_dvec3() - origin).cross(w[1].as_dvec3() - origin))
-        .sum()
+    corners.windows(2).map(|w| (w[0].as_dvec3() - origin).cross(w[1].as_dvec3() - origin)).sum()
 }
 
 /// The corners projected along the axis that the polygon faces most, counter-clockwise.
@@ -141,11 +129,7 @@ fn best_quad(corners: [Vec3; 4]) -> [[u32; 3]; 2] {
     let up = normal(&corners);
     let faces_up = |t: [u32; 3]| normal(&t.map(|i| corners[i as usize])).dot(up) > 0.0;
     let [first, second] = CHOICES;
-    if !first.into_iter().all(faces_up) && second.into_iter().all(faces_up) {
-        second
-    } else {
-        first
-    }
+    if !first.into_iter().all(faces_up) && second.into_iter().all(faces_up) { second } else { first }
 }
 
 #[cfg(test)]
@@ -188,14 +172,7 @@ mod tests {
     #[test]
     fn concave_polygons_are_covered_exactly_from_either_side() {
         let arrow = [(0.0, 0.0), (2.0, 1.0), (0.0, 2.0), (1.5, 1.0)];
-        let letter_l = [
-            (0.0, 0.0),
-            (3.0, 0.0),
-            (3.0, 1.0),
-            (1.0, 1.0),
-            (1.0, 3.0),
-            (0.0, 3.0),
-        ];
+        let letter_l = [(0.0, 0.0), (3.0, 0.0), (3.0, 1.0), (1.0, 1.0), (1.0, 3.0), (0.0, 3.0)];
         let comb: Vec<(f32, f32)> = (0..40)
             .map(|i| (i as f32, if i % 2 == 0 { 5.0 } else { 1.0 }))
             .chain([(39.0, 0.0), (0.0, 0.0)])

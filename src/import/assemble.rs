@@ -18,7 +18,7 @@ pub(super) struct Branch {
     /// Its triangles; a mesh without any counts as none.
     pub(super) mesh: Option<Mesh>,
     /// Branches below.
-    pub(super) children: Vec<Branch>,
+    pub(super) children: Vec<Self>,
 }
 
 /// A scene under construction.
@@ -37,20 +37,8 @@ pub(super) struct Assembly<'a> {
 
 impl<'a> Assembly<'a> {
     /// An empty scene for the file at `path`.
-    pub(super) fn new(
-        path: &'a Path,
-        options: &'a ImportOptions,
-        progress: &'a Progress,
-    ) -> Self {
-        Self {
-            path,
-            options,
-            progress,
-            scene: Scene::default(),
-            meshes: 0,
-            finished: 0,
-            dropped: 0,
-        }
+    pub(super) fn new(path: &'a Path, options: &'a ImportOptions, progress: &'a Progress) -> Self {
+        Self { path, options, progress, scene: Scene::default(), meshes: 0, finished: 0, dropped: 0 }
     }
 
     /// Name of the file, without its folder.
@@ -63,21 +51,14 @@ impl<'a> Assembly<'a> {
     pub(super) fn warn(&mut self, place: &str, message: impl Into<String>) {
         let file = self.file_name();
         self.scene.warnings.push(Warning {
-            place: if place.is_empty() {
-                file
-            } else {
-                format!("{file}, {place}")
-            },
+            place: if place.is_empty() { file } else { format!("{file}, {place}") },
             message: message.into(),
         });
     }
 
     /// The error for content that the format does not allow.
     pub(super) fn malformed(&self, message: impl Into<String>) -> ImportError {
-        ImportError::Malformed {
-            path: self.path.into(),
-            message: message.into(),
-        }
+        ImportError::Malformed { path: self.path.into(), message: message.into() }
     }
 
     /// Cleans the meshes, gives them normals where they have none, and hangs everything below one node that is named
@@ -85,32 +66,17 @@ impl<'a> Assembly<'a> {
     ///
     /// # Errors
     /// `Empty` when no triangle is left (`reason` says why the file might hold none), `Cancelled`.
-    pub(super) fn finish(
-        mut self,
-        branches: Vec<Branch>,
-        reason: &str,
-    ) -> Result<Scene, ImportError> {
+    pub(super) fn finish(mut self, branches: Vec<Branch>, reason: &str) -> Result<Scene, ImportError> {
         self.meshes = branches.iter().map(Branch::count).sum();
-        let root = Branch {
-            name: file_stem(self.path),
-            mesh: None,
-            children: branches,
-        };
+        let root = Branch { name: file_stem(self.path), mesh: None, children: branches };
         self.add(root, None, &mut SiblingNames::default())?;
         if self.scene.meshes.is_empty() {
             let reason = if self.dropped > 0 {
-                format!(
-                    "none of its {} triangles can be drawn: {}",
-                    self.dropped,
-                    self.last_words()
-                )
+                format!("none of its {} triangles can be drawn: {}", self.dropped, self.last_words())
             } else {
                 reason.to_owned()
             };
-            return Err(ImportError::Empty {
-                path: self.path.into(),
-                reason,
-            });
+            return Err(ImportError::Empty { path: self.path.into(), reason });
         }
         self.progress.report(1.0);
         Ok(self.scene)
@@ -120,10 +86,7 @@ impl<'a> Assembly<'a> {
     fn last_words(&self) -> String {
         const MOST: usize = 5;
         let messages = self.scene.warnings.iter().rev().take(MOST);
-        messages
-            .map(|w| w.message.as_str())
-            .collect::<Vec<_>>()
-            .join("; ")
+        messages.map(|w| w.message.as_str()).collect::<Vec<_>>().join("; ")
     }
 
     fn add(

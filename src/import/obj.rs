@@ -42,10 +42,7 @@ pub(super) fn load(
         progress.check()?;
         hang(&mut branches, group, mesher.mesh(group));
     }
-    for (count, what) in [
-        (mesher.bad_uvs, "texture coordinates"),
-        (mesher.bad_normals, "normals"),
-    ] {
+    for (count, what) in [(mesher.bad_uvs, "texture coordinates"), (mesher.bad_normals, "normals")] {
         if count > 0 {
             assembly.warn("", format!("ignored {count} references to {what} that do not exist"));
         }
@@ -83,15 +80,11 @@ fn hang(branches: &mut Vec<Branch>, group: &Group, mesh: Mesh) {
     if group.object.is_empty() || group.group.is_empty() || group.group == group.object {
         let name = if group.object.is_empty() { &group.group } else { &group.object };
         // An object's node may exist already, for one of its groups.
-        let open = branches
-            .last_mut()
-            .filter(|b| !group.object.is_empty() && b.name == *name && b.mesh.is_none());
+        let open =
+            branches.last_mut().filter(|b| !group.object.is_empty() && b.name == *name && b.mesh.is_none());
         match open {
             Some(branch) => branch.mesh = Some(mesh),
-            None => branches.push(Branch {
-                mesh: Some(mesh),
-                ..named(name)
-            }),
+            None => branches.push(Branch { mesh: Some(mesh), ..named(name) }),
         }
         return;
     }
@@ -99,10 +92,7 @@ fn hang(branches: &mut Vec<Branch>, group: &Group, mesh: Mesh) {
         branches.push(named(&group.object));
     }
     if let Some(object) = branches.last_mut() {
-        object.children.push(Branch {
-            mesh: Some(mesh),
-            ..named(&group.group)
-        });
+        object.children.push(Branch { mesh: Some(mesh), ..named(&group.group) });
     }
 }
 
@@ -201,10 +191,10 @@ impl<'a> Mesher<'a> {
         let Some(&at) = self.parsed.positions.get(position as usize) else {
             return NONE;
         };
-        let Some(first) = self.first_variant.get_mut(position as usize) else {
+        let Some(&first) = self.first_variant.get(position as usize) else {
             return NONE;
         };
-        let mut link = *first;
+        let mut link = first;
         while let Some(variant) = self.variants.get(link as usize) {
             if variant.uv == uv && variant.normal == normal {
                 return variant.vertex;
@@ -216,13 +206,10 @@ impl<'a> Mesher<'a> {
         if !self.parsed.colors.is_empty() {
             mesh.colors.push(self.color(position as usize));
         }
-        self.variants.push(Variant {
-            uv,
-            normal,
-            vertex,
-            next: *first,
-        });
-        *first = self.variants.len() as u32 - 1;
+        if let Some(head) = self.first_variant.get_mut(position as usize) {
+            *head = self.variants.len() as u32;
+        }
+        self.variants.push(Variant { uv, normal, vertex, next: first });
         vertex
     }
 

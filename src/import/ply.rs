@@ -29,10 +29,7 @@ pub(super) fn load(
     progress: &Progress,
 ) -> Result<Scene, ImportError> {
     let mut assembly = Assembly::new(path, options, progress);
-    assembly.scene.materials.push(Material {
-        double_sided: true,
-        ..Material::default()
-    });
+    assembly.scene.materials.push(Material { double_sided: true, ..Material::default() });
     let (header, body) = header::parse(data).map_err(|m| assembly.malformed(m))?;
     for axis in ["x", "y", "z"] {
         if !header.vertices_have(axis) {
@@ -76,11 +73,7 @@ struct Content {
     warnings: Vec<String>,
 }
 
-fn read(
-    header: &Header,
-    mut values: impl Values,
-    progress: &Progress,
-) -> Result<Content, Fault> {
+fn read(header: &Header, mut values: impl Values, progress: &Progress) -> Result<Content, Fault> {
     let mut vertices = Vertices::default();
     let mut faces = Faces::default();
     let mut warnings = Vec::new();
@@ -114,16 +107,9 @@ fn read(
         }
     }
     if faces.short > 0 {
-        warnings.push(format!(
-            "left out {} faces with fewer than three corners",
-            faces.short
-        ));
+        warnings.push(format!("left out {} faces with fewer than three corners", faces.short));
     }
-    Ok(Content {
-        indices: faces.triangles(&vertices.positions),
-        vertices,
-        warnings,
-    })
+    Ok(Content { indices: faces.triangles(&vertices.positions), vertices, warnings })
 }
 
 /// Reads over an element; returns the number of complete entries.
@@ -175,11 +161,8 @@ struct Vertices {
 
 impl Vertices {
     fn read(&mut self, element: &Element, values: &mut impl Values) -> u64 {
-        let slots: Vec<(Kind, Option<usize>)> = element
-            .properties
-            .iter()
-            .map(|p| (p.kind, slot(&p.name)))
-            .collect();
+        let slots: Vec<(Kind, Option<usize>)> =
+            element.properties.iter().map(|p| (p.kind, slot(&p.name))).collect();
         let kind_of = |wanted: usize| {
             let found = slots.iter().rev().find(|&&(_, slot)| slot == Some(wanted));
             found.map(|&(kind, _)| kind)
@@ -218,8 +201,7 @@ impl Vertices {
             if colors {
                 let byte = |c: f64| (c * color_scale).round() as u8;
                 let to_linear = |c: f64| linear.get(usize::from(byte(c))).copied().unwrap_or(255);
-                self.colors
-                    .push([to_linear(r), to_linear(g), to_linear(b), byte(a)]);
+                self.colors.push([to_linear(r), to_linear(g), to_linear(b), byte(a)]);
             }
             if uvs {
                 self.uvs.push(Vec2::new(u as f32, 1.0 - v as f32));
@@ -306,8 +288,7 @@ impl Faces {
                 if a == b || b == c || c == a {
                     continue;
                 }
-                self.corners
-                    .extend(if k % 2 == 0 { [a, b, c] } else { [b, a, c] });
+                self.corners.extend(if k % 2 == 0 { [a, b, c] } else { [b, a, c] });
                 self.ends.push(self.corners.len());
             }
         }

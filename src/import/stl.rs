@@ -31,10 +31,7 @@ pub(super) fn load(
 ) -> Result<Scene, ImportError> {
     let mut assembly = Assembly::new(path, options, progress);
     assembly.scene.up = Up::PosZ;
-    assembly.scene.materials.push(Material {
-        double_sided: true,
-        ..Material::default()
-    });
+    assembly.scene.materials.push(Material { double_sided: true, ..Material::default() });
     if data.len() / RECORD > (u32::MAX / 3) as usize {
         return Err(ImportError::Unsupported {
             path: path.into(),
@@ -50,11 +47,7 @@ pub(super) fn load(
     let mut branches = Vec::with_capacity(solids.len());
     for solid in solids {
         progress.check()?;
-        branches.push(Branch {
-            mesh: Some(indexed(&solid.corners)),
-            name: solid.name,
-            children: Vec::new(),
-        });
+        branches.push(Branch { mesh: Some(indexed(&solid.corners)), name: solid.name, children: Vec::new() });
     }
     progress.report(0.5);
     assembly.finish(branches, "it holds no triangle")
@@ -87,9 +80,7 @@ fn is_binary(data: &[u8]) -> bool {
     }
     let start = data.get(..data.len().min(1024)).unwrap_or(data);
     let text = start.strip_prefix(b"\xef\xbb\xbf").unwrap_or(start).trim_ascii_start();
-    let begins_as_text = text
-        .get(..5)
-        .is_some_and(|word| word.eq_ignore_ascii_case(b"solid"));
+    let begins_as_text = text.get(..5).is_some_and(|word| word.eq_ignore_ascii_case(b"solid"));
     !begins_as_text || start.contains(&0)
 }
 
@@ -105,10 +96,7 @@ fn read_binary(data: &[u8], assembly: &mut Assembly<'_>) -> Result<Solid, Import
     if records.len() < declared {
         assembly.warn(
             "",
-            format!(
-                "the file is cut off: it declares {declared} triangles and holds {}",
-                records.len()
-            ),
+            format!("the file is cut off: it declares {declared} triangles and holds {}", records.len()),
         );
     }
     // Some writers leave the count at 0.
@@ -123,30 +111,20 @@ fn read_binary(data: &[u8], assembly: &mut Assembly<'_>) -> Result<Solid, Import
         );
     }
     let mut corners = vec![Vec3::ZERO; 3 * wanted];
-    corners
-        .par_chunks_exact_mut(3)
-        .zip(records)
-        .with_min_len(4096)
-        .for_each(|(corners, record)| {
-            let floats = record.as_chunks::<4>().0;
-            let mut numbers = floats.iter().skip(3).map(|&b| f32::from_le_bytes(b));
-            let mut next = || numbers.next().unwrap_or(f32::NAN);
-            for corner in corners {
-                *corner = Vec3::new(next(), next(), next());
-            }
-        });
-    Ok(Solid {
-        name: "mesh".into(),
-        corners,
-    })
+    corners.par_chunks_exact_mut(3).zip(records).with_min_len(4096).for_each(|(corners, record)| {
+        let floats = record.as_chunks::<4>().0;
+        let mut numbers = floats.iter().skip(3).map(|&b| f32::from_le_bytes(b));
+        let mut next = || numbers.next().unwrap_or(f32::NAN);
+        for corner in corners {
+            *corner = Vec3::new(next(), next(), next());
+        }
+    });
+    Ok(Solid { name: "mesh".into(), corners })
 }
 
 fn read_ascii(data: &[u8], assembly: &mut Assembly<'_>) -> Result<Vec<Solid>, ImportError> {
     let mut solids: Vec<Solid> = Vec::new();
-    let mut current = Solid {
-        name: "mesh".into(),
-        corners: Vec::new(),
-    };
+    let mut current = Solid { name: "mesh".into(), corners: Vec::new() };
     let (mut bad_numbers, mut bad_facets) = (Fault::default(), Fault::default());
     let mut facet: Vec<Vec3> = Vec::new();
     let mut understood = false;
@@ -180,13 +158,7 @@ fn read_ascii(data: &[u8], assembly: &mut Assembly<'_>) -> Result<Vec<Solid>, Im
                 understood = true;
                 let name = lossy(after_first_word(&line));
                 let name = if name.is_empty() { "mesh".into() } else { name };
-                let before = std::mem::replace(
-                    &mut current,
-                    Solid {
-                        name,
-                        corners: Vec::new(),
-                    },
-                );
+                let before = std::mem::replace(&mut current, Solid { name, corners: Vec::new() });
                 if !before.corners.is_empty() {
                     solids.push(before);
                 }

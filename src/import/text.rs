@@ -12,10 +12,7 @@ pub(super) struct Lines<'a> {
 impl<'a> Lines<'a> {
     /// Begins at the start of `data`, after a byte order mark.
     pub(super) fn new(data: &'a [u8]) -> Self {
-        Self {
-            rest: data.strip_prefix(b"\xef\xbb\xbf").unwrap_or(data),
-            number: 0,
-        }
+        Self { rest: data.strip_prefix(b"\xef\xbb\xbf").unwrap_or(data), number: 0 }
     }
 
     /// What has not been read yet.
@@ -62,17 +59,14 @@ impl<'a> Iterator for Lines<'a> {
 
 /// The words of a line.
 pub(super) fn words(line: &[u8]) -> impl Iterator<Item = &[u8]> + Clone {
-    line.split(u8::is_ascii_whitespace)
-        .filter(|word| !word.is_empty())
+    line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty())
 }
 
 /// What follows the first word of a line, without the space around it.
 pub(super) fn after_first_word(line: &[u8]) -> &[u8] {
     let line = line.trim_ascii();
     let end = line.iter().position(u8::is_ascii_whitespace);
-    end.and_then(|end| line.get(end..))
-        .unwrap_or_default()
-        .trim_ascii()
+    end.and_then(|end| line.get(end..)).unwrap_or_default().trim_ascii()
 }
 
 /// A number; `None` if the word is none.
@@ -93,11 +87,7 @@ pub(super) fn linear_byte(srgb: u8) -> u8 {
 /// An sRGB value, 0 to 1, as linear.
 pub(super) fn linear(srgb: f32) -> f32 {
     let c = srgb.clamp(0.0, 1.0);
-    if c <= 0.040_45 {
-        c / 12.92
-    } else {
-        ((c + 0.055) / 1.055).powf(2.4)
-    }
+    if c <= 0.040_45 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) }
 }
 
 /// A fault that may occur on many lines and is told once.
@@ -137,9 +127,8 @@ mod tests {
 
     #[test]
     fn lines_end_in_any_way_and_go_on_after_a_backslash() {
-        let lines: Vec<_> = Lines::new(b"\xef\xbb\xbfa\r\nb \\\n c\rd\n\ne\\")
-            .map(|(n, line)| (n, lossy(&line)))
-            .collect();
+        let lines: Vec<_> =
+            Lines::new(b"\xef\xbb\xbfa\r\nb \\\n c\rd\n\ne\\").map(|(n, line)| (n, lossy(&line))).collect();
         let expected = [(1, "a"), (2, "b   c"), (4, "d"), (5, ""), (6, "e ")];
         assert_eq!(lines, expected.map(|(n, s)| (n, s.to_owned())));
     }

@@ -28,11 +28,7 @@ pub(super) fn load(
 ) -> Result<Vec<usize>, ImportError> {
     let folder = Folder::of(path);
     let library = read_libraries(&folder, parsed, assembly);
-    let used: Vec<&Mtl> = parsed
-        .materials
-        .iter()
-        .filter_map(|name| library.get(name))
-        .collect();
+    let used: Vec<&Mtl> = parsed.materials.iter().filter_map(|name| library.get(name)).collect();
     let images = read_images(&folder, &used, assembly, progress)?;
 
     let mut places = Vec::with_capacity(parsed.materials.len() + 1);
@@ -44,29 +40,18 @@ pub(super) fn load(
                 if !library.is_empty() {
                     assembly.warn("", format!("the material `{name}` is in none of its files"));
                 }
-                Material {
-                    name: name.clone(),
-                    double_sided: true,
-                    ..Material::default()
-                }
+                Material { name: name.clone(), double_sided: true, ..Material::default() }
             }
         };
         assembly.scene.materials.push(material);
     }
     places.push(assembly.scene.materials.len());
-    assembly.scene.materials.push(Material {
-        double_sided: true,
-        ..Material::default()
-    });
+    assembly.scene.materials.push(Material { double_sided: true, ..Material::default() });
     Ok(places)
 }
 
 /// The materials of all files by name; of two with one name, the first.
-fn read_libraries(
-    folder: &Folder,
-    parsed: &Parsed,
-    assembly: &mut Assembly<'_>,
-) -> HashMap<String, Mtl> {
+fn read_libraries(folder: &Folder, parsed: &Parsed, assembly: &mut Assembly<'_>) -> HashMap<String, Mtl> {
     let mut library = HashMap::new();
     let mut add = |bytes: &[u8]| {
         for material in mtl::parse(bytes) {
@@ -108,19 +93,13 @@ fn read_images(
 ) -> Result<Images, ImportError> {
     let mut encoded: Vec<EncodedImage> = Vec::new();
     let mut tried: HashMap<&str, ()> = HashMap::new();
-    let maps = materials
-        .iter()
-        .flat_map(|m| [m.diffuse_map.as_ref(), m.normal_map.as_ref()])
-        .flatten();
+    let maps = materials.iter().flat_map(|m| [m.diffuse_map.as_ref(), m.normal_map.as_ref()]).flatten();
     for map in maps {
         if tried.insert(&map.file, ()).is_some() {
             continue;
         }
         match folder.read_file(&map.file) {
-            Ok(bytes) => encoded.push(EncodedImage {
-                name: map.file.clone(),
-                bytes,
-            }),
+            Ok(bytes) => encoded.push(EncodedImage { name: map.file.clone(), bytes }),
             Err(error) => assembly.warn("", format!("no image: {error}")),
         }
     }
@@ -143,10 +122,7 @@ fn convert(mtl: &Mtl, images: &Images, assembly: &mut Assembly<'_>) -> Material 
     if mtl.opacity < 1.0 {
         assembly.warn(
             "",
-            format!(
-                "the material `{}` is transparent (d = {}); it is drawn opaque",
-                mtl.name, mtl.opacity
-            ),
+            format!("the material `{}` is transparent (d = {}); it is drawn opaque", mtl.name, mtl.opacity),
         );
     }
     let reference = |map: &Option<Map>| {
@@ -171,11 +147,7 @@ fn convert(mtl: &Mtl, images: &Images, assembly: &mut Assembly<'_>) -> Material 
         normal_texture: reference(&mtl.normal_map),
         normal_scale: mtl.normal_map.as_ref().map_or(1.0, |map| map.strength),
         base_color_texture,
-        alpha: if cut_out {
-            AlphaMode::Mask(0.5)
-        } else {
-            AlphaMode::Opaque
-        },
+        alpha: if cut_out { AlphaMode::Mask(0.5) } else { AlphaMode::Opaque },
         double_sided: true,
         unlit: false,
     }

@@ -148,9 +148,7 @@ mod tests {
         let text = b"Kd 9 9 9\nnewmtl my red\n Kd 1 0 0\nTr 0.25\nmap_Kd -s 2 3 -o 0.5 -clamp on -bm 2 my image.png\n\
             newmtl plain\nKd 0.5\nd 0.5\nmap_Kd\n";
         let materials = parse(text);
-        let [red, plain] = materials.as_slice() else {
-            panic!("{materials:?}")
-        };
+        let [red, plain] = materials.as_slice() else { panic!("{materials:?}") };
         assert_eq!((&red.name[..], red.diffuse, red.opacity), ("my red", Vec3::X, 0.75));
         let map = red.diffuse_map.clone().unwrap();
         assert_eq!((&map.file[..], map.wrap, map.strength), ("my image.png", Wrap::Clamp, 2.0));

@@ -140,10 +140,9 @@ impl Parser {
             }
             b"p" | b"l" => out.points_and_lines.note(number),
             b"curv" | b"curv2" | b"surf" => out.free_form.note(number),
-            b"s" | b"usemap" | b"maplib" | b"bevel" | b"c_interp" | b"d_interp" | b"lod"
-            | b"shadow_obj" | b"trace_obj" | b"mg" | b"vp" | b"cstype" | b"deg" | b"bmat"
-            | b"step" | b"parm" | b"trim" | b"hole" | b"scrv" | b"sp" | b"end" | b"con"
-            | b"ctech" | b"stech" | b"call" | b"csh" => {}
+            b"s" | b"usemap" | b"maplib" | b"bevel" | b"c_interp" | b"d_interp" | b"lod" | b"shadow_obj"
+            | b"trace_obj" | b"mg" | b"vp" | b"cstype" | b"deg" | b"bmat" | b"step" | b"parm" | b"trim"
+            | b"hole" | b"scrv" | b"sp" | b"end" | b"con" | b"ctech" | b"stech" | b"call" | b"csh" => {}
             _ if keyword.starts_with(b"#") => {}
             _ => out.bad_lines.note(number),
         }
@@ -177,10 +176,7 @@ impl Parser {
             let run = runs.map_or(0, |runs| {
                 let same = runs.iter().position(|r| r.material == self.material);
                 same.unwrap_or_else(|| {
-                    runs.push(Run {
-                        material: self.material,
-                        ..Run::default()
-                    });
+                    runs.push(Run { material: self.material, ..Run::default() });
                     runs.len() - 1
                 })
             });

@@ -103,7 +103,7 @@ impl Element {
 pub(super) fn parse(data: &[u8]) -> Result<(Header, &[u8]), String> {
     const MOST_LINES: usize = 100_000;
     let mut lines = Lines::new(data);
-    if !lines.next().is_some_and(|(_, line)| line.trim_ascii() == b"ply") {
+    if lines.next().is_none_or(|(_, line)| line.trim_ascii() != b"ply") {
         return Err("this is no PLY file: its first line is not `ply`".into());
     }
     let mut format = None;
@@ -113,12 +113,8 @@ pub(super) fn parse(data: &[u8]) -> Result<(Header, &[u8]), String> {
         let fault = |message: String| Err(format!("line {number}: {message}"));
         match words.as_slice() {
             [b"end_header"] => {
-                let big_endian =
-                    format.ok_or("the header has no `format` line".to_owned())?;
-                let header = Header {
-                    big_endian,
-                    elements,
-                };
+                let big_endian = format.ok_or("the header has no `format` line".to_owned())?;
+                let header = Header { big_endian, elements };
                 return Ok((header, lines.rest()));
             }
             [] | [b"comment" | b"obj_info", ..] => {}
@@ -135,11 +131,7 @@ pub(super) fn parse(data: &[u8]) -> Result<(Header, &[u8]), String> {
                 let Some(count) = parsed else {
                     return fault(format!("{} is no number of entries", quoted(count)));
                 };
-                elements.push(Element {
-                    name: lossy(name),
-                    count,
-                    properties: Vec::new(),
-                });
+                elements.push(Element { name: lossy(name), count, properties: Vec::new() });
             }
             [b"property", rest @ ..] => {
                 let Some(property) = property(rest) else {
@@ -171,8 +163,5 @@ fn property(words: &[&[u8]]) -> Option<Property> {
         [number, name] => (Kind::Scalar(Number::parse(number)?), name),
         _ => return None,
     };
-    Some(Property {
-        name: lossy(name).to_ascii_lowercase(),
-        kind,
-    })
+    Some(Property { name: lossy(name).to_ascii_lowercase(), kind })
 }

@@ -43,9 +43,7 @@ impl Values for Ascii<'_> {
         let value: f64 = match number {
             Number::F32 | Number::F64 => word.parse().ok()?,
             // Some writers put `255.0` where they declare an integer.
-            _ => word
-                .parse::<i64>()
-                .map_or_else(|_| word.parse().ok(), |n| Some(n as f64))?,
+            _ => word.parse::<i64>().map_or_else(|_| word.parse().ok(), |n| Some(n as f64))?,
         };
         self.0 = rest;
         Some(value)
