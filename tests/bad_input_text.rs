@@ -55,25 +55,33 @@ enum Expect {
 }
 use Expect::{Clean, Empty, Malformed, Warning};
 
-fn expect(name: &str, data: &[u8], expected: Expect) {
+/// What is wrong with the outcome, if anything.
+fn complaint(name: &str, data: &[u8], expected: Expect) -> Option<String> {
     let folder = tempfile::tempdir().unwrap();
     let inside = folder.path().join("model");
     std::fs::create_dir(&inside).unwrap();
     std::fs::write(folder.path().join("secret.mtl"), "newmtl red\nKd 1 0 0\n").unwrap();
-    let start = String::from_utf8_lossy(&data[..data.len().min(300)]).into_owned();
-    let said = match (attempt(&inside, name, data), expected) {
-        (Err(e @ ImportError::Malformed { .. }), Malformed(_)) => e.to_string(),
-        (Err(e @ ImportError::Empty { .. }), Empty(_)) => e.to_string(),
-        (Ok(scene), Warning(_) | Clean) => scene.warnings.iter().map(|w| format!("{w}\n")).collect(),
-        (Err(e), _) => panic!("{start}\n→ {e}, instead of {expected:?}"),
-        (Ok(_), _) => panic!("{start}\n→ loaded, instead of {expected:?}"),
+    let result = attempt(&inside, name, data);
+    let said = match &result {
+        Err(error) => error.to_string(),
+        Ok(scene) => scene.warnings.iter().map(|w| format!("{w}\n")).collect(),
     };
-    match expected {
-        Malformed(part) | Empty(part) | Warning(part) => {
-            assert!(said.contains(part), "{start}\n→ {said:?}, without {part:?}");
-        }
-        Clean => assert_eq!(said, "", "{start}"),
-    }
+    let fits = match (&result, expected) {
+        (Err(ImportError::Malformed { .. }), Malformed(part))
+        | (Err(ImportError::Empty { .. }), Empty(part))
+        | (Ok(_), Warning(part)) => said.contains(part),
+        (Ok(_), Clean) => said.is_empty(),
+        _ => false,
+    };
+    let outcome = if result.is_ok() { "loaded" } else { "failed" };
+    let start = String::from_utf8_lossy(&data[..data.len().min(300)]);
+    (!fits).then(|| format!("{start}\n→ {outcome}: {said}\n  instead of {expected:?}\n\n"))
+}
+
+fn check_table(name: &str, table: &[(Vec<u8>, Expect)]) {
+    let complaints: String =
+        table.iter().filter_map(|(data, expected)| complaint(name, data, *expected)).collect();
+    assert!(complaints.is_empty(), "{complaints}");
 }
 
 #[test]
@@ -81,8 +89,9 @@ fn hostile_obj_files() {
     let good = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
     let with = |more: &str| format!("{good}{more}").into_bytes();
     let many_corners = || {
-        let mut text: String =
-            (0..30_000).map(|i| format!("v {} {} 0\n", i * 7919 % 30_011, i * 104_729 % 29_989)).collect();
+        let mut text: String = (0..30_000_u64)
+            .map(|i| format!("v {} {} 0\n", i * 7919_u64 % 30_011, i * 104_729_u64 % 29_989))
+            .collect();
         text += "f";
         (1..=30_000).for_each(|i| text += &format!(" {i}"));
         text.into_bytes()
@@ -129,15 +138,13 @@ fn hostile_obj_files() {
         (with("mtllib bad.obj\n"), Clean),
         (with("curv 0 1\n"), Warning("free-form")),
         (with("\\"), Clean),
-        (many_corners(), Clean),
+        (many_corners(), Warning("degenerate")),
         (with(&"g a\nf 1 2 3\ng b\nf 3 2 1\n".repeat(20_000)), Warning("duplicate")),
         (vec![b'f'; 1 << 20], Malformed("neither")),
         (b"v ".repeat(1 << 19), Empty("no faces")),
         ([b"v 0 0 0\nf".to_vec(), b" 1".repeat(1 << 20)].concat(), Empty("degenerate")),
     ];
-    for (data, expected) in table {
-        expect("bad.obj", data, *expected);
-    }
+    check_table("bad.obj", table);
 }
 
 #[test]
@@ -201,9 +208,7 @@ fn hostile_stl_files() {
         (b"solid \xff\xfe\n".iter().chain(facet.as_bytes()).copied().collect(), Clean),
         (text(&"vertex 1 2 3 ".repeat(100_000)), Warning("cut off")),
     ];
-    for (data, expected) in table {
-        expect("bad.stl", data, *expected);
-    }
+    check_table("bad.stl", table);
 }
 
 #[test]
@@ -255,7 +260,7 @@ fn hostile_ply_files() {
         (ascii("3", "0", "0 0 0 1 0 0 0 1 0"), Empty("only points")),
         (ascii("18446744073709551615", "1", "0 0 0"), Malformed("declares 18446744073709551615 vertices")),
         (ascii("99999999999999999999999", "1", "0 0 0"), Malformed("no number of entries")),
-        (ascii("3", "1", "0 0 0 1 0 0 0 1"), Malformed("ends or is damaged after 2 of 3")),
+        (ascii("3", "1", "0 0 0 1 0 0 0 1"), Malformed("room for 2 at most")),
         (ascii("3", "1", "0 0 0 1 x 0 0 1 0"), Malformed("after 1 of 3")),
         (
             ascii("3", "18446744073709551615", "0 0 0 1 0 0 0 1 0 3 0 1 2"),
@@ -280,9 +285,7 @@ fn hostile_ply_files() {
         (binary("3", "1", "uint int", &[255; 4]), Empty("no triangle")),
         (binary("3", "1000000", "uchar int", &vec![0; 1_000_000]), Empty("no triangle")),
     ];
-    for (data, expected) in table {
-        expect("bad.ply", data, *expected);
-    }
+    check_table("bad.ply", table);
 }
 
 /// A small deterministic generator (xorshift).
