@@ -1,7 +1,5 @@
 //! Drops triangles that nothing can be drawn from, so that everything after it can trust a mesh.
 
-use std::sync::atomic::{AtomicU64, Ordering};
-
 use glam::{Vec2, Vec3};
 use rayon::prelude::*;
 
@@ -47,18 +45,10 @@ impl Report {
             triangles(self.not_finite, "with a NaN or infinite coordinate"),
             triangles(self.degenerate, "without area (degenerate)"),
             triangles(self.duplicate, "that repeat another one (duplicate)"),
-            (self.bad_normals > 0).then(|| {
-                format!(
-                    "replaced vertex normals without a direction: {}",
-                    self.bad_normals
-                )
-            }),
-            (self.bad_attributes > 0).then(|| {
-                format!(
-                    "ignored vertex attributes of the wrong length: {}",
-                    self.bad_attributes
-                )
-            }),
+            (self.bad_normals > 0)
+                .then(|| format!("replaced vertex normals without a direction: {}", self.bad_normals)),
+            (self.bad_attributes > 0)
+                .then(|| format!("ignored vertex attributes of the wrong length: {}", self.bad_attributes)),
         ]
         .into_iter()
         .flatten()
@@ -78,29 +68,23 @@ const DUPLICATE: Verdict = 3;
 /// normals are unit vectors, and `parts` cover all indices. A mesh without faults is returned as it is; else vertices
 /// that no triangle uses are dropped too. Empty parts go.
 pub fn clean(mut mesh: Mesh) -> (Mesh, Report) {
-    let mut report = Report {
-        bad_attributes: drop_misfits(&mut mesh),
-        ..Report::default()
-    };
+    let mut report = Report { bad_attributes: drop_misfits(&mut mesh), ..Report::default() };
     let whole = mesh.indices.len() / 3 * 3;
     if whole < mesh.indices.len() {
         mesh.indices.truncate(whole);
         report.out_of_range += 1;
     }
 
-    let triangles = mesh.triangles();
-    let seen = TwiceSeen::new(triangles.len());
-    let mut verdicts = Vec::new();
-    triangles
+    let all_finite = mesh.positions.par_iter().all(|p| p.is_finite());
+    let mut verdicts: Vec<Verdict> = mesh
+        .triangles()
         .par_iter()
         .with_min_len(8192)
-        .map(|&triangle| {
-            let verdict = judge(&mesh.positions, triangle);
-            seen.note(verdict);
-            verdict
-        })
-        .collect_into_vec(&mut verdicts);
-    mark_duplicates(&mesh, &seen, &mut verdicts);
+        .map(|&triangle| judge(&mesh.positions, all_finite, triangle))
+        .collect();
+    for duplicate in duplicates(&mesh, &verdicts) {
+        verdicts[duplicate as usize] = DUPLICATE;
+    }
 
     let fates: [usize; 4] = verdicts
         .par_chunks(65_536)
@@ -121,7 +105,7 @@ pub fn clean(mut mesh: Mesh) -> (Mesh, Report) {
         keep(&mut mesh, &verdicts);
     }
     mesh.parts.retain(|part| part.index_count > 0);
-    if report.dropped() > 0 || !mesh.positions.par_iter().all(|p| p.is_finite()) {
+    if report.dropped() > 0 || !all_finite {
         mesh = mesh.without_unused_vertices();
     }
     report.bad_normals = repair_normals(&mut mesh);
@@ -149,25 +133,24 @@ fn drop_misfits(mesh: &mut Mesh) -> usize {
         + check(&mut mesh.tangents, n)
 }
 
-fn judge(positions: &[Vec3], [a, b, c]: [u32; 3]) -> Verdict {
+#[inline]
+fn judge(positions: &[Vec3], all_finite: bool, [a, b, c]: [u32; 3]) -> Verdict {
     let corner = |v: u32| positions.get(v as usize).copied();
     let (Some(a), Some(b), Some(c)) = (corner(a), corner(b), corner(c)) else {
         return OUT_OF_RANGE;
     };
-    if !(a.is_finite() && b.is_finite() && c.is_finite()) {
+    if !(all_finite || [a, b, c].iter().all(|p| p.is_finite())) {
         return NOT_FINITE;
     }
     if is_degenerate(a, b, c) {
         return DEGENERATE;
     }
     // The sum does not depend on the order of the corners.
-    corner_hash(a)
-        .wrapping_add(corner_hash(b))
-        .wrapping_add(corner_hash(c))
-        | STAYS
+    corner_hash(a).wrapping_add(corner_hash(b)).wrapping_add(corner_hash(c)) | STAYS
 }
 
 /// Whether the height of the triangle is less than 1e-9 of its longest side.
+#[inline]
 fn is_degenerate(a: Vec3, b: Vec3, c: Vec3) -> bool {
     let (u, v) = (b - a, c - a);
     let longest = u.length_squared().max(v.length_squared());
@@ -178,13 +161,11 @@ fn is_degenerate(a: Vec3, b: Vec3, c: Vec3) -> bool {
     }
     let [a, b, c] = [a, b, c].map(Vec3::as_dvec3);
     let (u, v) = (b - a, c - a);
-    let longest = u
-        .length_squared()
-        .max(v.length_squared())
-        .max((c - b).length_squared());
+    let longest = u.length_squared().max(v.length_squared()).max((c - b).length_squared());
     u.cross(v).length_squared() <= 1e-18 * longest * longest
 }
 
+#[inline]
 fn corner_hash(p: Vec3) -> u64 {
     // Adding 0 makes −0 equal to 0.
     let [x, y, z] = (p + Vec3::ZERO).to_array().map(|c| u64::from(c.to_bits()));
@@ -193,62 +174,48 @@ fn corner_hash(p: Vec3) -> u64 {
     (h ^ h >> 29).wrapping_mul(0xbf58_476d_1ce4_e5b9)
 }
 
-/// A pair of small Bloom filters that tell which hashes may have occurred more than once.
-struct TwiceSeen {
-    once: Vec<AtomicU64>,
-    twice: Vec<AtomicU64>,
+/// Triangles that have the same corners as an earlier one, in whatever order.
+fn duplicates(mesh: &Mesh, verdicts: &[Verdict]) -> Vec<u32> {
+    // Each shard looks at its share of the hashes, in filters that fit into a core's cache.
+    (0..SHARDS).into_par_iter().flat_map_iter(|shard| duplicates_in_shard(mesh, verdicts, shard)).collect()
 }
 
-impl TwiceSeen {
-    fn new(count: usize) -> Self {
-        // 8 to 16 bits per triangle: about one in ten has to be looked at again.
-        let words = (count / 8).next_power_of_two().max(16);
-        let zeros = || (0..words).map(|_| AtomicU64::new(0)).collect();
-        Self {
-            once: zeros(),
-            twice: zeros(),
-        }
-    }
+const SHARD_BITS: u32 = 2;
+const SHARDS: u64 = 1 << SHARD_BITS;
 
-    fn place(&self, hash: u64) -> (usize, u64) {
-        (
-            (hash >> 6) as usize & (self.once.len() - 1),
-            1 << (hash & 63),
-        )
+fn duplicates_in_shard(mesh: &Mesh, verdicts: &[Verdict], shard: u64) -> Vec<u32> {
+    // Two small Bloom filters, of 8 to 16 bits per triangle, tell which hashes may have occurred more than once.
+    let words = (verdicts.len() >> (SHARD_BITS + 3)).next_power_of_two();
+    let (mut once, mut twice) = (vec![0_u64; words], vec![0_u64; words]);
+    let place = |triangle: u32| {
+        let v = verdicts[triangle as usize];
+        let word = (v >> (SHARD_BITS + 6)) as usize & (words - 1);
+        (word, 1 << (v >> SHARD_BITS & 63))
+    };
+    let mine = select(0..verdicts.len() as u32, |triangle| {
+        let v = verdicts[triangle as usize];
+        v >= STAYS && v % SHARDS == shard
+    });
+    for &triangle in &mine {
+        let (word, bit) = place(triangle);
+        twice[word] |= once[word] & bit;
+        once[word] |= bit;
     }
+    let suspects = select(mine.iter().copied(), |triangle| {
+        let (word, bit) = place(triangle);
+        twice[word] & bit != 0
+    });
+    let mut suspects: Vec<(Verdict, u32)> =
+        suspects.into_iter().map(|triangle| (verdicts[triangle as usize], triangle)).collect();
+    suspects.sort_unstable();
 
-    fn note(&self, verdict: Verdict) {
-        if verdict >= STAYS {
-            let (word, bit) = self.place(verdict);
-            if self.once[word].fetch_or(bit, Ordering::Relaxed) & bit != 0 {
-                self.twice[word].fetch_or(bit, Ordering::Relaxed);
-            }
-        }
-    }
-
-    fn may_repeat(&self, verdict: Verdict) -> bool {
-        let (word, bit) = self.place(verdict);
-        verdict >= STAYS && self.twice[word].load(Ordering::Relaxed) & bit != 0
-    }
-}
-
-/// Of the triangles that have the same corners, all but the first become duplicates.
-fn mark_duplicates(mesh: &Mesh, seen: &TwiceSeen, verdicts: &mut [Verdict]) {
-    let mut suspects: Vec<(Verdict, u32)> = verdicts
-        .par_iter()
-        .enumerate()
-        .with_min_len(8192)
-        .filter(|&(_, &verdict)| seen.may_repeat(verdict))
-        .map(|(t, &verdict)| (verdict, t as u32))
-        .collect();
-    suspects.par_sort_unstable();
     let corners = |t: u32| {
-        let mut corners = mesh
-            .corners(mesh.triangles()[t as usize])
-            .map(|p| (p + Vec3::ZERO).to_array().map(f32::to_bits));
+        let mut corners =
+            mesh.corners(mesh.triangles()[t as usize]).map(|p| (p + Vec3::ZERO).to_array().map(f32::to_bits));
         corners.sort_unstable();
         corners
     };
+    let mut found = Vec::new();
     for same_hash in suspects.chunk_by(|a, b| a.0 == b.0) {
         if same_hash.len() < 2 {
             continue;
@@ -257,10 +224,23 @@ fn mark_duplicates(mesh: &Mesh, seen: &TwiceSeen, verdicts: &mut [Verdict]) {
         by_corners.sort_unstable();
         for pair in by_corners.windows(2) {
             if pair[0].0 == pair[1].0 {
-                verdicts[pair[1].1 as usize] = DUPLICATE;
+                found.push(pair[1].1);
             }
         }
     }
+    found
+}
+
+/// `items.filter(wanted)` without a branch per item, which a processor could not predict here.
+fn select(items: impl ExactSizeIterator<Item = u32>, wanted: impl Fn(u32) -> bool) -> Vec<u32> {
+    let mut selected = vec![0; items.len() + 1];
+    let mut count = 0;
+    for item in items {
+        selected[count] = item;
+        count += usize::from(wanted(item));
+    }
+    selected.truncate(count);
+    selected
 }
 
 /// Drops the triangles that do not stay.

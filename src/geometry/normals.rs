@@ -3,7 +3,7 @@
 use glam::Vec3;
 use rayon::prelude::*;
 
-use super::{Mesh, Weld};
+use super::{Mesh, Weld, angle};
 
 /// Unit normal of a counter-clockwise triangle; +Z if it has no area.
 pub fn face_normal([a, b, c]: [Vec3; 3]) -> Vec3 {
@@ -19,20 +19,13 @@ pub fn face_normal([a, b, c]: [Vec3; 3]) -> Vec3 {
 
 /// The unit normal of every triangle. Indices must be in range.
 pub fn face_normals(mesh: &Mesh) -> Vec<Vec3> {
-    mesh.triangles()
-        .par_iter()
-        .with_min_len(4096)
-        .map(|&t| face_normal(mesh.corners(t)))
-        .collect()
+    mesh.triangles().par_iter().with_min_len(4096).map(|&t| face_normal(mesh.corners(t))).collect()
 }
 
 /// The mesh without vertex normals: every face is flat.
 #[must_use]
 pub fn flat(mesh: Mesh) -> Mesh {
-    Mesh {
-        normals: Vec::new(),
-        ..mesh
-    }
+    Mesh { normals: Vec::new(), ..mesh }
 }
 
 /// The mesh with smooth normals: at each point, the triangles that are connected across edges with a dihedral angle of
@@ -134,8 +127,8 @@ struct Smoothed {
 /// Buffers that are used again from point to point.
 #[derive(Default)]
 struct Scratch {
-    /// The other two points of each corner's triangle: (point, local corner).
-    spokes: Vec<(u32, u32)>,
+    /// The other two points of each corner's triangle: the point (high 32 bits) and the local corner (low 32 bits).
+    spokes: Vec<u64>,
     /// Union-find over the local corners.
     parent: Vec<u32>,
     /// Sum of weighted normals, at the root of each group.
@@ -173,13 +166,11 @@ impl Smoother<'_> {
     /// The triangle's normal, weighted by its angle at this corner.
     fn weighted_normal(&self, corner: u32) -> Vec3 {
         let at = self.mesh.positions[self.mesh.indices[corner as usize] as usize];
-        let [next, previous] = self
-            .others(corner)
-            .map(|v| self.mesh.positions[v as usize] - at);
+        let [next, previous] = self.others(corner).map(|v| self.mesh.positions[v as usize] - at);
         // Not the arc cosine, which loses the small angles of a fan.
         let sine = next.cross(previous).length();
         let angle = if sine > 1e-12 && sine < 1e12 {
-            sine.atan2(next.dot(previous))
+            angle::from_sine_and_cosine(sine, next.dot(previous))
         } else {
             let (u, v) = (next.as_dvec3(), previous.as_dvec3());
             u.cross(v).length().atan2(u.dot(v)) as f32
@@ -197,16 +188,16 @@ impl Smoother<'_> {
             scratch.parent.push(local as u32);
             for v in self.others(corner) {
                 let point = self.weld.representative[v as usize];
-                scratch.spokes.push((point, local as u32));
+                scratch.spokes.push(u64::from(point) << 32 | local as u64);
             }
         }
         // Corners that share an edge at this point stand together.
         scratch.spokes.sort_unstable();
         let mut start = 0;
         while start < scratch.spokes.len() {
-            let point = scratch.spokes[start].0;
+            let point = scratch.spokes[start] >> 32;
             let mut end = start + 1;
-            while end < scratch.spokes.len() && scratch.spokes[end].0 == point {
+            while end < scratch.spokes.len() && scratch.spokes[end] >> 32 == point {
                 end += 1;
             }
             // Of many triangles at one edge, neighbours in the list are compared, to stay linear.
@@ -222,7 +213,7 @@ impl Smoother<'_> {
     }
 
     fn unite(&self, corners: &[u32], scratch: &mut Scratch, i: usize, j: usize) {
-        let (a, b) = (scratch.spokes[i].1, scratch.spokes[j].1);
+        let (a, b) = (scratch.spokes[i] as u32, scratch.spokes[j] as u32);
         let normal = |local: u32| self.faces[corners[local as usize] as usize / 3];
         if normal(a).dot(normal(b)) >= self.cos_crease {
             let (a, b) = (scratch.root(a), scratch.root(b));
