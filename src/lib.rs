@@ -5,8 +5,12 @@
 //! become scenes, [`gpu`] the device, [`document`] what is saved and undone, [`scene`] nodes, cameras, lights and
 //! materials, [`style`] the parameters of every effect, [`geometry`] meshes.
 
+pub mod cli;
 pub mod document;
+pub mod export;
 pub mod geometry;
+pub mod gpu;
 pub mod import;
+pub mod render;
 pub mod scene;
 pub mod style;

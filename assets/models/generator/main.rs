@@ -1,0 +1,40 @@
+//! Makes the sample models: `cargo run --release --example models` writes `assets/models/*.glb`, always the same bytes.
+#![allow(
+    clippy::expect_used,
+    clippy::print_stdout,
+    reason = "a tool for the people who change the models: it may stop with a message and report on its standard output"
+)]
+
+mod crank;
+mod crankshaft;
+mod delaunay;
+mod flywheel;
+mod glb;
+mod outline;
+mod piston;
+mod plate;
+mod rod;
+mod solid;
+
+/// Writes each model, or only those named on the command line, and reports their sizes.
+fn main() {
+    let wanted: Vec<String> = std::env::args().skip(1).collect();
+    let models: [(&str, fn() -> glb::Scene); 1] = [("crank", crank::scene)];
+    for (name, make) in models {
+        if !wanted.is_empty() && !wanted.iter().any(|w| w == name) {
+            continue;
+        }
+        let scene = make();
+        let bytes = scene.to_glb();
+        let path = format!("assets/models/{name}.glb");
+        std::fs::write(&path, &bytes).expect("run this in the repository's root");
+        println!(
+            "{path}: {} triangles, {} KiB",
+            scene.triangles(),
+            bytes.len().div_ceil(1024)
+        );
+        for root in &scene.roots {
+            println!("  {:12} {:6}", root.name, root.triangles(&scene.meshes));
+        }
+    }
+}

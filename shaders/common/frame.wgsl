@@ -1,0 +1,46 @@
+// The frame: bind group 0 of every pass. Twin: `FrameUniform` in src/render/frame_uniform.rs.
+
+struct Light {
+    // Directional (w = 0): towards the light. Point (w = 1): where it stands. View space.
+    vector: vec4<f32>,
+    // Linear colour times intensity.
+    color: vec3<f32>,
+}
+
+struct Frame {
+    clip_from_view: mat4x4<f32>,
+    // Picture in pixels.
+    size: vec2<f32>,
+    // Half the picture at depth 1 (perspective) or at any depth (orthographic), in scene units.
+    half_extent: vec2<f32>,
+    // Linear depth of the nearest and farthest point of the enhanced objects.
+    depth_range: vec2<f32>,
+    // 1: orthographic.
+    orthographic: u32,
+    light_count: u32,
+    // Paper: linear colour and opacity.
+    background: vec4<f32>,
+    lights: array<Light, 8>,
+}
+
+@group(0) @binding(0) var<uniform> frame: Frame;
+
+// The point that a pixel of this linear depth shows, in view space.
+fn pos_view_of(px: vec2<i32>, depth: f32) -> vec3<f32> {
+    let ndc = (vec2<f32>(px) + 0.5) / frame.size * vec2(2.0, -2.0) + vec2(-1.0, 1.0);
+    let scale = select(depth, 1.0, frame.orthographic == 1u);
+    return vec3(ndc * frame.half_extent * scale, -depth);
+}
+
+// Unit vector from a point in view space towards the eye.
+fn towards_eye(pos_view: vec3<f32>) -> vec3<f32> {
+    if frame.orthographic == 1u {
+        return vec3(0.0, 0.0, 1.0);
+    }
+    return normalize(-pos_view);
+}
+
+// Unit vector from a point in view space towards a light.
+fn towards_light(light: Light, pos_view: vec3<f32>) -> vec3<f32> {
+    return normalize(light.vector.xyz - pos_view * light.vector.w);
+}

@@ -1,0 +1,93 @@
+// The surface techniques, shaded from the G-buffer, with the lines of the edge map over them.
+#import common/frame.wgsl
+#import common/fullscreen.wgsl
+#import common/gbuffer.wgsl
+
+const BLANK: u32 = 0u;
+const PLAIN: u32 = 1u;
+const UNLIT: u32 = 2u;
+const GOOCH: u32 = 3u;
+
+// Twin: `SurfaceUniform` in src/render/effects/surface.rs.
+struct SurfaceStyle {
+    cool: vec3<f32>,
+    alpha: f32,
+    warm: vec3<f32>,
+    beta: f32,
+    highlight: f32,
+    shininess: f32,
+    ambient: f32,
+    technique: u32,
+}
+
+// Twin: `EdgeUniform` in src/render/passes/edge_map.rs; only its colours are read here.
+struct EdgeStyle {
+    profile_color: vec3<f32>,
+    profile_strength: f32,
+    inner_color: vec3<f32>,
+    inner_strength: f32,
+    gain_z: f32,
+    gain_c1: f32,
+    gain_n: f32,
+    profile_threshold: f32,
+    inner_threshold: f32,
+    use_c1: u32,
+}
+
+@group(1) @binding(1) var base_color_tex: texture_2d<f32>;
+@group(1) @binding(2) var edge_map_tex: texture_2d<u32>;
+@group(1) @binding(3) var<storage, read> surface_styles: array<SurfaceStyle>;
+@group(1) @binding(4) var<storage, read> edge_styles: array<EdgeStyle>;
+
+fn plain(style: SurfaceStyle, base: vec3<f32>, normal: vec3<f32>, pos_view: vec3<f32>) -> vec3<f32> {
+    var light = vec3(style.ambient);
+    for (var i = 0u; i < frame.light_count; i++) {
+        let l = towards_light(frame.lights[i], pos_view);
+        light += frame.lights[i].color * max(dot(normal, l), 0.0);
+    }
+    return base * light;
+}
+
+// Gooch et al. 1998: cool + alpha · base to warm + beta · base by (1 + n·l) / 2, and a Phong highlight, with the
+// first light as the key.
+fn gooch(style: SurfaceStyle, base: vec3<f32>, normal: vec3<f32>, pos_view: vec3<f32>) -> vec3<f32> {
+    let l = towards_light(frame.lights[0], pos_view);
+    let cool = min(style.cool + style.alpha * base, vec3(1.0));
+    let warm = min(style.warm + style.beta * base, vec3(1.0));
+    let shade = mix(cool, warm, 0.5 + 0.5 * dot(normal, l));
+    let reflected = reflect(-l, normal);
+    let gloss = pow(max(dot(reflected, towards_eye(pos_view)), 0.0), style.shininess);
+    return mix(shade, vec3(1.0), style.highlight * gloss);
+}
+
+// Linear colour times opacity, and opacity.
+@fragment
+fn fs_main(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
+    let px = vec2<i32>(position.xy);
+    let texel = geometry_at(px);
+    var color = vec4(0.0);
+    if (texel.w & ~ENHANCED) != 0u {
+        let s = unpack_surfel(texel);
+        let style = surface_styles[s.object];
+        if style.technique != BLANK {
+            let base = textureLoad(base_color_tex, px, 0).rgb;
+            let pos_view = pos_view_of(px, s.depth);
+            var shade = base;
+            if style.technique == GOOCH {
+                shade = gooch(style, base, s.normal, pos_view);
+            } else if style.technique == PLAIN {
+                shade = plain(style, base, s.normal, pos_view);
+            }
+            color = vec4(shade, 1.0);
+        }
+    }
+    // Paper, section 5: inner edges first, then profile edges over them.
+    let edge = textureLoad(edge_map_tex, px, 0).xy;
+    if edge.x != 0u {
+        let lines = edge_styles[edge.y];
+        let ink = unpack2x16unorm(edge.x) * vec2(lines.inner_strength, lines.profile_strength);
+        color = mix(color, vec4(lines.inner_color, 1.0), ink.x);
+        color = mix(color, vec4(lines.profile_color, 1.0), ink.y);
+    }
+    return color;
+}

@@ -1,0 +1,127 @@
+// The edge map by the operators of the edge-enhancement paper, section 4.1.2.
+#import common/frame.wgsl
+#import common/fullscreen.wgsl
+#import common/gbuffer.wgsl
+
+// Twin: `EdgeUniform` in src/render/passes/edge_map.rs.
+struct EdgeStyle {
+    profile_color: vec3<f32>,
+    profile_strength: f32,
+    inner_color: vec3<f32>,
+    inner_strength: f32,
+    // Ink per unit of 1 − I_Z, of C1, of 1 − I_N.
+    gain_z: f32,
+    gain_c1: f32,
+    gain_n: f32,
+    profile_threshold: f32,
+    inner_threshold: f32,
+    // 1: the C1 operator finds profile edges, otherwise the diagonal one.
+    use_c1: u32,
+}
+
+@group(1) @binding(1) var<storage, read> edge_styles: array<EdgeStyle>;
+
+// One texel as the operators see it.
+struct Sample {
+    normal: vec3<f32>,
+    // 0 to 1 over the range of the enhanced objects; background: 1.
+    depth: f32,
+    object: u32,
+}
+
+fn background_sample() -> Sample {
+    return Sample(vec3(0.0, 0.0, 1.0), 1.0, 0u);
+}
+
+fn sample_of(s: Surfel) -> Sample {
+    let range = frame.depth_range;
+    return Sample(s.normal, clamp((s.depth - range.x) / (range.y - range.x), 0.0, 1.0), s.object);
+}
+
+// A neighbour of the enhanced texel `x`. What is not enhanced is background to the operators, unless it hides `x`'s
+// own surroundings: then nothing is known there and no edge may come of it.
+fn neighbour(px: vec2<i32>, x: Surfel) -> Sample {
+    let s = unpack_surfel(geometry_at(px));
+    if s.enhanced {
+        return sample_of(s);
+    }
+    if s.object != 0u && s.depth < x.depth {
+        return sample_of(x);
+    }
+    return background_sample();
+}
+
+struct Operators {
+    i_n: f32,
+    i_z: f32,
+    c1: f32,
+    // The nearest object among the texels that were compared: a line between two objects is the nearer one's.
+    owner: u32,
+}
+
+fn nearer(a: Sample, b: Sample) -> Sample {
+    if b.depth < a.depth {
+        return b;
+    }
+    return a;
+}
+
+// Neighbours A to H of the paper's Fig. 2, row by row, without X.
+fn operators(px: vec2<i32>, x: Surfel, with_c1: bool) -> Operators {
+    let center = sample_of(x);
+    let a = neighbour(px + vec2(-1, -1), x);
+    let c = neighbour(px + vec2(1, -1), x);
+    let f = neighbour(px + vec2(-1, 1), x);
+    let h = neighbour(px + vec2(1, 1), x);
+    let i_n = 0.5 * (dot(a.normal, h.normal) + dot(c.normal, f.normal));
+    let ah = 1.0 - 0.5 * abs(a.depth - h.depth);
+    let cf = 1.0 - 0.5 * abs(c.depth - f.depth);
+    var nearest = nearer(nearer(center, nearer(a, h)), nearer(c, f));
+    var c1 = 0.0;
+    if with_c1 {
+        let b = neighbour(px + vec2(0, -1), x);
+        let d = neighbour(px + vec2(-1, 0), x);
+        let e = neighbour(px + vec2(1, 0), x);
+        let g = neighbour(px + vec2(0, 1), x);
+        let z = center.depth;
+        c1 = (abs(a.depth - z) + 2.0 * abs(b.depth - z) + abs(c.depth - z)
+            + 2.0 * abs(d.depth - z) + 2.0 * abs(e.depth - z)
+            + abs(f.depth - z) + 2.0 * abs(g.depth - z) + abs(h.depth - z)) / 8.0;
+        nearest = nearer(nearest, nearer(nearer(b, d), nearer(e, g)));
+    }
+    return Operators(i_n, ah * ah * cf * cf, c1, nearest.object);
+}
+
+// Ink above the threshold, stretched to 0..1.
+fn past(ink: f32, threshold: f32) -> f32 {
+    return clamp((ink - threshold) / (1.0 - threshold), 0.0, 1.0);
+}
+
+// x: inner and profile ink (2 × 16-bit unorm), y: the object whose edge style draws it.
+@fragment
+fn fs_main(@builtin(position) position: vec4<f32>) -> @location(0) vec2<u32> {
+    let px = vec2<i32>(position.xy);
+    let x = unpack_surfel(geometry_at(px));
+    if !x.enhanced {
+        return vec2(0u);
+    }
+    let own = edge_styles[x.object];
+    let o = operators(px, x, own.use_c1 == 1u);
+    let style = edge_styles[o.owner];
+    let profile = select(style.gain_z * (1.0 - o.i_z), style.gain_c1 * o.c1, own.use_c1 == 1u);
+    let inner = style.gain_n * (1.0 - o.i_n);
+    let ink = vec2(past(inner, style.inner_threshold), past(profile, style.profile_threshold));
+    return vec2(pack2x16unorm(ink), o.owner);
+}
+
+// I_N, I_Z and C1 themselves (no edge: 1, 1, 0), for a look at them and for tests.
+@fragment
+fn fs_operators(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
+    let px = vec2<i32>(position.xy);
+    let x = unpack_surfel(geometry_at(px));
+    if !x.enhanced {
+        return vec4(1.0, 1.0, 0.0, 0.0);
+    }
+    let o = operators(px, x, true);
+    return vec4(o.i_n, o.i_z, o.c1, 1.0);
+}

@@ -1,0 +1,138 @@
+// Every visible object into the G-buffer, in one traversal (edge-enhancement paper, section 4.1.1).
+#import common/frame.wgsl
+#import common/octahedral.wgsl
+#import common/material.wgsl
+
+// Twin: `DrawUniform` in src/render/passes/gbuffer.rs.
+struct Draw {
+    view_from_local: mat4x4<f32>,
+    // Inverse transpose of its linear part.
+    normal_from_local: mat3x3<f32>,
+    // Object id with the enhanced flag as the highest bit.
+    object: u32,
+    material: u32,
+    // 1: the mesh has no normals, faces are flat.
+    is_flat: u32,
+}
+
+@group(1) @binding(0) var<storage, read> draws: array<Draw>;
+@group(1) @binding(1) var<storage, read> materials: array<Material>;
+
+@group(2) @binding(0) var base_tex: texture_2d<f32>;
+@group(2) @binding(1) var base_sampler: sampler;
+@group(2) @binding(2) var normal_tex: texture_2d<f32>;
+@group(2) @binding(3) var normal_sampler: sampler;
+
+struct Lean {
+    @builtin(position) @invariant position: vec4<f32>,
+    // View-oriented, but about the object's own origin, so that derivatives keep their digits far from the eye.
+    @location(0) pos_oriented: vec3<f32>,
+    @location(1) depth: f32,
+    @location(2) @interpolate(flat, first) draw: u32,
+    @location(3) @interpolate(flat, first) surface: u32,
+}
+
+struct Full {
+    @builtin(position) @invariant position: vec4<f32>,
+    @location(0) pos_oriented: vec3<f32>,
+    @location(1) depth: f32,
+    @location(2) @interpolate(flat, first) draw: u32,
+    @location(3) @interpolate(flat, first) surface: u32,
+    @location(4) normal: vec3<f32>,
+    @location(5) tangent: vec4<f32>,
+    @location(6) uv: vec2<f32>,
+    @location(7) color: vec4<f32>,
+}
+
+struct GBuffer {
+    @location(0) geometry: vec4<u32>,
+    @location(1) base_color: vec4<f32>,
+    @location(2) surface: u32,
+}
+
+fn pos_view_of_vertex(position: vec3<f32>, draw: u32) -> vec4<f32> {
+    return draws[draw].view_from_local * vec4(position, 1.0);
+}
+
+@vertex
+fn vs_lean(
+    @builtin(instance_index) draw: u32,
+    @location(0) position: vec3<f32>,
+    @location(1) surface: u32,
+) -> Lean {
+    let pos_view = pos_view_of_vertex(position, draw);
+    let pos_oriented = pos_view.xyz - draws[draw].view_from_local[3].xyz;
+    return Lean(frame.clip_from_view * pos_view, pos_oriented, -pos_view.z, draw, surface);
+}
+
+@vertex
+fn vs_full(
+    @builtin(instance_index) draw: u32,
+    @location(0) position: vec3<f32>,
+    @location(1) surface: u32,
+    @location(2) normal: vec2<f32>,
+    @location(3) tangent: vec4<f32>,
+    @location(4) uv: vec2<f32>,
+    @location(5) color: vec4<f32>,
+) -> Full {
+    let pos_view = pos_view_of_vertex(position, draw);
+    let local = draws[draw].view_from_local;
+    let normal_view = draws[draw].normal_from_local * octahedral_decode(normal);
+    let tangent_view = (local * vec4(octahedral_decode(tangent.xy), 0.0)).xyz;
+    return Full(
+        frame.clip_from_view * pos_view, pos_view.xyz - local[3].xyz, -pos_view.z, draw, surface,
+        normal_view, vec4(tangent_view, sign(tangent.z)), uv, color,
+    );
+}
+
+// The geometric normal of the triangle, turned towards the eye whatever its winding.
+fn face_normal(pos_oriented: vec3<f32>) -> vec3<f32> {
+    // Screen y runs down, so this order makes the normal of a surface that faces the eye positive in z.
+    let n = cross(dpdy(pos_oriented), dpdx(pos_oriented));
+    let l = length(n);
+    return select(vec3(0.0, 0.0, 1.0), n / l, l > 0.0);
+}
+
+fn pack(normal: vec3<f32>, face: vec3<f32>, depth: f32, object: u32) -> vec4<u32> {
+    return vec4(
+        pack2x16snorm(octahedral_encode(normal)),
+        pack2x16snorm(octahedral_encode(face)),
+        bitcast<u32>(depth),
+        object,
+    );
+}
+
+@fragment
+fn fs_lean(v: Lean) -> GBuffer {
+    let draw = &draws[v.draw];
+    let face = face_normal(v.pos_oriented);
+    let color = materials[(*draw).material].base_color.rgb;
+    return GBuffer(pack(face, face, v.depth, (*draw).object), vec4(color, 1.0), v.surface);
+}
+
+@fragment
+fn fs_full(v: Full) -> GBuffer {
+    let draw = &draws[v.draw];
+    let material = &materials[(*draw).material];
+    let face = face_normal(v.pos_oriented);
+    let base_uv = ((*material).base_uv * vec3(v.uv, 1.0)).xy;
+    let color = textureSample(base_tex, base_sampler, base_uv) * (*material).base_color * v.color;
+    let normal_uv = ((*material).normal_uv * vec3(v.uv, 1.0)).xy;
+    let bump = textureSample(normal_tex, normal_sampler, normal_uv).xyz * 2.0 - 1.0;
+    if color.a < (*material).alpha_cutoff {
+        discard;
+    }
+    var normal = face;
+    if (*draw).is_flat == 0u {
+        normal = normalize(v.normal);
+        if (*material).has_normal_texture == 1u && v.tangent.w != 0.0 {
+            let tangent = normalize(v.tangent.xyz - normal * dot(normal, v.tangent.xyz));
+            let bitangent = cross(normal, tangent) * sign(v.tangent.w);
+            let scale = (*material).normal_scale;
+            normal = normalize(mat3x3(tangent, bitangent, normal) * (bump * vec3(scale, scale, 1.0)));
+        }
+        // Seen from behind, a surface is shaded as if it were two-sided.
+        normal = select(normal, -normal, dot(normal, face) < 0.0);
+    }
+    return GBuffer(pack(normal, face, v.depth, (*draw).object), vec4(color.rgb, 1.0), v.surface);
+}

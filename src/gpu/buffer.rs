@@ -1,0 +1,84 @@
+//! Uniform and storage buffers whose layout is derived from Rust types.
+
+use encase::internal::WriteInto;
+use encase::{ShaderSize, ShaderType, StorageBuffer as StorageBytes, UniformBuffer as UniformBytes};
+
+use super::Gpu;
+
+/// A uniform buffer that holds one `T`.
+pub struct UniformBuffer<T> {
+    buffer: wgpu::Buffer,
+    written: Option<T>,
+}
+
+impl<T: ShaderType + WriteInto + PartialEq + Clone> UniformBuffer<T> {
+    /// An empty buffer of the right size.
+    pub fn new(gpu: &Gpu, label: &str) -> Self {
+        let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some(label),
+            size: T::min_size().get(),
+            usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        });
+        Self { buffer, written: None }
+    }
+
+    /// Writes a value, unless it is there already.
+    pub fn write(&mut self, gpu: &Gpu, value: &T) {
+        if self.written.as_ref() == Some(value) {
+            return;
+        }
+        let mut bytes = UniformBytes::new(Vec::new());
+        // Writing into a growing vector cannot fail.
+        if bytes.write(value).is_ok() {
+            gpu.queue.write_buffer(&self.buffer, 0, bytes.as_ref());
+        }
+        self.written = Some(value.clone());
+    }
+
+    /// The buffer itself.
+    pub fn buffer(&self) -> &wgpu::Buffer {
+        &self.buffer
+    }
+}
+
+/// A read-only storage buffer that holds an array of `T` and grows with it.
+pub struct ArrayBuffer {
+    buffer: wgpu::Buffer,
+    label: &'static str,
+}
+
+impl ArrayBuffer {
+    /// An empty array.
+    pub fn new(gpu: &Gpu, label: &'static str) -> Self {
+        Self { buffer: Self::create(gpu, label, 256), label }
+    }
+
+    fn create(gpu: &Gpu, label: &str, size: u64) -> wgpu::Buffer {
+        gpu.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some(label),
+            size,
+            usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        })
+    }
+
+    /// Writes the whole array; it must not be empty, as WGSL arrays are not.
+    pub fn write<T: ShaderType + ShaderSize + WriteInto>(&mut self, gpu: &Gpu, values: &Vec<T>) {
+        let mut bytes = StorageBytes::new(Vec::new());
+        if bytes.write(values).is_err() {
+            return;
+        }
+        let bytes: &[u8] = bytes.as_ref();
+        let needed = bytes.len() as u64;
+        if self.buffer.size() < needed {
+            self.buffer = Self::create(gpu, self.label, needed.next_power_of_two());
+        }
+        gpu.queue.write_buffer(&self.buffer, 0, bytes);
+    }
+
+    /// The buffer itself.
+    pub fn buffer(&self) -> &wgpu::Buffer {
+        &self.buffer
+    }
+}

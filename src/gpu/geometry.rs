@@ -1,0 +1,186 @@
+//! Meshes on the device.
+
+use bytemuck::{Pod, Zeroable};
+use glam::{Vec2, Vec3};
+
+use super::{Gpu, GpuError};
+use crate::geometry::{Mesh, Provoking};
+
+/// All vertices and indices of a scene in one set of buffers.
+pub struct GeometryBuffers {
+    /// `vec3<f32>` per vertex.
+    pub positions: wgpu::Buffer,
+    /// `u32` per vertex: the surface id of every triangle that begins with it.
+    pub surfaces: wgpu::Buffer,
+    /// [`Attributes`] per vertex; `None` when no mesh has any, so that the lean vertex shader does.
+    pub attributes: Option<wgpu::Buffer>,
+    /// `u32` indices, relative to the mesh's first vertex.
+    pub indices: wgpu::Buffer,
+    /// Where each mesh lies.
+    pub meshes: Vec<MeshRange>,
+}
+
+/// Where a mesh lies in the buffers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct MeshRange {
+    /// Index of its first vertex.
+    pub base_vertex: i32,
+    /// Index of its first index.
+    pub first_index: u32,
+}
+
+/// A mesh together with what topology found out about it.
+#[derive(Clone, Copy)]
+pub struct MeshSource<'a> {
+    /// The mesh.
+    pub mesh: &'a Mesh,
+    /// Its surfaces, where they are known.
+    pub surfaces: Option<&'a Provoking>,
+}
+
+/// What a vertex has beyond its position.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+pub struct Attributes {
+    /// Octahedral normal; unread where the draw is flat.
+    normal: [i16; 2],
+    /// Octahedral tangent, sign of the bitangent (0: no tangent), padding.
+    tangent: [i16; 4],
+    uv: Vec2,
+    color: [u8; 4],
+}
+
+impl Attributes {
+    /// Their layout in vertex buffer 2, shader locations 2 to 5.
+    pub const LAYOUT: wgpu::VertexBufferLayout<'static> = wgpu::VertexBufferLayout {
+        array_stride: size_of::<Self>() as u64,
+        step_mode: wgpu::VertexStepMode::Vertex,
+        attributes: &wgpu::vertex_attr_array![2 => Snorm16x2, 3 => Snorm16x4, 4 => Float32x2, 5 => Unorm8x4],
+    };
+
+    fn of(mesh: &Mesh, vertex: usize) -> Self {
+        let tangent = mesh.tangents.get(vertex).map_or([0; 4], |t| {
+            let [x, y] = octahedral(t.truncate());
+            [x, y, if t.w < 0.0 { -i16::MAX } else { i16::MAX }, 0]
+        });
+        Self {
+            normal: mesh.normals.get(vertex).map_or([0; 2], |n| octahedral(*n)),
+            tangent,
+            uv: mesh.uvs.get(vertex).copied().unwrap_or(Vec2::ZERO),
+            color: mesh.colors.get(vertex).copied().unwrap_or([255; 4]),
+        }
+    }
+}
+
+/// A unit vector folded onto a square (Cigolle et al. 2014), as signed 16-bit unorm.
+fn octahedral(v: Vec3) -> [i16; 2] {
+    let sum = v.abs().element_sum().max(f32::MIN_POSITIVE);
+    let p = Vec2::new(v.x, v.y) / sum;
+    let folded = if v.z >= 0.0 {
+        p
+    } else {
+        (Vec2::ONE - Vec2::new(p.y, p.x).abs()) * Vec2::new(1.0f32.copysign(p.x), 1.0f32.copysign(p.y))
+    };
+    folded.to_array().map(|c| (c.clamp(-1.0, 1.0) * f32::from(i16::MAX)).round() as i16)
+}
+
+impl GeometryBuffers {
+    /// Uploads all meshes.
+    ///
+    /// # Errors
+    /// [`GpuError::TooLarge`].
+    pub fn new(gpu: &Gpu, sources: &[MeshSource<'_>]) -> Result<Self, GpuError> {
+        let vertex_count =
+            |s: &MeshSource<'_>| s.mesh.positions.len() + s.surfaces.map_or(0, |f| f.duplicates.len());
+        let vertices: usize = sources.iter().map(vertex_count).sum();
+        let indices: usize = sources.iter().map(|s| s.mesh.indices.len()).sum();
+        let vertex_usage = wgpu::BufferUsages::VERTEX;
+        let position_buffer = mapped(gpu, "positions", vertices * 12, vertex_usage)?;
+        let surface_buffer = mapped(gpu, "surfaces", vertices * 4, vertex_usage)?;
+        let index_buffer = mapped(gpu, "indices", indices * 4, wgpu::BufferUsages::INDEX)?;
+        let has_attributes = sources.iter().any(|s| {
+            let m = s.mesh;
+            !(m.normals.is_empty() && m.uvs.is_empty() && m.colors.is_empty())
+        });
+        let attribute_buffer = has_attributes
+            .then(|| mapped(gpu, "attributes", vertices * size_of::<Attributes>(), vertex_usage))
+            .transpose()?;
+
+        let mut meshes = Vec::with_capacity(sources.len());
+        let (mut vertex, mut index) = (0, 0);
+        for source in sources {
+            meshes.push(MeshRange { base_vertex: vertex as i32, first_index: index as u32 });
+            let mesh = source.mesh;
+            let duplicated = source.surfaces.map_or(&[][..], |s| &s.duplicates);
+            let own = mesh.positions.len();
+            write(&position_buffer, vertex * 12, bytemuck::cast_slice(&mesh.positions))?;
+            let copies: Vec<Vec3> =
+                duplicated.iter().filter_map(|v| mesh.positions.get(*v as usize).copied()).collect();
+            write(&position_buffer, (vertex + own) * 12, bytemuck::cast_slice(&copies))?;
+            if let Some(surfaces) = source.surfaces {
+                write(&surface_buffer, vertex * 4, bytemuck::cast_slice(&surfaces.surface_of_vertex))?;
+            }
+            if let Some(buffer) = &attribute_buffer {
+                let all: Vec<Attributes> = (0..own)
+                    .chain(duplicated.iter().map(|v| *v as usize))
+                    .map(|v| Attributes::of(mesh, v))
+                    .collect();
+                write(buffer, vertex * size_of::<Attributes>(), bytemuck::cast_slice(&all))?;
+            }
+            let source_indices = source.surfaces.map_or(&mesh.indices, |s| &s.indices);
+            write(&index_buffer, index * 4, bytemuck::cast_slice(source_indices))?;
+            vertex += own + duplicated.len();
+            index += mesh.indices.len();
+        }
+        for buffer in [&position_buffer, &surface_buffer, &index_buffer].into_iter().chain(&attribute_buffer)
+        {
+            buffer.unmap();
+        }
+        Ok(Self {
+            positions: position_buffer,
+            surfaces: surface_buffer,
+            attributes: attribute_buffer,
+            indices: index_buffer,
+            meshes,
+        })
+    }
+}
+
+fn mapped(gpu: &Gpu, label: &str, bytes: usize, usage: wgpu::BufferUsages) -> Result<wgpu::Buffer, GpuError> {
+    let size = (bytes as u64).max(4).next_multiple_of(4);
+    gpu.check_buffer_size(&format!("the model ({label})"), size)?;
+    Ok(gpu.device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some(label),
+        size,
+        usage,
+        mapped_at_creation: true,
+    }))
+}
+
+fn write(buffer: &wgpu::Buffer, offset: usize, bytes: &[u8]) -> Result<(), GpuError> {
+    if bytes.is_empty() {
+        return Ok(());
+    }
+    let range = offset as u64..(offset + bytes.len()) as u64;
+    let mut view = buffer.get_mapped_range_mut(range).map_err(|e| GpuError::Lost(e.to_string()))?;
+    view.copy_from_slice(bytes);
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn octahedral_vectors_come_back_within_a_hundredth_of_a_degree() {
+        for i in 0..1000 {
+            let t = i as f32 * 0.61803;
+            let v = Vec3::new((t * 3.1).sin(), (t * 5.3).cos(), (t * 7.7).sin()).normalize_or(Vec3::Z);
+            let p = Vec2::from_array(octahedral(v).map(|c| f32::from(c) / f32::from(i16::MAX)));
+            let z = 1.0 - p.x.abs() - p.y.abs();
+            let fold = (-z).max(0.0);
+            let back = Vec3::new(p.x - fold.copysign(p.x), p.y - fold.copysign(p.y), z).normalize_or(Vec3::Z);
+            assert!((back - v).length() < 1.5e-4, "{v} {back}");
+        }
+    }
+}

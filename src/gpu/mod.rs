@@ -1,0 +1,21 @@
+//! The device and what every pass needs from it: shaders, pipelines, textures from a pool, uploads, read-back, timers.
+//! Knows no style.
+
+pub mod buffer;
+pub mod device;
+pub mod geometry;
+pub mod material;
+pub mod pool;
+pub mod readback;
+pub mod recorder;
+pub mod shader;
+pub mod timer;
+
+pub use buffer::{ArrayBuffer, UniformBuffer};
+pub use device::{Gpu, GpuError};
+pub use geometry::GeometryBuffers;
+pub use material::MaterialBindings;
+pub use pool::{Target, TargetPool};
+pub use recorder::Recorder;
+pub use shader::{ShaderError, Shaders};
+pub use timer::Timers;

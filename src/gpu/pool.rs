@@ -1,0 +1,90 @@
+//! Render targets by descriptor: a pass asks for what it needs, the pool finds or makes it.
+
+use std::sync::Arc;
+
+use super::{Gpu, GpuError};
+
+/// A texture to draw into and to read from. Clones share it; when the last one is gone, the pool may hand it out
+/// again.
+#[derive(Debug, Clone)]
+pub struct Target(Arc<Inner>);
+
+#[derive(Debug)]
+struct Inner {
+    texture: wgpu::Texture,
+    view: wgpu::TextureView,
+}
+
+impl Target {
+    /// The texture.
+    pub fn texture(&self) -> &wgpu::Texture {
+        &self.0.texture
+    }
+
+    /// Its only view.
+    pub fn view(&self) -> &wgpu::TextureView {
+        &self.0.view
+    }
+
+    /// Its format.
+    pub fn format(&self) -> wgpu::TextureFormat {
+        self.0.texture.format()
+    }
+
+    /// Width and height in pixels.
+    pub fn size(&self) -> [u32; 2] {
+        [self.0.texture.width(), self.0.texture.height()]
+    }
+
+    /// Whether both are the same texture.
+    pub fn is(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.0, &other.0)
+    }
+}
+
+/// All targets of a renderer.
+#[derive(Debug, Default)]
+pub struct TargetPool {
+    targets: Vec<Target>,
+}
+
+impl TargetPool {
+    /// A target of this size and format with undefined contents.
+    ///
+    /// # Errors
+    /// [`GpuError::TooLarge`].
+    pub fn get(
+        &mut self,
+        gpu: &Gpu,
+        label: &str,
+        size: [u32; 2],
+        format: wgpu::TextureFormat,
+    ) -> Result<Target, GpuError> {
+        let free = |t: &&Target| t.size() == size && t.format() == format && Arc::strong_count(&t.0) == 1;
+        if let Some(target) = self.targets.iter().find(free) {
+            return Ok(target.clone());
+        }
+        gpu.check_texture_size("the picture", size)?;
+        let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
+            label: Some(label),
+            size: wgpu::Extent3d { width: size[0], height: size[1], depth_or_array_layers: 1 },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format,
+            usage: wgpu::TextureUsages::RENDER_ATTACHMENT
+                | wgpu::TextureUsages::TEXTURE_BINDING
+                | wgpu::TextureUsages::COPY_SRC,
+            view_formats: &[],
+        });
+        let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
+        let target = Target(Arc::new(Inner { texture, view }));
+        self.targets.push(target.clone());
+        Ok(target)
+    }
+
+    /// Forgets targets that nobody holds and that have another size than `size`.
+    pub fn shrink_to(&mut self, size: [u32; 2]) {
+        self.targets.retain(|t| Arc::strong_count(&t.0) > 1 || t.size() == size);
+    }
+}

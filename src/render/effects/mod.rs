@@ -1,0 +1,3 @@
+//! What an object looks like: one file per effect, named as its style and its shader.
+
+pub mod surface;

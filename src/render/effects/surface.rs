@@ -1,0 +1,73 @@
+//! The surface techniques (blank, plain, unlit, Gooch), shaded from the G-buffer in one full-screen pass: the scene is
+//! traversed once, where the edge-enhancement paper's pipeline traverses it twice.
+
+use encase::ShaderType;
+use glam::Vec3;
+
+use crate::gpu::recorder::Input;
+use crate::gpu::{Recorder, Target};
+use crate::render::RenderError;
+use crate::render::passes::gbuffer::GBuffer;
+use crate::style::{Style, Technique};
+
+/// Twin of `SurfaceStyle` in `shaders/effects/surface.wgsl`.
+#[derive(Debug, Clone, Copy, PartialEq, ShaderType)]
+pub struct SurfaceUniform {
+    cool: Vec3,
+    alpha: f32,
+    warm: Vec3,
+    beta: f32,
+    highlight: f32,
+    shininess: f32,
+    ambient: f32,
+    technique: u32,
+}
+
+impl From<&Style> for SurfaceUniform {
+    fn from(style: &Style) -> Self {
+        let gooch = &style.gooch;
+        Self {
+            cool: gooch.cool.to_linear(),
+            alpha: gooch.alpha.clamp(0.0, 1.0),
+            warm: gooch.warm.to_linear(),
+            beta: gooch.beta.clamp(0.0, 1.0),
+            highlight: gooch.highlight.clamp(0.0, 1.0),
+            shininess: gooch.shininess.clamp(1.0, 256.0),
+            ambient: style.plain.ambient.clamp(0.0, 1.0),
+            technique: match style.technique {
+                Technique::Blank => 0,
+                Technique::Plain => 1,
+                Technique::Unlit => 2,
+                Technique::Gooch => 3,
+            },
+        }
+    }
+}
+
+/// Linear colour times opacity, and opacity: shaded surfaces with their lines, nothing where there is no object.
+///
+/// # Errors
+/// [`RenderError`].
+pub fn surface(
+    rec: &mut Recorder<'_>,
+    gbuffer: &GBuffer,
+    edge_map: &Target,
+    surface_styles: &wgpu::Buffer,
+    edge_styles: &wgpu::Buffer,
+) -> Result<Target, RenderError> {
+    let color = rec.target("color", wgpu::TextureFormat::Rgba16Float)?;
+    rec.fullscreen(
+        "surface",
+        "effects/surface.wgsl",
+        "fs_main",
+        &[
+            Input::Texture(&gbuffer.geometry),
+            Input::Texture(&gbuffer.base_color),
+            Input::Texture(edge_map),
+            Input::Storage(surface_styles),
+            Input::Storage(edge_styles),
+        ],
+        &[&color],
+    )?;
+    Ok(color)
+}

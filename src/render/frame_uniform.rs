@@ -1,0 +1,220 @@
+//! Bind group 0: camera, lights and paper.
+
+use encase::ShaderType;
+use glam::{DMat4, DVec3, Mat4, UVec2, Vec2, Vec3, Vec4};
+
+use crate::geometry::Bounds;
+use crate::scene::{Camera, Light, LightKind, Projection};
+
+/// More lights are left out.
+pub const MAX_LIGHTS: usize = 8;
+
+/// Reference pixels in the height of a picture: lengths of a style are in 1/1080 of it.
+pub const REFERENCE_HEIGHT: f32 = 1080.0;
+
+/// Twin of `Light` in `shaders/common/frame.wgsl`.
+#[derive(Debug, Clone, Copy, PartialEq, ShaderType, Default)]
+pub struct LightUniform {
+    vector: Vec4,
+    color: Vec3,
+}
+
+/// Twin of `Frame` in `shaders/common/frame.wgsl`.
+#[derive(Debug, Clone, Copy, PartialEq, ShaderType)]
+pub struct FrameUniform {
+    clip_from_view: Mat4,
+    size: Vec2,
+    half_extent: Vec2,
+    depth_range: Vec2,
+    orthographic: u32,
+    light_count: u32,
+    background: Vec4,
+    lights: [LightUniform; MAX_LIGHTS],
+}
+
+/// The camera as the passes need it, and what of it the G-buffer depends on.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct View {
+    /// World to view space, in double precision: matrices are combined before they are narrowed.
+    pub view_from_world: DMat4,
+    /// View to clip space; depth is reversed, 1 at the near plane, 0 far away.
+    pub clip_from_view: Mat4,
+    /// Picture in pixels.
+    pub size: UVec2,
+    /// Half the picture at depth 1 (perspective) or anywhere (orthographic), scene units.
+    pub half_extent: Vec2,
+    /// Whether the projection is parallel.
+    pub orthographic: bool,
+}
+
+/// Nearest and farthest depth of a box in view space; `None` when it is empty or wholly behind the eye.
+fn depth_range(bounds: &Bounds, view_from_world: &DMat4) -> Option<(f64, f64)> {
+    let local = bounds.transformed(view_from_world);
+    (!local.is_empty() && local.min.z.is_finite() && local.max.z.is_finite())
+        .then(|| (-local.max.z, -local.min.z))
+}
+
+impl View {
+    /// The view of `camera` on a scene of which `visible` is the box around everything that is drawn.
+    pub fn new(camera: &Camera, visible: &Bounds, size: UVec2) -> Self {
+        let view_from_world = camera.view_from_world();
+        let aspect = f64::from(size.x.max(1)) / f64::from(size.y.max(1));
+        let (near, far) = depth_range(visible, &view_from_world).unwrap_or((0.1, 1.0));
+        let (half_height, clip_from_view, orthographic) = match camera.projection {
+            Projection::Perspective { view_angle } => {
+                let half = (view_angle.clamp(1.0, 170.0).to_radians() * 0.5).tan();
+                // Slightly before the nearest point, but never so close that depth loses its digits.
+                let near = (near * 0.999).max(far.abs().max(1e-30) * 1e-5);
+                let (x, y) = (1.0 / (half * aspect), 1.0 / half);
+                let matrix = DMat4::from_cols_array(&[
+                    x, 0.0, 0.0, 0.0, //
+                    0.0, y, 0.0, 0.0, //
+                    0.0, 0.0, 0.0, -1.0, //
+                    0.0, 0.0, near, 0.0,
+                ]);
+                (half, matrix, false)
+            }
+            Projection::Orthographic { view_height } => {
+                let half = (view_height * 0.5).max(f64::MIN_POSITIVE);
+                let margin = (far - near).max(half) * 1e-3;
+                let (near, far) = (near - margin, far + margin);
+                let (x, y, z) = (1.0 / (half * aspect), 1.0 / half, 1.0 / (far - near));
+                let matrix = DMat4::from_cols_array(&[
+                    x,
+                    0.0,
+                    0.0,
+                    0.0, //
+                    0.0,
+                    y,
+                    0.0,
+                    0.0, //
+                    0.0,
+                    0.0,
+                    z,
+                    0.0, //
+                    0.0,
+                    0.0,
+                    far * z,
+                    1.0,
+                ]);
+                (half, matrix, true)
+            }
+        };
+        Self {
+            view_from_world,
+            clip_from_view: clip_from_view.as_mat4(),
+            size,
+            half_extent: Vec2::new((half_height * aspect) as f32, half_height as f32),
+            orthographic,
+        }
+    }
+
+    /// Linear depth of the nearest and farthest point of the enhanced objects (paper, section 4.1.1), in front of the
+    /// eye; never of width 0.
+    pub fn fitted_depth_range(&self, enhanced: &Bounds) -> Vec2 {
+        let (near, far) = depth_range(enhanced, &self.view_from_world).unwrap_or((0.0, 1.0));
+        let near = if self.orthographic { near } else { near.max(0.0) };
+        let far = far.max(near + near.abs().max(1e-30) * 1e-6);
+        Vec2::new(near as f32, far as f32)
+    }
+
+    /// The point in world space that a pixel of this linear depth shows.
+    pub fn unproject(&self, px: Vec2, depth: f32) -> DVec3 {
+        let ndc = (px / self.size.as_vec2() * 2.0 - 1.0) * Vec2::new(1.0, -1.0);
+        let xy = ndc * self.half_extent * if self.orthographic { 1.0 } else { depth };
+        let pos_view = DVec3::new(f64::from(xy.x), f64::from(xy.y), -f64::from(depth));
+        self.view_from_world.inverse().transform_point3(pos_view)
+    }
+}
+
+impl FrameUniform {
+    /// All that the shaders know of camera, lights and paper. `background`: linear colour and opacity.
+    pub fn new(view: &View, depth_range: Vec2, lights: &[Light], background: Vec4) -> Self {
+        let mut uniforms = [LightUniform::default(); MAX_LIGHTS];
+        for (uniform, light) in uniforms.iter_mut().zip(lights) {
+            *uniform = light_uniform(light, &view.view_from_world);
+        }
+        // Without any light the first one stands for the key that some techniques cannot do without.
+        if lights.is_empty() {
+            uniforms[0].vector = Vec4::new(0.0, 0.0, 1.0, 0.0);
+        }
+        Self {
+            clip_from_view: view.clip_from_view,
+            size: view.size.as_vec2(),
+            half_extent: view.half_extent,
+            depth_range,
+            orthographic: u32::from(view.orthographic),
+            light_count: lights.len().min(MAX_LIGHTS) as u32,
+            background,
+            lights: uniforms,
+        }
+    }
+}
+
+impl FrameUniform {
+    /// The same with the paper left out: what shading depends on.
+    #[must_use]
+    pub fn without_background(&self) -> Self {
+        Self { background: Vec4::ZERO, ..*self }
+    }
+}
+
+fn light_uniform(light: &Light, view_from_world: &DMat4) -> LightUniform {
+    let vector = match light.kind {
+        LightKind::Directional { direction } => {
+            let direction = if light.attached_to_camera {
+                direction
+            } else {
+                view_from_world.transform_vector3(direction)
+            };
+            (-direction).normalize_or(DVec3::Z).extend(0.0)
+        }
+        LightKind::Point { position } => {
+            let position =
+                if light.attached_to_camera { position } else { view_from_world.transform_point3(position) };
+            position.extend(1.0)
+        }
+    };
+    LightUniform {
+        vector: vector.as_vec4(),
+        color: light.color.clamp(Vec3::ZERO, Vec3::ONE) * light.intensity.max(0.0),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_pixel_unprojects_to_the_point_that_projects_there() {
+        let bounds = Bounds { min: DVec3::splat(-1.0), max: DVec3::ONE };
+        let camera = Camera::looking_from(DVec3::new(1.0, 2.0, 3.0), DVec3::Y, &bounds, 1.5);
+        for camera in [camera, camera.with_orthographic(true)] {
+            let view = View::new(&camera, &bounds, UVec2::new(600, 400));
+            let world = DVec3::new(0.3, -0.2, 0.5);
+            let pos_view = view.view_from_world.transform_point3(world);
+            let clip = view.clip_from_view.as_dmat4() * pos_view.extend(1.0);
+            let ndc = clip / clip.w;
+            assert!(ndc.z > 0.0 && ndc.z < 1.0, "{ndc}");
+            let px = (ndc.truncate().truncate() * glam::DVec2::new(0.5, -0.5) + 0.5)
+                * glam::DVec2::new(600.0, 400.0);
+            let back = view.unproject(px.as_vec2(), -pos_view.z as f32);
+            assert!((back - world).length() < 1e-4, "{back}");
+        }
+    }
+
+    #[test]
+    fn nearer_points_have_greater_clip_depth() {
+        let bounds = Bounds { min: DVec3::splat(-1.0), max: DVec3::ONE };
+        let camera = Camera::looking_from(DVec3::Z, DVec3::Y, &bounds, 1.0);
+        for camera in [camera, camera.with_orthographic(true)] {
+            let view = View::new(&camera, &bounds, UVec2::splat(100));
+            let depth = |z: f64| {
+                let clip = view.clip_from_view.as_dmat4()
+                    * view.view_from_world.transform_point3(DVec3::new(0.0, 0.0, z)).extend(1.0);
+                clip.z / clip.w
+            };
+            assert!(depth(1.0) <= 1.0 && depth(1.0) > depth(0.0) && depth(0.0) > depth(-1.0));
+        }
+    }
+}

@@ -1,0 +1,177 @@
+//! Which objects are drawn, how, and what of that each stage depends on.
+
+use std::sync::Arc;
+
+use glam::{DMat4, Mat3, Mat4};
+
+use super::effects::surface::SurfaceUniform;
+use super::frame_uniform::View;
+use super::passes::edge_map::EdgeUniform;
+use super::passes::gbuffer::DrawUniform;
+use crate::document::Document;
+use crate::geometry::{Bounds, Provoking};
+use crate::gpu::geometry::MeshSource;
+use crate::gpu::{GeometryBuffers, Gpu, GpuError, MaterialBindings};
+use crate::scene::{NodeId, Scene};
+
+/// Object ids are kept in 31 bits; the highest one is the enhanced flag.
+pub const ENHANCED: u32 = 0x8000_0000;
+
+/// A scene on the device.
+pub struct GpuScene {
+    /// The scene itself.
+    pub scene: Arc<Scene>,
+    /// Its vertices.
+    pub geometry: GeometryBuffers,
+    /// Its materials.
+    pub materials: MaterialBindings,
+    mesh_bounds: Vec<Bounds>,
+}
+
+impl GpuScene {
+    /// Uploads a scene. `surfaces` has one entry per mesh once they are known; until then all surface ids are 0.
+    ///
+    /// # Errors
+    /// [`GpuError::TooLarge`].
+    pub fn new(
+        gpu: &Gpu,
+        material_layout: &wgpu::BindGroupLayout,
+        scene: &Arc<Scene>,
+        surfaces: &[Provoking],
+    ) -> Result<Self, GpuError> {
+        let sources: Vec<_> = scene
+            .meshes
+            .iter()
+            .enumerate()
+            .map(|(i, mesh)| MeshSource { mesh, surfaces: surfaces.get(i) })
+            .collect();
+        Ok(Self {
+            geometry: GeometryBuffers::new(gpu, &sources)?,
+            materials: MaterialBindings::new(gpu, material_layout, scene)?,
+            mesh_bounds: scene.meshes.iter().map(|m| m.bounds()).collect(),
+            scene: Arc::clone(scene),
+        })
+    }
+
+    fn bounds_of(&self, node: NodeId) -> Bounds {
+        let node = &self.scene.nodes[node];
+        node.mesh
+            .and_then(|m| self.mesh_bounds.get(m))
+            .map_or(Bounds::EMPTY, |b| b.transformed(&node.world_from_local))
+    }
+}
+
+/// One draw call.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DrawCall {
+    /// Index into [`Objects::draws`]; the instance index of the call.
+    pub draw: u32,
+    /// Range of the index buffer.
+    pub first_index: u32,
+    /// Number of indices.
+    pub index_count: u32,
+    /// First vertex of the mesh.
+    pub base_vertex: i32,
+    /// Bind group of the material.
+    pub material_group: usize,
+}
+
+/// The object id that pixels of a node carry; 0 is the background.
+pub fn object_id(node: NodeId) -> u32 {
+    node as u32 + 1
+}
+
+/// The node that an object id (with or without flag) stands for.
+pub fn node_of(object: u32) -> Option<NodeId> {
+    (object & !ENHANCED).checked_sub(1).map(|n| n as usize)
+}
+
+/// Everything that is visible, resolved for one frame.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Objects {
+    visible: Vec<(NodeId, bool)>,
+    /// The box around everything visible, world space.
+    pub visible_bounds: Bounds,
+    /// The box around everything enhanced, world space.
+    pub enhanced_bounds: Bounds,
+    /// Edge parameters by object id.
+    pub edge_styles: Vec<EdgeUniform>,
+    /// Shading parameters by object id.
+    pub surface_styles: Vec<SurfaceUniform>,
+}
+
+impl Default for Bounds {
+    fn default() -> Self {
+        Self::EMPTY
+    }
+}
+
+impl Objects {
+    /// Resolves styles and roles of a document for the nodes of a scene.
+    pub fn new(document: &Document, scene: &GpuScene) -> Self {
+        let resolved = document.resolve(&scene.scene);
+        let mut objects =
+            Self { visible_bounds: Bounds::EMPTY, enhanced_bounds: Bounds::EMPTY, ..Self::default() };
+        // Entry 0 stands for the background.
+        objects.edge_styles.push(EdgeUniform::from(&document.style.edges));
+        objects.surface_styles.push(SurfaceUniform::from(&document.style));
+        for (node, r) in resolved.iter().enumerate() {
+            objects.edge_styles.push(EdgeUniform::from(&r.style.edges));
+            objects.surface_styles.push(SurfaceUniform::from(r.style));
+            if r.visible && scene.scene.nodes[node].mesh.is_some() {
+                let bounds = scene.bounds_of(node);
+                objects.visible.push((node, r.enhanced));
+                objects.visible_bounds = objects.visible_bounds.union(&bounds);
+                if r.enhanced {
+                    objects.enhanced_bounds = objects.enhanced_bounds.union(&bounds);
+                }
+            }
+        }
+        objects
+    }
+
+    /// What the G-buffer depends on: for each visible part its matrices, object and material, ordered by bind group.
+    pub fn draws(&self, scene: &GpuScene, view: &View) -> (Vec<DrawUniform>, Vec<DrawCall>) {
+        let mut draws = Vec::new();
+        let mut calls = Vec::new();
+        for &(id, enhanced) in &self.visible {
+            let node = &scene.scene.nodes[id];
+            let Some((mesh_index, mesh)) = node.mesh.and_then(|m| Some((m, scene.scene.meshes.get(m)?)))
+            else {
+                continue;
+            };
+            let Some(range) = scene.geometry.meshes.get(mesh_index) else { continue };
+            // Combined in double precision, so that models far from the origin do not jitter.
+            let view_from_local = view.view_from_world * node.world_from_local;
+            for part in &mesh.parts {
+                calls.push(DrawCall {
+                    draw: draws.len() as u32,
+                    first_index: range.first_index + part.first_index,
+                    index_count: part.index_count,
+                    base_vertex: range.base_vertex,
+                    material_group: scene.materials.group_index(part.material),
+                });
+                draws.push(DrawUniform {
+                    view_from_local: view_from_local.as_mat4(),
+                    normal_from_local: normal_matrix(&view_from_local),
+                    object: object_id(id) | if enhanced { ENHANCED } else { 0 },
+                    material: scene.materials.index(part.material) as u32,
+                    is_flat: u32::from(mesh.normals.is_empty()),
+                });
+            }
+        }
+        calls.sort_by_key(|c| c.material_group);
+        (draws, calls)
+    }
+}
+
+/// The cofactor matrix of the linear part: the inverse transpose up to a factor, which exists for flattening
+/// transforms too; its sign is that of the determinant, so mirrored normals still point outwards.
+fn normal_matrix(view_from_local: &DMat4) -> Mat3 {
+    let m = view_from_local;
+    let (x, y, z) = (m.x_axis.truncate(), m.y_axis.truncate(), m.z_axis.truncate());
+    let sign = x.dot(y.cross(z)).signum();
+    let cofactors = glam::DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y)) * sign;
+    let scale = cofactors.to_cols_array().iter().fold(0.0f64, |m, c| m.max(c.abs()));
+    if scale > 0.0 { (cofactors * scale.recip()).as_mat3() } else { Mat3::from_mat4(Mat4::IDENTITY) }
+}

@@ -1,0 +1,13 @@
+//! One frame of one scene. Knows no window, no egui and no file.
+
+pub mod effects;
+pub mod frame;
+pub mod frame_uniform;
+pub mod groups;
+pub mod passes;
+mod renderer;
+pub mod stage;
+
+pub use frame::Picture;
+pub use groups::GpuScene;
+pub use renderer::{Pick, RenderError, Renderer, Request};

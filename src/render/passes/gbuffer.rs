@@ -1,0 +1,224 @@
+//! The G-buffer: one traversal of the scene (edge-enhancement paper, section 4.1.1).
+
+use encase::ShaderType;
+use glam::{Mat3, Mat4};
+
+use crate::gpu::geometry::Attributes;
+use crate::gpu::recorder::{Pipelines, color_attachment};
+use crate::gpu::{ArrayBuffer, Gpu, MaterialBindings, Recorder, Target};
+use crate::render::RenderError;
+use crate::render::groups::{DrawCall, GpuScene};
+
+/// Shading and face normal, linear depth, object id: see `shaders/common/gbuffer.wgsl`.
+const GEOMETRY: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Uint;
+/// Unlit base colour.
+const BASE_COLOR: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
+/// Surface id.
+const SURFACE: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;
+/// Reversed: 1 at the near plane.
+const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
+
+/// Per-pixel geometry of everything visible.
+#[derive(Debug, Clone)]
+pub struct GBuffer {
+    /// Shading and face normal, linear depth, object id with the enhanced flag.
+    pub geometry: Target,
+    /// Unlit base colour.
+    pub base_color: Target,
+    /// Surface id within the object.
+    pub surface: Target,
+    /// Reversed depth.
+    pub depth: Target,
+}
+
+/// One draw; twin of `Draw` in `shaders/passes/gbuffer.wgsl`.
+#[derive(Debug, Clone, Copy, PartialEq, ShaderType)]
+pub struct DrawUniform {
+    /// Local to view space.
+    pub view_from_local: Mat4,
+    /// Inverse transpose of its linear part, up to a positive factor.
+    pub normal_from_local: Mat3,
+    /// Object id with the enhanced flag.
+    pub object: u32,
+    /// Index into the materials.
+    pub material: u32,
+    /// 1: no normals, faces are flat.
+    pub is_flat: u32,
+}
+
+/// The pipelines of the pass; the lean one reads positions only.
+pub struct GBufferPass {
+    lean: Option<wgpu::RenderPipeline>,
+    full: Option<wgpu::RenderPipeline>,
+    generation: u64,
+    pass_layout: wgpu::BindGroupLayout,
+    /// Layout of bind group 2.
+    pub material_layout: wgpu::BindGroupLayout,
+    draws: ArrayBuffer,
+}
+
+impl GBufferPass {
+    /// Compiles nothing yet.
+    pub fn new(gpu: &Gpu) -> Self {
+        let storage = |binding, visibility| wgpu::BindGroupLayoutEntry {
+            binding,
+            visibility,
+            ty: wgpu::BindingType::Buffer {
+                ty: wgpu::BufferBindingType::Storage { read_only: true },
+                has_dynamic_offset: false,
+                min_binding_size: None,
+            },
+            count: None,
+        };
+        let pass_layout = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some("g-buffer"),
+            entries: &[
+                storage(0, wgpu::ShaderStages::VERTEX_FRAGMENT),
+                storage(1, wgpu::ShaderStages::FRAGMENT),
+            ],
+        });
+        Self {
+            lean: None,
+            full: None,
+            generation: 0,
+            pass_layout,
+            material_layout: MaterialBindings::layout(gpu),
+            draws: ArrayBuffer::new(gpu, "draws"),
+        }
+    }
+
+    fn pipeline(
+        &mut self,
+        gpu: &Gpu,
+        pipelines: &mut Pipelines,
+        lean: bool,
+    ) -> Result<wgpu::RenderPipeline, RenderError> {
+        if self.generation != pipelines.generation() {
+            (self.lean, self.full) = (None, None);
+            self.generation = pipelines.generation();
+        }
+        let slot = if lean { &mut self.lean } else { &mut self.full };
+        if let Some(pipeline) = slot {
+            return Ok(pipeline.clone());
+        }
+        let module = pipelines.module(gpu, "passes/gbuffer.wgsl")?;
+        let layouts = [pipelines.frame_layout(), &self.pass_layout, &self.material_layout];
+        let pipeline = build(gpu, &module, &layouts, lean);
+        Ok(slot.insert(pipeline).clone())
+    }
+
+    /// Draws the given parts of a scene.
+    ///
+    /// # Errors
+    /// [`RenderError`].
+    pub fn run(
+        &mut self,
+        rec: &mut Recorder<'_>,
+        scene: &GpuScene,
+        draws: &Vec<DrawUniform>,
+        calls: &[DrawCall],
+    ) -> Result<GBuffer, RenderError> {
+        let gbuffer = GBuffer {
+            geometry: rec.target("geometry", GEOMETRY)?,
+            base_color: rec.target("base color", BASE_COLOR)?,
+            surface: rec.target("surface", SURFACE)?,
+            depth: rec.target("depth", DEPTH)?,
+        };
+        let gpu = rec.gpu;
+        let pipeline = self.pipeline(gpu, rec.pipelines, scene.geometry.attributes.is_none())?;
+        if !draws.is_empty() {
+            self.draws.write(gpu, draws);
+        }
+        let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("g-buffer"),
+            layout: &self.pass_layout,
+            entries: &[
+                wgpu::BindGroupEntry { binding: 0, resource: self.draws.buffer().as_entire_binding() },
+                wgpu::BindGroupEntry {
+                    binding: 1,
+                    resource: scene.materials.buffer.buffer().as_entire_binding(),
+                },
+            ],
+        });
+        let clear = || wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT);
+        let color = [&gbuffer.geometry, &gbuffer.base_color, &gbuffer.surface]
+            .map(|target| Some(color_attachment(target, clear())));
+        let depth = wgpu::RenderPassDepthStencilAttachment {
+            view: gbuffer.depth.view(),
+            depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Store }),
+            stencil_ops: None,
+        };
+        let mut pass = rec.pass("g-buffer", &color, Some(depth));
+        pass.set_pipeline(&pipeline);
+        pass.set_bind_group(1, &group, &[]);
+        pass.set_vertex_buffer(0, scene.geometry.positions.slice(..));
+        pass.set_vertex_buffer(1, scene.geometry.surfaces.slice(..));
+        if let Some(attributes) = &scene.geometry.attributes {
+            pass.set_vertex_buffer(2, attributes.slice(..));
+        }
+        pass.set_index_buffer(scene.geometry.indices.slice(..), wgpu::IndexFormat::Uint32);
+        let mut bound = None;
+        for call in calls {
+            if bound != Some(call.material_group) {
+                pass.set_bind_group(2, scene.materials.group(call.material_group), &[]);
+                bound = Some(call.material_group);
+            }
+            let indices = call.first_index..call.first_index + call.index_count;
+            pass.draw_indexed(indices, call.base_vertex, call.draw..call.draw + 1);
+        }
+        drop(pass);
+        Ok(gbuffer)
+    }
+}
+
+fn build(
+    gpu: &Gpu,
+    module: &wgpu::ShaderModule,
+    layouts: &[&wgpu::BindGroupLayout; 3],
+    lean: bool,
+) -> wgpu::RenderPipeline {
+    let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        label: Some("g-buffer"),
+        bind_group_layouts: &layouts.map(Some),
+        immediate_size: 0,
+    });
+    let position = wgpu::VertexBufferLayout {
+        array_stride: 12,
+        step_mode: wgpu::VertexStepMode::Vertex,
+        attributes: &wgpu::vertex_attr_array![0 => Float32x3],
+    };
+    let surface = wgpu::VertexBufferLayout {
+        array_stride: 4,
+        step_mode: wgpu::VertexStepMode::Vertex,
+        attributes: &wgpu::vertex_attr_array![1 => Uint32],
+    };
+    let buffers = [Some(position), Some(surface), Some(Attributes::LAYOUT)];
+    gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some("g-buffer"),
+        layout: Some(&layout),
+        vertex: wgpu::VertexState {
+            module,
+            entry_point: Some(if lean { "vs_lean" } else { "vs_full" }),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            buffers: if lean { &buffers[..2] } else { &buffers },
+        },
+        // Both sides are drawn: files with flipped or mixed winding are common.
+        primitive: wgpu::PrimitiveState::default(),
+        depth_stencil: Some(wgpu::DepthStencilState {
+            format: DEPTH,
+            depth_write_enabled: Some(true),
+            depth_compare: Some(wgpu::CompareFunction::Greater),
+            stencil: wgpu::StencilState::default(),
+            bias: wgpu::DepthBiasState::default(),
+        }),
+        multisample: wgpu::MultisampleState::default(),
+        fragment: Some(wgpu::FragmentState {
+            module,
+            entry_point: Some(if lean { "fs_lean" } else { "fs_full" }),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            targets: &[Some(GEOMETRY.into()), Some(BASE_COLOR.into()), Some(SURFACE.into())],
+        }),
+        multiview_mask: None,
+        cache: None,
+    })
+}

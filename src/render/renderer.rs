@@ -1,0 +1,226 @@
+//! The renderer: what the window and the command line call.
+
+use std::sync::Arc;
+
+use glam::{DVec3, UVec2, Vec2};
+
+use super::frame::{FrameInputs, FrameState, Picture};
+use super::frame_uniform::{FrameUniform, View};
+use super::groups::{GpuScene, Objects, node_of};
+use crate::document::Document;
+use crate::geometry::Provoking;
+use crate::gpu::readback::Readback;
+use crate::gpu::recorder::Pipelines;
+use crate::gpu::{Gpu, GpuError, Recorder, ShaderError, Shaders, TargetPool, Timers, UniformBuffer};
+use crate::scene::{Camera, NodeId, Scene};
+
+/// Why there is no picture.
+#[derive(Debug, thiserror::Error)]
+pub enum RenderError {
+    /// The device cannot do it.
+    #[error(transparent)]
+    Gpu(#[from] GpuError),
+    /// A shader is missing.
+    #[error(transparent)]
+    Shader(#[from] ShaderError),
+}
+
+/// What to draw.
+#[derive(Clone, Copy)]
+pub struct Request<'a> {
+    /// Styles, camera, lights and view.
+    pub document: &'a Document,
+    /// The camera; the document's own, or one that frames everything.
+    pub camera: &'a Camera,
+    /// Size of the picture in pixels.
+    pub size: [u32; 2],
+    /// Leave the paper out: the background becomes transparent.
+    pub transparent: bool,
+    /// Nodes to outline.
+    pub selected: &'a [NodeId],
+}
+
+/// What lies under a pixel.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pick {
+    /// The object; `None`: background.
+    pub node: Option<NodeId>,
+    /// The point hit, world space; `None`: background.
+    pub point: Option<DVec3>,
+}
+
+struct PendingPick {
+    readback: Readback,
+    view: View,
+    px: Vec2,
+}
+
+/// Draws documents.
+pub struct Renderer {
+    gpu: Gpu,
+    pipelines: Pipelines,
+    pool: TargetPool,
+    timers: Option<Timers>,
+    uniform: UniformBuffer<FrameUniform>,
+    frame_group: wgpu::BindGroup,
+    state: FrameState,
+    scene: Option<GpuScene>,
+    scene_revision: u64,
+    last: Option<(Picture, View)>,
+    pick: Option<PendingPick>,
+    shader_error: Option<ShaderError>,
+}
+
+impl Renderer {
+    /// A renderer without a scene; nothing is compiled before the first frame.
+    pub fn new(gpu: Gpu) -> Self {
+        let (pipelines, shader_error) = Pipelines::new(&gpu, Shaders::from_environment());
+        let uniform = UniformBuffer::new(&gpu, "frame");
+        let frame_group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("frame"),
+            layout: pipelines.frame_layout(),
+            entries: &[wgpu::BindGroupEntry { binding: 0, resource: uniform.buffer().as_entire_binding() }],
+        });
+        Self {
+            state: FrameState::new(&gpu),
+            gpu,
+            pipelines,
+            pool: TargetPool::default(),
+            timers: None,
+            uniform,
+            frame_group,
+            scene: None,
+            scene_revision: 0,
+            last: None,
+            pick: None,
+            shader_error,
+        }
+    }
+
+    /// The device it draws with.
+    pub fn gpu(&self) -> &Gpu {
+        &self.gpu
+    }
+
+    /// Uploads a scene in place of the last one. `surfaces`: one entry per mesh once topology is known, else empty.
+    ///
+    /// # Errors
+    /// [`GpuError::TooLarge`]; the last scene then stays.
+    pub fn set_scene(&mut self, scene: &Arc<Scene>, surfaces: &[Provoking]) -> Result<(), RenderError> {
+        self.scene = Some(GpuScene::new(&self.gpu, self.state.material_layout(), scene, surfaces)?);
+        self.scene_revision += 1;
+        Ok(())
+    }
+
+    /// Measures each pass from now on, if the device can; ask [`Self::timings`] after each frame.
+    pub fn enable_timers(&mut self) {
+        self.timers = Timers::new(&self.gpu);
+    }
+
+    /// Milliseconds of each pass of the last frame, in order; empty without timers. Waits for the frame.
+    ///
+    /// # Errors
+    /// [`GpuError::Lost`].
+    pub fn timings(&mut self) -> Result<Vec<(&'static str, f64)>, RenderError> {
+        Ok(match &mut self.timers {
+            Some(timers) => timers.take(&self.gpu)?,
+            None => Vec::new(),
+        })
+    }
+
+    /// Draws. Without a scene, or with nothing visible, that is empty paper.
+    ///
+    /// # Errors
+    /// [`RenderError`].
+    pub fn render(&mut self, request: &Request<'_>) -> Result<Picture, RenderError> {
+        if self.scene.is_none() {
+            self.set_scene(&Arc::new(Scene::default()), &[])?;
+        }
+        let Some(scene) = &self.scene else {
+            return Err(GpuError::Lost("no scene".to_owned()).into());
+        };
+        let size = request.size.map(|s| s.max(1));
+        let objects = Objects::new(request.document, scene);
+        let view = View::new(request.camera, &objects.visible_bounds, UVec2::from_array(size));
+        let depth_range = view.fitted_depth_range(&objects.enhanced_bounds);
+        let paper = request.document.view.background.to_linear();
+        let background = paper.extend(if request.transparent { 0.0 } else { 1.0 });
+        let uniform = FrameUniform::new(&view, depth_range, &request.document.lights, background);
+        self.uniform.write(&self.gpu, &uniform);
+
+        let timers = self.timers.as_mut();
+        let mut recorder =
+            Recorder::new(&self.gpu, &mut self.pipelines, &mut self.pool, timers, &self.frame_group, size);
+        let inputs = FrameInputs {
+            scene,
+            scene_revision: self.scene_revision,
+            document: request.document,
+            objects: &objects,
+            view: &view,
+            depth_range,
+            uniform: &uniform,
+            background,
+            selected: request.selected,
+        };
+        // The old picture's textures may be drawn into again.
+        self.last = None;
+        let picture = self.state.record(&mut recorder, &inputs)?;
+        recorder.submit();
+        self.pool.shrink_to(size);
+        self.last = Some((picture.clone(), view));
+        Ok(picture)
+    }
+
+    /// How often each stage has run so far.
+    pub fn runs(&self) -> [(&'static str, u64); 4] {
+        self.state.runs()
+    }
+
+    /// Asks what lies under a pixel of the last picture; the answer comes through [`Self::poll_pick`].
+    ///
+    /// # Errors
+    /// [`RenderError`].
+    pub fn start_pick(&mut self, px: [u32; 2]) -> Result<(), RenderError> {
+        let Some((picture, view)) = &self.last else { return Ok(()) };
+        let [w, h] = picture.gbuffer.geometry.size();
+        let px = [px[0].min(w - 1), px[1].min(h - 1)];
+        let readback = Readback::start(&self.gpu, &picture.gbuffer.geometry, px, [1, 1])?;
+        let px = Vec2::new(px[0] as f32 + 0.5, px[1] as f32 + 0.5);
+        self.pick = Some(PendingPick { readback, view: *view, px });
+        Ok(())
+    }
+
+    /// The answer to the last [`Self::start_pick`], once, as soon as it is there. Never waits.
+    pub fn poll_pick(&mut self) -> Option<Pick> {
+        let pending = self.pick.as_ref()?;
+        let texel: Vec<u32> = bytemuck::pod_collect_to_vec(&pending.readback.poll(&self.gpu)?);
+        let (depth, object) = (f32::from_bits(*texel.get(2)?), *texel.get(3)?);
+        let node = node_of(object);
+        let point = node.map(|_| pending.view.unproject(pending.px, depth));
+        self.pick = None;
+        Some(Pick { node, point })
+    }
+
+    /// Whether an answer is still on its way.
+    pub fn is_picking(&self) -> bool {
+        self.pick.is_some()
+    }
+
+    /// Whether shaders come from a folder and can be reloaded.
+    pub fn can_reload_shaders(&self) -> bool {
+        Shaders::from_environment().can_change()
+    }
+
+    /// Reads changed shaders again; when one is wrong, everything stays as it was.
+    ///
+    /// # Errors
+    /// The mistake, with file and line.
+    pub fn reload_shaders(&mut self) -> Result<(), ShaderError> {
+        self.pipelines.reload()
+    }
+
+    /// The mistake that was found in the shaders at the start, once.
+    pub fn take_shader_error(&mut self) -> Option<ShaderError> {
+        self.shader_error.take()
+    }
+}
