@@ -20,7 +20,9 @@ mod plate;
 mod remesh;
 mod rod;
 mod sdf;
+mod sets;
 mod solid;
+mod unwrap;
 
 /// Writes each model, or only those named on the command line, and reports their sizes.
 fn main() {

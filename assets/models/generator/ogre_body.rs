@@ -1,9 +1,12 @@
 //! The ogre's body and its pose: standing, the left hand raised, the right one on a club. Facing +Z, feet at `y = 0`.
 
-use glam::{DMat3, DQuat, DVec3, dvec3};
+use std::sync::LazyLock;
+
+use glam::{DMat3, DVec3, dvec3};
 
 use crate::ogre_head;
-use crate::sdf::{carve, cone, ellipsoid, join, limb, meet, sphere, turned_ellipsoid};
+use crate::unwrap::Chart;
+use crate::sdf::{carve, cone, ellipsoid, join, join_near, limb, meet, sphere, turned_ellipsoid};
 
 /// The middle of the head.
 const HEAD: DVec3 = dvec3(0.01, 1.585, 0.16);
@@ -12,9 +15,17 @@ const HEAD_SCALE: f64 = 1.12;
 
 /// A point in the head's own space.
 pub(crate) fn head_from_world(p: DVec3) -> DVec3 {
-    let turn = DQuat::from_rotation_y(0.34) * DQuat::from_rotation_z(-0.07);
-    turn.inverse() * (p - HEAD) / HEAD_SCALE
+    HEAD_TURN.transpose() * (p - HEAD) / HEAD_SCALE
 }
+
+/// The other way round.
+pub(crate) fn world_from_head(p: DVec3) -> DVec3 {
+    *HEAD_TURN * p * HEAD_SCALE + HEAD
+}
+
+/// The head's axes: turned to its left, leaning a little.
+static HEAD_TURN: LazyLock<DMat3> =
+    LazyLock::new(|| DMat3::from_rotation_y(0.34) * DMat3::from_rotation_z(-0.07));
 
 /// A distance measured in the head's space, in the world's.
 pub(crate) fn in_head(p: DVec3, f: impl Fn(DVec3) -> f64) -> f64 {
@@ -22,7 +33,7 @@ pub(crate) fn in_head(p: DVec3, f: impl Fn(DVec3) -> f64) -> f64 {
 }
 
 /// The raised hand's wrist, the direction of its fingers and of its palm.
-const LEFT_WRIST: DVec3 = dvec3(0.93, 1.5, 0.2);
+const LEFT_WRIST: DVec3 = dvec3(0.99, 1.5, 0.16);
 /// Where the club leaves the fist upwards.
 pub(crate) const CLUB_TOP: DVec3 = dvec3(-0.72, 0.93, 0.28);
 /// Where it stands on the ground.
@@ -34,7 +45,7 @@ const GRIP: DVec3 = dvec3(-0.777, 0.763, 0.3195);
 type Digit = ([(DVec3, f64); 3], DVec3);
 
 /// The fingers and the thumb of the raised hand.
-fn open_digits() -> [Digit; 4] {
+static OPEN: LazyLock<[Digit; 4]> = LazyLock::new(|| {
     let (up, palm, side) = open_axes();
     let finger = |off: f64, length: f64| {
         let root = LEFT_WRIST + up * 0.19 + side * off * 0.85;
@@ -49,7 +60,7 @@ fn open_digits() -> [Digit; 4] {
     let tip = middle - side * 0.03 + up * 0.085 + palm * 0.02;
     let thumb = ([(root, 0.056), (middle, 0.05), (tip, 0.043)], (up - palm).normalize());
     [finger(-0.1, 0.105), finger(0.0, 0.12), finger(0.1, 0.1), thumb]
-}
+});
 
 /// The raised hand's axes: along the fingers, out of the palm, away from the thumb.
 fn open_axes() -> (DVec3, DVec3, DVec3) {
@@ -68,7 +79,7 @@ fn fist_axes() -> (DVec3, DVec3, DVec3) {
 }
 
 /// The fingers and the thumb around the club.
-fn fist_digits() -> [Digit; 4] {
+static FIST: LazyLock<[Digit; 4]> = LazyLock::new(|| {
     let (up, out, across) = fist_axes();
     let on = |angle: f64, height: f64, radius: f64| {
         let angle = angle.to_radians();
@@ -80,7 +91,7 @@ fn fist_digits() -> [Digit; 4] {
     };
     let thumb = [(on(-40.0, 0.02, 0.11), 0.054), (on(-85.0, 0.085, 0.11), 0.049), (on(-150.0, 0.12, 0.1), 0.042)];
     [finger(-0.098), finger(0.0), finger(0.095), (thumb, (on(-115.0, 0.02, 1.0) - GRIP).normalize())]
-}
+});
 
 /// The arm that leans on the club: shoulder, elbow, wrist.
 const RIGHT_ARM: [(DVec3, f64); 3] = [
@@ -92,7 +103,7 @@ const RIGHT_ARM: [(DVec3, f64); 3] = [
 /// The raised arm.
 const LEFT_ARM: [(DVec3, f64); 3] = [
     (dvec3(0.46, 1.29, -0.02), 0.19),
-    (dvec3(0.82, 1.13, 0.05), 0.125),
+    (dvec3(0.85, 1.13, 0.03), 0.125),
     (LEFT_WRIST, 0.098),
 ];
 
@@ -107,29 +118,38 @@ fn arm(p: DVec3, joints: &[(DVec3, f64); 3]) -> f64 {
     join(d, sphere(p, forearm + dvec3(0.0, 0.0, -0.01), 0.138), 0.1)
 }
 
-/// Both arms with their hands.
-fn arms(p: DVec3) -> f64 {
+/// The left arm with its open hand.
+fn left_arm(p: DVec3) -> f64 {
+    let mut d = arm(p, &LEFT_ARM);
     let (up, palm, side) = open_axes();
+    if p.distance(LEFT_WRIST + up * 0.2) - 0.4 > d + 0.05 {
+        return d;
+    }
     let axes = DMat3::from_cols(side, up, palm);
-    let mut left = arm(p, &LEFT_ARM);
-    left = join(left, turned_ellipsoid(p, LEFT_WRIST + up * 0.11, axes, dvec3(0.125, 0.135, 0.078)), 0.05);
-    for (balls, _) in open_digits() {
-        left = join(left, limb(p, &balls, 0.015), 0.03);
+    let flat = dvec3(0.125, 0.135, 0.078);
+    d = join(d, turned_ellipsoid(p, LEFT_WRIST + up * 0.11, axes, flat), 0.05);
+    OPEN.iter()
+        .fold(d, |d, (balls, _)| join(d, limb(p, balls, 0.015), 0.03))
+}
+
+/// The right arm with its fist.
+fn right_arm(p: DVec3) -> f64 {
+    let mut d = arm(p, &RIGHT_ARM);
+    if p.distance(GRIP) - 0.35 > d + 0.05 {
+        return d;
     }
     let (up, out, _) = fist_axes();
-    let mut right = arm(p, &RIGHT_ARM);
-    right = join(right, cone(p, (GRIP + out * 0.1 - up * 0.05, 0.085), (GRIP + out * 0.1 + up * 0.06, 0.085)), 0.05);
-    for (balls, _) in fist_digits() {
-        right = join(right, limb(p, &balls, 0.02), 0.025);
-    }
-    left.min(right)
+    let heel = (GRIP + out * 0.1 - up * 0.05, 0.085);
+    d = join(d, cone(p, heel, (GRIP + out * 0.1 + up * 0.06, 0.085)), 0.05);
+    FIST.iter()
+        .fold(d, |d, (balls, _)| join(d, limb(p, balls, 0.02), 0.025))
 }
 
 /// Chest, belly, pelvis and neck, without limbs.
 pub(crate) fn trunk(p: DVec3) -> f64 {
     let m = dvec3(p.x.abs(), p.y, p.z);
     let mut d = ellipsoid(p, dvec3(0.0, 1.15, -0.02), dvec3(0.43, 0.33, 0.31));
-    d = join(d, ellipsoid(p, dvec3(0.0, 0.86, 0.1), dvec3(0.43, 0.35, 0.4)), 0.14);
+    d = join(d, ellipsoid(p, dvec3(0.0, 0.855, 0.12), dvec3(0.44, 0.335, 0.41)), 0.12);
     d = join(d, ellipsoid(p, dvec3(0.0, 0.62, -0.01), dvec3(0.37, 0.2, 0.29)), 0.12);
     d = join(d, cone(m, (dvec3(0.0, 1.38, -0.04), 0.2), (dvec3(0.36, 1.31, -0.04), 0.16)), 0.1);
     join(d, cone(p, (dvec3(0.0, 1.33, 0.0), 0.2), (dvec3(0.0, 1.5, 0.06), 0.19)), 0.08)
@@ -147,8 +167,8 @@ fn leg(p: DVec3, side: f64, step: f64) -> f64 {
     let sole = ankle + way * 0.1 - DVec3::Y * 0.055;
     let axes = DMat3::from_cols(across, DVec3::Y, way);
     d = join(d, turned_ellipsoid(p, sole, axes, dvec3(0.145, 0.085, 0.2)), 0.08);
-    for (balls, _) in toes(side, step) {
-        d = join(d, limb(p, &balls, 0.02), 0.03);
+    for (balls, _) in &TOES[if side > 0.0 { 0..3 } else { 3..6 }] {
+        d = join_near(d, 0.03, p, (balls[1].0, 0.17), |p| limb(p, balls, 0.02));
     }
     meet(d, -p.y, 0.06)
 }
@@ -174,52 +194,121 @@ fn toes(side: f64, step: f64) -> [Digit; 3] {
 /// How far the left and the right foot stand forwards.
 const STEPS: [f64; 2] = [0.07, -0.05];
 
+/// The toes of the left, then of the right foot.
+static TOES: LazyLock<Vec<Digit>> =
+    LazyLock::new(|| [toes(1.0, STEPS[0]), toes(-1.0, STEPS[1])].concat());
+
 /// The legs.
 fn legs(p: DVec3) -> f64 {
-    leg(p, 1.0, STEPS[0]).min(leg(p, -1.0, STEPS[1]))
-}
-
-/// Trunk and legs: what clothes lie on.
-pub(crate) fn clothed(p: DVec3) -> f64 {
-    join(trunk(p), legs(p), 0.07)
+    join(leg(p, 1.0, STEPS[0]), leg(p, -1.0, STEPS[1]), 0.05)
 }
 
 /// All of the ogre's skin.
 pub(crate) fn skin(p: DVec3) -> f64 {
     let m = dvec3(p.x.abs(), p.y, p.z);
     let mut d = trunk(p);
-    d = join(d, ellipsoid(m, dvec3(0.19, 1.2, 0.19), dvec3(0.2, 0.13, 0.12)), 0.06);
-    d = carve(d, ellipsoid(p, dvec3(0.0, 0.86, 0.52), dvec3(0.03, 0.04, 0.06)), 0.04);
+    // Breast, shoulder blades, spine, navel.
+    d = join(d, ellipsoid(m, dvec3(0.185, 1.185, 0.185), dvec3(0.19, 0.125, 0.145)), 0.045);
+    d = join(d, ellipsoid(m, dvec3(0.2, 1.2, -0.25), dvec3(0.13, 0.16, 0.085)), 0.08);
+    d = carve(d, cone(p, (dvec3(0.0, 1.38, -0.3), 0.03), (dvec3(0.0, 0.75, -0.335), 0.03)), 0.09);
+    d = carve(d, ellipsoid(p, dvec3(0.0, 0.86, 0.545), dvec3(0.032, 0.042, 0.06)), 0.04);
     d = join(d, legs(p), 0.07);
-    d = join(d, arms(p), 0.08);
-    join(d, in_head(p, ogre_head::skin), 0.06)
+    d = join_near(d, 0.08, p, (dvec3(0.8, 1.4, 0.1), 0.78), left_arm);
+    d = join_near(d, 0.08, p, (dvec3(-0.7, 1.03, 0.08), 0.65), right_arm);
+    join_near(d, 0.06, p, (HEAD, 0.65), |p| in_head(p, ogre_head::skin))
 }
 
 /// Finger and toe nails.
 pub(crate) fn nails(p: DVec3) -> f64 {
-    let digits = open_digits()
-        .into_iter()
-        .chain(fist_digits())
-        .chain(toes(1.0, STEPS[0]))
-        .chain(toes(-1.0, STEPS[1]));
+    let digits = OPEN.iter().chain(&*FIST).chain(&*TOES);
     digits
-        .map(|([_, (middle, _), (tip, r)], out)| {
+        .map(|&([_, (middle, _), (tip, r)], out)| {
+            if p.distance(tip) > 5.0 * r {
+                return p.distance(tip) - 2.0 * r;
+            }
             let along = (tip - middle).normalize();
             let out = (out - along * along.dot(out) * 0.6).normalize();
             let across = along.cross(out).normalize();
             let axes = DMat3::from_cols(across, out.cross(across), out);
-            turned_ellipsoid(p, tip + out * r * 0.8, axes, dvec3(0.62, 0.78, 0.36) * r)
+            let bed = turned_ellipsoid(p, tip + out * r * 0.72, axes, dvec3(0.66, 0.75, 0.42) * r);
+            let claw = cone(
+                p,
+                (tip + (along * 0.45 + out * 0.75) * r, 0.42 * r),
+                (tip + (along * 1.65 + out * 0.45) * r, 0.15 * r),
+            );
+            join(bed, claw, 0.4 * r)
         })
         .fold(f64::INFINITY, f64::min)
 }
 
-/// Where small triangles are worth having: centre, radius, edge length relative to the rest.
-pub(crate) fn details() -> [(DVec3, f64, f64); 5] {
-    [
-        (HEAD + dvec3(0.07, -0.03, 0.17), 0.3, 0.46),
-        (LEFT_WRIST + dvec3(0.03, 0.2, 0.04), 0.22, 0.6),
-        (GRIP, 0.2, 0.6),
-        (dvec3(0.38, 0.05, 0.28), 0.2, 0.7),
-        (dvec3(-0.38, 0.05, 0.16), 0.2, 0.7),
-    ]
+/// Both forearms without elbow and hand: distance, place along it (0 = elbow, 1 = wrist), length.
+pub(crate) fn forearms(p: DVec3) -> [(f64, f64, f64); 2] {
+    [&LEFT_ARM, &RIGHT_ARM].map(|joints| {
+        let [_, elbow, wrist] = *joints;
+        let axis = wrist.0 - elbow.0;
+        let muscle = sphere(p, elbow.0.lerp(wrist.0, 0.35) - DVec3::Z * 0.01, 0.138);
+        let distance = join(cone(p, elbow, wrist), muscle, 0.1);
+        let along = (p - elbow.0).dot(axis) / axis.length_squared();
+        (distance, along, axis.length())
+    })
+}
+
+/// What the skin is unrolled from.
+pub(crate) fn skin_charts() -> Vec<Chart> {
+    let mut charts = vec![
+        Chart::new(dvec3(0.0, 0.68, 0.03), dvec3(0.0, 1.15, 0.0), 0.4),
+        Chart::new(
+            world_from_head(dvec3(0.0, -0.1, 0.02)),
+            world_from_head(dvec3(0.0, 0.06, -0.01)),
+            0.27,
+        ),
+    ];
+    for side in [-1.0, 1.0] {
+        let ear = |reach: f64| world_from_head(ogre_head::ear_point(side, reach));
+        charts.push(Chart::new(ear(0.1), ear(0.3), 0.06));
+    }
+    for [shoulder, elbow, wrist] in [LEFT_ARM, RIGHT_ARM] {
+        charts.push(Chart::new(shoulder.0, elbow.0, 0.15));
+        charts.push(Chart::new(elbow.0, wrist.0, 0.12));
+    }
+    let (up, _, _) = open_axes();
+    charts.push(Chart::new(LEFT_WRIST + up * 0.08, LEFT_WRIST + up * 0.16, 0.09));
+    let (up, out, _) = fist_axes();
+    let heel = GRIP + out * 0.1;
+    charts.push(Chart::new(heel - up * 0.05, heel + up * 0.05, 0.085).seam(-out));
+    for (balls, _) in OPEN.iter().chain(&*FIST) {
+        charts.push(Chart::new(balls[0].0, balls[1].0, 0.048));
+        charts.push(Chart::new(balls[1].0, balls[2].0, 0.045));
+    }
+    for (side, step) in [(1.0, STEPS[0]), (-1.0, STEPS[1])] {
+        let knee = dvec3(side * 0.28, 0.42, 0.04 + step);
+        let ankle = dvec3(side * 0.3, 0.17, step);
+        charts.push(Chart::new(knee, ankle, 0.16));
+        let (way, _) = foot_axes(side);
+        let heel = ankle - DVec3::Y * 0.09;
+        charts.push(Chart::new(heel, heel + way * 0.17, 0.1).seam(DVec3::NEG_Y));
+    }
+    for (balls, _) in &*TOES {
+        charts.push(Chart::new(balls[0].0, balls[2].0, 0.06).seam(DVec3::NEG_Y));
+    }
+    charts
+}
+
+/// What the nails are unrolled from.
+pub(crate) fn nail_charts() -> Vec<Chart> {
+    let digits = OPEN.iter().chain(&*FIST).chain(&*TOES);
+    digits
+        .map(|([_, middle, (tip, r)], out)| {
+            let along = (*tip - middle.0).normalize();
+            let from = *tip + *out * *r * 0.6;
+            Chart::new(from, from + along * *r * 1.4, *r * 0.4).seam(-*out)
+        })
+        .collect()
+}
+
+/// What the bracers are unrolled from.
+pub(crate) fn bracer_charts() -> Vec<Chart> {
+    [LEFT_ARM, RIGHT_ARM]
+        .map(|[_, elbow, wrist]| Chart::new(elbow.0, wrist.0, 0.14))
+        .to_vec()
 }

@@ -61,6 +61,21 @@ pub(crate) fn join(a: f64, b: f64, k: f64) -> f64 {
     a.min(b) - if h > 0.0 { h * h / (4.0 * k) } else { 0.0 }
 }
 
+/// The union with a body that lies within a ball: not even asked where it cannot matter.
+pub(crate) fn join_near(
+    d: f64,
+    k: f64,
+    p: DVec3,
+    (centre, radius): (DVec3, f64),
+    body: impl Fn(DVec3) -> f64,
+) -> f64 {
+    if p.distance(centre) - radius > d + k {
+        d
+    } else {
+        join(d, body(p), k)
+    }
+}
+
 /// The intersection of two bodies, its edge rounded over `k`.
 pub(crate) fn meet(a: f64, b: f64, k: f64) -> f64 {
     -join(-a, -b, k)
@@ -80,7 +95,7 @@ pub(crate) fn gradient(f: &impl Fn(DVec3) -> f64, p: DVec3) -> DVec3 {
 
 /// The point of the surface nearest to `p`, for a `p` close to it.
 pub(crate) fn project(f: &impl Fn(DVec3) -> f64, mut p: DVec3) -> DVec3 {
-    for _ in 0..3 {
+    for _ in 0..2 {
         let g = gradient(f, p);
         p -= g * (f(p) / g.length_squared().max(0.05)).clamp(-0.02, 0.02);
     }
