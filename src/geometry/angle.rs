@@ -22,16 +22,8 @@ pub fn from_sine_and_cosine(sine: f32, cosine: f32) -> f32 {
     let x2 = x * x;
     let series = COEFFICIENTS.iter().fold(0.0, |sum, c| sum * x2 + c);
     let angle = x + x * x2 * series;
-    let angle = if sine > along {
-        std::f32::consts::FRAC_PI_2 - angle
-    } else {
-        angle
-    };
-    if cosine < 0.0 {
-        std::f32::consts::PI - angle
-    } else {
-        angle
-    }
+    let angle = if sine > along { std::f32::consts::FRAC_PI_2 - angle } else { angle };
+    if cosine < 0.0 { std::f32::consts::PI - angle } else { angle }
 }
 
 #[cfg(test)]

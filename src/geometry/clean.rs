@@ -45,18 +45,10 @@ impl Report {
             triangles(self.not_finite, "with a NaN or infinite coordinate"),
             triangles(self.degenerate, "without area (degenerate)"),
             triangles(self.duplicate, "that repeat another one (duplicate)"),
-            (self.bad_normals > 0).then(|| {
-                format!(
-                    "replaced vertex normals without a direction: {}",
-                    self.bad_normals
-                )
-            }),
-            (self.bad_attributes > 0).then(|| {
-                format!(
-                    "ignored vertex attributes of the wrong length: {}",
-                    self.bad_attributes
-                )
-            }),
+            (self.bad_normals > 0)
+                .then(|| format!("replaced vertex normals without a direction: {}", self.bad_normals)),
+            (self.bad_attributes > 0)
+                .then(|| format!("ignored vertex attributes of the wrong length: {}", self.bad_attributes)),
         ]
         .into_iter()
         .flatten()
@@ -76,10 +68,7 @@ const DUPLICATE: Verdict = 3;
 /// normals are unit vectors, and `parts` cover all indices. A mesh without faults is returned as it is; else vertices
 /// that no triangle uses are dropped too. Empty parts go.
 pub fn clean(mut mesh: Mesh) -> (Mesh, Report) {
-    let mut report = Report {
-        bad_attributes: drop_misfits(&mut mesh),
-        ..Report::default()
-    };
+    let mut report = Report { bad_attributes: drop_misfits(&mut mesh), ..Report::default() };
     let whole = mesh.indices.len() / 3 * 3;
     if whole < mesh.indices.len() {
         mesh.indices.truncate(whole);
@@ -157,10 +146,7 @@ fn judge(positions: &[Vec3], all_finite: bool, [a, b, c]: [u32; 3]) -> Verdict {
         return DEGENERATE;
     }
     // The sum does not depend on the order of the corners.
-    corner_hash(a)
-        .wrapping_add(corner_hash(b))
-        .wrapping_add(corner_hash(c))
-        | STAYS
+    corner_hash(a).wrapping_add(corner_hash(b)).wrapping_add(corner_hash(c)) | STAYS
 }
 
 /// Whether the height of the triangle is less than 1e-9 of its longest side.
@@ -175,10 +161,7 @@ fn is_degenerate(a: Vec3, b: Vec3, c: Vec3) -> bool {
     }
     let [a, b, c] = [a, b, c].map(Vec3::as_dvec3);
     let (u, v) = (b - a, c - a);
-    let longest = u
-        .length_squared()
-        .max(v.length_squared())
-        .max((c - b).length_squared());
+    let longest = u.length_squared().max(v.length_squared()).max((c - b).length_squared());
     u.cross(v).length_squared() <= 1e-18 * longest * longest
 }
 
@@ -194,10 +177,7 @@ fn corner_hash(p: Vec3) -> u64 {
 /// Triangles that have the same corners as an earlier one, in whatever order.
 fn duplicates(mesh: &Mesh, verdicts: &[Verdict]) -> Vec<u32> {
     // Each shard looks at its share of the hashes, in filters that fit into a core's cache.
-    (0..SHARDS)
-        .into_par_iter()
-        .flat_map_iter(|shard| duplicates_in_shard(mesh, verdicts, shard))
-        .collect()
+    (0..SHARDS).into_par_iter().flat_map_iter(|shard| duplicates_in_shard(mesh, verdicts, shard)).collect()
 }
 
 const SHARD_BITS: u32 = 2;
@@ -225,16 +205,13 @@ fn duplicates_in_shard(mesh: &Mesh, verdicts: &[Verdict], shard: u64) -> Vec<u32
         let (word, bit) = place(triangle);
         twice[word] & bit != 0
     });
-    let mut suspects: Vec<(Verdict, u32)> = suspects
-        .into_iter()
-        .map(|triangle| (verdicts[triangle as usize], triangle))
-        .collect();
+    let mut suspects: Vec<(Verdict, u32)> =
+        suspects.into_iter().map(|triangle| (verdicts[triangle as usize], triangle)).collect();
     suspects.sort_unstable();
 
     let corners = |t: u32| {
-        let mut corners = mesh
-            .corners(mesh.triangles()[t as usize])
-            .map(|p| (p + Vec3::ZERO).to_array().map(f32::to_bits));
+        let mut corners =
+            mesh.corners(mesh.triangles()[t as usize]).map(|p| (p + Vec3::ZERO).to_array().map(f32::to_bits));
         corners.sort_unstable();
         corners
     };

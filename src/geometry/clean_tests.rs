@@ -38,34 +38,17 @@ fn every_fault_is_counted_and_dropped() {
         ]
         .as_flattened(),
     );
-    mesh.parts.push(MeshPart {
-        first_index: sound,
-        index_count: 24,
-        material: 1,
-    });
+    mesh.parts.push(MeshPart { first_index: sound, index_count: 24, material: 1 });
     let (after, report) = clean(mesh);
     assert_eq!(
         report,
-        Report {
-            out_of_range: 1,
-            not_finite: 2,
-            degenerate: 3,
-            duplicate: 2,
-            ..Report::default()
-        }
+        Report { out_of_range: 1, not_finite: 2, degenerate: 3, duplicate: 2, ..Report::default() }
     );
     assert_eq!(report.dropped(), 8);
-    assert_eq!(
-        after,
-        cube(2.0),
-        "the second part is empty and gone, unused vertices too"
-    );
+    assert_eq!(after, cube(2.0), "the second part is empty and gone, unused vertices too");
     let messages = report.messages();
     assert_eq!(messages.len(), 4);
-    assert_eq!(
-        messages[0],
-        "left out 1 triangle with a vertex index out of range"
-    );
+    assert_eq!(messages[0], "left out 1 triangle with a vertex index out of range");
     assert!(messages[1].starts_with("left out 2 triangles"));
 }
 
@@ -74,35 +57,13 @@ fn parts_move_up_when_triangles_before_them_go() {
     let mut mesh = cube(2.0);
     mesh.indices[1] = mesh.indices[0];
     mesh.parts = vec![
-        MeshPart {
-            first_index: 0,
-            index_count: 6,
-            material: 4,
-        },
-        MeshPart {
-            first_index: 6,
-            index_count: 30,
-            material: 7,
-        },
+        MeshPart { first_index: 0, index_count: 6, material: 4 },
+        MeshPart { first_index: 6, index_count: 30, material: 7 },
     ];
     let (after, report) = clean(mesh);
     assert_eq!(report.degenerate, 1);
-    assert_eq!(
-        after.parts[0],
-        MeshPart {
-            first_index: 0,
-            index_count: 3,
-            material: 4
-        }
-    );
-    assert_eq!(
-        after.parts[1],
-        MeshPart {
-            first_index: 3,
-            index_count: 30,
-            material: 7
-        }
-    );
+    assert_eq!(after.parts[0], MeshPart { first_index: 0, index_count: 3, material: 4 });
+    assert_eq!(after.parts[1], MeshPart { first_index: 3, index_count: 30, material: 7 });
     assert_eq!(after.indices.len(), 33);
 }
 
@@ -133,12 +94,7 @@ fn normals_without_direction_and_attributes_of_wrong_length_are_repaired() {
     let (after, report) = clean(mesh);
     assert_eq!((report.bad_normals, report.bad_attributes), (1, 1));
     assert!(after.uvs.is_empty());
-    assert!(
-        after
-            .normals
-            .iter()
-            .all(|n| (n.length() - 1.0).abs() < 1e-3)
-    );
+    assert!(after.normals.iter().all(|n| (n.length() - 1.0).abs() < 1e-3));
     assert!(after.normals[8].dot(after.positions[8]) > 0.5);
 }
 
@@ -156,12 +112,7 @@ fn many_duplicates_are_all_found() {
     let mut mesh = sphere(1.0, 40, 60);
     let sound = mesh.clone();
     let copy = mesh.indices.clone();
-    mesh.indices.extend(
-        copy.as_chunks::<3>()
-            .0
-            .iter()
-            .flat_map(|&[a, b, c]| [b, a, c]),
-    );
+    mesh.indices.extend(copy.as_chunks::<3>().0.iter().flat_map(|&[a, b, c]| [b, a, c]));
     mesh.parts[0].index_count *= 2;
     let (after, report) = clean(mesh);
     assert_eq!(report.duplicate, sound.triangle_count());

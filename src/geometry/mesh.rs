@@ -67,11 +67,7 @@ impl Mesh {
     #[must_use]
     pub fn gather(&self, sources: &[u32]) -> Self {
         fn pick<T: Copy>(from: &[T], sources: &[u32]) -> Vec<T> {
-            if from.is_empty() {
-                Vec::new()
-            } else {
-                sources.iter().map(|&v| from[v as usize]).collect()
-            }
+            if from.is_empty() { Vec::new() } else { sources.iter().map(|&v| from[v as usize]).collect() }
         }
         Self {
             positions: pick(&self.positions, sources),

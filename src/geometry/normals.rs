@@ -19,20 +19,13 @@ pub fn face_normal([a, b, c]: [Vec3; 3]) -> Vec3 {
 
 /// The unit normal of every triangle. Indices must be in range.
 pub fn face_normals(mesh: &Mesh) -> Vec<Vec3> {
-    mesh.triangles()
-        .par_iter()
-        .with_min_len(4096)
-        .map(|&t| face_normal(mesh.corners(t)))
-        .collect()
+    mesh.triangles().par_iter().with_min_len(4096).map(|&t| face_normal(mesh.corners(t))).collect()
 }
 
 /// The mesh without vertex normals: every face is flat.
 #[must_use]
 pub fn flat(mesh: Mesh) -> Mesh {
-    Mesh {
-        normals: Vec::new(),
-        ..mesh
-    }
+    Mesh { normals: Vec::new(), ..mesh }
 }
 
 /// The mesh with smooth normals: at each point, the triangles that are connected across edges with a dihedral angle of
@@ -173,9 +166,7 @@ impl Smoother<'_> {
     /// The triangle's normal, weighted by its angle at this corner.
     fn weighted_normal(&self, corner: u32) -> Vec3 {
         let at = self.mesh.positions[self.mesh.indices[corner as usize] as usize];
-        let [next, previous] = self
-            .others(corner)
-            .map(|v| self.mesh.positions[v as usize] - at);
+        let [next, previous] = self.others(corner).map(|v| self.mesh.positions[v as usize] - at);
         // Not the arc cosine, which loses the small angles of a fan.
         let sine = next.cross(previous).length();
         let angle = if sine > 1e-12 && sine < 1e12 {

@@ -8,17 +8,8 @@ use super::{Mesh, MeshPart};
 
 /// A mesh of these positions and triangles, in one part with material 0.
 pub fn from_triangles(positions: Vec<Vec3>, indices: Vec<u32>) -> Mesh {
-    let parts = vec![MeshPart {
-        first_index: 0,
-        index_count: indices.len() as u32,
-        material: 0,
-    }];
-    Mesh {
-        positions,
-        indices,
-        parts,
-        ..Mesh::default()
-    }
+    let parts = vec![MeshPart { first_index: 0, index_count: indices.len() as u32, material: 0 }];
+    Mesh { positions, indices, parts, ..Mesh::default() }
 }
 
 /// A flat-shaded cube with edges of length `size`: 8 shared corners, 12 triangles, no normals.
@@ -28,18 +19,9 @@ pub fn cube(size: f32) -> Mesh {
         let at = |bit: u32| if i >> bit & 1 == 0 { -h } else { h };
         Vec3::new(at(0), at(1), at(2))
     };
-    let quads: [[u32; 4]; 6] = [
-        [0, 4, 6, 2],
-        [1, 3, 7, 5],
-        [0, 1, 5, 4],
-        [2, 6, 7, 3],
-        [0, 2, 3, 1],
-        [4, 5, 7, 6],
-    ];
-    let indices = quads
-        .iter()
-        .flat_map(|&[a, b, c, d]| [a, b, c, a, c, d])
-        .collect();
+    let quads: [[u32; 4]; 6] =
+        [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
+    let indices = quads.iter().flat_map(|&[a, b, c, d]| [a, b, c, a, c, d]).collect();
     from_triangles((0..8).map(corner).collect(), indices)
 }
 
@@ -54,12 +36,7 @@ pub fn cube_split(size: f32) -> Mesh {
         let normal = super::normals::face_normal([corners[0], corners[1], corners[2]]);
         mesh.positions.extend(corners);
         mesh.normals.extend([normal; 4]);
-        mesh.uvs.extend([
-            Vec2::new(0.0, 1.0),
-            Vec2::new(1.0, 1.0),
-            Vec2::new(1.0, 0.0),
-            Vec2::new(0.0, 0.0),
-        ]);
+        mesh.uvs.extend([Vec2::new(0.0, 1.0), Vec2::new(1.0, 1.0), Vec2::new(1.0, 0.0), Vec2::new(0.0, 0.0)]);
         mesh.indices.extend([0, 1, 2, 0, 2, 3].map(|k| base + k));
     }
     mesh.parts[0].index_count = mesh.indices.len() as u32;
@@ -81,10 +58,7 @@ pub fn sphere(radius: f32, rings: u32, segments: u32) -> Mesh {
     });
     // At the poles one half of each quad has no area.
     let triangles = mesh.triangles();
-    let (first_ring, last_ring) = (
-        2 * segments as usize,
-        triangles.len() - 2 * segments as usize,
-    );
+    let (first_ring, last_ring) = (2 * segments as usize, triangles.len() - 2 * segments as usize);
     mesh.indices = triangles
         .iter()
         .enumerate()
@@ -117,10 +91,7 @@ pub fn plane(size: f32) -> Mesh {
     let h = size * 0.5;
     let corner = |u: f32, v: f32| Vec3::new((2.0 * u - 1.0) * h, (1.0 - 2.0 * v) * h, 0.0);
     let uvs = [(0.0, 1.0), (1.0, 1.0), (1.0, 0.0), (0.0, 0.0)];
-    let mut mesh = from_triangles(
-        uvs.iter().map(|&(u, v)| corner(u, v)).collect(),
-        vec![0, 1, 2, 0, 2, 3],
-    );
+    let mut mesh = from_triangles(uvs.iter().map(|&(u, v)| corner(u, v)).collect(), vec![0, 1, 2, 0, 2, 3]);
     mesh.uvs = uvs.iter().map(|&(u, v)| Vec2::new(u, v)).collect();
     mesh
 }
@@ -142,8 +113,7 @@ fn grid(columns: u32, rows: u32, point: impl Fn(f32, f32) -> (Vec3, Vec3)) -> Me
         for column in 0..columns {
             let upper = row * (columns + 1) + column;
             let lower = upper + columns + 1;
-            mesh.indices
-                .extend([upper, lower, lower + 1, upper, lower + 1, upper + 1]);
+            mesh.indices.extend([upper, lower, lower + 1, upper, lower + 1, upper + 1]);
         }
     }
     mesh.parts[0].index_count = mesh.indices.len() as u32;
@@ -179,11 +149,7 @@ mod tests {
                 })
                 .sum();
             assert!(volume > 0.0, "{name} is inside out");
-            for (t, normal) in mesh
-                .triangles()
-                .iter()
-                .zip(crate::geometry::normals::face_normals(&mesh))
-            {
+            for (t, normal) in mesh.triangles().iter().zip(crate::geometry::normals::face_normals(&mesh)) {
                 for &v in t {
                     let smooth = mesh.normals.get(v as usize).copied().unwrap_or(normal);
                     assert!(smooth.dot(normal) > 0.2, "{name}");

@@ -20,8 +20,7 @@ pub struct Surfaces {
 impl Edge {
     /// Whether a surface goes on across this edge: two triangles, and an angle of at most `crease_angle` (radians).
     pub fn is_smooth(&self, crease_angle: f32) -> bool {
-        matches!(self.kind, EdgeKind::Manifold | EdgeKind::Flipped)
-            && self.dihedral.abs() <= crease_angle
+        matches!(self.kind, EdgeKind::Manifold | EdgeKind::Flipped) && self.dihedral.abs() <= crease_angle
     }
 }
 
@@ -73,12 +72,7 @@ impl DisjointSets {
         let (mut a, mut b) = (self.find(a), self.find(b));
         while a != b {
             let (low, high) = (a.min(b), a.max(b));
-            match self.0[high as usize].compare_exchange(
-                high,
-                low,
-                Ordering::Relaxed,
-                Ordering::Relaxed,
-            ) {
+            match self.0[high as usize].compare_exchange(high, low, Ordering::Relaxed, Ordering::Relaxed) {
                 Ok(_) => return,
                 Err(_) => (a, b) = (self.find(low), self.find(high)),
             }
@@ -97,10 +91,7 @@ impl DisjointSets {
                 of_triangle[parent]
             };
         }
-        Surfaces {
-            of_triangle,
-            count: count as usize,
-        }
+        Surfaces { of_triangle, count: count as usize }
     }
 }
 
@@ -127,11 +118,7 @@ pub fn provoking(mesh: &Mesh, surfaces: &Surfaces) -> Provoking {
     let mut owner = vec![FREE; mesh.positions.len()];
     if surfaces.count <= 1 {
         owner.fill(0);
-        return Provoking {
-            indices: mesh.indices.clone(),
-            duplicates: Vec::new(),
-            surface_of_vertex: owner,
-        };
+        return Provoking { indices: mesh.indices.clone(), duplicates: Vec::new(), surface_of_vertex: owner };
     }
 
     // A vertex that only one surface uses is that surface's; only the others are contested.
@@ -154,12 +141,7 @@ pub fn provoking(mesh: &Mesh, surfaces: &Surfaces) -> Provoking {
     let mut indices = mesh.indices.clone();
     let mut duplicates = Vec::new();
     let mut copies: HashMap<(u32, u32), u32> = HashMap::new();
-    for (triangle, &surface) in indices
-        .as_chunks_mut::<3>()
-        .0
-        .iter_mut()
-        .zip(&surfaces.of_triangle)
-    {
+    for (triangle, &surface) in indices.as_chunks_mut::<3>().0.iter_mut().zip(&surfaces.of_triangle) {
         let owned_by = |o: u32| triangle.iter().position(|&v| owner[v as usize] == o);
         let corner = owned_by(surface).or_else(|| owned_by(FREE));
         if let Some(corner) = corner {
@@ -180,11 +162,7 @@ pub fn provoking(mesh: &Mesh, surfaces: &Surfaces) -> Provoking {
             *owner = 0;
         }
     }
-    Provoking {
-        indices,
-        duplicates,
-        surface_of_vertex: owner,
-    }
+    Provoking { indices, duplicates, surface_of_vertex: owner }
 }
 
 #[cfg(test)]

@@ -6,10 +6,7 @@ const DEGREE: f32 = std::f32::consts::PI / 180.0;
 /// Checks the promise of [`provoking`] and returns the number of duplicated vertices.
 fn check(mesh: &Mesh, surfaces: &Surfaces) -> usize {
     let out = provoking(mesh, surfaces);
-    assert_eq!(
-        out.surface_of_vertex.len(),
-        mesh.positions.len() + out.duplicates.len()
-    );
+    assert_eq!(out.surface_of_vertex.len(), mesh.positions.len() + out.duplicates.len());
     let mut extended = mesh.clone();
     extended.append_copies(&out.duplicates);
     extended.indices.clone_from(&out.indices);

@@ -73,15 +73,11 @@ impl Adjacency {
         let (weld, normals) = rayon::join(|| Weld::near(&mesh.positions), || face_normals(mesh));
         let mut half_edges = HalfEdges::new(mesh, &weld);
         let chunks = half_edges.sorted_chunks();
-        let mut edges = vec![
-            Edge {
-                vertices: [0; 2],
-                faces: [NO_FACE; 2],
-                dihedral: 0.0,
-                kind: EdgeKind::Border
-            };
-            chunks.iter().map(|c| c.edge_count).sum()
-        ];
+        let mut edges =
+            vec![
+                Edge { vertices: [0; 2], faces: [NO_FACE; 2], dihedral: 0.0, kind: EdgeKind::Border };
+                chunks.iter().map(|c| c.edge_count).sum()
+            ];
         let mut first_edge = vec![edges.len() as u32; mesh.positions.len() + 1];
 
         // Each chunk fills its own stretch of both arrays.
@@ -96,11 +92,7 @@ impl Adjacency {
             jobs.push((chunk.vertices.clone(), base, own_edges, own_first));
             base += chunk.edge_count as u32;
         }
-        let context = Context {
-            mesh,
-            weld: &weld,
-            normals: &normals,
-        };
+        let context = Context { mesh, weld: &weld, normals: &normals };
         let tallies: Vec<Tally> = jobs
             .into_par_iter()
             .map(|(vertices, base, edges, first)| {
@@ -156,8 +148,8 @@ impl Adjacency {
             return None;
         }
         let (low, high) = (a.min(b), a.max(b));
-        let mut range = *self.first_edge.get(low as usize)? as usize
-            ..*self.first_edge.get(low as usize + 1)? as usize;
+        let mut range =
+            *self.first_edge.get(low as usize)? as usize..*self.first_edge.get(low as usize + 1)? as usize;
         range.find(|&e| {
             let [u, v] = self.edges[e].vertices;
             point(u) == Some(high) || point(v) == Some(high)
@@ -211,12 +203,7 @@ impl Context<'_> {
         let first = half_edges[0] as u32;
         let vertices = [start(first), start(next_in_triangle(first))];
         let Some(&second) = half_edges.get(1) else {
-            return Edge {
-                vertices,
-                faces: [first / 3, NO_FACE],
-                dihedral: 0.0,
-                kind: EdgeKind::Border,
-            };
+            return Edge { vertices, faces: [first / 3, NO_FACE], dihedral: 0.0, kind: EdgeKind::Border };
         };
         let second = second as u32;
         let flipped = runs_up(first) == runs_up(second);
@@ -231,22 +218,13 @@ impl Context<'_> {
         let [a, b] = vertices.map(|v| self.mesh.positions[v as usize]);
         let turn = n0.cross(n1);
         let angle = angle::from_sine_and_cosine(turn.length(), n0.dot(n1));
-        Edge {
-            vertices,
-            faces,
-            dihedral: if turn.dot(b - a) < 0.0 { -angle } else { angle },
-            kind,
-        }
+        Edge { vertices, faces, dihedral: if turn.dot(b - a) < 0.0 { -angle } else { angle }, kind }
     }
 }
 
 /// Half-edge `3 t + k` runs from corner `k` of triangle `t` to the next.
 fn next_in_triangle(half_edge: u32) -> u32 {
-    if half_edge % 3 == 2 {
-        half_edge - 2
-    } else {
-        half_edge + 1
-    }
+    if half_edge % 3 == 2 { half_edge - 2 } else { half_edge + 1 }
 }
 
 /// All half-edges in buckets by their smaller welded end.
@@ -299,11 +277,7 @@ impl HalfEdges {
             }
         }
         offsets.pop();
-        Self {
-            entries,
-            offsets,
-            collapsed,
-        }
+        Self { entries, offsets, collapsed }
     }
 
     fn of(&self, v: usize) -> &[u64] {
@@ -335,15 +309,11 @@ impl HalfEdges {
             .map(|(vertices, begin, entries)| {
                 let mut edge_count = 0;
                 for v in vertices.clone() {
-                    let bucket =
-                        &mut entries[offsets[v] as usize - begin..offsets[v + 1] as usize - begin];
+                    let bucket = &mut entries[offsets[v] as usize - begin..offsets[v + 1] as usize - begin];
                     bucket.sort_unstable();
                     edge_count += bucket.chunk_by(|a, b| a >> 32 == b >> 32).count();
                 }
-                Chunk {
-                    vertices,
-                    edge_count,
-                }
+                Chunk { vertices, edge_count }
             })
             .collect()
     }

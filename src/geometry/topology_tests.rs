@@ -25,11 +25,7 @@ fn a_cube_has_twelve_ridges_and_six_flat_diagonals_however_its_corners_are_store
 #[test]
 fn a_cube_turned_inside_out_has_valleys() {
     let mut mesh = cube(2.0);
-    mesh.indices
-        .as_chunks_mut::<3>()
-        .0
-        .iter_mut()
-        .for_each(|t| t.swap(0, 1));
+    mesh.indices.as_chunks_mut::<3>().0.iter_mut().for_each(|t| t.swap(0, 1));
     assert!((angles(&Adjacency::new(&mesh))[0] + FRAC_PI_2).abs() < 1e-6);
 }
 
@@ -61,10 +57,7 @@ fn a_plane_has_borders() {
     assert_eq!((adjacency.edges.len(), adjacency.border_count), (5, 4));
     assert!(!adjacency.is_closed());
     let border = adjacency.edges[adjacency.edge_between(0, 1).unwrap()];
-    assert_eq!(
-        (border.kind, border.faces),
-        (EdgeKind::Border, [0, NO_FACE])
-    );
+    assert_eq!((border.kind, border.faces), (EdgeKind::Border, [0, NO_FACE]));
     assert_eq!(adjacency.edge_between(1, 3), None);
 }
 

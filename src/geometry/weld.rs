@@ -69,13 +69,7 @@ impl Weld {
                 1
             })
             .sum();
-        Self {
-            representative: representative
-                .into_iter()
-                .map(AtomicU32::into_inner)
-                .collect(),
-            count,
-        }
+        Self { representative: representative.into_iter().map(AtomicU32::into_inner).collect(), count }
     }
 }
 
@@ -85,13 +79,7 @@ mod tests {
 
     #[test]
     fn equal_positions_share_the_first_vertex() {
-        let p = [
-            Vec3::X,
-            Vec3::ZERO,
-            Vec3::X,
-            Vec3::new(-0.0, 0.0, -0.0),
-            Vec3::Y,
-        ];
+        let p = [Vec3::X, Vec3::ZERO, Vec3::X, Vec3::new(-0.0, 0.0, -0.0), Vec3::Y];
         for weld in [Weld::exact(&p), Weld::near(&p)] {
             assert_eq!(weld.representative, [0, 1, 0, 1, 4]);
             assert_eq!(weld.count, 3);
@@ -109,9 +97,6 @@ mod tests {
     fn no_vertices_and_one_point_are_fine() {
         assert_eq!(Weld::near(&[]).count, 0);
         assert_eq!(Weld::near(&[Vec3::ONE; 4]).representative, [0; 4]);
-        assert_eq!(
-            Weld::near(&[Vec3::splat(1e30), Vec3::splat(-1e30)]).count,
-            2
-        );
+        assert_eq!(Weld::near(&[Vec3::splat(1e30), Vec3::splat(-1e30)]).count, 2);
     }
 }
