@@ -8,7 +8,7 @@ use super::command::Command;
 use super::loading::Intent;
 use super::navigation::{STEP, Standard};
 use super::screenshot::{self, Destination};
-use super::viewer::{DialogFor, Viewer};
+use super::viewer::{DialogFor, Open, Viewer};
 use crate::geometry::Bounds;
 use crate::scene::{NodeId, Projection};
 
@@ -22,7 +22,8 @@ impl Viewer {
             Command::SaveAs => any,
             Command::Undo => self.history.can_undo(),
             Command::Redo => self.history.can_redo(),
-            Command::SelectNone | Command::Hide | Command::Isolate | Command::FrameSelected => selected,
+            Command::SelectNone => selected || self.open.help || self.open.warnings,
+            Command::Hide | Command::Isolate | Command::FrameSelected => selected,
             Command::FileCamera => !self.model.scene.cameras.is_empty(),
             Command::ReloadShaders => self.can_reload_shaders,
             Command::Screenshot | Command::TransparentScreenshot | Command::ScreenshotAs => any,
@@ -95,7 +96,14 @@ impl Viewer {
                 let objects = self.model.scene.nodes.iter().enumerate().filter(|(_, n)| n.mesh.is_some());
                 self.selection.extend(objects.map(|(id, _)| id));
             }
-            Command::SelectNone => self.selection.clear(),
+            Command::SelectNone => {
+                // Esc closes what lies on top first.
+                if self.open.help || self.open.warnings {
+                    self.open = Open::default();
+                } else {
+                    self.selection.clear();
+                }
+            }
             Command::Hide => {
                 for node in self.selection.iter().filter_map(|n| self.model.scene.nodes.get(n)) {
                     self.document.node_mut(&node.path).visible = Some(false);

@@ -133,7 +133,7 @@ fn notice_ui(ui: &mut egui::Ui, notice: &Notice, available: f32) -> bool {
                     }
                 }
             });
-            let close = ui.add(egui::Button::new(RichText::new("✕").small()).frame(false));
+            let close = ui.add(egui::Button::new(RichText::new("×")).frame(false));
             closed = close.on_hover_text("Close").clicked();
         });
     });

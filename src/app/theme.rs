@@ -24,6 +24,8 @@ pub(super) fn apply(context: &egui::Context) {
         style.spacing.button_padding = egui::vec2(7.0, 2.0);
         style.spacing.interact_size.y = 20.0;
         style.spacing.tooltip_width = 320.0;
+        // A panel that slides would have the picture drawn at every width on its way.
+        style.animation_time = 0.0;
         style.interaction.selectable_labels = false;
     });
 }

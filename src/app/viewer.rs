@@ -231,11 +231,12 @@ impl Viewer {
         }
         egui::Panel::bottom("status").exact_size(24.0).show(ui, |ui| {
             let adapter = self.viewport.adapter_name();
+            let milliseconds = self.state.statistics.then(|| self.viewport.milliseconds());
             let status = status::Status {
                 model: &self.model,
                 document: &self.document,
                 selection: &self.selection,
-                milliseconds: self.state.statistics.then(|| self.viewport.milliseconds()),
+                milliseconds,
                 adapter: &adapter,
             };
             status::status_ui(ui, &status, &mut self.commands);
@@ -277,6 +278,7 @@ impl Viewer {
         if let Some(response) = moved.response {
             self.context_menu(&response);
         }
+        self.viewport.set_measures(self.state.statistics);
         let selected = self.selection.with_descendants(&self.model.scene);
         if let Err(error) = self.viewport.draw(ui, &self.document, selected) {
             self.notices.error(format!("The picture could not be drawn: {error}"));

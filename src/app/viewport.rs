@@ -2,7 +2,7 @@
 
 use eframe::egui;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use eframe::egui::emath::GuiRounding as _;
@@ -10,6 +10,7 @@ use eframe::egui::{PointerButton, Rect, Sense, Ui};
 use eframe::egui_wgpu;
 use glam::DVec2;
 
+use super::jobs::Job;
 use super::navigation;
 use crate::document::Document;
 use crate::gpu::readback::Readback;
@@ -83,11 +84,13 @@ pub struct Viewport {
     outline: Shown,
     has_outline: bool,
     drawn: Option<Inputs>,
+    measures: bool,
     generation: u64,
     pick: Option<PickFor>,
     rect: Rect,
     size: [u32; 2],
-    micros: Arc<AtomicU64>,
+    measuring: Option<Job<f64>>,
+    milliseconds: f64,
     pictures: u64,
 }
 
@@ -111,11 +114,13 @@ impl Viewport {
             outline: Shown::default(),
             has_outline: false,
             drawn: None,
+            measures: false,
             generation: 0,
             pick: None,
             rect: Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(16.0, 10.0)),
             size: [16, 10],
-            micros: Arc::default(),
+            measuring: None,
+            milliseconds: 0.0,
             pictures: 0,
         }
     }
@@ -135,14 +140,44 @@ impl Viewport {
         f64::from(self.size[0]) / f64::from(self.size[1].max(1))
     }
 
+    /// Whether to measure how long pictures take.
+    pub fn set_measures(&mut self, measures: bool) {
+        if measures && !self.measures {
+            self.draw_again();
+        }
+        self.measures = measures;
+    }
+
     /// How many pictures have been drawn so far.
     pub fn pictures(&self) -> u64 {
         self.pictures
     }
 
-    /// Milliseconds from the request of the last picture until the device was done with it; 0 before the first.
-    pub fn milliseconds(&self) -> f64 {
-        self.micros.load(Ordering::Relaxed) as f64 / 1000.0
+    /// Milliseconds from the request of a picture until the device was done with it, as last measured.
+    pub fn milliseconds(&mut self) -> f64 {
+        if let Some(Ok(milliseconds)) = self.measuring.as_ref().and_then(Job::poll) {
+            self.milliseconds = milliseconds;
+            self.measuring = None;
+        }
+        self.milliseconds
+    }
+
+    /// Measures the picture that was just asked for, unless another one is still being measured.
+    fn measure(&mut self, context: &egui::Context, began: Instant) {
+        if self.measuring.is_some() {
+            return;
+        }
+        let (done, device) = (Arc::new(AtomicBool::new(false)), self.state.device.clone());
+        let signal = Arc::clone(&done);
+        self.state.queue.on_submitted_work_done(move || signal.store(true, Ordering::Release));
+        self.measuring = Some(Job::start("measuring", context, move |progress| {
+            while !done.load(Ordering::Acquire) && !progress.is_cancelled() {
+                std::thread::sleep(Duration::from_millis(1));
+                // Waiting here would keep the window from drawing; a lost device shows elsewhere.
+                let _ = device.poll(wgpu::PollType::Poll);
+            }
+            began.elapsed().as_secs_f64() * 1000.0
+        }));
     }
 
     /// Uploads another scene.
@@ -262,11 +297,9 @@ impl Viewport {
             selected: &inputs.selected,
         })?;
         self.pictures += 1;
-        let (micros, context) = (Arc::clone(&self.micros), context.clone());
-        self.state.queue.on_submitted_work_done(move || {
-            micros.store(began.elapsed().as_micros() as u64, Ordering::Relaxed);
-            let _ = &context;
-        });
+        if self.measures {
+            self.measure(context, began);
+        }
         self.image.show(&self.state, &picture.image);
         self.has_outline = picture.selection.is_some();
         if let Some(outline) = &picture.selection {

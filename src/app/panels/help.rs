@@ -26,12 +26,11 @@ pub fn help_ui(context: &egui::Context, open: &mut bool) {
         .open(open)
         .resizable(false)
         .collapsible(false)
-        .default_width(width)
+        .fixed_size([width, (context.content_rect().height() - 100.0).min(660.0)])
         .pivot(egui::Align2::CENTER_CENTER)
         .default_pos(context.content_rect().center())
         .show(context, |ui| {
-            let height = context.content_rect().height() - 120.0;
-            egui::ScrollArea::vertical().max_height(height).show(ui, |ui| {
+            egui::ScrollArea::vertical().auto_shrink([false, true]).show(ui, |ui| {
                 ui.columns(2, |columns| {
                     let [left, right] = columns else { return };
                     list(

@@ -192,7 +192,7 @@ impl Outliner {
             pos2(edges_at.left() - STYLE_WIDTH - 2.0, rect.top()),
             pos2(edges_at.left() - 2.0, rect.bottom()),
         );
-        style_chip(ui, chip, own.style.as_ref(), roles.style, &node.name, &targets, editing);
+        style_chip(ui, rect, chip, own.style.as_ref(), roles.style, &node.name, &targets, editing);
 
         let text_rect =
             Rect::from_min_max(pos2(left + 13.0, rect.top()), pos2(chip.left() - 4.0, rect.bottom()));
@@ -266,6 +266,7 @@ pub fn style_name<'a>(style: &Style, presets: &'a [Preset]) -> &'a str {
 
 fn style_chip(
     ui: &mut Ui,
+    row: Rect,
     rect: Rect,
     own: Option<&Style>,
     resolved: &Style,
@@ -280,7 +281,16 @@ fn style_chip(
             .id_salt(("style", node_name, targets.first()))
             .layout(egui::Layout::right_to_left(egui::Align::Center)),
     );
-    let color = child.visuals().text_color().gamma_multiply(if own.is_some() { 0.9 } else { 0.35 });
+    // What is inherited is said only where somebody looks.
+    let looked_at = targets.len() > 1 || child.rect_contains_pointer(row);
+    let strength = if own.is_some() {
+        0.9
+    } else if looked_at {
+        0.5
+    } else {
+        0.0
+    };
+    let color = child.visuals().text_color().gamma_multiply(strength);
     let button = egui::Button::new(egui::RichText::new(text).small().color(color))
         .frame_when_inactive(false)
         .truncate();

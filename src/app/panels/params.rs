@@ -1,10 +1,10 @@
 //! One row per declared parameter: the only place where a slider is written.
 
 use eframe::egui;
-use eframe::egui::{Color32, RichText, Ui};
+use eframe::egui::{RichText, Ui};
 
+use crate::style::Value;
 use crate::style::param::{Param, Slot};
-use crate::style::{Color, Value};
 
 /// Width of the column of names.
 const LABEL_WIDTH: f32 = 104.0;
@@ -125,7 +125,7 @@ fn label_ui(ui: &mut Ui, text: &str, marked: bool) -> egui::Response {
         let at = egui::pos2(rect.left() + 10.0, rect.center().y - galley.size().y * 0.5);
         if marked {
             let center = egui::pos2(rect.left() + 3.5, rect.center().y);
-            ui.painter().circle_filled(center, 2.5, visuals.selection.bg_fill.to_opaque());
+            ui.painter().circle_filled(center, 2.5, visuals.hyperlink_color);
         }
         ui.painter().galley(at, galley, color);
     }
@@ -149,7 +149,7 @@ fn slot_ui(ui: &mut Ui, param: &mut Param<'_>, label: egui::Id, help: &str) {
             let number = egui::DragValue::new(&mut **value)
                 .range(hard.clone())
                 .speed(speed)
-                .max_decimals(3)
+                .custom_formatter(|n, _| short(n))
                 .suffix(if param.unit.is_empty() { String::new() } else { format!(" {}", param.unit) });
             ui.add_sized([NUMBER_WIDTH, ui.spacing().interact_size.y], number);
         }
@@ -176,10 +176,10 @@ fn slot_ui(ui: &mut Ui, param: &mut Param<'_>, label: egui::Id, help: &str) {
     }
 }
 
-/// As egui has it.
-pub fn color32(color: Color) -> Color32 {
-    let [r, g, b] = color.0;
-    Color32::from_rgb(r, g, b)
+/// At most three decimals and no trailing zeros.
+fn short(number: f64) -> String {
+    let text = format!("{number:.3}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
 /// A row with a name like those of parameters.
