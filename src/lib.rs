@@ -6,7 +6,9 @@
 //! materials, [`style`] the parameters of every effect, [`geometry`] meshes.
 
 pub mod app;
+pub mod cli;
 pub mod document;
+pub mod export;
 pub mod geometry;
 pub mod gpu;
 pub mod import;

@@ -1,7 +1,17 @@
-//! Opens the window.
+//! `hachure`: see `hachure --help`.
 
-fn main() -> anyhow::Result<()> {
-    env_logger::init();
-    let files = std::env::args_os().skip(1).map(std::path::PathBuf::from).collect();
-    Ok(hachure::app::run(files, None)?)
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    env_logger::Builder::from_env(env_logger::Env::default().default_filter_or("error")).init();
+    match hachure::cli::run() {
+        Ok(code) => {
+            // The device and the driver's threads take a while to wind down; everything is written by now.
+            std::process::exit(code)
+        }
+        Err(error) => {
+            eprintln!("hachure: {:#}", anyhow::Error::from(error));
+            ExitCode::from(1)
+        }
+    }
 }

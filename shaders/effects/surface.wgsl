@@ -2,6 +2,7 @@
 #import common/frame.wgsl
 #import common/fullscreen.wgsl
 #import common/gbuffer.wgsl
+#import common/edge_style.wgsl
 
 const BLANK: u32 = 0u;
 const PLAIN: u32 = 1u;
@@ -18,20 +19,6 @@ struct SurfaceStyle {
     shininess: f32,
     ambient: f32,
     technique: u32,
-}
-
-// Twin: `EdgeUniform` in src/render/passes/edge_map.rs; only its colours are read here.
-struct EdgeStyle {
-    profile_color: vec3<f32>,
-    profile_strength: f32,
-    inner_color: vec3<f32>,
-    inner_strength: f32,
-    gain_z: f32,
-    gain_c1: f32,
-    gain_n: f32,
-    profile_threshold: f32,
-    inner_threshold: f32,
-    use_c1: u32,
 }
 
 @group(1) @binding(1) var base_color_tex: texture_2d<f32>;

@@ -6,12 +6,13 @@ use std::time::Duration;
 use eframe::egui;
 
 use super::jobs::Job;
-use super::loading::{self, DOCUMENT_ENDING, Intent, LoadError, Loaded, MODEL_ENDINGS, is_document};
+use super::loading::{self, DOCUMENT_ENDING, Intent, LoadError, Loaded, MODEL_ENDINGS};
 use super::navigation::Standard;
 use super::screenshot::{self, Destination};
 use super::viewer::{DialogFor, Viewer};
 use super::viewport::PickFor;
 use crate::document::Document;
+use crate::export::session::is_document;
 use crate::import::ImportError;
 use crate::render::Pick;
 
@@ -262,8 +263,8 @@ impl Viewer {
             match self.viewport.poll_capture(&capture, context) {
                 None => self.jobs.captures.push((capture, destination)),
                 Some(bytes) => {
-                    let (size, transparent) = (capture.size, capture.transparent);
-                    let work = move |_: &_| screenshot::save(bytes, size, transparent, &destination);
+                    let size = capture.size;
+                    let work = move |_: &_| screenshot::save(bytes, size, &destination);
                     self.jobs.pictures.push(Job::start("saving a screenshot", context, work));
                 }
             }

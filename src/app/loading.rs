@@ -1,9 +1,10 @@
 //! What a job loads: model files and documents.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use crate::document::{Document, DocumentError};
+use crate::export::session::is_document;
 use crate::geometry::Bounds;
 use crate::import::{ImportError, ImportOptions, Progress};
 use crate::scene::{NodeId, Scene};
@@ -103,11 +104,6 @@ pub enum LoadError {
     /// A document.
     #[error(transparent)]
     Document(#[from] DocumentError),
-}
-
-/// Whether a file is a document by its name.
-pub fn is_document(path: &Path) -> bool {
-    path.extension().is_some_and(|e| e.eq_ignore_ascii_case(DOCUMENT_ENDING))
 }
 
 /// Loads `paths`; the first document among them is opened and brings its models along.

@@ -50,7 +50,12 @@ impl Standard {
             Self::Top => up,
             Self::Bottom => -up,
             Self::Isometric => front + right + up,
-            Self::Home => front + right * 0.55 + up * 0.45,
+            // 30° to the right and 20° up, like the first picture of the command line.
+            Self::Home => {
+                let ((sin_a, cos_a), (sin_e, cos_e)) =
+                    (30_f64.to_radians().sin_cos(), 20_f64.to_radians().sin_cos());
+                (front * cos_a + right * sin_a) * cos_e + up * sin_e
+            }
         }
     }
 

@@ -1,11 +1,10 @@
 //! Pictures of the viewport as PNG files.
 
-use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
-use image::{ImageFormat, RgbaImage};
+use image::RgbaImage;
 
-use crate::document::file::write_atomically;
+use crate::export::{ExportError, save_png};
 
 /// Where screenshots go if this variable is set.
 pub const FOLDER_VARIABLE: &str = "HACHURE_PICTURES";
@@ -27,17 +26,23 @@ pub enum Destination {
 /// Why a screenshot could not be saved.
 #[derive(Debug, thiserror::Error)]
 pub enum ScreenshotError {
-    /// The picture could not be turned into a PNG.
-    #[error("cannot encode the screenshot: {0}")]
-    Encode(String),
-    /// The file could not be written.
-    #[error("cannot write the screenshot {}: {source}", path.display())]
-    Write {
-        /// The file.
+    /// The device gave fewer pixels than the picture has.
+    #[error("the picture came back incomplete; try again")]
+    Incomplete,
+    /// No folder is known.
+    #[error("there is no folder for pictures; set {FOLDER_VARIABLE} to one")]
+    NoFolder,
+    /// The folder could not be made.
+    #[error("cannot make the folder {}: {source}", path.display())]
+    Folder {
+        /// The folder.
         path: PathBuf,
         /// What the system said.
         source: std::io::Error,
     },
+    /// The file could not be written.
+    #[error(transparent)]
+    Export(#[from] ExportError),
 }
 
 /// The folders where screenshots may go: the person's pictures, else beside the model.
@@ -66,53 +71,40 @@ fn pictures_of_user_dirs() -> Option<PathBuf> {
     }
 }
 
-/// Encodes straight RGBA bytes and writes them; returns the file. Opaque pictures are written without alpha.
+/// Writes straight RGBA bytes as a PNG; returns the file.
 ///
 /// # Errors
 /// [`ScreenshotError`]; a file that was there is then untouched.
-pub fn save(
-    rgba: Vec<u8>,
-    size: [u32; 2],
-    transparent: bool,
-    destination: &Destination,
-) -> Result<PathBuf, ScreenshotError> {
-    let image = RgbaImage::from_raw(size[0], size[1], rgba)
-        .ok_or_else(|| ScreenshotError::Encode("the picture has the wrong size".to_owned()))?;
-    let image = image::DynamicImage::from(image);
-    let image = if transparent { image } else { image.to_rgb8().into() };
-    let mut png = Cursor::new(Vec::new());
-    image.write_to(&mut png, ImageFormat::Png).map_err(|e| ScreenshotError::Encode(e.to_string()))?;
-    let png = png.into_inner();
-    match destination {
-        Destination::File(path) => write(path, &png),
-        Destination::Numbered { model, folders } => {
-            let mut result = Err(ScreenshotError::Encode("there is no folder for pictures".to_owned()));
-            for folder in folders {
-                result = write_numbered(folder, model, &png);
-                if result.is_ok() {
-                    break;
-                }
-            }
-            result
+pub fn save(rgba: Vec<u8>, size: [u32; 2], destination: &Destination) -> Result<PathBuf, ScreenshotError> {
+    let image = RgbaImage::from_raw(size[0], size[1], rgba).ok_or(ScreenshotError::Incomplete)?;
+    let (model, folders) = match destination {
+        Destination::File(path) => {
+            save_png(path, image)?;
+            return Ok(path.clone());
+        }
+        Destination::Numbered { model, folders } => (model, folders),
+    };
+    let mut result = Err(ScreenshotError::NoFolder);
+    for folder in folders {
+        result = save_numbered(folder, model, &image);
+        if result.is_ok() {
+            break;
         }
     }
+    result
 }
 
-fn write(path: &Path, png: &[u8]) -> Result<PathBuf, ScreenshotError> {
-    write_atomically(path, png).map_err(|source| ScreenshotError::Write { path: path.into(), source })?;
-    Ok(path.to_owned())
-}
-
-fn write_numbered(folder: &Path, model: &str, png: &[u8]) -> Result<PathBuf, ScreenshotError> {
+fn save_numbered(folder: &Path, model: &str, image: &RgbaImage) -> Result<PathBuf, ScreenshotError> {
     std::fs::create_dir_all(folder)
-        .map_err(|source| ScreenshotError::Write { path: folder.into(), source })?;
+        .map_err(|source| ScreenshotError::Folder { path: folder.into(), source })?;
     let mut number = 1;
     let mut path = folder.join(format!("{model}_{number}.png"));
     while path.exists() {
         number += 1;
         path = folder.join(format!("{model}_{number}.png"));
     }
-    write(&path, png)
+    save_png(&path, image.clone())?;
+    Ok(path)
 }
 
 #[cfg(test)]
@@ -126,8 +118,8 @@ mod tests {
             model: "crank".to_owned(),
             folders: vec!["/nonexistent/folder".into(), folder.path().join("Hachure")],
         };
-        let shoot = |transparent| save(vec![7; 16], [2, 2], transparent, &destination).unwrap();
-        let (first, second) = (shoot(false), shoot(true));
+        let shoot = |alpha| save([7, 7, 7, alpha].repeat(4), [2, 2], &destination).unwrap();
+        let (first, second) = (shoot(255), shoot(7));
         assert_eq!(first.file_name().unwrap(), "crank_1.png");
         assert_eq!(second.file_name().unwrap(), "crank_2.png");
         assert_eq!(image::open(first).unwrap().color(), image::ColorType::Rgb8);

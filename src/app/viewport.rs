@@ -72,8 +72,6 @@ pub struct Capture {
     readback: Readback,
     /// Width and height in pixels.
     pub size: [u32; 2],
-    /// Whether there is no paper.
-    pub transparent: bool,
 }
 
 /// The picture and everything that draws it.
@@ -319,7 +317,7 @@ impl Viewport {
         let picture = self.renderer.render(&request)?;
         let readback = Readback::start(self.renderer.gpu(), &picture.image, [0, 0], size)?;
         self.draw_again();
-        Ok(Capture { readback, size, transparent })
+        Ok(Capture { readback, size })
     }
 
     /// The bytes of a capture, once they are there.

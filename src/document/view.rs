@@ -10,6 +10,8 @@ pub struct View {
     pub background: Color,
     /// The picture, or one of the buffers it is made from.
     pub show: Show,
+    /// Dihedral angle above which an edge separates two surfaces; degrees, 0 to 180.
+    pub crease_angle: f32,
 }
 
 /// What the picture shows: the drawing, or an intermediate result for a closer look.
@@ -54,7 +56,7 @@ pub enum Show {
 
 impl Default for View {
     fn default() -> Self {
-        Self { background: Color([250, 248, 242]), show: Show::Picture }
+        Self { background: Color([250, 248, 242]), show: Show::Picture, crease_angle: 30.0 }
     }
 }
 
@@ -68,6 +70,15 @@ impl View {
                 "Background",
                 "Colour of the paper behind everything.",
                 &mut self.background,
+            );
+            list.number(
+                "crease_angle",
+                "Crease angle",
+                "°",
+                5.0..=90.0,
+                0.0..=180.0,
+                "Folds sharper than this separate surfaces.",
+                &mut self.crease_angle,
             );
             list.choice("show", "Show", "The picture, or a buffer that it is made from.", &mut self.show);
         });

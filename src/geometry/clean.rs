@@ -139,7 +139,7 @@ fn judge(positions: &[Vec3], all_finite: bool, [a, b, c]: [u32; 3]) -> Verdict {
     let (Some(a), Some(b), Some(c)) = (corner(a), corner(b), corner(c)) else {
         return OUT_OF_RANGE;
     };
-    if !all_finite && !(a.is_finite() && b.is_finite() && c.is_finite()) {
+    if !(all_finite || [a, b, c].iter().all(|p| p.is_finite())) {
         return NOT_FINITE;
     }
     if is_degenerate(a, b, c) {

@@ -9,6 +9,7 @@ pub mod primitives;
 pub mod rig;
 pub mod surfaces;
 pub mod topology;
+pub mod triangulate;
 pub mod weld;
 
 pub use bounds::Bounds;
@@ -17,4 +18,5 @@ pub use mesh::{Mesh, MeshPart};
 pub use rig::Rig;
 pub use surfaces::{Provoking, Surfaces, provoking};
 pub use topology::{Adjacency, Edge, EdgeKind};
+pub use triangulate::Triangulator;
 pub use weld::Weld;

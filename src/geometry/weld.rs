@@ -49,6 +49,22 @@ impl Weld {
         })
     }
 
+    /// The points in the order of their first vertices, and for each vertex the index of its point: the indices of a
+    /// mesh that was given as loose triangles.
+    pub fn indexed(&self, positions: &[Vec3]) -> (Vec<Vec3>, Vec<u32>) {
+        let mut points = Vec::with_capacity(self.count);
+        let mut indices: Vec<u32> = Vec::with_capacity(positions.len());
+        for (v, &first) in self.representative.iter().enumerate() {
+            if first as usize == v {
+                indices.push(points.len() as u32);
+                points.push(positions[v]);
+            } else {
+                indices.push(indices[first as usize]);
+            }
+        }
+        (points, indices)
+    }
+
     fn by_key(positions: &[Vec3], key: impl Fn(Vec3) -> u128 + Sync) -> Self {
         let mut keys: Vec<u128> = positions
             .par_iter()
@@ -83,6 +99,8 @@ mod tests {
         for weld in [Weld::exact(&p), Weld::near(&p)] {
             assert_eq!(weld.representative, [0, 1, 0, 1, 4]);
             assert_eq!(weld.count, 3);
+            let points = vec![Vec3::X, Vec3::ZERO, Vec3::Y];
+            assert_eq!(weld.indexed(&p), (points, vec![0, 1, 0, 1, 2]));
         }
     }
 

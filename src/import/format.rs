@@ -17,7 +17,7 @@ pub(super) enum Format {
 
 /// The format that the content's signature tells, else the one of the name's ending.
 pub(super) fn detect(path: &Path, data: &[u8]) -> Option<Format> {
-    by_content(data).or_else(|| by_ending(path, data))
+    by_content(data).or_else(|| by_ending(path))
 }
 
 fn by_content(data: &[u8]) -> Option<Format> {
@@ -34,7 +34,7 @@ fn by_content(data: &[u8]) -> Option<Format> {
     }
 }
 
-fn by_ending(path: &Path, _data: &[u8]) -> Option<Format> {
+fn by_ending(path: &Path) -> Option<Format> {
     let ending = path.extension()?.to_str()?.to_ascii_lowercase();
     match ending.as_str() {
         "gltf" | "glb" => Some(Format::Gltf),

@@ -19,6 +19,7 @@ mod tests;
 mod views;
 
 use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -62,6 +63,11 @@ fn import(path: &Path, data: &[u8], progress: &Progress) -> Result<Scene> {
     if repaired {
         warnings
             .push(warning("", "its text is not UTF-8; unreadable characters in names were replaced".into()));
+    }
+    if root.extensions_used.iter().any(|name| name == "EXT_mesh_gpu_instancing") {
+        let message =
+            "it uses EXT_mesh_gpu_instancing, which is not supported: one copy of each object is shown";
+        warnings.push(warning("", message.into()));
     }
     progress.report(0.1);
     let folder = Folder::of(path);
@@ -181,8 +187,8 @@ fn build_all(
 ) -> Result<Vec<Built>> {
     let mut poses = HashMap::new();
     for skin in requests.iter().filter_map(|r| r.skin) {
-        if !poses.contains_key(&skin) {
-            poses.insert(skin, skin::pose(document, skin, &hierarchy.worlds)?);
+        if let Entry::Vacant(place) = poses.entry(skin) {
+            place.insert(skin::pose(document, skin, &hierarchy.worlds)?);
         }
     }
     let node_of = |node: usize| hierarchy.shown_as.get(node).copied().flatten();
@@ -193,7 +199,7 @@ fn build_all(
             let pose = request.skin.and_then(|skin| poses.get(&skin));
             meshes::build(document, request, pose, node_of).map_err(|f| {
                 let mesh = document.root.meshes.get(request.mesh);
-                f.at(|| label("mesh", request.mesh, mesh.and_then(|m| m.name.as_ref())).into_owned())
+                f.at(|| label("mesh", request.mesh, mesh.and_then(|m| m.name.as_ref())))
             })
         })
         .collect()

@@ -3,11 +3,16 @@
 //! Importers never trust the file: indices are checked, allocations are bounded by the file's size, side files are
 //! read only from the model's own folder and below, and nothing touches a network.
 
+mod assemble;
 mod format;
 mod gltf;
 mod image;
 mod names;
+mod obj;
+mod ply;
 mod source;
+mod stl;
+mod text;
 
 use std::panic::AssertUnwindSafe;
 use std::path::{Path, PathBuf};
@@ -180,10 +185,10 @@ fn load_bytes(
     }
     match format::detect(path, data) {
         Some(Format::Gltf) => gltf::load(path, data, options, progress),
-        // The text formats get their importers here.
-        Some(Format::Obj | Format::Stl | Format::Ply) | None => {
-            Err(ImportError::UnknownFormat { path: path.into() })
-        }
+        Some(Format::Obj) => obj::load(path, data, options, progress),
+        Some(Format::Stl) => stl::load(path, data, options, progress),
+        Some(Format::Ply) => ply::load(path, data, options, progress),
+        None => Err(ImportError::UnknownFormat { path: path.into() }),
     }
 }
 

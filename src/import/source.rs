@@ -198,19 +198,16 @@ fn decode_data_uri(rest: &str) -> Result<Vec<u8>, SourceError> {
     if !header.to_ascii_lowercase().ends_with(";base64") {
         return Ok(percent_bytes(payload));
     }
-    let broken = |e| SourceError::Refused(format!("a data: URI holds no valid base64 payload: {e}"));
-    match BASE64.decode(payload) {
-        Ok(bytes) => Ok(bytes),
-        // Rare: line breaks, percent-encoding or the URL alphabet inside the payload.
-        Err(first) => {
-            let mut clean = percent_bytes(payload);
-            clean.retain(|b| !b.is_ascii_whitespace());
-            BASE64
-                .decode(&clean)
-                .or_else(|_| general_purpose::URL_SAFE_NO_PAD.decode(&clean))
-                .map_err(|_| broken(first))
-        }
-    }
+    // Rare: line breaks, percent-encoding or the URL alphabet inside the payload.
+    let lenient = || {
+        let mut clean = percent_bytes(payload);
+        clean.retain(|b| !b.is_ascii_whitespace());
+        BASE64.decode(&clean).or_else(|_| general_purpose::URL_SAFE_NO_PAD.decode(&clean))
+    };
+    BASE64
+        .decode(payload)
+        .or_else(|_| lenient())
+        .map_err(|e| SourceError::Refused(format!("a data: URI holds no valid base64 payload: {e}")))
 }
 
 /// The beginning of a text, for messages.

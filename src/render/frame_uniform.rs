@@ -109,12 +109,20 @@ impl View {
         }
     }
 
-    /// Linear depth of the nearest and farthest point of the enhanced objects (paper, section 4.1.1), in front of the
-    /// eye; never of width 0.
-    pub fn fitted_depth_range(&self, enhanced: &Bounds) -> Vec2 {
-        let (near, far) = depth_range(enhanced, &self.view_from_world).unwrap_or((0.0, 1.0));
+    /// Linear depth of the nearest and farthest corner of the given boxes (local space, and local to world), in front
+    /// of the eye and never of width 0. For the enhanced objects' boxes, that is the range to which the paper fits
+    /// near and far (section 4.1.1).
+    pub fn fitted_depth_range(&self, boxes: impl IntoIterator<Item = (Bounds, DMat4)>) -> Vec2 {
+        let all = boxes
+            .into_iter()
+            .filter_map(|(bounds, world_from_local)| {
+                depth_range(&bounds, &(self.view_from_world * world_from_local))
+            })
+            .reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)));
+        let (near, far) = all.unwrap_or((0.0, 1.0));
         let near = if self.orthographic { near } else { near.max(0.0) };
-        let far = far.max(near + near.abs().max(1e-30) * 1e-6);
+        // Something flat that faces the eye has no depth: keep the rounding of its depth from becoming edges.
+        let far = far.max(near + near.abs().max(1e-30) * 1e-3);
         Vec2::new(near as f32, far as f32)
     }
 

@@ -9,8 +9,8 @@ use super::frame_uniform::View;
 use super::passes::edge_map::EdgeUniform;
 use super::passes::gbuffer::DrawUniform;
 use crate::document::Document;
-use crate::geometry::Bounds;
-use crate::gpu::geometry::{MeshSource, SurfaceIds};
+use crate::geometry::{Bounds, Provoking};
+use crate::gpu::geometry::MeshSource;
 use crate::gpu::{GeometryBuffers, Gpu, GpuError, MaterialBindings};
 use crate::scene::{NodeId, Scene};
 
@@ -37,7 +37,7 @@ impl GpuScene {
         gpu: &Gpu,
         material_layout: &wgpu::BindGroupLayout,
         scene: &Arc<Scene>,
-        surfaces: &[SurfaceIds],
+        surfaces: &[Provoking],
     ) -> Result<Self, GpuError> {
         let sources: Vec<_> = scene
             .meshes
@@ -92,8 +92,6 @@ pub struct Objects {
     visible: Vec<(NodeId, bool)>,
     /// The box around everything visible, world space.
     pub visible_bounds: Bounds,
-    /// The box around everything enhanced, world space.
-    pub enhanced_bounds: Bounds,
     /// Edge parameters by object id.
     pub edge_styles: Vec<EdgeUniform>,
     /// Shading parameters by object id.
@@ -110,8 +108,7 @@ impl Objects {
     /// Resolves styles and roles of a document for the nodes of a scene.
     pub fn new(document: &Document, scene: &GpuScene) -> Self {
         let resolved = document.resolve(&scene.scene);
-        let mut objects =
-            Self { visible_bounds: Bounds::EMPTY, enhanced_bounds: Bounds::EMPTY, ..Self::default() };
+        let mut objects = Self { visible_bounds: Bounds::EMPTY, ..Self::default() };
         // Entry 0 stands for the background.
         objects.edge_styles.push(EdgeUniform::from(&document.style.edges));
         objects.surface_styles.push(SurfaceUniform::from(&document.style));
@@ -122,12 +119,17 @@ impl Objects {
                 let bounds = scene.bounds_of(node);
                 objects.visible.push((node, r.enhanced));
                 objects.visible_bounds = objects.visible_bounds.union(&bounds);
-                if r.enhanced {
-                    objects.enhanced_bounds = objects.enhanced_bounds.union(&bounds);
-                }
             }
         }
         objects
+    }
+
+    /// The boxes of the enhanced objects, each in its own space, and where that lies.
+    pub fn enhanced_boxes<'a>(&'a self, scene: &'a GpuScene) -> impl Iterator<Item = (Bounds, DMat4)> + 'a {
+        self.visible.iter().filter(|(_, enhanced)| *enhanced).filter_map(|(id, _)| {
+            let node = &scene.scene.nodes[*id];
+            Some((*scene.mesh_bounds.get(node.mesh?)?, node.world_from_local))
+        })
     }
 
     /// What the G-buffer depends on: for each visible part its matrices, object and material, ordered by bind group.

@@ -8,7 +8,7 @@ use super::frame::{FrameInputs, FrameState, Picture};
 use super::frame_uniform::{FrameUniform, View};
 use super::groups::{GpuScene, Objects, node_of};
 use crate::document::Document;
-use crate::gpu::geometry::SurfaceIds;
+use crate::geometry::Provoking;
 use crate::gpu::readback::Readback;
 use crate::gpu::recorder::Pipelines;
 use crate::gpu::{Gpu, GpuError, Recorder, ShaderError, Shaders, TargetPool, Timers, UniformBuffer};
@@ -106,7 +106,7 @@ impl Renderer {
     ///
     /// # Errors
     /// [`GpuError::TooLarge`]; the last scene then stays.
-    pub fn set_scene(&mut self, scene: &Arc<Scene>, surfaces: &[SurfaceIds]) -> Result<(), RenderError> {
+    pub fn set_scene(&mut self, scene: &Arc<Scene>, surfaces: &[Provoking]) -> Result<(), RenderError> {
         self.scene = Some(GpuScene::new(&self.gpu, self.state.material_layout(), scene, surfaces)?);
         self.scene_revision += 1;
         Ok(())
@@ -142,7 +142,7 @@ impl Renderer {
         let size = request.size.map(|s| s.max(1));
         let objects = Objects::new(request.document, scene);
         let view = View::new(request.camera, &objects.visible_bounds, UVec2::from_array(size));
-        let depth_range = view.fitted_depth_range(&objects.enhanced_bounds);
+        let depth_range = view.fitted_depth_range(objects.enhanced_boxes(scene));
         let paper = request.document.view.background.to_linear();
         let background = paper.extend(if request.transparent { 0.0 } else { 1.0 });
         let uniform = FrameUniform::new(&view, depth_range, &request.document.lights, background);

@@ -10,16 +10,24 @@ mod crankshaft;
 mod delaunay;
 mod flywheel;
 mod glb;
+mod ogre;
+mod ogre_body;
+mod ogre_gear;
+mod ogre_head;
 mod outline;
 mod piston;
 mod plate;
+mod remesh;
 mod rod;
+mod sdf;
+mod sets;
 mod solid;
+mod unwrap;
 
 /// Writes each model, or only those named on the command line, and reports their sizes.
 fn main() {
     let wanted: Vec<String> = std::env::args().skip(1).collect();
-    let models: [(&str, fn() -> glb::Scene); 1] = [("crank", crank::scene)];
+    let models: [(&str, fn() -> glb::Scene); 2] = [("crank", crank::scene), ("ogre", ogre::scene)];
     for (name, make) in models {
         if !wanted.is_empty() && !wanted.iter().any(|w| w == name) {
             continue;

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use glam::{DMat3, DVec3, Vec3, dvec3};
 
 use crate::glb::Mesh;
+use crate::sets::{root, unite};
 
 /// A closed surface as loose triangles, counter-clockwise from outside, in millimetres.
 #[derive(Default, Clone)]
@@ -159,8 +160,8 @@ fn smooth_fans(faces: &[[usize; 3]], normals: &[DVec3], cosine: f64) -> Vec<usiz
         if n.dot(m) < cosine * n.length() * m.length() {
             continue;
         }
-        join(&mut fan, here, next_in(there));
-        join(&mut fan, next_in(here), there);
+        unite(&mut fan, here, next_in(there));
+        unite(&mut fan, next_in(here), there);
     }
     (0..fan.len()).map(|i| root(&fan, i)).collect()
 }
@@ -168,20 +169,4 @@ fn smooth_fans(faces: &[[usize; 3]], normals: &[DVec3], cosine: f64) -> Vec<usiz
 /// The corner after this one in its triangle.
 fn next_in(corner: usize) -> usize {
     corner / 3 * 3 + (corner % 3 + 1) % 3
-}
-
-/// The representative of a set.
-fn root(parent: &[usize], mut i: usize) -> usize {
-    while parent[i] != i {
-        i = parent[i];
-    }
-    i
-}
-
-/// Unites two sets under the smaller representative.
-fn join(parent: &mut [usize], a: usize, b: usize) {
-    let (a, b) = (root(parent, a), root(parent, b));
-    let low = a.min(b);
-    parent[a] = low;
-    parent[b] = low;
 }

@@ -1,6 +1,5 @@
 //! Buffers and buffer views: where the bytes of a model are, and the unpacking of compressed views.
 
-use std::borrow::Cow;
 use std::sync::Arc;
 
 use ::gltf::json::{self, Root};
@@ -9,7 +8,7 @@ use rayon::prelude::*;
 use super::fault::{Budget, Fault, Result, malformed};
 use super::meshopt;
 use crate::import::Progress;
-use crate::import::source::Folder;
+use crate::import::source::{Folder, shorten};
 
 /// The content of one buffer.
 #[derive(Debug)]
@@ -59,6 +58,7 @@ impl<'a> Document<'a> {
         for (index, buffer) in root.buffers.iter().enumerate() {
             progress.check()?;
             buffers.push(match (&buffer.uri, bin) {
+                _ if meshopt::is_fallback(buffer) => Content::Absent,
                 (Some(uri), _) => {
                     let bytes =
                         folder.fetch(uri).map_err(|e| Fault::from(e).at(|| format!("buffer {index}")))?;
@@ -139,12 +139,10 @@ impl<'a> Document<'a> {
     }
 }
 
-/// A name for messages: the given one, or the kind and the number.
-pub(super) fn label<'n>(kind: &str, index: usize, name: Option<&'n String>) -> Cow<'n, str> {
+/// A name for messages: the kind, the number and, where given, the name.
+pub(super) fn label(kind: &str, index: usize, name: Option<&String>) -> String {
     match name {
-        Some(name) if !name.is_empty() => {
-            Cow::Owned(format!("{kind} {index} \"{}\"", crate::import::source::shorten(name)))
-        }
-        _ => Cow::Owned(format!("{kind} {index}")),
+        Some(name) if !name.is_empty() => format!("{kind} {index} \"{}\"", shorten(name)),
+        _ => format!("{kind} {index}"),
     }
 }

@@ -15,6 +15,9 @@ const SUPPORTED: &[&str] = &[
     "EXT_meshopt_compression",
 ];
 
+/// The mark that some programs put before UTF-8 text.
+const BOM: &[u8] = b"\xEF\xBB\xBF";
+
 /// The two chunks of a GLB, or a bare JSON file.
 #[derive(Debug)]
 pub(super) struct Chunks<'a> {
@@ -30,6 +33,12 @@ pub(super) struct Chunks<'a> {
 /// When the container is damaged or of another version.
 pub(super) fn split(data: &[u8]) -> Result<Chunks<'_>> {
     if !data.starts_with(b"glTF") {
+        let text = data.strip_prefix(BOM).unwrap_or(data);
+        if text.iter().find(|b| !b.is_ascii_whitespace()) != Some(&b'{') {
+            return malformed(
+                "it is neither a GLB, which begins with `glTF`, nor glTF JSON, which begins with `{`",
+            );
+        }
         return Ok(Chunks { json: data, bin: None });
     }
     let (Some(version), Some(length)) = (u32_at(data, 4), u32_at(data, 8)) else {
@@ -81,7 +90,7 @@ fn u32_at(data: &[u8], at: usize) -> Option<u32> {
 /// # Errors
 /// When it is no glTF 2 or requires an extension that is not supported.
 pub(super) fn parse(json: &[u8]) -> Result<(Root, bool)> {
-    let json = json.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(json);
+    let json = json.strip_prefix(BOM).unwrap_or(json);
     check_expansion(json)?;
     let (root, repaired) = match std::str::from_utf8(json) {
         Ok(text) => (Root::from_str(text), false),

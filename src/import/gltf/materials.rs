@@ -94,13 +94,13 @@ pub(super) fn convert(
                 textures.push(Arc::new(texture));
             }
             Err(message) => {
-                warnings.push((image_label(root, image), format!("the image cannot be used: {message}")))
+                warnings.push((image_label(root, image), format!("the image cannot be used: {message}")));
             }
         }
     }
     let mut materials = Vec::with_capacity(root.materials.len() + 1);
     for (index, declared) in root.materials.iter().enumerate() {
-        let place = || label("material", index, declared.name.as_ref()).into_owned();
+        let place = || label("material", index, declared.name.as_ref());
         let mut notes = Vec::new();
         let texture = |u: Use, notes: &mut Vec<String>| {
             let source = image_of(root, u.texture);
@@ -223,7 +223,7 @@ fn image_of(root: &Root, texture: usize) -> Option<usize> {
 fn image_label(root: &Root, index: usize) -> String {
     let image = root.images.get(index);
     let name = image.and_then(|i| i.name.as_ref().or(i.uri.as_ref()));
-    label("image", index, name.filter(|n| !n.starts_with("data:"))).into_owned()
+    label("image", index, name.filter(|n| !n.starts_with("data:")))
 }
 
 fn encoded_image(

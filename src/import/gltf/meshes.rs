@@ -151,7 +151,7 @@ pub(super) fn build(
         }
     }
     complete_normals(document, &mut blocks, &mut pieces)?;
-    complete_tangents(document, &mut blocks, &mut pieces)?;
+    complete_tangents(document, &mut blocks, &mut pieces, &mut notes)?;
     let (mut mesh, skinning) = merge(blocks, pieces)?;
     if let (Some(skinning), Some(pose)) = (skinning, pose) {
         mesh.rig = rig(skinning, pose, node_of).map(Arc::new);
@@ -252,7 +252,12 @@ fn complete_normals(document: &Document<'_>, blocks: &mut Vec<Block>, pieces: &m
 }
 
 /// Computes tangents for parts with a normal map that have none.
-fn complete_tangents(document: &Document<'_>, blocks: &mut Vec<Block>, pieces: &mut [Piece]) -> Result<()> {
+fn complete_tangents(
+    document: &Document<'_>,
+    blocks: &mut Vec<Block>,
+    pieces: &mut [Piece],
+    notes: &mut Vec<String>,
+) -> Result<()> {
     for block in blocks.iter_mut() {
         block.repair_tangents();
     }
@@ -266,14 +271,20 @@ fn complete_tangents(document: &Document<'_>, blocks: &mut Vec<Block>, pieces: &
         }
         document.budget.take(piece.indices.len() as u64 * 100, || "tangents for its triangles".into())?;
         block.normalize();
-        let count = block.positions.len();
-        let valid = |t: &&[u32; 3]| t.iter().all(|&i| (i as usize) < count);
+        let is_finite = |i: &u32| block.positions.get(*i as usize).is_some_and(|p| p.is_finite());
         let whole = piece.indices.as_chunks::<3>().0;
-        let indices: Vec<u32> = whole.iter().filter(valid).flatten().copied().collect();
-        if let Some((split, indices)) = tangents::generate(block, &indices) {
-            piece.indices = indices;
-            piece.block = blocks.len();
-            blocks.push(split);
+        let indices: Vec<u32> = whole.iter().filter(|t| t.iter().all(is_finite)).flatten().copied().collect();
+        match tangents::generate(block, &indices) {
+            Some((split, indices)) => {
+                piece.indices = indices;
+                piece.block = blocks.len();
+                blocks.push(split);
+            }
+            None => notes.push(
+                "the tangents that its normal map needs could not be computed (too many triangles at one vertex); \
+                 export the model with tangents"
+                    .into(),
+            ),
         }
     }
     Ok(())

@@ -2,7 +2,7 @@
 
 use std::ffi::c_int;
 
-use ::gltf::json::{Value, buffer};
+use ::gltf::json::{Buffer, Value, buffer};
 use ::meshopt::ffi;
 
 use super::fault::{Budget, Fault, Result, malformed};
@@ -38,6 +38,16 @@ pub(super) struct Packing {
     count: usize,
     mode: Mode,
     filter: Filter,
+}
+
+const NAMES: [&str; 2] = ["EXT_meshopt_compression", "KHR_meshopt_compression"];
+
+/// Whether a buffer is only there for programs that cannot unpack; it need not exist.
+pub(super) fn is_fallback(buffer: &Buffer) -> bool {
+    buffer.extensions.as_ref().is_some_and(|e| {
+        let declared = NAMES.iter().find_map(|name| e.others.get(*name));
+        declared.and_then(|d| d.get("fallback")).and_then(Value::as_bool) == Some(true)
+    })
 }
 
 /// The packing of a view, if it has one.

@@ -66,10 +66,15 @@ pub(super) fn flatten(root: &Root, file_name: &str, budget: &Budget) -> Result<H
     push_children(&mut waiting, &roots, 0);
     while let Some((source, parent, name)) = waiting.pop() {
         let id = out.nodes.len();
-        let above = out.nodes.get(parent).map_or(String::new(), |n| n.path.clone());
-        budget.take((above.len() + 2 * name.len() + 256) as u64, || "the paths of the nodes".into())?;
+        let above = out.nodes.get(parent).map_or("", |n| n.path.as_str());
+        let length = above.len() + 1 + name.len();
+        budget.take((length + name.len() + 256) as u64, || "the paths of the nodes".into())?;
+        let mut path = String::with_capacity(length);
+        path.push_str(above);
+        path.push('/');
+        path.push_str(&name);
         out.nodes.push(Node {
-            path: format!("{above}/{name}"),
+            path,
             name,
             parent: Some(parent),
             descendants: 0,
@@ -122,7 +127,7 @@ fn wanted_name(root: &Root, index: usize) -> String {
 /// A node's name for messages.
 pub(super) fn node_label(root: &Root, index: usize) -> String {
     let name = root.nodes.get(index).and_then(|n| n.name.as_ref());
-    label("node", index, name).into_owned()
+    label("node", index, name)
 }
 
 fn parents(root: &Root) -> Result<Vec<Option<usize>>> {

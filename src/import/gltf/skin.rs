@@ -51,7 +51,7 @@ pub(super) fn pose(document: &Document<'_>, skin: usize, worlds: &[DMat4]) -> Re
     let Some(declared) = root.skins.get(skin) else {
         return malformed(format!("there is no skin {skin}"));
     };
-    let place = || label("skin", skin, declared.name.as_ref()).into_owned();
+    let place = || label("skin", skin, declared.name.as_ref());
     let joints: Vec<usize> = declared.joints.iter().map(|j| j.value()).collect();
     if joints.len() > usize::from(u16::MAX) {
         return malformed(format!("{} has {} joints", place(), joints.len()));

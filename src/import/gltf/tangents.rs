@@ -1,4 +1,4 @@
-//! Tangents for normal maps, where the file gives none: the MikkTSpace that normal maps are baked for.
+//! Tangents for normal maps, where the file gives none: the `MikkTSpace` that normal maps are baked for.
 
 use std::collections::HashMap;
 
@@ -51,9 +51,39 @@ impl Geometry for Corners<'_> {
     }
 }
 
+/// The library recurses from triangle to triangle around a vertex; more would endanger the stack.
+const MOST_TRIANGLES_AT_A_VERTEX: u32 = 2000;
+
+/// Whether so many triangles meet at a vertex that the library must not be asked. As in the library, vertices with
+/// equal position, normal and texture coordinates are one.
+fn is_crowded(block: &Block, indices: &[u32]) -> bool {
+    if indices.len() / 3 <= MOST_TRIANGLES_AT_A_VERTEX as usize {
+        return false;
+    }
+    let mut counts = HashMap::with_capacity(block.positions.len());
+    indices.iter().any(|&index| {
+        let vertex = index as usize;
+        let (position, normal) = (block.positions.get(vertex), block.normals.get(vertex));
+        // Adding 0 makes −0 equal to 0.
+        let bits = |v: f32| (v + 0.0).to_bits();
+        let key = (
+            position.map(|p| p.to_array().map(bits)),
+            normal.map(|n| n.to_array().map(bits)),
+            block.uvs.get(vertex).map(|uv| uv.to_array().map(bits)),
+        );
+        let count = counts.entry(key).or_insert(0);
+        *count += 1;
+        *count > MOST_TRIANGLES_AT_A_VERTEX
+    })
+}
+
 /// Computes tangents for a block that has normals and texture coordinates, and the triangles that use it. Vertices
-/// at which tangents differ are split. `indices` must hold whole triangles within the block.
+/// at which tangents differ are split. `indices` must hold whole triangles within the block, with finite positions.
+/// `None` when the tangents cannot be computed.
 pub(super) fn generate(block: &Block, indices: &[u32]) -> Option<(Block, Vec<u32>)> {
+    if is_crowded(block, indices) {
+        return None;
+    }
     let mut corners = Corners { block, indices, tangents: vec![None; indices.len()] };
     generate_tangents(&mut corners).ok()?;
     let mut split = HashMap::with_capacity(block.positions.len());

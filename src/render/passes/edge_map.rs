@@ -9,7 +9,7 @@ use crate::gpu::{Recorder, Target};
 use crate::render::RenderError;
 use crate::style::{DepthOperator, Edges};
 
-/// Twin of `EdgeStyle` in `shaders/passes/edge_map.wgsl`.
+/// Twin of `EdgeStyle` in `shaders/common/edge_style.wgsl`.
 #[derive(Debug, Clone, Copy, PartialEq, ShaderType)]
 pub struct EdgeUniform {
     profile_color: Vec3,

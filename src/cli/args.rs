@@ -1,0 +1,239 @@
+//! What can be written behind `hachure`.
+
+use std::path::PathBuf;
+use std::str::FromStr;
+
+use clap::{Args, Parser, Subcommand};
+use glam::DVec3;
+
+use crate::scene::Up;
+use crate::style::{Color, Value};
+
+/// Opens a 3D model and draws it while you turn it.
+#[derive(Debug, Parser)]
+#[command(name = "hachure", version, about, args_conflicts_with_subcommands = true)]
+pub(super) struct Cli {
+    #[command(subcommand)]
+    pub command: Option<Command>,
+    /// Models (glTF, GLB, OBJ, STL, PLY) or one .hachure document to open in the window
+    pub files: Vec<PathBuf>,
+    /// Style of all objects: a preset's name or a .toml file
+    #[arg(long, value_name = "NAME|FILE")]
+    pub style: Option<String>,
+}
+
+#[derive(Debug, Subcommand)]
+pub(super) enum Command {
+    /// Draws a picture without a window
+    Render(Box<RenderArgs>),
+    /// Says what was loaded: nodes, triangles, bounds, unit, up axis, materials, warnings
+    Info(InfoArgs),
+    /// Lists the presets and every parameter
+    Styles(StylesArgs),
+    /// Measures milliseconds per stage and frame
+    Bench(BenchArgs),
+}
+
+#[derive(Debug, Args)]
+pub(super) struct RenderArgs {
+    /// Models, or one .hachure document
+    #[arg(required = true)]
+    pub files: Vec<PathBuf>,
+    /// The picture to write (.png)
+    #[arg(short, long)]
+    pub output: PathBuf,
+    /// Size of the picture in pixels
+    #[arg(long, value_name = "W,H", default_value = "1000,800")]
+    pub resolution: Resolution,
+    #[command(flatten)]
+    pub look: LookArgs,
+    #[command(flatten)]
+    pub camera: CameraArgs,
+    /// Colour of the paper
+    #[arg(long, value_name = "#RRGGBB")]
+    pub background: Option<Color>,
+    /// Leave the paper out: the background becomes transparent
+    #[arg(long)]
+    pub no_background: bool,
+    /// Print what was drawn, and the warnings, as JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Styles and roles; later ones in this list win: --style, --object-style, --set.
+#[derive(Debug, Args)]
+pub(super) struct LookArgs {
+    /// Style of all objects: a preset's name or a .toml file
+    #[arg(long, value_name = "NAME|FILE")]
+    pub style: Option<String>,
+    /// Style of the objects that match a pattern (`/crank/rod.3/*`, or `rod*` for names)
+    #[arg(long, value_name = "GLOB=NAME|FILE")]
+    pub object_style: Vec<Assignment>,
+    /// Set a parameter of all objects (`edges.profile.threshold=0.2`) or of some (`rod*:gooch.alpha=0.3`)
+    #[arg(long, value_name = "[GLOB:]KEY=VALUE")]
+    pub set: Vec<Setting>,
+    /// Do not draw the objects that match
+    #[arg(long, value_name = "GLOB")]
+    pub hide: Vec<String>,
+    /// Draw no edges of the objects that match
+    #[arg(long, value_name = "GLOB")]
+    pub no_enhance: Vec<String>,
+    /// The axis that is up: +X, -X, +Y, -Y, +Z or -Z
+    #[arg(long, value_name = "AXIS", allow_hyphen_values = true)]
+    pub up: Option<Up>,
+}
+
+/// The flags of F3D with the same names; coordinates are the file's.
+#[derive(Debug, Args)]
+pub(super) struct CameraArgs {
+    /// Where the eye is
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true)]
+    pub camera_position: Option<Vector>,
+    /// What the eye looks at [default: the middle of the scene]
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true)]
+    pub camera_focal_point: Option<Vector>,
+    /// What is up in the picture [default: the up axis]
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true)]
+    pub camera_view_up: Option<Vector>,
+    /// Vertical view angle in degrees, 1 to 170
+    #[arg(long, value_name = "DEG")]
+    pub camera_view_angle: Option<f64>,
+    /// Parallel projection
+    #[arg(long)]
+    pub camera_orthographic: bool,
+    /// Height of the picture in units of the model [default: everything is seen]
+    #[arg(long, value_name = "H", requires = "camera_orthographic")]
+    pub camera_view_height: Option<f64>,
+    /// Turn the eye about the up axis, to its right, in degrees; from the front if no position is given
+    #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
+    pub camera_azimuth_angle: Option<f64>,
+    /// Raise the eye, in degrees; from the front if no position is given
+    #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
+    pub camera_elevation_angle: Option<f64>,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct InfoArgs {
+    /// Models, or one .hachure document
+    #[arg(required = true)]
+    pub files: Vec<PathBuf>,
+    /// Print as JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct StylesArgs {
+    /// Print as JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct BenchArgs {
+    /// Models, or one .hachure document [default: the sample crank]
+    pub files: Vec<PathBuf>,
+    /// Size of the picture in pixels
+    #[arg(long, value_name = "W,H", default_value = "800,800")]
+    pub resolution: Resolution,
+    /// Frames per measurement; the median counts
+    #[arg(long, value_name = "N", default_value = "20", value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    pub frames: u32,
+    /// Print as JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Width and height of a picture in pixels.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Resolution(pub [u32; 2]);
+
+impl FromStr for Resolution {
+    type Err = String;
+
+    fn from_str(s: &str) -> Result<Self, String> {
+        let wrong = || format!("`{s}` is no size; write width,height in pixels, such as 800,600");
+        let (w, h) = s.split_once([',', 'x']).ok_or_else(wrong)?;
+        let side =
+            |side: &str| side.trim().parse().ok().filter(|n| (1..=65_536).contains(n)).ok_or_else(wrong);
+        Ok(Self([side(w)?, side(h)?]))
+    }
+}
+
+/// Three numbers.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Vector(pub DVec3);
+
+impl FromStr for Vector {
+    type Err = String;
+
+    fn from_str(s: &str) -> Result<Self, String> {
+        let numbers: Option<Vec<f64>> =
+            s.split(',').map(|n| n.trim().parse().ok().filter(|n: &f64| n.is_finite())).collect();
+        match numbers.as_deref() {
+            Some(&[x, y, z]) => Ok(Self(DVec3::new(x, y, z))),
+            _ => Err(format!("`{s}` is no vector; write three numbers with commas, such as 1,0.5,-2")),
+        }
+    }
+}
+
+/// `GLOB=NAME`.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Assignment {
+    pub pattern: String,
+    pub style: String,
+}
+
+impl FromStr for Assignment {
+    type Err = String;
+
+    fn from_str(s: &str) -> Result<Self, String> {
+        let (pattern, style) =
+            s.split_once('=').ok_or_else(|| format!("`{s}`: write a pattern, `=` and a style"))?;
+        Ok(Self { pattern: pattern.to_owned(), style: style.to_owned() })
+    }
+}
+
+/// `[GLOB:]KEY=VALUE`.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Setting {
+    pub pattern: Option<String>,
+    pub key: String,
+    pub value: Value,
+}
+
+impl FromStr for Setting {
+    type Err = String;
+
+    fn from_str(s: &str) -> Result<Self, String> {
+        let (left, value) =
+            s.rsplit_once('=').ok_or_else(|| format!("`{s}`: write a parameter, `=` and its value"))?;
+        let (pattern, key) = match left.rsplit_once(':') {
+            Some((pattern, key)) => (Some(pattern.to_owned()), key),
+            None => (None, left),
+        };
+        Ok(Self { pattern, key: key.to_owned(), value: Value::parse(value) })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory as _;
+
+    #[test]
+    fn the_command_line_is_well_formed() {
+        Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn values_are_parsed() {
+        assert_eq!("800,600".parse(), Ok(Resolution([800, 600])));
+        assert!("800".parse::<Resolution>().is_err() && "0,5".parse::<Resolution>().is_err());
+        assert_eq!("1,-2,0.5".parse(), Ok(Vector(DVec3::new(1.0, -2.0, 0.5))));
+        assert!("1,2".parse::<Vector>().is_err() && "1,2,nan".parse::<Vector>().is_err());
+        let setting: Setting = "/a/b*:gooch.alpha=0.3".parse().unwrap();
+        assert_eq!(setting.pattern.as_deref(), Some("/a/b*"));
+        assert_eq!((setting.key.as_str(), setting.value), ("gooch.alpha", Value::Number(0.3)));
+    }
+}

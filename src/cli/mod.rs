@@ -1,0 +1,92 @@
+//! The command line. What the window can draw, this can draw too.
+
+mod args;
+mod bench;
+mod info;
+mod render;
+mod styles;
+
+use clap::Parser as _;
+
+use crate::app::{self, AppError};
+use crate::document::{DocumentError, PatternError};
+use crate::export::ExportError;
+use crate::export::session::OpenError;
+use crate::gpu::GpuError;
+use crate::render::RenderError;
+use crate::style::{StyleError, preset};
+
+use args::{Cli, Command};
+
+/// Why a command could not do what it was asked to.
+#[derive(Debug, thiserror::Error)]
+pub enum CliError {
+    /// The window.
+    #[error(transparent)]
+    App(#[from] AppError),
+    /// A file could not be opened.
+    #[error(transparent)]
+    Open(#[from] OpenError),
+    /// A style or a parameter.
+    #[error(transparent)]
+    Style(#[from] StyleError),
+    /// A pattern.
+    #[error(transparent)]
+    Pattern(#[from] PatternError),
+    /// The document.
+    #[error(transparent)]
+    Document(#[from] DocumentError),
+    /// The device.
+    #[error(transparent)]
+    Gpu(#[from] GpuError),
+    /// Drawing.
+    #[error(transparent)]
+    Render(#[from] RenderError),
+    /// Saving.
+    #[error(transparent)]
+    Export(#[from] ExportError),
+    /// The output could not be written.
+    #[error("cannot write to standard output: {0}")]
+    Output(#[from] std::io::Error),
+}
+
+/// Runs what the arguments of the process say and returns its exit code: 0 done, 2 wrong usage.
+///
+/// # Errors
+/// [`CliError`], for exit code 1.
+pub fn run() -> Result<i32, CliError> {
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(error) => {
+            error.print()?;
+            return Ok(error.exit_code());
+        }
+    };
+    match cli.command {
+        Some(Command::Render(args)) => render::run(&args)?,
+        Some(Command::Info(args)) => info::run(&args)?,
+        Some(Command::Styles(args)) => styles::run(&args)?,
+        Some(Command::Bench(args)) => bench::run(&args)?,
+        None => {
+            let style = cli.style.as_deref().map(preset::load).transpose()?;
+            app::run(cli.files, style.map(|p| p.style))?;
+        }
+    }
+    Ok(0)
+}
+
+/// Prints a value as JSON with a newline.
+fn print_json(value: &serde_json::Value) -> Result<(), CliError> {
+    use std::io::Write as _;
+    let mut out = std::io::stdout().lock();
+    serde_json::to_writer_pretty(&mut out, value).map_err(std::io::Error::from)?;
+    writeln!(out)?;
+    Ok(())
+}
+
+/// Prints a line of text.
+fn print_line(line: &str) -> Result<(), CliError> {
+    use std::io::Write as _;
+    writeln!(std::io::stdout().lock(), "{line}")?;
+    Ok(())
+}

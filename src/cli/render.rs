@@ -1,0 +1,140 @@
+//! `hachure render`: a picture without a window.
+
+use serde_json::json;
+
+use super::args::{CameraArgs, LookArgs, RenderArgs};
+use super::{CliError, print_json};
+use crate::document::{Document, Pattern};
+use crate::export::session::{Opened, initial_camera, open};
+use crate::export::{Session, save_png};
+use crate::gpu::{Gpu, GpuError};
+use crate::import::Progress;
+use crate::scene::{Camera, NodeId, Projection, Scene};
+use crate::style::preset;
+
+pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
+    // The device opens while the files are read.
+    let device = std::thread::Builder::new().name("device".to_owned()).spawn(Gpu::headless)?;
+    let mut opened = open(&args.files, &Progress::default())?;
+    apply_look(&mut opened, &args.look)?;
+    if let Some(background) = args.background {
+        opened.document.view.background = background;
+    }
+    let size = args.resolution.0;
+    let aspect = f64::from(size[0]) / f64::from(size[1]);
+    opened.document.camera = Some(camera(&opened, &args.camera, aspect));
+
+    let gpu = device
+        .join()
+        .unwrap_or_else(|_panic| Err(GpuError::Lost("the driver failed while starting".to_owned())))?;
+    let mut session = Session::new(gpu);
+    session.set_scene(&opened)?;
+    let image = session.image(&opened, size, args.no_background)?;
+    save_png(&args.output, image)?;
+
+    let scene = &opened.scene;
+    if args.json {
+        print_json(&json!({
+            "output": args.output,
+            "resolution": size,
+            "adapter": session.renderer().gpu().adapter_name,
+            "triangles": scene.triangle_count(),
+            "warnings": scene.warnings.iter().map(ToString::to_string).collect::<Vec<_>>(),
+        }))
+    } else {
+        for warning in &scene.warnings {
+            eprintln!("hachure: warning: {warning}");
+        }
+        Ok(())
+    }
+}
+
+fn matching(scene: &Scene, pattern: &str) -> Result<Vec<NodeId>, CliError> {
+    Ok(Document::matching(scene, &Pattern::new(pattern)?)?)
+}
+
+/// Styles, parameters and roles in their order of precedence.
+pub(super) fn apply_look(opened: &mut Opened, look: &LookArgs) -> Result<(), CliError> {
+    let Opened { document, scene } = opened;
+    if let Some(name) = &look.style {
+        document.style = preset::load(name)?.style;
+        for node in document.nodes.values_mut() {
+            node.style = None;
+        }
+    }
+    for assignment in &look.object_style {
+        let style = preset::load(&assignment.style)?.style;
+        document.set_style(scene, &matching(scene, &assignment.pattern)?, &style);
+    }
+    for setting in &look.set {
+        match &setting.pattern {
+            None => document.set(&setting.key, &setting.value)?,
+            Some(pattern) => {
+                document.set_for(scene, &matching(scene, pattern)?, &setting.key, &setting.value)?;
+            }
+        }
+    }
+    for pattern in &look.hide {
+        for id in matching(scene, pattern)? {
+            document.node_mut(&scene.nodes[id].path).visible = Some(false);
+        }
+    }
+    for pattern in &look.no_enhance {
+        for id in matching(scene, pattern)? {
+            document.node_mut(&scene.nodes[id].path).enhanced = Some(false);
+        }
+    }
+    document.up = look.up.or(document.up);
+    document.tidy();
+    Ok(())
+}
+
+/// The camera that the flags describe, as F3D reads them: position, focal point, up and angle first, then everything
+/// is framed if no position was given, then azimuth and elevation.
+fn camera(opened: &Opened, args: &CameraArgs, aspect: f64) -> Camera {
+    let Opened { document, scene } = opened;
+    let up = document.up(scene);
+    let bounds = scene.bounds();
+    let is_placed = args.camera_position.is_some();
+    let mut camera = match document.camera {
+        Some(camera) => camera,
+        None if args.camera_azimuth_angle.or(args.camera_elevation_angle).is_some() || is_placed => {
+            Camera::looking_from(up.front(), up.vector(), &bounds, aspect)
+        }
+        None => initial_camera(document, scene, aspect),
+    };
+    if let Some(position) = args.camera_position {
+        camera.position = position.0;
+        camera.focal_point = bounds.center();
+        camera.view_up = up.vector();
+    }
+    if let Some(focal_point) = args.camera_focal_point {
+        let moved = focal_point.0 - camera.focal_point;
+        camera.focal_point = focal_point.0;
+        if !is_placed {
+            camera.position += moved;
+        }
+    }
+    if let Some(view_up) = args.camera_view_up {
+        camera.view_up = view_up.0;
+    }
+    if let Some(view_angle) = args.camera_view_angle {
+        camera.projection = Projection::Perspective { view_angle: view_angle.clamp(1.0, 170.0) };
+    }
+    let azimuth = args.camera_azimuth_angle.unwrap_or(0.0);
+    let elevation = args.camera_elevation_angle.unwrap_or(0.0);
+    if azimuth != 0.0 || elevation != 0.0 {
+        camera = camera.orbited(camera.view_up, azimuth, elevation);
+    }
+    if args.camera_orthographic {
+        camera = camera.with_orthographic(true);
+    }
+    let frames_all = !is_placed && args.camera_focal_point.is_none() && document.camera.is_none();
+    if frames_all {
+        camera = camera.framing(&bounds, aspect);
+    }
+    if let Some(view_height) = args.camera_view_height.filter(|h| h.is_finite() && *h > 0.0) {
+        camera.projection = Projection::Orthographic { view_height };
+    }
+    camera
+}

@@ -1,0 +1,154 @@
+//! From files to a picture: what the command line and the tests do.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use image::RgbaImage;
+
+use crate::document::{Document, DocumentError, Show};
+use crate::geometry::{Adjacency, Provoking, provoking};
+use crate::gpu::{Gpu, GpuError, readback};
+use crate::import::{ImportError, ImportOptions, Progress, load_all};
+use crate::render::{Picture, RenderError, Renderer, Request};
+use crate::scene::{Camera, Scene};
+
+/// Files that were opened: a document and its scene.
+#[derive(Debug, Clone)]
+pub struct Opened {
+    /// The document; new where only models were given.
+    pub document: Document,
+    /// What the models hold.
+    pub scene: Arc<Scene>,
+}
+
+/// Why files could not be opened.
+#[derive(Debug, thiserror::Error)]
+pub enum OpenError {
+    /// A document.
+    #[error(transparent)]
+    Document(#[from] DocumentError),
+    /// A model.
+    #[error(transparent)]
+    Import(#[from] ImportError),
+    /// A document stands among other files.
+    #[error("{}: a .hachure document is opened by itself, without further files", path.display())]
+    DocumentAmongFiles {
+        /// The document.
+        path: PathBuf,
+    },
+}
+
+/// Whether a path names a document and not a model.
+pub fn is_document(path: &Path) -> bool {
+    path.extension().is_some_and(|e| e.eq_ignore_ascii_case("hachure"))
+}
+
+/// Opens models, or one document with its models.
+///
+/// # Errors
+/// [`OpenError`].
+pub fn open(files: &[PathBuf], progress: &Progress) -> Result<Opened, OpenError> {
+    let document = match files {
+        [file] if is_document(file) => Some(Document::open(file)?),
+        _ => None,
+    };
+    if document.is_none()
+        && let Some(path) = files.iter().find(|f| is_document(f))
+    {
+        return Err(OpenError::DocumentAmongFiles { path: path.clone() });
+    }
+    let is_new = document.is_none();
+    let mut document = document.unwrap_or_else(|| Document { models: files.to_vec(), ..Document::default() });
+    let scene = load_all(&document.models, &ImportOptions::default(), progress)?;
+    if is_new && !scene.lights.is_empty() {
+        document.lights = scene.lights.clone();
+    }
+    Ok(Opened { document, scene: Arc::new(scene) })
+}
+
+/// The camera of a new drawing: the whole scene from the front, turned 30° and raised 20°.
+pub fn initial_camera(document: &Document, scene: &Scene, aspect: f64) -> Camera {
+    let up = document.up(scene);
+    let bounds = scene.bounds();
+    Camera::looking_from(up.front(), up.vector(), &bounds, aspect)
+        .orbited(up.vector(), 30.0, 20.0)
+        .framing(&bounds, aspect)
+}
+
+/// Surface ids of all meshes for a crease angle in degrees. Takes about 0.1 s per million triangles.
+pub fn surfaces(scene: &Scene, crease_angle: f32) -> Vec<Provoking> {
+    scene
+        .meshes
+        .iter()
+        .map(|mesh| provoking(mesh, &Adjacency::new(mesh).surfaces(crease_angle.to_radians())))
+        .collect()
+}
+
+/// A renderer that gives its pictures back.
+pub struct Session {
+    renderer: Renderer,
+}
+
+impl Session {
+    /// Takes over a device.
+    pub fn new(gpu: Gpu) -> Self {
+        Self { renderer: Renderer::new(gpu) }
+    }
+
+    /// The renderer.
+    pub fn renderer(&mut self) -> &mut Renderer {
+        &mut self.renderer
+    }
+
+    /// Uploads what was opened; surface ids only if the document's view asks for them.
+    ///
+    /// # Errors
+    /// [`RenderError`].
+    pub fn set_scene(&mut self, opened: &Opened) -> Result<(), RenderError> {
+        let surfaces = if opened.document.view.show == Show::Surfaces {
+            surfaces(&opened.scene, opened.document.view.crease_angle)
+        } else {
+            Vec::new()
+        };
+        self.renderer.set_scene(&opened.scene, &surfaces)
+    }
+
+    /// Draws a document on the scene that was set, with its own camera or the initial one.
+    ///
+    /// # Errors
+    /// [`RenderError`].
+    pub fn draw(
+        &mut self,
+        opened: &Opened,
+        size: [u32; 2],
+        transparent: bool,
+    ) -> Result<Picture, RenderError> {
+        let aspect = f64::from(size[0].max(1)) / f64::from(size[1].max(1));
+        let camera =
+            opened.document.camera.unwrap_or_else(|| initial_camera(&opened.document, &opened.scene, aspect));
+        self.renderer.render(&Request {
+            document: &opened.document,
+            camera: &camera,
+            size,
+            transparent,
+            selected: &[],
+        })
+    }
+
+    /// Draws and reads the picture back.
+    ///
+    /// # Errors
+    /// [`RenderError`].
+    pub fn image(
+        &mut self,
+        opened: &Opened,
+        size: [u32; 2],
+        transparent: bool,
+    ) -> Result<RgbaImage, RenderError> {
+        let picture = self.draw(opened, size, transparent)?;
+        let bytes = readback::read(self.renderer.gpu(), &picture.image)?;
+        let [width, height] = picture.image.size();
+        RgbaImage::from_raw(width, height, bytes)
+            .ok_or_else(|| GpuError::Lost("the picture came back incomplete".to_owned()).into())
+    }
+}

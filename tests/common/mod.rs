@@ -1,0 +1,112 @@
+//! What the tests of pictures share: a device, small scenes, read-back.
+#![allow(dead_code, unreachable_pub, reason = "each test program uses a part of it")]
+
+use std::sync::Arc;
+
+use glam::{DMat4, DVec3};
+use hachure::document::Document;
+use hachure::export::Session;
+use hachure::export::session::Opened;
+use hachure::geometry::Mesh;
+use hachure::gpu::{Gpu, Target, readback};
+use hachure::render::Picture;
+use hachure::scene::{Camera, Material, Node, Scene};
+use image::RgbaImage;
+
+/// A device; without one the test fails and says what to install.
+pub fn session() -> Session {
+    match Gpu::headless() {
+        Ok(gpu) => Session::new(gpu),
+        Err(error) => panic!("{error}"),
+    }
+}
+
+/// A scene of one object per mesh: (name, mesh, place, base colour).
+pub fn scene(objects: Vec<(&str, Mesh, DMat4, [f32; 3])>) -> Arc<Scene> {
+    let mut scene = Scene::default();
+    for (name, mut mesh, world_from_local, [r, g, b]) in objects {
+        for part in &mut mesh.parts {
+            part.material = scene.materials.len();
+        }
+        scene.materials.push(Material { base_color: glam::vec4(r, g, b, 1.0), ..Material::default() });
+        scene.nodes.push(Node {
+            name: name.to_owned(),
+            path: format!("/{name}"),
+            parent: None,
+            descendants: 0,
+            world_from_local,
+            mesh: Some(scene.meshes.len()),
+        });
+        scene.meshes.push(Arc::new(mesh));
+    }
+    Arc::new(scene)
+}
+
+/// A document on a scene, seen from a direction.
+pub fn opened(scene: &Arc<Scene>, towards_viewer: DVec3) -> Opened {
+    let camera = Camera::looking_from(towards_viewer, DVec3::Y, &scene.bounds(), 1.0);
+    Opened { document: Document { camera: Some(camera), ..Document::default() }, scene: Arc::clone(scene) }
+}
+
+/// Sets a parameter.
+pub fn set(opened: &mut Opened, key: &str, value: &str) {
+    opened.document.set(key, &hachure::style::Value::parse(value)).unwrap();
+}
+
+/// Uploads and draws.
+pub fn draw(session: &mut Session, opened: &Opened, side: u32) -> Picture {
+    session.set_scene(opened).unwrap();
+    session.draw(opened, [side, side], false).unwrap()
+}
+
+/// Uploads, draws and reads the final image back.
+pub fn image(session: &mut Session, opened: &Opened, side: u32) -> RgbaImage {
+    session.set_scene(opened).unwrap();
+    session.image(opened, [side, side], false).unwrap()
+}
+
+/// The texels of a target as numbers.
+pub fn texels<T: bytemuck::Pod>(session: &mut Session, target: &Target) -> Vec<T> {
+    bytemuck::pod_collect_to_vec(&readback::read(session.renderer().gpu(), target).unwrap())
+}
+
+/// One texel of the G-buffer.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Surfel {
+    pub normal: glam::Vec3,
+    pub face_normal: glam::Vec3,
+    pub depth: f32,
+    pub object: u32,
+    pub enhanced: bool,
+}
+
+fn octahedral(packed: u32) -> glam::Vec3 {
+    let [x, y] =
+        [packed as u16 as i16, (packed >> 16) as u16 as i16].map(|c| (f32::from(c) / 32767.0).max(-1.0));
+    let z = 1.0 - x.abs() - y.abs();
+    let fold = (-z).max(0.0);
+    let unfold = |c: f32| if c >= 0.0 { c - fold } else { c + fold };
+    glam::vec3(unfold(x), unfold(y), z).normalize()
+}
+
+/// The G-buffer of a picture, row by row.
+pub fn surfels(session: &mut Session, picture: &Picture) -> Vec<Surfel> {
+    texels::<[u32; 4]>(session, &picture.gbuffer.geometry)
+        .into_iter()
+        .map(|[normal, face, depth, object]| Surfel {
+            normal: octahedral(normal),
+            face_normal: octahedral(face),
+            depth: f32::from_bits(depth),
+            object: object & 0x7fff_ffff,
+            enhanced: object >> 31 == 1,
+        })
+        .collect()
+}
+
+/// Inner and profile ink per pixel, 0 to 1, and whose it is.
+pub fn ink(session: &mut Session, picture: &Picture) -> Vec<(f32, f32, u32)> {
+    texels::<[u32; 2]>(session, &picture.edge_map)
+        .into_iter()
+        .map(|[ink, owner]| ((ink & 0xffff) as f32 / 65535.0, (ink >> 16) as f32 / 65535.0, owner))
+        .collect()
+}

@@ -1,0 +1,38 @@
+//! Uniform twins: each Rust struct that goes to the device has the layout of the shader's own struct.
+
+use encase::ShaderType;
+use encase::internal::SizeValue;
+use hachure::gpu::Shaders;
+use hachure::gpu::material::MaterialUniform;
+use hachure::render::effects::surface::SurfaceUniform;
+use hachure::render::frame_uniform::{FrameUniform, LightUniform};
+use hachure::render::passes::edge_map::EdgeUniform;
+use hachure::render::passes::gbuffer::DrawUniform;
+use wgpu::naga::{TypeInner, front::wgsl};
+
+/// Byte offsets of a WGSL struct's members and its size.
+fn layout(file: &str, name: &str) -> (Vec<u64>, u64) {
+    let text = Shaders::default().compose(file).unwrap().text;
+    let module = wgsl::parse_str(&text).unwrap();
+    let (_, found) = module.types.iter().find(|(_, t)| t.name.as_deref() == Some(name)).unwrap();
+    let TypeInner::Struct { members, span } = &found.inner else { panic!("{name} is no struct") };
+    (members.iter().map(|m| u64::from(m.offset)).collect(), u64::from(*span))
+}
+
+macro_rules! same_layout {
+    ($rust:ty, $fields:literal, $file:literal, $wgsl:literal) => {
+        let offsets: Vec<u64> = (0..$fields).map(|i| <$rust as ShaderType>::METADATA.offset(i)).collect();
+        let SizeValue(size) = <$rust as ShaderType>::METADATA.min_size();
+        assert_eq!((offsets, size.get()), layout($file, $wgsl), "{} and {}", stringify!($rust), $wgsl);
+    };
+}
+
+#[test]
+fn rust_and_wgsl_agree_on_every_uniform() {
+    same_layout!(FrameUniform, 8, "passes/resolve.wgsl", "Frame");
+    same_layout!(LightUniform, 2, "passes/resolve.wgsl", "Light");
+    same_layout!(DrawUniform, 5, "passes/gbuffer.wgsl", "Draw");
+    same_layout!(MaterialUniform, 6, "passes/gbuffer.wgsl", "Material");
+    same_layout!(EdgeUniform, 10, "passes/edge_map.wgsl", "EdgeStyle");
+    same_layout!(SurfaceUniform, 8, "effects/surface.wgsl", "SurfaceStyle");
+}
