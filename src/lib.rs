@@ -5,6 +5,7 @@
 //! become scenes, [`gpu`] the device, [`document`] what is saved and undone, [`scene`] nodes, cameras, lights and
 //! materials, [`style`] the parameters of every effect, [`geometry`] meshes.
 
+pub mod app;
 pub mod cli;
 pub mod document;
 pub mod export;

@@ -8,18 +8,22 @@ mod styles;
 
 use clap::Parser as _;
 
+use crate::app::{self, AppError};
 use crate::document::{DocumentError, PatternError};
 use crate::export::ExportError;
 use crate::export::session::OpenError;
 use crate::gpu::GpuError;
 use crate::render::RenderError;
-use crate::style::StyleError;
+use crate::style::{StyleError, preset};
 
 use args::{Cli, Command};
 
 /// Why a command could not do what it was asked to.
 #[derive(Debug, thiserror::Error)]
 pub enum CliError {
+    /// The window.
+    #[error(transparent)]
+    App(#[from] AppError),
     /// A file could not be opened.
     #[error(transparent)]
     Open(#[from] OpenError),
@@ -63,7 +67,10 @@ pub fn run() -> Result<i32, CliError> {
         Some(Command::Info(args)) => info::run(&args)?,
         Some(Command::Styles(args)) => styles::run(&args)?,
         Some(Command::Bench(args)) => bench::run(&args)?,
-        None => {}
+        None => {
+            let style = cli.style.as_deref().map(preset::load).transpose()?;
+            app::run(cli.files, style.map(|p| p.style))?;
+        }
     }
     Ok(0)
 }

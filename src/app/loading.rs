@@ -1,0 +1,134 @@
+//! What a job loads: model files and documents.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use crate::document::{Document, DocumentError};
+use crate::export::session::is_document;
+use crate::geometry::Bounds;
+use crate::import::{ImportError, ImportOptions, Progress};
+use crate::scene::{NodeId, Scene};
+
+/// The ending of documents.
+pub const DOCUMENT_ENDING: &str = "hachure";
+
+/// The endings of models, without dot.
+pub const MODEL_ENDINGS: [&str; 5] = ["glb", "gltf", "obj", "stl", "ply"];
+
+/// How models become a scene; the tests put slow or failing ones in place of [`crate::import::load_all`].
+pub type Loader =
+    Arc<dyn Fn(&[PathBuf], &ImportOptions, &Progress) -> Result<Scene, ImportError> + Send + Sync>;
+
+/// What is to become of a loaded scene.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Intent {
+    /// It takes the place of everything.
+    Open,
+    /// It is what was there and more.
+    Add,
+    /// It is what was there, read again.
+    Reload,
+    /// An undo changed the list of models.
+    Restore,
+}
+
+/// A scene with what the window needs to know about it.
+#[derive(Debug, Clone, Default)]
+pub struct Model {
+    /// The scene.
+    pub scene: Arc<Scene>,
+    /// The box of each node's own mesh, world space.
+    pub bounds: Vec<Bounds>,
+    /// Triangles of each node's own mesh.
+    pub triangles: Vec<usize>,
+}
+
+impl Model {
+    /// Measures a scene; takes a while for large ones.
+    pub fn new(scene: Scene) -> Self {
+        let mesh_bounds: Vec<_> = scene.meshes.iter().map(|m| m.bounds()).collect();
+        let bounds = scene
+            .nodes
+            .iter()
+            .map(|n| {
+                let own = n.mesh.and_then(|m| mesh_bounds.get(m));
+                own.map_or(Bounds::EMPTY, |b| b.transformed(&n.world_from_local))
+            })
+            .collect();
+        let triangles = scene
+            .nodes
+            .iter()
+            .map(|n| n.mesh.and_then(|m| scene.meshes.get(m)).map_or(0, |m| m.triangle_count()))
+            .collect();
+        Self { scene: Arc::new(scene), bounds, triangles }
+    }
+
+    /// Triangles of some nodes.
+    pub fn triangle_count(&self, nodes: impl IntoIterator<Item = NodeId>) -> usize {
+        nodes.into_iter().filter_map(|n| self.triangles.get(n)).sum()
+    }
+
+    /// The box around some nodes, world space.
+    pub fn bounds_of(&self, nodes: impl IntoIterator<Item = NodeId>) -> Bounds {
+        nodes.into_iter().filter_map(|n| self.bounds.get(n)).fold(Bounds::EMPTY, |all, b| all.union(b))
+    }
+
+    /// The box around everything that a document shows; around everything if it shows nothing.
+    pub fn visible_bounds(&self, document: &Document) -> Bounds {
+        let resolved = document.resolve(&self.scene);
+        let visible = resolved.iter().enumerate().filter(|(_, r)| r.visible).map(|(n, _)| n);
+        let bounds = self.bounds_of(visible);
+        if bounds.is_empty() { self.bounds_of(0..self.bounds.len()) } else { bounds }
+    }
+}
+
+/// The result of a load.
+#[derive(Debug)]
+pub struct Loaded {
+    /// The scene.
+    pub model: Model,
+    /// All models in it.
+    pub models: Vec<PathBuf>,
+    /// The document that was opened, and its file.
+    pub document: Option<(PathBuf, Document)>,
+    /// What is to become of it.
+    pub intent: Intent,
+}
+
+/// Why a load failed.
+#[derive(Debug, thiserror::Error)]
+pub enum LoadError {
+    /// A model.
+    #[error(transparent)]
+    Import(#[from] ImportError),
+    /// A document.
+    #[error(transparent)]
+    Document(#[from] DocumentError),
+}
+
+/// Loads `paths`; the first document among them is opened and brings its models along.
+///
+/// # Errors
+/// The first file that fails.
+pub fn load(
+    paths: &[PathBuf],
+    intent: Intent,
+    loader: &Loader,
+    progress: &Progress,
+) -> Result<Loaded, LoadError> {
+    let absolute = |p: &PathBuf| std::path::absolute(p).unwrap_or_else(|_unknown| p.clone());
+    let mut models = Vec::new();
+    let mut document = None;
+    for path in paths.iter().map(absolute) {
+        if !is_document(&path) {
+            models.push(path);
+        } else if document.is_none() {
+            let mut opened = Document::open(&path)?;
+            opened.models = opened.models.iter().map(absolute).collect();
+            models.extend(opened.models.iter().cloned());
+            document = Some((path, opened));
+        }
+    }
+    let scene = loader(&models, &ImportOptions::default(), progress)?;
+    Ok(Loaded { model: Model::new(scene), models, document, intent })
+}

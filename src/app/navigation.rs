@@ -1,0 +1,205 @@
+//! How the mouse and the keys move the camera: turntable orbit, pan, zoom to the cursor.
+//!
+//! Everything is measured in shares of the picture, so that it feels alike at any scale of a model.
+
+use glam::{DVec2, DVec3};
+
+use crate::geometry::Bounds;
+use crate::scene::{Camera, Projection, Up};
+
+/// Degrees that a drag over the whole height of the picture turns.
+const DEGREES_PER_HEIGHT: f64 = 240.0;
+
+/// Change of the distance per notch of the wheel.
+const ZOOM_PER_NOTCH: f64 = 0.88;
+
+/// Degrees of one step by key.
+pub const STEP: f64 = 15.0;
+
+/// A standard direction to look from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Standard {
+    /// The side that faces the viewer in the file's format.
+    Front,
+    /// Opposite of the front.
+    Back,
+    /// The viewer's right when looking at the front.
+    Right,
+    /// Opposite of the right.
+    Left,
+    /// From above.
+    Top,
+    /// From below.
+    Bottom,
+    /// From front, right and above at equal angles.
+    Isometric,
+    /// Nearly from the front, a little from the right and above; the first view of a model.
+    Home,
+}
+
+impl Standard {
+    /// The direction from the model to the viewer.
+    pub fn direction(self, up: Up) -> DVec3 {
+        let (up, front) = (up.vector(), up.front());
+        let right = up.cross(front);
+        match self {
+            Self::Front => front,
+            Self::Back => -front,
+            Self::Right => right,
+            Self::Left => -right,
+            Self::Top => up,
+            Self::Bottom => -up,
+            Self::Isometric => front + right + up,
+            // 30° to the right and 20° up, like the first picture of the command line.
+            Self::Home => {
+                let ((sin_a, cos_a), (sin_e, cos_e)) =
+                    (30_f64.to_radians().sin_cos(), 20_f64.to_radians().sin_cos());
+                (front * cos_a + right * sin_a) * cos_e + up * sin_e
+            }
+        }
+    }
+
+    /// A camera that sees all of `bounds` from there, in the projection of `like`.
+    pub fn camera(self, up: Up, bounds: &Bounds, aspect: f64, like: Option<&Camera>) -> Camera {
+        let parallel = like.is_some_and(|c| matches!(c.projection, Projection::Orthographic { .. }));
+        let mut camera = Camera::looking_from(self.direction(up), up.vector(), bounds, aspect);
+        if let Some(Camera { projection: Projection::Perspective { view_angle }, .. }) = like {
+            camera.projection = Projection::Perspective { view_angle: *view_angle };
+            camera = camera.framing(bounds, aspect);
+        }
+        if parallel { camera.with_orthographic(true).framing(bounds, aspect) } else { camera }
+    }
+}
+
+/// Turns the camera by a drag, given in shares of the picture's height.
+pub fn orbit(camera: &Camera, up: Up, drag: DVec2) -> Camera {
+    camera.orbited(up.vector(), -drag.x * DEGREES_PER_HEIGHT, drag.y * DEGREES_PER_HEIGHT)
+}
+
+/// Moves the picture with the pointer; the drag is in shares of the picture's height.
+pub fn pan(camera: &Camera, drag: DVec2) -> Camera {
+    let by = (camera.up() * drag.y - camera.right() * drag.x) * camera.view_height();
+    moved(camera, by)
+}
+
+/// Shifts eye and focal point.
+pub fn moved(camera: &Camera, by: DVec3) -> Camera {
+    Camera { position: camera.position + by, focal_point: camera.focal_point + by, ..*camera }
+}
+
+/// Zooms in by some notches of the wheel (out when negative). What lies in the plane of the focal point under
+/// `cursor` stays there; the cursor is in shares of the picture's height from the centre, y upwards.
+///
+/// `diagonal` is the size of the model; it limits how near and how far one can get.
+pub fn zoom(camera: &Camera, notches: f64, cursor: DVec2, diagonal: f64) -> Camera {
+    let size = if diagonal > 0.0 { diagonal } else { 1.0 };
+    let height = camera.view_height().max(f64::MIN_POSITIVE);
+    let wanted = height * ZOOM_PER_NOTCH.powf(notches.clamp(-50.0, 50.0));
+    // A camera that is already outside of the limits may stay there, but not go further.
+    let (nearest, farthest) = ((size * 1e-4).min(height), (size * 100.0).max(height));
+    let factor = wanted.clamp(nearest, farthest) / height;
+    let shift = (camera.right() * cursor.x + camera.up() * cursor.y) * height * (1.0 - factor);
+    let focal_point = camera.focal_point + shift;
+    match camera.projection {
+        Projection::Perspective { .. } => Camera {
+            position: focal_point - camera.forward() * camera.distance() * factor,
+            focal_point,
+            ..*camera
+        },
+        Projection::Orthographic { view_height } => Camera {
+            projection: Projection::Orthographic { view_height: view_height * factor },
+            ..moved(camera, shift)
+        },
+    }
+}
+
+/// The same view through another angle; what lies at the focal point keeps its size. Parallel views stay as they are.
+pub fn with_view_angle(camera: &Camera, degrees: f64) -> Camera {
+    let Projection::Perspective { .. } = camera.projection else { return *camera };
+    let degrees = degrees.clamp(1.0, 170.0);
+    let distance = camera.view_height() / (2.0 * (degrees.to_radians() * 0.5).tan());
+    Camera {
+        position: camera.focal_point - camera.forward() * distance,
+        projection: Projection::Perspective { view_angle: degrees },
+        ..*camera
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn bounds(size: f64) -> Bounds {
+        Bounds { min: DVec3::splat(-size), max: DVec3::splat(size) }
+    }
+
+    /// Where a point appears, in shares of the picture's height from the centre.
+    fn on_screen(camera: &Camera, point: DVec3) -> DVec2 {
+        let p = camera.view_from_world().transform_point3(point);
+        let scale = match camera.projection {
+            Projection::Perspective { .. } => camera.view_height() / camera.distance() * -p.z,
+            Projection::Orthographic { view_height } => view_height,
+        };
+        DVec2::new(p.x, p.y) / scale
+    }
+
+    #[test]
+    fn zooming_keeps_what_is_under_the_cursor_at_any_scale_and_projection() {
+        for size in [1e-6, 1.0, 1e6] {
+            for parallel in [false, true] {
+                let camera =
+                    Standard::Home.camera(Up::PosY, &bounds(size), 1.5, None).with_orthographic(parallel);
+                let cursor = DVec2::new(0.4, -0.3);
+                let point = camera.focal_point
+                    + (camera.right() * cursor.x + camera.up() * cursor.y) * camera.view_height();
+                let near = zoom(&camera, 5.0, cursor, bounds(size).diagonal());
+                assert!(near.view_height() < camera.view_height() * 0.6);
+                assert!((on_screen(&near, point) - cursor).length() < 1e-9);
+                let back = zoom(&near, -5.0, cursor, bounds(size).diagonal());
+                assert!((back.position - camera.position).length() < 1e-9 * size);
+            }
+        }
+    }
+
+    #[test]
+    fn zooming_never_runs_away() {
+        let start = Standard::Home.camera(Up::PosY, &bounds(1.0), 1.5, None);
+        let mut camera = start;
+        for _ in 0..1000 {
+            camera = zoom(&camera, 10.0, DVec2::ZERO, 3.0);
+        }
+        assert!(camera.view_height() >= 3e-4 * 0.99 && camera.position.is_finite());
+        for _ in 0..1000 {
+            camera = zoom(&camera, -10.0, DVec2::ZERO, 3.0);
+        }
+        assert!(camera.view_height() <= 301.0 && camera.position.is_finite());
+    }
+
+    #[test]
+    fn panning_moves_the_focal_point_with_the_pointer() {
+        let camera = Standard::Front.camera(Up::PosY, &bounds(1.0), 1.0, None);
+        let drag = DVec2::new(0.25, 0.1);
+        let moved = pan(&camera, drag);
+        let there = on_screen(&moved, camera.focal_point);
+        assert!((there - DVec2::new(0.25, -0.1)).length() < 1e-9, "{there}");
+    }
+
+    #[test]
+    fn standard_views_look_where_they_say_for_every_up() {
+        for up in Up::ALL {
+            for (standard, opposite) in [
+                (Standard::Front, Standard::Back),
+                (Standard::Right, Standard::Left),
+                (Standard::Top, Standard::Bottom),
+            ] {
+                let (a, b) = (standard.direction(up), opposite.direction(up));
+                assert_eq!(a, -b);
+            }
+            let front = Standard::Front.camera(up, &bounds(1.0), 1.0, None);
+            assert!(front.right().dot(Standard::Right.direction(up)) > 0.99);
+            assert!(front.up().dot(up.vector()) > 0.99);
+            let top = Standard::Top.camera(up, &bounds(1.0), 1.0, None);
+            assert!(top.forward().dot(up.vector()) < -0.99);
+        }
+    }
+}

@@ -1,0 +1,43 @@
+//! What stands around the picture. Panels change the document in place and ask for everything else by command.
+
+pub mod empty;
+pub mod help;
+pub mod icons;
+pub mod menu;
+pub mod outliner;
+pub mod params;
+pub mod status;
+pub mod style;
+pub mod view;
+
+use super::command::Command;
+use super::loading::Model;
+use super::selection::Selection;
+use crate::document::Document;
+use crate::style::preset::Preset;
+use eframe::egui;
+
+/// What panels work on.
+pub struct Editing<'a> {
+    /// The loaded scene.
+    pub model: &'a Model,
+    /// The document; changed in place.
+    pub document: &'a mut Document,
+    /// The selected nodes.
+    pub selection: &'a mut Selection,
+    /// The built-in styles.
+    pub presets: &'a [Preset],
+    /// What the window is asked to do.
+    pub commands: &'a mut Vec<Command>,
+}
+
+/// A button that asks for a command.
+pub fn command_button(ui: &mut egui::Ui, command: Command, commands: &mut Vec<Command>) {
+    let hint = match command.shortcuts().first() {
+        Some(shortcut) => format!("{}  ({})", command.tooltip(), ui.ctx().format_shortcut(shortcut)),
+        None => command.tooltip().to_owned(),
+    };
+    if ui.button(command.text()).on_hover_text(hint).clicked() {
+        commands.push(command);
+    }
+}

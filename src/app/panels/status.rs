@@ -1,0 +1,86 @@
+//! The line below the picture.
+
+use eframe::egui;
+use eframe::egui::Ui;
+
+use crate::app::command::Command;
+use crate::app::loading::Model;
+use crate::app::selection::Selection;
+use crate::document::Document;
+
+/// What the line tells.
+pub struct Status<'a> {
+    /// The loaded scene.
+    pub model: &'a Model,
+    /// The document.
+    pub document: &'a Document,
+    /// The selected nodes.
+    pub selection: &'a Selection,
+    /// Milliseconds of the last picture, if they are to be shown.
+    pub milliseconds: Option<f64>,
+    /// Name of the graphics driver.
+    pub adapter: &'a str,
+}
+
+/// A number with its thousands set apart.
+pub fn grouped(number: usize) -> String {
+    let digits = number.to_string();
+    let mut out = String::new();
+    for (i, digit) in digits.chars().enumerate() {
+        if i > 0 && (digits.len() - i) % 3 == 0 {
+            out.push(',');
+        }
+        out.push(digit);
+    }
+    out
+}
+
+/// The line.
+pub fn status_ui(ui: &mut Ui, status: &Status<'_>, commands: &mut Vec<Command>) {
+    ui.horizontal_centered(|ui| {
+        let scene = &status.model.scene;
+        if !scene.nodes.is_empty() {
+            let objects = scene.nodes.iter().filter(|n| n.mesh.is_some()).count();
+            let triangles = status.model.triangle_count(0..scene.nodes.len());
+            let plural = if objects == 1 { "" } else { "s" };
+            ui.label(format!("{objects} object{plural}, {} triangles", grouped(triangles)));
+        }
+        if let Some(lead) = status.selection.lead().and_then(|n| scene.nodes.get(n)) {
+            ui.separator();
+            let more = status.selection.len() - 1;
+            let text = if more > 0 { format!("{} and {more} more", lead.path) } else { lead.path.clone() };
+            ui.add(egui::Label::new(text).truncate());
+        }
+        if !scene.warnings.is_empty() {
+            ui.separator();
+            let count = scene.warnings.len();
+            let text = format!("⚠ {count} warning{}", if count == 1 { "" } else { "s" });
+            if ui.link(text).on_hover_text(Command::Warnings.tooltip()).clicked() {
+                commands.push(Command::Warnings);
+            }
+        }
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            if let Some(milliseconds) = status.milliseconds {
+                ui.label(format!("{milliseconds:.1} ms"))
+                    .on_hover_text(format!("Time for the last picture with {}", status.adapter));
+            } else {
+                let help = ui.link("Mouse and keys: F1").on_hover_text(Command::Help.tooltip());
+                if help.clicked() {
+                    commands.push(Command::Help);
+                }
+            }
+        });
+    });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn thousands_are_set_apart() {
+        assert_eq!(grouped(7), "7");
+        assert_eq!(grouped(1_234), "1,234");
+        assert_eq!(grouped(123_456_789), "123,456,789");
+    }
+}

@@ -1,0 +1,115 @@
+//! The look of the selection, or of everything that has no style of its own.
+
+use eframe::egui;
+use eframe::egui::{RichText, Ui};
+
+use super::Editing;
+use super::outliner::{inherit, style_name};
+use super::params::{label_of, named_row, params_ui};
+use crate::style::{Param, Style, Value, param};
+
+/// The page.
+pub fn style_ui(ui: &mut Ui, editing: &mut Editing<'_>) {
+    let targets = editing.selection.topmost(&editing.model.scene);
+    let lead = editing.selection.lead();
+    let scene = editing.model.scene.clone();
+    let mut style = match lead {
+        Some(lead) => editing.document.resolve(&scene).get(lead).map(|r| r.style.clone()),
+        None => None,
+    }
+    .unwrap_or_else(|| editing.document.style.clone());
+
+    let has_own = targets.iter().any(|&n| {
+        let node = scene.nodes.get(n).and_then(|n| editing.document.nodes.get(&n.path));
+        node.is_some_and(|n| n.style.is_some())
+    });
+    title_ui(ui, editing, has_own);
+    if ui_inherit(ui, &targets, has_own) {
+        inherit(editing.document, &scene, &targets);
+        return;
+    }
+    if let Some(preset) = preset_ui(ui, editing, &style) {
+        if targets.is_empty() {
+            editing.document.style = preset;
+        } else {
+            editing.document.set_style(&scene, &targets, &preset);
+        }
+        return;
+    }
+
+    let technique = style.technique;
+    let concerns = |p: &Param<'_>| p.technique.is_none_or(|t| t == technique);
+    let mut default = Style::default();
+    let defaults = default.params();
+    let mut params = style.params();
+    params.retain(concerns);
+    let changes = params_ui(ui, "style", &mut params, &defaults);
+    apply(editing, &targets, &changes);
+}
+
+fn title_ui(ui: &mut Ui, editing: &Editing<'_>, has_own: bool) {
+    let title = match (editing.selection.len(), editing.selection.lead()) {
+        (0, _) | (_, None) => "Everything without a style of its own".to_owned(),
+        (1, Some(lead)) => editing.model.scene.nodes.get(lead).map(|n| n.name.clone()).unwrap_or_default(),
+        (count, _) => format!("{count} objects"),
+    };
+    ui.add(egui::Label::new(RichText::new(title).strong()).truncate());
+    let state = match (editing.selection.is_empty(), has_own) {
+        (true, _) => "Select an object to give it a style of its own.",
+        (false, true) => "Has a style of its own.",
+        (false, false) => "Inherits; a change gives it a style of its own.",
+    };
+    ui.add(egui::Label::new(RichText::new(state).weak().small()).wrap());
+    ui.add_space(4.0);
+}
+
+fn ui_inherit(ui: &mut Ui, targets: &[usize], has_own: bool) -> bool {
+    if targets.is_empty() || !has_own {
+        return false;
+    }
+    let hint = "Drop the own style; the objects look like what they hang below";
+    let clicked = ui.button("Inherit").on_hover_text(hint).clicked();
+    ui.add_space(2.0);
+    clicked
+}
+
+/// Returns the style that was chosen.
+fn preset_ui(ui: &mut Ui, editing: &Editing<'_>, style: &Style) -> Option<Style> {
+    let mut chosen = None;
+    let help = "A named style; choosing one replaces all parameters below";
+    named_row(ui, "Preset", help, |ui, label| {
+        let current = style_name(style, editing.presets);
+        let text = if current == "own" { "Own".to_owned() } else { label_of(current) };
+        let combo = egui::ComboBox::from_id_salt("preset")
+            .width(ui.available_width())
+            .selected_text(text)
+            .show_ui(ui, |ui| {
+                for preset in editing.presets {
+                    let name = label_of(&preset.name);
+                    if ui
+                        .selectable_label(preset.name == current, name)
+                        .on_hover_text(&preset.description)
+                        .clicked()
+                    {
+                        chosen = Some(preset.style.clone());
+                    }
+                }
+            });
+        combo.response.labelled_by(label).on_hover_text(help);
+    });
+    chosen
+}
+
+fn apply(editing: &mut Editing<'_>, targets: &[usize], changes: &[(String, Value)]) {
+    for (key, value) in changes {
+        // The value comes out of the parameter itself, so that it fits.
+        let done = if targets.is_empty() {
+            param::set(&mut editing.document.style.params(), key, value)
+        } else {
+            editing.document.set_for(&editing.model.scene, targets, key, value)
+        };
+        if let Err(error) = done {
+            log::warn!("{error}");
+        }
+    }
+}

@@ -1,0 +1,109 @@
+//! How the picture is shown: axis, unit, projection, paper.
+
+use eframe::egui;
+use eframe::egui::Ui;
+
+use super::Editing;
+use super::params::{named_row, params_ui};
+use crate::app::navigation::with_view_angle;
+use crate::document::View;
+use crate::scene::{Projection, Up};
+
+/// Units by name, in metres.
+const UNITS: [(&str, f64); 6] = [
+    ("Millimetre", 0.001),
+    ("Centimetre", 0.01),
+    ("Metre", 1.0),
+    ("Kilometre", 1000.0),
+    ("Inch", 0.0254),
+    ("Foot", 0.3048),
+];
+
+/// The page. Returns whether the axis changed, so that the model is to be seen upright again.
+pub fn view_ui(ui: &mut Ui, editing: &mut Editing<'_>) -> bool {
+    let scene = &editing.model.scene;
+    let document = &mut *editing.document;
+    let before = document.up(scene);
+
+    named_row(ui, "Up axis", "The axis of the file that points up", |ui, label| {
+        let as_file = format!("As in the file ({})", scene.up.name());
+        let text = document.up.map_or_else(|| as_file.clone(), |up| up.name().to_owned());
+        let combo = egui::ComboBox::from_id_salt("up")
+            .width(ui.available_width())
+            .selected_text(text)
+            .show_ui(ui, |ui| {
+                ui.selectable_value(&mut document.up, None, as_file);
+                for up in Up::ALL {
+                    ui.selectable_value(&mut document.up, Some(up), up.name());
+                }
+            });
+        combo.response.labelled_by(label);
+    });
+
+    named_row(ui, "Unit", "What one unit of the file's coordinates stands for", |ui, label| {
+        let as_file = match scene.metres_per_unit {
+            Some(metres) => format!("As in the file ({})", unit_name(metres).to_lowercase()),
+            None => "Unknown".to_owned(),
+        };
+        let text = document.metres_per_unit.map_or_else(|| as_file.clone(), unit_name);
+        let combo = egui::ComboBox::from_id_salt("unit")
+            .width(ui.available_width())
+            .selected_text(text)
+            .show_ui(ui, |ui| {
+                ui.selectable_value(&mut document.metres_per_unit, None, as_file);
+                for (name, metres) in UNITS {
+                    ui.selectable_value(&mut document.metres_per_unit, Some(metres), name);
+                }
+            });
+        combo.response.labelled_by(label);
+    });
+
+    if let Some(camera) = &mut document.camera {
+        named_row(ui, "Projection", "Perspective, or parallel as in technical drawings", |ui, label| {
+            let mut parallel = matches!(camera.projection, Projection::Orthographic { .. });
+            let was = parallel;
+            let text = if parallel { "Parallel" } else { "Perspective" };
+            let combo = egui::ComboBox::from_id_salt("projection")
+                .width(ui.available_width())
+                .selected_text(text)
+                .show_ui(ui, |ui| {
+                    ui.selectable_value(&mut parallel, false, "Perspective");
+                    ui.selectable_value(&mut parallel, true, "Parallel");
+                });
+            combo.response.labelled_by(label);
+            if parallel != was {
+                *camera = camera.with_orthographic(parallel);
+            }
+        });
+        if let Projection::Perspective { view_angle } = camera.projection {
+            named_row(ui, "View angle", "Vertical angle of the view; a small one flattens", |ui, label| {
+                let mut angle = view_angle;
+                ui.spacing_mut().slider_width = (ui.available_width() - 66.0).max(40.0);
+                let slider = egui::Slider::new(&mut angle, 5.0..=100.0).show_value(false).trailing_fill(true);
+                ui.add(slider).labelled_by(label);
+                let number = egui::DragValue::new(&mut angle)
+                    .range(1.0..=170.0)
+                    .speed(0.25)
+                    .max_decimals(1)
+                    .suffix(" °");
+                ui.add_sized([58.0, ui.spacing().interact_size.y], number);
+                if angle != view_angle {
+                    *camera = with_view_angle(camera, angle);
+                }
+            });
+        }
+    }
+
+    ui.add_space(4.0);
+    let mut default = View::default();
+    let defaults = default.params();
+    params_ui(ui, "view", &mut document.view.params(), &defaults);
+    document.up(scene) != before
+}
+
+fn unit_name(metres: f64) -> String {
+    UNITS
+        .iter()
+        .find(|(_, m)| (m - metres).abs() < 1e-9 * m)
+        .map_or_else(|| format!("{metres} m"), |(name, _)| (*name).to_owned())
+}

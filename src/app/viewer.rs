@@ -1,0 +1,406 @@
+//! The window: what it holds and how a frame of it runs.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use eframe::egui;
+
+use super::command::Command;
+use super::jobs::Job;
+use super::loading::{Intent, LoadError, Loaded, Loader, Model};
+use super::notices::Notices;
+use super::panels::{Editing, empty, help, menu, outliner::Outliner, status, style, view};
+use super::screenshot::{Destination, ScreenshotError};
+use super::selection::Selection;
+use super::state::{AppState, Page};
+use super::viewport::{Capture, Viewport};
+use super::{AppError, theme};
+use crate::document::{Document, DocumentError, History};
+use crate::import;
+use crate::style::Style;
+use crate::style::preset::{self, Preset};
+
+/// Where eframe keeps [`AppState`].
+const STATE_KEY: &str = "hachure";
+
+/// What the window starts with.
+#[derive(Clone)]
+pub struct Launch {
+    /// Models and documents to open.
+    pub files: Vec<PathBuf>,
+    /// The style of everything that has none of its own.
+    pub style: Option<Style>,
+    /// What turns models into a scene.
+    pub loader: Loader,
+}
+
+impl Default for Launch {
+    fn default() -> Self {
+        Self {
+            files: Vec::new(),
+            style: None,
+            loader: Arc::new(|paths, options, progress| import::load_all(paths, options, progress)),
+        }
+    }
+}
+
+/// Which of the floating windows are open.
+#[derive(Debug, Default)]
+pub(super) struct Open {
+    pub(super) help: bool,
+    pub(super) warnings: bool,
+}
+
+/// What a file dialog was opened for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum DialogFor {
+    Open,
+    Add,
+    Save,
+    Screenshot,
+}
+
+/// Work that runs beside the window; see [`super::jobs`]. A new kind of work is a new field, started where it is asked
+/// for and answered in `background.rs`.
+#[derive(Default)]
+pub(super) struct Jobs {
+    pub(super) load: Option<Job<Result<Loaded, LoadError>>>,
+    pub(super) dialog: Option<(DialogFor, Job<Vec<PathBuf>>)>,
+    pub(super) save: Option<Job<Result<(PathBuf, Document), DocumentError>>>,
+    pub(super) captures: Vec<(Capture, Destination)>,
+    pub(super) pictures: Vec<Job<Result<PathBuf, ScreenshotError>>>,
+}
+
+/// The window's application.
+pub struct Viewer {
+    pub(super) document: Document,
+    pub(super) history: History,
+    pub(super) model: Model,
+    pub(super) selection: Selection,
+    pub(super) viewport: Viewport,
+    pub(super) jobs: Jobs,
+    pub(super) notices: Notices,
+    pub(super) state: AppState,
+    pub(super) outliner: Outliner,
+    pub(super) presets: Vec<Preset>,
+    pub(super) commands: Vec<Command>,
+    pub(super) open: Open,
+    /// The document's file, once it has one, and what is in it.
+    pub(super) saved: Option<(PathBuf, Document)>,
+    /// The models that the scene was made of.
+    pub(super) loaded: Vec<PathBuf>,
+    pub(super) loader: Loader,
+    pub(super) start_style: Option<Style>,
+    pub(super) can_reload_shaders: bool,
+    pub(super) recent: Vec<(PathBuf, bool)>,
+    title: String,
+}
+
+impl Viewer {
+    /// Makes the application for a new window and starts to load its files.
+    ///
+    /// # Errors
+    /// When the window has no graphics device of the kind that is needed.
+    pub fn new(creation: &eframe::CreationContext<'_>, launch: Launch) -> Result<Self, AppError> {
+        let render_state = creation.wgpu_render_state.clone().ok_or(AppError::NoDevice)?;
+        theme::apply(&creation.egui_ctx);
+        let state =
+            creation.storage.and_then(|s| eframe::get_value::<AppState>(s, STATE_KEY)).unwrap_or_default();
+        let mut viewport = Viewport::new(render_state);
+        let can_reload_shaders = viewport.renderer().can_reload_shaders();
+        let mut document = Document::default();
+        if let Some(style) = &launch.style {
+            document.style = style.clone();
+        }
+        let mut viewer = Self {
+            history: History::default(),
+            model: Model::default(),
+            selection: Selection::default(),
+            viewport,
+            jobs: Jobs::default(),
+            notices: Notices::default(),
+            state,
+            outliner: Outliner::default(),
+            presets: preset::all(),
+            commands: Vec::new(),
+            open: Open::default(),
+            saved: None,
+            loaded: Vec::new(),
+            loader: launch.loader,
+            start_style: launch.style,
+            can_reload_shaders,
+            recent: Vec::new(),
+            title: String::new(),
+            document,
+        };
+        viewer.history.restart(&viewer.document);
+        viewer.look_for_recent();
+        if let Some(error) = viewer.viewport.renderer().take_shader_error() {
+            viewer.notices.error(error.to_string());
+        }
+        if !launch.files.is_empty() {
+            viewer.load(&creation.egui_ctx, launch.files, Intent::Open);
+        }
+        Ok(viewer)
+    }
+
+    /// The document.
+    pub fn document(&self) -> &Document {
+        &self.document
+    }
+
+    /// The loaded scene and what is known about it.
+    pub fn model(&self) -> &Model {
+        &self.model
+    }
+
+    /// The selected nodes.
+    pub fn selection(&self) -> &Selection {
+        &self.selection
+    }
+
+    /// The messages that are shown.
+    pub fn notices(&self) -> &Notices {
+        &self.notices
+    }
+
+    /// What is remembered.
+    pub fn state(&self) -> &AppState {
+        &self.state
+    }
+
+    /// The picture.
+    pub fn viewport(&self) -> &Viewport {
+        &self.viewport
+    }
+
+    /// Whether files are being loaded.
+    pub fn is_loading(&self) -> bool {
+        self.jobs.load.is_some()
+    }
+
+    /// Asks for a command; it is carried out in the next frame.
+    pub fn ask(&mut self, command: Command) {
+        self.commands.push(command);
+    }
+
+    fn run_commands(&mut self, context: &egui::Context) {
+        let commands = std::mem::take(&mut self.commands);
+        if !commands.is_empty() {
+            context.request_repaint();
+        }
+        for command in commands {
+            if self.is_enabled(command) {
+                self.execute(context, command);
+            }
+        }
+    }
+
+    fn take_dropped_files(&mut self, context: &egui::Context) {
+        let files: Vec<_> =
+            context.input(|i| i.raw.dropped_files.iter().map(|f| f.path().to_owned()).collect());
+        if !files.is_empty() {
+            let adding = context.input(|i| i.modifiers.command);
+            self.load(context, files, if adding { Intent::Add } else { Intent::Open });
+        }
+    }
+
+    fn panels(&mut self, ui: &mut egui::Ui) {
+        if !self.state.panels {
+            return;
+        }
+        let answer = egui::Panel::top("menu")
+            .show(ui, |ui| {
+                let mut commands = std::mem::take(&mut self.commands);
+                let state = menu::MenuState {
+                    enabled: &|c| self.is_enabled(c),
+                    checked: &|c| self.is_checked(c),
+                    recent: self.recent.clone(),
+                };
+                let answer = menu::menu_ui(ui, &state, &mut commands);
+                self.commands = commands;
+                answer
+            })
+            .inner;
+        if let Some(path) = answer.open {
+            self.load(ui.ctx(), vec![path], Intent::Open);
+        }
+        if answer.forget {
+            self.state.files.clear();
+            self.recent.clear();
+        }
+        egui::Panel::bottom("status").exact_size(24.0).show(ui, |ui| {
+            let adapter = self.viewport.adapter_name();
+            let milliseconds = self.state.statistics.then(|| self.viewport.milliseconds());
+            let status = status::Status {
+                model: &self.model,
+                document: &self.document,
+                selection: &self.selection,
+                milliseconds,
+                adapter: &adapter,
+            };
+            status::status_ui(ui, &status, &mut self.commands);
+        });
+        self.side_panels(ui);
+    }
+
+    fn side_panels(&mut self, ui: &mut egui::Ui) {
+        let mut editing = Editing {
+            model: &self.model,
+            document: &mut self.document,
+            selection: &mut self.selection,
+            presets: &self.presets,
+            commands: &mut self.commands,
+        };
+        let outliner = &mut self.outliner;
+        egui::Panel::left("outliner").default_size(250.0).size_range(180.0..=480.0).show_collapsible(
+            ui,
+            &mut self.state.outliner,
+            |ui| outliner.ui(ui, &mut editing),
+        );
+        let page = &mut self.state.page;
+        let turned = egui::Panel::right("inspector")
+            .default_size(290.0)
+            .size_range(240.0..=460.0)
+            .show_collapsible(ui, &mut self.state.inspector, |ui| inspector_ui(ui, page, &mut editing));
+        if turned.is_some_and(|t| t.inner) {
+            self.commands.push(Command::Home);
+        }
+    }
+
+    fn picture(&mut self, ui: &mut egui::Ui) {
+        let up = self.document.up(&self.model.scene);
+        let diagonal = self.model.bounds_of(0..self.model.bounds.len()).diagonal();
+        let moved = self.viewport.input(ui, self.document.camera.as_ref(), up, diagonal);
+        if let Some(camera) = moved.camera {
+            self.document.camera = Some(camera);
+        }
+        if let Some(response) = moved.response {
+            self.context_menu(&response);
+        }
+        self.viewport.set_measures(self.state.statistics);
+        let selected = self.selection.with_descendants(&self.model.scene);
+        if let Err(error) = self.viewport.draw(ui, &self.document, selected) {
+            self.notices.error(format!("The picture could not be drawn: {error}"));
+        }
+        let area = self.viewport.rect();
+        if self.model.scene.nodes.is_empty() && self.jobs.load.is_none() {
+            let chosen = empty::empty_ui(ui, area, self.state.recent(), &mut self.commands);
+            if let Some(path) = chosen {
+                self.load(ui.ctx(), vec![path], Intent::Open);
+            }
+        }
+        if let Some(load) = &self.jobs.load {
+            if empty::loading_ui(ui, area, load.progress().share()) {
+                self.jobs.load = None;
+            }
+        }
+        if ui.input(|i| !i.raw.hovered_files.is_empty()) {
+            empty::hovering_ui(ui, area, ui.input(|i| i.modifiers.command));
+        }
+    }
+
+    fn context_menu(&mut self, response: &egui::Response) {
+        let mut asked = Vec::new();
+        response.context_menu(|ui| {
+            for command in [
+                Command::FrameSelected,
+                Command::FrameAll,
+                Command::Hide,
+                Command::Isolate,
+                Command::ShowAll,
+                Command::Screenshot,
+            ] {
+                let mut button = egui::Button::new(command.text());
+                if let Some(shortcut) = command.shortcuts().first() {
+                    button = button.shortcut_text(ui.ctx().format_shortcut(shortcut));
+                }
+                if ui.add_enabled(self.is_enabled(command), button).on_hover_text(command.tooltip()).clicked()
+                {
+                    asked.push(command);
+                    ui.close();
+                }
+            }
+        });
+        self.commands.extend(asked);
+    }
+
+    /// A change becomes a step to go back to once no button, key or wheel is at work any more.
+    fn note_change(&mut self, context: &egui::Context) {
+        const QUIET: f32 = 0.3;
+        let (busy, since_scroll) = context.input(|i| {
+            let busy = i.pointer.any_down() || !i.keys_down.is_empty();
+            (busy, i.time_since_last_scroll())
+        });
+        if since_scroll < QUIET {
+            context.request_repaint_after(std::time::Duration::from_secs_f32(QUIET - since_scroll + 0.01));
+        } else if !busy && !context.text_edit_focused() {
+            self.history.commit(&self.document);
+            self.state.remember(&self.document);
+        }
+    }
+
+    fn show_title(&mut self, context: &egui::Context) {
+        let name = match (&self.saved, self.document.models.first()) {
+            (Some((path, saved)), _) => {
+                let mark = if *saved == self.document { "" } else { "*" };
+                path.file_name().map(|n| format!("{}{mark}", n.to_string_lossy()))
+            }
+            (None, Some(model)) => model.file_name().map(|n| n.to_string_lossy().into_owned()),
+            (None, None) => None,
+        };
+        let title = name.map_or_else(|| "Hachure".to_owned(), |name| format!("{name} - Hachure"));
+        if title != self.title {
+            context.send_viewport_cmd(egui::ViewportCommand::Title(title.clone()));
+            self.title = title;
+        }
+    }
+}
+
+/// The pages of the panel on the right. Returns whether the model is to be seen upright again.
+fn inspector_ui(ui: &mut egui::Ui, page: &mut Page, editing: &mut Editing<'_>) -> bool {
+    ui.add_space(4.0);
+    ui.horizontal(|ui| {
+        ui.selectable_value(page, Page::Style, "Style");
+        ui.selectable_value(page, Page::View, "View");
+    });
+    ui.separator();
+    let mut turned = false;
+    egui::ScrollArea::vertical().id_salt(format!("{page:?}")).auto_shrink([false, false]).show(ui, |ui| {
+        match page {
+            Page::Style => style::style_ui(ui, editing),
+            Page::View => turned = view::view_ui(ui, editing),
+        }
+        ui.add_space(8.0);
+    });
+    turned
+}
+
+impl eframe::App for Viewer {
+    fn logic(&mut self, context: &egui::Context, _frame: &mut eframe::Frame) {
+        self.commands.extend(Command::take_pressed(context));
+        self.take_dropped_files(context);
+        self.answer_jobs(context);
+        self.run_commands(context);
+    }
+
+    fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
+        self.panels(ui);
+        egui::CentralPanel::default().frame(egui::Frame::NONE).show(ui, |ui| self.picture(ui));
+        let context = ui.ctx().clone();
+        if self.open.help {
+            help::help_ui(&context, &mut self.open.help);
+        }
+        if self.open.warnings {
+            help::warnings_ui(&context, &mut self.open.warnings, &self.model.scene.warnings);
+        }
+        self.notices.show(&context, self.viewport.rect());
+        self.run_commands(&context);
+        self.note_change(&context);
+        self.show_title(&context);
+    }
+
+    fn save(&mut self, storage: &mut dyn eframe::Storage) {
+        eframe::set_value(storage, STATE_KEY, &self.state);
+    }
+}

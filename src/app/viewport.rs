@@ -1,0 +1,357 @@
+//! The picture in the window: what the mouse does in it, when it is drawn again, what lies under a pixel.
+
+use eframe::egui;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+
+use eframe::egui::emath::GuiRounding as _;
+use eframe::egui::{PointerButton, Rect, Sense, Ui};
+use eframe::egui_wgpu;
+use glam::DVec2;
+
+use super::jobs::Job;
+use super::navigation;
+use crate::document::Document;
+use crate::gpu::readback::Readback;
+use crate::gpu::{Gpu, Target};
+use crate::render::{Pick, RenderError, Renderer, Request};
+use crate::scene::{Camera, NodeId, Scene, Up};
+
+/// How long to wait between two looks for an answer of the device.
+const POLL: Duration = Duration::from_millis(8);
+
+/// Why a person asked what lies under a pixel.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PickFor {
+    /// To select it.
+    Select {
+        /// In addition to what is selected.
+        add: bool,
+    },
+    /// To turn about it.
+    Center,
+}
+
+/// A texture of egui's that shows a target.
+#[derive(Default)]
+struct Shown {
+    id: Option<egui::TextureId>,
+    texture: Option<wgpu::Texture>,
+}
+
+impl Shown {
+    fn show(&mut self, state: &egui_wgpu::RenderState, target: &Target) -> egui::TextureId {
+        if let (Some(id), true) = (self.id, self.texture.as_ref() == Some(target.texture())) {
+            return id;
+        }
+        self.texture = Some(target.texture().clone());
+        let mut renderer = state.renderer.write();
+        let (device, view, filter) = (&state.device, target.view(), wgpu::FilterMode::Nearest);
+        if let Some(id) = self.id {
+            renderer.update_egui_texture_from_wgpu_texture(device, view, filter, id);
+            return id;
+        }
+        let id = renderer.register_native_texture(device, view, filter);
+        self.id = Some(id);
+        id
+    }
+}
+
+/// All that a picture depends on.
+#[derive(PartialEq)]
+struct Inputs {
+    document: Document,
+    size: [u32; 2],
+    selected: Vec<NodeId>,
+    generation: u64,
+}
+
+/// A picture on its way to a file.
+pub struct Capture {
+    readback: Readback,
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+}
+
+/// The picture and everything that draws it.
+pub struct Viewport {
+    renderer: Renderer,
+    state: egui_wgpu::RenderState,
+    image: Shown,
+    outline: Shown,
+    has_outline: bool,
+    drawn: Option<Inputs>,
+    measures: bool,
+    generation: u64,
+    pick: Option<PickFor>,
+    rect: Rect,
+    size: [u32; 2],
+    measuring: Option<Job<f64>>,
+    milliseconds: f64,
+    pictures: u64,
+}
+
+/// What the mouse did to the picture.
+#[derive(Default)]
+pub struct Moved {
+    /// The camera after it.
+    pub camera: Option<Camera>,
+    /// The response, for a context menu.
+    pub response: Option<egui::Response>,
+}
+
+impl Viewport {
+    /// Takes over the device of the window.
+    pub fn new(state: egui_wgpu::RenderState) -> Self {
+        let gpu = Gpu::new(&state.adapter, state.device.clone(), state.queue.clone());
+        Self {
+            renderer: Renderer::new(gpu),
+            state,
+            image: Shown::default(),
+            outline: Shown::default(),
+            has_outline: false,
+            drawn: None,
+            measures: false,
+            generation: 0,
+            pick: None,
+            rect: Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(16.0, 10.0)),
+            size: [16, 10],
+            measuring: None,
+            milliseconds: 0.0,
+            pictures: 0,
+        }
+    }
+
+    /// What draws.
+    pub fn renderer(&mut self) -> &mut Renderer {
+        &mut self.renderer
+    }
+
+    /// Name of the graphics driver.
+    pub fn adapter_name(&self) -> String {
+        self.renderer.gpu().adapter_name.clone()
+    }
+
+    /// Width by height.
+    pub fn aspect(&self) -> f64 {
+        f64::from(self.size[0]) / f64::from(self.size[1].max(1))
+    }
+
+    /// Whether to measure how long pictures take.
+    pub fn set_measures(&mut self, measures: bool) {
+        if measures && !self.measures {
+            self.draw_again();
+        }
+        self.measures = measures;
+    }
+
+    /// How many pictures have been drawn so far.
+    pub fn pictures(&self) -> u64 {
+        self.pictures
+    }
+
+    /// Milliseconds from the request of a picture until the device was done with it, as last measured.
+    pub fn milliseconds(&mut self) -> f64 {
+        if let Some(Ok(milliseconds)) = self.measuring.as_ref().and_then(Job::poll) {
+            self.milliseconds = milliseconds;
+            self.measuring = None;
+        }
+        self.milliseconds
+    }
+
+    /// Measures the picture that was just asked for, unless another one is still being measured.
+    fn measure(&mut self, context: &egui::Context, began: Instant) {
+        if self.measuring.is_some() {
+            return;
+        }
+        let (done, device) = (Arc::new(AtomicBool::new(false)), self.state.device.clone());
+        let signal = Arc::clone(&done);
+        self.state.queue.on_submitted_work_done(move || signal.store(true, Ordering::Release));
+        self.measuring = Some(Job::start("measuring", context, move |progress| {
+            while !done.load(Ordering::Acquire) && !progress.is_cancelled() {
+                std::thread::sleep(Duration::from_millis(1));
+                // Waiting here would keep the window from drawing; a lost device shows elsewhere.
+                let _ = device.poll(wgpu::PollType::Poll);
+            }
+            began.elapsed().as_secs_f64() * 1000.0
+        }));
+    }
+
+    /// Uploads another scene.
+    ///
+    /// # Errors
+    /// When the device cannot hold it; the last scene then stays.
+    pub fn set_scene(&mut self, scene: &Arc<Scene>) -> Result<(), RenderError> {
+        self.pick = None;
+        self.renderer.set_scene(scene, &[])?;
+        self.draw_again();
+        Ok(())
+    }
+
+    /// Draws in the next frame even if nothing changed that is known here.
+    pub fn draw_again(&mut self) {
+        self.generation += 1;
+    }
+
+    /// Lets the mouse work on the picture.
+    pub fn input(&mut self, ui: &mut Ui, camera: Option<&Camera>, up: Up, diagonal: f64) -> Moved {
+        let pixels_per_point = ui.ctx().pixels_per_point();
+        let rect = ui.available_rect_before_wrap().round_to_pixels(pixels_per_point);
+        self.rect = rect;
+        self.size = [rect.width(), rect.height()].map(|s| (s * pixels_per_point).round().max(1.0) as u32);
+        let response = ui.interact(rect, ui.scope_id().with("picture"), Sense::click_and_drag());
+        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Picture"));
+        let Some(&camera) = camera else { return Moved { camera: None, response: Some(response) } };
+        let mut moved = camera;
+        let height = f64::from(rect.height().max(1.0));
+        let share = |v: egui::Vec2| DVec2::new(f64::from(v.x), f64::from(v.y)) / height;
+        let cursor = |p: egui::Pos2| share(p - rect.center()) * DVec2::new(1.0, -1.0);
+
+        let shift = ui.input(|i| i.modifiers.shift);
+        let drag = share(response.drag_delta());
+        if response.dragged_by(PointerButton::Middle)
+            || (shift && response.dragged_by(PointerButton::Primary))
+        {
+            moved = navigation::pan(&moved, drag);
+            ui.ctx().set_cursor_icon(egui::CursorIcon::Move);
+        } else if response.dragged_by(PointerButton::Primary) {
+            moved = navigation::orbit(&moved, up, drag);
+            ui.ctx().set_cursor_icon(egui::CursorIcon::Grabbing);
+        } else if response.dragged_by(PointerButton::Secondary) {
+            moved = navigation::zoom(&moved, drag.y * 20.0, DVec2::ZERO, diagonal);
+            ui.ctx().set_cursor_icon(egui::CursorIcon::ZoomIn);
+        }
+
+        if let (true, Some(pointer)) = (response.contains_pointer(), ui.input(|i| i.pointer.hover_pos())) {
+            let notches = notches(ui);
+            if notches != 0.0 {
+                moved = navigation::zoom(&moved, notches, cursor(pointer), diagonal);
+            }
+        }
+        self.click(ui, &response);
+        Moved { camera: (moved != camera).then_some(moved), response: Some(response) }
+    }
+
+    fn click(&mut self, ui: &Ui, response: &egui::Response) {
+        let purpose = if response.double_clicked() || response.middle_clicked() {
+            PickFor::Center
+        } else if response.clicked() {
+            PickFor::Select { add: ui.input(|i| i.modifiers.shift || i.modifiers.command) }
+        } else {
+            return;
+        };
+        let Some(at) = response.interact_pointer_pos() else { return };
+        let px = (at - self.rect.min) * ui.ctx().pixels_per_point();
+        match self.renderer.start_pick([px.x.max(0.0) as u32, px.y.max(0.0) as u32]) {
+            Ok(()) => self.pick = Some(purpose),
+            Err(error) => log::warn!("{error}"),
+        }
+        ui.ctx().request_repaint_after(POLL);
+    }
+
+    /// What lies where the person clicked, once it is known.
+    pub fn poll_pick(&mut self, context: &egui::Context) -> Option<(PickFor, Pick)> {
+        let purpose = self.pick?;
+        if let Some(pick) = self.renderer.poll_pick() {
+            self.pick = None;
+            return Some((purpose, pick));
+        }
+        if !self.renderer.is_picking() {
+            self.pick = None;
+        }
+        context.request_repaint_after(POLL);
+        None
+    }
+
+    /// Draws the picture if anything changed that it depends on, and shows it.
+    ///
+    /// # Errors
+    /// When it cannot be drawn; once per cause.
+    pub fn draw(&mut self, ui: &Ui, document: &Document, selected: Vec<NodeId>) -> Result<(), RenderError> {
+        let inputs =
+            Inputs { document: document.clone(), size: self.size, selected, generation: self.generation };
+        let mut result = Ok(());
+        if self.drawn.as_ref() != Some(&inputs) {
+            result = self.render(ui.ctx(), &inputs);
+            self.drawn = Some(inputs);
+        }
+        let whole = Rect::from_min_max(egui::pos2(0.0, 0.0), egui::pos2(1.0, 1.0));
+        let outline = self.outline.id.filter(|_| self.has_outline);
+        for id in self.image.id.into_iter().chain(outline) {
+            ui.painter().image(id, self.rect, whole, egui::Color32::WHITE);
+        }
+        result
+    }
+
+    fn render(&mut self, context: &egui::Context, inputs: &Inputs) -> Result<(), RenderError> {
+        let camera = inputs.document.camera.unwrap_or_default();
+        let began = Instant::now();
+        let picture = self.renderer.render(&Request {
+            document: &inputs.document,
+            camera: &camera,
+            size: inputs.size,
+            transparent: false,
+            selected: &inputs.selected,
+        })?;
+        self.pictures += 1;
+        if self.measures {
+            self.measure(context, began);
+        }
+        self.image.show(&self.state, &picture.image);
+        self.has_outline = picture.selection.is_some();
+        if let Some(outline) = &picture.selection {
+            self.outline.show(&self.state, outline);
+        }
+        Ok(())
+    }
+
+    /// Starts to fetch the picture as it is in the window, without outline, or without paper.
+    ///
+    /// # Errors
+    /// When it cannot be drawn or is too large to be fetched.
+    pub fn capture(&mut self, document: &Document, transparent: bool) -> Result<Capture, RenderError> {
+        let camera = document.camera.unwrap_or_default();
+        let size = self.size;
+        let request = Request { document, camera: &camera, size, transparent, selected: &[] };
+        let picture = self.renderer.render(&request)?;
+        let readback = Readback::start(self.renderer.gpu(), &picture.image, [0, 0], size)?;
+        self.draw_again();
+        Ok(Capture { readback, size })
+    }
+
+    /// The bytes of a capture, once they are there.
+    pub fn poll_capture(&self, capture: &Capture, context: &egui::Context) -> Option<Vec<u8>> {
+        let bytes = capture.readback.poll(self.renderer.gpu());
+        if bytes.is_none() {
+            context.request_repaint_after(POLL);
+        }
+        bytes
+    }
+
+    /// The place of the picture in the window.
+    pub fn rect(&self) -> Rect {
+        self.rect
+    }
+}
+
+/// Notches of the wheel in this frame, as they come: egui's own smoothing would draw many pictures per notch.
+fn notches(ui: &Ui) -> f64 {
+    ui.input(|i| {
+        i.events
+            .iter()
+            .map(|event| match event {
+                egui::Event::MouseWheel { unit, delta, .. } => {
+                    let per_notch = match unit {
+                        egui::MouseWheelUnit::Point => 50.0,
+                        egui::MouseWheelUnit::Line => 1.0,
+                        egui::MouseWheelUnit::Page => 0.2,
+                    };
+                    f64::from(delta.y) / per_notch
+                }
+                egui::Event::Zoom(factor) => f64::from(factor.max(0.01)).ln() * 8.0,
+                _ => 0.0,
+            })
+            .sum()
+    })
+}
