@@ -5,6 +5,7 @@
 //! area.
 
 use glam::{DVec3, Vec3};
+use rayon::prelude::*;
 
 use super::topology::{EdgeKind, signed_angle};
 use super::weld::TOLERANCE;
@@ -30,9 +31,15 @@ pub(super) fn stitch(mesh: &Mesh, weld: &Weld, normals: &[Vec3], edges: &mut [Ed
     let mut seams = Vec::new();
     // Chains are short in meshes that people make; hostile ones must not cost quadratic time.
     let mut steps_left = 64 * borders.starts.len();
-    for &(point, outgoing) in &borders.starts {
-        for &(_, incoming) in Borders::at(&borders.ends, point) {
-            borders.zip(outgoing, incoming, &mut steps_left, &mut seams);
+    let mut ends = borders.ends.as_slice();
+    for starts in borders.starts.chunk_by(|a, b| a.0 == b.0) {
+        let point = starts[0].0;
+        ends = &ends[ends.iter().take_while(|end| end.0 < point).count()..];
+        let ends_here = &ends[..ends.iter().take_while(|end| end.0 == point).count()];
+        for &(_, outgoing) in starts {
+            for &(_, incoming) in &ends_here[..ends_here.len().min(Borders::MOST_AT_A_POINT)] {
+                borders.zip(outgoing, incoming, &mut steps_left, &mut seams);
+            }
         }
     }
     // A seam between two common points is found from both of them.
@@ -70,12 +77,15 @@ struct Borders<'a> {
 }
 
 impl<'a> Borders<'a> {
+    /// Of very many edges at one point, not all pairs are tried out.
+    const MOST_AT_A_POINT: usize = 16;
+
     fn new(mesh: &'a Mesh, weld: &'a Weld, normals: &'a [Vec3], edges: &'a [Edge]) -> Self {
         let by_end = |end: usize| {
             let borders = edges.iter().zip(0..).filter(|(edge, _)| edge.kind == EdgeKind::Border);
             let mut list: Vec<(u32, u32)> =
                 borders.map(|(edge, id)| (weld.representative[edge.vertices[end] as usize], id)).collect();
-            list.sort_unstable();
+            list.par_sort_unstable();
             list
         };
         Self {
@@ -93,8 +103,7 @@ impl<'a> Borders<'a> {
     fn at(list: &[(u32, u32)], point: u32) -> &[(u32, u32)] {
         let first = list.partition_point(|&(p, _)| p < point);
         let count = list[first..].partition_point(|&(p, _)| p == point);
-        // Of very many edges at one point, pairs are not tried out: this would not end.
-        &list[first..first + count.min(16)]
+        &list[first..first + count.min(Self::MOST_AT_A_POINT)]
     }
 
     fn point(&self, edge: u32, end: usize) -> u32 {
