@@ -21,6 +21,7 @@ mod remesh;
 mod rod;
 mod sdf;
 mod sets;
+mod soften;
 mod solid;
 mod unwrap;
 

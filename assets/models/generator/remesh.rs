@@ -176,9 +176,13 @@ impl Surface {
                 let b = n.cross(t);
                 let turn = [t, b, (t + b) * 0.707, (t - b) * 0.707]
                     .map(|d| {
-                        let ahead = gradient(f, p + d * reach).normalize_or_zero();
-                        let behind = gradient(f, p - d * reach).normalize_or_zero();
-                        ahead.angle_between(n).max(behind.angle_between(n))
+                        let turn = |d: DVec3| {
+                            let there = gradient(f, p + d * reach).normalize_or_zero();
+                            // Hollows may be coarser than bulges: they are never seen against the sky.
+                            let hollow = if there.dot(d) < 0.0 { 1.5 } else { 1.0 };
+                            there.angle_between(n) / hollow
+                        };
+                        turn(d).max(turn(-d))
                     })
                     .into_iter()
                     .fold(1e-3, f64::max);
@@ -255,7 +259,7 @@ impl Surface {
     }
 
     /// The neighbours of each point.
-    fn neighbours(&self) -> Vec<BTreeSet<usize>> {
+    pub(crate) fn neighbours(&self) -> Vec<BTreeSet<usize>> {
         let mut out = vec![BTreeSet::new(); self.points.len()];
         for face in &self.faces {
             for k in 0..3 {
@@ -281,7 +285,9 @@ impl Surface {
                 let ring = || neighbours[a].union(&neighbours[b]);
                 if ring().any(|&i| frozen[i])
                     || neighbours[a].intersection(&neighbours[b]).count() != 2
-                    || neighbours[a].intersection(&neighbours[b]).any(|&i| neighbours[i].len() < 5)
+                    || neighbours[a]
+                        .intersection(&neighbours[b])
+                        .any(|&i| neighbours[i].len() < 5)
                 {
                     continue;
                 }
@@ -298,7 +304,11 @@ impl Surface {
                     }
                     let before = face.map(|i| self.points[i]);
                     let after = face.map(|i| {
-                        if i == a || i == b { middle } else { self.points[i] }
+                        if i == a || i == b {
+                            middle
+                        } else {
+                            self.points[i]
+                        }
                     });
                     cosine(normal(before), normal(after)) < 0.5
                 });
@@ -314,9 +324,11 @@ impl Surface {
             if !any {
                 return;
             }
-            self.faces.iter_mut().flatten().for_each(|i| *i = becomes[*i]);
             self.faces
-                .retain(|[a, b, c]| a != b && b != c && c != a);
+                .iter_mut()
+                .flatten()
+                .for_each(|i| *i = becomes[*i]);
+            self.faces.retain(|[a, b, c]| a != b && b != c && c != a);
             self.compact();
         }
     }
@@ -352,7 +364,11 @@ impl Surface {
             }
             let (c, d) = (self.apex(f, a, b), self.apex(g, a, b));
             let key = (c.min(d), c.max(d));
-            if neighbours[c].contains(&d) || added.contains(&key) || valence[a] < 5 || valence[b] < 5 {
+            if neighbours[c].contains(&d)
+                || added.contains(&key)
+                || valence[a] < 5
+                || valence[b] < 5
+            {
                 continue;
             }
             let off = |i: usize, change: i32| (valence[i] + change - 6).pow(2);
