@@ -3,9 +3,10 @@
 use glam::{DVec3, dvec3};
 
 use crate::glb::{Material, Mesh, Node, Scene};
-use crate::ogre_body::{
-    CLUB_FOOT, CLUB_TOP, bracer_charts, in_head, nail_charts, nails, skin, skin_charts,
-    world_from_head,
+use crate::ogre_body::{CLUB_FOOT, CLUB_TOP, in_head, nails, skin};
+use crate::ogre_charts::{
+    bracer_charts, buckle_chart, nail_charts, on_head, ring_chart, skin_charts, strand_charts,
+    tie_chart, tusk_charts,
 };
 use crate::remesh::{Sizing, polygonise};
 use crate::unwrap::{Chart, unwrap};
@@ -73,7 +74,7 @@ pub(crate) fn scene() -> Scene {
         &skin,
         all,
         0.0085,
-        (0.0112, 0.055, 0.53),
+        (0.0098, 0.055, 0.53),
         &skin_charts(),
     );
     part(
@@ -82,7 +83,7 @@ pub(crate) fn scene() -> Scene {
         &tusks,
         head,
         0.006,
-        (0.008, 0.025, 0.46),
+        (0.008, 0.025, 0.5),
         &tusk_charts(),
     );
     part(
@@ -101,7 +102,7 @@ pub(crate) fn scene() -> Scene {
         &pupils,
         head,
         0.005,
-        (0.0065, 0.014, 0.46),
+        (0.0065, 0.016, 0.58),
         &balls,
     );
     part(
@@ -110,7 +111,7 @@ pub(crate) fn scene() -> Scene {
         &topknot,
         head,
         0.009,
-        (0.0115, 0.03, 0.48),
+        (0.0115, 0.03, 0.54),
         &strand_charts(),
     );
     part(
@@ -128,7 +129,7 @@ pub(crate) fn scene() -> Scene {
         &earring,
         head,
         0.005,
-        (0.0085, 0.02, 0.46),
+        (0.0085, 0.02, 0.54),
         &ring_chart(),
     );
     part(
@@ -137,7 +138,7 @@ pub(crate) fn scene() -> Scene {
         &ogre_gear::loincloth,
         all,
         0.009,
-        (0.026, 0.065, 0.6),
+        (0.0275, 0.065, 0.6),
         &round(0.45, 0.2, 0.42),
     );
     part(
@@ -146,7 +147,7 @@ pub(crate) fn scene() -> Scene {
         &ogre_gear::belt,
         all,
         0.01,
-        (0.021, 0.06, 0.6),
+        (0.0205, 0.06, 0.64),
         &round(0.64, 0.06, 0.45),
     );
     part(
@@ -164,7 +165,7 @@ pub(crate) fn scene() -> Scene {
         &ogre_gear::bracers,
         all,
         0.007,
-        (0.0175, 0.05, 0.58),
+        (0.0175, 0.05, 0.64),
         &bracer_charts(),
     );
     part(
@@ -177,77 +178,6 @@ pub(crate) fn scene() -> Scene {
         &club,
     );
     scene
-}
-
-/// A point of the head's space in the world.
-fn on_head(x: f64, y: f64, z: f64) -> DVec3 {
-    world_from_head(dvec3(x, y, z))
-}
-
-/// What the tusks and the small teeth are unrolled from.
-fn tusk_charts() -> Vec<Chart> {
-    [-1.0, 1.0]
-        .into_iter()
-        .flat_map(|side| {
-            [
-                Chart::new(
-                    on_head(side * 0.105, -0.24, 0.225),
-                    on_head(side * 0.13, -0.09, 0.265),
-                    0.03,
-                ),
-                Chart::new(
-                    on_head(side * 0.04, -0.23, 0.262),
-                    on_head(side * 0.042, -0.17, 0.285),
-                    0.018,
-                ),
-            ]
-        })
-        .collect()
-}
-
-/// What the strands of hair are unrolled from.
-fn strand_charts() -> Vec<Chart> {
-    let root = dvec3(0.0, 0.29, -0.075);
-    let mut charts = vec![Chart::new(
-        world_from_head(root - DVec3::Y * 0.07),
-        world_from_head(root),
-        0.05,
-    )];
-    charts.extend(ogre_head::STRANDS.map(|tip| {
-        let from = world_from_head(root + tip * 0.35);
-        Chart::new(from, world_from_head(root + tip), 0.035)
-    }));
-    charts
-}
-
-/// What the tie of the hair is unrolled from.
-fn tie_chart() -> [Chart; 1] {
-    let middle = dvec3(0.0, 0.315, -0.079);
-    let up = DVec3::Y * 0.01;
-    [Chart::new(
-        world_from_head(middle - up),
-        world_from_head(middle + up),
-        0.04,
-    )]
-}
-
-/// What the earring is unrolled from.
-fn ring_chart() -> [Chart; 1] {
-    let middle = ogre_head::EARRING;
-    let along = dvec3(1.0, 0.0, -1.0) * 0.005;
-    let chart = Chart::new(
-        world_from_head(middle - along),
-        world_from_head(middle + along),
-        0.045,
-    );
-    [chart.seam(DVec3::Y)]
-}
-
-/// What the buckle is unrolled from.
-fn buckle_chart() -> [Chart; 1] {
-    let middle = *ogre_gear::BUCKLE;
-    let along = DVec3::Z * 0.01;
-    [Chart::new(middle - along, middle + along, 0.09).seam(DVec3::NEG_Y)]
 }
 
 /// One body on its way into the scene.

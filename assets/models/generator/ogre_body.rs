@@ -6,7 +6,6 @@ use glam::{DMat3, DVec3, dvec3};
 
 use crate::ogre_head;
 use crate::sdf::{carve, cone, ellipsoid, join, join_near, limb, meet, sphere, turned_ellipsoid};
-use crate::unwrap::Chart;
 
 /// The middle of the head.
 const HEAD: DVec3 = dvec3(0.01, 1.585, 0.16);
@@ -33,19 +32,19 @@ pub(crate) fn in_head(p: DVec3, f: impl Fn(DVec3) -> f64) -> f64 {
 }
 
 /// The raised hand's wrist, the direction of its fingers and of its palm.
-const LEFT_WRIST: DVec3 = dvec3(0.99, 1.5, 0.16);
+pub(crate) const LEFT_WRIST: DVec3 = dvec3(0.99, 1.5, 0.16);
 /// Where the club leaves the fist upwards.
 pub(crate) const CLUB_TOP: DVec3 = dvec3(-0.72, 0.93, 0.28);
 /// Where it stands on the ground.
 pub(crate) const CLUB_FOOT: DVec3 = dvec3(-0.98, 0.17, 0.46);
 /// The middle of the fist on the club's axis.
-const GRIP: DVec3 = dvec3(-0.777, 0.763, 0.3195);
+pub(crate) const GRIP: DVec3 = dvec3(-0.777, 0.763, 0.3195);
 
 /// A row of digits: balls from knuckle to tip, and the direction of the nail.
-type Digit = ([(DVec3, f64); 3], DVec3);
+pub(crate) type Digit = ([(DVec3, f64); 3], DVec3);
 
 /// The fingers and the thumb of the raised hand.
-static OPEN: LazyLock<[Digit; 4]> = LazyLock::new(|| {
+pub(crate) static OPEN: LazyLock<[Digit; 4]> = LazyLock::new(|| {
     let (up, palm, side) = open_axes();
     let finger = |off: f64, length: f64| {
         let root = LEFT_WRIST + up * 0.19 + side * off * 0.85;
@@ -74,7 +73,7 @@ static OPEN: LazyLock<[Digit; 4]> = LazyLock::new(|| {
 });
 
 /// The raised hand's axes: along the fingers, out of the palm, away from the thumb.
-fn open_axes() -> (DVec3, DVec3, DVec3) {
+pub(crate) fn open_axes() -> (DVec3, DVec3, DVec3) {
     let up = dvec3(0.2, 1.0, 0.12).normalize();
     let palm = dvec3(0.1, 0.0, 1.0);
     let palm = (palm - up * up.dot(palm)).normalize();
@@ -82,7 +81,7 @@ fn open_axes() -> (DVec3, DVec3, DVec3) {
 }
 
 /// The fist's axes: up the club, from the club to the wrist, across.
-fn fist_axes() -> (DVec3, DVec3, DVec3) {
+pub(crate) fn fist_axes() -> (DVec3, DVec3, DVec3) {
     let up = (CLUB_TOP - CLUB_FOOT).normalize();
     let out = RIGHT_ARM[2].0 - GRIP;
     let out = (out - up * up.dot(out)).normalize();
@@ -90,7 +89,7 @@ fn fist_axes() -> (DVec3, DVec3, DVec3) {
 }
 
 /// The fingers and the thumb around the club.
-static FIST: LazyLock<[Digit; 4]> = LazyLock::new(|| {
+pub(crate) static FIST: LazyLock<[Digit; 4]> = LazyLock::new(|| {
     let (up, out, across) = fist_axes();
     let on = |angle: f64, height: f64, radius: f64| {
         let angle = angle.to_radians();
@@ -118,14 +117,14 @@ static FIST: LazyLock<[Digit; 4]> = LazyLock::new(|| {
 });
 
 /// The arm that leans on the club: shoulder, elbow, wrist.
-const RIGHT_ARM: [(DVec3, f64); 3] = [
+pub(crate) const RIGHT_ARM: [(DVec3, f64); 3] = [
     (dvec3(-0.46, 1.27, -0.02), 0.19),
     (dvec3(-0.76, 1.03, -0.06), 0.125),
     (dvec3(-0.80, 0.83, 0.17), 0.098),
 ];
 
 /// The raised arm.
-const LEFT_ARM: [(DVec3, f64); 3] = [
+pub(crate) const LEFT_ARM: [(DVec3, f64); 3] = [
     (dvec3(0.46, 1.29, -0.02), 0.19),
     (dvec3(0.85, 1.13, 0.03), 0.125),
     (LEFT_WRIST, 0.098),
@@ -238,7 +237,7 @@ fn leg(p: DVec3, side: f64, step: f64) -> f64 {
 }
 
 /// A foot's axes: forwards, and across towards the outside.
-fn foot_axes(side: f64) -> (DVec3, DVec3) {
+pub(crate) fn foot_axes(side: f64) -> (DVec3, DVec3) {
     let way = dvec3(side * 0.38, 0.0, 1.0).normalize();
     (way, DVec3::Y.cross(way) * side)
 }
@@ -264,10 +263,10 @@ fn toes(side: f64, step: f64) -> [Digit; 3] {
 }
 
 /// How far the left and the right foot stand forwards.
-const STEPS: [f64; 2] = [0.07, -0.05];
+pub(crate) const STEPS: [f64; 2] = [0.07, -0.05];
 
 /// The toes of the left, then of the right foot.
-static TOES: LazyLock<Vec<Digit>> =
+pub(crate) static TOES: LazyLock<Vec<Digit>> =
     LazyLock::new(|| [toes(1.0, STEPS[0]), toes(-1.0, STEPS[1])].concat());
 
 /// The legs.
@@ -339,68 +338,4 @@ pub(crate) fn forearms(p: DVec3) -> [(f64, f64, f64); 2] {
         let along = (p - elbow.0).dot(axis) / axis.length_squared();
         (distance, along, axis.length())
     })
-}
-
-/// What the skin is unrolled from.
-pub(crate) fn skin_charts() -> Vec<Chart> {
-    let mut charts = vec![
-        Chart::new(dvec3(0.0, 0.68, 0.03), dvec3(0.0, 1.15, 0.0), 0.4),
-        Chart::new(
-            world_from_head(dvec3(0.0, -0.1, 0.02)),
-            world_from_head(dvec3(0.0, 0.06, -0.01)),
-            0.27,
-        ),
-    ];
-    for side in [-1.0, 1.0] {
-        let ear = |reach: f64| world_from_head(ogre_head::ear_point(side, reach));
-        charts.push(Chart::new(ear(0.1), ear(0.3), 0.06));
-    }
-    for [shoulder, elbow, wrist] in [LEFT_ARM, RIGHT_ARM] {
-        charts.push(Chart::new(shoulder.0, elbow.0, 0.15));
-        charts.push(Chart::new(elbow.0, wrist.0, 0.12));
-    }
-    let (up, _, _) = open_axes();
-    charts.push(Chart::new(
-        LEFT_WRIST + up * 0.08,
-        LEFT_WRIST + up * 0.16,
-        0.09,
-    ));
-    let (up, out, _) = fist_axes();
-    let heel = GRIP + out * 0.1;
-    charts.push(Chart::new(heel - up * 0.05, heel + up * 0.05, 0.085).seam(-out));
-    for (balls, _) in OPEN.iter().chain(&*FIST) {
-        charts.push(Chart::new(balls[0].0, balls[1].0, 0.048));
-        charts.push(Chart::new(balls[1].0, balls[2].0, 0.045));
-    }
-    for (side, step) in [(1.0, STEPS[0]), (-1.0, STEPS[1])] {
-        let knee = dvec3(side * 0.28, 0.42, 0.04 + step);
-        let ankle = dvec3(side * 0.3, 0.17, step);
-        charts.push(Chart::new(knee, ankle, 0.16));
-        let (way, _) = foot_axes(side);
-        let heel = ankle - DVec3::Y * 0.09;
-        charts.push(Chart::new(heel, heel + way * 0.17, 0.1).seam(DVec3::NEG_Y));
-    }
-    for (balls, _) in &*TOES {
-        charts.push(Chart::new(balls[0].0, balls[2].0, 0.06).seam(DVec3::NEG_Y));
-    }
-    charts
-}
-
-/// What the nails are unrolled from.
-pub(crate) fn nail_charts() -> Vec<Chart> {
-    let digits = OPEN.iter().chain(&*FIST).chain(&*TOES);
-    digits
-        .map(|([_, middle, (tip, r)], out)| {
-            let along = (*tip - middle.0).normalize();
-            let from = *tip + *out * *r * 0.6;
-            Chart::new(from, from + along * *r * 1.4, *r * 0.4).seam(-*out)
-        })
-        .collect()
-}
-
-/// What the bracers are unrolled from.
-pub(crate) fn bracer_charts() -> Vec<Chart> {
-    [LEFT_ARM, RIGHT_ARM]
-        .map(|[_, elbow, wrist]| Chart::new(elbow.0, wrist.0, 0.14))
-        .to_vec()
 }

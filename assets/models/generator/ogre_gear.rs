@@ -20,7 +20,7 @@ pub(crate) fn loincloth(p: DVec3) -> f64 {
     // Below it is a dome, so that the legs come out of a skirt and not of a block.
     let deep = (-hips(p) / 0.25).clamp(0.0, 1.0);
     let deep = deep * deep * (3.0 - 2.0 * deep);
-    let fold = 0.026 * (1.0 - deep) * low * (angle * 10.0 + 1.2 * (angle * 3.0).sin()).sin();
+    let fold = 0.021 * (1.0 - deep) * low * (angle * 10.0 + 1.2 * (angle * 3.0).sin()).sin();
     let rags = 0.024 * (angle * 13.0).sin() + 0.02 * (angle * 7.0 + 1.0).sin();
     let ragged = rags - 0.075 * (angle * 2.0).cos();
     let hem = 0.37 + ragged * (1.0 - deep) + 0.14 * deep;
@@ -47,8 +47,8 @@ pub(crate) static BUCKLE: LazyLock<DVec3> = LazyLock::new(|| {
 /// The belt's buckle: a boss on a disc.
 pub(crate) fn buckle(p: DVec3) -> f64 {
     let disc = ellipsoid(p, *BUCKLE, dvec3(0.1, 0.1, 0.055));
-    let boss = sphere(p, *BUCKLE + dvec3(0.0, 0.0, 0.025), 0.045);
-    join(disc, boss, 0.015)
+    let boss = sphere(p, *BUCKLE + dvec3(0.0, 0.0, 0.045), 0.04);
+    join(disc, boss, 0.025)
 }
 
 /// Leather around both forearms.

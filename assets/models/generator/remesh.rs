@@ -8,7 +8,6 @@ use fast_surface_nets::{SurfaceNetsBuffer, surface_nets};
 use glam::{DVec3, dvec3};
 
 use crate::sdf::{gradient, project};
-use crate::sets::{root, unite};
 
 /// A closed surface: points and triangles between them.
 pub(crate) struct Surface {
@@ -121,49 +120,6 @@ impl Surface {
         edges
     }
 
-    /// Gives every sheet of surface points of its own where sheets share edges or points, as they do in grid cells
-    /// that the surface passes twice.
-    fn untangle(&mut self) {
-        let mut beside: BTreeMap<(usize, usize), Vec<usize>> = BTreeMap::new();
-        for (f, face) in self.faces.iter().enumerate() {
-            for k in 0..3 {
-                let edge = (face[k], face[(k + 1) % 3]);
-                beside.entry(edge).or_default().push(f * 3 + k);
-            }
-        }
-        // Corners that stay together, found across each edge.
-        let mut fan: Vec<usize> = (0..self.faces.len() * 3).collect();
-        let way = |corner: usize| normal(self.faces[corner / 3].map(|i| self.points[i]));
-        for (&(a, b), here) in &beside {
-            let mut there = beside.get(&(b, a)).cloned().unwrap_or_default();
-            for &corner in here {
-                let flattest = |&x: &usize, &y: &usize| {
-                    let bend = |other| cosine(way(corner), way(other));
-                    bend(x).total_cmp(&bend(y))
-                };
-                let Some(other) = there.iter().copied().max_by(flattest) else {
-                    continue;
-                };
-                if a < b {
-                    unite(&mut fan, corner, after(other));
-                    unite(&mut fan, after(corner), other);
-                }
-                there.retain(|&x| x != other);
-            }
-        }
-        let mut number: BTreeMap<usize, usize> = BTreeMap::new();
-        let mut points = Vec::new();
-        let corners: Vec<usize> = (0..fan.len()).map(|i| root(&fan, i)).collect();
-        for (corner, point) in self.faces.iter_mut().flatten().enumerate() {
-            let old = self.points[*point];
-            *point = *number.entry(corners[corner]).or_insert_with(|| {
-                points.push(old);
-                points.len() - 1
-            });
-        }
-        self.points = points;
-    }
-
     /// Finds the wanted lengths from how fast the normal turns around each point.
     fn measure(&mut self, f: &impl Fn(DVec3) -> f64, sizing: Sizing) {
         let reach = sizing.finest * 0.8;
@@ -179,7 +135,7 @@ impl Surface {
                         let turn = |d: DVec3| {
                             let there = gradient(f, p + d * reach).normalize_or_zero();
                             // Hollows may be coarser than bulges: they are never seen against the sky.
-                            let hollow = if there.dot(d) < 0.0 { 1.5 } else { 1.0 };
+                            let hollow = if there.dot(d) < 0.0 { 1.35 } else { 1.0 };
                             there.angle_between(n) / hollow
                         };
                         turn(d).max(turn(-d))
@@ -408,17 +364,12 @@ impl Surface {
     }
 }
 
-/// The corner after this one in its triangle.
-fn after(corner: usize) -> usize {
-    corner / 3 * 3 + (corner % 3 + 1) % 3
-}
-
 /// The normal of a triangle, twice its area long.
-fn normal([a, b, c]: [DVec3; 3]) -> DVec3 {
+pub(crate) fn normal([a, b, c]: [DVec3; 3]) -> DVec3 {
     (b - a).cross(c - a)
 }
 
 /// The cosine of the angle between two vectors.
-fn cosine(a: DVec3, b: DVec3) -> f64 {
+pub(crate) fn cosine(a: DVec3, b: DVec3) -> f64 {
     a.normalize_or_zero().dot(b.normalize_or_zero())
 }
