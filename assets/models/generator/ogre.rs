@@ -73,8 +73,8 @@ pub(crate) fn scene() -> Scene {
         0,
         &skin,
         all,
-        0.0085,
-        (0.0098, 0.055, 0.53),
+        0.0095,
+        (0.0092, 0.052, 0.435),
         &skin_charts(),
     );
     part(
@@ -95,7 +95,7 @@ pub(crate) fn scene() -> Scene {
         (0.0068, 0.025, 0.5),
         &nail_charts(),
     );
-    part("eyes", 2, &eyes, head, 0.012, (0.021, 0.021, 0.5), &balls);
+    part("eyes", 2, &eyes, head, 0.012, (0.019, 0.019, 0.5), &balls);
     part(
         "pupils",
         3,
@@ -111,7 +111,7 @@ pub(crate) fn scene() -> Scene {
         &topknot,
         head,
         0.009,
-        (0.0115, 0.03, 0.54),
+        (0.0105, 0.03, 0.46),
         &strand_charts(),
     );
     part(
@@ -120,7 +120,7 @@ pub(crate) fn scene() -> Scene {
         &tie,
         head,
         0.007,
-        (0.009, 0.02, 0.5),
+        (0.0085, 0.02, 0.46),
         &tie_chart(),
     );
     part(
@@ -129,7 +129,7 @@ pub(crate) fn scene() -> Scene {
         &earring,
         head,
         0.005,
-        (0.0085, 0.02, 0.54),
+        (0.008, 0.02, 0.46),
         &ring_chart(),
     );
     part(
@@ -137,8 +137,8 @@ pub(crate) fn scene() -> Scene {
         4,
         &ogre_gear::loincloth,
         all,
-        0.009,
-        (0.0275, 0.065, 0.6),
+        0.016,
+        (0.0175, 0.055, 0.48),
         &round(0.45, 0.2, 0.42),
     );
     part(
@@ -146,8 +146,8 @@ pub(crate) fn scene() -> Scene {
         5,
         &ogre_gear::belt,
         all,
-        0.01,
-        (0.0205, 0.06, 0.64),
+        0.016,
+        (0.0145, 0.055, 0.46),
         &round(0.64, 0.06, 0.45),
     );
     part(
@@ -156,7 +156,7 @@ pub(crate) fn scene() -> Scene {
         &ogre_gear::buckle,
         all,
         0.009,
-        (0.0115, 0.03, 0.48),
+        (0.0105, 0.03, 0.4),
         &buckle_chart(),
     );
     part(
@@ -164,8 +164,8 @@ pub(crate) fn scene() -> Scene {
         5,
         &ogre_gear::bracers,
         all,
-        0.007,
-        (0.0175, 0.05, 0.64),
+        0.012,
+        (0.014, 0.045, 0.46),
         &bracer_charts(),
     );
     part(
@@ -173,7 +173,7 @@ pub(crate) fn scene() -> Scene {
         7,
         &ogre_gear::club,
         all,
-        0.012,
+        0.014,
         (0.0135, 0.045, 0.48),
         &club,
     );
