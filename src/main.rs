@@ -10,7 +10,7 @@ fn main() -> ExitCode {
             std::process::exit(code)
         }
         Err(error) => {
-            eprintln!("hachure: {:#}", anyhow::Error::from(error));
+            eprintln!("hachure: {error}");
             ExitCode::from(1)
         }
     }

@@ -131,7 +131,11 @@ fn crankshaft(shop: &mut Shop) -> Node {
                 .turned(turn),
         );
         for (side, about_y) in [(1.0, std::f64::consts::PI), (-1.0, 0.0)] {
-            let number = children.iter().filter(|c| c.name.starts_with("web")).count() + 1;
+            let number = children
+                .iter()
+                .filter(|c| c.name.starts_with("web"))
+                .count()
+                + 1;
             children.push(
                 Node::new(format!("web.{number}"), web)
                     .at(cylinder_x(i) + side * crankshaft::WEB_AT, 0.0, 0.0)

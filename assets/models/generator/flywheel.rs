@@ -33,11 +33,7 @@ pub(crate) fn bolt_angle(i: usize) -> f64 {
 pub(crate) fn disc() -> Solid {
     let around = |radius: f64, hole: f64, shift: f64, n: usize, chamfer: f64| {
         (0..BOLTS).map(move |i| Hole {
-            outline: circle(
-                radius * DVec2::from_angle(bolt_angle(i) + shift),
-                hole,
-                n,
-            ),
+            outline: circle(radius * DVec2::from_angle(bolt_angle(i) + shift), hole, n),
             chamfer,
         })
     };
@@ -116,11 +112,7 @@ pub(crate) fn pulley() -> Solid {
     wheel.front = vec![Step::new(circle(DVec2::ZERO, 43.0, 48), 2.0, -8.0).with(vec![hub])];
     wheel.holes = (0..5)
         .map(|i| Hole {
-            outline: circle(
-                31.5 * DVec2::from_angle(TAU * f64::from(i) / 5.0),
-                6.5,
-                16,
-            ),
+            outline: circle(31.5 * DVec2::from_angle(TAU * f64::from(i) / 5.0), 6.5, 16),
             chamfer: 0.0,
         })
         .collect();

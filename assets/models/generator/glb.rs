@@ -225,8 +225,7 @@ impl Buffer {
             "buffer": 0, "byteOffset": self.bytes.len(), "byteLength": bytes.len(), "target": target,
         }));
         self.bytes.extend(bytes);
-        self.bytes
-            .resize(self.bytes.len().next_multiple_of(4), 0);
+        self.bytes.resize(self.bytes.len().next_multiple_of(4), 0);
         self.accessors.push(json!({
             "bufferView": self.views.len() - 1, "componentType": kind, "type": shape, "count": count,
         }));

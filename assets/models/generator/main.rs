@@ -12,6 +12,7 @@ mod flywheel;
 mod glb;
 mod ogre;
 mod ogre_body;
+mod ogre_charts;
 mod ogre_gear;
 mod ogre_head;
 mod outline;
@@ -21,7 +22,9 @@ mod remesh;
 mod rod;
 mod sdf;
 mod sets;
+mod soften;
 mod solid;
+mod untangle;
 mod unwrap;
 
 /// Writes each model, or only those named on the command line, and reports their sizes.

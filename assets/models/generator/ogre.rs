@@ -3,11 +3,12 @@
 use glam::{DVec3, dvec3};
 
 use crate::glb::{Material, Mesh, Node, Scene};
-use crate::ogre_body::{
-    CLUB_FOOT, CLUB_TOP, bracer_charts, in_head, nail_charts, nails, skin, skin_charts, world_from_head,
+use crate::ogre_body::{CLUB_FOOT, CLUB_TOP, in_head, nails, skin};
+use crate::ogre_charts::{
+    bracer_charts, buckle_chart, nail_charts, on_head, ring_chart, skin_charts, strand_charts,
+    tie_chart, tusk_charts,
 };
 use crate::remesh::{Sizing, polygonise};
-use crate::sdf::gradient;
 use crate::unwrap::{Chart, unwrap};
 use crate::{ogre_gear, ogre_head};
 
@@ -35,17 +36,18 @@ pub(crate) fn scene() -> Scene {
     };
     let all = (dvec3(-1.3, -0.05, -0.65), dvec3(1.3, 2.35, 0.95));
     let head = (dvec3(-0.5, 1.1, -0.5), dvec3(0.7, 2.35, 0.8));
-    let mut part = |name, material, distance: &dyn Fn(DVec3) -> f64, bounds, cell, edges, charts: &[Chart]| {
-        let body = Body {
-            name,
-            material,
-            distance,
-            bounds,
-            cell,
-            edges,
+    let mut part =
+        |name, material, distance: &dyn Fn(DVec3) -> f64, bounds, cell, edges, charts: &[Chart]| {
+            let body = Body {
+                name,
+                material,
+                distance,
+                bounds,
+                cell,
+                edges,
+            };
+            scene.roots.push(body.add(charts, &mut scene.meshes));
         };
-        scene.roots.push(body.add(charts, &mut scene.meshes));
-    };
     let tusks = |p| in_head(p, ogre_head::tusks);
     let eyes = |p| in_head(p, ogre_head::eyes);
     let pupils = |p| in_head(p, ogre_head::pupils);
@@ -53,76 +55,129 @@ pub(crate) fn scene() -> Scene {
     let tie = |p| in_head(p, ogre_head::tie);
     let earring = |p| in_head(p, ogre_head::earring);
     let round = |y: f64, half: f64, radius: f64| {
-        [Chart::new(dvec3(0.0, y - half, 0.05), dvec3(0.0, y + half, 0.05), radius)]
+        [Chart::new(
+            dvec3(0.0, y - half, 0.05),
+            dvec3(0.0, y + half, 0.05),
+            radius,
+        )]
     };
-    let [eye_l, eye_r] = [1.0, -1.0].map(|side| on_head(side * ogre_head::EYE.x, ogre_head::EYE.y, ogre_head::EYE.z));
-    let balls = [Chart::new(eye_l, eye_l, 0.064), Chart::new(eye_r, eye_r, 0.064)];
+    let [eye_l, eye_r] = [1.0, -1.0]
+        .map(|side| on_head(side * ogre_head::EYE.x, ogre_head::EYE.y, ogre_head::EYE.z));
+    let balls = [
+        Chart::new(eye_l, eye_l, 0.064),
+        Chart::new(eye_r, eye_r, 0.064),
+    ];
     let club = [Chart::new(CLUB_FOOT, CLUB_TOP, 0.12)];
-    part("skin", 0, &skin, all, 0.0085, (0.0118, 0.044), &skin_charts());
-    part("tusks", 1, &tusks, head, 0.006, (0.012, 0.02), &tusk_charts());
-    part("nails", 1, &nails, all, 0.006, (0.013, 0.022), &nail_charts());
-    part("eyes", 2, &eyes, head, 0.012, (0.02, 0.02), &balls);
-    part("pupils", 3, &pupils, head, 0.005, (0.009, 0.013), &balls);
-    part("topknot", 8, &topknot, head, 0.009, (0.016, 0.03), &strand_charts());
-    part("tie", 5, &tie, head, 0.007, (0.014, 0.02), &tie_chart());
-    part("earring", 6, &earring, head, 0.005, (0.011, 0.014), &ring_chart());
-    part("loincloth", 4, &ogre_gear::loincloth, all, 0.009, (0.02, 0.05), &round(0.45, 0.2, 0.42));
-    part("belt", 5, &ogre_gear::belt, all, 0.01, (0.024, 0.05), &round(0.64, 0.06, 0.45));
-    part("buckle", 6, &ogre_gear::buckle, all, 0.009, (0.016, 0.03), &buckle_chart());
-    part("bracers", 5, &ogre_gear::bracers, all, 0.007, (0.02, 0.045), &bracer_charts());
-    part("club", 7, &ogre_gear::club, all, 0.012, (0.017, 0.04), &club);
+    part(
+        "skin",
+        0,
+        &skin,
+        all,
+        0.0095,
+        (0.0092, 0.052, 0.435),
+        &skin_charts(),
+    );
+    part(
+        "tusks",
+        1,
+        &tusks,
+        head,
+        0.006,
+        (0.008, 0.025, 0.5),
+        &tusk_charts(),
+    );
+    part(
+        "nails",
+        1,
+        &nails,
+        all,
+        0.006,
+        (0.0068, 0.025, 0.5),
+        &nail_charts(),
+    );
+    part("eyes", 2, &eyes, head, 0.012, (0.019, 0.019, 0.5), &balls);
+    part(
+        "pupils",
+        3,
+        &pupils,
+        head,
+        0.005,
+        (0.0065, 0.016, 0.58),
+        &balls,
+    );
+    part(
+        "topknot",
+        8,
+        &topknot,
+        head,
+        0.009,
+        (0.0105, 0.03, 0.46),
+        &strand_charts(),
+    );
+    part(
+        "tie",
+        5,
+        &tie,
+        head,
+        0.007,
+        (0.0085, 0.02, 0.46),
+        &tie_chart(),
+    );
+    part(
+        "earring",
+        6,
+        &earring,
+        head,
+        0.005,
+        (0.008, 0.02, 0.46),
+        &ring_chart(),
+    );
+    part(
+        "loincloth",
+        4,
+        &ogre_gear::loincloth,
+        all,
+        0.016,
+        (0.0175, 0.055, 0.48),
+        &round(0.45, 0.2, 0.42),
+    );
+    part(
+        "belt",
+        5,
+        &ogre_gear::belt,
+        all,
+        0.016,
+        (0.0145, 0.055, 0.46),
+        &round(0.64, 0.06, 0.45),
+    );
+    part(
+        "buckle",
+        6,
+        &ogre_gear::buckle,
+        all,
+        0.009,
+        (0.0105, 0.03, 0.4),
+        &buckle_chart(),
+    );
+    part(
+        "bracers",
+        5,
+        &ogre_gear::bracers,
+        all,
+        0.012,
+        (0.014, 0.045, 0.46),
+        &bracer_charts(),
+    );
+    part(
+        "club",
+        7,
+        &ogre_gear::club,
+        all,
+        0.014,
+        (0.0135, 0.045, 0.48),
+        &club,
+    );
     scene
-}
-
-/// A point of the head's space in the world.
-fn on_head(x: f64, y: f64, z: f64) -> DVec3 {
-    world_from_head(dvec3(x, y, z))
-}
-
-/// What the tusks and the small teeth are unrolled from.
-fn tusk_charts() -> Vec<Chart> {
-    [-1.0, 1.0]
-        .into_iter()
-        .flat_map(|side| {
-            [
-                Chart::new(on_head(side * 0.105, -0.24, 0.225), on_head(side * 0.13, -0.09, 0.265), 0.03),
-                Chart::new(on_head(side * 0.04, -0.23, 0.262), on_head(side * 0.042, -0.17, 0.285), 0.018),
-            ]
-        })
-        .collect()
-}
-
-/// What the strands of hair are unrolled from.
-fn strand_charts() -> Vec<Chart> {
-    let root = dvec3(0.0, 0.29, -0.075);
-    let mut charts = vec![Chart::new(world_from_head(root - DVec3::Y * 0.07), world_from_head(root), 0.05)];
-    charts.extend(ogre_head::STRANDS.map(|tip| {
-        let from = world_from_head(root + tip * 0.35);
-        Chart::new(from, world_from_head(root + tip), 0.035)
-    }));
-    charts
-}
-
-/// What the tie of the hair is unrolled from.
-fn tie_chart() -> [Chart; 1] {
-    let middle = dvec3(0.0, 0.315, -0.079);
-    let up = DVec3::Y * 0.01;
-    [Chart::new(world_from_head(middle - up), world_from_head(middle + up), 0.04)]
-}
-
-/// What the earring is unrolled from.
-fn ring_chart() -> [Chart; 1] {
-    let middle = ogre_head::EARRING;
-    let along = dvec3(1.0, 0.0, -1.0) * 0.005;
-    let chart = Chart::new(world_from_head(middle - along), world_from_head(middle + along), 0.045);
-    [chart.seam(DVec3::Y)]
-}
-
-/// What the buckle is unrolled from.
-fn buckle_chart() -> [Chart; 1] {
-    let middle = *ogre_gear::BUCKLE;
-    let along = DVec3::Z * 0.01;
-    [Chart::new(middle - along, middle + along, 0.09).seam(DVec3::NEG_Y)]
 }
 
 /// One body on its way into the scene.
@@ -132,8 +187,8 @@ struct Body<'a> {
     distance: &'a dyn Fn(DVec3) -> f64,
     bounds: (DVec3, DVec3),
     cell: f64,
-    /// The shortest and the longest edges.
-    edges: (f64, f64),
+    /// The shortest and the longest edges, and the angle in radians that the surface may turn along one.
+    edges: (f64, f64, f64),
 }
 
 impl Body<'_> {
@@ -142,23 +197,31 @@ impl Body<'_> {
         let sizing = Sizing {
             finest: self.edges.0,
             coarsest: self.edges.1,
-            turn: 0.42,
+            turn: self.edges.2,
         };
-        let surface = polygonise(&self.distance, self.bounds, self.cell, sizing);
-        let layered = ["loincloth", "belt", "bracers", "tie", "earring"].contains(&self.name);
+        let mut surface = polygonise(&self.distance, self.bounds, self.cell, sizing);
+        let moved = surface.soften();
+        let layered = ["tie", "earring"].contains(&self.name);
         let unwrapped = unwrap(&surface, charts, layered);
-        let normals: Vec<[f32; 3]> = surface
-            .points
-            .iter()
-            .map(|&p| gradient(&self.distance, p).normalize().as_vec3().to_array())
-            .collect();
+        let normals = surface.normals(&self.distance, &moved);
         let points = || unwrapped.vertices.iter().map(|v| v.0);
         meshes.push(Mesh {
             name: self.name.to_owned(),
-            positions: points().map(|i| surface.points[i].as_vec3().to_array()).collect(),
-            normals: points().map(|i| normals[i]).collect(),
-            uvs: unwrapped.vertices.iter().map(|v| v.1.as_vec2().to_array()).collect(),
-            indices: unwrapped.faces.iter().flatten().map(|&i| i as u32).collect(),
+            positions: points()
+                .map(|i| surface.points[i].as_vec3().to_array())
+                .collect(),
+            normals: points().map(|i| normals[i].as_vec3().to_array()).collect(),
+            uvs: unwrapped
+                .vertices
+                .iter()
+                .map(|v| v.1.as_vec2().to_array())
+                .collect(),
+            indices: unwrapped
+                .faces
+                .iter()
+                .flatten()
+                .map(|&i| i as u32)
+                .collect(),
             material: self.material,
         });
         Node::new(self.name, Some(meshes.len() - 1))

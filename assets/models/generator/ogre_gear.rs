@@ -7,14 +7,6 @@ use glam::{DVec3, dvec3};
 use crate::ogre_body::{CLUB_FOOT, CLUB_TOP, forearms, trunk};
 use crate::sdf::{ellipsoid, join, limb, meet, sphere};
 
-/// The layer from `inner` to `outer` above a body.
-fn layer(body: f64, inner: f64, outer: f64) -> f64 {
-    let half = (outer - inner) / 2.0;
-    // A rounded absolute value, or rims would have a crease along their middle.
-    let from_middle = body - inner - half;
-    from_middle.hypot(half * 0.7) - half.hypot(half * 0.7)
-}
-
 /// What cloth lies on: the trunk, widened where the hips begin; between the legs it hangs straight.
 fn hips(p: DVec3) -> f64 {
     let skirt = ellipsoid(p, dvec3(0.0, 0.42, 0.02), dvec3(0.475, 0.55, 0.41));
@@ -25,17 +17,21 @@ fn hips(p: DVec3) -> f64 {
 pub(crate) fn loincloth(p: DVec3) -> f64 {
     let angle = p.x.atan2(p.z);
     let low = ((0.66 - p.y) / 0.3).clamp(0.0, 1.0);
-    let fold = 0.026 * low * (angle * 10.0 + 1.2 * (angle * 3.0).sin()).sin();
+    // Below it is a dome, so that the legs come out of a skirt and not of a block.
+    let deep = (-hips(p) / 0.25).clamp(0.0, 1.0);
+    let deep = deep * deep * (3.0 - 2.0 * deep);
+    let fold = 0.021 * (1.0 - deep) * low * (angle * 10.0 + 1.2 * (angle * 3.0).sin()).sin();
     let rags = 0.024 * (angle * 13.0).sin() + 0.02 * (angle * 7.0 + 1.0).sin();
-    let hem = 0.37 - 0.075 * (angle * 2.0).cos() + rags;
-    let d = meet(layer(hips(p) + fold, -0.012, 0.032), hem - p.y, 0.035);
-    meet(d, p.y - 0.66, 0.035)
+    let ragged = rags - 0.075 * (angle * 2.0).cos();
+    let hem = 0.37 + ragged * (1.0 - deep) + 0.14 * deep;
+    let body = hips(p) + fold;
+    meet(meet(body - 0.038, hem - p.y, 0.08), p.y - 0.66, 0.13)
 }
 
 /// The belt under the belly.
 pub(crate) fn belt(p: DVec3) -> f64 {
     let high = (p.y - 0.64 + 0.04 * p.z).abs() - 0.05;
-    meet(layer(hips(p), 0.0, 0.058), high, 0.04)
+    meet(hips(p) - 0.058, high, 0.09)
 }
 
 /// The middle of the buckle, on the belt's front.
@@ -50,9 +46,9 @@ pub(crate) static BUCKLE: LazyLock<DVec3> = LazyLock::new(|| {
 
 /// The belt's buckle: a boss on a disc.
 pub(crate) fn buckle(p: DVec3) -> f64 {
-    let disc = ellipsoid(p, *BUCKLE, dvec3(0.1, 0.1, 0.04));
-    let boss = sphere(p, *BUCKLE + dvec3(0.0, 0.0, 0.025), 0.045);
-    join(disc, boss, 0.015)
+    let disc = ellipsoid(p, *BUCKLE, dvec3(0.1, 0.1, 0.055));
+    let boss = sphere(p, *BUCKLE + dvec3(0.0, 0.0, 0.045), 0.04);
+    join(disc, boss, 0.025)
 }
 
 /// Leather around both forearms.
@@ -60,9 +56,9 @@ pub(crate) fn bracers(p: DVec3) -> f64 {
     forearms(p)
         .map(|(arm, along, length)| {
             let ends = ((along - 0.62).abs() - 0.25) * length;
-            let rims = 0.01 * (-((along - 0.45) / 0.05).powi(2)).exp()
-                + 0.01 * (-((along - 0.8) / 0.05).powi(2)).exp();
-            meet(layer(arm, -0.014, 0.024 + rims), ends, 0.03)
+            let rims = 0.008 * (-((along - 0.45) / 0.05).powi(2)).exp()
+                + 0.008 * (-((along - 0.8) / 0.05).powi(2)).exp();
+            meet(arm - 0.026 - rims, ends, 0.085)
         })
         .into_iter()
         .fold(f64::INFINITY, f64::min)

@@ -14,43 +14,63 @@ pub(crate) fn skin(p: DVec3) -> f64 {
     // Both sides at once.
     let m = dvec3(p.x.abs(), p.y, p.z);
     let mut d = ellipsoid(p, dvec3(0.0, 0.05, -0.03), dvec3(0.225, 0.235, 0.245));
-    d = join(d, ellipsoid(p, dvec3(0.0, -0.15, 0.05), dvec3(0.255, 0.15, 0.2)), 0.1);
+    d = join(
+        d,
+        ellipsoid(p, dvec3(0.0, -0.15, 0.05), dvec3(0.255, 0.15, 0.2)),
+        0.1,
+    );
     // Cheekbones.
-    d = join(d, ellipsoid(m, dvec3(0.165, -0.06, 0.135), dvec3(0.075, 0.06, 0.07)), 0.06);
+    d = join(
+        d,
+        ellipsoid(m, dvec3(0.165, -0.06, 0.135), dvec3(0.075, 0.06, 0.07)),
+        0.06,
+    );
     // Sockets, then the brow over them: low in the middle.
-    d = carve(d, sphere(m, EYE + dvec3(0.0, -0.004, 0.025), 0.066), 0.035);
+    d = carve(d, sphere(m, EYE + dvec3(0.0, -0.004, 0.025), 0.066), 0.05);
     let brow = [
         (dvec3(0.0, 0.055, 0.232), 0.046),
         (dvec3(0.085, 0.075, 0.228), 0.052),
         (dvec3(0.205, 0.1, 0.12), 0.04),
     ];
-    d = join(d, limb(m, &brow, 0.04), 0.035);
+    d = join(d, limb(m, &brow, 0.05), 0.045);
     // Lids.
     let upper = ellipsoid(m, EYE + dvec3(0.0, 0.034, 0.003), dvec3(0.07, 0.036, 0.063));
-    d = join(d, upper, 0.015);
+    d = join(d, upper, 0.03);
     let lower = [
         (EYE + dvec3(0.06, -0.04, -0.005), 0.02),
         (EYE + dvec3(0.0, -0.057, 0.03), 0.022),
         (EYE + dvec3(-0.052, -0.045, 0.02), 0.016),
     ];
-    d = join(d, limb(m, &lower, 0.02), 0.022);
+    d = join(d, limb(m, &lower, 0.03), 0.03);
     d = join(d, muzzle(m), 0.045);
-    d = carve(d, mouth(m), 0.028);
-    d = join(d, lower_lip(m), 0.03);
-    d = join(d, nose(m), 0.03);
-    d = carve(d, cone(m, (dvec3(0.036, -0.13, 0.335), 0.021), (dvec3(0.03, -0.09, 0.31), 0.012)), 0.02);
-    d = join(d, ear(m), 0.035);
+    d = carve(d, mouth(m), 0.04);
+    d = join(d, lower_lip(m), 0.04);
+    d = join(d, nose(m), 0.04);
+    d = carve(
+        d,
+        cone(
+            m,
+            (dvec3(0.038, -0.142, 0.325), 0.027),
+            (dvec3(0.033, -0.11, 0.305), 0.018),
+        ),
+        0.035,
+    );
+    d = join(d, ear(m), 0.05);
     // A wart or two, where no mirror puts them.
-    d = join(d, sphere(p, dvec3(0.19, -0.12, 0.165), 0.016), 0.02);
-    join(d, sphere(p, dvec3(-0.06, 0.17, 0.187), 0.016), 0.03)
+    d = join(d, sphere(p, dvec3(0.19, -0.12, 0.163), 0.022), 0.035);
+    join(d, sphere(p, dvec3(-0.06, 0.17, 0.184), 0.022), 0.035)
 }
 
 /// Bridge, tip and wings.
 fn nose(m: DVec3) -> f64 {
-    let bridge = cone(m, (dvec3(0.0, 0.03, 0.235), 0.036), (dvec3(0.0, -0.065, 0.31), 0.05));
+    let bridge = cone(
+        m,
+        (dvec3(0.0, 0.03, 0.235), 0.036),
+        (dvec3(0.0, -0.065, 0.31), 0.05),
+    );
     let tip = ellipsoid(m, dvec3(0.0, -0.085, 0.315), dvec3(0.068, 0.055, 0.055));
     let wing = ellipsoid(m, dvec3(0.075, -0.098, 0.27), dvec3(0.046, 0.04, 0.052));
-    join(join(bridge, tip, 0.03), wing, 0.022)
+    join(join(bridge, tip, 0.04), wing, 0.03)
 }
 
 /// The upper lip.
@@ -66,11 +86,11 @@ fn muzzle(m: DVec3) -> f64 {
 /// The slit between the lips, its corners turned down.
 fn mouth(m: DVec3) -> f64 {
     let slit = [
-        (dvec3(0.0, -0.19, 0.30), 0.022),
-        (dvec3(0.1, -0.188, 0.25), 0.022),
+        (dvec3(0.0, -0.19, 0.30), 0.026),
+        (dvec3(0.1, -0.188, 0.25), 0.026),
         (dvec3(0.195, -0.225, 0.155), 0.02),
     ];
-    limb(m, &slit, 0.02)
+    limb(m, &slit, 0.04)
 }
 
 /// The lower lip, in front of the upper one, and the chin.
@@ -81,7 +101,7 @@ fn lower_lip(m: DVec3) -> f64 {
         (dvec3(0.185, -0.245, 0.12), 0.026),
     ];
     let chin = ellipsoid(m, dvec3(0.0, -0.275, 0.185), dvec3(0.125, 0.07, 0.095));
-    join(limb(m, &lip, 0.03), chin, 0.035)
+    join(limb(m, &lip, 0.04), chin, 0.035)
 }
 
 /// The root of the left ear.
@@ -117,23 +137,23 @@ fn ear(m: DVec3) -> f64 {
         (dvec3(0.125, 0.012, 0.085), 0.054),
         (dvec3(0.225, 0.012, 0.06), 0.018),
     ];
-    flat * carve(limb(q, &shell, 0.06), limb(q, &hollow, 0.04), 0.045)
+    flat * carve(limb(q, &shell, 0.06), limb(q, &hollow, 0.05), 0.075)
 }
 
 /// The two tusks that stand out of the lower lip.
 pub(crate) fn tusks(p: DVec3) -> f64 {
     let m = dvec3(p.x.abs(), p.y, p.z);
     let tusk = [
-        (dvec3(0.105, -0.24, 0.225), 0.036),
+        (dvec3(0.1, -0.222, 0.215), 0.03),
         (dvec3(0.118, -0.165, 0.262), 0.033),
         (dvec3(0.132, -0.1, 0.268), 0.02),
-        (dvec3(0.136, -0.062, 0.258), 0.008),
+        (dvec3(0.136, -0.062, 0.258), 0.017),
     ];
     let small = [
         (dvec3(0.04, -0.23, 0.262), 0.02),
-        (dvec3(0.042, -0.172, 0.285), 0.012),
+        (dvec3(0.042, -0.172, 0.285), 0.016),
     ];
-    limb(m, &tusk, 0.02).min(limb(m, &small, 0.02))
+    limb(m, &tusk, 0.04).min(limb(m, &small, 0.02))
 }
 
 /// The eyeballs.
@@ -149,7 +169,7 @@ pub(crate) fn pupils(p: DVec3) -> f64 {
             let look = dvec3(0.12, -0.1, 1.0).normalize();
             let right = look.cross(DVec3::Y).normalize();
             let axes = DMat3::from_cols(right, right.cross(look), look);
-            turned_ellipsoid(p, eye + look * 0.05, axes, dvec3(0.024, 0.024, 0.013))
+            turned_ellipsoid(p, eye + look * 0.043, axes, dvec3(0.027, 0.027, 0.019))
         })
         .into_iter()
         .fold(f64::INFINITY, f64::min)
@@ -175,9 +195,9 @@ pub(crate) fn topknot(p: DVec3) -> f64 {
             let strand = [
                 (root + dvec3(0.0, 0.07, -0.01), 0.03),
                 (root + bend, 0.038),
-                (root + tip, 0.013),
+                (root + tip, 0.021),
             ];
-            join(d, limb(p, &strand, 0.04), 0.018)
+            join(d, limb(p, &strand, 0.05), 0.035)
         },
     )
 }
@@ -185,8 +205,8 @@ pub(crate) fn topknot(p: DVec3) -> f64 {
 /// The tie around the tuft.
 pub(crate) fn tie(p: DVec3) -> f64 {
     let q = p - dvec3(0.0, 0.315, -0.079);
-    let around = dvec3(q.x, 0.0, q.z).length() - 0.036;
-    (around * around + q.y * q.y).sqrt() - 0.017
+    let around = dvec3(q.x, 0.0, q.z).length() - 0.046;
+    (around * around + q.y * q.y).sqrt() - 0.023
 }
 
 /// The middle of the ring in the left ear.
@@ -195,7 +215,10 @@ pub(crate) const EARRING: DVec3 = dvec3(0.305, -0.118, -0.05);
 /// A ring through the left ear.
 pub(crate) fn earring(p: DVec3) -> f64 {
     let q = p - EARRING;
-    let around = (q.x * q.x * 0.5 + q.y * q.y + q.z * q.z * 0.5 + q.x * q.z).abs().sqrt() - 0.042;
+    let around = (q.x * q.x * 0.5 + q.y * q.y + q.z * q.z * 0.5 + q.x * q.z)
+        .abs()
+        .sqrt()
+        - 0.042;
     let across = (q.x - q.z) * std::f64::consts::FRAC_1_SQRT_2;
-    (around * around + across * across).sqrt() - 0.012
+    (around * around + across * across).sqrt() - 0.02
 }

@@ -209,6 +209,5 @@ pub(crate) fn ring(height: f64) -> Solid {
 
 /// The hollow wrist pin.
 pub(crate) fn pin() -> Solid {
-    tube(5.5, 10.0, 33.0, 0.8, 16)
-        .solid().along(Axis::X)
+    tube(5.5, 10.0, 33.0, 0.8, 16).solid().along(Axis::X)
 }

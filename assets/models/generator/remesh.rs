@@ -8,7 +8,6 @@ use fast_surface_nets::{SurfaceNetsBuffer, surface_nets};
 use glam::{DVec3, dvec3};
 
 use crate::sdf::{gradient, project};
-use crate::sets::{root, unite};
 
 /// A closed surface: points and triangles between them.
 pub(crate) struct Surface {
@@ -121,49 +120,6 @@ impl Surface {
         edges
     }
 
-    /// Gives every sheet of surface points of its own where sheets share edges or points, as they do in grid cells
-    /// that the surface passes twice.
-    fn untangle(&mut self) {
-        let mut beside: BTreeMap<(usize, usize), Vec<usize>> = BTreeMap::new();
-        for (f, face) in self.faces.iter().enumerate() {
-            for k in 0..3 {
-                let edge = (face[k], face[(k + 1) % 3]);
-                beside.entry(edge).or_default().push(f * 3 + k);
-            }
-        }
-        // Corners that stay together, found across each edge.
-        let mut fan: Vec<usize> = (0..self.faces.len() * 3).collect();
-        let way = |corner: usize| normal(self.faces[corner / 3].map(|i| self.points[i]));
-        for (&(a, b), here) in &beside {
-            let mut there = beside.get(&(b, a)).cloned().unwrap_or_default();
-            for &corner in here {
-                let flattest = |&x: &usize, &y: &usize| {
-                    let bend = |other| cosine(way(corner), way(other));
-                    bend(x).total_cmp(&bend(y))
-                };
-                let Some(other) = there.iter().copied().max_by(flattest) else {
-                    continue;
-                };
-                if a < b {
-                    unite(&mut fan, corner, after(other));
-                    unite(&mut fan, after(corner), other);
-                }
-                there.retain(|&x| x != other);
-            }
-        }
-        let mut number: BTreeMap<usize, usize> = BTreeMap::new();
-        let mut points = Vec::new();
-        let corners: Vec<usize> = (0..fan.len()).map(|i| root(&fan, i)).collect();
-        for (corner, point) in self.faces.iter_mut().flatten().enumerate() {
-            let old = self.points[*point];
-            *point = *number.entry(corners[corner]).or_insert_with(|| {
-                points.push(old);
-                points.len() - 1
-            });
-        }
-        self.points = points;
-    }
-
     /// Finds the wanted lengths from how fast the normal turns around each point.
     fn measure(&mut self, f: &impl Fn(DVec3) -> f64, sizing: Sizing) {
         let reach = sizing.finest * 0.8;
@@ -176,9 +132,13 @@ impl Surface {
                 let b = n.cross(t);
                 let turn = [t, b, (t + b) * 0.707, (t - b) * 0.707]
                     .map(|d| {
-                        let ahead = gradient(f, p + d * reach).normalize_or_zero();
-                        let behind = gradient(f, p - d * reach).normalize_or_zero();
-                        ahead.angle_between(n).max(behind.angle_between(n))
+                        let turn = |d: DVec3| {
+                            let there = gradient(f, p + d * reach).normalize_or_zero();
+                            // Hollows may be coarser than bulges: they are never seen against the sky.
+                            let hollow = if there.dot(d) < 0.0 { 1.35 } else { 1.0 };
+                            there.angle_between(n) / hollow
+                        };
+                        turn(d).max(turn(-d))
                     })
                     .into_iter()
                     .fold(1e-3, f64::max);
@@ -255,7 +215,7 @@ impl Surface {
     }
 
     /// The neighbours of each point.
-    fn neighbours(&self) -> Vec<BTreeSet<usize>> {
+    pub(crate) fn neighbours(&self) -> Vec<BTreeSet<usize>> {
         let mut out = vec![BTreeSet::new(); self.points.len()];
         for face in &self.faces {
             for k in 0..3 {
@@ -281,7 +241,9 @@ impl Surface {
                 let ring = || neighbours[a].union(&neighbours[b]);
                 if ring().any(|&i| frozen[i])
                     || neighbours[a].intersection(&neighbours[b]).count() != 2
-                    || neighbours[a].intersection(&neighbours[b]).any(|&i| neighbours[i].len() < 5)
+                    || neighbours[a]
+                        .intersection(&neighbours[b])
+                        .any(|&i| neighbours[i].len() < 5)
                 {
                     continue;
                 }
@@ -298,7 +260,11 @@ impl Surface {
                     }
                     let before = face.map(|i| self.points[i]);
                     let after = face.map(|i| {
-                        if i == a || i == b { middle } else { self.points[i] }
+                        if i == a || i == b {
+                            middle
+                        } else {
+                            self.points[i]
+                        }
                     });
                     cosine(normal(before), normal(after)) < 0.5
                 });
@@ -314,9 +280,11 @@ impl Surface {
             if !any {
                 return;
             }
-            self.faces.iter_mut().flatten().for_each(|i| *i = becomes[*i]);
             self.faces
-                .retain(|[a, b, c]| a != b && b != c && c != a);
+                .iter_mut()
+                .flatten()
+                .for_each(|i| *i = becomes[*i]);
+            self.faces.retain(|[a, b, c]| a != b && b != c && c != a);
             self.compact();
         }
     }
@@ -352,7 +320,11 @@ impl Surface {
             }
             let (c, d) = (self.apex(f, a, b), self.apex(g, a, b));
             let key = (c.min(d), c.max(d));
-            if neighbours[c].contains(&d) || added.contains(&key) || valence[a] < 5 || valence[b] < 5 {
+            if neighbours[c].contains(&d)
+                || added.contains(&key)
+                || valence[a] < 5
+                || valence[b] < 5
+            {
                 continue;
             }
             let off = |i: usize, change: i32| (valence[i] + change - 6).pow(2);
@@ -392,17 +364,12 @@ impl Surface {
     }
 }
 
-/// The corner after this one in its triangle.
-fn after(corner: usize) -> usize {
-    corner / 3 * 3 + (corner % 3 + 1) % 3
-}
-
 /// The normal of a triangle, twice its area long.
-fn normal([a, b, c]: [DVec3; 3]) -> DVec3 {
+pub(crate) fn normal([a, b, c]: [DVec3; 3]) -> DVec3 {
     (b - a).cross(c - a)
 }
 
 /// The cosine of the angle between two vectors.
-fn cosine(a: DVec3, b: DVec3) -> f64 {
+pub(crate) fn cosine(a: DVec3, b: DVec3) -> f64 {
     a.normalize_or_zero().dot(b.normalize_or_zero())
 }

@@ -63,7 +63,13 @@ fn pad() -> Step {
 /// The shank: eye, I-beam and the upper half of the big end.
 pub(crate) fn shank() -> Solid {
     let mut outline = mirrored(&shank_side());
-    let bore = arc(DVec2::ZERO, BORE, PI - (GAP / BORE).asin(), (GAP / BORE).asin(), 16);
+    let bore = arc(
+        DVec2::ZERO,
+        BORE,
+        PI - (GAP / BORE).asin(),
+        (GAP / BORE).asin(),
+        16,
+    );
     outline.extend(&bore[1..bore.len() - 1]);
     let pocket = rounded(
         &[
@@ -110,7 +116,13 @@ pub(crate) fn cap() -> Solid {
     let left = upper.iter().rev().skip(1).map(|&(x, y, r)| (-x, y, r));
     let corners: Vec<_> = upper.iter().copied().chain(left).collect();
     let mut outline: Outline = rounded(&corners, 0.6);
-    let bore = arc(DVec2::ZERO, BORE, PI - (GAP / BORE).asin(), (GAP / BORE).asin(), 16);
+    let bore = arc(
+        DVec2::ZERO,
+        BORE,
+        PI - (GAP / BORE).asin(),
+        (GAP / BORE).asin(),
+        16,
+    );
     outline.extend(&bore[1..bore.len() - 1]);
     // Between the bolts' shoulders.
     let mut crescent = arc(DVec2::ZERO, 31.4, 0.9, PI - 0.9, 6);

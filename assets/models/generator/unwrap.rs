@@ -102,7 +102,11 @@ pub(crate) fn unwrap(surface: &Surface, charts: &[Chart], layered: bool) -> Unwr
         let [a, b, c] = face.map(|i| surface.points[i]);
         let middle = (a + b + c) / 3.0;
         let nearest = (0..charts.len())
-            .min_by(|&i, &j| charts[i].distance(middle).total_cmp(&charts[j].distance(middle)))
+            .min_by(|&i, &j| {
+                charts[i]
+                    .distance(middle)
+                    .total_cmp(&charts[j].distance(middle))
+            })
             .unwrap_or(0);
         let chart = &charts[nearest];
         let inner = layered && (b - a).cross(c - a).dot(chart.outwards(middle)) < 0.0;
@@ -111,14 +115,12 @@ pub(crate) fn unwrap(surface: &Surface, charts: &[Chart], layered: bool) -> Unwr
         out.faces.push(face.map(|i| {
             let (angle, along) = chart.unroll(surface.points[i]);
             let turns = ((around - angle) / TAU).round();
-            *numbers
-                .entry((i, key, turns as i64))
-                .or_insert_with(|| {
-                    let u = (angle + turns * TAU + PI) * chart.radius;
-                    out.vertices.push((i, dvec2(u, -along)));
-                    chart_of.push(key);
-                    out.vertices.len() - 1
-                })
+            *numbers.entry((i, key, turns as i64)).or_insert_with(|| {
+                let u = (angle + turns * TAU + PI) * chart.radius;
+                out.vertices.push((i, dvec2(u, -along)));
+                chart_of.push(key);
+                out.vertices.len() - 1
+            })
         }));
     }
     pack(&mut out.vertices, &chart_of, charts.len() * 2);
