@@ -361,8 +361,11 @@ impl Viewer {
 fn inspector_ui(ui: &mut egui::Ui, page: &mut Page, editing: &mut Editing<'_>) -> bool {
     ui.add_space(4.0);
     ui.horizontal(|ui| {
-        ui.selectable_value(page, Page::Style, "Style");
-        ui.selectable_value(page, Page::View, "View");
+        for (this, name) in [(Page::Style, "Style"), (Page::View, "View")] {
+            let is_open = *page == this;
+            let tab = ui.selectable_value(page, this, name);
+            tab.widget_info(|| egui::WidgetInfo::selected(egui::Role::Tab, true, is_open, name));
+        }
     });
     ui.separator();
     let mut turned = false;

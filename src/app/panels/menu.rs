@@ -51,16 +51,25 @@ pub fn menu_ui(ui: &mut Ui, state: &MenuState<'_>, commands: &mut Vec<Command>) 
 
 fn item(ui: &mut Ui, command: Command, state: &MenuState<'_>, commands: &mut Vec<Command>) {
     let checked = (state.checked)(command);
-    let text = match checked {
-        Some(true) => format!("✔ {}", command.text()),
-        Some(false) => format!("     {}", command.text()),
-        None => command.text().to_owned(),
-    };
-    let mut button = egui::Button::new(text);
+    // Switches leave room for their mark.
+    let indent = if checked.is_some() { "      " } else { "" };
+    let mut button = egui::Button::new(format!("{indent}{}", command.text()));
     if let Some(shortcut) = command.shortcuts().first() {
         button = button.shortcut_text(ui.ctx().format_shortcut(shortcut));
     }
     let response = ui.add_enabled((state.enabled)(command), button).on_hover_text(command.tooltip());
+    if let Some(on) = checked {
+        response.widget_info(|| {
+            egui::WidgetInfo::selected(egui::Role::MenuItemCheckBox, true, on, command.text())
+        });
+        if on {
+            super::icons::check(
+                ui.painter(),
+                response.rect.left_center() + egui::vec2(12.0, 0.0),
+                ui.visuals(),
+            );
+        }
+    }
     if response.clicked() {
         commands.push(command);
         ui.close();
