@@ -93,6 +93,17 @@ fn face_normal(pos_oriented: vec3<f32>) -> vec3<f32> {
     return select(vec3(0.0, 0.0, 1.0), n / l, l > 0.0);
 }
 
+// A pixel in texture space.
+struct Footprint {
+    uv: vec2<f32>,
+    dx: vec2<f32>,
+    dy: vec2<f32>,
+}
+
+fn transformed(f: Footprint, m: mat3x3<f32>) -> Footprint {
+    return Footprint((m * vec3(f.uv, 1.0)).xy, (m * vec3(f.dx, 0.0)).xy, (m * vec3(f.dy, 0.0)).xy);
+}
+
 fn pack(normal: vec3<f32>, face: vec3<f32>, depth: f32, object: u32) -> vec4<u32> {
     return vec4(
         pack2x16snorm(octahedral_encode(normal)),
@@ -115,10 +126,12 @@ fn fs_full(v: Full) -> GBuffer {
     let draw = &draws[v.draw];
     let material = &materials[(*draw).material];
     let face = face_normal(v.pos_oriented);
-    let base_uv = ((*material).base_uv * vec3(v.uv, 1.0)).xy;
-    let color = textureSample(base_tex, base_sampler, base_uv) * (*material).base_color * v.color;
-    let normal_uv = ((*material).normal_uv * vec3(v.uv, 1.0)).xy;
-    let bump = textureSample(normal_tex, normal_sampler, normal_uv).xyz * 2.0 - 1.0;
+    // Derivatives of the varying itself: loads from buffers are undefined in the helper lanes of a pixel quad.
+    let uv = Footprint(v.uv, dpdx(v.uv), dpdy(v.uv));
+    let base = transformed(uv, (*material).base_uv);
+    let color = textureSampleGrad(base_tex, base_sampler, base.uv, base.dx, base.dy) * (*material).base_color * v.color;
+    let fine = transformed(uv, (*material).normal_uv);
+    let bump = textureSampleGrad(normal_tex, normal_sampler, fine.uv, fine.dx, fine.dy).xyz * 2.0 - 1.0;
     if color.a < (*material).alpha_cutoff {
         discard;
     }

@@ -9,8 +9,8 @@ use super::loading::Intent;
 use super::navigation::{STEP, Standard};
 use super::screenshot::{self, Destination};
 use super::viewer::{DialogFor, Open, Viewer};
-use crate::geometry::Bounds;
 use crate::scene::{NodeId, Projection};
+use glam::DVec3;
 
 impl Viewer {
     /// Whether a command can be carried out now.
@@ -113,10 +113,10 @@ impl Viewer {
             Command::Isolate => self.isolate(),
             Command::ShowAll => self.show_all(),
             Command::Home => self.look_from(Standard::Home),
-            Command::FrameAll => self.frame(&self.model.visible_bounds(&self.document)),
+            Command::FrameAll => self.frame(&self.model.visible_extent(&self.document)),
             Command::FrameSelected => {
                 let nodes = self.selection.with_descendants(&self.model.scene);
-                self.frame(&self.model.bounds_of(nodes));
+                self.frame(&self.model.extent_of(nodes));
             }
             Command::Front => self.look_from(Standard::Front),
             Command::Back => self.look_from(Standard::Back),
@@ -168,15 +168,15 @@ impl Viewer {
 
     /// Sees everything from a standard direction.
     pub(super) fn look_from(&mut self, standard: Standard) {
-        let bounds = self.model.visible_bounds(&self.document);
+        let extent = self.model.visible_extent(&self.document);
         let up = self.document.up(&self.model.scene);
         let aspect = self.viewport.aspect();
-        self.document.camera = Some(standard.camera(up, &bounds, aspect, self.document.camera.as_ref()));
+        self.document.camera = Some(standard.camera(up, &extent, aspect, self.document.camera.as_ref()));
     }
 
-    fn frame(&mut self, bounds: &Bounds) {
+    fn frame(&mut self, extent: &[DVec3]) {
         if let Some(camera) = &mut self.document.camera {
-            *camera = camera.framing(bounds, self.viewport.aspect());
+            *camera = camera.framing(extent, self.viewport.aspect());
         }
     }
 

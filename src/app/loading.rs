@@ -5,9 +5,9 @@ use std::sync::Arc;
 
 use crate::document::{Document, DocumentError};
 use crate::export::session::is_document;
-use crate::geometry::Bounds;
 use crate::import::{ImportError, ImportOptions, Progress};
 use crate::scene::{NodeId, Scene};
+use glam::DVec3;
 
 /// The ending of documents.
 pub const DOCUMENT_ENDING: &str = "hachure";
@@ -37,8 +37,10 @@ pub enum Intent {
 pub struct Model {
     /// The scene.
     pub scene: Arc<Scene>,
-    /// The box of each node's own mesh, world space.
-    pub bounds: Vec<Bounds>,
+    /// The outermost points of each node's own mesh, world space ([`Scene::extent_of`]).
+    pub extents: Vec<Vec<DVec3>>,
+    /// Diagonal of the box around everything, in units of the scene.
+    pub diagonal: f64,
     /// Triangles of each node's own mesh.
     pub triangles: Vec<usize>,
 }
@@ -46,13 +48,13 @@ pub struct Model {
 impl Model {
     /// Measures a scene; takes a while for large ones.
     pub fn new(scene: Scene) -> Self {
-        let mesh_bounds: Vec<_> = scene.meshes.iter().map(|m| m.bounds()).collect();
-        let bounds = scene
+        let extremes: Vec<_> = scene.meshes.iter().map(|m| m.extremes()).collect();
+        let extents = scene
             .nodes
             .iter()
             .map(|n| {
-                let own = n.mesh.and_then(|m| mesh_bounds.get(m));
-                own.map_or(Bounds::EMPTY, |b| b.transformed(&n.world_from_local))
+                let own = n.mesh.and_then(|m| extremes.get(m)).map_or(&[][..], Vec::as_slice);
+                own.iter().map(|p| n.world_from_local.transform_point3(p.as_dvec3())).collect()
             })
             .collect();
         let triangles = scene
@@ -60,7 +62,8 @@ impl Model {
             .iter()
             .map(|n| n.mesh.and_then(|m| scene.meshes.get(m)).map_or(0, |m| m.triangle_count()))
             .collect();
-        Self { scene: Arc::new(scene), bounds, triangles }
+        let diagonal = scene.bounds().diagonal();
+        Self { scene: Arc::new(scene), extents, diagonal, triangles }
     }
 
     /// Triangles of some nodes.
@@ -68,17 +71,17 @@ impl Model {
         nodes.into_iter().filter_map(|n| self.triangles.get(n)).sum()
     }
 
-    /// The box around some nodes, world space.
-    pub fn bounds_of(&self, nodes: impl IntoIterator<Item = NodeId>) -> Bounds {
-        nodes.into_iter().filter_map(|n| self.bounds.get(n)).fold(Bounds::EMPTY, |all, b| all.union(b))
+    /// The outermost points of some nodes, world space: what a camera has to frame.
+    pub fn extent_of(&self, nodes: impl IntoIterator<Item = NodeId>) -> Vec<DVec3> {
+        nodes.into_iter().filter_map(|n| self.extents.get(n)).flatten().copied().collect()
     }
 
-    /// The box around everything that a document shows; around everything if it shows nothing.
-    pub fn visible_bounds(&self, document: &Document) -> Bounds {
+    /// Those of everything that a document shows; of everything if it shows nothing.
+    pub fn visible_extent(&self, document: &Document) -> Vec<DVec3> {
         let resolved = document.resolve(&self.scene);
         let visible = resolved.iter().enumerate().filter(|(_, r)| r.visible).map(|(n, _)| n);
-        let bounds = self.bounds_of(visible);
-        if bounds.is_empty() { self.bounds_of(0..self.bounds.len()) } else { bounds }
+        let extent = self.extent_of(visible);
+        if extent.is_empty() { self.extents.concat() } else { extent }
     }
 }
 

@@ -4,7 +4,6 @@
 
 use glam::{DVec2, DVec3};
 
-use crate::geometry::Bounds;
 use crate::scene::{Camera, Projection, Up};
 
 /// Degrees that a drag over the whole height of the picture turns.
@@ -59,15 +58,15 @@ impl Standard {
         }
     }
 
-    /// A camera that sees all of `bounds` from there, in the projection of `like`.
-    pub fn camera(self, up: Up, bounds: &Bounds, aspect: f64, like: Option<&Camera>) -> Camera {
+    /// A camera that sees all of `extent` from there, in the projection of `like`.
+    pub fn camera(self, up: Up, extent: &[DVec3], aspect: f64, like: Option<&Camera>) -> Camera {
         let parallel = like.is_some_and(|c| matches!(c.projection, Projection::Orthographic { .. }));
-        let mut camera = Camera::looking_from(self.direction(up), up.vector(), bounds, aspect);
+        let mut camera = Camera::looking_from(self.direction(up), up.vector(), extent, aspect);
         if let Some(Camera { projection: Projection::Perspective { view_angle }, .. }) = like {
             camera.projection = Projection::Perspective { view_angle: *view_angle };
-            camera = camera.framing(bounds, aspect);
+            camera = camera.framing(extent, aspect);
         }
-        if parallel { camera.with_orthographic(true).framing(bounds, aspect) } else { camera }
+        if parallel { camera.with_orthographic(true).framing(extent, aspect) } else { camera }
     }
 }
 
@@ -128,6 +127,7 @@ pub fn with_view_angle(camera: &Camera, degrees: f64) -> Camera {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::Bounds;
 
     fn bounds(size: f64) -> Bounds {
         Bounds { min: DVec3::splat(-size), max: DVec3::splat(size) }
@@ -147,8 +147,9 @@ mod tests {
     fn zooming_keeps_what_is_under_the_cursor_at_any_scale_and_projection() {
         for size in [1e-6, 1.0, 1e6] {
             for parallel in [false, true] {
-                let camera =
-                    Standard::Home.camera(Up::PosY, &bounds(size), 1.5, None).with_orthographic(parallel);
+                let camera = Standard::Home
+                    .camera(Up::PosY, &bounds(size).corners(), 1.5, None)
+                    .with_orthographic(parallel);
                 let cursor = DVec2::new(0.4, -0.3);
                 let point = camera.focal_point
                     + (camera.right() * cursor.x + camera.up() * cursor.y) * camera.view_height();
@@ -163,7 +164,7 @@ mod tests {
 
     #[test]
     fn zooming_never_runs_away() {
-        let start = Standard::Home.camera(Up::PosY, &bounds(1.0), 1.5, None);
+        let start = Standard::Home.camera(Up::PosY, &bounds(1.0).corners(), 1.5, None);
         let mut camera = start;
         for _ in 0..1000 {
             camera = zoom(&camera, 10.0, DVec2::ZERO, 3.0);
@@ -177,7 +178,7 @@ mod tests {
 
     #[test]
     fn panning_moves_the_focal_point_with_the_pointer() {
-        let camera = Standard::Front.camera(Up::PosY, &bounds(1.0), 1.0, None);
+        let camera = Standard::Front.camera(Up::PosY, &bounds(1.0).corners(), 1.0, None);
         let drag = DVec2::new(0.25, 0.1);
         let moved = pan(&camera, drag);
         let there = on_screen(&moved, camera.focal_point);
@@ -195,10 +196,10 @@ mod tests {
                 let (a, b) = (standard.direction(up), opposite.direction(up));
                 assert_eq!(a, -b);
             }
-            let front = Standard::Front.camera(up, &bounds(1.0), 1.0, None);
+            let front = Standard::Front.camera(up, &bounds(1.0).corners(), 1.0, None);
             assert!(front.right().dot(Standard::Right.direction(up)) > 0.99);
             assert!(front.up().dot(up.vector()) > 0.99);
-            let top = Standard::Top.camera(up, &bounds(1.0), 1.0, None);
+            let top = Standard::Top.camera(up, &bounds(1.0).corners(), 1.0, None);
             assert!(top.forward().dot(up.vector()) < -0.99);
         }
     }

@@ -270,7 +270,7 @@ impl Viewer {
 
     fn picture(&mut self, ui: &mut egui::Ui) {
         let up = self.document.up(&self.model.scene);
-        let diagonal = self.model.bounds_of(0..self.model.bounds.len()).diagonal();
+        let diagonal = self.model.diagonal;
         let moved = self.viewport.input(ui, self.document.camera.as_ref(), up, diagonal);
         if let Some(camera) = moved.camera {
             self.document.camera = Some(camera);

@@ -99,7 +99,7 @@ fn camera(opened: &Opened, args: &CameraArgs, aspect: f64) -> Camera {
     let mut camera = match document.camera {
         Some(camera) => camera,
         None if args.camera_azimuth_angle.or(args.camera_elevation_angle).is_some() || is_placed => {
-            Camera::looking_from(up.front(), up.vector(), &bounds, aspect)
+            Camera::looking_from(up.front(), up.vector(), &scene.extent(), aspect)
         }
         None => initial_camera(document, scene, aspect),
     };
@@ -131,7 +131,7 @@ fn camera(opened: &Opened, args: &CameraArgs, aspect: f64) -> Camera {
     }
     let frames_all = !is_placed && args.camera_focal_point.is_none() && document.camera.is_none();
     if frames_all {
-        camera = camera.framing(&bounds, aspect);
+        camera = camera.framing(&scene.extent(), aspect);
     }
     if let Some(view_height) = args.camera_view_height.filter(|h| h.is_finite() && *h > 0.0) {
         camera.projection = Projection::Orthographic { view_height };

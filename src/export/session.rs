@@ -69,10 +69,10 @@ pub fn open(files: &[PathBuf], progress: &Progress) -> Result<Opened, OpenError>
 /// The camera of a new drawing: the whole scene from the front, turned 30° and raised 20°.
 pub fn initial_camera(document: &Document, scene: &Scene, aspect: f64) -> Camera {
     let up = document.up(scene);
-    let bounds = scene.bounds();
-    Camera::looking_from(up.front(), up.vector(), &bounds, aspect)
+    let extent = scene.extent();
+    Camera::looking_from(up.front(), up.vector(), &extent, aspect)
         .orbited(up.vector(), 30.0, 20.0)
-        .framing(&bounds, aspect)
+        .framing(&extent, aspect)
 }
 
 /// Surface ids of all meshes for a crease angle in degrees. Takes about 0.1 s per million triangles.

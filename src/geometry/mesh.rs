@@ -47,6 +47,27 @@ impl Mesh {
         self.indices.len() / 3
     }
 
+    /// The outermost vertices in evenly spread directions, local space: together nearly the hull of the mesh. Of large
+    /// meshes a part of the vertices is looked at, so that it takes a few milliseconds at most.
+    pub fn extremes(&self) -> Vec<Vec3> {
+        const DIRECTIONS: usize = 96;
+        const MOST_VERTICES: usize = 20_000;
+        let step = (self.positions.len() / MOST_VERTICES).max(1);
+        let mut outermost: Vec<usize> = (0..DIRECTIONS)
+            .filter_map(|i| {
+                // Spherical Fibonacci points.
+                let y = 1.0 - (2.0 * i as f32 + 1.0) / DIRECTIONS as f32;
+                let (sin, cos) = (i as f32 * 2.399_963).sin_cos();
+                let direction = Vec3::new((1.0 - y * y).sqrt() * cos, y, (1.0 - y * y).sqrt() * sin);
+                let along = |v: &usize| self.positions.get(*v).map_or(f32::MIN, |p| p.dot(direction));
+                (0..self.positions.len()).step_by(step).max_by(|a, b| along(a).total_cmp(&along(b)))
+            })
+            .collect();
+        outermost.sort_unstable();
+        outermost.dedup();
+        outermost.into_iter().filter_map(|v| self.positions.get(v).copied()).collect()
+    }
+
     /// The box around all positions, local space.
     pub fn bounds(&self) -> Bounds {
         Bounds::of_points(&self.positions)

@@ -34,6 +34,11 @@ impl Adjacency {
                 sets.unite(edge.faces[0], edge.faces[1]);
             }
         });
+        for seam in &self.seams {
+            if seam.dihedral.abs() <= crease_angle {
+                sets.unite(seam.faces[0], seam.faces[1]);
+            }
+        }
         // A triangle that welding made a line belongs to whatever it borders on.
         for &(face, neighbour) in &self.collapsed {
             if neighbour != NO_FACE {

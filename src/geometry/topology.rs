@@ -6,6 +6,7 @@ use glam::Vec3;
 use rayon::prelude::*;
 
 use super::normals::face_normals;
+use super::stitch::{Seam, stitch};
 use super::{Mesh, Weld, angle};
 
 /// Stands for "no triangle".
@@ -16,6 +17,8 @@ pub const NO_FACE: u32 = u32::MAX;
 pub enum EdgeKind {
     /// One triangle.
     Border,
+    /// One triangle, but other edges on the same line continue the surface along all of it (T-junctions).
+    Stitched,
     /// Two triangles that agree about inside and outside.
     Manifold,
     /// Two triangles, one of which is turned inside out against the other.
@@ -49,6 +52,8 @@ pub struct Adjacency {
     /// `edges[first_edge[v]..first_edge[v + 1]]` are the edges whose smaller end is the welded vertex `v`
     /// ([`Weld::representative`]). One entry more than there are vertices.
     pub first_edge: Vec<u32>,
+    /// Where border edges lie on each other without sharing both ends.
+    pub seams: Vec<Seam>,
     /// Every (edge, triangle) of the non-manifold edges, in order.
     pub non_manifold: Vec<(u32, u32)>,
     /// Triangles with two corners at one welded point, which take part in no edge, each with a triangle that it
@@ -56,7 +61,7 @@ pub struct Adjacency {
     pub collapsed: Vec<(u32, u32)>,
     /// Number of triangles.
     pub face_count: usize,
-    /// Number of border edges.
+    /// Number of border edges, without the stitched ones.
     pub border_count: usize,
     /// Number of edges with more than two triangles.
     pub non_manifold_count: usize,
@@ -114,6 +119,7 @@ impl Adjacency {
             weld,
             edges,
             first_edge,
+            seams: Vec::new(),
             non_manifold: Vec::new(),
             collapsed: Vec::new(),
             face_count: mesh.triangle_count(),
@@ -126,6 +132,11 @@ impl Adjacency {
             all.non_manifold_count += tally.non_manifold;
             all.flipped_count += tally.flipped;
             all.non_manifold.extend(tally.faces);
+        }
+        if all.border_count > 0 {
+            all.seams = stitch(mesh, &all.weld, &normals, &mut all.edges);
+            let stitched = all.edges.iter().filter(|e| e.kind == EdgeKind::Stitched).count();
+            all.border_count -= stitched;
         }
         all.collapsed = half_edges
             .collapsed
@@ -177,7 +188,7 @@ impl Tally {
     fn add(&mut self, edge: u32, kind: EdgeKind, half_edges: &[u64]) {
         match kind {
             EdgeKind::Border => self.border += 1,
-            EdgeKind::Manifold => {}
+            EdgeKind::Manifold | EdgeKind::Stitched => {}
             EdgeKind::Flipped => self.flipped += 1,
             EdgeKind::NonManifold => {
                 self.non_manifold += 1;
@@ -216,10 +227,15 @@ impl Context<'_> {
         let [n0, n1] = faces.map(|f| self.normals[f as usize]);
         let n1 = if flipped { -n1 } else { n1 };
         let [a, b] = vertices.map(|v| self.mesh.positions[v as usize]);
-        let turn = n0.cross(n1);
-        let angle = angle::from_sine_and_cosine(turn.length(), n0.dot(n1));
-        Edge { vertices, faces, dihedral: if turn.dot(b - a) < 0.0 { -angle } else { angle }, kind }
+        Edge { vertices, faces, dihedral: signed_angle(n0, n1, b - a), kind }
     }
+}
+
+/// Angle from one unit normal to the other, positive if the edge is convex when the triangle of `n0` runs along `edge`.
+pub(super) fn signed_angle(n0: Vec3, n1: Vec3, edge: Vec3) -> f32 {
+    let turn = n0.cross(n1);
+    let angle = angle::from_sine_and_cosine(turn.length(), n0.dot(n1));
+    if turn.dot(edge) < 0.0 { -angle } else { angle }
 }
 
 /// Half-edge `3 t + k` runs from corner `k` of triangle `t` to the next.

@@ -244,12 +244,9 @@ impl Faces {
                         (0..n).try_for_each(|_| {
                             let value = values.next(item)?;
                             if is_corners {
-                                let index = if value.fract() == 0.0 && value >= 0.0 {
-                                    value as u32
-                                } else {
-                                    u32::MAX
-                                };
-                                self.corners.push(index);
+                                let index = value as u32;
+                                let exact = f64::from(index) == value;
+                                self.corners.push(if exact { index } else { u32::MAX });
                             }
                             Some(())
                         })

@@ -196,7 +196,7 @@ mod tests {
     #[test]
     fn a_pixel_unprojects_to_the_point_that_projects_there() {
         let bounds = Bounds { min: DVec3::splat(-1.0), max: DVec3::ONE };
-        let camera = Camera::looking_from(DVec3::new(1.0, 2.0, 3.0), DVec3::Y, &bounds, 1.5);
+        let camera = Camera::looking_from(DVec3::new(1.0, 2.0, 3.0), DVec3::Y, &bounds.corners(), 1.5);
         for camera in [camera, camera.with_orthographic(true)] {
             let view = View::new(&camera, &bounds, UVec2::new(600, 400));
             let world = DVec3::new(0.3, -0.2, 0.5);
@@ -214,7 +214,7 @@ mod tests {
     #[test]
     fn nearer_points_have_greater_clip_depth() {
         let bounds = Bounds { min: DVec3::splat(-1.0), max: DVec3::ONE };
-        let camera = Camera::looking_from(DVec3::Z, DVec3::Y, &bounds, 1.0);
+        let camera = Camera::looking_from(DVec3::Z, DVec3::Y, &bounds.corners(), 1.0);
         for camera in [camera, camera.with_orthographic(true)] {
             let view = View::new(&camera, &bounds, UVec2::splat(100));
             let depth = |z: f64| {

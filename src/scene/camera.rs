@@ -178,37 +178,59 @@ impl Camera {
         }
     }
 
-    /// The same direction and projection, moved so that `bounds` fills a picture of this aspect (width / height).
+    /// The same direction and projection, moved so that `points` fill a picture of this aspect (width / height).
+    /// Points that are not finite are left out; without any the camera stays.
     #[must_use]
-    pub fn framing(&self, bounds: &Bounds, aspect: f64) -> Self {
+    pub fn framing(&self, points: &[DVec3], aspect: f64) -> Self {
+        const MARGIN: f64 = 1.06;
+        let bounds = points
+            .iter()
+            .filter(|p| p.is_finite())
+            .fold(Bounds::EMPTY, |b, p| Bounds { min: b.min.min(*p), max: b.max.max(*p) });
         if bounds.is_empty() {
             return *self;
         }
-        const MARGIN: f64 = 1.06;
         let center = bounds.center();
         let (r, u, f) = (self.right(), self.up(), self.forward());
-        let local = bounds.corners().map(|c| {
-            let d = c - center;
-            DVec3::new(d.dot(r).abs(), d.dot(u).abs(), d.dot(f))
-        });
+        let local: Vec<DVec3> = points
+            .iter()
+            .filter(|p| p.is_finite())
+            .map(|p| *p - center)
+            .map(|d| DVec3::new(d.dot(r), d.dot(u), d.dot(f)))
+            .collect();
+        let extent = |value: &dyn Fn(&DVec3) -> f64| {
+            local
+                .iter()
+                .map(value)
+                .fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), v| (lo.min(v), hi.max(v)))
+        };
         let aspect = aspect.max(1e-3);
         let smallest = bounds.diagonal().max(1e-12) * 1e-3;
         match self.projection {
             Projection::Perspective { view_angle } => {
-                let tan = (view_angle.to_radians() * 0.5).tan();
-                // The nearest eye for which each corner lies within both half angles.
-                let distance = local
-                    .iter()
-                    .map(|p| (p.y / tan).max(p.x / (tan * aspect)) * MARGIN - p.z)
-                    .fold(smallest, f64::max);
-                Self { position: center - f * distance, focal_point: center, ..*self }
+                let tan = (view_angle.to_radians() * 0.5).tan() / MARGIN;
+                // Along one axis, a point at (x, z) is in the picture when |x − shift| ≤ slope · (distance + z). The
+                // greatest of x ∓ slope · z on either side give the nearest distance and the shift.
+                let side = |value: &dyn Fn(&DVec3) -> f64, slope: f64| {
+                    let (_, hi) = extent(&|p| value(p) - slope * p.z);
+                    let (lo, _) = extent(&|p| value(p) + slope * p.z);
+                    ((hi - lo) / (2.0 * slope), (hi + lo) * 0.5)
+                };
+                let (distance_x, shift_x) = side(&|p| p.x, tan * aspect);
+                let (distance_y, shift_y) = side(&|p| p.y, tan);
+                // Never so near that something lies behind the eye.
+                let (front, _) = extent(&|p| p.z);
+                let distance = distance_x.max(distance_y).max(smallest - front);
+                let focal_point = center + r * shift_x + u * shift_y;
+                Self { position: focal_point - f * distance, focal_point, ..*self }
             }
             Projection::Orthographic { .. } => {
-                let height =
-                    local.iter().map(|p| 2.0 * MARGIN * p.y.max(p.x / aspect)).fold(smallest, f64::max);
+                let ((left, right), (bottom, top)) = (extent(&|p| p.x), extent(&|p| p.y));
+                let height = MARGIN * (top - bottom).max((right - left) / aspect).max(smallest);
+                let focal_point = center + r * ((left + right) * 0.5) + u * ((bottom + top) * 0.5);
                 Self {
-                    position: center - f * bounds.diagonal().max(smallest),
-                    focal_point: center,
+                    position: focal_point - f * bounds.diagonal().max(smallest),
+                    focal_point,
                     projection: Projection::Orthographic { view_height: height },
                     ..*self
                 }
@@ -235,26 +257,18 @@ impl Camera {
         }
     }
 
-    /// A camera that looks at the whole of `bounds` from `direction` (towards the viewer), upright.
-    pub fn looking_from(direction: DVec3, up: DVec3, bounds: &Bounds, aspect: f64) -> Self {
+    /// A camera that looks at all of `points` from `direction` (towards the viewer), upright.
+    pub fn looking_from(direction: DVec3, up: DVec3, points: &[DVec3], aspect: f64) -> Self {
         let direction = direction.normalize_or(DVec3::Z);
-        let up = if direction.dot(up).abs() > 0.999 {
+        let view_up = if direction.dot(up).abs() > 0.999 {
             // Seen from above, the front of the model is at the bottom of the picture.
-            if up.y.abs() > 0.5 {
-                DVec3::NEG_Z * direction.dot(up).signum()
-            } else {
-                DVec3::Y * direction.dot(up).signum()
-            }
+            let back = if up.y.abs() > 0.5 { DVec3::NEG_Z } else { DVec3::Y };
+            back * direction.dot(up).signum()
         } else {
             up
         };
-        Self {
-            position: bounds.center() + direction,
-            focal_point: bounds.center(),
-            view_up: up,
-            ..Self::default()
-        }
-        .framing(bounds, aspect)
+        Self { position: direction, focal_point: DVec3::ZERO, view_up, ..Self::default() }
+            .framing(points, aspect)
     }
 }
 
@@ -262,8 +276,8 @@ impl Camera {
 mod tests {
     use super::*;
 
-    fn unit_box() -> Bounds {
-        Bounds { min: DVec3::splat(-1.0), max: DVec3::ONE }
+    fn unit_box() -> [DVec3; 8] {
+        Bounds { min: DVec3::splat(-1.0), max: DVec3::ONE }.corners()
     }
 
     #[test]
@@ -272,7 +286,7 @@ mod tests {
             for aspect in [0.3, 1.0, 2.5] {
                 let camera = Camera::looking_from(direction, DVec3::Y, &unit_box(), aspect);
                 let tan = (DEFAULT_VIEW_ANGLE.to_radians() * 0.5).tan();
-                for corner in unit_box().corners() {
+                for corner in unit_box() {
                     let p = camera.view_from_world().transform_point3(corner);
                     assert!(p.z < 0.0, "{p} lies behind the eye");
                     assert!((p.y / -p.z).abs() <= tan && (p.x / -p.z).abs() <= tan * aspect);

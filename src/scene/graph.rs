@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use glam::DMat4;
+use glam::{DMat4, DVec3, Vec3};
 
 use super::{Camera, Light, Material, Texture};
 use crate::geometry::{Bounds, Mesh};
@@ -105,6 +105,26 @@ impl Scene {
     /// The box around everything.
     pub fn bounds(&self) -> Bounds {
         self.bounds_of(0..self.nodes.len())
+    }
+
+    /// Points whose hull is, within a few per mille, that of the given nodes: what a camera has to frame.
+    pub fn extent_of(&self, nodes: impl IntoIterator<Item = NodeId>) -> Vec<DVec3> {
+        let mut known = std::collections::HashMap::new();
+        nodes
+            .into_iter()
+            .filter_map(|id| self.nodes.get(id))
+            .filter_map(|node| Some((node, self.meshes.get(node.mesh?)?)))
+            .flat_map(|(node, mesh)| {
+                let extremes = known.entry(Arc::as_ptr(mesh)).or_insert_with(|| mesh.extremes());
+                let place = |p: &Vec3| node.world_from_local.transform_point3(p.as_dvec3());
+                extremes.iter().map(place).collect::<Vec<_>>()
+            })
+            .collect()
+    }
+
+    /// [`Self::extent_of`] everything.
+    pub fn extent(&self) -> Vec<DVec3> {
+        self.extent_of(0..self.nodes.len())
     }
 
     /// The node itself and all nodes below it.

@@ -44,7 +44,7 @@ pub fn scene(objects: Vec<(&str, Mesh, DMat4, [f32; 3])>) -> Arc<Scene> {
 
 /// A document on a scene, seen from a direction.
 pub fn opened(scene: &Arc<Scene>, towards_viewer: DVec3) -> Opened {
-    let camera = Camera::looking_from(towards_viewer, DVec3::Y, &scene.bounds(), 1.0);
+    let camera = Camera::looking_from(towards_viewer, DVec3::Y, &scene.extent(), 1.0);
     Opened { document: Document { camera: Some(camera), ..Document::default() }, scene: Arc::clone(scene) }
 }
 

@@ -1,0 +1,54 @@
+# What a developer runs. Each target installs what it needs and is missing (see .ci/packages).
+
+SAMPLE := assets/models/crank.glb
+HACHURE := cargo run --quiet --release --
+
+.PHONY: run test check bench quality gallery bless models
+
+# Opens the viewer on the sample model; without a display draws it to a file.
+run:
+	@sh .ci/packages run
+	@if [ -n "$$DISPLAY$$WAYLAND_DISPLAY" ]; then \
+		cargo run --release -- $(SAMPLE); \
+	else \
+		cargo run --release -- render $(SAMPLE) --output target/crank.png --resolution 1600,1200 && \
+		echo "No display here: the sample is drawn in target/crank.png"; \
+	fi
+
+# All tests, on software Vulkan and a virtual display where there is nothing better.
+test:
+	@sh .ci/packages test
+	cargo test --workspace
+
+check:
+	@sh .ci/packages build
+	cargo fmt --check
+	cargo clippy --all-targets -- --deny warnings
+	RUSTDOCFLAGS="--deny warnings" cargo doc --no-deps --document-private-items
+
+# Milliseconds per stage and frame.
+bench:
+	@sh .ci/packages run
+	$(HACHURE) bench
+	$(HACHURE) bench assets/models/ogre.glb
+
+# Heavy measurements, in release.
+quality:
+	@sh .ci/packages test
+	cargo test --release -- --ignored --nocapture
+
+# The sample models, from their generator.
+models:
+	@sh .ci/packages build
+	cargo run --release --example models
+
+# Every picture under screenshots/, each by one command.
+gallery:
+	@sh .ci/packages run
+	sh screenshots/gallery.sh
+
+# Shows which golden pictures changed and accepts them when the answer is yes.
+bless:
+	@sh .ci/packages test
+	-cargo test --test pictures
+	@sh .ci/bless

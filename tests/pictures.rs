@@ -1,0 +1,122 @@
+//! Golden pictures: each is one call of `hachure render`, compared with the picture in `tests/pictures/`.
+//!
+//! `make bless` shows what changed and, after a look, accepts it.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use image::RgbaImage;
+
+/// Structural similarity (1 = equal) that a picture must reach in its worst channel.
+const SIMILARITY: f64 = 0.985;
+
+/// Name, model and further arguments of every golden picture.
+const PICTURES: &[(&str, &str, &[&str])] = &[
+    ("gooch_crank", "crank", &["--style", "gooch"]),
+    ("gooch_ogre", "ogre", &["--style", "gooch"]),
+    ("plain_crank", "crank", &["--style", "plain"]),
+    ("lines_crank", "crank", &["--style", "lines"]),
+    ("lines_c1_crank", "crank", &["--style", "lines", "--set", "edges.operator=c1"]),
+    ("statue_ogre", "ogre", &["--style", "statue"]),
+    ("unlit_ogre", "ogre", &["--style", "plain", "--set", "technique=unlit"]),
+    ("normals_crank", "crank", &["--set", "view.show=normals"]),
+    ("depth_crank", "crank", &["--set", "view.show=depth"]),
+    ("surfaces_crank", "crank", &["--set", "view.show=surfaces"]),
+    ("edge_map_ogre", "ogre", &["--set", "view.show=edge_map"]),
+    (
+        "mixed_crank",
+        "crank",
+        &[
+            "--style",
+            "statue",
+            "--object-style",
+            "piston*=gooch",
+            "--object-style",
+            "flywheel=lines",
+            "--set",
+            "rod*:edges.profile.color=#d02020",
+            "--no-enhance",
+            "pulley",
+            "--hide",
+            "timing_gear",
+        ],
+    ),
+    (
+        "orthographic_crank",
+        "crank",
+        &["--camera-orthographic", "--camera-azimuth-angle", "0", "--camera-elevation-angle", "90"],
+    ),
+    ("transparent_ogre", "ogre", &["--no-background", "--camera-azimuth-angle=-40"]),
+];
+
+fn folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/pictures")
+}
+
+fn render(model: &str, args: &[&str], output: &Path) {
+    let model = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("assets/models/{model}.glb"));
+    let result = Command::new(env!("CARGO_BIN_EXE_hachure"))
+        .arg("render")
+        .arg(model)
+        .args(args)
+        .args(["--resolution", "256,256", "--output"])
+        .arg(output)
+        .output()
+        .unwrap();
+    assert!(result.status.success(), "{}", String::from_utf8_lossy(&result.stderr));
+}
+
+/// Structural similarity of colour over white and of alpha, the worse of the two.
+fn similarity(a: &RgbaImage, b: &RgbaImage) -> f64 {
+    if a.dimensions() != b.dimensions() {
+        return 0.0;
+    }
+    image_compare::rgba_hybrid_compare(a, b).unwrap().score
+}
+
+/// Absolute differences, dark where equal.
+fn difference(a: &RgbaImage, b: &RgbaImage) -> RgbaImage {
+    RgbaImage::from_fn(a.width(), a.height(), |x, y| {
+        let (a, b) = (a.get_pixel(x, y), b.get_pixel_checked(x, y).copied().unwrap_or(image::Rgba([0; 4])));
+        let d = |i: usize| a.0[i].abs_diff(b.0[i]).max(a.0[3].abs_diff(b.0[3]));
+        image::Rgba([d(0), d(1), d(2), 255])
+    })
+}
+
+#[test]
+fn pictures_look_as_they_did() {
+    let mut changed = Vec::new();
+    for (name, model, args) in PICTURES {
+        let golden = folder().join(format!("{name}.png"));
+        let new = folder().join(format!("{name}.new.png"));
+        let diff = folder().join(format!("{name}.diff.png"));
+        render(model, args, &new);
+        let drawn = image::open(&new).unwrap().into_rgba8();
+        let known = image::open(&golden).map(image::DynamicImage::into_rgba8);
+        let score = known.as_ref().map_or(0.0, |known| similarity(known, &drawn));
+        if score >= SIMILARITY {
+            std::fs::remove_file(&new).unwrap();
+            let _ = std::fs::remove_file(&diff);
+            continue;
+        }
+        if let Ok(known) = known {
+            difference(&drawn, &known).save(&diff).unwrap();
+        }
+        changed.push(format!("{name}: similarity {score:.4}, see {}", new.display()));
+    }
+    assert!(changed.is_empty(), "pictures changed; look at them, then `make bless`:\n{}", changed.join("\n"));
+}
+
+#[test]
+fn the_comparison_sees_what_a_person_would_see() {
+    let golden = image::open(folder().join("gooch_crank.png")).unwrap().into_rgba8();
+    let mut inverted = golden.clone();
+    image::imageops::invert(&mut inverted);
+    let mut shifted = golden.clone();
+    image::imageops::replace(&mut shifted, &golden, 4, 0);
+    let no_lines = image::open(folder().join("plain_crank.png")).unwrap().into_rgba8();
+    for other in [&inverted, &shifted, &no_lines] {
+        assert!(similarity(&golden, other) < SIMILARITY);
+    }
+    assert!((similarity(&golden, &golden) - 1.0).abs() < 1e-6);
+}
