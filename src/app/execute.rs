@@ -8,6 +8,7 @@ use super::command::Command;
 use super::loading::Intent;
 use super::navigation::{STEP, Standard};
 use super::screenshot::{self, Destination};
+use super::theme;
 use super::viewer::{DialogFor, Open, Viewer};
 use crate::scene::{NodeId, Projection};
 use glam::DVec3;
@@ -49,6 +50,7 @@ impl Viewer {
             | Command::Outliner
             | Command::Inspector
             | Command::Statistics
+            | Command::DarkPanels
             | Command::FullScreen
             | Command::Warnings
             | Command::Help => true,
@@ -62,6 +64,7 @@ impl Viewer {
             Command::Outliner => Some(self.state.outliner),
             Command::Inspector => Some(self.state.inspector),
             Command::Statistics => Some(self.state.statistics),
+            Command::DarkPanels => Some(self.is_dark),
             Command::Projection => Some(
                 self.document.camera.is_some_and(|c| matches!(c.projection, Projection::Orthographic { .. })),
             ),
@@ -144,6 +147,10 @@ impl Viewer {
             Command::Outliner => self.state.outliner = !self.state.outliner,
             Command::Inspector => self.state.inspector = !self.state.inspector,
             Command::Statistics => self.state.statistics = !self.state.statistics,
+            Command::DarkPanels => {
+                self.state.dark = Some(!self.is_dark);
+                theme::choose(context, self.state.dark);
+            }
             Command::FullScreen => {
                 let is_full = context.input(|i| i.viewport().fullscreen.unwrap_or(false));
                 context.send_viewport_cmd(egui::ViewportCommand::Fullscreen(!is_full));

@@ -92,6 +92,7 @@ pub struct Viewer {
     pub(super) loader: Loader,
     pub(super) start_style: Option<Style>,
     pub(super) can_reload_shaders: bool,
+    pub(super) is_dark: bool,
     pub(super) recent: Vec<(PathBuf, bool)>,
     title: String,
 }
@@ -106,6 +107,7 @@ impl Viewer {
         theme::apply(&creation.egui_ctx);
         let state =
             creation.storage.and_then(|s| eframe::get_value::<AppState>(s, STATE_KEY)).unwrap_or_default();
+        theme::choose(&creation.egui_ctx, state.dark);
         let mut viewport = Viewport::new(render_state);
         let can_reload_shaders = viewport.renderer().can_reload_shaders();
         let mut document = Document::default();
@@ -129,6 +131,7 @@ impl Viewer {
             loader: launch.loader,
             start_style: launch.style,
             can_reload_shaders,
+            is_dark: false,
             recent: Vec::new(),
             title: String::new(),
             document,
@@ -388,6 +391,7 @@ impl eframe::App for Viewer {
     }
 
     fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
+        self.is_dark = ui.visuals().dark_mode;
         self.panels(ui);
         egui::CentralPanel::default().frame(egui::Frame::NONE).show(ui, |ui| self.picture(ui));
         let context = ui.ctx().clone();
