@@ -1,5 +1,7 @@
 //! The real window application, driven through its accessibility tree: no parts are replaced but the files.
 
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -262,12 +264,67 @@ fn a_drag_turns_the_model_in_one_step_and_an_idle_window_draws_nothing() {
     ask(&mut window, Command::Undo);
     assert_eq!(window.state().document().camera, Some(before));
 
+    // A whole drag between two frames, as on a machine that is slow.
+    let press = |pressed, pos| eframe::egui::Event::PointerButton {
+        pos,
+        button: PointerButton::Primary,
+        pressed,
+        modifiers: Modifiers::NONE,
+    };
+    let input = &mut window.input_mut().events;
+    input.push(eframe::egui::Event::PointerMoved(middle));
+    input.push(press(true, middle));
+    input.push(eframe::egui::Event::PointerMoved(middle + Vec2::new(80.0, 0.0)));
+    input.push(press(false, middle + Vec2::new(80.0, 0.0)));
+    settle(&mut window);
+    assert_ne!(window.state().document().camera, Some(before));
+    assert!(window.state().selection().is_empty(), "a drag is no click");
+    ask(&mut window, Command::Undo);
+    assert_eq!(window.state().document().camera, Some(before));
+
     let pictures = window.state().viewport().pictures();
     window.hover_at(middle + Vec2::new(3.0, 3.0));
     for _ in 0..10 {
         window.step();
     }
     assert_eq!(window.state().viewport().pictures(), pictures, "nothing changed, so nothing is drawn");
+}
+
+#[test]
+fn the_wheel_zooms_to_the_pointer_in_one_step() {
+    let mut window = window();
+    let before = window.state().document().camera.unwrap();
+    let at = window.get_by_label("Picture").rect().center() + Vec2::new(150.0, 40.0);
+    window.hover_at(at);
+    settle(&mut window);
+    for _ in 0..3 {
+        window.event(eframe::egui::Event::MouseWheel {
+            unit: eframe::egui::MouseWheelUnit::Line,
+            delta: Vec2::new(0.0, 1.0),
+            phase: eframe::egui::TouchPhase::Move,
+            source: eframe::egui::MouseWheelSource::Wheel,
+            modifiers: Modifiers::NONE,
+        });
+        window.step();
+    }
+    for _ in 0..60 {
+        window.step();
+    }
+    let after = window.state().document().camera.unwrap();
+    assert!(after.distance() < before.distance() * 0.7);
+    assert!((after.focal_point - before.focal_point).dot(before.right()) > 0.1);
+    ask(&mut window, Command::Undo);
+    assert_eq!(window.state().document().camera, Some(before));
+}
+
+#[test]
+fn surfaces_are_found_when_they_are_to_be_shown() {
+    let mut window = window();
+    click(&mut window, Role::Tab, "View");
+    choose(&mut window, "Show", "Surfaces");
+    let pictures = window.state().viewport().pictures();
+    until(&mut window, "the surfaces are shown", move |v| v.viewport().pictures() > pictures);
+    assert!(window.state().notices().list().is_empty());
 }
 
 #[test]

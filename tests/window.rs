@@ -1,5 +1,7 @@
 //! The real program in a real window on a virtual display: opens a model, turns it with the mouse, takes screenshots.
 
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};

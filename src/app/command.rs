@@ -313,6 +313,8 @@ impl Command {
     /// Takes the pressed shortcuts out of the input. Keys without a modifier are left to a widget that has the focus.
     pub fn take_pressed(context: &egui::Context) -> Vec<Self> {
         let has_focus = context.memory(|m| m.focused().is_some());
+        // An open menu or list is closed by Esc and walked through by arrows.
+        let has_focus = has_focus || egui::Popup::is_any_open(context);
         let is_typing = context.text_edit_focused();
         let mut pressed = Vec::new();
         context.input_mut(|input| {

@@ -20,15 +20,18 @@ impl Viewer {
         match command {
             Command::Reload => !self.document.models.is_empty(),
             Command::Save => any || self.saved.is_some(),
-            Command::SaveAs => any,
             Command::Undo => self.history.can_undo(),
             Command::Redo => self.history.can_redo(),
             Command::SelectNone => selected || self.open.help || self.open.warnings,
             Command::Hide | Command::Isolate | Command::FrameSelected => selected,
             Command::FileCamera => !self.model.scene.cameras.is_empty(),
             Command::ReloadShaders => self.can_reload_shaders,
-            Command::Screenshot | Command::TransparentScreenshot | Command::ScreenshotAs => any,
-            Command::SelectAll | Command::ShowAll => any,
+            Command::SaveAs
+            | Command::Screenshot
+            | Command::TransparentScreenshot
+            | Command::ScreenshotAs
+            | Command::SelectAll
+            | Command::ShowAll => any,
             Command::Home
             | Command::FrameAll
             | Command::Front

@@ -16,6 +16,7 @@ use super::state::{AppState, Page};
 use super::viewport::{Capture, Viewport};
 use super::{AppError, theme};
 use crate::document::{Document, DocumentError, History};
+use crate::geometry::Provoking;
 use crate::import;
 use crate::style::Style;
 use crate::style::preset::{self, Preset};
@@ -36,11 +37,7 @@ pub struct Launch {
 
 impl Default for Launch {
     fn default() -> Self {
-        Self {
-            files: Vec::new(),
-            style: None,
-            loader: Arc::new(|paths, options, progress| import::load_all(paths, options, progress)),
-        }
+        Self { files: Vec::new(), style: None, loader: Arc::new(import::load_all) }
     }
 }
 
@@ -66,6 +63,7 @@ pub(super) enum DialogFor {
 pub(super) struct Jobs {
     pub(super) load: Option<Job<Result<Loaded, LoadError>>>,
     pub(super) dialog: Option<(DialogFor, Job<Vec<PathBuf>>)>,
+    pub(super) surfaces: Option<Job<Vec<Provoking>>>,
     pub(super) save: Option<Job<Result<(PathBuf, Document), DocumentError>>>,
     pub(super) captures: Vec<(Capture, Destination)>,
     pub(super) pictures: Vec<Job<Result<PathBuf, ScreenshotError>>>,
@@ -89,6 +87,8 @@ pub struct Viewer {
     pub(super) saved: Option<(PathBuf, Document)>,
     /// The models that the scene was made of.
     pub(super) loaded: Vec<PathBuf>,
+    /// The crease angle of the surfaces that the renderer has or is about to get.
+    pub(super) surfaces_for: Option<f32>,
     pub(super) loader: Loader,
     pub(super) start_style: Option<Style>,
     pub(super) can_reload_shaders: bool,
@@ -128,6 +128,7 @@ impl Viewer {
             open: Open::default(),
             saved: None,
             loaded: Vec::new(),
+            surfaces_for: None,
             loader: launch.loader,
             start_style: launch.style,
             can_reload_shaders,
@@ -293,10 +294,10 @@ impl Viewer {
                 self.load(ui.ctx(), vec![path], Intent::Open);
             }
         }
-        if let Some(load) = &self.jobs.load {
-            if empty::loading_ui(ui, area, load.progress().share()) {
-                self.jobs.load = None;
-            }
+        if let Some(load) = &self.jobs.load
+            && empty::loading_ui(ui, area, load.progress().share())
+        {
+            self.jobs.load = None;
         }
         if ui.input(|i| !i.raw.hovered_files.is_empty()) {
             empty::hovering_ui(ui, area, ui.input(|i| i.modifiers.command));

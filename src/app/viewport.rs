@@ -14,6 +14,7 @@ use super::gesture::{self, Gestures};
 use super::jobs::Job;
 use super::navigation;
 use crate::document::Document;
+use crate::geometry::Provoking;
 use crate::gpu::readback::Readback;
 use crate::gpu::{Gpu, Target};
 use crate::render::{Pick, RenderError, Renderer, Request};
@@ -184,13 +185,13 @@ impl Viewport {
         }));
     }
 
-    /// Uploads another scene.
+    /// Uploads another scene; `surfaces` has an entry per mesh once they are known.
     ///
     /// # Errors
     /// When the device cannot hold it; the last scene then stays.
-    pub fn set_scene(&mut self, scene: &Arc<Scene>) -> Result<(), RenderError> {
+    pub fn set_scene(&mut self, scene: &Arc<Scene>, surfaces: &[Provoking]) -> Result<(), RenderError> {
         self.pick = None;
-        self.renderer.set_scene(scene, &[])?;
+        self.renderer.set_scene(scene, surfaces)?;
         self.draw_again();
         Ok(())
     }
