@@ -2,6 +2,8 @@
 //!
 //! `make bless` shows what changed and, after a look, accepts it.
 
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
 use std::path::{Path, PathBuf};
 use std::process::Command;
 

@@ -9,6 +9,11 @@ const PLAIN: u32 = 1u;
 const UNLIT: u32 = 2u;
 const GOOCH: u32 = 3u;
 
+// Which techniques any object uses, and whether any has lines.
+override WITH_PLAIN: bool = true;
+override WITH_GOOCH: bool = true;
+override WITH_EDGES: bool = true;
+
 // Twin: `SurfaceUniform` in src/render/effects/surface.rs.
 struct SurfaceStyle {
     cool: vec3<f32>,
@@ -60,15 +65,18 @@ fn fs_main(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
             let base = textureLoad(base_color_tex, px, 0).rgb;
             let pos_view = pos_view_of(px, s.depth);
             var shade = base;
-            if style.technique == GOOCH {
+            if WITH_GOOCH && style.technique == GOOCH {
                 shade = gooch(style, base, s.normal, pos_view);
-            } else if style.technique == PLAIN {
+            } else if WITH_PLAIN && style.technique == PLAIN {
                 shade = plain(style, base, s.normal, pos_view);
             }
             color = vec4(shade, 1.0);
         }
     }
     // Paper, section 5: inner edges first, then profile edges over them.
+    if !WITH_EDGES {
+        return color;
+    }
     let edge = textureLoad(edge_map_tex, px, 0).xy;
     if edge.x != 0u {
         let lines = edge_styles[edge.y];

@@ -4,6 +4,9 @@
 #import common/gbuffer.wgsl
 #import common/edge_style.wgsl
 
+// Whether any object uses the C1 operator.
+override WITH_C1: bool = true;
+
 @group(1) @binding(1) var<storage, read> edge_styles: array<EdgeStyle>;
 
 // One texel as the operators see it.
@@ -52,7 +55,7 @@ fn nearer(a: Sample, b: Sample) -> Sample {
 }
 
 // Neighbours A to H of the paper's Fig. 2, row by row, without X.
-fn operators(px: vec2<i32>, x: Surfel, with_c1: bool) -> Operators {
+fn operators(px: vec2<i32>, x: Surfel, use_c1: bool) -> Operators {
     let center = sample_of(x);
     let a = neighbour(px + vec2(-1, -1), x);
     let c = neighbour(px + vec2(1, -1), x);
@@ -63,7 +66,7 @@ fn operators(px: vec2<i32>, x: Surfel, with_c1: bool) -> Operators {
     let cf = 1.0 - 0.5 * abs(c.depth - f.depth);
     var nearest = nearer(nearer(center, nearer(a, h)), nearer(c, f));
     var c1 = 0.0;
-    if with_c1 {
+    if WITH_C1 && use_c1 {
         let b = neighbour(px + vec2(0, -1), x);
         let d = neighbour(px + vec2(-1, 0), x);
         let e = neighbour(px + vec2(1, 0), x);

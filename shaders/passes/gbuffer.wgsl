@@ -32,6 +32,16 @@ struct Lean {
     @location(3) @interpolate(flat, first) surface: u32,
 }
 
+struct Smooth {
+    @builtin(position) @invariant position: vec4<f32>,
+    @location(0) pos_oriented: vec3<f32>,
+    @location(1) depth: f32,
+    @location(2) @interpolate(flat, first) draw: u32,
+    @location(3) @interpolate(flat, first) surface: u32,
+    @location(4) normal: vec3<f32>,
+    @location(5) color: vec3<f32>,
+}
+
 struct Full {
     @builtin(position) @invariant position: vec4<f32>,
     @location(0) pos_oriented: vec3<f32>,
@@ -63,6 +73,22 @@ fn vs_lean(
     let pos_view = pos_view_of_vertex(position, draw);
     let pos_oriented = pos_view.xyz - draws[draw].view_from_local[3].xyz;
     return Lean(frame.clip_from_view * pos_view, pos_oriented, -pos_view.z, draw, surface);
+}
+
+@vertex
+fn vs_smooth(
+    @builtin(instance_index) draw: u32,
+    @location(0) position: vec3<f32>,
+    @location(1) surface: u32,
+    @location(2) normal: vec2<f32>,
+    @location(5) color: vec4<f32>,
+) -> Smooth {
+    let pos_view = pos_view_of_vertex(position, draw);
+    let pos_oriented = pos_view.xyz - draws[draw].view_from_local[3].xyz;
+    let normal_view = draws[draw].normal_from_local * octahedral_decode(normal);
+    return Smooth(
+        frame.clip_from_view * pos_view, pos_oriented, -pos_view.z, draw, surface, normal_view, color.rgb,
+    );
 }
 
 @vertex
@@ -121,6 +147,20 @@ fn fs_lean(v: Lean) -> GBuffer {
     return GBuffer(pack(face, face, v.depth, (*draw).object), vec4(color, 1.0), v.surface);
 }
 
+// Seen from behind, a surface is shaded as if it were two-sided.
+fn turned_to(face: vec3<f32>, normal: vec3<f32>) -> vec3<f32> {
+    return select(normal, -normal, dot(normal, face) < 0.0);
+}
+
+@fragment
+fn fs_smooth(v: Smooth) -> GBuffer {
+    let draw = &draws[v.draw];
+    let face = face_normal(v.pos_oriented);
+    let color = materials[(*draw).material].base_color.rgb * v.color;
+    let normal = select(turned_to(face, normalize(v.normal)), face, (*draw).is_flat == 1u);
+    return GBuffer(pack(normal, face, v.depth, (*draw).object), vec4(color, 1.0), v.surface);
+}
+
 @fragment
 fn fs_full(v: Full) -> GBuffer {
     let draw = &draws[v.draw];
@@ -144,8 +184,7 @@ fn fs_full(v: Full) -> GBuffer {
             let scale = (*material).normal_scale;
             normal = normalize(mat3x3(tangent, bitangent, normal) * (bump * vec3(scale, scale, 1.0)));
         }
-        // Seen from behind, a surface is shaded as if it were two-sided.
-        normal = select(normal, -normal, dot(normal, face) < 0.0);
+        normal = turned_to(face, normal);
     }
     return GBuffer(pack(normal, face, v.depth, (*draw).object), vec4(color.rgb, 1.0), v.surface);
 }

@@ -33,14 +33,14 @@ pub(super) fn run(args: &BenchArgs) -> Result<(), CliError> {
         styles()?.iter().map(|(name, _)| Row { name, frame_ms: Vec::new(), stages: Vec::new() }).collect();
     // The styles take turns, so that a slow moment of the machine hits all of them alike.
     for frame in 0..args.frames + 2 {
-        for (row, (_, style)) in rows.iter_mut().zip(styles()?) {
-            measure(&mut session, &opened, args.resolution.0, &style, frame, row)?;
+        for (i, (row, (_, style))) in rows.iter_mut().zip(styles()?).enumerate() {
+            measure(&mut session, &opened, args.resolution.0, &style, frame, turn(frame, i), row)?;
         }
     }
     session.renderer().enable_timers();
     for frame in 0..args.frames.min(10) + 2 {
-        for (row, (_, style)) in rows.iter_mut().zip(styles()?) {
-            measure_stages(&mut session, &opened, args.resolution.0, &style, frame, row)?;
+        for (i, (row, (_, style))) in rows.iter_mut().zip(styles()?).enumerate() {
+            measure_stages(&mut session, &opened, args.resolution.0, &style, frame, turn(frame, i), row)?;
         }
     }
     report(args, &opened, &mut session, load_ms, &rows)
@@ -67,20 +67,25 @@ fn styles() -> Result<Vec<(&'static str, Style)>, CliError> {
     ])
 }
 
-/// A frame from a direction of its own, so that every stage has to run.
+/// Each frame has a direction of its own, so that every stage has to run; those of one round are nearly equal.
+fn turn(frame: u32, row: usize) -> f64 {
+    f64::from(frame) * 3.0 + row as f64 * 0.01
+}
+
+/// Draws one frame, turned by so many degrees.
 fn draw(
     session: &mut Session,
     opened: &Opened,
     size: [u32; 2],
     style: &Style,
-    frame: u32,
+    turn: f64,
 ) -> Result<(), CliError> {
     let mut document = opened.document.clone();
     document.style = style.clone();
     document.nodes.clear();
     let up = document.up(&opened.scene).vector();
     let aspect = f64::from(size[0]) / f64::from(size[1]);
-    let camera = initial_camera(&document, &opened.scene, aspect).orbited(up, f64::from(frame) * 3.0, 0.0);
+    let camera = initial_camera(&document, &opened.scene, aspect).orbited(up, turn, 0.0);
     let renderer = session.renderer();
     renderer.render(&Request {
         document: &document,
@@ -98,10 +103,11 @@ fn measure(
     size: [u32; 2],
     style: &Style,
     frame: u32,
+    turn: f64,
     row: &mut Row,
 ) -> Result<(), CliError> {
     let started = Instant::now();
-    draw(session, opened, size, style, frame)?;
+    draw(session, opened, size, style, turn)?;
     session.renderer().gpu().wait()?;
     // The first two frames compile shaders and fault pages in.
     if frame >= 2 {
@@ -116,9 +122,10 @@ fn measure_stages(
     size: [u32; 2],
     style: &Style,
     frame: u32,
+    turn: f64,
     row: &mut Row,
 ) -> Result<(), CliError> {
-    draw(session, opened, size, style, frame)?;
+    draw(session, opened, size, style, turn)?;
     for (label, ms) in session.renderer().timings()? {
         if frame < 2 {
             continue;

@@ -15,10 +15,29 @@ pub enum Input<'a> {
     Storage(&'a wgpu::Buffer),
 }
 
+/// A fragment shader of a file below `shaders/`, specialised: switches are its `override` constants, and what is
+/// switched off is compiled away. Software devices run both sides of a branch, so this is what makes an unused
+/// feature free.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+pub struct Program {
+    /// File below `shaders/`.
+    pub file: &'static str,
+    /// Entry point.
+    pub entry_point: &'static str,
+    /// Names and values of boolean `override` constants.
+    pub switches: Vec<(&'static str, bool)>,
+}
+
+impl Program {
+    /// A program without switches.
+    pub fn new(file: &'static str, entry_point: &'static str) -> Self {
+        Self { file, entry_point, switches: Vec::new() }
+    }
+}
+
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 struct FullscreenKey {
-    shader: &'static str,
-    entry_point: &'static str,
+    program: Program,
     inputs: Vec<Option<wgpu::TextureFormat>>,
     outputs: Vec<wgpu::TextureFormat>,
 }
@@ -108,13 +127,13 @@ impl Pipelines {
 
     fn fullscreen(&mut self, gpu: &Gpu, key: &FullscreenKey) -> Result<&Fullscreen, ShaderError> {
         if !self.fullscreen.contains_key(key) {
-            let module = self.module(gpu, key.shader)?;
+            let module = self.module(gpu, key.program.file)?;
             let made = build_fullscreen(gpu, &module, &self.frame_layout, key);
             self.fullscreen.insert(key.clone(), made);
         }
         self.fullscreen
             .get(key)
-            .ok_or_else(|| ShaderError::Missing { file: key.shader.to_owned(), imported_by: None })
+            .ok_or_else(|| ShaderError::Missing { file: key.program.file.to_owned(), imported_by: None })
     }
 }
 
@@ -156,17 +175,19 @@ fn build_fullscreen(
         })
         .collect();
     let inputs = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-        label: Some(key.shader),
+        label: Some(key.program.file),
         entries: &entries,
     });
     let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-        label: Some(key.shader),
+        label: Some(key.program.file),
         bind_group_layouts: &[Some(frame_layout), Some(&inputs)],
         immediate_size: 0,
     });
+    let constants: Vec<_> =
+        key.program.switches.iter().map(|(name, on)| (*name, f64::from(u8::from(*on)))).collect();
     let targets: Vec<_> = key.outputs.iter().map(|format| Some((*format).into())).collect();
     let pipeline = gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: Some(key.shader),
+        label: Some(key.program.file),
         layout: Some(&layout),
         vertex: wgpu::VertexState {
             module,
@@ -179,8 +200,11 @@ fn build_fullscreen(
         multisample: wgpu::MultisampleState::default(),
         fragment: Some(wgpu::FragmentState {
             module,
-            entry_point: Some(key.entry_point),
-            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            entry_point: Some(key.program.entry_point),
+            compilation_options: wgpu::PipelineCompilationOptions {
+                constants: &constants,
+                ..Default::default()
+            },
             targets: &targets,
         }),
         multiview_mask: None,
@@ -247,21 +271,19 @@ impl<'a> Recorder<'a> {
         pass
     }
 
-    /// Runs a fragment shader once per pixel: `inputs` are its bindings in group 1, `outputs` its locations.
+    /// Runs a program once per pixel: `inputs` are its bindings in group 1, `outputs` its locations.
     ///
     /// # Errors
     /// [`ShaderError::Missing`].
     pub fn fullscreen(
         &mut self,
         label: &'static str,
-        shader: &'static str,
-        entry_point: &'static str,
+        program: Program,
         inputs: &[Input<'_>],
         outputs: &[&Target],
     ) -> Result<(), ShaderError> {
         let key = FullscreenKey {
-            shader,
-            entry_point,
+            program,
             inputs: inputs
                 .iter()
                 .map(|i| match i {

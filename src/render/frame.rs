@@ -56,8 +56,8 @@ pub struct Picture {
     pub gbuffer: GBuffer,
     /// Operators' values, if they were shown.
     pub operators: Option<Target>,
-    /// Inner and profile ink per pixel.
-    pub edge_map: Target,
+    /// Inner and profile ink per pixel; `None` when no object has lines.
+    pub edge_map: Option<Target>,
 }
 
 /// What lives across frames.
@@ -69,7 +69,7 @@ pub struct FrameState {
     gbuffer: Stage<(u64, u64, View, Vec<DrawUniform>, Vec<DrawCall>), GBuffer>,
     edge_map: Stage<(u64, Vec<EdgeUniform>, Vec2), Target>,
     operators: Stage<(u64, Vec2), Target>,
-    surface: Stage<(u64, u64, Vec<SurfaceUniform>, FrameUniform), Target>,
+    surface: Stage<(u64, Option<u64>, Vec<SurfaceUniform>, FrameUniform), Target>,
     image: Stage<(u64, Show, [u64; 3], Vec4), Target>,
     selection: Stage<(u64, Vec<u32>), Target>,
 }
@@ -122,13 +122,20 @@ impl FrameState {
             .gbuffer
             .run(geometry, |(.., draws, calls)| self.gbuffer_pass.run(rec, inputs.scene, draws, calls))?;
 
-        let edges = (gbuffer.revision, inputs.objects.edge_styles.clone(), inputs.depth_range);
-        let edge_map = self.edge_map.run(edges, |(_, styles, _)| {
-            self.edge_styles.write(rec.gpu, styles);
-            edge_map(rec, &gbuffer.value, self.edge_styles.buffer())
-        })?;
-
         let what = inputs.document.view.show;
+        let edge_map = if what != Show::Picture || inputs.objects.have_lines() {
+            let edges = (gbuffer.revision, inputs.objects.edge_styles.clone(), inputs.depth_range);
+            Some(self.edge_map.run(edges, |(_, styles, _)| {
+                self.edge_styles.write(rec.gpu, styles);
+                edge_map(rec, &gbuffer.value, styles, self.edge_styles.buffer())
+            })?)
+        } else {
+            self.edge_map.clear();
+            None
+        };
+        let edge_revision = edge_map.as_ref().map(|e| e.revision);
+        let edge_map = edge_map.map(|e| e.value);
+
         let wanted_operators = matches!(what, Show::NormalOperator | Show::DepthOperator | Show::C1Operator);
         let operators = if wanted_operators {
             Some(self.operators.run((gbuffer.revision, inputs.depth_range), |_| {
@@ -142,25 +149,26 @@ impl FrameState {
         let image = if what == Show::Picture {
             let shading = (
                 gbuffer.revision,
-                edge_map.revision,
+                edge_revision,
                 inputs.objects.surface_styles.clone(),
                 inputs.uniform.without_background(),
             );
             let color = self.surface.run(shading, |(_, _, styles, _)| {
                 self.surface_styles.write(rec.gpu, styles);
                 let (surfaces, edges) = (self.surface_styles.buffer(), self.edge_styles.buffer());
-                surface(rec, &gbuffer.value, &edge_map.value, surfaces, edges)
+                surface(rec, &gbuffer.value, edge_map.as_ref(), styles, surfaces, edges)
             })?;
             let final_inputs = (shaders, what, [color.revision, 0, 0], inputs.background);
             self.image.run(final_inputs, |_| resolve(rec, &color.value))?
         } else {
             self.surface.clear();
             let revisions =
-                [gbuffer.revision, edge_map.revision, operators.as_ref().map_or(0, |o| o.revision)];
-            // A shader that does not read the operators' values is given any texture of their kind.
+                [gbuffer.revision, edge_revision.unwrap_or(0), operators.as_ref().map_or(0, |o| o.revision)];
+            // A shader that does not read these is given any texture of their kind.
+            let ink = edge_map.as_ref().unwrap_or(&gbuffer.value.geometry);
             let values = operators.as_ref().map_or(&gbuffer.value.base_color, |o| &o.value);
             self.image.run((shaders, what, revisions, Vec4::ZERO), |_| {
-                show(rec, what, &gbuffer.value, &edge_map.value, values)
+                show(rec, what, &gbuffer.value, ink, values)
             })?
         };
 
@@ -170,7 +178,7 @@ impl FrameState {
             revision: image.revision,
             gbuffer: gbuffer.value,
             operators: operators.map(|o| o.value),
-            edge_map: edge_map.value,
+            edge_map,
         })
     }
 

@@ -12,7 +12,7 @@ use crate::document::Document;
 use crate::geometry::{Bounds, Provoking};
 use crate::gpu::geometry::MeshSource;
 use crate::gpu::{GeometryBuffers, Gpu, GpuError, MaterialBindings};
-use crate::scene::{NodeId, Scene};
+use crate::scene::{AlphaMode, NodeId, Scene};
 
 /// Object ids are kept in 31 bits; the highest one is the enhanced flag.
 pub const ENHANCED: u32 = 0x8000_0000;
@@ -61,6 +61,17 @@ impl GpuScene {
     }
 }
 
+/// How much the shaders of a draw have to read; less is faster.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Detail {
+    /// Positions only: no mesh of the scene has anything more.
+    Lean,
+    /// Normals and colours.
+    Smooth,
+    /// Images too, and holes.
+    Full,
+}
+
 /// One draw call.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DrawCall {
@@ -74,6 +85,8 @@ pub struct DrawCall {
     pub base_vertex: i32,
     /// Bind group of the material.
     pub material_group: usize,
+    /// Which vertex and fragment shader it needs.
+    pub detail: Detail,
 }
 
 /// The object id that pixels of a node carry; 0 is the background.
@@ -109,19 +122,28 @@ impl Objects {
     pub fn new(document: &Document, scene: &GpuScene) -> Self {
         let resolved = document.resolve(&scene.scene);
         let mut objects = Self { visible_bounds: Bounds::EMPTY, ..Self::default() };
-        // Entry 0 stands for the background.
-        objects.edge_styles.push(EdgeUniform::from(&document.style.edges));
-        objects.surface_styles.push(SurfaceUniform::from(&document.style));
+        // What is not drawn, entry 0 (the background) included, has neither shading nor lines.
+        let count = resolved.len() + 1;
+        objects.edge_styles = vec![EdgeUniform::NONE; count];
+        objects.surface_styles = vec![SurfaceUniform::BLANK; count];
         for (node, r) in resolved.iter().enumerate() {
-            objects.edge_styles.push(EdgeUniform::from(&r.style.edges));
-            objects.surface_styles.push(SurfaceUniform::from(r.style));
-            if r.visible && scene.scene.nodes[node].mesh.is_some() {
-                let bounds = scene.bounds_of(node);
-                objects.visible.push((node, r.enhanced));
-                objects.visible_bounds = objects.visible_bounds.union(&bounds);
+            if !r.visible || scene.scene.nodes[node].mesh.is_none() {
+                continue;
             }
+            let id = object_id(node) as usize;
+            objects.surface_styles[id] = SurfaceUniform::from(r.style);
+            if r.enhanced {
+                objects.edge_styles[id] = EdgeUniform::from(&r.style.edges);
+            }
+            objects.visible.push((node, r.enhanced));
+            objects.visible_bounds = objects.visible_bounds.union(&scene.bounds_of(node));
         }
         objects
+    }
+
+    /// Whether any visible object has lines.
+    pub fn have_lines(&self) -> bool {
+        self.edge_styles.iter().any(EdgeUniform::draws_anything)
     }
 
     /// The boxes of the enhanced objects, each in its own space, and where that lies.
@@ -145,6 +167,13 @@ impl Objects {
             let Some(range) = scene.geometry.meshes.get(mesh_index) else { continue };
             // Combined in double precision, so that models far from the origin do not jitter.
             let view_from_local = view.view_from_world * node.world_from_local;
+            let has_images = |material: usize| {
+                scene.scene.materials.get(material).is_some_and(|m| {
+                    m.base_color_texture.is_some()
+                        || m.normal_texture.is_some()
+                        || m.alpha != AlphaMode::Opaque
+                })
+            };
             for part in &mesh.parts {
                 calls.push(DrawCall {
                     draw: draws.len() as u32,
@@ -152,6 +181,13 @@ impl Objects {
                     index_count: part.index_count,
                     base_vertex: range.base_vertex,
                     material_group: scene.materials.group_index(part.material),
+                    detail: if scene.geometry.attributes.is_none() {
+                        Detail::Lean
+                    } else if has_images(part.material) {
+                        Detail::Full
+                    } else {
+                        Detail::Smooth
+                    },
                 });
                 draws.push(DrawUniform {
                     view_from_local: view_from_local.as_mat4(),
@@ -162,7 +198,7 @@ impl Objects {
                 });
             }
         }
-        calls.sort_by_key(|c| c.material_group);
+        calls.sort_by_key(|c| (c.detail, c.material_group));
         (draws, calls)
     }
 }

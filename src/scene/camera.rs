@@ -248,7 +248,7 @@ impl Camera {
         let right = turn * self.right();
         let back = turn * back;
         let now = back.dot(up).clamp(-1.0, 1.0).asin().to_degrees();
-        let then = (now + elevation).clamp(-89.9_f64.max(now.min(-89.9)), 89.9_f64.max(now));
+        let then = (now + elevation).clamp(now.min(-89.9), now.max(89.9));
         let tilt = glam::DQuat::from_axis_angle(right, -(then - now).to_radians());
         Self {
             position: self.focal_point + (tilt * back) * self.distance(),

@@ -131,7 +131,7 @@ pub enum StyleError {
         /// Line, from 1.
         line: usize,
         /// What is wrong there.
-        source: Box<StyleError>,
+        source: Box<Self>,
     },
     /// The text is no TOML.
     #[error("{message}")]

@@ -4,7 +4,7 @@ use encase::ShaderType;
 use glam::Vec3;
 
 use super::gbuffer::GBuffer;
-use crate::gpu::recorder::Input;
+use crate::gpu::recorder::{Input, Program};
 use crate::gpu::{Recorder, Target};
 use crate::render::RenderError;
 use crate::style::{DepthOperator, Edges};
@@ -44,6 +44,20 @@ impl From<&Edges> for EdgeUniform {
 }
 
 impl EdgeUniform {
+    /// No lines at all.
+    pub const NONE: Self = Self {
+        profile_color: Vec3::ZERO,
+        profile_strength: 0.0,
+        inner_color: Vec3::ZERO,
+        inner_strength: 0.0,
+        gain_z: 0.0,
+        gain_c1: 0.0,
+        gain_n: 0.0,
+        profile_threshold: 0.0,
+        inner_threshold: 0.0,
+        use_c1: 0,
+    };
+
     /// Whether any line can come of it.
     pub fn draws_anything(&self) -> bool {
         let profile = if self.use_c1 == 1 { self.gain_c1 } else { self.gain_z };
@@ -58,9 +72,11 @@ impl EdgeUniform {
 pub fn edge_map(
     rec: &mut Recorder<'_>,
     gbuffer: &GBuffer,
+    styles: &[EdgeUniform],
     edge_styles: &wgpu::Buffer,
 ) -> Result<Target, RenderError> {
-    run(rec, gbuffer, edge_styles, "edge map", "fs_main", wgpu::TextureFormat::Rg32Uint)
+    let with_c1 = styles.iter().any(|s| s.use_c1 == 1);
+    run(rec, gbuffer, edge_styles, "edge map", "fs_main", with_c1, wgpu::TextureFormat::Rg32Uint)
 }
 
 /// The operators' own values per pixel: `I_N`, `I_Z`, C1 (no edge: 1, 1, 0).
@@ -72,7 +88,7 @@ pub fn operators(
     gbuffer: &GBuffer,
     edge_styles: &wgpu::Buffer,
 ) -> Result<Target, RenderError> {
-    run(rec, gbuffer, edge_styles, "operators", "fs_operators", wgpu::TextureFormat::Rgba32Float)
+    run(rec, gbuffer, edge_styles, "operators", "fs_operators", true, wgpu::TextureFormat::Rgba32Float)
 }
 
 fn run(
@@ -81,10 +97,12 @@ fn run(
     edge_styles: &wgpu::Buffer,
     label: &'static str,
     entry_point: &'static str,
+    with_c1: bool,
     format: wgpu::TextureFormat,
 ) -> Result<Target, RenderError> {
     let out = rec.target(label, format)?;
     let inputs = [Input::Texture(&gbuffer.geometry), Input::Storage(edge_styles)];
-    rec.fullscreen(label, "passes/edge_map.wgsl", entry_point, &inputs, &[&out])?;
+    let program = Program { file: "passes/edge_map.wgsl", entry_point, switches: vec![("WITH_C1", with_c1)] };
+    rec.fullscreen(label, program, &inputs, &[&out])?;
     Ok(out)
 }

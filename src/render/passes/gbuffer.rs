@@ -1,5 +1,7 @@
 //! The G-buffer: one traversal of the scene (edge-enhancement paper, section 4.1.1).
 
+use std::collections::HashMap;
+
 use encase::ShaderType;
 use glam::{Mat3, Mat4};
 
@@ -7,7 +9,7 @@ use crate::gpu::geometry::Attributes;
 use crate::gpu::recorder::{Pipelines, color_attachment};
 use crate::gpu::{ArrayBuffer, Gpu, MaterialBindings, Recorder, Target};
 use crate::render::RenderError;
-use crate::render::groups::{DrawCall, GpuScene};
+use crate::render::groups::{Detail, DrawCall, GpuScene};
 
 /// Shading and face normal, linear depth, object id: see `shaders/common/gbuffer.wgsl`.
 const GEOMETRY: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Uint;
@@ -46,10 +48,9 @@ pub struct DrawUniform {
     pub is_flat: u32,
 }
 
-/// The pipelines of the pass; the lean one reads positions only.
+/// The pipelines of the pass, made when first needed.
 pub struct GBufferPass {
-    lean: Option<wgpu::RenderPipeline>,
-    full: Option<wgpu::RenderPipeline>,
+    pipelines: HashMap<Detail, wgpu::RenderPipeline>,
     generation: u64,
     pass_layout: wgpu::BindGroupLayout,
     /// Layout of bind group 2.
@@ -78,8 +79,7 @@ impl GBufferPass {
             ],
         });
         Self {
-            lean: None,
-            full: None,
+            pipelines: HashMap::new(),
             generation: 0,
             pass_layout,
             material_layout: MaterialBindings::layout(gpu),
@@ -91,20 +91,20 @@ impl GBufferPass {
         &mut self,
         gpu: &Gpu,
         pipelines: &mut Pipelines,
-        lean: bool,
+        detail: Detail,
     ) -> Result<wgpu::RenderPipeline, RenderError> {
         if self.generation != pipelines.generation() {
-            (self.lean, self.full) = (None, None);
+            self.pipelines.clear();
             self.generation = pipelines.generation();
         }
-        let slot = if lean { &mut self.lean } else { &mut self.full };
-        if let Some(pipeline) = slot {
+        if let Some(pipeline) = self.pipelines.get(&detail) {
             return Ok(pipeline.clone());
         }
         let module = pipelines.module(gpu, "passes/gbuffer.wgsl")?;
         let layouts = [pipelines.frame_layout(), &self.pass_layout, &self.material_layout];
-        let pipeline = build(gpu, &module, &layouts, lean);
-        Ok(slot.insert(pipeline).clone())
+        let pipeline = build(gpu, &module, &layouts, detail);
+        self.pipelines.insert(detail, pipeline.clone());
+        Ok(pipeline)
     }
 
     /// Draws the given parts of a scene.
@@ -125,7 +125,9 @@ impl GBufferPass {
             depth: rec.target("depth", DEPTH)?,
         };
         let gpu = rec.gpu;
-        let pipeline = self.pipeline(gpu, rec.pipelines, scene.geometry.attributes.is_none())?;
+        for call in calls {
+            self.pipeline(gpu, rec.pipelines, call.detail)?;
+        }
         if !draws.is_empty() {
             self.draws.write(gpu, draws);
         }
@@ -149,7 +151,6 @@ impl GBufferPass {
             stencil_ops: None,
         };
         let mut pass = rec.pass("g-buffer", &color, Some(depth));
-        pass.set_pipeline(&pipeline);
         pass.set_bind_group(1, &group, &[]);
         pass.set_vertex_buffer(0, scene.geometry.positions.slice(..));
         pass.set_vertex_buffer(1, scene.geometry.surfaces.slice(..));
@@ -157,11 +158,16 @@ impl GBufferPass {
             pass.set_vertex_buffer(2, attributes.slice(..));
         }
         pass.set_index_buffer(scene.geometry.indices.slice(..), wgpu::IndexFormat::Uint32);
-        let mut bound = None;
+        let (mut detail, mut material) = (None, None);
         for call in calls {
-            if bound != Some(call.material_group) {
+            if detail != Some(call.detail) {
+                let Some(pipeline) = self.pipelines.get(&call.detail) else { continue };
+                pass.set_pipeline(pipeline);
+                detail = Some(call.detail);
+            }
+            if material != Some(call.material_group) {
                 pass.set_bind_group(2, scene.materials.group(call.material_group), &[]);
-                bound = Some(call.material_group);
+                material = Some(call.material_group);
             }
             let indices = call.first_index..call.first_index + call.index_count;
             pass.draw_indexed(indices, call.base_vertex, call.draw..call.draw + 1);
@@ -175,7 +181,7 @@ fn build(
     gpu: &Gpu,
     module: &wgpu::ShaderModule,
     layouts: &[&wgpu::BindGroupLayout; 3],
-    lean: bool,
+    detail: Detail,
 ) -> wgpu::RenderPipeline {
     let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
         label: Some("g-buffer"),
@@ -193,14 +199,19 @@ fn build(
         attributes: &wgpu::vertex_attr_array![1 => Uint32],
     };
     let buffers = [Some(position), Some(surface), Some(Attributes::LAYOUT)];
+    let (vertex, fragment) = match detail {
+        Detail::Lean => ("vs_lean", "fs_lean"),
+        Detail::Smooth => ("vs_smooth", "fs_smooth"),
+        Detail::Full => ("vs_full", "fs_full"),
+    };
     gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some("g-buffer"),
         layout: Some(&layout),
         vertex: wgpu::VertexState {
             module,
-            entry_point: Some(if lean { "vs_lean" } else { "vs_full" }),
+            entry_point: Some(vertex),
             compilation_options: wgpu::PipelineCompilationOptions::default(),
-            buffers: if lean { &buffers[..2] } else { &buffers },
+            buffers: if detail == Detail::Lean { &buffers[..2] } else { &buffers },
         },
         // Both sides are drawn: files with flipped or mixed winding are common.
         primitive: wgpu::PrimitiveState::default(),
@@ -214,7 +225,7 @@ fn build(
         multisample: wgpu::MultisampleState::default(),
         fragment: Some(wgpu::FragmentState {
             module,
-            entry_point: Some(if lean { "fs_lean" } else { "fs_full" }),
+            entry_point: Some(fragment),
             compilation_options: wgpu::PipelineCompilationOptions::default(),
             targets: &[Some(GEOMETRY.into()), Some(BASE_COLOR.into()), Some(SURFACE.into())],
         }),

@@ -1,6 +1,6 @@
 //! The final image.
 
-use crate::gpu::recorder::Input;
+use crate::gpu::recorder::{Input, Program};
 use crate::gpu::{Recorder, Target};
 use crate::render::RenderError;
 
@@ -13,6 +13,11 @@ pub const FINAL: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 /// [`RenderError`].
 pub fn resolve(rec: &mut Recorder<'_>, color: &Target) -> Result<Target, RenderError> {
     let image = rec.target("final image", FINAL)?;
-    rec.fullscreen("resolve", "passes/resolve.wgsl", "fs_main", &[Input::Texture(color)], &[&image])?;
+    rec.fullscreen(
+        "resolve",
+        Program::new("passes/resolve.wgsl", "fs_main"),
+        &[Input::Texture(color)],
+        &[&image],
+    )?;
     Ok(image)
 }

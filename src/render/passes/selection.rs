@@ -2,7 +2,7 @@
 
 use super::gbuffer::GBuffer;
 use super::resolve::FINAL;
-use crate::gpu::recorder::Input;
+use crate::gpu::recorder::{Input, Program};
 use crate::gpu::{Recorder, Target};
 use crate::render::RenderError;
 use crate::render::groups::object_id;
@@ -31,6 +31,6 @@ pub fn selection(
 ) -> Result<Target, RenderError> {
     let out = rec.target("selection", FINAL)?;
     let inputs = [Input::Texture(&gbuffer.geometry), Input::Storage(selected)];
-    rec.fullscreen("selection", "passes/selection.wgsl", "fs_main", &inputs, &[&out])?;
+    rec.fullscreen("selection", Program::new("passes/selection.wgsl", "fs_main"), &inputs, &[&out])?;
     Ok(out)
 }

@@ -3,7 +3,7 @@
 use super::gbuffer::GBuffer;
 use super::resolve::FINAL;
 use crate::document::Show;
-use crate::gpu::recorder::Input;
+use crate::gpu::recorder::{Input, Program};
 use crate::gpu::{Recorder, Target};
 use crate::render::RenderError;
 
@@ -38,6 +38,6 @@ pub fn show(
         Input::Texture(edge_map),
         Input::Texture(operators),
     ];
-    rec.fullscreen("show", "passes/show.wgsl", entry_point, &inputs, &[&image])?;
+    rec.fullscreen("show", Program::new("passes/show.wgsl", entry_point), &inputs, &[&image])?;
     Ok(image)
 }

@@ -7,15 +7,18 @@
     reason = "tests are to be read"
 )]
 
+mod deformed;
+#[path = "../gltf_builder/mod.rs"]
 mod gltf_builder;
+mod materials;
 
 use std::path::Path;
 
 use glam::{DVec3, Vec2, Vec3};
-use gltf_builder::{Model, png};
+use gltf_builder::Model;
 use hachure::geometry::Mesh;
 use hachure::import::{ImportError, ImportOptions, Progress, load, load_all};
-use hachure::scene::{AlphaMode, LightKind, Projection, Scene, Wrap};
+use hachure::scene::{LightKind, Projection, Scene};
 use serde_json::{Value, json};
 
 const QUAD: [f32; 12] = [0., 0., 0., 1., 0., 0., 1., 1., 0., 0., 1., 0.];
@@ -244,82 +247,6 @@ fn buffers_come_from_side_files_and_data_uris() {
     assert_eq!(open(&path).meshes[0].positions[1], Vec3::X);
 }
 
-/// A quad with texture coordinates and this material.
-fn with_material(material: &Value, image: &[u8]) -> Scene {
-    let mut m = Model::new();
-    let positions = m.floats("VEC3", &QUAD);
-    let normals = m.floats("VEC3", &[0., 0., 1.].repeat(4));
-    let uvs = m.floats("VEC2", &[0., 0., 1., 0., 1., 1., 0., 1.]);
-    let other = m.floats("VEC2", &[0.5; 8]);
-    let indices = m.u16s(&[0, 1, 2, 0, 2, 3]);
-    let view = m.view(image);
-    m.push("images", json!({"bufferView": view, "mimeType": "image/png", "name": "paint"}));
-    m.push("samplers", json!({"magFilter": 9728, "wrapS": 33071, "wrapT": 33648}));
-    m.push("textures", json!({"source": 0, "sampler": 0}));
-    m.push("materials", material.clone());
-    let attributes =
-        json!({"POSITION": positions, "NORMAL": normals, "TEXCOORD_0": uvs, "TEXCOORD_1": other});
-    with_primitives(&mut m, json!([{"attributes": attributes, "indices": indices, "material": 0}]))
-}
-
-#[test]
-fn materials_bring_factors_textures_and_samplers() {
-    let scene = with_material(
-        &json!({
-            "name": "skin", "doubleSided": true, "alphaMode": "MASK", "alphaCutoff": 0.25,
-            "extensions": {"KHR_materials_unlit": {}},
-            "pbrMetallicRoughness": {"baseColorFactor": [0.5, 1, 0.25, 1], "baseColorTexture": {"index": 0,
-                "extensions": {"KHR_texture_transform": {"offset": [0.5, 0], "rotation": 1.5707963, "scale": [2, 1]}}}}
-        }),
-        &png(8, 4),
-    );
-    assert_eq!(scene.warnings, []);
-    let material = &scene.materials[0];
-    assert_eq!((material.name.as_str(), material.double_sided, material.unlit), ("skin", true, true));
-    assert_eq!(material.alpha, AlphaMode::Mask(0.25));
-    assert_eq!(material.base_color.to_array(), [0.5, 1.0, 0.25, 1.0]);
-    let used = material.base_color_texture.as_ref().unwrap();
-    assert_eq!((used.wrap, used.nearest), ([Wrap::Clamp, Wrap::Mirror], true));
-    // A quarter turn: u runs along −v of the image, v along u.
-    let moved = used.transform.0.transform_point2(Vec2::new(1.0, 0.0));
-    assert!((moved - Vec2::new(0.5, -2.0)).length() < 1e-5, "{moved}");
-    let texture = &scene.textures[used.texture];
-    assert_eq!((texture.width, texture.height, &texture.rgba[..4]), (8, 4, &[200, 100, 50, 255][..]));
-    assert!(scene.meshes[0].tangents.is_empty(), "only a normal map needs tangents");
-}
-
-#[test]
-fn a_missing_image_and_transparency_are_warnings() {
-    let texture = json!({"baseColorTexture": {"index": 0}});
-    let scene = with_material(&json!({"alphaMode": "BLEND", "pbrMetallicRoughness": texture}), b"no image");
-    let warnings: Vec<String> = scene.warnings.iter().map(ToString::to_string).collect();
-    assert_eq!(warnings.len(), 2, "{warnings:?}");
-    assert!(warnings[0].contains("model.glb, image 0 \"paint\"") && warnings[0].contains("neither a PNG"));
-    assert!(warnings[1].contains("material 0") && warnings[1].contains("drawn opaque"));
-    assert_eq!(scene.materials[0].base_color_texture, None);
-    assert_eq!(scene.materials[0].alpha, AlphaMode::Opaque);
-}
-
-#[test]
-fn normal_maps_get_tangents() {
-    let scene = with_material(&json!({"normalTexture": {"index": 0, "scale": 0.5}}), &png(2, 2));
-    let mesh = clean_mesh(&scene);
-    assert_eq!(mesh.tangents.len(), mesh.positions.len());
-    assert_eq!(mesh.positions.len(), 4, "equal tangents are not split");
-    for tangent in &mesh.tangents {
-        assert!((tangent.truncate() - Vec3::X).length() < 1e-5, "{tangent}");
-        assert!(tangent.w.abs() == 1.0);
-    }
-    assert_eq!(scene.materials[0].normal_scale, 0.5);
-}
-
-#[test]
-fn the_texture_coordinates_are_those_of_the_material() {
-    let texture = json!({"baseColorTexture": {"index": 0, "texCoord": 1}});
-    let scene = with_material(&json!({"pbrMetallicRoughness": texture}), &png(2, 2));
-    assert_eq!(scene.meshes[0].uvs[2], Vec2::splat(0.5));
-}
-
 #[test]
 fn cameras_and_lights_are_in_world_space() {
     let mut m = Model::triangle();
@@ -348,130 +275,6 @@ fn cameras_and_lights_are_in_world_space() {
     assert!((scene.lights[1].intensity - 0.004).abs() < 1e-6);
     let LightKind::Directional { direction } = scene.lights[1].kind else { panic!() };
     assert!((direction - DVec3::NEG_Y).length() < 1e-6);
-}
-
-#[test]
-fn default_morph_weights_are_applied() {
-    let mut m = Model::triangle();
-    let deltas = m.floats("VEC3", &[0., 0., 2., 0., 0., 2., 0., 0., 4.]);
-    m.json["meshes"][0]["primitives"][0]["targets"] = json!([{"POSITION": deltas}]);
-    m.json["meshes"][0]["weights"] = json!([0.5]);
-    m.node(json!({"mesh": 0, "weights": [0.25]}));
-    let scene = scene_of(&m);
-    assert_eq!(scene.meshes.len(), 2);
-    assert_eq!(scene.meshes[0].positions[2], Vec3::new(0.0, 1.0, 2.0));
-    assert_eq!(scene.meshes[1].positions[2], Vec3::new(0.0, 1.0, 1.0));
-}
-
-#[test]
-fn skinned_meshes_stand_in_the_pose_of_the_file() {
-    let mut m = Model::triangle();
-    let joints = m.accessor(5121, "VEC4", 3, &[0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0]);
-    let weights = m.floats("VEC4", &[1., 0., 0., 0., 2., 0., 0., 0., 0.5, 0.5, 0., 0.]);
-    let mut inverse = [0.0_f32; 32];
-    for matrix in inverse.chunks_exact_mut(16) {
-        matrix.copy_from_slice(&glam::Mat4::from_translation(Vec3::NEG_X).to_cols_array());
-    }
-    let binds = m.floats("MAT4", &inverse);
-    let attributes = &mut m.json["meshes"][0]["primitives"][0]["attributes"];
-    attributes["JOINTS_0"] = json!(joints);
-    attributes["WEIGHTS_0"] = json!(weights);
-    m.json["nodes"][0]["skin"] = json!(0);
-    m.json["nodes"][0]["translation"] = json!([99, 99, 99]);
-    let left = m.node(json!({"name": "left", "translation": [1, 0, 0]}));
-    let right = m.node(json!({"name": "right", "translation": [1, 0, 4]}));
-    m.push("skins", json!({"joints": [left, right], "inverseBindMatrices": binds}));
-    let scene = scene_of(&m);
-    let mesh = clean_mesh(&scene);
-    // The node's own transform does not count; the joints' do.
-    assert_eq!(scene.nodes[1].world_from_local, glam::DMat4::IDENTITY);
-    let expected = [Vec3::ZERO, Vec3::new(1., 0., 4.), Vec3::new(0., 1., 2.)];
-    assert_eq!(mesh.positions, expected);
-    let rig = mesh.rig.as_ref().unwrap();
-    assert_eq!(
-        rig.joints.iter().map(|&j| scene.nodes[j].name.as_str()).collect::<Vec<_>>(),
-        ["left", "right"]
-    );
-    assert_eq!(rig.rest_positions[1], Vec3::X);
-    assert_eq!(rig.vertex_weights[1], [1.0, 0.0, 0.0, 0.0]);
-
-    // Two files in one scene: joints still name the right nodes.
-    let folder = tempfile::tempdir().unwrap();
-    let path = m.write(folder.path(), "arm.glb");
-    let both = load_all(&[path.clone(), path], &ImportOptions::default(), &Progress::default()).unwrap();
-    let rig = both.meshes[1].rig.as_ref().unwrap();
-    assert_eq!(both.nodes[rig.joints[1]].path, "/arm.2/right");
-}
-
-/// Declares that a view is packed in these bytes.
-fn pack(m: &mut Model, view: usize, stride: usize, count: usize, mode: &str, filter: &str, packed: &[u8]) {
-    let source = m.view(packed);
-    let offset = m.json["bufferViews"][source]["byteOffset"].clone();
-    let declared = &mut m.json["bufferViews"][view];
-    declared["buffer"] = json!(1);
-    declared["byteOffset"] = json!(0);
-    declared["byteLength"] = json!(stride * count);
-    declared["extensions"] = json!({"EXT_meshopt_compression": {"buffer": 0, "byteOffset": offset,
-        "byteLength": packed.len(), "byteStride": stride, "count": count, "mode": mode, "filter": filter}});
-}
-
-#[test]
-fn meshopt_compression_is_unpacked() {
-    let grid: Vec<[f32; 3]> = (0..64).map(|i| [(i % 8) as f32, (i / 8) as f32, (i % 5) as f32]).collect();
-    let mut indices = Vec::new();
-    for i in (0..56_u32).filter(|i| i % 8 < 7) {
-        indices.extend([i, i + 1, i + 9, i, i + 9, i + 8]);
-    }
-    let normals: Vec<[f32; 4]> = grid
-        .iter()
-        .map(|p| Vec3::new(p[0] - 3.0, 1.0, p[2] - 2.0).normalize().extend(0.0).to_array())
-        .collect();
-    for (mode, exponential) in [("TRIANGLES", false), ("INDICES", true)] {
-        let mut m = Model::new();
-        let positions = m.floats("VEC3", grid.as_flattened());
-        let normal = m.accessor(5120, "VEC3", 64, &[0; 256]);
-        m.json["accessors"][normal]["normalized"] = json!(true);
-        let view_of = |m: &Model, a: usize| m.json["accessors"][a]["bufferView"].as_u64().unwrap() as usize;
-        let normal_view = view_of(&m, normal);
-        m.json["bufferViews"][normal_view]["byteStride"] = json!(4);
-        let index = m.u32s(&indices);
-
-        let position_view = view_of(&m, positions);
-        if exponential {
-            let flat: Vec<[f32; 3]> = grid.clone();
-            let encoded = meshopt::encode_filter_exp(&flat, 15, meshopt::EncodeExpMode::SharedVector);
-            let packed = meshopt::encode_vertex_buffer(&encoded).unwrap();
-            pack(&mut m, position_view, 12, 64, "ATTRIBUTES", "EXPONENTIAL", &packed);
-        } else {
-            let packed = meshopt::encode_vertex_buffer(&grid).unwrap();
-            pack(&mut m, position_view, 12, 64, "ATTRIBUTES", "NONE", &packed);
-        }
-        let octahedral: Vec<[i8; 4]> = meshopt::encode_filter_oct(&normals, 8);
-        let packed = meshopt::encode_vertex_buffer(&octahedral).unwrap();
-        pack(&mut m, normal_view, 4, 64, "ATTRIBUTES", "OCTAHEDRAL", &packed);
-        let packed = if mode == "TRIANGLES" {
-            meshopt::encode_index_buffer(&indices, 64).unwrap()
-        } else {
-            meshopt::encode_index_sequence(&indices, 64).unwrap()
-        };
-        let index_view = view_of(&m, index);
-        pack(&mut m, index_view, 4, indices.len(), mode, "NONE", &packed);
-        let fallback = json!({"EXT_meshopt_compression": {"fallback": true}});
-        m.json["buffers"] = json!([{"byteLength": m.bin.len()}, {"byteLength": 9999, "uri": "absent.bin", "extensions": fallback}]);
-        m.json["extensionsRequired"] = json!(["EXT_meshopt_compression"]);
-        let attributes = json!({"POSITION": positions, "NORMAL": normal});
-        let scene = with_primitives(&mut m, json!([{"attributes": attributes, "indices": index}]));
-        let mesh = clean_mesh(&scene);
-        // The encoder may turn triangles, but not wind them the other way.
-        let turned = |t: &[u32; 3]| (0..3).map(|k| [t[k], t[(k + 1) % 3], t[(k + 2) % 3]]).min().unwrap();
-        let sorted = |indices: &[u32]| indices.as_chunks().0.iter().map(turned).collect::<Vec<_>>();
-        assert_eq!(sorted(&mesh.indices), sorted(&indices), "{mode}");
-        for (vertex, position) in grid.iter().enumerate() {
-            assert!((mesh.positions[vertex] - Vec3::from_array(*position)).length() < 1e-3);
-            let wanted = Vec3::from_slice(&normals[vertex]);
-            assert!((mesh.normals[vertex] - wanted).length() < 0.03, "{mode} {vertex}");
-        }
-    }
 }
 
 #[test]
