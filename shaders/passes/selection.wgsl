@@ -1,10 +1,13 @@
-// The outline around selected objects, for the window only: transparent elsewhere.
+// The outline around selected objects, for the window only: transparent elsewhere. Alpha is premultiplied, as the
+// window blends it.
 #import common/frame.wgsl
 #import common/fullscreen.wgsl
 #import common/gbuffer.wgsl
 
 // One bit per object id.
 @group(1) @binding(1) var<storage, read> selected: array<u32>;
+
+const ORANGE = vec3(1.0, 0.55, 0.1);
 
 fn is_selected(px: vec2<i32>) -> bool {
     let object = geometry_at(px).w & ~ENHANCED;
@@ -24,10 +27,10 @@ fn fs_main(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
         }
     }
     if border && !here {
-        return vec4(1.0, 0.55, 0.1, 1.0);
+        return vec4(ORANGE, 1.0);
     }
     if here {
-        return vec4(1.0, 0.55, 0.1, select(0.08, 0.5, border));
+        return vec4(ORANGE, 1.0) * select(0.08, 0.5, border);
     }
     return vec4(0.0);
 }

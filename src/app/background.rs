@@ -1,6 +1,7 @@
 //! What happens when work beside the window is asked for, and when it is done.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::time::Duration;
 
 use eframe::egui;
@@ -11,8 +12,8 @@ use super::navigation::Standard;
 use super::screenshot::{self, Destination};
 use super::viewer::{DialogFor, Viewer};
 use super::viewport::PickFor;
-use crate::document::Document;
-use crate::export::session::is_document;
+use crate::document::{Document, Show};
+use crate::export::session::{self, is_document};
 use crate::import::ImportError;
 use crate::render::Pick;
 
@@ -37,6 +38,7 @@ impl Viewer {
     pub(super) fn answer_jobs(&mut self, context: &egui::Context) {
         self.answer_load(context);
         self.answer_dialog(context);
+        self.answer_surfaces(context);
         self.answer_pictures(context);
         if let Some(result) = self.jobs.save.as_ref().and_then(Job::poll) {
             self.jobs.save = None;
@@ -79,12 +81,14 @@ impl Viewer {
 
     fn show_loaded(&mut self, loaded: Loaded) {
         let Loaded { model, models, document, intent } = loaded;
-        if let Err(error) = self.viewport.set_scene(&model.scene) {
+        if let Err(error) = self.viewport.set_scene(&model.scene, &[]) {
             self.load_failed(&error.to_string());
             return;
         }
         let selection = self.selection.carried_over(&self.model.scene, &model.scene);
         self.model = model;
+        self.jobs.surfaces = None;
+        self.surfaces_for = None;
         self.outliner.restart(&self.model.scene);
         self.selection = if intent == Intent::Open { Default::default() } else { selection };
         match intent {
@@ -114,6 +118,29 @@ impl Viewer {
             let plural = if warnings == 1 { "" } else { "s" };
             self.notices
                 .warning(format!("Loaded with {warnings} warning{plural}; the line below lists them"));
+        }
+    }
+
+    /// Finds the surfaces of the scene when something shows them, and again when the crease angle has changed.
+    fn answer_surfaces(&mut self, context: &egui::Context) {
+        if let Some(result) = self.jobs.surfaces.as_ref().and_then(Job::poll) {
+            self.jobs.surfaces = None;
+            let scene = Arc::clone(&self.model.scene);
+            let shown = match result {
+                Ok(surfaces) => self.viewport.set_scene(&scene, &surfaces).map_err(|e| e.to_string()),
+                Err(error) => Err(error.to_string()),
+            };
+            if let Err(message) = shown {
+                self.notices.error(message);
+            }
+        }
+        let angle = self.document.view.crease_angle;
+        let is_wanted = self.document.view.show == Show::Surfaces && !self.model.scene.meshes.is_empty();
+        if is_wanted && self.surfaces_for != Some(angle) && context.input(|i| !i.pointer.any_down()) {
+            self.surfaces_for = Some(angle);
+            let scene = Arc::clone(&self.model.scene);
+            self.jobs.surfaces =
+                Some(Job::start("finding surfaces", context, move |_| session::surfaces(&scene, angle)));
         }
     }
 

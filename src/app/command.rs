@@ -81,6 +81,8 @@ pub enum Command {
     Inspector,
     /// Show or hide how long a picture takes.
     Statistics,
+    /// Dark or light panels.
+    DarkPanels,
     /// Fill the screen.
     FullScreen,
     /// What could not be loaded.
@@ -175,6 +177,9 @@ impl Command {
             Self::Outliner => ("Outliner", "Show or hide the list of objects"),
             Self::Inspector => ("Style and view", "Show or hide the panel of styles and view"),
             Self::Statistics => ("Statistics", "Show how long a picture takes"),
+            Self::DarkPanels => {
+                ("Dark panels", "Make the panels dark or light; at first they are as the system wants")
+            }
             Self::FullScreen => ("Full screen", "Fill the screen"),
             Self::Warnings => ("Warnings…", "List what could not be loaded or was repaired"),
             Self::ReloadShaders => {
@@ -219,9 +224,12 @@ impl Command {
             | Self::OrbitUp
             | Self::OrbitDown
             | Self::Projection => Group::View,
-            Self::Panels | Self::Outliner | Self::Inspector | Self::Statistics | Self::FullScreen => {
-                Group::Window
-            }
+            Self::Panels
+            | Self::Outliner
+            | Self::Inspector
+            | Self::Statistics
+            | Self::DarkPanels
+            | Self::FullScreen => Group::Window,
             Self::Warnings | Self::ReloadShaders | Self::Help => Group::Help,
         }
     }
@@ -293,7 +301,7 @@ impl Command {
             Self::FullScreen => const { &[key(Key::F11)] },
             Self::ReloadShaders => const { &[ctrl(Key::R)] },
             Self::Help => const { &[key(Key::F1), key(Key::H)] },
-            Self::Outliner | Self::Inspector | Self::Warnings => &[],
+            Self::Outliner | Self::Inspector | Self::DarkPanels | Self::Warnings => &[],
         }
     }
 
@@ -305,6 +313,8 @@ impl Command {
     /// Takes the pressed shortcuts out of the input. Keys without a modifier are left to a widget that has the focus.
     pub fn take_pressed(context: &egui::Context) -> Vec<Self> {
         let has_focus = context.memory(|m| m.focused().is_some());
+        // An open menu or list is closed by Esc and walked through by arrows.
+        let has_focus = has_focus || egui::Popup::is_any_open(context);
         let is_typing = context.text_edit_focused();
         let mut pressed = Vec::new();
         context.input_mut(|input| {

@@ -8,6 +8,7 @@ use super::command::Command;
 use super::loading::Intent;
 use super::navigation::{STEP, Standard};
 use super::screenshot::{self, Destination};
+use super::theme;
 use super::viewer::{DialogFor, Open, Viewer};
 use crate::scene::{NodeId, Projection};
 use glam::DVec3;
@@ -19,15 +20,18 @@ impl Viewer {
         match command {
             Command::Reload => !self.document.models.is_empty(),
             Command::Save => any || self.saved.is_some(),
-            Command::SaveAs => any,
             Command::Undo => self.history.can_undo(),
             Command::Redo => self.history.can_redo(),
             Command::SelectNone => selected || self.open.help || self.open.warnings,
             Command::Hide | Command::Isolate | Command::FrameSelected => selected,
             Command::FileCamera => !self.model.scene.cameras.is_empty(),
             Command::ReloadShaders => self.can_reload_shaders,
-            Command::Screenshot | Command::TransparentScreenshot | Command::ScreenshotAs => any,
-            Command::SelectAll | Command::ShowAll => any,
+            Command::SaveAs
+            | Command::Screenshot
+            | Command::TransparentScreenshot
+            | Command::ScreenshotAs
+            | Command::SelectAll
+            | Command::ShowAll => any,
             Command::Home
             | Command::FrameAll
             | Command::Front
@@ -49,6 +53,7 @@ impl Viewer {
             | Command::Outliner
             | Command::Inspector
             | Command::Statistics
+            | Command::DarkPanels
             | Command::FullScreen
             | Command::Warnings
             | Command::Help => true,
@@ -62,6 +67,7 @@ impl Viewer {
             Command::Outliner => Some(self.state.outliner),
             Command::Inspector => Some(self.state.inspector),
             Command::Statistics => Some(self.state.statistics),
+            Command::DarkPanels => Some(self.is_dark),
             Command::Projection => Some(
                 self.document.camera.is_some_and(|c| matches!(c.projection, Projection::Orthographic { .. })),
             ),
@@ -144,6 +150,10 @@ impl Viewer {
             Command::Outliner => self.state.outliner = !self.state.outliner,
             Command::Inspector => self.state.inspector = !self.state.inspector,
             Command::Statistics => self.state.statistics = !self.state.statistics,
+            Command::DarkPanels => {
+                self.state.dark = Some(!self.is_dark);
+                theme::choose(context, self.state.dark);
+            }
             Command::FullScreen => {
                 let is_full = context.input(|i| i.viewport().fullscreen.unwrap_or(false));
                 context.send_viewport_cmd(egui::ViewportCommand::Fullscreen(!is_full));

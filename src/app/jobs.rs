@@ -5,7 +5,7 @@
 
 use eframe::egui;
 use std::panic::AssertUnwindSafe;
-use std::sync::mpsc::{Receiver, TryRecvError, channel};
+use std::sync::mpsc::{Receiver, channel};
 
 use crate::import::Progress;
 
@@ -61,10 +61,7 @@ impl<T: Send + 'static> Job<T> {
 
     /// The result, once, as soon as it is there.
     pub fn poll(&self) -> Option<Result<T, JobError>> {
-        match self.receiver.try_recv() {
-            Ok(result) => Some(result),
-            Err(TryRecvError::Empty | TryRecvError::Disconnected) => None,
-        }
+        self.receiver.try_recv().ok()
     }
 
     /// How far it is, and the way to stop it.

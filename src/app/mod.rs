@@ -8,6 +8,7 @@
 mod background;
 pub mod command;
 mod execute;
+pub mod gesture;
 pub mod jobs;
 pub mod loading;
 pub mod navigation;

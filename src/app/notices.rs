@@ -127,10 +127,10 @@ fn notice_ui(ui: &mut egui::Ui, notice: &Notice, available: f32) -> bool {
             ui.vertical(|ui| {
                 ui.set_max_width(width);
                 ui.add(egui::Label::new(&notice.text).wrap());
-                if let Some(folder) = notice.file.as_ref().and_then(|f| f.parent()) {
-                    if ui.link("Open folder").clicked() {
-                        ui.ctx().open_url(egui::OpenUrl::new_tab(format!("file://{}", folder.display())));
-                    }
+                if let Some(folder) = notice.file.as_ref().and_then(|f| f.parent())
+                    && ui.link("Open folder").clicked()
+                {
+                    ui.ctx().open_url(egui::OpenUrl::new_tab(format!("file://{}", folder.display())));
                 }
             });
             let close = ui.add(egui::Button::new(RichText::new("×")).frame(false));

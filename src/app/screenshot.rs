@@ -114,9 +114,11 @@ mod tests {
     #[test]
     fn screenshots_are_numbered_and_never_overwrite() {
         let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join("file"), "").unwrap();
         let destination = Destination::Numbered {
             model: "crank".to_owned(),
-            folders: vec!["/nonexistent/folder".into(), folder.path().join("Hachure")],
+            // The first one cannot be made, because a file is in its way.
+            folders: vec![folder.path().join("file/Hachure"), folder.path().join("Hachure")],
         };
         let shoot = |alpha| save([7, 7, 7, alpha].repeat(4), [2, 2], &destination).unwrap();
         let (first, second) = (shoot(255), shoot(7));

@@ -32,6 +32,8 @@ pub struct AppState {
     pub page: Page,
     /// Whether the status bar shows how long a picture takes.
     pub statistics: bool,
+    /// Whether panels are dark; `None`: as the system wants.
+    pub dark: Option<bool>,
 }
 
 /// A page of the panel on the right.
@@ -66,6 +68,7 @@ impl Default for AppState {
             inspector: true,
             page: Page::default(),
             statistics: false,
+            dark: None,
         }
     }
 }

@@ -6,7 +6,6 @@ use eframe::egui::{Color32, CornerRadius, FontFamily, FontId, Stroke, TextStyle,
 /// Follows the system's light or dark theme.
 pub(super) fn apply(context: &egui::Context) {
     context.options_mut(|o| {
-        o.theme_preference = egui::ThemePreference::System;
         o.fallback_theme = Theme::Light;
     });
     context.set_visuals_of(Theme::Light, light());
@@ -27,6 +26,15 @@ pub(super) fn apply(context: &egui::Context) {
         // A panel that slides would have the picture drawn at every width on its way.
         style.animation_time = 0.0;
         style.interaction.selectable_labels = false;
+    });
+}
+
+/// Dark or light by choice, or as the system wants.
+pub(super) fn choose(context: &egui::Context, dark: Option<bool>) {
+    context.set_theme(match dark {
+        None => egui::ThemePreference::System,
+        Some(true) => egui::ThemePreference::Dark,
+        Some(false) => egui::ThemePreference::Light,
     });
 }
 

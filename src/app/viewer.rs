@@ -16,6 +16,7 @@ use super::state::{AppState, Page};
 use super::viewport::{Capture, Viewport};
 use super::{AppError, theme};
 use crate::document::{Document, DocumentError, History};
+use crate::geometry::Provoking;
 use crate::import;
 use crate::style::Style;
 use crate::style::preset::{self, Preset};
@@ -36,11 +37,7 @@ pub struct Launch {
 
 impl Default for Launch {
     fn default() -> Self {
-        Self {
-            files: Vec::new(),
-            style: None,
-            loader: Arc::new(|paths, options, progress| import::load_all(paths, options, progress)),
-        }
+        Self { files: Vec::new(), style: None, loader: Arc::new(import::load_all) }
     }
 }
 
@@ -66,6 +63,7 @@ pub(super) enum DialogFor {
 pub(super) struct Jobs {
     pub(super) load: Option<Job<Result<Loaded, LoadError>>>,
     pub(super) dialog: Option<(DialogFor, Job<Vec<PathBuf>>)>,
+    pub(super) surfaces: Option<Job<Vec<Provoking>>>,
     pub(super) save: Option<Job<Result<(PathBuf, Document), DocumentError>>>,
     pub(super) captures: Vec<(Capture, Destination)>,
     pub(super) pictures: Vec<Job<Result<PathBuf, ScreenshotError>>>,
@@ -89,9 +87,12 @@ pub struct Viewer {
     pub(super) saved: Option<(PathBuf, Document)>,
     /// The models that the scene was made of.
     pub(super) loaded: Vec<PathBuf>,
+    /// The crease angle of the surfaces that the renderer has or is about to get.
+    pub(super) surfaces_for: Option<f32>,
     pub(super) loader: Loader,
     pub(super) start_style: Option<Style>,
     pub(super) can_reload_shaders: bool,
+    pub(super) is_dark: bool,
     pub(super) recent: Vec<(PathBuf, bool)>,
     title: String,
 }
@@ -106,6 +107,7 @@ impl Viewer {
         theme::apply(&creation.egui_ctx);
         let state =
             creation.storage.and_then(|s| eframe::get_value::<AppState>(s, STATE_KEY)).unwrap_or_default();
+        theme::choose(&creation.egui_ctx, state.dark);
         let mut viewport = Viewport::new(render_state);
         let can_reload_shaders = viewport.renderer().can_reload_shaders();
         let mut document = Document::default();
@@ -126,9 +128,11 @@ impl Viewer {
             open: Open::default(),
             saved: None,
             loaded: Vec::new(),
+            surfaces_for: None,
             loader: launch.loader,
             start_style: launch.style,
             can_reload_shaders,
+            is_dark: false,
             recent: Vec::new(),
             title: String::new(),
             document,
@@ -290,10 +294,10 @@ impl Viewer {
                 self.load(ui.ctx(), vec![path], Intent::Open);
             }
         }
-        if let Some(load) = &self.jobs.load {
-            if empty::loading_ui(ui, area, load.progress().share()) {
-                self.jobs.load = None;
-            }
+        if let Some(load) = &self.jobs.load
+            && empty::loading_ui(ui, area, load.progress().share())
+        {
+            self.jobs.load = None;
         }
         if ui.input(|i| !i.raw.hovered_files.is_empty()) {
             empty::hovering_ui(ui, area, ui.input(|i| i.modifiers.command));
@@ -361,8 +365,11 @@ impl Viewer {
 fn inspector_ui(ui: &mut egui::Ui, page: &mut Page, editing: &mut Editing<'_>) -> bool {
     ui.add_space(4.0);
     ui.horizontal(|ui| {
-        ui.selectable_value(page, Page::Style, "Style");
-        ui.selectable_value(page, Page::View, "View");
+        for (this, name) in [(Page::Style, "Style"), (Page::View, "View")] {
+            let is_open = *page == this;
+            let tab = ui.selectable_value(page, this, name);
+            tab.widget_info(|| egui::WidgetInfo::selected(egui::Role::Tab, true, is_open, name));
+        }
     });
     ui.separator();
     let mut turned = false;
@@ -385,6 +392,7 @@ impl eframe::App for Viewer {
     }
 
     fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
+        self.is_dark = ui.visuals().dark_mode;
         self.panels(ui);
         egui::CentralPanel::default().frame(egui::Frame::NONE).show(ui, |ui| self.picture(ui));
         let context = ui.ctx().clone();

@@ -10,9 +10,11 @@ use eframe::egui::{PointerButton, Rect, Sense, Ui};
 use eframe::egui_wgpu;
 use glam::DVec2;
 
+use super::gesture::{self, Gestures};
 use super::jobs::Job;
 use super::navigation;
 use crate::document::Document;
+use crate::geometry::Provoking;
 use crate::gpu::readback::Readback;
 use crate::gpu::{Gpu, Target};
 use crate::render::{Pick, RenderError, Renderer, Request};
@@ -20,6 +22,9 @@ use crate::scene::{Camera, NodeId, Scene, Up};
 
 /// How long to wait between two looks for an answer of the device.
 const POLL: Duration = Duration::from_millis(8);
+
+/// At its border, the picture leaves the pointer to the handles of the panels; points.
+const EDGE: f32 = 3.0;
 
 /// Why a person asked what lies under a pixel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -85,6 +90,7 @@ pub struct Viewport {
     measures: bool,
     generation: u64,
     pick: Option<PickFor>,
+    gestures: Gestures,
     rect: Rect,
     size: [u32; 2],
     measuring: Option<Job<f64>>,
@@ -115,6 +121,7 @@ impl Viewport {
             measures: false,
             generation: 0,
             pick: None,
+            gestures: Gestures::default(),
             rect: Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(16.0, 10.0)),
             size: [16, 10],
             measuring: None,
@@ -178,13 +185,13 @@ impl Viewport {
         }));
     }
 
-    /// Uploads another scene.
+    /// Uploads another scene; `surfaces` has an entry per mesh once they are known.
     ///
     /// # Errors
     /// When the device cannot hold it; the last scene then stays.
-    pub fn set_scene(&mut self, scene: &Arc<Scene>) -> Result<(), RenderError> {
+    pub fn set_scene(&mut self, scene: &Arc<Scene>, surfaces: &[Provoking]) -> Result<(), RenderError> {
         self.pick = None;
-        self.renderer.set_scene(scene, &[])?;
+        self.renderer.set_scene(scene, surfaces)?;
         self.draw_again();
         Ok(())
     }
@@ -208,28 +215,32 @@ impl Viewport {
         let share = |v: egui::Vec2| DVec2::new(f64::from(v.x), f64::from(v.y)) / height;
         let cursor = |p: egui::Pos2| share(p - rect.center()) * DVec2::new(1.0, -1.0);
 
-        let shift = ui.input(|i| i.modifiers.shift);
-        let drag = share(response.drag_delta());
-        if response.dragged_by(PointerButton::Middle)
-            || (shift && response.dragged_by(PointerButton::Primary))
-        {
-            moved = navigation::pan(&moved, drag);
-            ui.ctx().set_cursor_icon(egui::CursorIcon::Move);
-        } else if response.dragged_by(PointerButton::Primary) {
-            moved = navigation::orbit(&moved, up, drag);
-            ui.ctx().set_cursor_icon(egui::CursorIcon::Grabbing);
-        } else if response.dragged_by(PointerButton::Secondary) {
-            moved = navigation::zoom(&moved, drag.y * 20.0, DVec2::ZERO, diagonal);
-            ui.ctx().set_cursor_icon(egui::CursorIcon::ZoomIn);
+        let (layer, inside) = (ui.layer_id(), rect.shrink(EDGE));
+        let is_picture = |pos| inside.contains(pos) && ui.ctx().layer_id_at(pos) == Some(layer);
+        for drag in self.gestures.drags(ui, is_picture) {
+            let by = share(drag.by);
+            moved = match (drag.button, drag.shift) {
+                (PointerButton::Middle, _) | (PointerButton::Primary, true) => navigation::pan(&moved, by),
+                (PointerButton::Primary, false) => navigation::orbit(&moved, up, by),
+                _ => navigation::zoom(&moved, by.y * 20.0, DVec2::ZERO, diagonal),
+            };
+        }
+        match self.gestures.dragging() {
+            Some(PointerButton::Middle) => ui.ctx().set_cursor_icon(egui::CursorIcon::Move),
+            Some(PointerButton::Primary) => ui.ctx().set_cursor_icon(egui::CursorIcon::Grabbing),
+            Some(_) => ui.ctx().set_cursor_icon(egui::CursorIcon::ResizeVertical),
+            None => {}
         }
 
         if let (true, Some(pointer)) = (response.contains_pointer(), ui.input(|i| i.pointer.hover_pos())) {
-            let notches = notches(ui);
+            let notches = gesture::notches(ui);
             if notches != 0.0 {
                 moved = navigation::zoom(&moved, notches, cursor(pointer), diagonal);
             }
         }
-        self.click(ui, &response);
+        if !self.gestures.was_drag() {
+            self.click(ui, &response);
+        }
         Moved { camera: (moved != camera).then_some(moved), response: Some(response) }
     }
 
@@ -333,25 +344,4 @@ impl Viewport {
     pub fn rect(&self) -> Rect {
         self.rect
     }
-}
-
-/// Notches of the wheel in this frame, as they come: egui's own smoothing would draw many pictures per notch.
-fn notches(ui: &Ui) -> f64 {
-    ui.input(|i| {
-        i.events
-            .iter()
-            .map(|event| match event {
-                egui::Event::MouseWheel { unit, delta, .. } => {
-                    let per_notch = match unit {
-                        egui::MouseWheelUnit::Point => 50.0,
-                        egui::MouseWheelUnit::Line => 1.0,
-                        egui::MouseWheelUnit::Page => 0.2,
-                    };
-                    f64::from(delta.y) / per_notch
-                }
-                egui::Event::Zoom(factor) => f64::from(factor.max(0.01)).ln() * 8.0,
-                _ => 0.0,
-            })
-            .sum()
-    })
 }

@@ -90,3 +90,9 @@ pub fn fold(painter: &Painter, center: Pos2, open: bool, color: Color32) {
     let points = points.into_iter().map(|p| center + p).collect();
     painter.add(egui::Shape::convex_polygon(points, color, Stroke::NONE));
 }
+
+/// The mark of a switch that is on.
+pub fn check(painter: &Painter, center: Pos2, visuals: &egui::Visuals) {
+    let points = [vec2(-4.0, 0.0), vec2(-1.0, 3.0), vec2(4.0, -3.5)].map(|p| center + p);
+    painter.line(points.to_vec(), Stroke::new(1.5, visuals.text_color()));
+}

@@ -34,11 +34,12 @@ pub fn menu_ui(ui: &mut Ui, state: &MenuState<'_>, commands: &mut Vec<Command>) 
         for group in Group::iter() {
             ui.menu_button(group.title(), |ui| {
                 ui.set_min_width(220.0);
+                let has_switches = Command::of(group).any(|c| (state.checked)(c).is_some());
                 for command in Command::of(group) {
                     if command.starts_section() {
                         ui.separator();
                     }
-                    item(ui, command, state, commands);
+                    item(ui, command, has_switches, state, commands);
                     if command == Command::Add {
                         recent(ui, state, &mut answer);
                     }
@@ -49,18 +50,27 @@ pub fn menu_ui(ui: &mut Ui, state: &MenuState<'_>, commands: &mut Vec<Command>) 
     answer
 }
 
-fn item(ui: &mut Ui, command: Command, state: &MenuState<'_>, commands: &mut Vec<Command>) {
+fn item(ui: &mut Ui, command: Command, indented: bool, state: &MenuState<'_>, commands: &mut Vec<Command>) {
     let checked = (state.checked)(command);
-    let text = match checked {
-        Some(true) => format!("✔ {}", command.text()),
-        Some(false) => format!("     {}", command.text()),
-        None => command.text().to_owned(),
-    };
-    let mut button = egui::Button::new(text);
+    // Where some are switches, all leave room for the mark.
+    let indent = if indented { "      " } else { "" };
+    let mut button = egui::Button::new(format!("{indent}{}", command.text()));
     if let Some(shortcut) = command.shortcuts().first() {
         button = button.shortcut_text(ui.ctx().format_shortcut(shortcut));
     }
     let response = ui.add_enabled((state.enabled)(command), button).on_hover_text(command.tooltip());
+    if let Some(on) = checked {
+        response.widget_info(|| {
+            egui::WidgetInfo::selected(egui::Role::MenuItemCheckBox, true, on, command.text())
+        });
+        if on {
+            super::icons::check(
+                ui.painter(),
+                response.rect.left_center() + egui::vec2(12.0, 0.0),
+                ui.visuals(),
+            );
+        }
+    }
     if response.clicked() {
         commands.push(command);
         ui.close();

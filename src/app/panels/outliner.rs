@@ -297,6 +297,7 @@ fn style_chip(
     let config = egui::containers::menu::MenuConfig::new();
     let (response, _) =
         egui::containers::menu::MenuButton::from_button(button).config(config).ui(&mut child, |ui| {
+            ui.set_min_width(120.0);
             let scene = &editing.model.scene;
             if ui.selectable_label(own.is_none(), "Inherit").clicked() {
                 inherit(editing.document, scene, targets);

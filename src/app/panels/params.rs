@@ -89,7 +89,7 @@ fn row_ui(ui: &mut Ui, param: &mut Param<'_>, default: Option<&Value>) -> bool {
     }
     let before = param.value();
     let mut reset = false;
-    let row = ui.horizontal(|ui| {
+    ui.horizontal(|ui| {
         let label = label_ui(ui, param.label, changed_from_default).on_hover_text(&help);
         reset |= label.double_clicked();
         label.context_menu(|ui| {
@@ -102,7 +102,6 @@ fn row_ui(ui: &mut Ui, param: &mut Param<'_>, default: Option<&Value>) -> bool {
         });
         slot_ui(ui, param, label.id, &help);
     });
-    row.response.on_hover_text(help);
     if let (true, Some(default)) = (reset, default) {
         // A default always fits its own parameter.
         let _ = param.set(default);
@@ -151,7 +150,9 @@ fn slot_ui(ui: &mut Ui, param: &mut Param<'_>, label: egui::Id, help: &str) {
                 .speed(speed)
                 .custom_formatter(|n, _| short(n))
                 .suffix(if param.unit.is_empty() { String::new() } else { format!(" {}", param.unit) });
-            ui.add_sized([NUMBER_WIDTH, ui.spacing().interact_size.y], number);
+            ui.add_sized([NUMBER_WIDTH, ui.spacing().interact_size.y], number)
+                .labelled_by(label)
+                .on_hover_text(help);
         }
         Slot::Color(color) => {
             let button = ui.color_edit_button_srgb(&mut color.0);

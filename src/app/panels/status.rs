@@ -27,7 +27,7 @@ pub fn grouped(number: usize) -> String {
     let digits = number.to_string();
     let mut out = String::new();
     for (i, digit) in digits.chars().enumerate() {
-        if i > 0 && (digits.len() - i) % 3 == 0 {
+        if i > 0 && (digits.len() - i).is_multiple_of(3) {
             out.push(',');
         }
         out.push(digit);
@@ -54,7 +54,7 @@ pub fn status_ui(ui: &mut Ui, status: &Status<'_>, commands: &mut Vec<Command>) 
         if !scene.warnings.is_empty() {
             ui.separator();
             let count = scene.warnings.len();
-            let text = format!("⚠ {count} warning{}", if count == 1 { "" } else { "s" });
+            let text = format!("{count} warning{}", if count == 1 { "" } else { "s" });
             if ui.link(text).on_hover_text(Command::Warnings.tooltip()).clicked() {
                 commands.push(Command::Warnings);
             }

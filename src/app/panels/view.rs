@@ -86,7 +86,7 @@ pub fn view_ui(ui: &mut Ui, editing: &mut Editing<'_>) -> bool {
                     .speed(0.25)
                     .max_decimals(1)
                     .suffix(" °");
-                ui.add_sized([58.0, ui.spacing().interact_size.y], number);
+                ui.add_sized([58.0, ui.spacing().interact_size.y], number).labelled_by(label);
                 if angle != view_angle {
                     *camera = with_view_angle(camera, angle);
                 }

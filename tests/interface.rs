@@ -1,0 +1,492 @@
+//! The real window application, driven through its accessibility tree: no parts are replaced but the files.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use eframe::egui::accesskit::Role;
+use eframe::egui::{Key, Modifiers, PointerButton, Pos2, Vec2};
+use egui_kittest::Harness;
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use glam::{DMat4, DVec3};
+use hachure::app::command::Command;
+use hachure::app::{self, Launch, Viewer};
+use hachure::document::Document;
+use hachure::geometry::primitives;
+use hachure::gpu::Gpu;
+use hachure::import::{ImportError, Progress};
+use hachure::scene::{Material, Node, NodeId, Projection, Scene, Up, Warning};
+use hachure::style::preset;
+
+type Window = Harness<'static, Viewer>;
+
+const CTRL: Modifiers = Modifiers { ctrl: true, command: true, ..Modifiers::NONE };
+
+/// `/engine` with `/engine/rod` (and `/engine/rod/bolt` in it) and `/engine/wheel`, side by side.
+fn engine(_: &[PathBuf]) -> Scene {
+    let mut scene = Scene::default();
+    scene.materials.push(Material::default());
+    let mut mesh = primitives::cube(1.0);
+    for part in &mut mesh.parts {
+        part.material = 0;
+    }
+    scene.meshes.push(Arc::new(mesh));
+    let mut node = |path: &str, parent: Option<NodeId>, descendants, x: Option<f64>| {
+        scene.nodes.push(Node {
+            name: path.rsplit('/').next().unwrap().to_owned(),
+            path: path.to_owned(),
+            parent,
+            descendants,
+            world_from_local: DMat4::from_translation(DVec3::new(x.unwrap_or(0.0), 0.0, 0.0)),
+            mesh: x.map(|_| 0),
+        });
+    };
+    node("/engine", None, 3, None);
+    node("/engine/rod", Some(0), 1, Some(-2.0));
+    node("/engine/rod/bolt", Some(1), 0, Some(0.0));
+    node("/engine/wheel", Some(0), 0, Some(2.0));
+    scene
+}
+
+fn window_with(
+    file: &str,
+    load: impl Fn(&[PathBuf]) -> Result<Scene, ImportError> + Send + Sync + 'static,
+) -> Window {
+    window_loading(file, move |paths, _| load(paths))
+}
+
+fn window_loading(
+    file: &str,
+    load: impl Fn(&[PathBuf], &Progress) -> Result<Scene, ImportError> + Send + Sync + 'static,
+) -> Window {
+    // Says what to install where there is no driver.
+    if let Err(error) = Gpu::headless() {
+        panic!("{error}");
+    }
+    let launch = Launch {
+        files: vec![file.into()],
+        loader: Arc::new(move |paths, _, progress| load(paths, progress)),
+        ..Launch::default()
+    };
+    Harness::builder()
+        .with_size(Vec2::new(1200.0, 900.0))
+        .with_step_dt(1.0 / 60.0)
+        .wgpu_setup(app::wgpu_setup())
+        .build_eframe(|creation| Viewer::new(creation, launch).unwrap())
+}
+
+fn window() -> Window {
+    let mut window = window_with("/models/engine.glb", |paths| Ok(engine(paths)));
+    until(&mut window, "the model is there", |v| !v.is_loading() && !v.model().scene.nodes.is_empty());
+    window
+}
+
+fn until(window: &mut Window, what: &str, done: impl Fn(&Viewer) -> bool) {
+    let began = Instant::now();
+    window.step();
+    while !done(window.state()) {
+        assert!(began.elapsed() < Duration::from_secs(60), "waited in vain until {what}");
+        std::thread::sleep(Duration::from_millis(5));
+        window.step();
+    }
+    settle(window);
+}
+
+/// Runs until nothing moves any more.
+fn settle(window: &mut Window) {
+    for _ in 0..4 {
+        window.step();
+    }
+}
+
+fn ask(window: &mut Window, command: Command) {
+    window.state_mut().ask(command);
+    settle(window);
+}
+
+fn click(window: &mut Window, role: Role, label: &str) {
+    window.get_by_role_and_label(role, label).click();
+    settle(window);
+}
+
+fn choose(window: &mut Window, combo: &str, item: &str) {
+    click(window, Role::ComboBox, combo);
+    window.get_by_label(item).click();
+    settle(window);
+}
+
+fn own<'a>(window: &'a Window, path: &str) -> Option<&'a hachure::document::NodeSettings> {
+    window.state().document().nodes.get(path)
+}
+
+fn says(window: &Window, text: &str) -> bool {
+    window.state().notices().list().iter().any(|n| n.text.contains(text))
+}
+
+fn selected(window: &Window) -> Vec<&str> {
+    let state = window.state();
+    state.selection().iter().map(|n| state.model().scene.nodes[n].name.as_str()).collect()
+}
+
+#[test]
+fn the_outliner_hides_objects_and_their_edges_and_undo_brings_them_back() {
+    let mut window = window();
+    click(&mut window, Role::CheckBox, "Show wheel");
+    assert_eq!(own(&window, "/engine/wheel").unwrap().visible, Some(false));
+    click(&mut window, Role::CheckBox, "Edges of rod");
+    assert_eq!(own(&window, "/engine/rod").unwrap().enhanced, Some(false));
+    let resolved = window.state().document().resolve(&window.state().model().scene)[2];
+    assert!(!resolved.enhanced && resolved.visible, "what hangs below inherits");
+    window.key_press_modifiers(CTRL, Key::Z);
+    settle(&mut window);
+    assert!(own(&window, "/engine/rod").is_none());
+    ask(&mut window, Command::Undo);
+    assert!(own(&window, "/engine/wheel").is_none());
+    assert!(!window.state().is_enabled(Command::Undo));
+    ask(&mut window, Command::Redo);
+    assert_eq!(own(&window, "/engine/wheel").unwrap().visible, Some(false));
+    click(&mut window, Role::CheckBox, "Show wheel");
+    assert!(own(&window, "/engine/wheel").is_none(), "shown again, nothing is left to say");
+}
+
+#[test]
+fn a_slider_changes_the_style_and_a_double_click_on_its_name_resets_it() {
+    let mut window = window();
+    let default = window.state().document().style.gooch.alpha;
+    window.get_by_role_and_label(Role::Slider, "Base in cool").set_value_accesskit(0.9);
+    settle(&mut window);
+    assert_eq!(window.state().document().style.gooch.alpha, 0.9);
+    let label = window.get_by_role_and_label(Role::Label, "Base in cool").rect().center();
+    window.hover_at(label);
+    for _ in 0..2 {
+        window.drag_at(label);
+        window.drop_at(label);
+    }
+    settle(&mut window);
+    assert_eq!(window.state().document().style.gooch.alpha, default);
+}
+
+#[test]
+fn a_preset_replaces_the_style() {
+    let mut window = window();
+    choose(&mut window, "Preset", "Statue");
+    assert_eq!(window.state().document().style, preset::load("statue").unwrap().style);
+    ask(&mut window, Command::Undo);
+    assert_eq!(window.state().document().style, preset::load("gooch").unwrap().style);
+}
+
+#[test]
+fn the_style_of_a_selected_object_is_its_own_until_it_inherits_again() {
+    let mut window = window();
+    click(&mut window, Role::TreeItem, "rod");
+    assert_eq!(selected(&window), ["rod"]);
+    window.get_by_role_and_label(Role::Slider, "Base in cool").set_value_accesskit(0.8);
+    settle(&mut window);
+    let alpha = |window: &Window| {
+        let state = window.state();
+        let resolved = state.document().resolve(&state.model().scene);
+        [1, 2, 3].map(|n| resolved[n].style.gooch.alpha)
+    };
+    let default = window.state().document().style.gooch.alpha;
+    assert_eq!(alpha(&window), [0.8, 0.8, default]);
+    window.get_by_label("Inherit").click();
+    settle(&mut window);
+    assert_eq!(alpha(&window), [default; 3]);
+}
+
+#[test]
+fn rows_are_selected_one_by_one_in_ranges_and_by_filter() {
+    let mut window = window();
+    click(&mut window, Role::TreeItem, "rod");
+    window.get_by_role_and_label(Role::TreeItem, "wheel").click_modifiers(Modifiers::SHIFT);
+    settle(&mut window);
+    assert_eq!(selected(&window), ["rod", "bolt", "wheel"]);
+    window.get_by_role_and_label(Role::TreeItem, "bolt").click_modifiers(CTRL);
+    settle(&mut window);
+    assert_eq!(selected(&window), ["rod", "wheel"]);
+    window.key_press(Key::Escape);
+    settle(&mut window);
+    assert!(selected(&window).is_empty());
+    window.get_by_role(Role::TextInput).focus();
+    settle(&mut window);
+    window.get_by_role(Role::TextInput).type_text("whe");
+    settle(&mut window);
+    assert!(window.query_by_role_and_label(Role::TreeItem, "rod").is_none());
+    assert!(window.query_by_role_and_label(Role::TreeItem, "wheel").is_some());
+    assert!(window.state().document().camera.is_some(), "letters typed into a field are no commands");
+}
+
+#[test]
+fn a_click_in_the_picture_selects_what_is_there() {
+    let mut window = window();
+    ask(&mut window, Command::Front);
+    let middle = window.get_by_label("Picture").rect().center();
+    window.hover_at(middle);
+    window.drag_at(middle);
+    window.drop_at(middle);
+    until(&mut window, "the object is selected", |v| !v.selection().is_empty());
+    assert_eq!(selected(&window), ["bolt"]);
+    let corner = window.get_by_label("Picture").rect().min + Vec2::splat(8.0);
+    window.drag_at(corner);
+    window.drop_at(corner);
+    until(&mut window, "nothing is selected", |v| v.selection().is_empty());
+}
+
+fn drag(window: &mut Window, from: Pos2, by: Vec2, button: PointerButton) {
+    use eframe::egui::Event;
+    window.event(Event::PointerMoved(from));
+    let press = |pressed, pos| Event::PointerButton { pos, button, pressed, modifiers: Modifiers::NONE };
+    window.event(press(true, from));
+    for i in 1..=5 {
+        window.event(Event::PointerMoved(from + by * (i as f32 / 5.0)));
+        window.step();
+    }
+    window.event(press(false, from + by));
+    settle(window);
+}
+
+#[test]
+fn a_drag_turns_the_model_in_one_step_and_an_idle_window_draws_nothing() {
+    let mut window = window();
+    let before = window.state().document().camera.unwrap();
+    let middle = window.get_by_label("Picture").rect().center();
+    drag(&mut window, middle, Vec2::new(120.0, 30.0), PointerButton::Primary);
+    let turned = window.state().document().camera.unwrap();
+    assert!((turned.position - before.position).length() > 0.3);
+    assert!((turned.distance() - before.distance()).abs() < 1e-9);
+    drag(&mut window, middle, Vec2::new(60.0, 0.0), PointerButton::Middle);
+    let moved = window.state().document().camera.unwrap();
+    assert!((moved.focal_point - turned.focal_point).length() > 0.1);
+    ask(&mut window, Command::Undo);
+    assert_eq!(window.state().document().camera, Some(turned));
+    ask(&mut window, Command::Undo);
+    assert_eq!(window.state().document().camera, Some(before));
+
+    // A whole drag between two frames, as on a machine that is slow.
+    let press = |pressed, pos| eframe::egui::Event::PointerButton {
+        pos,
+        button: PointerButton::Primary,
+        pressed,
+        modifiers: Modifiers::NONE,
+    };
+    let input = &mut window.input_mut().events;
+    input.push(eframe::egui::Event::PointerMoved(middle));
+    input.push(press(true, middle));
+    input.push(eframe::egui::Event::PointerMoved(middle + Vec2::new(80.0, 0.0)));
+    input.push(press(false, middle + Vec2::new(80.0, 0.0)));
+    settle(&mut window);
+    assert_ne!(window.state().document().camera, Some(before));
+    assert!(window.state().selection().is_empty(), "a drag is no click");
+    ask(&mut window, Command::Undo);
+    assert_eq!(window.state().document().camera, Some(before));
+
+    let pictures = window.state().viewport().pictures();
+    window.hover_at(middle + Vec2::new(3.0, 3.0));
+    for _ in 0..10 {
+        window.step();
+    }
+    assert_eq!(window.state().viewport().pictures(), pictures, "nothing changed, so nothing is drawn");
+}
+
+#[test]
+fn the_wheel_zooms_to_the_pointer_in_one_step() {
+    let mut window = window();
+    let before = window.state().document().camera.unwrap();
+    let at = window.get_by_label("Picture").rect().center() + Vec2::new(150.0, 40.0);
+    window.hover_at(at);
+    settle(&mut window);
+    for _ in 0..3 {
+        window.event(eframe::egui::Event::MouseWheel {
+            unit: eframe::egui::MouseWheelUnit::Line,
+            delta: Vec2::new(0.0, 1.0),
+            phase: eframe::egui::TouchPhase::Move,
+            source: eframe::egui::MouseWheelSource::Wheel,
+            modifiers: Modifiers::NONE,
+        });
+        window.step();
+    }
+    for _ in 0..60 {
+        window.step();
+    }
+    let after = window.state().document().camera.unwrap();
+    assert!(after.distance() < before.distance() * 0.7);
+    assert!((after.focal_point - before.focal_point).dot(before.right()) > 0.1);
+    ask(&mut window, Command::Undo);
+    assert_eq!(window.state().document().camera, Some(before));
+}
+
+#[test]
+fn surfaces_are_found_when_they_are_to_be_shown() {
+    let mut window = window();
+    click(&mut window, Role::Tab, "View");
+    choose(&mut window, "Show", "Surfaces");
+    let pictures = window.state().viewport().pictures();
+    until(&mut window, "the surfaces are shown", move |v| v.viewport().pictures() > pictures);
+    assert!(window.state().notices().list().is_empty());
+}
+
+#[test]
+fn standard_views_and_the_projection_have_keys() {
+    let mut window = window();
+    let forward = |window: &Window| window.state().document().camera.unwrap().forward().round();
+    window.key_press(Key::Num1);
+    settle(&mut window);
+    assert_eq!(forward(&window), DVec3::NEG_Z);
+    window.key_press_modifiers(CTRL, Key::Num3);
+    settle(&mut window);
+    assert_eq!(forward(&window), DVec3::X);
+    window.key_press(Key::Num7);
+    settle(&mut window);
+    assert_eq!(forward(&window), DVec3::NEG_Y);
+    window.key_press(Key::Num5);
+    settle(&mut window);
+    let camera = window.state().document().camera.unwrap();
+    assert!(matches!(camera.projection, Projection::Orthographic { .. }));
+    window.key_press(Key::Tab);
+    settle(&mut window);
+    assert!(!window.state().state().panels && window.query_by_label("Style").is_none());
+}
+
+#[test]
+fn the_view_page_sets_the_axis_and_the_model_stands_upright() {
+    let mut window = window();
+    click(&mut window, Role::Tab, "View");
+    choose(&mut window, "Up axis", "+Z");
+    assert_eq!(window.state().document().up, Some(Up::PosZ));
+    let camera = window.state().document().camera.unwrap();
+    assert!(camera.up().z > 0.5, "{camera:?}");
+}
+
+#[test]
+fn a_failed_load_says_so_and_keeps_what_was_there() {
+    let mut window = window_with("/models/engine.glb", |paths| {
+        if paths[0].ends_with("broken.glb") {
+            let message = "the header is cut off".to_owned();
+            return Err(ImportError::Malformed { path: paths[0].clone(), message });
+        }
+        assert!(!paths[0].ends_with("panic.glb"), "an unforeseen case");
+        Ok(engine(paths))
+    });
+    until(&mut window, "the model is there", |v| !v.is_loading());
+    let before = window.state().document().clone();
+    for (file, message) in [("broken.glb", "the header is cut off"), ("panic.glb", "an unforeseen case")] {
+        let context = window.ctx.clone();
+        let path = Path::new("/models").join(file);
+        window.state_mut().load(&context, vec![path], app::loading::Intent::Open);
+        until(&mut window, "it failed", |v| !v.is_loading());
+        assert!(says(&window, message));
+        assert!(window.query_by_label_contains(message).is_some(), "the message is on the screen");
+        assert_eq!(window.state().document(), &before);
+    }
+}
+
+#[test]
+fn a_load_can_be_cancelled_and_a_new_one_takes_its_place() {
+    let mut slow = window_loading("/models/slow.glb", |paths, progress| {
+        while paths[0].ends_with("slow.glb") {
+            progress.check()?;
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        Ok(engine(paths))
+    });
+    until(&mut slow, "it loads", Viewer::is_loading);
+    slow.get_by_label("Cancel").click();
+    settle(&mut slow);
+    assert!(!slow.state().is_loading() && slow.state().model().scene.nodes.is_empty());
+    let context = slow.ctx.clone();
+    for file in ["slow.glb", "engine.glb"] {
+        let path = Path::new("/models").join(file);
+        slow.state_mut().load(&context, vec![path], app::loading::Intent::Open);
+        slow.step();
+    }
+    until(&mut slow, "the second is there", |v| !v.is_loading());
+    assert_eq!(slow.state().document().models, [Path::new("/models/engine.glb")]);
+    assert!(slow.state().notices().list().is_empty());
+}
+
+#[test]
+fn adding_can_be_undone() {
+    let mut window = window_with("/models/a.glb", |paths| {
+        let mut scene = engine(paths);
+        scene.nodes[0].name = format!("{} files", paths.len());
+        scene.warnings.push(Warning { place: "a.glb".to_owned(), message: "no such texture".to_owned() });
+        Ok(scene)
+    });
+    until(&mut window, "a is there", |v| !v.is_loading());
+    assert!(says(&window, "1 warning"));
+    ask(&mut window, Command::Warnings);
+    assert!(window.query_by_label_contains("no such texture").is_some());
+    let context = window.ctx.clone();
+    window.state_mut().load(&context, vec!["/models/b.glb".into()], app::loading::Intent::Add);
+    until(&mut window, "b is there", |v| !v.is_loading());
+    assert_eq!(window.state().document().models.len(), 2);
+    ask(&mut window, Command::Undo);
+    until(&mut window, "b is gone", |v| !v.is_loading());
+    assert_eq!(window.state().document().models, [Path::new("/models/a.glb")]);
+    assert_eq!(window.state().model().scene.nodes[0].name, "1 files");
+}
+
+#[test]
+fn a_document_opens_with_its_styles_and_camera() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("drawing.hachure");
+    let mut document = Document {
+        models: vec![folder.path().join("engine.glb")],
+        up: Some(Up::PosZ),
+        camera: Some(hachure::scene::Camera::default()),
+        ..Document::default()
+    };
+    document.node_mut("/engine/rod").visible = Some(false);
+    document.save(&path).unwrap();
+    let mut window = window_with(path.to_str().unwrap(), |paths| Ok(engine(paths)));
+    until(&mut window, "it is there", |v| !v.is_loading());
+    assert_eq!(window.state().document(), &document);
+    ask(&mut window, Command::Isolate);
+    click(&mut window, Role::CheckBox, "Show wheel");
+    ask(&mut window, Command::Save);
+    until(&mut window, "it is saved", |v| v.notices().list().iter().any(|n| n.text.starts_with("Saved")));
+    assert_eq!(&Document::open(&path).unwrap(), window.state().document());
+}
+
+#[test]
+fn isolating_hides_everything_else_and_again_shows_all() {
+    let mut window = window();
+    click(&mut window, Role::TreeItem, "bolt");
+    let visible = |window: &Window| -> Vec<bool> {
+        let state = window.state();
+        state.document().resolve(&state.model().scene).iter().map(|r| r.visible).collect()
+    };
+    ask(&mut window, Command::Isolate);
+    assert_eq!(visible(&window), [true, true, true, false]);
+    ask(&mut window, Command::Isolate);
+    assert_eq!(visible(&window), [true; 4]);
+    ask(&mut window, Command::Hide);
+    assert_eq!(visible(&window), [true, true, false, true]);
+    ask(&mut window, Command::ShowAll);
+    assert!(window.state().document().nodes.is_empty());
+}
+
+#[test]
+fn two_thousand_objects_cost_only_the_rows_that_are_seen() {
+    let mut window = window_with("/models/many.glb", |paths| {
+        let mut scene = engine(paths);
+        let row = scene.nodes[3].clone();
+        for i in 0..2000 {
+            let (name, path) = (format!("part.{i}"), format!("/engine/part.{i}"));
+            scene.nodes.push(Node { name, path, ..row.clone() });
+        }
+        scene.nodes[0].descendants += 2000;
+        Ok(scene)
+    });
+    until(&mut window, "it is there", |v| !v.is_loading());
+    let rows = window.get_all_by_role(Role::TreeItem).count();
+    assert!((10..100).contains(&rows), "{rows} rows");
+    ask(&mut window, Command::SelectAll);
+    let began = Instant::now();
+    window.get_by_role_and_label(Role::Slider, "Base in cool").set_value_accesskit(0.7);
+    settle(&mut window);
+    assert!(began.elapsed() < Duration::from_secs(5), "{:?}", began.elapsed());
+    assert!(window.root().children().count() > 0);
+}
