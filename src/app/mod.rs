@@ -42,6 +42,11 @@ pub enum AppError {
     /// The window came without the kind of device that is needed.
     #[error("the window has no graphics device; this is a mistake of the program, please report it")]
     NoDevice,
+    /// There is no screen.
+    #[error(
+        "no display: neither WAYLAND_DISPLAY nor DISPLAY is set. `hachure render` draws without a window"
+    )]
+    NoDisplay,
     /// The system gave no window.
     #[error("cannot open a window: {0}. On a machine without a screen, use `hachure render`")]
     Window(String),
@@ -53,6 +58,9 @@ pub enum AppError {
 /// # Errors
 /// [`AppError`], with what to install when there is no graphics driver.
 pub fn run(files: Vec<PathBuf>, style: Option<Style>) -> Result<(), AppError> {
+    if cfg!(target_os = "linux") && ["WAYLAND_DISPLAY", "DISPLAY"].iter().all(is_unset) {
+        return Err(AppError::NoDisplay);
+    }
     let options = eframe::NativeOptions {
         viewport: egui::ViewportBuilder::default()
             .with_title("Hachure")
@@ -67,6 +75,10 @@ pub fn run(files: Vec<PathBuf>, style: Option<Style>) -> Result<(), AppError> {
     let launch = Launch { files, style, ..Launch::default() };
     eframe::run_native("hachure", options, Box::new(|creation| Ok(Box::new(Viewer::new(creation, launch)?))))
         .map_err(as_app_error)
+}
+
+fn is_unset(variable: &&str) -> bool {
+    std::env::var_os(variable).is_none_or(|value| value.is_empty())
 }
 
 fn as_app_error(error: eframe::Error) -> AppError {

@@ -15,7 +15,7 @@ use crate::style::{Color, Value};
 pub(super) struct Cli {
     #[command(subcommand)]
     pub command: Option<Command>,
-    /// Models (glTF, GLB, OBJ, STL, PLY) or one .hachure document to open in the window
+    /// Models (glTF, GLB, OBJ, STL, PLY) or one .hachure document to open in the window [default: the sample, in its own folder]
     pub files: Vec<PathBuf>,
     /// Style of all objects: a preset's name or a .toml file
     #[arg(long, value_name = "NAME|FILE")]

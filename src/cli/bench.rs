@@ -1,12 +1,11 @@
 //! `hachure bench`: milliseconds per stage and frame, and ratios, which hold on noisy machines too.
 
-use std::path::PathBuf;
 use std::time::Instant;
 
 use serde_json::json;
 
 use super::args::BenchArgs;
-use super::{CliError, print_json, print_line};
+use super::{CliError, print_json, print_line, sample};
 use crate::export::Session;
 use crate::export::session::{Opened, initial_camera, open};
 use crate::gpu::Gpu;
@@ -22,7 +21,7 @@ struct Row {
 }
 
 pub(super) fn run(args: &BenchArgs) -> Result<(), CliError> {
-    let files = if args.files.is_empty() { vec![sample()] } else { args.files.clone() };
+    let files = if args.files.is_empty() { sample().into_iter().collect() } else { args.files.clone() };
     let started = Instant::now();
     let opened = open(&files, &Progress::default())?;
     let load_ms = started.elapsed().as_secs_f64() * 1e3;
@@ -44,11 +43,6 @@ pub(super) fn run(args: &BenchArgs) -> Result<(), CliError> {
         }
     }
     report(args, &opened, &mut session, load_ms, &rows)
-}
-
-/// The model that comes with the program, from the working folder.
-fn sample() -> PathBuf {
-    PathBuf::from("assets/models/crank.glb")
 }
 
 fn styles() -> Result<Vec<(&'static str, Style)>, CliError> {

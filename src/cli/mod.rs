@@ -6,6 +6,8 @@ mod info;
 mod render;
 mod styles;
 
+use std::path::PathBuf;
+
 use clap::Parser as _;
 
 use crate::app::{self, AppError};
@@ -62,17 +64,31 @@ pub fn run() -> Result<i32, CliError> {
             return Ok(error.exit_code());
         }
     };
-    match cli.command {
-        Some(Command::Render(args)) => render::run(&args)?,
-        Some(Command::Info(args)) => info::run(&args)?,
-        Some(Command::Styles(args)) => styles::run(&args)?,
-        Some(Command::Bench(args)) => bench::run(&args)?,
-        None => {
-            let style = cli.style.as_deref().map(preset::load).transpose()?;
-            app::run(cli.files, style.map(|p| p.style))?;
-        }
+    let done = match cli.command {
+        Some(Command::Render(args)) => render::run(&args),
+        Some(Command::Info(args)) => info::run(&args),
+        Some(Command::Styles(args)) => styles::run(&args),
+        Some(Command::Bench(args)) => bench::run(&args),
+        None => window(cli.files, cli.style.as_deref()),
+    };
+    match done {
+        // Whoever reads the output has seen enough.
+        Err(CliError::Output(error)) if error.kind() == std::io::ErrorKind::BrokenPipe => Ok(0),
+        other => other.map(|()| 0),
     }
-    Ok(0)
+}
+
+fn window(mut files: Vec<PathBuf>, style: Option<&str>) -> Result<(), CliError> {
+    let style = style.map(preset::load).transpose()?;
+    if files.is_empty() {
+        files.extend(sample());
+    }
+    Ok(app::run(files, style.map(|p| p.style))?)
+}
+
+/// The model that comes with the program, where it is started from its own folder.
+fn sample() -> Option<PathBuf> {
+    Some(PathBuf::from("assets/models/crank.glb")).filter(|path| path.exists())
 }
 
 /// Prints a value as JSON with a newline.

@@ -24,8 +24,8 @@ pub enum PatternError {
         reason: String,
     },
     /// It matches no node of the scene.
-    #[error("no object matches `{pattern}`{}; `hachure info FILE` lists all paths",
-        nearest.as_ref().map(|n| format!("; did you mean `{n}`?")).unwrap_or_default())]
+    #[error("no object matches `{pattern}`{} `hachure info FILE` lists all paths",
+        nearest.as_ref().map_or(".".to_owned(), |n| format!("; did you mean `{n}`?")))]
     Unmatched {
         /// As written.
         pattern: String,

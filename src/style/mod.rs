@@ -106,8 +106,8 @@ pub enum StyleError {
     },
     /// No preset and no file has this name.
     #[error(
-        "unknown style `{name}`{}; `hachure styles` lists the presets, or give the path of a .toml file",
-        suggestion(nearest)
+        "unknown style `{name}`{} `hachure styles` lists the presets; the path of a .toml file works too",
+        sentence(nearest)
     )]
     UnknownPreset {
         /// As written.
@@ -139,6 +139,10 @@ pub enum StyleError {
         /// What the parser said.
         message: String,
     },
+}
+
+fn sentence(nearest: &Option<String>) -> String {
+    nearest.as_ref().map_or(".".to_owned(), |n| format!("; did you mean `{n}`?"))
 }
 
 fn suggestion(nearest: &Option<String>) -> String {
