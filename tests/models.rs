@@ -47,26 +47,17 @@ impl Model {
                     positions: reader.read_positions().unwrap().map(Vec3::from).collect(),
                     normals: reader.read_normals().unwrap().map(Vec3::from).collect(),
                     uvs: uvs.map(|uvs| uvs.into_f32().collect()).unwrap_or_default(),
-                    faces: indices
-                        .chunks_exact(3)
-                        .map(|c| [c[0], c[1], c[2]])
-                        .collect(),
+                    faces: indices.chunks_exact(3).map(|c| [c[0], c[1], c[2]]).collect(),
                 }
             })
             .collect();
-        Self {
-            document,
-            parts,
-            bytes: bytes.len(),
-        }
+        Self { document, parts, bytes: bytes.len() }
     }
 
     /// Triangles shown: a mesh counts once for each node that shows it.
     fn triangles(&self) -> usize {
         let meshes = self.document.nodes().filter_map(|node| node.mesh());
-        meshes
-            .map(|mesh| self.parts[mesh.index()].faces.len())
-            .sum()
+        meshes.map(|mesh| self.parts[mesh.index()].faces.len()).sum()
     }
 
     /// What holds for every part of every model.
@@ -94,11 +85,7 @@ impl Part {
     /// For each directed edge, welded by position, the faces that run along it.
     fn edges(&self) -> BTreeMap<(Key, Key), Vec<usize>> {
         // Adding zero makes −0 and 0 equal.
-        let key = |i: usize| {
-            (self.positions[i] + Vec3::ZERO)
-                .to_array()
-                .map(f32::to_bits)
-        };
+        let key = |i: usize| (self.positions[i] + Vec3::ZERO).to_array().map(f32::to_bits);
         let mut edges: BTreeMap<_, Vec<usize>> = BTreeMap::new();
         for (f, face) in self.faces.iter().enumerate() {
             for k in 0..3 {
@@ -138,10 +125,7 @@ impl Part {
             for i in face {
                 let shading = self.normals[i].as_dvec3();
                 assert!((shading.length() - 1.0).abs() < 1e-3, "{name}: not unit");
-                assert!(
-                    shading.dot(self.normal(face)) > 0.0,
-                    "{name}: normal points in"
-                );
+                assert!(shading.dot(self.normal(face)) > 0.0, "{name}: normal points in");
             }
         }
     }
@@ -154,10 +138,7 @@ impl Part {
             .keys()
             .filter(|(a, b)| a < b)
             .filter_map(|&(a, b)| Some((faces(&(a, b))?, faces(&(b, a))?)))
-            .map(|(f, g)| {
-                self.normal(self.faces[f])
-                    .angle_between(self.normal(self.faces[g]))
-            })
+            .map(|(f, g)| self.normal(self.faces[f]).angle_between(self.normal(self.faces[g])))
             .map(f64::to_degrees)
             .collect()
     }
@@ -177,14 +158,7 @@ fn the_crank_is_an_assembly_of_closed_parts() {
     assert!(shown.len() >= 20, "{shown:?}");
     let scene = crank.document.default_scene().unwrap();
     let roots = names(&mut scene.nodes());
-    for name in [
-        "crankshaft",
-        "rod.3",
-        "piston.3",
-        "flywheel",
-        "bearing.1",
-        "pulley",
-    ] {
+    for name in ["crankshaft", "rod.3", "piston.3", "flywheel", "bearing.1", "pulley"] {
         assert!(roots.iter().any(|root| root == name), "{name} in {roots:?}");
     }
     for root in scene.nodes() {
@@ -227,13 +201,7 @@ fn the_ogre_can_be_textured() {
         let mut ratios: Vec<f64> = part.faces.iter().map(ratio).collect();
         ratios.sort_by(f64::total_cmp);
         let usual = ratios[ratios.len() / 2];
-        stretched += ratios
-            .iter()
-            .filter(|r| **r > 4.0 * usual || **r < usual / 4.0)
-            .count();
+        stretched += ratios.iter().filter(|r| **r > 4.0 * usual || **r < usual / 4.0).count();
     }
-    assert!(
-        stretched * 100 < ogre.triangles() * 2,
-        "{stretched} stretched faces"
-    );
+    assert!(stretched * 100 < ogre.triangles() * 2, "{stretched} stretched faces");
 }

@@ -43,7 +43,7 @@ pub enum AppError {
     #[error("the window has no graphics device; this is a mistake of the program, please report it")]
     NoDevice,
     /// The system gave no window.
-    #[error("cannot open a window: {0}. On a machine without a screen, use `hachure render`")]
+    #[error("cannot open a window ({0}); on a machine without a screen, use `hachure render`")]
     Window(String),
 }
 

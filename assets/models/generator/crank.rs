@@ -38,12 +38,7 @@ enum Finish {
 
 /// The colours of the finishes.
 fn materials() -> Vec<Material> {
-    let finish = |name, srgb, metallic, roughness| Material {
-        name,
-        srgb,
-        metallic,
-        roughness,
-    };
+    let finish = |name, srgb, metallic, roughness| Material { name, srgb, metallic, roughness };
     vec![
         finish("forged steel", 0xa3_abb3, 0.0, 0.6),
         finish("ground steel", 0xd6_dbdf, 0.0, 0.3),
@@ -59,12 +54,7 @@ fn materials() -> Vec<Material> {
 
 /// The file's contents.
 pub(crate) fn scene() -> Scene {
-    let mut shop = Shop {
-        scene: Scene {
-            materials: materials(),
-            ..Scene::default()
-        },
-    };
+    let mut shop = Shop { scene: Scene { materials: materials(), ..Scene::default() } };
     let mut roots = vec![crankshaft(&mut shop)];
     roots.extend(rods(&mut shop));
     roots.extend(pistons(&mut shop));
@@ -125,17 +115,9 @@ fn crankshaft(shop: &mut Shop) -> Node {
     for i in 0..3 {
         let turn = DQuat::from_rotation_x(throw_angle(i));
         let at = turn * glam::dvec3(cylinder_x(i), THROW, 0.0);
-        children.push(
-            Node::new(format!("pin.{}", i + 1), pin)
-                .at(at.x, at.y, at.z)
-                .turned(turn),
-        );
+        children.push(Node::new(format!("pin.{}", i + 1), pin).at(at.x, at.y, at.z).turned(turn));
         for (side, about_y) in [(1.0, std::f64::consts::PI), (-1.0, 0.0)] {
-            let number = children
-                .iter()
-                .filter(|c| c.name.starts_with("web"))
-                .count()
-                + 1;
+            let number = children.iter().filter(|c| c.name.starts_with("web")).count() + 1;
             children.push(
                 Node::new(format!("web.{number}"), web)
                     .at(cylinder_x(i) + side * crankshaft::WEB_AT, 0.0, 0.0)
@@ -188,16 +170,10 @@ fn pistons(shop: &mut Shop) -> Vec<Node> {
             for (k, &y) in piston::RINGS.iter().enumerate() {
                 let mesh = if k == 2 { oil } else { ring };
                 let gap = DQuat::from_rotation_y(2.1 * k as f64 + 0.9);
-                children.push(
-                    Node::new(format!("ring.{}", k + 1), mesh)
-                        .at(0.0, y, 0.0)
-                        .turned(gap),
-                );
+                children.push(Node::new(format!("ring.{}", k + 1), mesh).at(0.0, y, 0.0).turned(gap));
             }
             children.push(Node::new("pin", pin));
-            Node::new(format!("piston.{}", i + 1), None)
-                .at(cylinder_x(i), slider(i).0, 0.0)
-                .with(children)
+            Node::new(format!("piston.{}", i + 1), None).at(cylinder_x(i), slider(i).0, 0.0).with(children)
         })
         .collect()
 }
@@ -206,9 +182,7 @@ fn pistons(shop: &mut Shop) -> Vec<Node> {
 fn bearings(shop: &mut Shop) -> Vec<Node> {
     let shell = shop.make("main_shell", Finish::Brass, crankshaft::main_shell());
     (0..4)
-        .map(|i| {
-            Node::new(format!("bearing.{}", i + 1), shell).at(PITCH * (1.5 - i as f64), 0.0, 0.0)
-        })
+        .map(|i| Node::new(format!("bearing.{}", i + 1), shell).at(PITCH * (1.5 - i as f64), 0.0, 0.0))
         .collect()
 }
 
@@ -241,16 +215,11 @@ fn front_end(shop: &mut Shop) -> Vec<Node> {
     let bolt = shop.make("nose_bolt", Finish::Black, flywheel::nose_bolt());
     let turn = DQuat::from_rotation_x(throw_angle(0));
     vec![
-        Node::new("timing_gear", gear)
-            .at(flywheel::GEAR_AT, 0.0, 0.0)
-            .turned(turn),
-        Node::new("pulley", None)
-            .at(flywheel::PULLEY_AT, 0.0, 0.0)
-            .turned(turn)
-            .with(vec![
-                Node::new("wheel", pulley),
-                Node::new("washer", washer),
-                Node::new("bolt", bolt),
-            ]),
+        Node::new("timing_gear", gear).at(flywheel::GEAR_AT, 0.0, 0.0).turned(turn),
+        Node::new("pulley", None).at(flywheel::PULLEY_AT, 0.0, 0.0).turned(turn).with(vec![
+            Node::new("wheel", pulley),
+            Node::new("washer", washer),
+            Node::new("bolt", bolt),
+        ]),
     ]
 }

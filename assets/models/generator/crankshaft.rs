@@ -24,16 +24,10 @@ const FILLET: f64 = 3.0;
 
 /// A web: rounded around the pin, with a fan-shaped counterweight; the main journal's side faces −X.
 pub(crate) fn web() -> Solid {
-    let mut right: Vec<(f64, f64, f64)> = arc(DVec2::ZERO, 74.0, -FRAC_PI_2, -0.6, 6)
-        .iter()
-        .map(|p| (p.x, p.y, 0.0))
-        .collect();
+    let mut right: Vec<(f64, f64, f64)> =
+        arc(DVec2::ZERO, 74.0, -FRAC_PI_2, -0.6, 6).iter().map(|p| (p.x, p.y, 0.0)).collect();
     right.extend([(66.5, -27.0, 9.0), (37.0, -6.0, 16.0)]);
-    right.extend(
-        arc(dvec2(0.0, THROW), 31.5, 0.0, FRAC_PI_2, 7)
-            .iter()
-            .map(|p| (p.x, p.y, 0.0)),
-    );
+    right.extend(arc(dvec2(0.0, THROW), 31.5, 0.0, FRAC_PI_2, 7).iter().map(|p| (p.x, p.y, 0.0)));
     let left = right.iter().rev().skip(1).map(|&(x, y, r)| (-x, y, r));
     let mut corners: Vec<_> = right.iter().copied().chain(left).collect();
     corners.pop();
@@ -54,10 +48,7 @@ fn filleted(radius: f64, half: f64, segments: usize) -> Solid {
     let mut side: Vec<DVec2> = (0..=2)
         .map(|i| {
             let angle = 1.3 * f64::from(i) / 2.0;
-            dvec2(
-                radius + FILLET * (1.0 - angle.cos()),
-                half - FILLET + FILLET * angle.sin(),
-            )
+            dvec2(radius + FILLET * (1.0 - angle.cos()), half - FILLET + FILLET * angle.sin())
         })
         .collect();
     // The last chord goes on into the collar.
@@ -79,27 +70,14 @@ pub(crate) fn pin() -> Solid {
 
 /// The stepped shaft in front of the first journal.
 pub(crate) fn nose() -> Solid {
-    let profile = [
-        (27.0, 140.0),
-        (27.0, 149.0),
-        (18.0, 149.0),
-        (18.0, 171.0),
-        (15.0, 171.0),
-        (15.0, 189.0),
-    ];
+    let profile = [(27.0, 140.0), (27.0, 149.0), (18.0, 149.0), (18.0, 171.0), (15.0, 171.0), (15.0, 189.0)];
     Plate::turned(&profile, 24).solid().along(Axis::X)
 }
 
 /// The flange that carries the flywheel.
 pub(crate) fn flange() -> Solid {
-    let profile = [
-        (37.0, -160.0),
-        (37.0, -150.0),
-        (36.0, -149.0),
-        (31.0, -149.0),
-        (28.0, -146.5),
-        (28.0, -140.0),
-    ];
+    let profile =
+        [(37.0, -160.0), (37.0, -150.0), (36.0, -149.0), (31.0, -149.0), (28.0, -146.5), (28.0, -140.0)];
     Plate::turned(&profile, 28).solid().along(Axis::X)
 }
 
@@ -126,15 +104,8 @@ pub(crate) fn main_shell() -> Solid {
 pub(crate) fn tube(inner: f64, outer: f64, half: f64, chamfer: f64, segments: usize) -> Plate {
     Plate {
         outline: circle(DVec2::ZERO, outer, segments),
-        rim: if chamfer > 0.0 {
-            chamfered(half, chamfer)
-        } else {
-            vec![(0.0, -half), (0.0, half)]
-        },
-        holes: vec![Hole {
-            outline: circle(DVec2::ZERO, inner, segments),
-            chamfer: 0.0,
-        }],
+        rim: if chamfer > 0.0 { chamfered(half, chamfer) } else { vec![(0.0, -half), (0.0, half)] },
+        holes: vec![Hole { outline: circle(DVec2::ZERO, inner, segments), chamfer: 0.0 }],
         ..Plate::default()
     }
 }

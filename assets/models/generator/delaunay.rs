@@ -69,9 +69,6 @@ fn in_circle(a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> bool {
     let [a, b, c] = [a - d, b - d, c - d];
     let value = a.length_squared() * b.perp_dot(c) - b.length_squared() * a.perp_dot(c)
         + c.length_squared() * a.perp_dot(b);
-    let scale = a
-        .length_squared()
-        .max(b.length_squared())
-        .max(c.length_squared());
+    let scale = a.length_squared().max(b.length_squared()).max(c.length_squared());
     value > 1e-9 * scale * scale
 }

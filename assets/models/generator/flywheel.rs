@@ -37,10 +37,7 @@ pub(crate) fn disc() -> Solid {
             chamfer,
         })
     };
-    let mut holes = vec![Hole {
-        outline: circle(DVec2::ZERO, 11.0, 18),
-        chamfer: 0.0,
-    }];
+    let mut holes = vec![Hole { outline: circle(DVec2::ZERO, 11.0, 18), chamfer: 0.0 }];
     holes.extend(around(BOLT_CIRCLE, 4.4, 0.0, 10, 0.0));
     holes.extend(around(63.0, 13.0, TAU / 12.0, 17, 0.0));
     let sunk = |hub: f64| {
@@ -66,10 +63,7 @@ pub(crate) fn ring_gear() -> Solid {
     Plate {
         outline: gear(60, 109.6, 114.6),
         rim: vec![(0.0, -2.0), (0.0, 8.0)],
-        holes: vec![Hole {
-            outline: circle(DVec2::ZERO, 104.0, 48),
-            chamfer: 0.0,
-        }],
+        holes: vec![Hole { outline: circle(DVec2::ZERO, 104.0, 48), chamfer: 0.0 }],
         ..Plate::default()
     }
     .solid()
@@ -121,19 +115,13 @@ pub(crate) fn pulley() -> Solid {
 
 /// The washer between the pulley and its bolt.
 pub(crate) fn washer() -> Solid {
-    Plate {
-        outline: circle(DVec2::ZERO, 18.5, 24),
-        rim: vec![(0.0, -1.5), (0.0, 1.5)],
-        ..Plate::default()
-    }
-    .solid()
-    .along(Axis::X)
-    .moved(10.3, 0.0, 0.0)
+    Plate { outline: circle(DVec2::ZERO, 18.5, 24), rim: vec![(0.0, -1.5), (0.0, 1.5)], ..Plate::default() }
+        .solid()
+        .along(Axis::X)
+        .moved(10.3, 0.0, 0.0)
 }
 
 /// The bolt that holds the pulley.
 pub(crate) fn nose_bolt() -> Solid {
-    hex_bolt(21.0, 11.0, 7.0, 40.0, 16)
-        .along(Axis::X)
-        .moved(11.6, 0.0, 0.0)
+    hex_bolt(21.0, 11.0, 7.0, 40.0, 16).along(Axis::X).moved(11.6, 0.0, 0.0)
 }

@@ -79,11 +79,7 @@ impl Node {
     /// Triangles that this node and those below it show.
     pub(crate) fn triangles(&self, meshes: &[Mesh]) -> usize {
         let own = self.mesh.map_or(0, |mesh| meshes[mesh].indices.len() / 3);
-        own + self
-            .children
-            .iter()
-            .map(|child| child.triangles(meshes))
-            .sum::<usize>()
+        own + self.children.iter().map(|child| child.triangles(meshes)).sum::<usize>()
     }
 }
 
@@ -107,10 +103,7 @@ impl Scene {
 
     /// Triangles shown, a mesh counted once per node that shows it.
     pub(crate) fn triangles(&self) -> usize {
-        self.roots
-            .iter()
-            .map(|root| root.triangles(&self.meshes))
-            .sum()
+        self.roots.iter().map(|root| root.triangles(&self.meshes)).sum()
     }
 
     /// The bytes of the file.
@@ -118,11 +111,7 @@ impl Scene {
         let mut buffer = Buffer::default();
         let meshes: Vec<Value> = self.meshes.iter().map(|mesh| buffer.mesh(mesh)).collect();
         let mut nodes = Vec::new();
-        let roots: Vec<usize> = self
-            .roots
-            .iter()
-            .map(|root| flatten(root, &mut nodes))
-            .collect();
+        let roots: Vec<usize> = self.roots.iter().map(|root| flatten(root, &mut nodes)).collect();
         let document = json!({
             "asset": { "version": "2.0", "generator": "hachure models" },
             "scene": 0,
@@ -187,10 +176,7 @@ impl Buffer {
         }
         let short = mesh.positions.len() < 65_535;
         let indices: Vec<u8> = if short {
-            mesh.indices
-                .iter()
-                .flat_map(|&i| (i as u16).to_le_bytes())
-                .collect()
+            mesh.indices.iter().flat_map(|&i| (i as u16).to_le_bytes()).collect()
         } else {
             mesh.indices.iter().flat_map(|i| i.to_le_bytes()).collect()
         };
@@ -204,23 +190,12 @@ impl Buffer {
 
     /// Stores a vertex attribute.
     fn floats<const N: usize>(&mut self, shape: &str, values: &[[f32; N]]) -> usize {
-        let bytes: Vec<u8> = values
-            .iter()
-            .flatten()
-            .flat_map(|v| v.to_le_bytes())
-            .collect();
+        let bytes: Vec<u8> = values.iter().flatten().flat_map(|v| v.to_le_bytes()).collect();
         self.accessor(&bytes, Self::VERTICES, Self::F32, shape, values.len())
     }
 
     /// Stores bytes behind an accessor of their own.
-    fn accessor(
-        &mut self,
-        bytes: &[u8],
-        target: u32,
-        kind: u32,
-        shape: &str,
-        count: usize,
-    ) -> usize {
+    fn accessor(&mut self, bytes: &[u8], target: u32, kind: u32, shape: &str, count: usize) -> usize {
         self.views.push(json!({
             "buffer": 0, "byteOffset": self.bytes.len(), "byteLength": bytes.len(), "target": target,
         }));
@@ -235,11 +210,7 @@ impl Buffer {
 
 /// Appends a node after its children and returns its index.
 fn flatten(node: &Node, nodes: &mut Vec<Value>) -> usize {
-    let children: Vec<usize> = node
-        .children
-        .iter()
-        .map(|child| flatten(child, nodes))
-        .collect();
+    let children: Vec<usize> = node.children.iter().map(|child| flatten(child, nodes)).collect();
     let mut json = json!({ "name": node.name });
     if let Some(mesh) = node.mesh {
         json["mesh"] = json!(mesh);
@@ -261,11 +232,7 @@ fn flatten(node: &Node, nodes: &mut Vec<Value>) -> usize {
 fn material_json(material: &Material) -> Value {
     let channel = |shift: u32| {
         let c = f64::from((material.srgb >> shift) & 0xff) / 255.0;
-        let linear = if c <= 0.040_45 {
-            c / 12.92
-        } else {
-            ((c + 0.055) / 1.055).powf(2.4)
-        };
+        let linear = if c <= 0.040_45 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) };
         (linear * 1e5).round() / 1e5
     };
     json!({

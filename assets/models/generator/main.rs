@@ -39,11 +39,7 @@ fn main() {
         let bytes = scene.to_glb();
         let path = format!("assets/models/{name}.glb");
         std::fs::write(&path, &bytes).expect("run this in the repository's root");
-        println!(
-            "{path}: {} triangles, {} KiB",
-            scene.triangles(),
-            bytes.len().div_ceil(1024)
-        );
+        println!("{path}: {} triangles, {} KiB", scene.triangles(), bytes.len().div_ceil(1024));
         for root in &scene.roots {
             println!("  {:12} {:6}", root.name, root.triangles(&scene.meshes));
         }

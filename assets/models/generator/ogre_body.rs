@@ -52,24 +52,13 @@ pub(crate) static OPEN: LazyLock<[Digit; 4]> = LazyLock::new(|| {
         let bent = (way * 0.8 + palm * 0.6).normalize();
         let middle = root + way * length;
         let tip = middle + bent * length * 0.85;
-        (
-            [(root, 0.052), (middle, 0.048), (tip, 0.042)],
-            (bent * 0.75 - palm).normalize(),
-        )
+        ([(root, 0.052), (middle, 0.048), (tip, 0.042)], (bent * 0.75 - palm).normalize())
     };
     let root = LEFT_WRIST + up * 0.06 - side * 0.08 + palm * 0.02;
     let middle = root - side * 0.1 + up * 0.06 + palm * 0.03;
     let tip = middle - side * 0.03 + up * 0.085 + palm * 0.02;
-    let thumb = (
-        [(root, 0.056), (middle, 0.05), (tip, 0.043)],
-        (up - palm).normalize(),
-    );
-    [
-        finger(-0.1, 0.122),
-        finger(0.0, 0.135),
-        finger(0.1, 0.117),
-        thumb,
-    ]
+    let thumb = ([(root, 0.056), (middle, 0.05), (tip, 0.043)], (up - palm).normalize());
+    [finger(-0.1, 0.122), finger(0.0, 0.135), finger(0.1, 0.117), thumb]
 });
 
 /// The raised hand's axes: along the fingers, out of the palm, away from the thumb.
@@ -103,17 +92,9 @@ pub(crate) static FIST: LazyLock<[Digit; 4]> = LazyLock::new(|| {
         ];
         (balls, (on(160.0, 0.0, 1.0) - GRIP).normalize())
     };
-    let thumb = [
-        (on(-40.0, 0.04, 0.11), 0.054),
-        (on(-85.0, 0.12, 0.112), 0.049),
-        (on(-140.0, 0.165, 0.105), 0.042),
-    ];
-    [
-        finger(-0.098),
-        finger(0.0),
-        finger(0.095),
-        (thumb, (on(-115.0, 0.02, 1.0) - GRIP).normalize()),
-    ]
+    let thumb =
+        [(on(-40.0, 0.04, 0.11), 0.054), (on(-85.0, 0.12, 0.112), 0.049), (on(-140.0, 0.165, 0.105), 0.042)];
+    [finger(-0.098), finger(0.0), finger(0.095), (thumb, (on(-115.0, 0.02, 1.0) - GRIP).normalize())]
 });
 
 /// The arm that leans on the club: shoulder, elbow, wrist.
@@ -124,11 +105,8 @@ pub(crate) const RIGHT_ARM: [(DVec3, f64); 3] = [
 ];
 
 /// The raised arm.
-pub(crate) const LEFT_ARM: [(DVec3, f64); 3] = [
-    (dvec3(0.46, 1.29, -0.02), 0.19),
-    (dvec3(0.85, 1.13, 0.03), 0.125),
-    (LEFT_WRIST, 0.098),
-];
+pub(crate) const LEFT_ARM: [(DVec3, f64); 3] =
+    [(dvec3(0.46, 1.29, -0.02), 0.19), (dvec3(0.85, 1.13, 0.03), 0.125), (LEFT_WRIST, 0.098)];
 
 /// An arm without its hand: muscles on two bones.
 fn arm(p: DVec3, joints: &[(DVec3, f64); 3]) -> f64 {
@@ -150,13 +128,8 @@ fn left_arm(p: DVec3) -> f64 {
     }
     let axes = DMat3::from_cols(side, up, palm);
     let flat = dvec3(0.125, 0.135, 0.078);
-    d = join(
-        d,
-        turned_ellipsoid(p, LEFT_WRIST + up * 0.11, axes, flat),
-        0.05,
-    );
-    OPEN.iter()
-        .fold(d, |d, (balls, _)| join(d, limb(p, balls, 0.04), 0.04))
+    d = join(d, turned_ellipsoid(p, LEFT_WRIST + up * 0.11, axes, flat), 0.05);
+    OPEN.iter().fold(d, |d, (balls, _)| join(d, limb(p, balls, 0.04), 0.04))
 }
 
 /// The right arm with its fist.
@@ -167,47 +140,18 @@ fn right_arm(p: DVec3) -> f64 {
     }
     let (up, out, _) = fist_axes();
     let heel = (GRIP + out * 0.1 - up * 0.05, 0.085);
-    d = join(
-        d,
-        cone(p, heel, (GRIP + out * 0.1 + up * 0.06, 0.085)),
-        0.05,
-    );
-    FIST.iter()
-        .fold(d, |d, (balls, _)| join(d, limb(p, balls, 0.04), 0.035))
+    d = join(d, cone(p, heel, (GRIP + out * 0.1 + up * 0.06, 0.085)), 0.05);
+    FIST.iter().fold(d, |d, (balls, _)| join(d, limb(p, balls, 0.04), 0.035))
 }
 
 /// Chest, belly, pelvis and neck, without limbs.
 pub(crate) fn trunk(p: DVec3) -> f64 {
     let m = dvec3(p.x.abs(), p.y, p.z);
     let mut d = ellipsoid(p, dvec3(0.0, 1.15, -0.02), dvec3(0.43, 0.33, 0.31));
-    d = join(
-        d,
-        ellipsoid(p, dvec3(0.0, 0.855, 0.12), dvec3(0.44, 0.335, 0.41)),
-        0.12,
-    );
-    d = join(
-        d,
-        ellipsoid(p, dvec3(0.0, 0.62, -0.01), dvec3(0.37, 0.2, 0.29)),
-        0.12,
-    );
-    d = join(
-        d,
-        cone(
-            m,
-            (dvec3(0.0, 1.38, -0.04), 0.2),
-            (dvec3(0.36, 1.31, -0.04), 0.16),
-        ),
-        0.1,
-    );
-    join(
-        d,
-        cone(
-            p,
-            (dvec3(0.0, 1.33, 0.0), 0.2),
-            (dvec3(0.0, 1.5, 0.06), 0.19),
-        ),
-        0.08,
-    )
+    d = join(d, ellipsoid(p, dvec3(0.0, 0.855, 0.12), dvec3(0.44, 0.335, 0.41)), 0.12);
+    d = join(d, ellipsoid(p, dvec3(0.0, 0.62, -0.01), dvec3(0.37, 0.2, 0.29)), 0.12);
+    d = join(d, cone(m, (dvec3(0.0, 1.38, -0.04), 0.2), (dvec3(0.36, 1.31, -0.04), 0.16)), 0.1);
+    join(d, cone(p, (dvec3(0.0, 1.33, 0.0), 0.2), (dvec3(0.0, 1.5, 0.06), 0.19)), 0.08)
 }
 
 /// A leg, its foot turned out; `side` is −1 or 1, `step` moves the foot forwards.
@@ -216,20 +160,12 @@ fn leg(p: DVec3, side: f64, step: f64) -> f64 {
     let knee = dvec3(side * 0.3, 0.35, 0.08 + step);
     let ankle = dvec3(side * 0.3, 0.13, step);
     let mut d = limb(p, &[(hip, 0.23), (knee, 0.165), (ankle, 0.125)], 0.07);
-    d = join(
-        d,
-        sphere(p, dvec3(side * 0.31, 0.26, step - 0.02), 0.145),
-        0.08,
-    );
+    d = join(d, sphere(p, dvec3(side * 0.31, 0.26, step - 0.02), 0.145), 0.08);
     d = join(d, sphere(p, knee + dvec3(0.0, 0.0, 0.085), 0.085), 0.07);
     let (way, across) = foot_axes(side);
     let sole = ankle + way * 0.1 - DVec3::Y * 0.055;
     let axes = DMat3::from_cols(across, DVec3::Y, way);
-    d = join(
-        d,
-        turned_ellipsoid(p, sole, axes, dvec3(0.145, 0.085, 0.2)),
-        0.08,
-    );
+    d = join(d, turned_ellipsoid(p, sole, axes, dvec3(0.145, 0.085, 0.2)), 0.08);
     for (balls, _) in &TOES[if side > 0.0 { 0..3 } else { 3..6 }] {
         d = join_near(d, 0.04, p, (balls[1].0, 0.17), |p| limb(p, balls, 0.04));
     }
@@ -246,19 +182,11 @@ pub(crate) fn foot_axes(side: f64) -> (DVec3, DVec3) {
 fn toes(side: f64, step: f64) -> [Digit; 3] {
     let (way, across) = foot_axes(side);
     let ankle = dvec3(side * 0.3, 0.13, step);
-    [
-        (-0.09, 0.275, 0.066),
-        (0.012, 0.28, 0.056),
-        (0.098, 0.25, 0.05),
-    ]
-    .map(|(off, reach, r)| {
+    [(-0.09, 0.275, 0.066), (0.012, 0.28, 0.056), (0.098, 0.25, 0.05)].map(|(off, reach, r)| {
         let root = ankle + way * (reach - 0.1) + across * off * 0.9 + DVec3::Y * (r + 0.012 - 0.13);
         let knuckle = root + way * 0.05 + across * off * 0.1 + DVec3::Y * 0.012;
         let tip = root + way * 0.085 + across * off * 0.16 - DVec3::Y * 0.008;
-        (
-            [(root, r), (knuckle, r), (tip, r * 0.92)],
-            (way + DVec3::Y * 0.75).normalize(),
-        )
+        ([(root, r), (knuckle, r), (tip, r * 0.92)], (way + DVec3::Y * 0.75).normalize())
     })
 }
 
@@ -279,30 +207,10 @@ pub(crate) fn skin(p: DVec3) -> f64 {
     let m = dvec3(p.x.abs(), p.y, p.z);
     let mut d = trunk(p);
     // Breast, shoulder blades, spine, navel.
-    d = join(
-        d,
-        ellipsoid(m, dvec3(0.185, 1.185, 0.185), dvec3(0.19, 0.125, 0.145)),
-        0.06,
-    );
-    d = join(
-        d,
-        ellipsoid(m, dvec3(0.2, 1.2, -0.25), dvec3(0.13, 0.16, 0.085)),
-        0.08,
-    );
-    d = carve(
-        d,
-        cone(
-            p,
-            (dvec3(0.0, 1.38, -0.3), 0.03),
-            (dvec3(0.0, 0.75, -0.335), 0.03),
-        ),
-        0.09,
-    );
-    d = carve(
-        d,
-        ellipsoid(p, dvec3(0.0, 0.86, 0.545), dvec3(0.032, 0.042, 0.06)),
-        0.04,
-    );
+    d = join(d, ellipsoid(m, dvec3(0.185, 1.185, 0.185), dvec3(0.19, 0.125, 0.145)), 0.06);
+    d = join(d, ellipsoid(m, dvec3(0.2, 1.2, -0.25), dvec3(0.13, 0.16, 0.085)), 0.08);
+    d = carve(d, cone(p, (dvec3(0.0, 1.38, -0.3), 0.03), (dvec3(0.0, 0.75, -0.335), 0.03)), 0.09);
+    d = carve(d, ellipsoid(p, dvec3(0.0, 0.86, 0.545), dvec3(0.032, 0.042, 0.06)), 0.04);
     d = join(d, legs(p), 0.07);
     d = join_near(d, 0.08, p, (dvec3(0.8, 1.4, 0.1), 0.78), left_arm);
     d = join_near(d, 0.08, p, (dvec3(-0.7, 1.03, 0.08), 0.65), right_arm);

@@ -69,13 +69,7 @@ pub(crate) fn club(p: DVec3) -> f64 {
     let at = |t: f64| CLUB_FOOT.lerp(CLUB_TOP, t);
     let mut d = limb(
         p,
-        &[
-            (at(0.0), 0.17),
-            (at(0.3), 0.14),
-            (at(0.66), 0.066),
-            (at(1.0), 0.056),
-            (at(1.04), 0.07),
-        ],
+        &[(at(0.0), 0.17), (at(0.3), 0.14), (at(0.66), 0.066), (at(1.0), 0.056), (at(1.04), 0.07)],
         0.06,
     );
     let up = (CLUB_TOP - CLUB_FOOT).normalize();

@@ -14,17 +14,9 @@ pub(crate) fn skin(p: DVec3) -> f64 {
     // Both sides at once.
     let m = dvec3(p.x.abs(), p.y, p.z);
     let mut d = ellipsoid(p, dvec3(0.0, 0.05, -0.03), dvec3(0.225, 0.235, 0.245));
-    d = join(
-        d,
-        ellipsoid(p, dvec3(0.0, -0.15, 0.05), dvec3(0.255, 0.15, 0.2)),
-        0.1,
-    );
+    d = join(d, ellipsoid(p, dvec3(0.0, -0.15, 0.05), dvec3(0.255, 0.15, 0.2)), 0.1);
     // Cheekbones.
-    d = join(
-        d,
-        ellipsoid(m, dvec3(0.165, -0.06, 0.135), dvec3(0.075, 0.06, 0.07)),
-        0.06,
-    );
+    d = join(d, ellipsoid(m, dvec3(0.165, -0.06, 0.135), dvec3(0.075, 0.06, 0.07)), 0.06);
     // Sockets, then the brow over them: low in the middle.
     d = carve(d, sphere(m, EYE + dvec3(0.0, -0.004, 0.025), 0.066), 0.05);
     let brow = [
@@ -46,15 +38,7 @@ pub(crate) fn skin(p: DVec3) -> f64 {
     d = carve(d, mouth(m), 0.04);
     d = join(d, lower_lip(m), 0.04);
     d = join(d, nose(m), 0.04);
-    d = carve(
-        d,
-        cone(
-            m,
-            (dvec3(0.038, -0.142, 0.325), 0.027),
-            (dvec3(0.033, -0.11, 0.305), 0.018),
-        ),
-        0.035,
-    );
+    d = carve(d, cone(m, (dvec3(0.038, -0.142, 0.325), 0.027), (dvec3(0.033, -0.11, 0.305), 0.018)), 0.035);
     d = join(d, ear(m), 0.05);
     // A wart or two, where no mirror puts them.
     d = join(d, sphere(p, dvec3(0.19, -0.12, 0.163), 0.022), 0.035);
@@ -63,11 +47,7 @@ pub(crate) fn skin(p: DVec3) -> f64 {
 
 /// Bridge, tip and wings.
 fn nose(m: DVec3) -> f64 {
-    let bridge = cone(
-        m,
-        (dvec3(0.0, 0.03, 0.235), 0.036),
-        (dvec3(0.0, -0.065, 0.31), 0.05),
-    );
+    let bridge = cone(m, (dvec3(0.0, 0.03, 0.235), 0.036), (dvec3(0.0, -0.065, 0.31), 0.05));
     let tip = ellipsoid(m, dvec3(0.0, -0.085, 0.315), dvec3(0.068, 0.055, 0.055));
     let wing = ellipsoid(m, dvec3(0.075, -0.098, 0.27), dvec3(0.046, 0.04, 0.052));
     join(join(bridge, tip, 0.04), wing, 0.03)
@@ -149,10 +129,7 @@ pub(crate) fn tusks(p: DVec3) -> f64 {
         (dvec3(0.132, -0.1, 0.268), 0.02),
         (dvec3(0.136, -0.062, 0.258), 0.017),
     ];
-    let small = [
-        (dvec3(0.04, -0.23, 0.262), 0.02),
-        (dvec3(0.042, -0.172, 0.285), 0.016),
-    ];
+    let small = [(dvec3(0.04, -0.23, 0.262), 0.02), (dvec3(0.042, -0.172, 0.285), 0.016)];
     limb(m, &tusk, 0.04).min(limb(m, &small, 0.02))
 }
 
@@ -188,18 +165,11 @@ pub(crate) const STRANDS: [DVec3; 6] = [
 /// A tuft of hair, tied on top of the head.
 pub(crate) fn topknot(p: DVec3) -> f64 {
     let root = dvec3(0.0, 0.25, -0.07);
-    STRANDS.iter().fold(
-        cone(p, (root, 0.055), (root + dvec3(0.0, 0.08, -0.01), 0.036)),
-        |d, &tip| {
-            let bend = dvec3(tip.x * 0.6, 0.11 + tip.y * 0.22, tip.z * 0.45);
-            let strand = [
-                (root + dvec3(0.0, 0.07, -0.01), 0.03),
-                (root + bend, 0.038),
-                (root + tip, 0.021),
-            ];
-            join(d, limb(p, &strand, 0.05), 0.035)
-        },
-    )
+    STRANDS.iter().fold(cone(p, (root, 0.055), (root + dvec3(0.0, 0.08, -0.01), 0.036)), |d, &tip| {
+        let bend = dvec3(tip.x * 0.6, 0.11 + tip.y * 0.22, tip.z * 0.45);
+        let strand = [(root + dvec3(0.0, 0.07, -0.01), 0.03), (root + bend, 0.038), (root + tip, 0.021)];
+        join(d, limb(p, &strand, 0.05), 0.035)
+    })
 }
 
 /// The tie around the tuft.
@@ -215,10 +185,7 @@ pub(crate) const EARRING: DVec3 = dvec3(0.305, -0.118, -0.05);
 /// A ring through the left ear.
 pub(crate) fn earring(p: DVec3) -> f64 {
     let q = p - EARRING;
-    let around = (q.x * q.x * 0.5 + q.y * q.y + q.z * q.z * 0.5 + q.x * q.z)
-        .abs()
-        .sqrt()
-        - 0.042;
+    let around = (q.x * q.x * 0.5 + q.y * q.y + q.z * q.z * 0.5 + q.x * q.z).abs().sqrt() - 0.042;
     let across = (q.x - q.z) * std::f64::consts::FRAC_1_SQRT_2;
     (around * around + across * across).sqrt() - 0.02
 }

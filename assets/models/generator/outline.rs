@@ -9,16 +9,12 @@ pub(crate) type Outline = Vec<DVec2>;
 
 /// A circle of `n` points.
 pub(crate) fn circle(centre: DVec2, radius: f64, n: usize) -> Outline {
-    (0..n)
-        .map(|i| centre + radius * DVec2::from_angle(TAU * i as f64 / n as f64))
-        .collect()
+    (0..n).map(|i| centre + radius * DVec2::from_angle(TAU * i as f64 / n as f64)).collect()
 }
 
 /// An arc from angle `from` to angle `to` (either way round) in `n` chords, both ends included.
 pub(crate) fn arc(centre: DVec2, radius: f64, from: f64, to: f64, n: usize) -> Vec<DVec2> {
-    (0..=n)
-        .map(|i| centre + radius * DVec2::from_angle(from + (to - from) * i as f64 / n as f64))
-        .collect()
+    (0..=n).map(|i| centre + radius * DVec2::from_angle(from + (to - from) * i as f64 / n as f64)).collect()
 }
 
 /// A polygon whose corners `(x, y, radius)` are rounded by arcs of at most `step` radians per chord.
@@ -49,11 +45,7 @@ pub(crate) fn rounded(corners: &[(f64, f64, f64)], step: f64) -> Outline {
 
 /// A half outline (x ≥ 0, walked upwards) completed by its mirror image at the left.
 pub(crate) fn mirrored(right: &[DVec2]) -> Outline {
-    let left = right
-        .iter()
-        .rev()
-        .filter(|p| p.x.abs() > 1e-9)
-        .map(|p| dvec2(-p.x, p.y));
+    let left = right.iter().rev().filter(|p| p.x.abs() > 1e-9).map(|p| dvec2(-p.x, p.y));
     right.iter().copied().chain(left).collect()
 }
 

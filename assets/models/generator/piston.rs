@@ -43,9 +43,7 @@ fn angle(column: i32) -> f64 {
 
 /// A ring of the body around Y.
 fn ring_at(radius: f64, y: impl Fn(f64) -> f64) -> Vec<DVec3> {
-    (0..COLUMNS as i32)
-        .map(|c| point(radius, angle(c), y(angle(c))))
-        .collect()
+    (0..COLUMNS as i32).map(|c| point(radius, angle(c), y(angle(c)))).collect()
 }
 
 /// The skirt's lower edge: cut away beside the pin, where the counterweights pass.
@@ -81,12 +79,7 @@ pub(crate) fn body() -> Solid {
         land = LAND;
         path.push(flat(land, middle + half));
     }
-    path.extend([
-        flat(LAND, 29.0),
-        flat(LAND - 1.0, 30.0),
-        flat(28.0, 30.0),
-        flat(25.0, 27.8),
-    ]);
+    path.extend([flat(LAND, 29.0), flat(LAND - 1.0, 30.0), flat(28.0, 30.0), flat(25.0, 27.8)]);
     let inner_rows = 1..2;
     let outer_rows = 5..6;
     for (i, pair) in path.windows(2).enumerate() {
@@ -134,16 +127,11 @@ fn boss(out: &mut Solid, half_turn: bool) {
     let n = outer.len();
     let start = -0.5 * PI - PI * f64::from(BESIDE) / (n as f64 / 2.0);
     let round = |radius: f64| -> Vec<DVec2> {
-        (0..n)
-            .map(|i| radius * DVec2::from_angle(start + TAU * i as f64 / n as f64))
-            .collect()
+        (0..n).map(|i| radius * DVec2::from_angle(start + TAU * i as f64 / n as f64)).collect()
     };
     // Across the bore on a cylinder around the piston's axis: angle and height.
     let wrap = |across: Vec<DVec2>, radius: f64| -> Vec<DVec2> {
-        across
-            .iter()
-            .map(|p| dvec2((p.x / radius).asin(), p.y))
-            .collect()
+        across.iter().map(|p| dvec2((p.x / radius).asin(), p.y)).collect()
     };
     let on = |radius: f64, ring: &[DVec2]| -> Vec<DVec3> {
         ring.iter().map(|p| point(radius, p.x, p.y)).collect()
@@ -151,9 +139,8 @@ fn boss(out: &mut Solid, half_turn: bool) {
     let between = |a: &[DVec2], b: &[DVec2], t: f64| -> Vec<DVec2> {
         a.iter().zip(b).map(|(a, b)| a.lerp(*b, t)).collect()
     };
-    let flat = |radius: f64, x: f64| -> Vec<DVec3> {
-        round(radius).iter().map(|p| dvec3(x, p.y, -p.x)).collect()
-    };
+    let flat =
+        |radius: f64, x: f64| -> Vec<DVec3> { round(radius).iter().map(|p| dvec3(x, p.y, -p.x)).collect() };
     let mouth = wrap(round(BORE), SKIRT);
     let root = wrap(round(BOSS), INNER);
     let rings = [
@@ -167,9 +154,7 @@ fn boss(out: &mut Solid, half_turn: bool) {
     ];
     let turned = |ring: &Vec<DVec3>| -> Vec<DVec3> {
         let sign = if half_turn { -1.0 } else { 1.0 };
-        ring.iter()
-            .map(|p| dvec3(sign * p.x, p.y, sign * p.z))
-            .collect()
+        ring.iter().map(|p| dvec3(sign * p.x, p.y, sign * p.z)).collect()
     };
     for pair in rings.windows(2) {
         out.band(&turned(&pair[0]), &turned(&pair[1]));
@@ -198,13 +183,7 @@ pub(crate) fn ring(height: f64) -> Solid {
     let mut outline = arc(DVec2::ZERO, outer, a, TAU - a, 32);
     outline.extend(arc(DVec2::ZERO, inner, TAU - b, b, 32));
     let half = height / 2.0;
-    Plate {
-        outline,
-        rim: vec![(0.0, -half), (0.0, half)],
-        ..Plate::default()
-    }
-    .solid()
-    .along(Axis::Y)
+    Plate { outline, rim: vec![(0.0, -half), (0.0, half)], ..Plate::default() }.solid().along(Axis::Y)
 }
 
 /// The hollow wrist pin.

@@ -47,11 +47,7 @@ pub(crate) struct Hole {
 impl Step {
     /// A step with one sloped wall.
     pub(crate) fn new(outline: Outline, slope: f64, height: f64) -> Self {
-        Self {
-            outline,
-            rim: vec![(slope, height)],
-            inside: Vec::new(),
-        }
+        Self { outline, rim: vec![(slope, height)], inside: Vec::new() }
     }
 
     /// The same with steps on it.
@@ -63,12 +59,7 @@ impl Step {
 
 /// A straight rim from `-half` to `half`, chamfered by `chamfer`.
 pub(crate) fn chamfered(half: f64, chamfer: f64) -> Rim {
-    vec![
-        (chamfer, -half),
-        (0.0, -half + chamfer),
-        (0.0, half - chamfer),
-        (chamfer, half),
-    ]
+    vec![(chamfer, -half), (0.0, -half + chamfer), (0.0, half - chamfer), (chamfer, half)]
 }
 
 impl Plate {
@@ -92,25 +83,13 @@ impl Plate {
     /// The surface.
     pub(crate) fn solid(&self) -> Solid {
         let mut out = Solid::default();
-        let rings: Vec<Ring> = self
-            .rim
-            .iter()
-            .map(|&(d, w)| Ring::new(inset(&self.outline, d), w))
-            .collect();
+        let rings: Vec<Ring> = self.rim.iter().map(|&(d, w)| Ring::new(inset(&self.outline, d), w)).collect();
         for pair in rings.windows(2) {
             out.band(&pair[0].lifted(), &pair[1].lifted());
         }
         let mut ends: Vec<[f64; 2]> = vec![[0.0; 2]; self.holes.len()];
-        for (side, ring, steps) in [
-            (0, &rings[0], &self.back),
-            (1, &rings[rings.len() - 1], &self.front),
-        ] {
-            let mut face = Face {
-                out: &mut out,
-                holes: &self.holes,
-                ends: &mut ends,
-                side,
-            };
+        for (side, ring, steps) in [(0, &rings[0], &self.back), (1, &rings[rings.len() - 1], &self.front)] {
+            let mut face = Face { out: &mut out, holes: &self.holes, ends: &mut ends, side };
             let all: Vec<usize> = (0..self.holes.len()).collect();
             face.emit(ring, steps, &all);
         }
@@ -121,10 +100,8 @@ impl Plate {
                 wall.insert(0, (-c, low));
                 wall.push((-c, high));
             }
-            let wall: Vec<Vec<DVec3>> = wall
-                .iter()
-                .map(|&(d, w)| Ring::new(inset(&hole.outline, d), w).lifted())
-                .collect();
+            let wall: Vec<Vec<DVec3>> =
+                wall.iter().map(|&(d, w)| Ring::new(inset(&hole.outline, d), w).lifted()).collect();
             for pair in wall.windows(2) {
                 out.band(&pair[1], &pair[0]);
             }

@@ -64,11 +64,7 @@ fn nets(f: &impl Fn(DVec3) -> f64, low: DVec3, high: DVec3, cell: f64) -> Surfac
     let last = (count - 1).to_array();
     surface_nets(&samples, &shape, [0; 3], last, &mut buffer);
     Surface {
-        points: buffer
-            .positions
-            .iter()
-            .map(|p| low + cell * DVec3::from(p.map(f64::from)))
-            .collect(),
+        points: buffer.positions.iter().map(|p| low + cell * DVec3::from(p.map(f64::from))).collect(),
         faces: buffer
             .indices
             .chunks_exact(3)
@@ -150,11 +146,7 @@ impl Surface {
         self.sizes = own;
         for _ in 0..3 {
             self.sizes = (0..self.points.len())
-                .map(|i| {
-                    neighbours[i]
-                        .iter()
-                        .fold(self.sizes[i], |size, &j| size.min(self.sizes[j] * 1.25))
-                })
+                .map(|i| neighbours[i].iter().fold(self.sizes[i], |size, &j| size.min(self.sizes[j] * 1.25)))
                 .collect();
         }
     }
@@ -241,9 +233,7 @@ impl Surface {
                 let ring = || neighbours[a].union(&neighbours[b]);
                 if ring().any(|&i| frozen[i])
                     || neighbours[a].intersection(&neighbours[b]).count() != 2
-                    || neighbours[a]
-                        .intersection(&neighbours[b])
-                        .any(|&i| neighbours[i].len() < 5)
+                    || neighbours[a].intersection(&neighbours[b]).any(|&i| neighbours[i].len() < 5)
                 {
                     continue;
                 }
@@ -259,13 +249,7 @@ impl Surface {
                         return false;
                     }
                     let before = face.map(|i| self.points[i]);
-                    let after = face.map(|i| {
-                        if i == a || i == b {
-                            middle
-                        } else {
-                            self.points[i]
-                        }
-                    });
+                    let after = face.map(|i| if i == a || i == b { middle } else { self.points[i] });
                     cosine(normal(before), normal(after)) < 0.5
                 });
                 if too_long || turns {
@@ -280,10 +264,7 @@ impl Surface {
             if !any {
                 return;
             }
-            self.faces
-                .iter_mut()
-                .flatten()
-                .for_each(|i| *i = becomes[*i]);
+            self.faces.iter_mut().flatten().for_each(|i| *i = becomes[*i]);
             self.faces.retain(|[a, b, c]| a != b && b != c && c != a);
             self.compact();
         }
@@ -320,11 +301,7 @@ impl Surface {
             }
             let (c, d) = (self.apex(f, a, b), self.apex(g, a, b));
             let key = (c.min(d), c.max(d));
-            if neighbours[c].contains(&d)
-                || added.contains(&key)
-                || valence[a] < 5
-                || valence[b] < 5
-            {
+            if neighbours[c].contains(&d) || added.contains(&key) || valence[a] < 5 || valence[b] < 5 {
                 continue;
             }
             let off = |i: usize, change: i32| (valence[i] + change - 6).pow(2);

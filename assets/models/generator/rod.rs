@@ -63,23 +63,9 @@ fn pad() -> Step {
 /// The shank: eye, I-beam and the upper half of the big end.
 pub(crate) fn shank() -> Solid {
     let mut outline = mirrored(&shank_side());
-    let bore = arc(
-        DVec2::ZERO,
-        BORE,
-        PI - (GAP / BORE).asin(),
-        (GAP / BORE).asin(),
-        16,
-    );
+    let bore = arc(DVec2::ZERO, BORE, PI - (GAP / BORE).asin(), (GAP / BORE).asin(), 16);
     outline.extend(&bore[1..bore.len() - 1]);
-    let pocket = rounded(
-        &[
-            (-9.5, 46.0, 4.0),
-            (9.5, 46.0, 4.0),
-            (6.4, 118.0, 4.0),
-            (-6.4, 118.0, 4.0),
-        ],
-        0.8,
-    );
+    let pocket = rounded(&[(-9.5, 46.0, 4.0), (9.5, 46.0, 4.0), (6.4, 118.0, 4.0), (-6.4, 118.0, 4.0)], 0.8);
     let eye = dvec2(0.0, ROD);
     let steps = vec![pad(), Step::new(pocket, 1.2, -5.5)];
     Plate {
@@ -87,10 +73,7 @@ pub(crate) fn shank() -> Solid {
         rim: chamfered(HALF, 1.0),
         front: steps.clone(),
         back: steps,
-        holes: vec![Hole {
-            outline: circle(eye, 12.25, 20),
-            chamfer: 0.0,
-        }],
+        holes: vec![Hole { outline: circle(eye, 12.25, 20), chamfer: 0.0 }],
     }
     .solid()
     .along(Axis::X)
@@ -108,30 +91,17 @@ pub(crate) fn cap() -> Solid {
         (corner, shoulder, 0.8),
     ];
     let from = (corner / outer).acos();
-    upper.extend(
-        arc(DVec2::ZERO, outer, from, FRAC_PI_2, 5)
-            .iter()
-            .map(|p| (p.x, p.y, 0.0)),
-    );
+    upper.extend(arc(DVec2::ZERO, outer, from, FRAC_PI_2, 5).iter().map(|p| (p.x, p.y, 0.0)));
     let left = upper.iter().rev().skip(1).map(|&(x, y, r)| (-x, y, r));
     let corners: Vec<_> = upper.iter().copied().chain(left).collect();
     let mut outline: Outline = rounded(&corners, 0.6);
-    let bore = arc(
-        DVec2::ZERO,
-        BORE,
-        PI - (GAP / BORE).asin(),
-        (GAP / BORE).asin(),
-        16,
-    );
+    let bore = arc(DVec2::ZERO, BORE, PI - (GAP / BORE).asin(), (GAP / BORE).asin(), 16);
     outline.extend(&bore[1..bore.len() - 1]);
     // Between the bolts' shoulders.
     let mut crescent = arc(DVec2::ZERO, 31.4, 0.9, PI - 0.9, 6);
     crescent.extend(arc(DVec2::ZERO, BORE + 2.2, PI - 0.9, 0.9, 6));
     let narrow = Step::new(crescent, 0.4, PAD);
-    let turned = Step {
-        outline: upside_down(&narrow.outline),
-        ..narrow
-    };
+    let turned = Step { outline: upside_down(&narrow.outline), ..narrow };
     Plate {
         outline: upside_down(&outline),
         rim: chamfered(HALF, 1.0),
@@ -163,9 +133,7 @@ pub(crate) fn hex_bolt(flats: f64, head: f64, radius: f64, length: f64, segments
 
 /// The bushing in the eye.
 pub(crate) fn bushing() -> Solid {
-    tube(10.25, 12.0, HALF + 0.4, 0.0, 20)
-        .solid()
-        .along(Axis::X)
+    tube(10.25, 12.0, HALF + 0.4, 0.0, 20).solid().along(Axis::X)
 }
 
 /// The upper shell of the big end's bearing.

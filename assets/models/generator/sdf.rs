@@ -49,10 +49,7 @@ pub(crate) fn cone(p: DVec3, (a, ra): (DVec3, f64), (b, rb): (DVec3, f64)) -> f6
 
 /// A limb through balls, its joints smoothed over `k`.
 pub(crate) fn limb(p: DVec3, balls: &[(DVec3, f64)], k: f64) -> f64 {
-    balls
-        .windows(2)
-        .map(|pair| cone(p, pair[0], pair[1]))
-        .fold(f64::INFINITY, |a, b| join(a, b, k))
+    balls.windows(2).map(|pair| cone(p, pair[0], pair[1])).fold(f64::INFINITY, |a, b| join(a, b, k))
 }
 
 /// The union of two bodies, with a fillet where they are within `k` of each other.
@@ -69,11 +66,7 @@ pub(crate) fn join_near(
     (centre, radius): (DVec3, f64),
     body: impl Fn(DVec3) -> f64,
 ) -> f64 {
-    if p.distance(centre) - radius > d + k {
-        d
-    } else {
-        join(d, body(p), k)
-    }
+    if p.distance(centre) - radius > d + k { d } else { join(d, body(p), k) }
 }
 
 /// The intersection of two bodies, its edge rounded over `k`.

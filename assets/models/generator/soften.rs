@@ -54,9 +54,7 @@ impl Surface {
                 let across = |i: &usize| (self.points[*i] - self.points[a]).dot(normals[f]);
                 let hollow = self.faces[g].iter().map(across).sum::<f64>() > 0.0;
                 if normals[f].dot(normals[g]) < if hollow { folds } else { bulges } {
-                    face.iter()
-                        .chain(&self.faces[g])
-                        .for_each(|&i| out[i] = true);
+                    face.iter().chain(&self.faces[g]).for_each(|&i| out[i] = true);
                 }
             }
         }
@@ -84,13 +82,7 @@ impl Surface {
             }
         }
         (0..sums.len())
-            .map(|i| {
-                if moved[i] {
-                    sums[i].normalize()
-                } else {
-                    gradient(f, self.points[i]).normalize()
-                }
-            })
+            .map(|i| if moved[i] { sums[i].normalize() } else { gradient(f, self.points[i]).normalize() })
             .collect()
     }
 }

@@ -32,12 +32,7 @@ pub(crate) struct Unwrapped {
 impl Chart {
     /// A chart around the axis from `from` to `to` with its seam behind (−Z).
     pub(crate) fn new(from: DVec3, to: DVec3, radius: f64) -> Self {
-        Self {
-            from,
-            to,
-            radius,
-            seam: DVec3::NEG_Z,
-        }
+        Self { from, to, radius, seam: DVec3::NEG_Z }
     }
 
     /// The same with another seam.
@@ -50,11 +45,7 @@ impl Chart {
     fn axis(&self) -> (DVec3, f64) {
         let axis = self.to - self.from;
         let length = axis.length();
-        if length > 1e-9 {
-            (axis / length, length)
-        } else {
-            (DVec3::Y, 0.0)
-        }
+        if length > 1e-9 { (axis / length, length) } else { (DVec3::Y, 0.0) }
     }
 
     /// Distance from the capsule.
@@ -92,21 +83,14 @@ impl Chart {
 
 /// Unrolls a surface around `charts`. The inner side of a `layered` one (a sleeve) gets charts of its own.
 pub(crate) fn unwrap(surface: &Surface, charts: &[Chart], layered: bool) -> Unwrapped {
-    let mut out = Unwrapped {
-        vertices: Vec::new(),
-        faces: Vec::new(),
-    };
+    let mut out = Unwrapped { vertices: Vec::new(), faces: Vec::new() };
     let mut numbers: BTreeMap<(usize, usize, i64), usize> = BTreeMap::new();
     let mut chart_of: Vec<usize> = Vec::new();
     for face in &surface.faces {
         let [a, b, c] = face.map(|i| surface.points[i]);
         let middle = (a + b + c) / 3.0;
         let nearest = (0..charts.len())
-            .min_by(|&i, &j| {
-                charts[i]
-                    .distance(middle)
-                    .total_cmp(&charts[j].distance(middle))
-            })
+            .min_by(|&i, &j| charts[i].distance(middle).total_cmp(&charts[j].distance(middle)))
             .unwrap_or(0);
         let chart = &charts[nearest];
         let inner = layered && (b - a).cross(c - a).dot(chart.outwards(middle)) < 0.0;
