@@ -487,6 +487,6 @@ fn two_thousand_objects_cost_only_the_rows_that_are_seen() {
     let began = Instant::now();
     window.get_by_role_and_label(Role::Slider, "Base in cool").set_value_accesskit(0.7);
     settle(&mut window);
-    assert!(began.elapsed() < Duration::from_secs(5), "{:?}", began.elapsed());
+    assert!(began.elapsed() < Duration::from_secs(2), "{:?}", began.elapsed());
     assert!(window.root().children().count() > 0);
 }

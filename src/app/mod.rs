@@ -48,7 +48,7 @@ pub enum AppError {
     )]
     NoDisplay,
     /// The system gave no window.
-    #[error("cannot open a window: {0}. On a machine without a screen, use `hachure render`")]
+    #[error("cannot open a window ({0}); on a machine without a screen, use `hachure render`")]
     Window(String),
 }
 

@@ -123,9 +123,9 @@ fn notice_ui(ui: &mut egui::Ui, notice: &Notice, available: f32) -> bool {
         egui::Frame::popup(ui.style()).inner_margin(egui::Margin { left: 14, right: 8, top: 8, bottom: 8 });
     let shown = frame.show(ui, |ui| {
         ui.horizontal_top(|ui| {
-            let width = (available - 80.0).clamp(120.0, 400.0);
+            let width = (available - 80.0).clamp(120.0, 330.0);
             ui.vertical(|ui| {
-                ui.set_max_width(width);
+                ui.set_width(width);
                 ui.add(egui::Label::new(&notice.text).wrap());
                 if let Some(folder) = notice.file.as_ref().and_then(|f| f.parent())
                     && ui.link("Open folder").clicked()

@@ -174,9 +174,16 @@ impl Document {
         key: &str,
         value: &Value,
     ) -> Result<(), StyleError> {
-        for &id in nodes {
+        // Resolved once: thousands of nodes may be set at a time.
+        let inherited: Vec<Style> = {
+            let resolved = self.resolve(scene);
+            nodes
+                .iter()
+                .map(|&id| resolved.get(id).map_or_else(Style::default, |r| r.style.clone()))
+                .collect()
+        };
+        for (&id, inherited) in nodes.iter().zip(inherited) {
             let Some(node) = scene.nodes.get(id) else { continue };
-            let inherited = self.resolve(scene).get(id).map_or_else(Style::default, |r| r.style.clone());
             for inner in scene.subtree(id).skip(1) {
                 if let Some(style) = scene
                     .nodes

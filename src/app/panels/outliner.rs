@@ -192,10 +192,12 @@ impl Outliner {
             pos2(edges_at.left() - STYLE_WIDTH - 2.0, rect.top()),
             pos2(edges_at.left() - 2.0, rect.bottom()),
         );
-        style_chip(ui, rect, chip, own.style.as_ref(), roles.style, &node.name, &targets, editing);
+        // What is inherited is said only where somebody looks; elsewhere its place belongs to the name.
+        let looked_at = ui.rect_contains_pointer(rect);
+        style_chip(ui, looked_at, chip, own.style.as_ref(), roles.style, &node.name, &targets, editing);
 
-        let text_rect =
-            Rect::from_min_max(pos2(left + 13.0, rect.top()), pos2(chip.left() - 4.0, rect.bottom()));
+        let right = if looked_at || own.style.is_some() { chip.left() } else { edges_at.left() };
+        let text_rect = Rect::from_min_max(pos2(left + 13.0, rect.top()), pos2(right - 4.0, rect.bottom()));
         let strength = if visible { 1.0 } else { 0.5 };
         let color = if selected {
             ui.visuals().selection.stroke.color
@@ -266,7 +268,7 @@ pub fn style_name<'a>(style: &Style, presets: &'a [Preset]) -> &'a str {
 
 fn style_chip(
     ui: &mut Ui,
-    row: Rect,
+    looked_at: bool,
     rect: Rect,
     own: Option<&Style>,
     resolved: &Style,
@@ -281,8 +283,6 @@ fn style_chip(
             .id_salt(("style", node_name, targets.first()))
             .layout(egui::Layout::right_to_left(egui::Align::Center)),
     );
-    // What is inherited is said only where somebody looks.
-    let looked_at = targets.len() > 1 || child.rect_contains_pointer(row);
     let strength = if own.is_some() {
         0.9
     } else if looked_at {
