@@ -75,7 +75,7 @@ fn an_obj_without_names_is_one_node_with_normals_by_crease_angle() {
 #[test]
 fn objects_and_groups_become_nodes_with_unique_paths_in_tree_order() {
     let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n\
-        o frame\nf 1 2 3\ng left rail\nf 1 2 4\ng right/rail\nf 2 3 4\n\
+        o frame\nf 1 2 3\ng left rail\nf 1 2 4\ng right/rail\nf 2 3 4\ng right_rail\nf 4 3 1\n\
         o wheel\nf 1 3 4\no frame\nf 1 2 3\ng\nusemtl red\nf 4 3 2\no empty\no wheel\ng wheel\nf 1 2 3\n";
     let scene = open_bytes("cart.obj", text.as_bytes());
     assert_eq!(
@@ -85,12 +85,12 @@ fn objects_and_groups_become_nodes_with_unique_paths_in_tree_order() {
             "/cart/frame",
             "/cart/frame/left rail",
             "/cart/frame/right_rail",
+            "/cart/frame/right_rail.2",
             "/cart/wheel",
-            "/cart/wheel.2",
         ]
     );
     let descendants: Vec<usize> = scene.nodes.iter().map(|n| n.descendants).collect();
-    assert_eq!(descendants, [5, 2, 0, 0, 0, 0]);
+    assert_eq!(descendants, [5, 3, 0, 0, 0, 0]);
     for (id, node) in scene.nodes.iter().enumerate().skip(1) {
         assert!(scene.subtree(node.parent.unwrap()).contains(&id));
     }

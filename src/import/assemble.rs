@@ -7,7 +7,7 @@ use glam::DMat4;
 
 use super::names::{SiblingNames, file_stem};
 use super::{ImportError, ImportOptions, Progress};
-use crate::geometry::{Mesh, clean, normals};
+use crate::geometry::{Mesh, Report, clean, normals};
 use crate::scene::{Node, Scene, Warning};
 
 /// A node to be, with what hangs below it.
@@ -54,6 +54,15 @@ impl<'a> Assembly<'a> {
             place: if place.is_empty() { file } else { format!("{file}, {place}") },
             message: message.into(),
         });
+    }
+
+    /// Warns that triangles are lost because their corners are at vertices that do not exist.
+    pub(super) fn lost(&mut self, place: &str, out_of_range: usize) {
+        let report = Report { out_of_range, ..Report::default() };
+        for message in report.messages() {
+            self.warn(place, message);
+        }
+        self.dropped += out_of_range;
     }
 
     /// The error for content that the format does not allow.

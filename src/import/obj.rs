@@ -1,11 +1,14 @@
-//! OBJ with MTL: objects and groups become nodes.
+//! OBJ with MTL, read by `tobj`: objects and groups become nodes.
 //!
-//! A reader of our own: lines that make no sense are counted and skipped, and every message names a line.
+//! `tobj` refuses a whole file for one bad line, so the text is scrubbed first; messages about bad lines come from there.
 
 mod materials;
 mod mtl;
-mod parse;
+mod scrub;
 
+use std::cell::Cell;
+use std::collections::HashMap;
+use std::io::{BufReader, Read};
 use std::path::Path;
 
 use glam::{Vec2, Vec3};
@@ -15,7 +18,7 @@ use super::text::linear;
 use super::{ImportError, ImportOptions, Progress};
 use crate::geometry::{Mesh, MeshPart, Triangulator};
 use crate::scene::Scene;
-use parse::{Group, NONE, Parsed};
+use scrub::Scrubbed;
 
 /// Makes a scene of an OBJ file. Faces before the first `o` or `g` are in a node `mesh`; groups inside an object hang
 /// below it. An object that gives every corner a normal keeps them; else they come from the crease angle.
@@ -29,28 +32,30 @@ pub(super) fn load(
     progress: &Progress,
 ) -> Result<Scene, ImportError> {
     let mut assembly = Assembly::new(path, options, progress);
-    let parsed = parse::parse(data, progress)?;
-    if parsed.positions.is_empty() && parsed.groups.is_empty() && parsed.bad_lines.count() > 0 {
+    let text = scrub::scrub(data, progress)?;
+    if text.counts[0] == 0 && text.faces == 0 && text.bad_lines.count() > 0 {
         return Err(assembly.malformed("this is no OBJ file: it has neither vertices nor faces"));
     }
-    warn(&parsed, &mut assembly);
-    let material_of = materials::load(path, &parsed, &mut assembly, progress)?;
+    warn(&text, &mut assembly);
+    let material_of = materials::load(path, &text, &mut assembly, progress)?;
+    let models = read(&text, progress)?
+        .map_err(|error| assembly.malformed(format!("this OBJ file cannot be read: {error}")))?;
+    progress.report(0.4);
 
-    let mut mesher = Mesher::new(&parsed, material_of);
+    let mut mesher = Mesher {
+        material_of: &material_of,
+        color_range: if text.bright { 255.0 } else { 1.0 },
+        triangulator: Triangulator::default(),
+    };
     let mut branches: Vec<Branch> = Vec::new();
-    for group in &parsed.groups {
+    for (name, models) in by_name(models) {
         progress.check()?;
-        hang(&mut branches, group, mesher.mesh(group));
-    }
-    for (count, what) in [(mesher.bad_uvs, "texture coordinates"), (mesher.bad_normals, "normals")] {
-        if count > 0 {
-            assembly.warn("", format!("ignored {count} references to {what} that do not exist"));
-        }
+        hang(&mut branches, &name, mesher.mesh(models));
     }
     progress.report(0.5);
-    let reason = if parsed.points_and_lines.count() > 0 {
+    let reason = if text.points_and_lines.count() > 0 {
         "it holds only points and lines; Hachure draws surfaces"
-    } else if parsed.free_form.count() > 0 {
+    } else if text.free_form.count() > 0 {
         "it holds only free-form surfaces; export it as polygons"
     } else {
         "it holds no faces"
@@ -58,180 +63,171 @@ pub(super) fn load(
     assembly.finish(branches, reason)
 }
 
-fn warn(parsed: &Parsed, assembly: &mut Assembly<'_>) {
+fn warn(text: &Scrubbed<'_>, assembly: &mut Assembly<'_>) {
     for (fault, message) in [
-        (&parsed.bad_lines, "cannot be understood and is skipped"),
-        (&parsed.short_faces, "a face has fewer than three corners"),
-        (&parsed.points_and_lines, "points and lines are not drawn"),
-        (&parsed.free_form, "free-form curves and surfaces are not drawn; export them as polygons"),
+        (&text.bad_lines, "cannot be understood and is skipped"),
+        (&text.short_faces, "a face has fewer than three corners"),
+        (&text.points_and_lines, "points and lines are not drawn"),
+        (&text.free_form, "free-form curves and surfaces are not drawn; export them as polygons"),
     ] {
         if let Some(place) = fault.place() {
             assembly.warn(&place, message);
         }
     }
+    if let Some(place) = text.lost_faces.place() {
+        assembly.lost(&place, text.lost_triangles);
+    }
+    for (count, what) in text.bad_references.iter().zip(["texture coordinates", "normals"]) {
+        if *count > 0 {
+            assembly.warn("", format!("ignored {count} references to {what} that do not exist"));
+        }
+    }
+}
+
+/// Bytes that report how far they are read, and can be read no more once the person has cancelled.
+struct Watched<'a> {
+    rest: &'a [u8],
+    size: usize,
+    progress: &'a Progress,
+}
+
+impl Read for Watched<'_> {
+    fn read(&mut self, into: &mut [u8]) -> std::io::Result<usize> {
+        self.progress.check().map_err(std::io::Error::other)?;
+        self.progress.report(0.4 - 0.2 * self.rest.len() as f32 / self.size as f32);
+        self.rest.read(into)
+    }
+}
+
+/// The models that `tobj` finds. The identity of a material is its place among the names of the text.
+fn read(
+    text: &Scrubbed<'_>,
+    progress: &Progress,
+) -> Result<Result<Vec<tobj::Model>, tobj::LoadError>, ImportError> {
+    let names = text.materials.iter().enumerate();
+    let ids: HashMap<String, usize> = names.map(|(id, name)| (name.clone(), id)).collect();
+    // All materials are there from the first line on: their files have been read, and names in none of them count too.
+    let ids = Cell::new(Some(ids));
+    let body = Watched { rest: &text.body, size: text.body.len(), progress };
+    let first = &b"mtllib all\n"[..];
+    let mut reader = BufReader::with_capacity(1 << 18, first.chain(text.head.as_bytes()).chain(body));
+    let options = tobj::LoadOptions { single_index: true, ..tobj::LoadOptions::default() };
+    let result =
+        tobj::load_obj_buf(&mut reader, &options, |_| Ok((Vec::new(), ids.take().unwrap_or_default())));
+    progress.check()?;
+    Ok(result.map(|(models, _)| models))
+}
+
+/// The models that have faces, together with others of their name, in the order of the names' first use.
+fn by_name(models: Vec<tobj::Model>) -> Vec<(String, Vec<tobj::Mesh>)> {
+    let mut groups: Vec<(String, Vec<tobj::Mesh>)> = Vec::new();
+    let mut places: HashMap<String, usize> = HashMap::new();
+    for tobj::Model { mesh, name } in models.into_iter().filter(|m| !m.mesh.indices.is_empty()) {
+        let place = *places.entry(name).or_insert_with_key(|name| {
+            groups.push((name.clone(), Vec::new()));
+            groups.len() - 1
+        });
+        if let Some((_, meshes)) = groups.get_mut(place) {
+            meshes.push(mesh);
+        }
+    }
+    groups
 }
 
 /// Puts the mesh of a group where it belongs: below the root, or below its object.
-fn hang(branches: &mut Vec<Branch>, group: &Group, mesh: Mesh) {
+fn hang(branches: &mut Vec<Branch>, name: &str, mesh: Mesh) {
     let named = |name: &str| Branch {
-        name: if name.is_empty() { "mesh".into() } else { name.to_owned() },
+        // What `tobj` calls faces without a name.
+        name: if name == "unnamed_object" { "mesh".into() } else { name.to_owned() },
         ..Branch::default()
     };
-    if group.object.is_empty() || group.group.is_empty() || group.group == group.object {
-        let name = if group.object.is_empty() { &group.group } else { &group.object };
+    let Some((object, group)) = name.split_once(scrub::INSIDE) else {
         // An object's node may exist already, for one of its groups.
-        let open =
-            branches.last_mut().filter(|b| !group.object.is_empty() && b.name == *name && b.mesh.is_none());
-        match open {
+        match branches.last_mut().filter(|b| b.name == name && b.mesh.is_none()) {
             Some(branch) => branch.mesh = Some(mesh),
             None => branches.push(Branch { mesh: Some(mesh), ..named(name) }),
         }
         return;
+    };
+    if branches.last().is_none_or(|b| b.name != object) {
+        branches.push(named(object));
     }
-    if branches.last().is_none_or(|b| b.name != group.object) {
-        branches.push(named(&group.object));
-    }
-    if let Some(object) = branches.last_mut() {
-        object.children.push(Branch { mesh: Some(mesh), ..named(&group.group) });
+    if let Some(branch) = branches.last_mut() {
+        branch.children.push(Branch { mesh: Some(mesh), ..named(group) });
     }
 }
 
-/// A vertex of the group in work: its texture coordinates and normal, its index, and the next vertex at the same
-/// position.
-struct Variant {
-    uv: u32,
-    normal: u32,
-    vertex: u32,
-    next: u32,
-}
-
-/// Makes indexed meshes of groups of faces.
+/// Makes one mesh of the models of a name.
 struct Mesher<'a> {
-    parsed: &'a Parsed,
     /// Material in the scene for each name in the file, and for none at the end.
-    material_of: Vec<usize>,
+    material_of: &'a [usize],
     /// Divisor of vertex colours: 255 when one of them exceeds 1.
     color_range: f32,
-    /// First entry of `variants` for each position of the file.
-    first_variant: Vec<u32>,
-    variants: Vec<Variant>,
     triangulator: Triangulator,
-    bad_uvs: usize,
-    bad_normals: usize,
 }
 
-impl<'a> Mesher<'a> {
-    fn new(parsed: &'a Parsed, material_of: Vec<usize>) -> Self {
-        let bright = parsed.colors.iter().any(|c| c.max_element() > 1.0);
-        Self {
-            parsed,
-            material_of,
-            color_range: if bright { 255.0 } else { 1.0 },
-            first_variant: vec![NONE; parsed.positions.len()],
-            variants: Vec::new(),
-            triangulator: Triangulator::default(),
-            bad_uvs: 0,
-            bad_normals: 0,
-        }
-    }
-
-    fn mesh(&mut self, group: &Group) -> Mesh {
-        let corners = || group.runs.iter().flat_map(|run| &run.corners);
-        let (uv_count, normal_count) = (self.parsed.uvs.len(), self.parsed.normals.len());
-        let bad = |index: u32, count: usize| index != NONE && index as usize >= count;
-        self.bad_uvs += corners().filter(|c| bad(c[1], uv_count)).count();
-        self.bad_normals += corners().filter(|c| bad(c[2], normal_count)).count();
-        let has_uvs = corners().any(|c| (c[1] as usize) < uv_count);
-        let has_normals = corners().all(|c| (c[2] as usize) < normal_count);
-
+impl Mesher<'_> {
+    fn mesh(&mut self, mut models: Vec<tobj::Mesh>) -> Mesh {
+        models.sort_by_key(|model| model.material_id);
+        let has_uvs = models.iter().any(|m| !m.texcoords.is_empty());
+        let has_normals = models.iter().all(|m| !m.normals.is_empty());
         let mut mesh = Mesh::default();
-        let mut points = Vec::new();
-        let mut vertices = Vec::new();
-        for run in &group.runs {
-            let first_index = mesh.indices.len() as u32;
-            let mut start = 0;
-            for &end in &run.ends {
-                let face = run.corners.get(start..end).unwrap_or_default();
-                start = end;
-                points.clear();
-                vertices.clear();
-                for &[position, uv, normal] in face {
-                    let uv = if has_uvs { uv } else { NONE };
-                    let normal = if has_normals { normal } else { NONE };
-                    vertices.push(self.vertex([position, uv, normal], &mut mesh));
-                    let point = self.parsed.positions.get(position as usize);
-                    points.push(point.copied().unwrap_or(Vec3::NAN));
-                }
-                self.triangulator.cut(&points, |triangle| {
-                    for corner in triangle {
-                        let vertex = vertices.get(corner as usize);
-                        mesh.indices.push(vertex.copied().unwrap_or(NONE));
-                    }
-                });
+        for model in &models {
+            let first_vertex = mesh.positions.len();
+            mesh.positions.extend(triples(&model.positions));
+            let vertices = mesh.positions.len();
+            if has_uvs {
+                let (pairs, _) = model.texcoords.as_chunks::<2>();
+                mesh.uvs.extend(pairs.iter().map(|&[u, v]| Vec2::new(u, 1.0 - v)));
+                mesh.uvs.resize(vertices, Vec2::Y);
             }
-            let material = run.material.and_then(|m| self.material_of.get(m));
-            mesh.parts.push(MeshPart {
-                first_index,
-                index_count: mesh.indices.len() as u32 - first_index,
-                material: material.or(self.material_of.last()).copied().unwrap_or(0),
-            });
-        }
-        self.attributes(&mut mesh, has_uvs, has_normals);
-        self.variants.clear();
-        for &[position, ..] in corners() {
-            if let Some(first) = self.first_variant.get_mut(position as usize) {
-                *first = NONE;
+            if has_normals {
+                mesh.normals.extend(triples(&model.normals));
             }
+            mesh.colors.extend(triples(&model.vertex_color).map(|c| self.color(c)));
+            self.cut(model, first_vertex, &mut mesh);
         }
         mesh
     }
 
-    /// The vertex for this combination, made at its first use; [`NONE`] if the position does not exist.
-    fn vertex(&mut self, [position, uv, normal]: [u32; 3], mesh: &mut Mesh) -> u32 {
-        let Some(&at) = self.parsed.positions.get(position as usize) else {
-            return NONE;
-        };
-        let Some(&first) = self.first_variant.get(position as usize) else {
-            return NONE;
-        };
-        let mut link = first;
-        while let Some(variant) = self.variants.get(link as usize) {
-            if variant.uv == uv && variant.normal == normal {
-                return variant.vertex;
-            }
-            link = variant.next;
+    /// Cuts the polygons of a model into the triangles of a part.
+    fn cut(&mut self, model: &tobj::Mesh, first_vertex: usize, mesh: &mut Mesh) {
+        let first_index = mesh.indices.len() as u32;
+        let mut rest = &model.indices[..];
+        let mut points = Vec::new();
+        // Where all are triangles, `tobj` leaves the list empty.
+        let arities = model.face_arities.iter().map(|&n| n as usize);
+        let triangles = if model.face_arities.is_empty() { rest.len() / 3 } else { 0 };
+        for arity in arities.chain(std::iter::repeat_n(3, triangles)) {
+            let Some((face, behind)) = rest.split_at_checked(arity) else { break };
+            rest = behind;
+            points.clear();
+            points.extend(face.iter().map(|&v| {
+                let point = mesh.positions.get(first_vertex + v as usize);
+                point.copied().unwrap_or(Vec3::NAN)
+            }));
+            self.triangulator.cut(&points, |triangle| {
+                for corner in triangle {
+                    let vertex = face.get(corner as usize);
+                    mesh.indices.push(vertex.map_or(u32::MAX, |v| first_vertex as u32 + v));
+                }
+            });
         }
-        let vertex = mesh.positions.len() as u32;
-        mesh.positions.push(at);
-        if !self.parsed.colors.is_empty() {
-            mesh.colors.push(self.color(position as usize));
+        let material = model.material_id.and_then(|id| self.material_of.get(id));
+        let material = material.or(self.material_of.last()).copied().unwrap_or(0);
+        let index_count = mesh.indices.len() as u32 - first_index;
+        match mesh.parts.last_mut().filter(|part| part.material == material) {
+            Some(part) => part.index_count += index_count,
+            None => mesh.parts.push(MeshPart { first_index, index_count, material }),
         }
-        if let Some(head) = self.first_variant.get_mut(position as usize) {
-            *head = self.variants.len() as u32;
-        }
-        self.variants.push(Variant { uv, normal, vertex, next: first });
-        vertex
     }
 
-    fn color(&self, position: usize) -> [u8; 4] {
-        let color = self.parsed.colors.get(position).copied();
+    fn color(&self, color: Vec3) -> [u8; 4] {
         let byte = |c: f32| (linear(c / self.color_range) * 255.0).round() as u8;
-        color.map_or([255; 4], |c| [byte(c.x), byte(c.y), byte(c.z), 255])
+        [byte(color.x), byte(color.y), byte(color.z), 255]
     }
+}
 
-    /// Texture coordinates and normals of the vertices, which are in the order of the variants.
-    fn attributes(&self, mesh: &mut Mesh, has_uvs: bool, has_normals: bool) {
-        if has_uvs {
-            mesh.uvs.extend(self.variants.iter().map(|v| {
-                let uv = self.parsed.uvs.get(v.uv as usize);
-                uv.map_or(Vec2::ZERO, |uv| Vec2::new(uv.x, 1.0 - uv.y))
-            }));
-        }
-        if has_normals {
-            mesh.normals.extend(self.variants.iter().map(|v| {
-                let normal = self.parsed.normals.get(v.normal as usize);
-                normal.copied().unwrap_or_default()
-            }));
-        }
-    }
+fn triples(values: &[f32]) -> impl Iterator<Item = Vec3> {
+    values.as_chunks().0.iter().copied().map(Vec3::from_array)
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::mtl::{self, Map, Mtl};
-use super::parse::Parsed;
+use super::scrub::Scrubbed;
 use crate::import::assemble::Assembly;
 use crate::import::image::{EncodedImage, decode_all};
 use crate::import::source::Folder;
@@ -22,17 +22,17 @@ const IMAGE_BUDGET: u64 = 2 << 30;
 /// Only `Cancelled`.
 pub(super) fn load(
     path: &Path,
-    parsed: &Parsed,
+    text: &Scrubbed<'_>,
     assembly: &mut Assembly<'_>,
     progress: &Progress,
 ) -> Result<Vec<usize>, ImportError> {
     let folder = Folder::of(path);
-    let library = read_libraries(&folder, parsed, assembly);
-    let used: Vec<&Mtl> = parsed.materials.iter().filter_map(|name| library.get(name)).collect();
+    let library = read_libraries(&folder, text, assembly);
+    let used: Vec<&Mtl> = text.materials.iter().filter_map(|name| library.get(name)).collect();
     let images = read_images(&folder, &used, assembly, progress)?;
 
-    let mut places = Vec::with_capacity(parsed.materials.len() + 1);
-    for name in &parsed.materials {
+    let mut places = Vec::with_capacity(text.materials.len() + 1);
+    for name in &text.materials {
         places.push(assembly.scene.materials.len());
         let material = match library.get(name) {
             Some(mtl) => convert(mtl, &images, assembly),
@@ -51,14 +51,14 @@ pub(super) fn load(
 }
 
 /// The materials of all files by name; of two with one name, the first.
-fn read_libraries(folder: &Folder, parsed: &Parsed, assembly: &mut Assembly<'_>) -> HashMap<String, Mtl> {
+fn read_libraries(folder: &Folder, text: &Scrubbed<'_>, assembly: &mut Assembly<'_>) -> HashMap<String, Mtl> {
     let mut library = HashMap::new();
     let mut add = |bytes: &[u8]| {
-        for material in mtl::parse(bytes) {
+        for material in mtl::read(bytes) {
             library.entry(material.name.clone()).or_insert(material);
         }
     };
-    for line in &parsed.libraries {
+    for line in &text.libraries {
         // One name with spaces, or several names.
         let whole = match folder.read_file(line) {
             Ok(bytes) => {

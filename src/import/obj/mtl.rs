@@ -2,6 +2,7 @@
 
 use glam::{Mat3, Vec3, Vec4};
 
+use super::scrub::material_name;
 use crate::import::text::{Lines, after_first_word, float, linear, lossy, words};
 use crate::scene::{UvTransform, Wrap};
 
@@ -22,14 +23,15 @@ pub(super) struct Mtl {
 }
 
 impl Mtl {
-    fn new(name: String) -> Self {
+    fn new(material: &tobj::Material) -> Self {
+        let map = |text: Option<&String>| text.and_then(|text| map(text.as_bytes()));
         Self {
-            name,
-            diffuse: Vec3::splat(0.8),
-            opacity: 1.0,
-            diffuse_map: None,
-            opacity_map: None,
-            normal_map: None,
+            name: material.name.clone(),
+            diffuse: material.diffuse.map_or(Vec3::splat(0.8), |color| Vec3::from(color).map(linear)),
+            opacity: material.dissolve.unwrap_or(1.0),
+            diffuse_map: map(material.diffuse_texture.as_ref()),
+            opacity_map: map(material.dissolve_texture.as_ref()),
+            normal_map: map(material.unknown_param.get("norm")),
         }
     }
 
@@ -55,35 +57,36 @@ pub(super) struct Map {
     pub(super) strength: f32,
 }
 
-/// Reads all materials; what is unknown or wrong is skipped.
-pub(super) fn parse(data: &[u8]) -> Vec<Mtl> {
-    let mut materials: Vec<Mtl> = Vec::new();
+/// Reads all materials with `tobj`; what is unknown or wrong is skipped.
+pub(super) fn read(data: &[u8]) -> Vec<Mtl> {
+    // Reading from memory, the scrubbed text has nothing that `tobj` refuses.
+    let (materials, _) = tobj::load_mtl_buf(&mut scrub(data).as_bytes()).unwrap_or_default();
+    materials.iter().map(Mtl::new).collect()
+}
+
+/// The lines that matter, as `tobj` wants them: it refuses a whole file for one bad number, and fewer than three make
+/// it panic.
+fn scrub(data: &[u8]) -> String {
+    let mut text = String::new();
     for (_, line) in Lines::new(data) {
-        let mut words = words(&line);
-        let Some(keyword) = words.next() else {
-            continue;
+        let line = String::from_utf8_lossy(&line);
+        let mut words = line.split_whitespace();
+        let Some(keyword) = words.next() else { continue };
+        let rest = line.trim_start().get(keyword.len()..).unwrap_or_default().trim();
+        let numbers: Vec<f32> = words.map_while(|word| word.parse().ok()).take(3).collect();
+        text += &match (keyword.to_ascii_lowercase().as_str(), numbers.as_slice()) {
+            ("newmtl", _) => format!("newmtl {}\n", material_name(rest)),
+            ("kd", &[r, g, b]) => format!("Kd {r} {g} {b}\n"),
+            ("kd", &[grey, ..]) => format!("Kd {grey} {grey} {grey}\n"),
+            ("d", &[opacity, ..]) => format!("d {opacity}\n"),
+            ("tr", &[transparency, ..]) => format!("d {}\n", 1.0 - transparency),
+            ("map_kd", _) if !rest.is_empty() => format!("map_Kd {rest}\n"),
+            ("map_d", _) if !rest.is_empty() => format!("map_d {rest}\n"),
+            ("norm", _) => format!("norm {rest}\n"),
+            _ => continue,
         };
-        let rest = after_first_word(&line);
-        if keyword == b"newmtl" {
-            materials.push(Mtl::new(lossy(rest)));
-            continue;
-        }
-        let Some(material) = materials.last_mut() else {
-            continue;
-        };
-        let numbers: Vec<f32> = words.map_while(float).take(3).collect();
-        match (keyword.to_ascii_lowercase().as_slice(), numbers.as_slice()) {
-            (b"kd", &[r, g, b]) => material.diffuse = Vec3::new(r, g, b).map(linear),
-            (b"kd", &[grey, ..]) => material.diffuse = Vec3::splat(linear(grey)),
-            (b"d", &[opacity, ..]) => material.opacity = opacity,
-            (b"tr", &[transparency, ..]) => material.opacity = 1.0 - transparency,
-            (b"map_kd", _) => material.diffuse_map = map(rest),
-            (b"map_d", _) => material.opacity_map = map(rest),
-            (b"norm", _) => material.normal_map = map(rest),
-            _ => {}
-        }
     }
-    materials
+    text
 }
 
 /// `-option value … file name`.
@@ -147,7 +150,7 @@ mod tests {
     fn materials_with_their_colours_and_images() {
         let text = b"Kd 9 9 9\nnewmtl my red\n Kd 1 0 0\nTr 0.25\nmap_Kd -s 2 3 -o 0.5 -clamp on -bm 2 my image.png\n\
             newmtl plain\nKd 0.5\nd 0.5\nmap_Kd\n";
-        let materials = parse(text);
+        let materials = read(text);
         let [red, plain] = materials.as_slice() else { panic!("{materials:?}") };
         assert_eq!((&red.name[..], red.diffuse, red.opacity), ("my red", Vec3::X, 0.75));
         let map = red.diffuse_map.clone().unwrap();
