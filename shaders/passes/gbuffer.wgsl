@@ -3,55 +3,52 @@
 #import common/octahedral.wgsl
 #import common/material.wgsl
 
-// Twin: `DrawUniform` in src/render/passes/gbuffer.rs.
+// One part of one object. Uniform, not an element of a storage array: what is the same for a whole draw is read once
+// per draw and not once per vertex. Twin: `DrawUniform` in src/render/passes/gbuffer.rs.
 struct Draw {
     view_from_local: mat4x4<f32>,
     // Inverse transpose of its linear part.
     normal_from_local: mat3x3<f32>,
+    material: Material,
     // Object id with the enhanced flag as the highest bit.
     object: u32,
-    material: u32,
     // 1: the mesh has no normals, faces are flat.
     is_flat: u32,
 }
 
-@group(1) @binding(0) var<storage, read> draws: array<Draw>;
-@group(1) @binding(1) var<storage, read> materials: array<Material>;
+@group(1) @binding(0) var base_tex: texture_2d<f32>;
+@group(1) @binding(1) var base_sampler: sampler;
+@group(1) @binding(2) var normal_tex: texture_2d<f32>;
+@group(1) @binding(3) var normal_sampler: sampler;
 
-@group(2) @binding(0) var base_tex: texture_2d<f32>;
-@group(2) @binding(1) var base_sampler: sampler;
-@group(2) @binding(2) var normal_tex: texture_2d<f32>;
-@group(2) @binding(3) var normal_sampler: sampler;
+@group(2) @binding(0) var<uniform> draw: Draw;
 
 struct Lean {
     @builtin(position) @invariant position: vec4<f32>,
     // View-oriented, but about the object's own origin, so that derivatives keep their digits far from the eye.
     @location(0) pos_oriented: vec3<f32>,
     @location(1) depth: f32,
-    @location(2) @interpolate(flat, first) draw: u32,
-    @location(3) @interpolate(flat, first) surface: u32,
+    @location(2) @interpolate(flat, first) surface: u32,
 }
 
 struct Smooth {
     @builtin(position) @invariant position: vec4<f32>,
     @location(0) pos_oriented: vec3<f32>,
     @location(1) depth: f32,
-    @location(2) @interpolate(flat, first) draw: u32,
-    @location(3) @interpolate(flat, first) surface: u32,
-    @location(4) normal: vec3<f32>,
-    @location(5) color: vec3<f32>,
+    @location(2) @interpolate(flat, first) surface: u32,
+    @location(3) normal: vec3<f32>,
+    @location(4) color: vec3<f32>,
 }
 
 struct Full {
     @builtin(position) @invariant position: vec4<f32>,
     @location(0) pos_oriented: vec3<f32>,
     @location(1) depth: f32,
-    @location(2) @interpolate(flat, first) draw: u32,
-    @location(3) @interpolate(flat, first) surface: u32,
-    @location(4) normal: vec3<f32>,
-    @location(5) tangent: vec4<f32>,
-    @location(6) uv: vec2<f32>,
-    @location(7) color: vec4<f32>,
+    @location(2) @interpolate(flat, first) surface: u32,
+    @location(3) normal: vec3<f32>,
+    @location(4) tangent: vec4<f32>,
+    @location(5) uv: vec2<f32>,
+    @location(6) color: vec4<f32>,
 }
 
 struct GBuffer {
@@ -60,40 +57,37 @@ struct GBuffer {
     @location(2) surface: u32,
 }
 
-fn pos_view_of_vertex(position: vec3<f32>, draw: u32) -> vec4<f32> {
-    return draws[draw].view_from_local * vec4(position, 1.0);
+fn pos_view_of_vertex(position: vec3<f32>) -> vec4<f32> {
+    return draw.view_from_local * vec4(position, 1.0);
 }
 
 @vertex
 fn vs_lean(
-    @builtin(instance_index) draw: u32,
     @location(0) position: vec3<f32>,
     @location(1) surface: u32,
 ) -> Lean {
-    let pos_view = pos_view_of_vertex(position, draw);
-    let pos_oriented = pos_view.xyz - draws[draw].view_from_local[3].xyz;
-    return Lean(frame.clip_from_view * pos_view, pos_oriented, -pos_view.z, draw, surface);
+    let pos_view = pos_view_of_vertex(position);
+    let pos_oriented = pos_view.xyz - draw.view_from_local[3].xyz;
+    return Lean(frame.clip_from_view * pos_view, pos_oriented, -pos_view.z, surface);
 }
 
 @vertex
 fn vs_smooth(
-    @builtin(instance_index) draw: u32,
     @location(0) position: vec3<f32>,
     @location(1) surface: u32,
     @location(2) normal: vec2<f32>,
     @location(5) color: vec4<f32>,
 ) -> Smooth {
-    let pos_view = pos_view_of_vertex(position, draw);
-    let pos_oriented = pos_view.xyz - draws[draw].view_from_local[3].xyz;
-    let normal_view = draws[draw].normal_from_local * octahedral_decode(normal);
+    let pos_view = pos_view_of_vertex(position);
+    let pos_oriented = pos_view.xyz - draw.view_from_local[3].xyz;
+    let normal_view = draw.normal_from_local * octahedral_decode(normal);
     return Smooth(
-        frame.clip_from_view * pos_view, pos_oriented, -pos_view.z, draw, surface, normal_view, color.rgb,
+        frame.clip_from_view * pos_view, pos_oriented, -pos_view.z, surface, normal_view, color.rgb,
     );
 }
 
 @vertex
 fn vs_full(
-    @builtin(instance_index) draw: u32,
     @location(0) position: vec3<f32>,
     @location(1) surface: u32,
     @location(2) normal: vec2<f32>,
@@ -101,12 +95,12 @@ fn vs_full(
     @location(4) uv: vec2<f32>,
     @location(5) color: vec4<f32>,
 ) -> Full {
-    let pos_view = pos_view_of_vertex(position, draw);
-    let local = draws[draw].view_from_local;
-    let normal_view = draws[draw].normal_from_local * octahedral_decode(normal);
+    let pos_view = pos_view_of_vertex(position);
+    let local = draw.view_from_local;
+    let normal_view = draw.normal_from_local * octahedral_decode(normal);
     let tangent_view = (local * vec4(octahedral_decode(tangent.xy), 0.0)).xyz;
     return Full(
-        frame.clip_from_view * pos_view, pos_view.xyz - local[3].xyz, -pos_view.z, draw, surface,
+        frame.clip_from_view * pos_view, pos_view.xyz - local[3].xyz, -pos_view.z, surface,
         normal_view, vec4(tangent_view, sign(tangent.z)), uv, color,
     );
 }
@@ -141,10 +135,9 @@ fn pack(normal: vec3<f32>, face: vec3<f32>, depth: f32, object: u32) -> vec4<u32
 
 @fragment
 fn fs_lean(v: Lean) -> GBuffer {
-    let draw = &draws[v.draw];
     let face = face_normal(v.pos_oriented);
-    let color = materials[(*draw).material].base_color.rgb;
-    return GBuffer(pack(face, face, v.depth, (*draw).object), vec4(color, 1.0), v.surface);
+    let color = draw.material.base_color.rgb;
+    return GBuffer(pack(face, face, v.depth, draw.object), vec4(color, 1.0), v.surface);
 }
 
 // Seen from behind, a surface is shaded as if it were two-sided.
@@ -154,37 +147,34 @@ fn turned_to(face: vec3<f32>, normal: vec3<f32>) -> vec3<f32> {
 
 @fragment
 fn fs_smooth(v: Smooth) -> GBuffer {
-    let draw = &draws[v.draw];
     let face = face_normal(v.pos_oriented);
-    let color = materials[(*draw).material].base_color.rgb * v.color;
-    let normal = select(turned_to(face, normalize(v.normal)), face, (*draw).is_flat == 1u);
-    return GBuffer(pack(normal, face, v.depth, (*draw).object), vec4(color, 1.0), v.surface);
+    let color = draw.material.base_color.rgb * v.color;
+    let normal = select(turned_to(face, normalize(v.normal)), face, draw.is_flat == 1u);
+    return GBuffer(pack(normal, face, v.depth, draw.object), vec4(color, 1.0), v.surface);
 }
 
 @fragment
 fn fs_full(v: Full) -> GBuffer {
-    let draw = &draws[v.draw];
-    let material = &materials[(*draw).material];
     let face = face_normal(v.pos_oriented);
     // Derivatives of the varying itself: loads from buffers are undefined in the helper lanes of a pixel quad.
     let uv = Footprint(v.uv, dpdx(v.uv), dpdy(v.uv));
-    let base = transformed(uv, (*material).base_uv);
-    let color = textureSampleGrad(base_tex, base_sampler, base.uv, base.dx, base.dy) * (*material).base_color * v.color;
-    let fine = transformed(uv, (*material).normal_uv);
+    let base = transformed(uv, draw.material.base_uv);
+    let color = textureSampleGrad(base_tex, base_sampler, base.uv, base.dx, base.dy) * draw.material.base_color * v.color;
+    let fine = transformed(uv, draw.material.normal_uv);
     let bump = textureSampleGrad(normal_tex, normal_sampler, fine.uv, fine.dx, fine.dy).xyz * 2.0 - 1.0;
-    if color.a < (*material).alpha_cutoff {
+    if color.a < draw.material.alpha_cutoff {
         discard;
     }
     var normal = face;
-    if (*draw).is_flat == 0u {
+    if draw.is_flat == 0u {
         normal = normalize(v.normal);
-        if (*material).has_normal_texture == 1u && v.tangent.w != 0.0 {
+        if draw.material.has_normal_texture == 1u && v.tangent.w != 0.0 {
             let tangent = normalize(v.tangent.xyz - normal * dot(normal, v.tangent.xyz));
             let bitangent = cross(normal, tangent) * sign(v.tangent.w);
-            let scale = (*material).normal_scale;
+            let scale = draw.material.normal_scale;
             normal = normalize(mat3x3(tangent, bitangent, normal) * (bump * vec3(scale, scale, 1.0)));
         }
         normal = turned_to(face, normal);
     }
-    return GBuffer(pack(normal, face, v.depth, (*draw).object), vec4(color.rgb, 1.0), v.surface);
+    return GBuffer(pack(normal, face, v.depth, draw.object), vec4(color.rgb, 1.0), v.surface);
 }

@@ -3,7 +3,7 @@
 use encase::internal::WriteInto;
 use encase::{ShaderSize, ShaderType, StorageBuffer as StorageBytes, UniformBuffer as UniformBytes};
 
-use super::Gpu;
+use super::{Gpu, GpuError};
 
 /// A uniform buffer that holds one `T`.
 pub struct UniformBuffer<T> {
@@ -39,6 +39,66 @@ impl<T: ShaderType + WriteInto + PartialEq + Clone> UniformBuffer<T> {
     /// The buffer itself.
     pub fn buffer(&self) -> &wgpu::Buffer {
         &self.buffer
+    }
+}
+
+/// A uniform buffer that holds many `T`, of which a draw sees the one at its dynamic offset; grows with their number.
+pub struct DynamicBuffer {
+    buffer: wgpu::Buffer,
+    stride: u64,
+    label: &'static str,
+}
+
+impl DynamicBuffer {
+    /// An empty one for elements of type `T`.
+    pub fn new<T: ShaderType>(gpu: &Gpu, label: &'static str) -> Self {
+        let alignment = u64::from(gpu.device.limits().min_uniform_buffer_offset_alignment);
+        let stride = T::min_size().get().next_multiple_of(alignment.max(1));
+        Self { buffer: Self::create(gpu, label, stride), stride, label }
+    }
+
+    fn create(gpu: &Gpu, label: &str, size: u64) -> wgpu::Buffer {
+        gpu.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some(label),
+            size,
+            usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        })
+    }
+
+    /// Writes all elements.
+    ///
+    /// # Errors
+    /// [`GpuError::TooLarge`].
+    pub fn write<T: ShaderType + WriteInto>(&mut self, gpu: &Gpu, values: &[T]) -> Result<(), GpuError> {
+        let mut bytes = vec![0; values.len() * self.stride as usize];
+        for (value, slot) in values.iter().zip(bytes.chunks_mut(self.stride as usize)) {
+            let mut one = UniformBytes::new(Vec::new());
+            if one.write(value).is_ok() {
+                let one: &[u8] = one.as_ref();
+                slot[..one.len()].copy_from_slice(one);
+            }
+        }
+        gpu.check_buffer_size(self.label, bytes.len() as u64)?;
+        if self.buffer.size() < bytes.len() as u64 {
+            self.buffer = Self::create(gpu, self.label, (bytes.len() as u64).next_power_of_two());
+        }
+        gpu.queue.write_buffer(&self.buffer, 0, &bytes);
+        Ok(())
+    }
+
+    /// The dynamic offset of an element.
+    pub fn offset(&self, index: u32) -> u32 {
+        index * self.stride as u32
+    }
+
+    /// What a bind group has to hold.
+    pub fn binding<T: ShaderType>(&self) -> wgpu::BindingResource<'_> {
+        wgpu::BindingResource::Buffer(wgpu::BufferBinding {
+            buffer: &self.buffer,
+            offset: 0,
+            size: Some(T::min_size()),
+        })
     }
 }
 

@@ -4,7 +4,7 @@ use encase::ShaderType;
 use glam::{Mat3, Vec4};
 use rayon::prelude::*;
 
-use super::{ArrayBuffer, Gpu, GpuError};
+use super::{Gpu, GpuError};
 use crate::scene::{AlphaMode, Material, Scene, Texture, TextureRef, Wrap};
 
 /// A material as the shader reads it; twin of `Material` in `shaders/common/material.wgsl`.
@@ -36,16 +36,15 @@ impl From<&Material> for MaterialUniform {
     }
 }
 
-/// All materials of a scene: their numbers in one buffer, their images in one bind group (group 2) each.
+/// All materials of a scene: their numbers, and their images in one bind group (group 1) each.
 pub struct MaterialBindings {
-    /// Array of [`MaterialUniform`].
-    pub buffer: ArrayBuffer,
+    uniforms: Vec<MaterialUniform>,
     groups: Vec<wgpu::BindGroup>,
     group_of_material: Vec<usize>,
 }
 
 impl MaterialBindings {
-    /// The layout of bind group 2: base colour texture and sampler, normal texture and sampler.
+    /// The layout of bind group 1: base colour texture and sampler, normal texture and sampler.
     pub fn layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
         let texture = wgpu::BindingType::Texture {
             sample_type: wgpu::TextureSampleType::Float { filterable: true },
@@ -70,11 +69,9 @@ impl MaterialBindings {
     /// # Errors
     /// [`GpuError`].
     pub fn new(gpu: &Gpu, layout: &wgpu::BindGroupLayout, scene: &Scene) -> Result<Self, GpuError> {
-        let mut buffer = ArrayBuffer::new(gpu, "materials");
         let mut uniforms: Vec<MaterialUniform> = scene.materials.iter().map(MaterialUniform::from).collect();
-        // WGSL arrays have at least one element, and a part may name no existing material.
+        // A part may name no existing material.
         uniforms.push(MaterialUniform::from(&Material::default()));
-        buffer.write(gpu, &uniforms);
 
         let white = upload(gpu, &[(1, 1, vec![255; 4])], true);
         let mut views = Views { gpu, scene, made: Vec::new() };
@@ -105,17 +102,17 @@ impl MaterialBindings {
             keys.push(key);
             group_of_material.push(keys.len() - 1);
         }
-        Ok(Self { buffer, groups, group_of_material })
+        Ok(Self { uniforms, groups, group_of_material })
     }
 
-    /// The index that a material has in the buffer.
-    pub fn index(&self, material: usize) -> usize {
-        material.min(self.group_of_material.len() - 1)
+    /// The numbers of a material; the default's if there is none of that index.
+    pub fn uniform(&self, material: usize) -> MaterialUniform {
+        self.uniforms[material.min(self.uniforms.len() - 1)]
     }
 
     /// Number of the bind group of a material.
     pub fn group_index(&self, material: usize) -> usize {
-        self.group_of_material.get(self.index(material)).copied().unwrap_or(0)
+        self.group_of_material[material.min(self.group_of_material.len() - 1)]
     }
 
     /// A bind group by its number.

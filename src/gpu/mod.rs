@@ -11,7 +11,7 @@ pub mod recorder;
 pub mod shader;
 pub mod timer;
 
-pub use buffer::{ArrayBuffer, UniformBuffer};
+pub use buffer::{ArrayBuffer, DynamicBuffer, UniformBuffer};
 pub use device::{Gpu, GpuError};
 pub use geometry::GeometryBuffers;
 pub use material::MaterialBindings;

@@ -75,7 +75,7 @@ pub enum Detail {
 /// One draw call.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DrawCall {
-    /// Index into [`Objects::draws`]; the instance index of the call.
+    /// Index of its uniform.
     pub draw: u32,
     /// Range of the index buffer.
     pub first_index: u32,
@@ -193,7 +193,7 @@ impl Objects {
                     view_from_local: view_from_local.as_mat4(),
                     normal_from_local: normal_matrix(&view_from_local),
                     object: object_id(id) | if enhanced { ENHANCED } else { 0 },
-                    material: scene.materials.index(part.material) as u32,
+                    material: scene.materials.uniform(part.material),
                     is_flat: u32::from(mesh.normals.is_empty()),
                 });
             }

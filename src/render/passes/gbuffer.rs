@@ -6,8 +6,9 @@ use encase::ShaderType;
 use glam::{Mat3, Mat4};
 
 use crate::gpu::geometry::Attributes;
+use crate::gpu::material::MaterialUniform;
 use crate::gpu::recorder::{Pipelines, color_attachment};
-use crate::gpu::{ArrayBuffer, Gpu, MaterialBindings, Recorder, Target};
+use crate::gpu::{DynamicBuffer, Gpu, MaterialBindings, Recorder, Target};
 use crate::render::RenderError;
 use crate::render::groups::{Detail, DrawCall, GpuScene};
 
@@ -40,10 +41,10 @@ pub struct DrawUniform {
     pub view_from_local: Mat4,
     /// Inverse transpose of its linear part, up to a positive factor.
     pub normal_from_local: Mat3,
+    /// What it is made of.
+    pub material: MaterialUniform,
     /// Object id with the enhanced flag.
     pub object: u32,
-    /// Index into the materials.
-    pub material: u32,
     /// 1: no normals, faces are flat.
     pub is_flat: u32,
 }
@@ -52,38 +53,34 @@ pub struct DrawUniform {
 pub struct GBufferPass {
     pipelines: HashMap<Detail, wgpu::RenderPipeline>,
     generation: u64,
-    pass_layout: wgpu::BindGroupLayout,
-    /// Layout of bind group 2.
+    draw_layout: wgpu::BindGroupLayout,
+    /// Layout of bind group 1.
     pub material_layout: wgpu::BindGroupLayout,
-    draws: ArrayBuffer,
+    draws: DynamicBuffer,
 }
 
 impl GBufferPass {
     /// Compiles nothing yet.
     pub fn new(gpu: &Gpu) -> Self {
-        let storage = |binding, visibility| wgpu::BindGroupLayoutEntry {
-            binding,
-            visibility,
-            ty: wgpu::BindingType::Buffer {
-                ty: wgpu::BufferBindingType::Storage { read_only: true },
-                has_dynamic_offset: false,
-                min_binding_size: None,
-            },
-            count: None,
-        };
-        let pass_layout = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-            label: Some("g-buffer"),
-            entries: &[
-                storage(0, wgpu::ShaderStages::VERTEX_FRAGMENT),
-                storage(1, wgpu::ShaderStages::FRAGMENT),
-            ],
+        let draw_layout = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some("draw"),
+            entries: &[wgpu::BindGroupLayoutEntry {
+                binding: 0,
+                visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
+                ty: wgpu::BindingType::Buffer {
+                    ty: wgpu::BufferBindingType::Uniform,
+                    has_dynamic_offset: true,
+                    min_binding_size: Some(DrawUniform::min_size()),
+                },
+                count: None,
+            }],
         });
         Self {
             pipelines: HashMap::new(),
             generation: 0,
-            pass_layout,
+            draw_layout,
             material_layout: MaterialBindings::layout(gpu),
-            draws: ArrayBuffer::new(gpu, "draws"),
+            draws: DynamicBuffer::new::<DrawUniform>(gpu, "draws"),
         }
     }
 
@@ -101,7 +98,7 @@ impl GBufferPass {
             return Ok(pipeline.clone());
         }
         let module = pipelines.module(gpu, "passes/gbuffer.wgsl")?;
-        let layouts = [pipelines.frame_layout(), &self.pass_layout, &self.material_layout];
+        let layouts = [pipelines.frame_layout(), &self.material_layout, &self.draw_layout];
         let pipeline = build(gpu, &module, &layouts, detail);
         self.pipelines.insert(detail, pipeline.clone());
         Ok(pipeline)
@@ -115,7 +112,7 @@ impl GBufferPass {
         &mut self,
         rec: &mut Recorder<'_>,
         scene: &GpuScene,
-        draws: &Vec<DrawUniform>,
+        draws: &[DrawUniform],
         calls: &[DrawCall],
     ) -> Result<GBuffer, RenderError> {
         let gbuffer = GBuffer {
@@ -128,19 +125,11 @@ impl GBufferPass {
         for call in calls {
             self.pipeline(gpu, rec.pipelines, call.detail)?;
         }
-        if !draws.is_empty() {
-            self.draws.write(gpu, draws);
-        }
+        self.draws.write(gpu, draws)?;
         let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("g-buffer"),
-            layout: &self.pass_layout,
-            entries: &[
-                wgpu::BindGroupEntry { binding: 0, resource: self.draws.buffer().as_entire_binding() },
-                wgpu::BindGroupEntry {
-                    binding: 1,
-                    resource: scene.materials.buffer.buffer().as_entire_binding(),
-                },
-            ],
+            label: Some("draws"),
+            layout: &self.draw_layout,
+            entries: &[wgpu::BindGroupEntry { binding: 0, resource: self.draws.binding::<DrawUniform>() }],
         });
         let clear = || wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT);
         let color = [&gbuffer.geometry, &gbuffer.base_color, &gbuffer.surface]
@@ -151,7 +140,6 @@ impl GBufferPass {
             stencil_ops: None,
         };
         let mut pass = rec.pass("g-buffer", &color, Some(depth));
-        pass.set_bind_group(1, &group, &[]);
         pass.set_vertex_buffer(0, scene.geometry.positions.slice(..));
         pass.set_vertex_buffer(1, scene.geometry.surfaces.slice(..));
         if let Some(attributes) = &scene.geometry.attributes {
@@ -166,11 +154,12 @@ impl GBufferPass {
                 detail = Some(call.detail);
             }
             if material != Some(call.material_group) {
-                pass.set_bind_group(2, scene.materials.group(call.material_group), &[]);
+                pass.set_bind_group(1, scene.materials.group(call.material_group), &[]);
                 material = Some(call.material_group);
             }
             let indices = call.first_index..call.first_index + call.index_count;
-            pass.draw_indexed(indices, call.base_vertex, call.draw..call.draw + 1);
+            pass.set_bind_group(2, &group, &[self.draws.offset(call.draw)]);
+            pass.draw_indexed(indices, call.base_vertex, 0..1);
         }
         drop(pass);
         Ok(gbuffer)
