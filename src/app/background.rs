@@ -12,7 +12,7 @@ use super::navigation::Standard;
 use super::screenshot::{self, Destination};
 use super::viewer::{DialogFor, Viewer};
 use super::viewport::PickFor;
-use crate::document::{Document, Show};
+use crate::document::Document;
 use crate::export::session::{self, is_document};
 use crate::import::ImportError;
 use crate::render::Pick;
@@ -38,7 +38,7 @@ impl Viewer {
     pub(super) fn answer_jobs(&mut self, context: &egui::Context) {
         self.answer_load(context);
         self.answer_dialog(context);
-        self.answer_surfaces(context);
+        self.answer_topology(context);
         self.answer_pictures(context);
         if let Some(result) = self.jobs.save.as_ref().and_then(Job::poll) {
             self.jobs.save = None;
@@ -81,14 +81,14 @@ impl Viewer {
 
     fn show_loaded(&mut self, loaded: Loaded) {
         let Loaded { model, models, document, intent } = loaded;
-        if let Err(error) = self.viewport.set_scene(&model.scene, &[]) {
+        if let Err(error) = self.viewport.set_scene(&model.scene) {
             self.load_failed(&error.to_string());
             return;
         }
         let selection = self.selection.carried_over(&self.model.scene, &model.scene);
         self.model = model;
-        self.jobs.surfaces = None;
-        self.surfaces_for = None;
+        self.jobs.topology = None;
+        self.topology_for = None;
         self.outliner.restart(&self.model.scene);
         self.selection = if intent == Intent::Open { Default::default() } else { selection };
         match intent {
@@ -121,13 +121,12 @@ impl Viewer {
         }
     }
 
-    /// Finds the surfaces of the scene when something shows them, and again when the crease angle has changed.
-    fn answer_surfaces(&mut self, context: &egui::Context) {
-        if let Some(result) = self.jobs.surfaces.as_ref().and_then(Job::poll) {
-            self.jobs.surfaces = None;
-            let scene = Arc::clone(&self.model.scene);
+    /// Examines the meshes of a new scene beside the window, and again when the crease angle has changed.
+    fn answer_topology(&mut self, context: &egui::Context) {
+        if let Some(result) = self.jobs.topology.as_ref().and_then(Job::poll) {
+            self.jobs.topology = None;
             let shown = match result {
-                Ok(surfaces) => self.viewport.set_scene(&scene, &surfaces).map_err(|e| e.to_string()),
+                Ok(topology) => self.viewport.set_topology(&topology).map_err(|e| e.to_string()),
                 Err(error) => Err(error.to_string()),
             };
             if let Err(message) = shown {
@@ -135,12 +134,12 @@ impl Viewer {
             }
         }
         let angle = self.document.view.crease_angle;
-        let is_wanted = self.document.view.show == Show::Surfaces && !self.model.scene.meshes.is_empty();
-        if is_wanted && self.surfaces_for != Some(angle) && context.input(|i| !i.pointer.any_down()) {
-            self.surfaces_for = Some(angle);
+        let is_wanted = !self.model.scene.meshes.is_empty();
+        if is_wanted && self.topology_for != Some(angle) && context.input(|i| !i.pointer.any_down()) {
+            self.topology_for = Some(angle);
             let scene = Arc::clone(&self.model.scene);
-            self.jobs.surfaces =
-                Some(Job::start("finding surfaces", context, move |_| session::surfaces(&scene, angle)));
+            self.jobs.topology =
+                Some(Job::start("examining the meshes", context, move |_| session::topology(&scene, angle)));
         }
     }
 

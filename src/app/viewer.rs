@@ -16,7 +16,7 @@ use super::state::{AppState, Page};
 use super::viewport::{Capture, Viewport};
 use super::{AppError, theme};
 use crate::document::{Document, DocumentError, History};
-use crate::geometry::Provoking;
+use crate::geometry::Topology;
 use crate::import;
 use crate::style::Style;
 use crate::style::preset::{self, Preset};
@@ -63,7 +63,7 @@ pub(super) enum DialogFor {
 pub(super) struct Jobs {
     pub(super) load: Option<Job<Result<Loaded, LoadError>>>,
     pub(super) dialog: Option<(DialogFor, Job<Vec<PathBuf>>)>,
-    pub(super) surfaces: Option<Job<Vec<Provoking>>>,
+    pub(super) topology: Option<Job<Vec<Topology>>>,
     pub(super) save: Option<Job<Result<(PathBuf, Document), DocumentError>>>,
     pub(super) captures: Vec<(Capture, Destination)>,
     pub(super) pictures: Vec<Job<Result<PathBuf, ScreenshotError>>>,
@@ -87,8 +87,8 @@ pub struct Viewer {
     pub(super) saved: Option<(PathBuf, Document)>,
     /// The models that the scene was made of.
     pub(super) loaded: Vec<PathBuf>,
-    /// The crease angle of the surfaces that the renderer has or is about to get.
-    pub(super) surfaces_for: Option<f32>,
+    /// The crease angle of the topology that the renderer has or is about to get.
+    pub(super) topology_for: Option<f32>,
     pub(super) loader: Loader,
     pub(super) start_style: Option<Style>,
     pub(super) can_reload_shaders: bool,
@@ -128,7 +128,7 @@ impl Viewer {
             open: Open::default(),
             saved: None,
             loaded: Vec::new(),
-            surfaces_for: None,
+            topology_for: None,
             loader: launch.loader,
             start_style: launch.style,
             can_reload_shaders,

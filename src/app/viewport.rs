@@ -14,7 +14,7 @@ use super::gesture::{self, Gestures};
 use super::jobs::Job;
 use super::navigation;
 use crate::document::Document;
-use crate::geometry::Provoking;
+use crate::geometry::Topology;
 use crate::gpu::readback::Readback;
 use crate::gpu::{Gpu, Target};
 use crate::render::{Pick, RenderError, Renderer, Request};
@@ -185,13 +185,23 @@ impl Viewport {
         }));
     }
 
-    /// Uploads another scene; `surfaces` has an entry per mesh once they are known.
+    /// Uploads another scene.
     ///
     /// # Errors
     /// When the device cannot hold it; the last scene then stays.
-    pub fn set_scene(&mut self, scene: &Arc<Scene>, surfaces: &[Provoking]) -> Result<(), RenderError> {
+    pub fn set_scene(&mut self, scene: &Arc<Scene>) -> Result<(), RenderError> {
         self.pick = None;
-        self.renderer.set_scene(scene, surfaces)?;
+        self.renderer.set_scene(scene, &[])?;
+        self.draw_again();
+        Ok(())
+    }
+
+    /// Hands on what topology found out about the scene's meshes.
+    ///
+    /// # Errors
+    /// When the device cannot hold it; everything then stays.
+    pub fn set_topology(&mut self, topology: &[Topology]) -> Result<(), RenderError> {
+        self.renderer.set_topology(topology)?;
         self.draw_again();
         Ok(())
     }

@@ -7,10 +7,11 @@ use serde_json::json;
 use super::args::BenchArgs;
 use super::{CliError, print_json, print_line, sample};
 use crate::export::Session;
-use crate::export::session::{Opened, initial_camera, open};
+use crate::export::session::{Opened, initial_camera, open, topology};
 use crate::gpu::Gpu;
 use crate::import::Progress;
 use crate::render::Request;
+use crate::scene::Camera;
 use crate::style::{DepthOperator, Style, preset};
 
 /// One style, measured.
@@ -25,24 +26,80 @@ pub(super) fn run(args: &BenchArgs) -> Result<(), CliError> {
     let started = Instant::now();
     let opened = open(&files, &Progress::default())?;
     let load_ms = started.elapsed().as_secs_f64() * 1e3;
-    let mut session = Session::new(Gpu::headless()?);
-    session.set_scene(&opened)?;
+    let mut bench = Bench::new(opened, args.resolution.0)?;
 
     let mut rows: Vec<Row> =
         styles()?.iter().map(|(name, _)| Row { name, frame_ms: Vec::new(), stages: Vec::new() }).collect();
     // The styles take turns, so that a slow moment of the machine hits all of them alike.
-    for frame in 0..args.frames + 2 {
+    for frame in 0..args.frames + WARM_UP {
         for (i, (row, (_, style))) in rows.iter_mut().zip(styles()?).enumerate() {
-            measure(&mut session, &opened, args.resolution.0, &style, frame, turn(frame, i), row)?;
+            let ms = bench.frame(&style, turn(frame, i))?;
+            if frame >= WARM_UP {
+                row.frame_ms.push(ms);
+            }
         }
     }
-    session.renderer().enable_timers();
-    for frame in 0..args.frames.min(10) + 2 {
+    // Timing each pass holds the device up, so it is done by itself.
+    bench.session.renderer().enable_timers();
+    for frame in 0..args.frames.min(10) + WARM_UP {
         for (i, (row, (_, style))) in rows.iter_mut().zip(styles()?).enumerate() {
-            measure_stages(&mut session, &opened, args.resolution.0, &style, frame, turn(frame, i), row)?;
+            bench.frame(&style, turn(frame, i))?;
+            for (label, ms) in bench.session.renderer().timings()?.into_iter().filter(|_| frame >= WARM_UP) {
+                match row.stages.iter_mut().find(|(known, _)| *known == label) {
+                    Some((_, all)) => all.push(ms),
+                    None => row.stages.push((label, vec![ms])),
+                }
+            }
         }
     }
-    report(args, &opened, &mut session, load_ms, &rows)
+    report(args, &mut bench, load_ms, &rows)
+}
+
+/// The first frames compile shaders and fault pages in.
+const WARM_UP: u32 = 2;
+
+/// Degrees of a frame's direction: each has one of its own, so that every stage has to run, and those of one round are
+/// nearly equal.
+fn turn(frame: u32, row: usize) -> f64 {
+    f64::from(frame) * 3.0 + row as f64 * 0.01
+}
+
+/// A scene on the device, ready to be drawn again and again.
+struct Bench {
+    session: Session,
+    opened: Opened,
+    size: [u32; 2],
+    camera: Camera,
+}
+
+impl Bench {
+    fn new(opened: Opened, size: [u32; 2]) -> Result<Self, CliError> {
+        let Opened { document, scene } = &opened;
+        let camera = initial_camera(document, scene, f64::from(size[0]) / f64::from(size[1]));
+        let mut session = Session::new(Gpu::headless()?);
+        session.set_scene(&opened)?;
+        // The window knows it too, as soon as a background job has found it out.
+        session.renderer().set_topology(&topology(scene, document.view.crease_angle))?;
+        Ok(Self { session, opened, size, camera })
+    }
+
+    /// Draws everything in one style, turned by so many degrees; returns milliseconds.
+    fn frame(&mut self, style: &Style, turn: f64) -> Result<f64, CliError> {
+        let mut document = self.opened.document.clone();
+        document.style = style.clone();
+        document.nodes.clear();
+        let camera = self.camera.orbited(document.up(&self.opened.scene).vector(), turn, 0.0);
+        let started = Instant::now();
+        self.session.renderer().render(&Request {
+            document: &document,
+            camera: &camera,
+            size: self.size,
+            transparent: false,
+            selected: &[],
+        })?;
+        self.session.renderer().gpu().wait()?;
+        Ok(started.elapsed().as_secs_f64() * 1e3)
+    }
 }
 
 fn styles() -> Result<Vec<(&'static str, Style)>, CliError> {
@@ -61,93 +118,16 @@ fn styles() -> Result<Vec<(&'static str, Style)>, CliError> {
     ])
 }
 
-/// Each frame has a direction of its own, so that every stage has to run; those of one round are nearly equal.
-fn turn(frame: u32, row: usize) -> f64 {
-    f64::from(frame) * 3.0 + row as f64 * 0.01
-}
-
-/// Draws one frame, turned by so many degrees.
-fn draw(
-    session: &mut Session,
-    opened: &Opened,
-    size: [u32; 2],
-    style: &Style,
-    turn: f64,
-) -> Result<(), CliError> {
-    let mut document = opened.document.clone();
-    document.style = style.clone();
-    document.nodes.clear();
-    let up = document.up(&opened.scene).vector();
-    let aspect = f64::from(size[0]) / f64::from(size[1]);
-    let camera = initial_camera(&document, &opened.scene, aspect).orbited(up, turn, 0.0);
-    let renderer = session.renderer();
-    renderer.render(&Request {
-        document: &document,
-        camera: &camera,
-        size,
-        transparent: false,
-        selected: &[],
-    })?;
-    Ok(())
-}
-
-fn measure(
-    session: &mut Session,
-    opened: &Opened,
-    size: [u32; 2],
-    style: &Style,
-    frame: u32,
-    turn: f64,
-    row: &mut Row,
-) -> Result<(), CliError> {
-    let started = Instant::now();
-    draw(session, opened, size, style, turn)?;
-    session.renderer().gpu().wait()?;
-    // The first two frames compile shaders and fault pages in.
-    if frame >= 2 {
-        row.frame_ms.push(started.elapsed().as_secs_f64() * 1e3);
-    }
-    Ok(())
-}
-
-fn measure_stages(
-    session: &mut Session,
-    opened: &Opened,
-    size: [u32; 2],
-    style: &Style,
-    frame: u32,
-    turn: f64,
-    row: &mut Row,
-) -> Result<(), CliError> {
-    draw(session, opened, size, style, turn)?;
-    for (label, ms) in session.renderer().timings()? {
-        if frame < 2 {
-            continue;
-        }
-        match row.stages.iter_mut().find(|(known, _)| *known == label) {
-            Some((_, all)) => all.push(ms),
-            None => row.stages.push((label, vec![ms])),
-        }
-    }
-    Ok(())
-}
-
 fn median(values: &[f64]) -> f64 {
     let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);
     sorted.get(sorted.len() / 2).copied().unwrap_or(0.0)
 }
 
-fn report(
-    args: &BenchArgs,
-    opened: &Opened,
-    session: &mut Session,
-    load_ms: f64,
-    rows: &[Row],
-) -> Result<(), CliError> {
-    let adapter = session.renderer().gpu().adapter_name.clone();
+fn report(args: &BenchArgs, bench: &mut Bench, load_ms: f64, rows: &[Row]) -> Result<(), CliError> {
+    let adapter = bench.session.renderer().gpu().adapter_name.clone();
     let [w, h] = args.resolution.0;
-    let triangles = opened.scene.triangle_count();
+    let triangles = bench.opened.scene.triangle_count();
     let plain = rows.first().map_or(0.0, |r| median(&r.frame_ms));
     // Frame by frame against the plain frame drawn beside it.
     let ratio = |row: &Row| {

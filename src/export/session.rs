@@ -6,7 +6,7 @@ use std::sync::Arc;
 use image::RgbaImage;
 
 use crate::document::{Document, DocumentError, Show};
-use crate::geometry::{Adjacency, Provoking, provoking};
+use crate::geometry::Topology;
 use crate::gpu::{Gpu, GpuError, readback};
 use crate::import::{ImportError, ImportOptions, Progress, load_all};
 use crate::render::{Picture, RenderError, Renderer, Request};
@@ -75,13 +75,9 @@ pub fn initial_camera(document: &Document, scene: &Scene, aspect: f64) -> Camera
         .framing(&extent, aspect)
 }
 
-/// Surface ids of all meshes for a crease angle in degrees. Takes about 0.1 s per million triangles.
-pub fn surfaces(scene: &Scene, crease_angle: f32) -> Vec<Provoking> {
-    scene
-        .meshes
-        .iter()
-        .map(|mesh| provoking(mesh, &Adjacency::new(mesh).surfaces(crease_angle.to_radians())))
-        .collect()
+/// What topology finds out about all meshes, for a crease angle in degrees. Takes about 0.1 s per million triangles.
+pub fn topology(scene: &Scene, crease_angle: f32) -> Vec<Topology> {
+    scene.meshes.iter().map(|mesh| Topology::new(mesh, crease_angle.to_radians())).collect()
 }
 
 /// A renderer that gives its pictures back.
@@ -100,17 +96,18 @@ impl Session {
         &mut self.renderer
     }
 
-    /// Uploads what was opened; surface ids only if the document's view asks for them.
+    /// Uploads what was opened. Topology is examined only if the document's view asks for surfaces: for one picture it
+    /// would cost more time than it saves.
     ///
     /// # Errors
     /// [`RenderError`].
     pub fn set_scene(&mut self, opened: &Opened) -> Result<(), RenderError> {
-        let surfaces = if opened.document.view.show == Show::Surfaces {
-            surfaces(&opened.scene, opened.document.view.crease_angle)
+        let topology = if opened.document.view.show == Show::Surfaces {
+            topology(&opened.scene, opened.document.view.crease_angle)
         } else {
             Vec::new()
         };
-        self.renderer.set_scene(&opened.scene, &surfaces)
+        self.renderer.set_scene(&opened.scene, &topology)
     }
 
     /// Draws a document on the scene that was set, with its own camera or the initial one.

@@ -40,6 +40,7 @@ struct FullscreenKey {
     program: Program,
     inputs: Vec<Option<wgpu::TextureFormat>>,
     outputs: Vec<wgpu::TextureFormat>,
+    covered: Option<wgpu::TextureFormat>,
 }
 
 struct Fullscreen {
@@ -196,7 +197,14 @@ fn build_fullscreen(
             buffers: &[],
         },
         primitive: wgpu::PrimitiveState::default(),
-        depth_stencil: None,
+        // The triangle lies at depth 0, where the reversed buffer is cleared: only what is nearer passes.
+        depth_stencil: key.covered.map(|format| wgpu::DepthStencilState {
+            format,
+            depth_write_enabled: Some(false),
+            depth_compare: Some(wgpu::CompareFunction::Less),
+            stencil: wgpu::StencilState::default(),
+            bias: wgpu::DepthBiasState::default(),
+        }),
         multisample: wgpu::MultisampleState::default(),
         fragment: Some(wgpu::FragmentState {
             module,
@@ -271,7 +279,8 @@ impl<'a> Recorder<'a> {
         pass
     }
 
-    /// Runs a program once per pixel: `inputs` are its bindings in group 1, `outputs` its locations.
+    /// Runs a program once per pixel: `inputs` are its bindings in group 1, `outputs` its locations, which are cleared
+    /// to 0. With a `covered` depth buffer it runs only where something was drawn.
     ///
     /// # Errors
     /// [`ShaderError::Missing`].
@@ -281,6 +290,7 @@ impl<'a> Recorder<'a> {
         program: Program,
         inputs: &[Input<'_>],
         outputs: &[&Target],
+        covered: Option<&Target>,
     ) -> Result<(), ShaderError> {
         let key = FullscreenKey {
             program,
@@ -292,6 +302,7 @@ impl<'a> Recorder<'a> {
                 })
                 .collect(),
             outputs: outputs.iter().map(|o| o.format()).collect(),
+            covered: covered.map(Target::format),
         };
         let made = self.pipelines.fullscreen(self.gpu, &key)?;
         let pipeline = made.pipeline.clone();
@@ -315,7 +326,12 @@ impl<'a> Recorder<'a> {
             .iter()
             .map(|o| Some(color_attachment(o, wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT))))
             .collect();
-        let mut pass = self.pass(label, &color, None);
+        let depth = covered.map(|depth| wgpu::RenderPassDepthStencilAttachment {
+            view: depth.view(),
+            depth_ops: None,
+            stencil_ops: None,
+        });
+        let mut pass = self.pass(label, &color, depth);
         pass.set_pipeline(&pipeline);
         pass.set_bind_group(1, &group, &[]);
         pass.draw(0..3, 0..1);

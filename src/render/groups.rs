@@ -9,7 +9,7 @@ use super::frame_uniform::View;
 use super::passes::edge_map::EdgeUniform;
 use super::passes::gbuffer::DrawUniform;
 use crate::document::Document;
-use crate::geometry::{Bounds, Provoking};
+use crate::geometry::{Bounds, Topology};
 use crate::gpu::geometry::MeshSource;
 use crate::gpu::{GeometryBuffers, Gpu, GpuError, MaterialBindings};
 use crate::scene::{AlphaMode, NodeId, Scene};
@@ -26,10 +26,12 @@ pub struct GpuScene {
     /// Its materials.
     pub materials: MaterialBindings,
     mesh_bounds: Vec<Bounds>,
+    /// Per mesh, whether it is solid; empty until topology is known.
+    is_solid: Vec<bool>,
 }
 
 impl GpuScene {
-    /// Uploads a scene. `surfaces` has one entry per mesh once they are known; until then all surface ids are 0.
+    /// Uploads a scene. `topology` has one entry per mesh, or is empty: then all surface ids are 0.
     ///
     /// # Errors
     /// [`GpuError::TooLarge`].
@@ -37,20 +39,34 @@ impl GpuScene {
         gpu: &Gpu,
         material_layout: &wgpu::BindGroupLayout,
         scene: &Arc<Scene>,
-        surfaces: &[Provoking],
+        topology: &[Topology],
     ) -> Result<Self, GpuError> {
-        let sources: Vec<_> = scene
-            .meshes
-            .iter()
-            .enumerate()
-            .map(|(i, mesh)| MeshSource { mesh, surfaces: surfaces.get(i) })
-            .collect();
         Ok(Self {
-            geometry: GeometryBuffers::new(gpu, &sources)?,
+            geometry: upload(gpu, scene, topology)?,
             materials: MaterialBindings::new(gpu, material_layout, scene)?,
             mesh_bounds: scene.meshes.iter().map(|m| m.bounds()).collect(),
+            is_solid: topology.iter().map(|t| t.is_solid).collect(),
             scene: Arc::clone(scene),
         })
+    }
+
+    /// Takes over what topology found out meanwhile.
+    ///
+    /// # Errors
+    /// [`GpuError::TooLarge`]; everything then stays.
+    pub fn set_topology(&mut self, gpu: &Gpu, topology: &[Topology]) -> Result<(), GpuError> {
+        self.geometry = upload(gpu, &self.scene, topology)?;
+        self.is_solid = topology.iter().map(|t| t.is_solid).collect();
+        Ok(())
+    }
+
+    /// Which side of a node's triangles nobody can see: solid meshes wholly before the eye show no back face.
+    fn hidden_side(&self, mesh: usize, view_from_local: &DMat4, orthographic: bool) -> Option<wgpu::Face> {
+        let is_solid = self.is_solid.get(mesh).copied().unwrap_or(false);
+        let is_before_the_eye = orthographic
+            || self.mesh_bounds.get(mesh).is_some_and(|b| b.transformed(view_from_local).max.z < 0.0);
+        let mirrored = view_from_local.determinant() < 0.0;
+        (is_solid && is_before_the_eye).then_some(if mirrored { wgpu::Face::Front } else { wgpu::Face::Back })
     }
 
     fn bounds_of(&self, node: NodeId) -> Bounds {
@@ -59,6 +75,16 @@ impl GpuScene {
             .and_then(|m| self.mesh_bounds.get(m))
             .map_or(Bounds::EMPTY, |b| b.transformed(&node.world_from_local))
     }
+}
+
+fn upload(gpu: &Gpu, scene: &Scene, topology: &[Topology]) -> Result<GeometryBuffers, GpuError> {
+    let sources: Vec<_> = scene
+        .meshes
+        .iter()
+        .enumerate()
+        .map(|(i, mesh)| MeshSource { mesh, surfaces: topology.get(i).map(|t| &t.provoking) })
+        .collect();
+    GeometryBuffers::new(gpu, &sources)
 }
 
 /// How much the shaders of a draw have to read; less is faster.
@@ -87,6 +113,8 @@ pub struct DrawCall {
     pub material_group: usize,
     /// Which vertex and fragment shader it needs.
     pub detail: Detail,
+    /// The side of its triangles that is left out.
+    pub hidden_side: Option<wgpu::Face>,
 }
 
 /// The object id that pixels of a node carry; 0 is the background.
@@ -154,7 +182,7 @@ impl Objects {
         })
     }
 
-    /// What the G-buffer depends on: for each visible part its matrices, object and material, ordered by bind group.
+    /// What the G-buffer depends on: for each visible part its matrices, object and material, ordered by pipeline.
     pub fn draws(&self, scene: &GpuScene, view: &View) -> (Vec<DrawUniform>, Vec<DrawCall>) {
         let mut draws = Vec::new();
         let mut calls = Vec::new();
@@ -167,6 +195,8 @@ impl Objects {
             let Some(range) = scene.geometry.meshes.get(mesh_index) else { continue };
             // Combined in double precision, so that models far from the origin do not jitter.
             let view_from_local = view.view_from_world * node.world_from_local;
+            let local_bounds = scene.mesh_bounds.get(mesh_index).copied().unwrap_or(Bounds::EMPTY);
+            let hidden_side = scene.hidden_side(mesh_index, &view_from_local, view.orthographic);
             let has_images = |material: usize| {
                 scene.scene.materials.get(material).is_some_and(|m| {
                     m.base_color_texture.is_some()
@@ -175,7 +205,9 @@ impl Objects {
                 })
             };
             for part in &mesh.parts {
-                calls.push(DrawCall {
+                let alpha = scene.scene.materials.get(part.material).map_or(AlphaMode::Opaque, |m| m.alpha);
+                let depth = -local_bounds.transformed(&view_from_local).max.z;
+                let call = DrawCall {
                     draw: draws.len() as u32,
                     first_index: range.first_index + part.first_index,
                     index_count: part.index_count,
@@ -188,7 +220,9 @@ impl Objects {
                     } else {
                         Detail::Smooth
                     },
-                });
+                    hidden_side: if alpha == AlphaMode::Opaque { hidden_side } else { None },
+                };
+                calls.push((depth, call));
                 draws.push(DrawUniform {
                     view_from_local: view_from_local.as_mat4(),
                     normal_from_local: normal_matrix(&view_from_local),
@@ -198,8 +232,10 @@ impl Objects {
                 });
             }
         }
-        calls.sort_by_key(|c| (c.detail, c.material_group));
-        (draws, calls)
+        // Near ones first: what lies behind them is then never shaded.
+        calls.sort_by(|(a, _), (b, _)| a.total_cmp(b));
+        calls.sort_by_key(|(_, c)| (c.detail, c.hidden_side.map(|s| s as u32)));
+        (draws, calls.into_iter().map(|(_, call)| call).collect())
     }
 }
 

@@ -8,7 +8,7 @@ use super::frame::{FrameInputs, FrameState, Picture};
 use super::frame_uniform::{FrameUniform, View};
 use super::groups::{GpuScene, Objects, node_of};
 use crate::document::Document;
-use crate::geometry::Provoking;
+use crate::geometry::Topology;
 use crate::gpu::readback::Readback;
 use crate::gpu::recorder::Pipelines;
 use crate::gpu::{Gpu, GpuError, Recorder, ShaderError, Shaders, TargetPool, Timers, UniformBuffer};
@@ -102,13 +102,26 @@ impl Renderer {
         &self.gpu
     }
 
-    /// Uploads a scene in place of the last one. `surfaces`: one entry per mesh once topology is known, else empty.
+    /// Uploads a scene in place of the last one. `topology` has one entry per mesh, or is empty while it is not known.
     ///
     /// # Errors
     /// [`GpuError::TooLarge`]; the last scene then stays.
-    pub fn set_scene(&mut self, scene: &Arc<Scene>, surfaces: &[Provoking]) -> Result<(), RenderError> {
-        self.scene = Some(GpuScene::new(&self.gpu, self.state.material_layout(), scene, surfaces)?);
+    pub fn set_scene(&mut self, scene: &Arc<Scene>, topology: &[Topology]) -> Result<(), RenderError> {
+        self.scene = Some(GpuScene::new(&self.gpu, self.state.material_layout(), scene, topology)?);
         self.scene_revision += 1;
+        Ok(())
+    }
+
+    /// Takes over what topology found out about the scene's meshes, one entry each: from then on surfaces have ids, and
+    /// back faces of solids are left out.
+    ///
+    /// # Errors
+    /// [`GpuError::TooLarge`]; everything then stays.
+    pub fn set_topology(&mut self, topology: &[Topology]) -> Result<(), RenderError> {
+        if let Some(scene) = &mut self.scene {
+            scene.set_topology(&self.gpu, topology)?;
+            self.scene_revision += 1;
+        }
         Ok(())
     }
 

@@ -97,6 +97,7 @@ pub fn surface(
             Input::Storage(edge_styles),
         ],
         &[&color],
+        Some(&gbuffer.depth),
     )?;
     Ok(color)
 }

@@ -76,7 +76,16 @@ pub fn edge_map(
     edge_styles: &wgpu::Buffer,
 ) -> Result<Target, RenderError> {
     let with_c1 = styles.iter().any(|s| s.use_c1 == 1);
-    run(rec, gbuffer, edge_styles, "edge map", "fs_main", with_c1, wgpu::TextureFormat::Rg32Uint)
+    run(
+        rec,
+        gbuffer,
+        edge_styles,
+        "edge map",
+        "fs_main",
+        with_c1,
+        Some(&gbuffer.depth),
+        wgpu::TextureFormat::Rg32Uint,
+    )
 }
 
 /// The operators' own values per pixel: `I_N`, `I_Z`, C1 (no edge: 1, 1, 0).
@@ -88,7 +97,7 @@ pub fn operators(
     gbuffer: &GBuffer,
     edge_styles: &wgpu::Buffer,
 ) -> Result<Target, RenderError> {
-    run(rec, gbuffer, edge_styles, "operators", "fs_operators", true, wgpu::TextureFormat::Rgba32Float)
+    run(rec, gbuffer, edge_styles, "operators", "fs_operators", true, None, wgpu::TextureFormat::Rgba32Float)
 }
 
 fn run(
@@ -98,11 +107,12 @@ fn run(
     label: &'static str,
     entry_point: &'static str,
     with_c1: bool,
+    covered: Option<&Target>,
     format: wgpu::TextureFormat,
 ) -> Result<Target, RenderError> {
     let out = rec.target(label, format)?;
     let inputs = [Input::Texture(&gbuffer.geometry), Input::Storage(edge_styles)];
     let program = Program { file: "passes/edge_map.wgsl", entry_point, switches: vec![("WITH_C1", with_c1)] };
-    rec.fullscreen(label, program, &inputs, &[&out])?;
+    rec.fullscreen(label, program, &inputs, &[&out], covered)?;
     Ok(out)
 }

@@ -51,7 +51,7 @@ pub struct DrawUniform {
 
 /// The pipelines of the pass, made when first needed.
 pub struct GBufferPass {
-    pipelines: HashMap<Detail, wgpu::RenderPipeline>,
+    pipelines: HashMap<(Detail, Option<wgpu::Face>), wgpu::RenderPipeline>,
     generation: u64,
     draw_layout: wgpu::BindGroupLayout,
     /// Layout of bind group 1.
@@ -84,24 +84,19 @@ impl GBufferPass {
         }
     }
 
-    fn pipeline(
-        &mut self,
-        gpu: &Gpu,
-        pipelines: &mut Pipelines,
-        detail: Detail,
-    ) -> Result<wgpu::RenderPipeline, RenderError> {
+    fn prepare(&mut self, gpu: &Gpu, pipelines: &mut Pipelines, call: &DrawCall) -> Result<(), RenderError> {
         if self.generation != pipelines.generation() {
             self.pipelines.clear();
             self.generation = pipelines.generation();
         }
-        if let Some(pipeline) = self.pipelines.get(&detail) {
-            return Ok(pipeline.clone());
+        let key = (call.detail, call.hidden_side);
+        if self.pipelines.contains_key(&key) {
+            return Ok(());
         }
         let module = pipelines.module(gpu, "passes/gbuffer.wgsl")?;
         let layouts = [pipelines.frame_layout(), &self.material_layout, &self.draw_layout];
-        let pipeline = build(gpu, &module, &layouts, detail);
-        self.pipelines.insert(detail, pipeline.clone());
-        Ok(pipeline)
+        self.pipelines.insert(key, build(gpu, &module, &layouts, call.detail, call.hidden_side));
+        Ok(())
     }
 
     /// Draws the given parts of a scene.
@@ -123,7 +118,7 @@ impl GBufferPass {
         };
         let gpu = rec.gpu;
         for call in calls {
-            self.pipeline(gpu, rec.pipelines, call.detail)?;
+            self.prepare(gpu, rec.pipelines, call)?;
         }
         self.draws.write(gpu, draws)?;
         let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
@@ -146,12 +141,13 @@ impl GBufferPass {
             pass.set_vertex_buffer(2, attributes.slice(..));
         }
         pass.set_index_buffer(scene.geometry.indices.slice(..), wgpu::IndexFormat::Uint32);
-        let (mut detail, mut material) = (None, None);
+        let (mut bound, mut material) = (None, None);
         for call in calls {
-            if detail != Some(call.detail) {
-                let Some(pipeline) = self.pipelines.get(&call.detail) else { continue };
+            let key = (call.detail, call.hidden_side);
+            if bound != Some(key) {
+                let Some(pipeline) = self.pipelines.get(&key) else { continue };
                 pass.set_pipeline(pipeline);
-                detail = Some(call.detail);
+                bound = Some(key);
             }
             if material != Some(call.material_group) {
                 pass.set_bind_group(1, scene.materials.group(call.material_group), &[]);
@@ -171,6 +167,7 @@ fn build(
     module: &wgpu::ShaderModule,
     layouts: &[&wgpu::BindGroupLayout; 3],
     detail: Detail,
+    hidden_side: Option<wgpu::Face>,
 ) -> wgpu::RenderPipeline {
     let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
         label: Some("g-buffer"),
@@ -202,8 +199,8 @@ fn build(
             compilation_options: wgpu::PipelineCompilationOptions::default(),
             buffers: if detail == Detail::Lean { &buffers[..2] } else { &buffers },
         },
-        // Both sides are drawn: files with flipped or mixed winding are common.
-        primitive: wgpu::PrimitiveState::default(),
+        // Unless a mesh is known to be solid, both sides are drawn: flipped or mixed winding is common in files.
+        primitive: wgpu::PrimitiveState { cull_mode: hidden_side, ..Default::default() },
         depth_stencil: Some(wgpu::DepthStencilState {
             format: DEPTH,
             depth_write_enabled: Some(true),

@@ -18,6 +18,7 @@ pub fn resolve(rec: &mut Recorder<'_>, color: &Target) -> Result<Target, RenderE
         Program::new("passes/resolve.wgsl", "fs_main"),
         &[Input::Texture(color)],
         &[&image],
+        None,
     )?;
     Ok(image)
 }

@@ -31,6 +31,6 @@ pub fn selection(
 ) -> Result<Target, RenderError> {
     let out = rec.target("selection", FINAL)?;
     let inputs = [Input::Texture(&gbuffer.geometry), Input::Storage(selected)];
-    rec.fullscreen("selection", Program::new("passes/selection.wgsl", "fs_main"), &inputs, &[&out])?;
+    rec.fullscreen("selection", Program::new("passes/selection.wgsl", "fs_main"), &inputs, &[&out], None)?;
     Ok(out)
 }

@@ -38,6 +38,6 @@ pub fn show(
         Input::Texture(edge_map),
         Input::Texture(operators),
     ];
-    rec.fullscreen("show", Program::new("passes/show.wgsl", entry_point), &inputs, &[&image])?;
+    rec.fullscreen("show", Program::new("passes/show.wgsl", entry_point), &inputs, &[&image], None)?;
     Ok(image)
 }
