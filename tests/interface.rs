@@ -318,12 +318,13 @@ fn the_wheel_zooms_to_the_pointer_in_one_step() {
 }
 
 #[test]
-fn surfaces_are_found_when_they_are_to_be_shown() {
+fn surfaces_are_found_beside_the_window_and_shown() {
     let mut window = window();
+    until(&mut window, "the meshes are examined", Viewer::has_topology);
     click(&mut window, Role::Tab, "View");
-    choose(&mut window, "Show", "Surfaces");
     let pictures = window.state().viewport().pictures();
-    until(&mut window, "the surfaces are shown", move |v| v.viewport().pictures() > pictures);
+    choose(&mut window, "Show", "Surfaces");
+    assert!(window.state().viewport().pictures() > pictures);
     assert!(window.state().notices().list().is_empty());
 }
 

@@ -178,6 +178,11 @@ impl Viewer {
         &self.viewport
     }
 
+    /// Whether the meshes have been examined for the present crease angle.
+    pub fn has_topology(&self) -> bool {
+        self.topology_for == Some(self.document.view.crease_angle) && self.jobs.topology.is_none()
+    }
+
     /// Whether files are being loaded.
     pub fn is_loading(&self) -> bool {
         self.jobs.load.is_some()
