@@ -1,6 +1,8 @@
 //! CPU twins of the edge-enhancement paper's operators (section 4.1.2), written from the paper, fed the G-buffer that
 //! the device made and compared with its values.
 
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
 mod common;
 
 use common::{Surfel, draw, ink, opened, scene, session, set, surfels, texels};

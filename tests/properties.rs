@@ -1,5 +1,7 @@
 //! What must hold of every picture; needs no golden file.
 
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
 mod common;
 
 use common::{draw, image, ink, opened, scene, session, set, surfels};

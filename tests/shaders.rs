@@ -1,5 +1,7 @@
 //! Uniform twins: each Rust struct that goes to the device has the layout of the shader's own struct.
 
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
 use encase::ShaderType;
 use encase::internal::SizeValue;
 use hachure::gpu::Shaders;

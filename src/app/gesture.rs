@@ -1,7 +1,7 @@
 //! What the pointer does to the picture, event by event: on a slow machine a whole drag may lie between two frames.
 
 use eframe::egui;
-use eframe::egui::{Event, PointerButton, Pos2, Ui, Vec2};
+use eframe::egui::{Event, Modifiers, PointerButton, Pos2, Ui, Vec2};
 
 /// A press that moves less than this, in points, is a click.
 const CLICK_RADIUS: f32 = 3.0;
@@ -27,8 +27,8 @@ pub struct Gestures {
 pub struct Drag {
     /// The button that is held.
     pub button: PointerButton,
-    /// Whether Shift is held, too.
-    pub shift: bool,
+    /// The keys that are held, too.
+    pub modifiers: Modifiers,
     /// How far it went, in points.
     pub by: Vec2,
 }
@@ -36,8 +36,8 @@ pub struct Drag {
 impl Gestures {
     /// The drags of this frame that began where `is_picture` says so.
     pub fn drags(&mut self, ui: &Ui, is_picture: impl Fn(Pos2) -> bool) -> Vec<Drag> {
-        let (events, shift, any_down) =
-            ui.input(|i| (i.events.clone(), i.modifiers.shift, i.pointer.any_down()));
+        let (events, modifiers, any_down) =
+            ui.input(|i| (i.events.clone(), i.modifiers, i.pointer.any_down()));
         let mut drags = Vec::new();
         for event in events {
             match event {
@@ -48,12 +48,12 @@ impl Gestures {
                     }
                 }
                 Event::PointerButton { pos, button, pressed: false, .. } => {
-                    self.follow(pos, shift, &mut drags);
+                    self.follow(pos, modifiers, &mut drags);
                     if self.press.is_some_and(|p| p.button == button) {
                         self.press = None;
                     }
                 }
-                Event::PointerMoved(pos) => self.follow(pos, shift, &mut drags),
+                Event::PointerMoved(pos) => self.follow(pos, modifiers, &mut drags),
                 _ => {}
             }
         }
@@ -74,7 +74,7 @@ impl Gestures {
         self.press.filter(|p| p.is_drag).map(|p| p.button)
     }
 
-    fn follow(&mut self, pos: Pos2, shift: bool, drags: &mut Vec<Drag>) {
+    fn follow(&mut self, pos: Pos2, modifiers: Modifiers, drags: &mut Vec<Drag>) {
         let Some(press) = &mut self.press else { return };
         press.is_drag |= pos.distance(press.origin) > CLICK_RADIUS;
         if !press.is_drag {
@@ -84,7 +84,7 @@ impl Gestures {
         let by = pos - press.last;
         press.last = pos;
         if by != Vec2::ZERO {
-            drags.push(Drag { button: press.button, shift, by });
+            drags.push(Drag { button: press.button, modifiers, by });
         }
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! Everything is measured in shares of the picture, so that it feels alike at any scale of a model.
 
-use glam::{DVec2, DVec3};
+use glam::{DQuat, DVec2, DVec3};
 
 use crate::scene::{Camera, Projection, Up};
 
@@ -75,6 +75,12 @@ pub fn orbit(camera: &Camera, up: Up, drag: DVec2) -> Camera {
     camera.orbited(up.vector(), -drag.x * DEGREES_PER_HEIGHT, drag.y * DEGREES_PER_HEIGHT)
 }
 
+/// Turns the picture in its own plane by a drag to the right, given in shares of the picture's height.
+pub fn roll(camera: &Camera, drag: f64) -> Camera {
+    let turn = DQuat::from_axis_angle(camera.forward(), (drag * DEGREES_PER_HEIGHT).to_radians());
+    Camera { view_up: turn * camera.up(), ..*camera }
+}
+
 /// Moves the picture with the pointer; the drag is in shares of the picture's height.
 pub fn pan(camera: &Camera, drag: DVec2) -> Camera {
     let by = (camera.up() * drag.y - camera.right() * drag.x) * camera.view_height();
@@ -141,6 +147,15 @@ mod tests {
             Projection::Orthographic { view_height } => view_height,
         };
         DVec2::new(p.x, p.y) / scale
+    }
+
+    #[test]
+    fn rolling_turns_the_picture_and_nothing_else() {
+        let start = Standard::Home.camera(Up::PosY, &bounds(1.0).corners(), 1.5, None);
+        let rolled = roll(&start, 90.0 / DEGREES_PER_HEIGHT);
+        assert_eq!((rolled.position, rolled.focal_point), (start.position, start.focal_point));
+        assert!((rolled.right().dot(start.up()).abs() - 1.0).abs() < 1e-9);
+        assert!((roll(&rolled, -90.0 / DEGREES_PER_HEIGHT).up() - start.up()).length() < 1e-9);
     }
 
     #[test]

@@ -229,9 +229,11 @@ impl Viewport {
         let is_picture = |pos| inside.contains(pos) && ui.ctx().layer_id_at(pos) == Some(layer);
         for drag in self.gestures.drags(ui, is_picture) {
             let by = share(drag.by);
-            moved = match (drag.button, drag.shift) {
-                (PointerButton::Middle, _) | (PointerButton::Primary, true) => navigation::pan(&moved, by),
-                (PointerButton::Primary, false) => navigation::orbit(&moved, up, by),
+            moved = match drag.button {
+                PointerButton::Middle => navigation::pan(&moved, by),
+                PointerButton::Primary if drag.modifiers.shift => navigation::pan(&moved, by),
+                PointerButton::Primary if drag.modifiers.command => navigation::roll(&moved, by.x),
+                PointerButton::Primary => navigation::orbit(&moved, up, by),
                 _ => navigation::zoom(&moved, by.y * 20.0, DVec2::ZERO, diagonal),
             };
         }

@@ -70,6 +70,7 @@ struct Bench {
     opened: Opened,
     size: [u32; 2],
     camera: Camera,
+    topology_ms: f64,
 }
 
 impl Bench {
@@ -79,8 +80,11 @@ impl Bench {
         let mut session = Session::new(Gpu::headless()?);
         session.set_scene(&opened)?;
         // The window knows it too, as soon as a background job has found it out.
-        session.renderer().set_topology(&topology(scene, document.view.crease_angle))?;
-        Ok(Self { session, opened, size, camera })
+        let started = Instant::now();
+        let topology = topology(scene, document.view.crease_angle);
+        let topology_ms = started.elapsed().as_secs_f64() * 1e3;
+        session.renderer().set_topology(&topology)?;
+        Ok(Self { session, opened, size, camera, topology_ms })
     }
 
     /// Draws everything in one style, turned by so many degrees; returns milliseconds.
@@ -145,10 +149,11 @@ fn report(args: &BenchArgs, bench: &mut Bench, load_ms: f64, rows: &[Row]) -> Re
             .collect();
         return print_json(&json!({
             "adapter": adapter, "resolution": [w, h], "triangles": triangles, "frames": args.frames,
-            "load_ms": load_ms, "plain_ms": plain, "styles": styles,
+            "load_ms": load_ms, "topology_ms": bench.topology_ms, "plain_ms": plain, "styles": styles,
         }));
     }
     print_line(&format!("{adapter}, {w} × {h}, {triangles} triangles, median of {} frames", args.frames))?;
+    print_line(&format!("loading {load_ms:.0} ms, topology {:.0} ms", bench.topology_ms))?;
     print_line(&format!("{:<26}{:>9}{:>9}   stages (ms)", "style", "ms", "× plain"))?;
     for row in rows {
         let stages: Vec<_> =

@@ -1,5 +1,7 @@
 //! `hachure render`: a picture without a window.
 
+use std::thread::JoinHandle;
+
 use serde_json::json;
 
 use super::args::{CameraArgs, LookArgs, RenderArgs};
@@ -13,8 +15,7 @@ use crate::scene::{Camera, NodeId, Projection, Scene};
 use crate::style::preset;
 
 pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
-    // The device opens while the files are read.
-    let device = std::thread::Builder::new().name("device".to_owned()).spawn(Gpu::headless)?;
+    let device = StartingDevice::new()?;
     let mut opened = open(&args.files, &Progress::default())?;
     apply_look(&mut opened, &args.look)?;
     if let Some(background) = args.background {
@@ -24,10 +25,7 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
     let aspect = f64::from(size[0]) / f64::from(size[1]);
     opened.document.camera = Some(camera(&opened, &args.camera, aspect));
 
-    let gpu = device
-        .join()
-        .unwrap_or_else(|_panic| Err(GpuError::Lost("the driver failed while starting".to_owned())))?;
-    let mut session = Session::new(gpu);
+    let mut session = Session::new(device.wait()?);
     session.set_scene(&opened)?;
     let image = session.image(&opened, size, args.no_background)?;
     save_png(&args.output, image)?;
@@ -46,6 +44,30 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
             eprintln!("hachure: warning: {warning}");
         }
         Ok(())
+    }
+}
+
+/// A device that is opened while the files are read. It is always waited for: a program that ends while its graphics
+/// driver starts may crash.
+struct StartingDevice(Option<JoinHandle<Result<Gpu, GpuError>>>);
+
+impl StartingDevice {
+    fn new() -> Result<Self, CliError> {
+        Ok(Self(Some(std::thread::Builder::new().name("device".to_owned()).spawn(Gpu::headless)?)))
+    }
+
+    fn wait(mut self) -> Result<Gpu, GpuError> {
+        let failed = || GpuError::Lost("the driver failed while starting".to_owned());
+        self.0.take().and_then(|thread| thread.join().ok()).ok_or_else(failed)?
+    }
+}
+
+impl Drop for StartingDevice {
+    fn drop(&mut self) {
+        if let Some(thread) = self.0.take() {
+            // What became of it matters to nobody any more.
+            let _ = thread.join();
+        }
     }
 }
 

@@ -130,7 +130,7 @@ fn skip(element: &Element, values: &mut impl Values) -> u64 {
     element.count
 }
 
-/// What a property of a vertex is good for: places in [`Vertices::row`].
+/// What a property of a vertex is good for: places in a vertex row.
 fn slot(name: &str) -> Option<usize> {
     const NAMES: [&[&str]; SLOTS] = [
         &["x"],

@@ -8,9 +8,10 @@ use crate::app::command::{Command, Group};
 use crate::scene::Warning;
 
 /// What the mouse does in the picture.
-const MOUSE: [(&str, &str); 8] = [
+const MOUSE: [(&str, &str); 9] = [
     ("Drag", "Turn"),
     ("Shift + drag, middle drag", "Move"),
+    ("Ctrl + drag", "Roll"),
     ("Wheel, pinch", "Zoom to the pointer"),
     ("Right drag", "Zoom"),
     ("Click", "Select"),

@@ -1,0 +1,177 @@
+//! The command line: exit codes, messages, precedence, what it prints.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+fn hachure(args: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_hachure"))
+        .args(args)
+        .env_remove("DISPLAY")
+        .env_remove("WAYLAND_DISPLAY")
+        .output()
+        .unwrap()
+}
+
+fn crank() -> String {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/models/crank.glb").to_string_lossy().into_owned()
+}
+
+fn render(folder: &Path, name: &str, file: &str, args: &[&str]) -> (Output, PathBuf) {
+    let output = folder.join(name);
+    let mut all = vec!["render", file, "--resolution", "96,96", "--output", output.to_str().unwrap()];
+    all.extend(args);
+    (hachure(&all), output)
+}
+
+fn stdout(output: &Output) -> String {
+    String::from_utf8(output.stdout.clone()).unwrap()
+}
+
+#[test]
+fn mistakes_end_with_the_right_code_and_a_message_that_helps() {
+    let folder = tempfile::tempdir().unwrap();
+    let crank = crank();
+    let cases: &[(&[&str], i32, &str)] = &[
+        (&["--style", "goch"], 1, "did you mean `gooch`?"),
+        (&["--set", "gooch.alpa=1"], 1, "did you mean `gooch.alpha`?"),
+        (&["--set", "gooch.alpha=3"], 1, "out of range: 0 to 1"),
+        (&["--set", "gooch.alpha"], 2, "write a parameter"),
+        (&["--object-style", "rodd=gooch"], 1, "no object matches `rodd`"),
+        (&["--hide", "["], 1, "is no pattern"),
+        (&["--resolution", "0,5"], 2, "is no size"),
+        (&["--resolution", "60000,60000"], 1, "allows at most"),
+        (&["--camera-position", "1,2"], 2, "is no vector"),
+        (&["--camera-view-height", "2"], 2, "--camera-orthographic"),
+        (&["--up", "W"], 2, "is no axis"),
+        (&["--background", "red"], 2, "is no colour"),
+    ];
+    for (args, code, message) in cases {
+        // A later --resolution would clash with the one that `render` gives.
+        let (result, output) = if args[0] == "--resolution" {
+            let output = folder.path().join("x.png");
+            (hachure(&["render", &crank, args[0], args[1], "-o", output.to_str().unwrap()]), output)
+        } else {
+            render(folder.path(), "x.png", &crank, args)
+        };
+        let text = String::from_utf8_lossy(&result.stderr);
+        assert_eq!(result.status.code(), Some(*code), "{args:?}: {text}");
+        assert!(text.contains(message), "{args:?}: {text}");
+        assert!(!output.exists(), "{args:?} left a file behind");
+    }
+    let (jpg, _) = render(folder.path(), "x.jpg", &crank, &[]);
+    assert!(String::from_utf8_lossy(&jpg.stderr).contains("ends in .png"));
+    let missing = hachure(&["info", "/nonexistent.glb"]);
+    assert_eq!(missing.status.code(), Some(1));
+    assert!(String::from_utf8_lossy(&missing.stderr).contains("cannot read /nonexistent.glb"));
+    let window = hachure(&[]);
+    assert_eq!(window.status.code(), Some(1));
+    assert!(String::from_utf8_lossy(&window.stderr).contains("no display"));
+    assert_eq!(hachure(&["render"]).status.code(), Some(2));
+}
+
+#[test]
+fn without_a_driver_the_message_names_the_package() {
+    let folder = tempfile::tempdir().unwrap();
+    let result = Command::new(env!("CARGO_BIN_EXE_hachure"))
+        .args(["render", &crank(), "-o"])
+        .arg(folder.path().join("x.png"))
+        .env("WGPU_BACKEND", "dx12")
+        .output()
+        .unwrap();
+    assert_eq!(result.status.code(), Some(1));
+    assert!(String::from_utf8_lossy(&result.stderr).contains("mesa-vulkan-drivers"));
+}
+
+#[test]
+fn later_ways_to_set_a_parameter_win_over_earlier_ones() {
+    let folder = tempfile::tempdir().unwrap();
+    let document = folder.path().join("a.hachure");
+    std::fs::write(
+        &document,
+        format!("models = ['{}']\n[style]\ntechnique = \"unlit\"\n[nodes.\"/crank/flywheel\".style]\ntechnique = \"plain\"\n", crank()),
+    )
+    .unwrap();
+    let document = document.to_str().unwrap();
+    let picture = |name: &str, args: &[&str]| {
+        let (result, path) = render(folder.path(), name, document, args);
+        assert!(result.status.success(), "{}", String::from_utf8_lossy(&result.stderr));
+        std::fs::read(path).unwrap()
+    };
+    let own = picture("own.png", &[]);
+    let styled = picture("styled.png", &["--style", "statue"]);
+    let object = picture("object.png", &["--style", "statue", "--object-style", "flywheel=lines"]);
+    let set = picture(
+        "set.png",
+        &["--style", "statue", "--object-style", "flywheel=lines", "--set", "technique=unlit"],
+    );
+    let one = picture(
+        "one.png",
+        &["--style", "statue", "--object-style", "flywheel=lines", "--set", "flywheel:technique=unlit"],
+    );
+    let all = [&own, &styled, &object, &set, &one];
+    for (i, a) in all.iter().enumerate() {
+        assert!(all.iter().skip(i + 1).all(|b| a != b), "picture {i} equals a later one");
+    }
+    assert_eq!(own, picture("again.png", &[]), "the same call gives the same picture");
+}
+
+#[test]
+fn info_styles_and_bench_print_what_they_promise() {
+    let info: serde_json::Value =
+        serde_json::from_str(&stdout(&hachure(&["info", &crank(), "--json"]))).unwrap();
+    assert!(info["triangles"].as_u64().unwrap() > 20_000);
+    assert_eq!(info["up"], "+Y");
+    assert!(info["nodes"].as_array().unwrap().iter().any(|n| n["path"] == "/crank/flywheel"));
+    assert!(stdout(&hachure(&["info", &crank()])).contains("triangles"));
+
+    let styles: serde_json::Value = serde_json::from_str(&stdout(&hachure(&["styles", "--json"]))).unwrap();
+    let names: Vec<_> =
+        styles["presets"].as_array().unwrap().iter().map(|p| p["name"].as_str().unwrap()).collect();
+    assert_eq!(names, ["gooch", "lines", "plain", "statue"]);
+    let parameters = styles["parameters"].as_array().unwrap();
+    let threshold = parameters.iter().find(|p| p["key"] == "edges.profile.threshold").unwrap();
+    assert!(threshold["range"]["hard"].is_array() && !threshold["help"].as_str().unwrap().is_empty());
+    assert!(stdout(&hachure(&["styles"])).contains("edges.profile.threshold"));
+
+    let bench = hachure(&["bench", &crank(), "--frames", "1", "--resolution", "64,64", "--json"]);
+    let bench: serde_json::Value = serde_json::from_str(&stdout(&bench)).unwrap();
+    assert_eq!(bench["styles"][0]["style"], "plain");
+    assert!(bench["styles"][2]["stages_ms"]["edge map"].as_f64().unwrap() > 0.0);
+}
+
+#[test]
+fn camera_flags_mean_what_they_say() {
+    let folder = tempfile::tempdir().unwrap();
+    let picture = |name: &str, args: &[&str]| {
+        let (result, path) = render(folder.path(), name, &crank(), args);
+        assert!(result.status.success(), "{}", String::from_utf8_lossy(&result.stderr));
+        image::open(path).unwrap().into_rgba8()
+    };
+    // The same view by angles and by position: straight from the right.
+    let info: serde_json::Value =
+        serde_json::from_str(&stdout(&hachure(&["info", &crank(), "--json"]))).unwrap();
+    let corner = |which: &str, i: usize| info["bounds"][which][i].as_f64().unwrap();
+    let middle: Vec<f64> = (0..3).map(|i| (corner("min", i) + corner("max", i)) * 0.5).collect();
+    let focal = format!("{},{},{}", middle[0], middle[1], middle[2]);
+    let position = format!("{},{},{}", middle[0] + 5.0, middle[1], middle[2]);
+    let orthographic =
+        ["--camera-orthographic", "--camera-view-height", "0.5", "--camera-focal-point", &focal];
+    let by_position = [&orthographic[..], &["--camera-position", &position]].concat();
+    let by_angle = [&orthographic[..], &["--camera-azimuth-angle", "90"]].concat();
+    let (a, b) = (picture("a.png", &by_position), picture("b.png", &by_angle));
+    let differing = a.pixels().zip(b.pixels()).filter(|(a, b)| a != b).count();
+    assert!(differing < 92, "{differing} of 9216 pixels differ");
+    let lying = picture("up.png", &[&by_position[..], &["--camera-view-up", "0,0,1"]].concat());
+    assert!(lying != picture("c.png", &by_position));
+    // Nothing of a transparent picture is paper, and a wider angle shows a smaller model.
+    let share = |args: &[&str]| {
+        let image = picture("d.png", &[args, &["--no-background"]].concat());
+        image.pixels().filter(|p| p.0[3] > 0).count()
+    };
+    let from = ["--camera-position", "0,0,2", "--camera-focal-point", "0,0,0"];
+    let narrow = share(&[&from[..], &["--camera-view-angle", "20"]].concat());
+    let wide = share(&[&from[..], &["--camera-view-angle", "60"]].concat());
+    assert!(narrow > 4 * wide && wide > 0, "{narrow} {wide}");
+}
