@@ -47,7 +47,7 @@ models:
 
 # Every picture under screenshots/, each by one command.
 gallery:
-	@sh .ci/packages run
+	@sh .ci/packages gallery
 	sh screenshots/gallery.sh
 
 # Shows which golden pictures changed and accepts them when the answer is yes.

@@ -19,9 +19,9 @@ draw gooch "$crank" --style gooch
 draw gooch_ogre "$ogre" --style gooch
 
 # The edge map and the buffers it comes from (Fig. 4 and 6).
-for model in crank ogre; do
+for sample in crank ogre; do
 	for buffer in normals depth normal_operator depth_operator edge_map; do
-		draw "${model}_$buffer" "assets/models/$model.glb" --set "view.show=$buffer"
+		draw "${sample}_$buffer" "assets/models/$sample.glb" --set "view.show=$buffer"
 	done
 done
 draw statue "$ogre" --style statue
@@ -36,3 +36,16 @@ draw classes "$crank" --style lines --set edges.profile.color=#c02020 --set edge
 # Every object in a style of its own.
 draw mixed "$crank" --style statue --object-style 'piston*=gooch' --object-style 'flywheel=lines' \
 	--set 'rod*:edges.profile.color=#d02020' --no-enhance pulley
+
+# The window itself, on a virtual display.
+home=$(mktemp -d)
+display=:$((90 + $$ % 900))
+Xvfb "$display" -screen 0 1280x820x24 >/dev/null 2>&1 &
+screen=$!
+trap 'kill $viewer $screen 2>/dev/null; rm -rf "$home"' EXIT
+sleep 2
+DISPLAY=$display WAYLAND_DISPLAY='' XDG_DATA_HOME=$home target/release/hachure "$crank" >/dev/null 2>&1 &
+viewer=$!
+sleep 8
+DISPLAY=$display import -window root screenshots/window.png
+echo screenshots/window.png
