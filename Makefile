@@ -38,7 +38,7 @@ bench:
 # Heavy measurements, in release.
 quality:
 	@sh .ci/packages test
-	cargo test --release -- --ignored --nocapture
+	cargo test --release --test quality -- --ignored --nocapture --test-threads 1
 
 # The sample models, from their generator.
 models:

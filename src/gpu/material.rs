@@ -169,7 +169,12 @@ type Level = (u32, u32, Vec<u8>);
 /// The image and its halvings down to one texel, averaged in linear light where it is sRGB.
 fn mip_chain(image: &Texture, srgb: bool) -> Vec<Level> {
     let to_linear: Vec<f32> = (0..=255u8)
-        .map(|c| if srgb { crate::style::Color([c; 3]).to_linear().x } else { f32::from(c) / 255.0 })
+        .map(|c| f32::from(c) / 255.0)
+        .map(|c| match c {
+            _ if !srgb => c,
+            c if c <= 0.040_45 => c / 12.92,
+            c => ((c + 0.055) / 1.055).powf(2.4),
+        })
         .collect();
     let to_byte = |linear: f32| {
         let c = if !srgb {

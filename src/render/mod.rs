@@ -3,11 +3,12 @@
 pub mod effects;
 pub mod frame;
 pub mod frame_uniform;
+pub mod gpu_scene;
 pub mod groups;
 pub mod passes;
 mod renderer;
 pub mod stage;
 
 pub use frame::Picture;
-pub use groups::GpuScene;
+pub use gpu_scene::GpuScene;
 pub use renderer::{Pick, RenderError, Renderer, Request};

@@ -6,7 +6,8 @@ use glam::{DVec3, UVec2, Vec2};
 
 use super::frame::{FrameInputs, FrameState, Picture};
 use super::frame_uniform::{FrameUniform, View};
-use super::groups::{GpuScene, Objects, node_of};
+use super::gpu_scene::GpuScene;
+use super::groups::{Objects, node_of};
 use crate::document::Document;
 use crate::geometry::Topology;
 use crate::gpu::readback::Readback;

@@ -10,7 +10,7 @@ use crate::gpu::material::MaterialUniform;
 use crate::gpu::recorder::{Pipelines, color_attachment};
 use crate::gpu::{DynamicBuffer, Gpu, MaterialBindings, Recorder, Target};
 use crate::render::RenderError;
-use crate::render::groups::{Detail, DrawCall, GpuScene};
+use crate::render::gpu_scene::GpuScene;
 
 /// Shading and face normal, linear depth, object id: see `shaders/common/gbuffer.wgsl`.
 const GEOMETRY: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Uint;
@@ -47,6 +47,36 @@ pub struct DrawUniform {
     pub object: u32,
     /// 1: no normals, faces are flat.
     pub is_flat: u32,
+}
+
+/// How much the shaders of a draw have to read; less is faster.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Detail {
+    /// Positions only: no mesh of the scene has anything more.
+    Lean,
+    /// Normals and colours.
+    Smooth,
+    /// Images too, and holes.
+    Full,
+}
+
+/// One draw call.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DrawCall {
+    /// Index of its uniform.
+    pub draw: u32,
+    /// Range of the index buffer.
+    pub first_index: u32,
+    /// Number of indices.
+    pub index_count: u32,
+    /// First vertex of the mesh.
+    pub base_vertex: i32,
+    /// Bind group of the material.
+    pub material_group: usize,
+    /// Which vertex and fragment shader it needs.
+    pub detail: Detail,
+    /// The side of its triangles that is left out.
+    pub hidden_side: Option<wgpu::Face>,
 }
 
 /// The pipelines of the pass, made when first needed.

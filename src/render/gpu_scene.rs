@@ -1,0 +1,87 @@
+//! A scene on the device, and what of it decides how it can be drawn.
+
+use std::sync::Arc;
+
+use glam::DMat4;
+
+use crate::geometry::{Bounds, Topology};
+use crate::gpu::geometry::MeshSource;
+use crate::gpu::{GeometryBuffers, Gpu, GpuError, MaterialBindings};
+use crate::scene::{NodeId, Scene};
+
+/// A scene on the device.
+pub struct GpuScene {
+    /// The scene itself.
+    pub scene: Arc<Scene>,
+    /// Its vertices.
+    pub geometry: GeometryBuffers,
+    /// Its materials.
+    pub materials: MaterialBindings,
+    /// The box of each mesh, local space.
+    pub mesh_bounds: Vec<Bounds>,
+    /// Per mesh, whether it is solid; empty until topology is known.
+    is_solid: Vec<bool>,
+}
+
+impl GpuScene {
+    /// Uploads a scene. `topology` has one entry per mesh, or is empty: then all surface ids are 0.
+    ///
+    /// # Errors
+    /// [`GpuError::TooLarge`].
+    pub fn new(
+        gpu: &Gpu,
+        material_layout: &wgpu::BindGroupLayout,
+        scene: &Arc<Scene>,
+        topology: &[Topology],
+    ) -> Result<Self, GpuError> {
+        Ok(Self {
+            geometry: upload(gpu, scene, topology)?,
+            materials: MaterialBindings::new(gpu, material_layout, scene)?,
+            mesh_bounds: scene.meshes.iter().map(|m| m.bounds()).collect(),
+            is_solid: topology.iter().map(|t| t.is_solid).collect(),
+            scene: Arc::clone(scene),
+        })
+    }
+
+    /// Takes over what topology found out meanwhile.
+    ///
+    /// # Errors
+    /// [`GpuError::TooLarge`]; everything then stays.
+    pub fn set_topology(&mut self, gpu: &Gpu, topology: &[Topology]) -> Result<(), GpuError> {
+        self.geometry = upload(gpu, &self.scene, topology)?;
+        self.is_solid = topology.iter().map(|t| t.is_solid).collect();
+        Ok(())
+    }
+
+    /// Which side of a node's triangles nobody can see: solid meshes wholly before the eye show no back face.
+    pub fn hidden_side(
+        &self,
+        mesh: usize,
+        view_from_local: &DMat4,
+        orthographic: bool,
+    ) -> Option<wgpu::Face> {
+        let is_solid = self.is_solid.get(mesh).copied().unwrap_or(false);
+        let is_before_the_eye = orthographic
+            || self.mesh_bounds.get(mesh).is_some_and(|b| b.transformed(view_from_local).max.z < 0.0);
+        let mirrored = view_from_local.determinant() < 0.0;
+        (is_solid && is_before_the_eye).then_some(if mirrored { wgpu::Face::Front } else { wgpu::Face::Back })
+    }
+
+    /// The box of a node's own mesh, world space.
+    pub fn bounds_of(&self, node: NodeId) -> Bounds {
+        let node = &self.scene.nodes[node];
+        node.mesh
+            .and_then(|m| self.mesh_bounds.get(m))
+            .map_or(Bounds::EMPTY, |b| b.transformed(&node.world_from_local))
+    }
+}
+
+fn upload(gpu: &Gpu, scene: &Scene, topology: &[Topology]) -> Result<GeometryBuffers, GpuError> {
+    let sources: Vec<_> = scene
+        .meshes
+        .iter()
+        .enumerate()
+        .map(|(i, mesh)| MeshSource { mesh, surfaces: topology.get(i).map(|t| &t.provoking) })
+        .collect();
+    GeometryBuffers::new(gpu, &sources)
+}
