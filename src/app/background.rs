@@ -14,7 +14,7 @@ use super::viewer::{DialogFor, Viewer};
 use super::viewport::PickFor;
 use crate::document::Document;
 use crate::export::session::{self, is_document};
-use crate::import::ImportError;
+use crate::import::{ImportError, Progress};
 use crate::render::Pick;
 
 /// How often the progress of a load is shown anew.
@@ -31,7 +31,8 @@ impl Viewer {
         };
         paths.extend(files);
         let loader = self.loader.clone();
-        let work = move |progress: &crate::import::Progress| loading::load(&paths, intent, &loader, progress);
+        let uploader = self.viewport.uploader();
+        let work = move |progress: &Progress| loading::load(&paths, intent, &loader, &uploader, progress);
         self.jobs.load = Some(Job::start("loading", context, work));
     }
 
@@ -80,11 +81,8 @@ impl Viewer {
     }
 
     fn show_loaded(&mut self, loaded: Loaded) {
-        let Loaded { model, models, document, intent } = loaded;
-        if let Err(error) = self.viewport.set_scene(&model.scene) {
-            self.load_failed(&error.to_string());
-            return;
-        }
+        let Loaded { model, on_device, models, document, intent } = loaded;
+        self.viewport.show(on_device);
         let selection = self.selection.carried_over(&self.model.scene, &model.scene);
         self.model = model;
         self.jobs.topology = None;
@@ -126,7 +124,11 @@ impl Viewer {
         if let Some(result) = self.jobs.topology.as_ref().and_then(Job::poll) {
             self.jobs.topology = None;
             let shown = match result {
-                Ok(topology) => self.viewport.set_topology(&topology).map_err(|e| e.to_string()),
+                Ok(Ok(topology)) => {
+                    self.viewport.show_topology(topology);
+                    Ok(())
+                }
+                Ok(Err(error)) => Err(error.to_string()),
                 Err(error) => Err(error.to_string()),
             };
             if let Err(message) = shown {
@@ -138,8 +140,9 @@ impl Viewer {
         if is_wanted && self.topology_for != Some(angle) && context.input(|i| !i.pointer.any_down()) {
             self.topology_for = Some(angle);
             let scene = Arc::clone(&self.model.scene);
-            self.jobs.topology =
-                Some(Job::start("examining the meshes", context, move |_| session::topology(&scene, angle)));
+            let uploader = self.viewport.uploader();
+            let work = move |_: &Progress| uploader.topology(&scene, &session::topology(&scene, angle));
+            self.jobs.topology = Some(Job::start("examining the meshes", context, work));
         }
     }
 

@@ -5,7 +5,9 @@ use std::sync::Arc;
 
 use crate::document::{Document, DocumentError};
 use crate::export::session::is_document;
+use crate::gpu::GpuError;
 use crate::import::{ImportError, ImportOptions, Progress};
+use crate::render::{GpuScene, Uploader};
 use crate::scene::{NodeId, Scene};
 use glam::DVec3;
 
@@ -86,10 +88,11 @@ impl Model {
 }
 
 /// The result of a load.
-#[derive(Debug)]
 pub struct Loaded {
     /// The scene.
     pub model: Model,
+    /// The same on the device.
+    pub on_device: GpuScene,
     /// All models in it.
     pub models: Vec<PathBuf>,
     /// The document that was opened, and its file.
@@ -107,9 +110,12 @@ pub enum LoadError {
     /// A document.
     #[error(transparent)]
     Document(#[from] DocumentError),
+    /// The device cannot hold it.
+    #[error(transparent)]
+    Gpu(#[from] GpuError),
 }
 
-/// Loads `paths`; the first document among them is opened and brings its models along.
+/// Loads `paths` and uploads what is in them; the first document among them is opened and brings its models along.
 ///
 /// # Errors
 /// The first file that fails.
@@ -117,6 +123,7 @@ pub fn load(
     paths: &[PathBuf],
     intent: Intent,
     loader: &Loader,
+    uploader: &Uploader,
     progress: &Progress,
 ) -> Result<Loaded, LoadError> {
     let absolute = |p: &PathBuf| std::path::absolute(p).unwrap_or_else(|_unknown| p.clone());
@@ -133,5 +140,7 @@ pub fn load(
         }
     }
     let scene = loader(&models, &ImportOptions::default(), progress)?;
-    Ok(Loaded { model: Model::new(scene), models, document, intent })
+    let model = Model::new(scene);
+    let on_device = uploader.scene(&model.scene, &[])?;
+    Ok(Loaded { model, on_device, models, document, intent })
 }

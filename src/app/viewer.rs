@@ -16,8 +16,9 @@ use super::state::{AppState, Page};
 use super::viewport::{Capture, Viewport};
 use super::{AppError, theme};
 use crate::document::{Document, DocumentError, History};
-use crate::geometry::Topology;
+use crate::gpu::GpuError;
 use crate::import;
+use crate::render::UploadedTopology;
 use crate::style::Style;
 use crate::style::preset::{self, Preset};
 
@@ -63,7 +64,7 @@ pub(super) enum DialogFor {
 pub(super) struct Jobs {
     pub(super) load: Option<Job<Result<Loaded, LoadError>>>,
     pub(super) dialog: Option<(DialogFor, Job<Vec<PathBuf>>)>,
-    pub(super) topology: Option<Job<Vec<Topology>>>,
+    pub(super) topology: Option<Job<Result<UploadedTopology, GpuError>>>,
     pub(super) save: Option<Job<Result<(PathBuf, Document), DocumentError>>>,
     pub(super) captures: Vec<(Capture, Destination)>,
     pub(super) pictures: Vec<Job<Result<PathBuf, ScreenshotError>>>,

@@ -14,11 +14,10 @@ use super::gesture::{self, Gestures};
 use super::jobs::Job;
 use super::navigation;
 use crate::document::Document;
-use crate::geometry::Topology;
 use crate::gpu::readback::Readback;
 use crate::gpu::{Gpu, Target};
-use crate::render::{Pick, RenderError, Renderer, Request};
-use crate::scene::{Camera, NodeId, Scene, Up};
+use crate::render::{GpuScene, Pick, RenderError, Renderer, Request, UploadedTopology, Uploader};
+use crate::scene::{Camera, NodeId, Up};
 
 /// How long to wait between two looks for an answer of the device.
 const POLL: Duration = Duration::from_millis(8);
@@ -185,25 +184,22 @@ impl Viewport {
         }));
     }
 
-    /// Uploads another scene.
-    ///
-    /// # Errors
-    /// When the device cannot hold it; the last scene then stays.
-    pub fn set_scene(&mut self, scene: &Arc<Scene>) -> Result<(), RenderError> {
-        self.pick = None;
-        self.renderer.set_scene(scene, &[])?;
-        self.draw_again();
-        Ok(())
+    /// Uploads scenes for the picture, from any thread.
+    pub fn uploader(&self) -> Uploader {
+        self.renderer.uploader()
     }
 
-    /// Hands on what topology found out about the scene's meshes.
-    ///
-    /// # Errors
-    /// When the device cannot hold it; everything then stays.
-    pub fn set_topology(&mut self, topology: &[Topology]) -> Result<(), RenderError> {
-        self.renderer.set_topology(topology)?;
+    /// Shows another scene.
+    pub fn show(&mut self, scene: GpuScene) {
+        self.pick = None;
+        self.renderer.show(scene);
         self.draw_again();
-        Ok(())
+    }
+
+    /// Takes over what topology found out about the scene's meshes.
+    pub fn show_topology(&mut self, topology: UploadedTopology) {
+        self.renderer.show_topology(topology);
+        self.draw_again();
     }
 
     /// Draws in the next frame even if nothing changed that is known here.

@@ -83,7 +83,7 @@ impl Bench {
         let started = Instant::now();
         let topology = topology(scene, document.view.crease_angle);
         let topology_ms = started.elapsed().as_secs_f64() * 1e3;
-        session.renderer().set_topology(&topology)?;
+        session.renderer().set_scene(scene, &topology)?;
         Ok(Self { session, opened, size, camera, topology_ms })
     }
 

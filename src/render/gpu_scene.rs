@@ -28,7 +28,7 @@ impl GpuScene {
     ///
     /// # Errors
     /// [`GpuError::TooLarge`].
-    pub fn new(
+    fn new(
         gpu: &Gpu,
         material_layout: &wgpu::BindGroupLayout,
         scene: &Arc<Scene>,
@@ -44,13 +44,9 @@ impl GpuScene {
     }
 
     /// Takes over what topology found out meanwhile.
-    ///
-    /// # Errors
-    /// [`GpuError::TooLarge`]; everything then stays.
-    pub fn set_topology(&mut self, gpu: &Gpu, topology: &[Topology]) -> Result<(), GpuError> {
-        self.geometry = upload(gpu, &self.scene, topology)?;
-        self.is_solid = topology.iter().map(|t| t.is_solid).collect();
-        Ok(())
+    pub fn set_topology(&mut self, uploaded: UploadedTopology) {
+        self.geometry = uploaded.geometry;
+        self.is_solid = uploaded.is_solid;
     }
 
     /// Which side of a node's triangles nobody can see: solid meshes wholly before the eye show no back face.
@@ -73,6 +69,45 @@ impl GpuScene {
         node.mesh
             .and_then(|m| self.mesh_bounds.get(m))
             .map_or(Bounds::EMPTY, |b| b.transformed(&node.world_from_local))
+    }
+}
+
+/// The findings of topology on the device, for the scene from which they were made.
+pub struct UploadedTopology {
+    geometry: GeometryBuffers,
+    is_solid: Vec<bool>,
+}
+
+/// Uploads scenes, from any thread: large ones take longer than a window may wait. Clones share the device.
+#[derive(Clone)]
+pub struct Uploader {
+    gpu: Gpu,
+    material_layout: wgpu::BindGroupLayout,
+}
+
+impl Uploader {
+    /// Uploads to this device, for pipelines with this layout of materials.
+    pub(super) fn new(gpu: &Gpu, material_layout: &wgpu::BindGroupLayout) -> Self {
+        Self { gpu: gpu.clone(), material_layout: material_layout.clone() }
+    }
+
+    /// Uploads a scene. `topology` has one entry per mesh, or is empty while it is not known.
+    ///
+    /// # Errors
+    /// [`GpuError::TooLarge`].
+    pub fn scene(&self, scene: &Arc<Scene>, topology: &[Topology]) -> Result<GpuScene, GpuError> {
+        GpuScene::new(&self.gpu, &self.material_layout, scene, topology)
+    }
+
+    /// Uploads what topology found out about the meshes of a scene, one entry each.
+    ///
+    /// # Errors
+    /// [`GpuError::TooLarge`].
+    pub fn topology(&self, scene: &Scene, topology: &[Topology]) -> Result<UploadedTopology, GpuError> {
+        Ok(UploadedTopology {
+            geometry: upload(&self.gpu, scene, topology)?,
+            is_solid: topology.iter().map(|t| t.is_solid).collect(),
+        })
     }
 }
 

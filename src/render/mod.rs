@@ -10,5 +10,5 @@ mod renderer;
 pub mod stage;
 
 pub use frame::Picture;
-pub use gpu_scene::GpuScene;
+pub use gpu_scene::{GpuScene, UploadedTopology, Uploader};
 pub use renderer::{Pick, RenderError, Renderer, Request};

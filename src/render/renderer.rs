@@ -6,7 +6,7 @@ use glam::{DVec3, UVec2, Vec2};
 
 use super::frame::{FrameInputs, FrameState, Picture};
 use super::frame_uniform::{FrameUniform, View};
-use super::gpu_scene::GpuScene;
+use super::gpu_scene::{GpuScene, UploadedTopology, Uploader};
 use super::groups::{Objects, node_of};
 use crate::document::Document;
 use crate::geometry::Topology;
@@ -103,26 +103,33 @@ impl Renderer {
         &self.gpu
     }
 
-    /// Uploads a scene in place of the last one. `topology` has one entry per mesh, or is empty while it is not known.
+    /// Uploads scenes for this renderer, from any thread.
+    pub fn uploader(&self) -> Uploader {
+        Uploader::new(&self.gpu, self.state.material_layout())
+    }
+
+    /// Shows a scene, which the renderer's own [`Self::uploader`] uploaded, in place of the last one.
+    pub fn show(&mut self, scene: GpuScene) {
+        self.scene = Some(scene);
+        self.scene_revision += 1;
+    }
+
+    /// Takes over what topology found out about the scene that is shown: from then on surfaces have ids, and back faces
+    /// of solids are left out.
+    pub fn show_topology(&mut self, topology: UploadedTopology) {
+        if let Some(scene) = &mut self.scene {
+            scene.set_topology(topology);
+            self.scene_revision += 1;
+        }
+    }
+
+    /// Uploads a scene and shows it. `topology` has one entry per mesh, or is empty while it is not known.
     ///
     /// # Errors
     /// [`GpuError::TooLarge`]; the last scene then stays.
     pub fn set_scene(&mut self, scene: &Arc<Scene>, topology: &[Topology]) -> Result<(), RenderError> {
-        self.scene = Some(GpuScene::new(&self.gpu, self.state.material_layout(), scene, topology)?);
-        self.scene_revision += 1;
-        Ok(())
-    }
-
-    /// Takes over what topology found out about the scene's meshes, one entry each: from then on surfaces have ids, and
-    /// back faces of solids are left out.
-    ///
-    /// # Errors
-    /// [`GpuError::TooLarge`]; everything then stays.
-    pub fn set_topology(&mut self, topology: &[Topology]) -> Result<(), RenderError> {
-        if let Some(scene) = &mut self.scene {
-            scene.set_topology(&self.gpu, topology)?;
-            self.scene_revision += 1;
-        }
+        let scene = self.uploader().scene(scene, topology)?;
+        self.show(scene);
         Ok(())
     }
 
