@@ -44,6 +44,8 @@ fn mistakes_end_with_the_right_code_and_a_message_that_helps() {
         (&["--resolution", "60000,60000"], 1, "allows at most"),
         (&["--camera-position", "1,2"], 2, "is no vector"),
         (&["--camera-view-height", "2"], 2, "--camera-orthographic"),
+        (&["--camera-view-angle", "nan"], 2, "angle from 1 to 170"),
+        (&["--camera-azimuth-angle", "inf"], 2, "is no number"),
         (&["--up", "W"], 2, "is no axis"),
         (&["--background", "red"], 2, "is no colour"),
     ];

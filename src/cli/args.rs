@@ -96,19 +96,19 @@ pub(super) struct CameraArgs {
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true)]
     pub camera_view_up: Option<Vector>,
     /// Vertical view angle in degrees, 1 to 170
-    #[arg(long, value_name = "DEG")]
+    #[arg(long, value_name = "DEG", value_parser = view_angle)]
     pub camera_view_angle: Option<f64>,
     /// Parallel projection
     #[arg(long)]
     pub camera_orthographic: bool,
     /// Height of the picture in units of the model [default: everything is seen]
-    #[arg(long, value_name = "H", requires = "camera_orthographic")]
+    #[arg(long, value_name = "H", requires = "camera_orthographic", value_parser = positive)]
     pub camera_view_height: Option<f64>,
     /// Turn the eye about the up axis, to its right, in degrees; from the front if no position is given
-    #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
+    #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = finite)]
     pub camera_azimuth_angle: Option<f64>,
     /// Raise the eye, in degrees; from the front if no position is given
-    #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
+    #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = finite)]
     pub camera_elevation_angle: Option<f64>,
 }
 
@@ -142,6 +142,23 @@ pub(super) struct BenchArgs {
     /// Print as JSON
     #[arg(long)]
     pub json: bool,
+}
+
+fn number(s: &str, is_allowed: impl Fn(f64) -> bool, what: &str) -> Result<f64, String> {
+    let value = s.trim().parse().ok().filter(|n: &f64| n.is_finite() && is_allowed(*n));
+    value.ok_or_else(|| format!("`{s}` is no {what}"))
+}
+
+fn finite(s: &str) -> Result<f64, String> {
+    number(s, |_| true, "number")
+}
+
+fn positive(s: &str) -> Result<f64, String> {
+    number(s, |n| n > 0.0, "number above 0")
+}
+
+fn view_angle(s: &str) -> Result<f64, String> {
+    number(s, |n| (1.0..=170.0).contains(&n), "angle from 1 to 170 degrees")
 }
 
 /// Width and height of a picture in pixels.

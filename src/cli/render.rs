@@ -141,7 +141,7 @@ fn camera(opened: &Opened, args: &CameraArgs, aspect: f64) -> Camera {
         camera.view_up = view_up.0;
     }
     if let Some(view_angle) = args.camera_view_angle {
-        camera.projection = Projection::Perspective { view_angle: view_angle.clamp(1.0, 170.0) };
+        camera.projection = Projection::Perspective { view_angle };
     }
     let azimuth = args.camera_azimuth_angle.unwrap_or(0.0);
     let elevation = args.camera_elevation_angle.unwrap_or(0.0);
@@ -155,7 +155,7 @@ fn camera(opened: &Opened, args: &CameraArgs, aspect: f64) -> Camera {
     if frames_all {
         camera = camera.framing(&scene.extent(), aspect);
     }
-    if let Some(view_height) = args.camera_view_height.filter(|h| h.is_finite() && *h > 0.0) {
+    if let Some(view_height) = args.camera_view_height {
         camera.projection = Projection::Orthographic { view_height };
     }
     camera

@@ -108,6 +108,16 @@ impl Document {
             path: path.into(),
             message: e.to_string().trim_end().to_owned(),
         })?;
+        let malformed =
+            |message: &str| DocumentError::Malformed { path: path.into(), message: message.to_owned() };
+        if form.camera.is_some_and(|c| !c.is_valid()) {
+            return Err(malformed(
+                "camera: its numbers must be finite, its view angle from 1 to 170, its height above 0",
+            ));
+        }
+        if form.lights.iter().flatten().any(|l| !l.is_valid()) {
+            return Err(malformed("lights: their numbers must be finite"));
+        }
         let fill = |params: &mut [Param<'_>], table: &toml::Table, place: &str| {
             set_from_toml(params, &table.to_string(), place).map_err(|e| DocumentError::Style {
                 path: path.into(),
@@ -255,6 +265,12 @@ mod tests {
         );
         assert!(open("[nodes.\"/crank\".style]\ngooch.alpha = 9").contains("a.hachure, /crank: "));
         assert!(open("\u{0}").contains("a.hachure"));
+        let camera = "[camera]\nposition = [nan, 0.0, 0.0]\nfocal_point = [0.0, 0.0, 0.0]\nview_up = [0.0, 1.0, 0.0]\n\
+                      [camera.projection.perspective]\nview_angle = 30.0";
+        assert!(open(camera).contains("camera: its numbers must be finite"));
+        assert!(
+            open(&camera.replace("nan", "0.0").replace("30.0", "500.0")).contains("view angle from 1 to 170")
+        );
     }
 
     #[test]

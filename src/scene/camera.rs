@@ -102,6 +102,15 @@ impl std::str::FromStr for Up {
 }
 
 impl Camera {
+    /// Whether it can be used: all numbers finite, angle and height in their ranges.
+    pub fn is_valid(&self) -> bool {
+        [self.position, self.focal_point, self.view_up].iter().all(|v| v.is_finite())
+            && match self.projection {
+                Projection::Perspective { view_angle } => (1.0..=170.0).contains(&view_angle),
+                Projection::Orthographic { view_height } => view_height.is_finite() && view_height > 0.0,
+            }
+    }
+
     /// Distance from the eye to the focal point, never 0.
     pub fn distance(&self) -> f64 {
         (self.focal_point - self.position).length().max(f64::MIN_POSITIVE)

@@ -32,6 +32,15 @@ pub enum LightKind {
 }
 
 impl Light {
+    /// Whether all its numbers are finite.
+    pub fn is_valid(&self) -> bool {
+        let place = match self.kind {
+            LightKind::Directional { direction } => direction,
+            LightKind::Point { position } => position,
+        };
+        place.is_finite() && self.color.is_finite() && self.intensity.is_finite()
+    }
+
     /// The default rig: a key light over the viewer's left shoulder and a weaker fill from the right.
     pub fn default_rig() -> Vec<Self> {
         let light = |x: f64, y: f64, z: f64, intensity| Self {
