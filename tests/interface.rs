@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+use eframe::egui;
 use eframe::egui::accesskit::Role;
 use eframe::egui::{Key, Modifiers, PointerButton, Pos2, Vec2};
 use egui_kittest::Harness;
@@ -449,6 +450,40 @@ fn a_document_opens_with_its_styles_and_camera() {
     ask(&mut window, Command::Save);
     until(&mut window, "it is saved", |v| v.notices().list().iter().any(|n| n.text.starts_with("Saved")));
     assert_eq!(&Document::open(&path).unwrap(), window.state().document());
+}
+
+/// What the window asks of the system in answer to a click on its close button.
+fn close(window: &mut Window) -> Vec<egui::ViewportCommand> {
+    let info = window.input_mut().viewports.entry(egui::ViewportId::ROOT).or_default();
+    info.events.push(egui::ViewportEvent::Close);
+    window.step();
+    window.output().viewport_output[&egui::ViewportId::ROOT].commands.clone()
+}
+
+#[test]
+fn a_changed_drawing_is_not_closed_without_a_question() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("drawing.hachure");
+    let models = vec![folder.path().join("engine.glb")];
+    Document { models, camera: Some(hachure::scene::Camera::default()), ..Document::default() }
+        .save(&path)
+        .unwrap();
+    let mut window = window_with(path.to_str().unwrap(), |paths| Ok(engine(paths)));
+    until(&mut window, "it is there", |v| !v.is_loading());
+    assert!(!close(&mut window).contains(&egui::ViewportCommand::CancelClose), "nothing would be lost");
+
+    click(&mut window, Role::CheckBox, "Show wheel");
+    assert!(close(&mut window).contains(&egui::ViewportCommand::CancelClose));
+    settle(&mut window);
+    click(&mut window, Role::Button, "Cancel");
+    assert!(window.query_by_label("Save the changes?").is_none());
+
+    close(&mut window);
+    settle(&mut window);
+    click(&mut window, Role::Button, "Save");
+    until(&mut window, "it is saved", |v| v.notices().list().iter().any(|n| n.text.starts_with("Saved")));
+    assert_eq!(&Document::open(&path).unwrap(), window.state().document());
+    assert!(!close(&mut window).contains(&egui::ViewportCommand::CancelClose));
 }
 
 #[test]

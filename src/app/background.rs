@@ -10,7 +10,7 @@ use super::jobs::Job;
 use super::loading::{self, DOCUMENT_ENDING, Intent, LoadError, Loaded, MODEL_ENDINGS};
 use super::navigation::Standard;
 use super::screenshot::{self, Destination};
-use super::viewer::{DialogFor, Viewer};
+use super::viewer::{DialogFor, Leaving, Viewer};
 use super::viewport::PickFor;
 use crate::document::Document;
 use crate::export::session::{self, is_document};
@@ -49,9 +49,13 @@ impl Viewer {
                     self.state.note_opened(&path);
                     self.look_for_recent();
                     self.saved = Some((path, document));
+                    if self.leaving == Leaving::AfterSaving {
+                        self.leaving = Leaving::Now;
+                        context.send_viewport_cmd(egui::ViewportCommand::Close);
+                    }
                 }
-                Ok(Err(error)) => self.notices.error(error.to_string()),
-                Err(error) => self.notices.error(error.to_string()),
+                Ok(Err(error)) => self.save_failed(&error.to_string()),
+                Err(error) => self.save_failed(&error.to_string()),
             }
         }
         if let Some((purpose, pick)) = self.viewport.poll_pick(context) {
@@ -72,6 +76,11 @@ impl Viewer {
             Ok(Err(error)) => self.load_failed(&error.to_string()),
             Err(error) => self.load_failed(&error.to_string()),
         }
+    }
+
+    fn save_failed(&mut self, message: &str) {
+        self.notices.error(message);
+        self.leaving = Leaving::No;
     }
 
     fn load_failed(&mut self, message: &str) {

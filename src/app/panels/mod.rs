@@ -3,6 +3,7 @@
 pub mod empty;
 pub mod help;
 pub mod icons;
+pub mod leave;
 pub mod menu;
 pub mod outliner;
 pub mod params;
