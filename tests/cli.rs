@@ -177,3 +177,28 @@ fn camera_flags_mean_what_they_say() {
     let wide = share(&[&from[..], &["--camera-view-angle", "60"]].concat());
     assert!(narrow > 4 * wide && wide > 0, "{narrow} {wide}");
 }
+
+#[test]
+fn the_crease_angle_smooths_files_without_normals() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("roof.obj");
+    // Two faces that meet at 53°.
+    std::fs::write(
+        &path,
+        "v -1 0 0\nv 0 0.5 0\nv 1 0 0\nv -1 0 2\nv 0 0.5 2\nv 1 0 2\nf 1 4 5 2\nf 2 5 6 3\n",
+    )
+    .unwrap();
+    let picture = |angle: &str| {
+        let setting = format!("view.crease_angle={angle}");
+        let (result, picture) = render(
+            folder.path(),
+            "roof.png",
+            path.to_str().unwrap(),
+            &["--style", "plain", "--set", &setting],
+        );
+        assert!(result.status.success(), "{}", String::from_utf8_lossy(&result.stderr));
+        std::fs::read(picture).unwrap()
+    };
+    assert_eq!(picture("10"), picture("30"));
+    assert!(picture("30") != picture("80"));
+}

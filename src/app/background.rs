@@ -31,8 +31,9 @@ impl Viewer {
         };
         paths.extend(files);
         let loader = self.loader.clone();
-        let uploader = self.viewport.uploader();
-        let work = move |progress: &Progress| loading::load(&paths, intent, &loader, &uploader, progress);
+        let (uploader, angle) = (self.viewport.uploader(), self.document.view.crease_angle);
+        let work =
+            move |progress: &Progress| loading::load(&paths, intent, angle, &loader, &uploader, progress);
         self.jobs.load = Some(Job::start("loading", context, work));
     }
 

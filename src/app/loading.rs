@@ -116,12 +116,14 @@ pub enum LoadError {
 }
 
 /// Loads `paths` and uploads what is in them; the first document among them is opened and brings its models along.
+/// Where files have no normals, edges above `crease_angle` (degrees; an opened document brings its own) stay hard.
 ///
 /// # Errors
 /// The first file that fails.
 pub fn load(
     paths: &[PathBuf],
     intent: Intent,
+    crease_angle: f32,
     loader: &Loader,
     uploader: &Uploader,
     progress: &Progress,
@@ -139,7 +141,8 @@ pub fn load(
             document = Some((path, opened));
         }
     }
-    let scene = loader(&models, &ImportOptions::default(), progress)?;
+    let crease_angle = document.as_ref().map_or(crease_angle, |(_, d)| d.view.crease_angle);
+    let scene = loader(&models, &ImportOptions { crease_angle }, progress)?;
     let model = Model::new(scene);
     let on_device = uploader.scene(&model.scene, &[])?;
     Ok(Loaded { model, on_device, models, document, intent })

@@ -24,7 +24,7 @@ struct Row {
 pub(super) fn run(args: &BenchArgs) -> Result<(), CliError> {
     let files = if args.files.is_empty() { sample().into_iter().collect() } else { args.files.clone() };
     let started = Instant::now();
-    let opened = open(&files, &Progress::default())?;
+    let opened = open(&files, None, &Progress::default())?;
     let load_ms = started.elapsed().as_secs_f64() * 1e3;
     let mut bench = Bench::new(opened, args.resolution.0)?;
 

@@ -9,7 +9,7 @@ use crate::import::Progress;
 use crate::scene::AlphaMode;
 
 pub(super) fn run(args: &InfoArgs) -> Result<(), CliError> {
-    let opened = open(&args.files, &Progress::default())?;
+    let opened = open(&args.files, None, &Progress::default())?;
     if args.json { as_json(&opened) } else { as_text(&opened) }
 }
 

@@ -12,11 +12,11 @@ use crate::export::{Session, save_png};
 use crate::gpu::{Gpu, GpuError};
 use crate::import::Progress;
 use crate::scene::{Camera, NodeId, Projection, Scene};
-use crate::style::preset;
+use crate::style::{Value, preset};
 
 pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
     let device = StartingDevice::new()?;
-    let mut opened = open(&args.files, &Progress::default())?;
+    let mut opened = open(&args.files, crease_angle(&args.look), &Progress::default())?;
     apply_look(&mut opened, &args.look)?;
     if let Some(background) = args.background {
         opened.document.view.background = background;
@@ -69,6 +69,15 @@ impl Drop for StartingDevice {
             let _ = thread.join();
         }
     }
+}
+
+/// What `--set view.crease_angle=…` says: it matters while files are read already. Whether it is in range is checked
+/// with all other settings.
+fn crease_angle(look: &LookArgs) -> Option<f32> {
+    look.set.iter().rev().find_map(|setting| match (setting.key.as_str(), &setting.value) {
+        ("view.crease_angle", Value::Number(degrees)) => Some(degrees.clamp(0.0, 180.0) as f32),
+        _ => None,
+    })
 }
 
 fn matching(scene: &Scene, pattern: &str) -> Result<Vec<NodeId>, CliError> {

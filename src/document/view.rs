@@ -77,7 +77,7 @@ impl View {
                 "°",
                 5.0..=90.0,
                 0.0..=180.0,
-                "Folds sharper than this separate surfaces.",
+                "Folds sharper than this separate surfaces; in files without normals they are hard (after a reload).",
                 &mut self.crease_angle,
             );
             list.choice("show", "Show", "The picture, or a buffer that it is made from.", &mut self.show);

@@ -43,11 +43,12 @@ pub fn is_document(path: &Path) -> bool {
     path.extension().is_some_and(|e| e.eq_ignore_ascii_case("hachure"))
 }
 
-/// Opens models, or one document with its models.
+/// Opens models, or one document with its models. Where files have no normals, edges above `crease_angle` (degrees; by
+/// default the document's) stay hard.
 ///
 /// # Errors
 /// [`OpenError`].
-pub fn open(files: &[PathBuf], progress: &Progress) -> Result<Opened, OpenError> {
+pub fn open(files: &[PathBuf], crease_angle: Option<f32>, progress: &Progress) -> Result<Opened, OpenError> {
     let document = match files {
         [file] if is_document(file) => Some(Document::open(file)?),
         _ => None,
@@ -59,7 +60,8 @@ pub fn open(files: &[PathBuf], progress: &Progress) -> Result<Opened, OpenError>
     }
     let is_new = document.is_none();
     let mut document = document.unwrap_or_else(|| Document { models: files.to_vec(), ..Document::default() });
-    let scene = load_all(&document.models, &ImportOptions::default(), progress)?;
+    let crease_angle = crease_angle.unwrap_or(document.view.crease_angle);
+    let scene = load_all(&document.models, &ImportOptions { crease_angle }, progress)?;
     if is_new && !scene.lights.is_empty() {
         document.lights = scene.lights.clone();
     }
