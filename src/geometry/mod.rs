@@ -2,21 +2,27 @@
 
 pub mod angle;
 pub mod bounds;
+pub mod bvh;
 pub mod clean;
+pub mod line_score;
 pub mod mesh;
 pub mod normals;
 pub mod primitives;
+pub mod projector;
 pub mod rig;
 pub mod solid;
 pub mod stitch;
 pub mod surfaces;
 pub mod topology;
 pub mod triangulate;
+pub mod visible_edges;
 pub mod weld;
 
 pub use bounds::Bounds;
+pub use bvh::Bvh;
 pub use clean::{Report, clean};
 pub use mesh::{Mesh, MeshPart};
+pub use projector::{Lens, Projector};
 pub use rig::Rig;
 pub use solid::Topology;
 pub use stitch::Seam;
