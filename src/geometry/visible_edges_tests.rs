@@ -106,7 +106,6 @@ fn a_cube_in_a_cube_is_hidden() {
 #[test]
 fn an_open_sheet_has_borders_and_a_folded_one_a_valley() {
     let sheet = primitives::plane(1.0);
-    let fold = DMat4::from_rotation_y(1.5) * DMat4::from_translation(DVec3::new(0.5, 0.0, 0.0));
     for lens in LENSES {
         let projector = look_from(DVec3::new(0.0, 0.0, 5.0), lens);
         let visible = see(&[(&sheet, DMat4::IDENTITY)], &projector);
@@ -116,9 +115,6 @@ fn an_open_sheet_has_borders_and_a_folded_one_a_valley() {
         };
         assert!((length(&visible, EdgeClass::Border) - 4.0 * side).abs() < 1e-6);
         assert_eq!(visible.segments.len(), 4);
-        // From the side a sheet that crosses the view hides half of another one.
-        let visible = see(&[(&sheet, DMat4::IDENTITY), (&sheet, fold)], &projector);
-        assert!(visible.segments.iter().any(|s| s.object == 1));
 
         let corners = [(-1.0, 1.0), (0.0, 0.0), (1.0, 1.0)]
             .map(|(x, z)| [glam::Vec3::new(x, -0.5, z), glam::Vec3::new(x, 0.5, z)]);
