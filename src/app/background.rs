@@ -7,10 +7,11 @@ use std::time::Duration;
 use eframe::egui;
 
 use super::jobs::Job;
+use super::leaving::Leaving;
 use super::loading::{self, DOCUMENT_ENDING, Intent, LoadError, Loaded, MODEL_ENDINGS};
 use super::navigation::Standard;
 use super::screenshot::{self, Destination};
-use super::viewer::{DialogFor, Leaving, Viewer};
+use super::viewer::{DialogFor, Viewer};
 use super::viewport::PickFor;
 use crate::document::Document;
 use crate::export::session::{self, is_document};

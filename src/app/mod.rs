@@ -10,6 +10,7 @@ pub mod command;
 mod execute;
 pub mod gesture;
 pub mod jobs;
+mod leaving;
 pub mod loading;
 pub mod navigation;
 pub mod notices;

@@ -7,9 +7,10 @@ use eframe::egui;
 
 use super::command::Command;
 use super::jobs::Job;
+use super::leaving::Leaving;
 use super::loading::{Intent, LoadError, Loaded, Loader, Model};
 use super::notices::Notices;
-use super::panels::{Editing, empty, help, leave, menu, outliner::Outliner, status, style, view};
+use super::panels::{Editing, empty, help, menu, outliner::Outliner, status, style, view};
 use super::screenshot::{Destination, ScreenshotError};
 use super::selection::Selection;
 use super::state::{AppState, Page};
@@ -98,20 +99,6 @@ pub struct Viewer {
     title: String,
     /// What closing the window waits for.
     pub(super) leaving: Leaving,
-}
-
-/// How far closing the window has come.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(super) enum Leaving {
-    /// Nobody wants to.
-    #[default]
-    No,
-    /// The question is on the screen.
-    Asked,
-    /// As soon as the drawing is saved.
-    AfterSaving,
-    /// Now, whatever is lost.
-    Now,
 }
 
 impl Viewer {
@@ -219,31 +206,6 @@ impl Viewer {
         for command in commands {
             if self.is_enabled(command) {
                 self.execute(context, command);
-            }
-        }
-    }
-
-    /// Asks before a drawing that has a file is closed with changes.
-    fn leave(&mut self, context: &egui::Context) {
-        let Some((path, saved)) = &self.saved else { return };
-        let name = path.file_name().unwrap_or_default().to_string_lossy();
-        let is_changed = *saved != self.document;
-        if context.input(|i| i.viewport().close_requested()) && is_changed && self.leaving != Leaving::Now {
-            context.send_viewport_cmd(egui::ViewportCommand::CancelClose);
-            self.leaving = Leaving::Asked;
-        }
-        if self.leaving == Leaving::Asked {
-            match leave::leave_ui(context, &name) {
-                Some(leave::Answer::Save) => {
-                    self.leaving = Leaving::AfterSaving;
-                    self.commands.push(Command::Save);
-                }
-                Some(leave::Answer::Discard) => {
-                    self.leaving = Leaving::Now;
-                    context.send_viewport_cmd(egui::ViewportCommand::Close);
-                }
-                Some(leave::Answer::Stay) => self.leaving = Leaving::No,
-                None => {}
             }
         }
     }

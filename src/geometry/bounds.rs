@@ -11,6 +11,13 @@ pub struct Bounds {
     pub max: DVec3,
 }
 
+impl Default for Bounds {
+    /// [`Bounds::EMPTY`].
+    fn default() -> Self {
+        Self::EMPTY
+    }
+}
+
 impl Bounds {
     /// The box that contains nothing; the identity of [`Bounds::union`].
     pub const EMPTY: Self = Self { min: DVec3::splat(f64::INFINITY), max: DVec3::splat(f64::NEG_INFINITY) };

@@ -46,8 +46,6 @@ pub struct Gpu {
     pub queue: wgpu::Queue,
     /// Name of the adapter, for people.
     pub adapter_name: String,
-    /// Whether it is a processor that pretends to be a graphics card.
-    pub is_software: bool,
 }
 
 impl Gpu {
@@ -70,12 +68,7 @@ impl Gpu {
     /// Takes over a device that somebody else opened with [`device_descriptor`].
     pub fn new(adapter: &wgpu::Adapter, device: wgpu::Device, queue: wgpu::Queue) -> Self {
         let info = adapter.get_info();
-        Self {
-            device,
-            queue,
-            adapter_name: info.name,
-            is_software: info.device_type == wgpu::DeviceType::Cpu,
-        }
+        Self { device, queue, adapter_name: info.name }
     }
 
     /// Fails if a texture of this size cannot exist.

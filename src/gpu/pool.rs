@@ -35,11 +35,6 @@ impl Target {
     pub fn size(&self) -> [u32; 2] {
         [self.0.texture.width(), self.0.texture.height()]
     }
-
-    /// Whether both are the same texture.
-    pub fn is(&self, other: &Self) -> bool {
-        Arc::ptr_eq(&self.0, &other.0)
-    }
 }
 
 /// All targets of a renderer.

@@ -9,9 +9,6 @@ use crate::scene::{Camera, Light, LightKind, Projection};
 /// More lights are left out.
 pub const MAX_LIGHTS: usize = 8;
 
-/// Reference pixels in the height of a picture: lengths of a style are in 1/1080 of it.
-pub const REFERENCE_HEIGHT: f32 = 1080.0;
-
 /// Twin of `Light` in `shaders/common/frame.wgsl`.
 #[derive(Debug, Clone, Copy, PartialEq, ShaderType, Default)]
 pub struct LightUniform {

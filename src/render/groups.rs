@@ -36,17 +36,11 @@ pub struct Objects {
     pub surface_styles: Vec<SurfaceUniform>,
 }
 
-impl Default for Bounds {
-    fn default() -> Self {
-        Self::EMPTY
-    }
-}
-
 impl Objects {
     /// Resolves styles and roles of a document for the nodes of a scene.
     pub fn new(document: &Document, scene: &GpuScene) -> Self {
         let resolved = document.resolve(&scene.scene);
-        let mut objects = Self { visible_bounds: Bounds::EMPTY, ..Self::default() };
+        let mut objects = Self::default();
         // What is not drawn, entry 0 (the background) included, has neither shading nor lines.
         let count = resolved.len() + 1;
         objects.edge_styles = vec![EdgeUniform::NONE; count];
