@@ -465,9 +465,7 @@ fn a_changed_drawing_is_not_closed_without_a_question() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("drawing.hachure");
     let models = vec![folder.path().join("engine.glb")];
-    Document { models, camera: Some(hachure::scene::Camera::default()), ..Document::default() }
-        .save(&path)
-        .unwrap();
+    Document { models, ..Document::default() }.save(&path).unwrap();
     let mut window = window_with(path.to_str().unwrap(), |paths| Ok(engine(paths)));
     until(&mut window, "it is there", |v| !v.is_loading());
     assert!(!close(&mut window).contains(&egui::ViewportCommand::CancelClose), "nothing would be lost");

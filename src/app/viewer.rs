@@ -7,7 +7,7 @@ use eframe::egui;
 
 use super::command::Command;
 use super::jobs::Job;
-use super::leaving::Leaving;
+use super::leaving::{Leaving, is_changed};
 use super::loading::{Intent, LoadError, Loaded, Loader, Model};
 use super::notices::Notices;
 use super::panels::{Editing, empty, help, menu, outliner::Outliner, status, style, view};
@@ -357,7 +357,7 @@ impl Viewer {
     fn show_title(&mut self, context: &egui::Context) {
         let name = match (&self.saved, self.document.models.first()) {
             (Some((path, saved)), _) => {
-                let mark = if *saved == self.document { "" } else { "*" };
+                let mark = if is_changed(saved, &self.document) { "*" } else { "" };
                 path.file_name().map(|n| format!("{}{mark}", n.to_string_lossy()))
             }
             (None, Some(model)) => model.file_name().map(|n| n.to_string_lossy().into_owned()),
