@@ -67,9 +67,7 @@ impl TargetPool {
             sample_count: 1,
             dimension: wgpu::TextureDimension::D2,
             format,
-            usage: wgpu::TextureUsages::RENDER_ATTACHMENT
-                | wgpu::TextureUsages::TEXTURE_BINDING
-                | wgpu::TextureUsages::COPY_SRC,
+            usage: usage(format),
             view_formats: &[],
         });
         let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
@@ -82,4 +80,12 @@ impl TargetPool {
     pub fn shrink_to(&mut self, size: [u32; 2]) {
         self.targets.retain(|t| Arc::strong_count(&t.0) > 1 || t.size() == size);
     }
+}
+
+/// Everything is drawn into, read and copied; integers are also written by compute shaders.
+fn usage(format: wgpu::TextureFormat) -> wgpu::TextureUsages {
+    let usage = wgpu::TextureUsages::RENDER_ATTACHMENT
+        | wgpu::TextureUsages::TEXTURE_BINDING
+        | wgpu::TextureUsages::COPY_SRC;
+    if format == wgpu::TextureFormat::R32Uint { usage | wgpu::TextureUsages::STORAGE_BINDING } else { usage }
 }

@@ -2,223 +2,80 @@
 //!
 //! Bind group 0 is the frame's uniform, group 1 the inputs of a pass in the order in which they are given.
 
-use std::collections::HashMap;
+use super::pipelines::{Binding, ComputeKey, DepthRule, Pipelines, Program, RasterKey};
+use super::{Gpu, GpuError, ShaderError, Target, TargetPool, Timers};
 
-use super::{Gpu, GpuError, ShaderError, Shaders, Target, TargetPool, Timers};
-
-/// What a full-screen pass reads, in the order of its bindings in group 1.
+/// What a pass reads (or a compute pass writes), in the order of its bindings in group 1.
 #[derive(Clone, Copy)]
 pub enum Input<'a> {
     /// A texture, read by `textureLoad`.
     Texture(&'a Target),
+    /// A texture that a compute shader writes.
+    Image(&'a Target),
+    /// A texture that a compute shader reads and writes.
+    Scratch(&'a Target),
     /// A read-only storage buffer.
     Storage(&'a wgpu::Buffer),
 }
 
-/// A fragment shader of a file below `shaders/`, specialised: switches are its `override` constants, and what is
-/// switched off is compiled away. Software devices run both sides of a branch, so this is what makes an unused
-/// feature free.
-#[derive(Debug, Clone, PartialEq, Eq, Hash)]
-pub struct Program {
-    /// File below `shaders/`.
-    pub file: &'static str,
-    /// Entry point.
-    pub entry_point: &'static str,
-    /// Names and values of boolean `override` constants.
-    pub switches: Vec<(&'static str, bool)>,
-}
-
-impl Program {
-    /// A program without switches.
-    pub fn new(file: &'static str, entry_point: &'static str) -> Self {
-        Self { file, entry_point, switches: Vec::new() }
-    }
-}
-
-#[derive(Debug, Clone, PartialEq, Eq, Hash)]
-struct FullscreenKey {
-    program: Program,
-    inputs: Vec<Option<wgpu::TextureFormat>>,
-    outputs: Vec<wgpu::TextureFormat>,
-    covered: Option<wgpu::TextureFormat>,
-}
-
-struct Fullscreen {
-    pipeline: wgpu::RenderPipeline,
-    inputs: wgpu::BindGroupLayout,
-}
-
-/// Shader modules and pipelines, made when first used and kept.
-pub struct Pipelines {
-    shaders: Shaders,
-    modules: HashMap<&'static str, wgpu::ShaderModule>,
-    fullscreen: HashMap<FullscreenKey, Fullscreen>,
-    frame_layout: wgpu::BindGroupLayout,
-    generation: u64,
-}
-
-impl Pipelines {
-    /// No pipeline yet. If the shaders of a folder are wrong, the embedded ones are used and the mistake is returned.
-    pub fn new(gpu: &Gpu, shaders: Shaders) -> (Self, Option<ShaderError>) {
-        let error = if shaders.can_change() { validate_all(&shaders).err() } else { None };
-        let shaders = if error.is_some() { Shaders::default() } else { shaders };
-        let frame_layout = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-            label: Some("frame"),
-            entries: &[wgpu::BindGroupLayoutEntry {
-                binding: 0,
-                visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
-                ty: wgpu::BindingType::Buffer {
-                    ty: wgpu::BufferBindingType::Uniform,
-                    has_dynamic_offset: false,
-                    min_binding_size: None,
-                },
-                count: None,
-            }],
-        });
-        let pipelines = Self {
-            shaders,
-            modules: HashMap::new(),
-            fullscreen: HashMap::new(),
-            frame_layout,
-            generation: 0,
-        };
-        (pipelines, error)
-    }
-
-    /// Reads changed shaders again. When one of them is wrong, all pipelines stay as they are.
-    ///
-    /// # Errors
-    /// The first mistake.
-    pub fn reload(&mut self) -> Result<(), ShaderError> {
-        let shaders = Shaders::from_environment();
-        validate_all(&shaders)?;
-        self.shaders = shaders;
-        self.modules.clear();
-        self.fullscreen.clear();
-        self.generation += 1;
-        Ok(())
-    }
-
-    /// Changes whenever pipelines made before are out of date.
-    pub fn generation(&self) -> u64 {
-        self.generation
-    }
-
-    /// The layout of bind group 0.
-    pub fn frame_layout(&self) -> &wgpu::BindGroupLayout {
-        &self.frame_layout
-    }
-
-    /// The compiled shader of a file below `shaders/`.
-    ///
-    /// # Errors
-    /// [`ShaderError::Missing`]; that texts are valid is checked when they are loaded.
-    pub fn module(&mut self, gpu: &Gpu, file: &'static str) -> Result<wgpu::ShaderModule, ShaderError> {
-        if let Some(module) = self.modules.get(file) {
-            return Ok(module.clone());
+impl Input<'_> {
+    fn binding(&self) -> Binding {
+        match self {
+            Self::Texture(target) => Binding::Texture(target.format()),
+            Self::Image(target) => Binding::Image(target.format()),
+            Self::Scratch(target) => Binding::Scratch(target.format()),
+            Self::Storage(_) => Binding::Storage,
         }
-        let composed = self.shaders.compose(file)?;
-        let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label: Some(file),
-            source: wgpu::ShaderSource::Wgsl(composed.text.into()),
-        });
-        self.modules.insert(file, module.clone());
-        Ok(module)
     }
 
-    fn fullscreen(&mut self, gpu: &Gpu, key: &FullscreenKey) -> Result<&Fullscreen, ShaderError> {
-        if !self.fullscreen.contains_key(key) {
-            let module = self.module(gpu, key.program.file)?;
-            let made = build_fullscreen(gpu, &module, &self.frame_layout, key);
-            self.fullscreen.insert(key.clone(), made);
+    fn resource(&self) -> wgpu::BindingResource<'_> {
+        match self {
+            Self::Texture(target) | Self::Image(target) | Self::Scratch(target) => {
+                wgpu::BindingResource::TextureView(target.view())
+            }
+            Self::Storage(buffer) => buffer.as_entire_binding(),
         }
-        self.fullscreen
-            .get(key)
-            .ok_or_else(|| ShaderError::Missing { file: key.program.file.to_owned(), imported_by: None })
     }
 }
 
-fn validate_all(shaders: &Shaders) -> Result<(), ShaderError> {
-    Shaders::embedded().iter().try_for_each(|file| shaders.validate(file).map(|_composed| ()))
+/// What a pass does with what its outputs hold.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Onto {
+    /// They are cleared to 0.
+    Nothing,
+    /// What is not drawn over stays.
+    Old,
+    /// Drawn over it with premultiplied alpha.
+    Blended,
 }
 
-fn build_fullscreen(
-    gpu: &Gpu,
-    module: &wgpu::ShaderModule,
-    frame_layout: &wgpu::BindGroupLayout,
-    key: &FullscreenKey,
-) -> Fullscreen {
-    let entries: Vec<_> = key
-        .inputs
-        .iter()
-        .enumerate()
-        .map(|(binding, format)| wgpu::BindGroupLayoutEntry {
-            binding: binding as u32,
-            visibility: wgpu::ShaderStages::FRAGMENT,
-            ty: match format {
-                Some(format) => wgpu::BindingType::Texture {
-                    sample_type: match format.sample_type(None, None) {
-                        Some(wgpu::TextureSampleType::Float { .. }) | None => {
-                            wgpu::TextureSampleType::Float { filterable: false }
-                        }
-                        Some(other) => other,
-                    },
-                    view_dimension: wgpu::TextureViewDimension::D2,
-                    multisampled: false,
-                },
-                None => wgpu::BindingType::Buffer {
-                    ty: wgpu::BufferBindingType::Storage { read_only: true },
-                    has_dynamic_offset: false,
-                    min_binding_size: None,
-                },
-            },
-            count: None,
-        })
-        .collect();
-    let inputs = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-        label: Some(key.program.file),
-        entries: &entries,
-    });
-    let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-        label: Some(key.program.file),
-        bind_group_layouts: &[Some(frame_layout), Some(&inputs)],
-        immediate_size: 0,
-    });
-    let constants: Vec<_> =
-        key.program.switches.iter().map(|(name, on)| (*name, f64::from(u8::from(*on)))).collect();
-    let targets: Vec<_> = key.outputs.iter().map(|format| Some((*format).into())).collect();
-    let pipeline = gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: Some(key.program.file),
-        layout: Some(&layout),
-        vertex: wgpu::VertexState {
-            module,
-            entry_point: Some("vs_fullscreen"),
-            compilation_options: wgpu::PipelineCompilationOptions::default(),
-            buffers: &[],
-        },
-        primitive: wgpu::PrimitiveState::default(),
-        // The triangle lies at depth 0, where the reversed buffer is cleared: only what is nearer passes.
-        depth_stencil: key.covered.map(|format| wgpu::DepthStencilState {
-            format,
-            depth_write_enabled: Some(false),
-            depth_compare: Some(wgpu::CompareFunction::Less),
-            stencil: wgpu::StencilState::default(),
-            bias: wgpu::DepthBiasState::default(),
-        }),
-        multisample: wgpu::MultisampleState::default(),
-        fragment: Some(wgpu::FragmentState {
-            module,
-            entry_point: Some(key.program.entry_point),
-            compilation_options: wgpu::PipelineCompilationOptions {
-                constants: &constants,
-                ..Default::default()
-            },
-            targets: &targets,
-        }),
-        multiview_mask: None,
-        cache: None,
-    });
-    Fullscreen { pipeline, inputs }
+/// What a pass draws per instance: a strip of four vertices made by its vertex shader `vs_main`.
+#[derive(Clone)]
+pub struct Instances<'a> {
+    /// One record per instance.
+    pub buffer: &'a wgpu::Buffer,
+    /// What a record holds.
+    pub layout: wgpu::VertexBufferLayout<'static>,
+    /// How many there are.
+    pub count: u32,
+}
+
+/// One render pass with one draw.
+pub struct Draw<'a> {
+    /// Name, for timings.
+    pub label: &'static str,
+    /// Its shader.
+    pub program: Program,
+    /// Bindings of group 1.
+    pub inputs: &'a [Input<'a>],
+    /// Locations of the fragment shader.
+    pub outputs: &'a [&'a Target],
+    /// What becomes of what they hold.
+    pub onto: Onto,
+    /// Its depth buffer.
+    pub depth: Option<(&'a Target, DepthRule)>,
+    /// `None`: once per pixel.
+    pub instances: Option<Instances<'a>>,
 }
 
 /// One frame while it is being recorded.
@@ -251,6 +108,11 @@ impl<'a> Recorder<'a> {
         Self { gpu, pipelines, encoder, frame, pool, timers, size }
     }
 
+    /// Width and height of the picture in pixels.
+    pub fn size(&self) -> [u32; 2] {
+        self.size
+    }
+
     /// A target as large as the picture, with undefined contents.
     ///
     /// # Errors
@@ -271,7 +133,11 @@ impl<'a> Recorder<'a> {
             label: Some(label),
             color_attachments: color,
             depth_stencil_attachment: depth,
-            timestamp_writes,
+            timestamp_writes: timestamp_writes.map(|t| wgpu::RenderPassTimestampWrites {
+                query_set: t.query_set,
+                beginning_of_pass_write_index: Some(t.begin),
+                end_of_pass_write_index: Some(t.end),
+            }),
             occlusion_query_set: None,
             multiview_mask: None,
         });
@@ -292,49 +158,80 @@ impl<'a> Recorder<'a> {
         outputs: &[&Target],
         covered: Option<&Target>,
     ) -> Result<(), ShaderError> {
-        let key = FullscreenKey {
-            program,
-            inputs: inputs
-                .iter()
-                .map(|i| match i {
-                    Input::Texture(target) => Some(target.format()),
-                    Input::Storage(_) => None,
-                })
-                .collect(),
-            outputs: outputs.iter().map(|o| o.format()).collect(),
-            covered: covered.map(Target::format),
+        let depth = covered.map(|target| (target, DepthRule::Covered));
+        self.draw(Draw { label, program, inputs, outputs, onto: Onto::Nothing, depth, instances: None })
+    }
+
+    /// Runs one render pass with one draw.
+    ///
+    /// # Errors
+    /// [`ShaderError::Missing`].
+    pub fn draw(&mut self, draw: Draw<'_>) -> Result<(), ShaderError> {
+        let key = RasterKey {
+            program: draw.program,
+            inputs: draw.inputs.iter().map(Input::binding).collect(),
+            outputs: draw.outputs.iter().map(|o| o.format()).collect(),
+            blend: draw.onto == Onto::Blended,
+            depth: draw.depth.map(|(target, rule)| (target.format(), rule)),
+            instances: draw.instances.as_ref().map(|i| i.layout.clone()),
         };
-        let made = self.pipelines.fullscreen(self.gpu, &key)?;
+        let made = self.pipelines.raster(self.gpu, &key)?;
         let pipeline = made.pipeline.clone();
-        let entries: Vec<_> = inputs
-            .iter()
-            .enumerate()
-            .map(|(binding, input)| wgpu::BindGroupEntry {
-                binding: binding as u32,
-                resource: match input {
-                    Input::Texture(target) => wgpu::BindingResource::TextureView(target.view()),
-                    Input::Storage(buffer) => buffer.as_entire_binding(),
-                },
-            })
-            .collect();
-        let group = self.gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some(label),
-            layout: &made.inputs,
-            entries: &entries,
-        });
-        let color: Vec<_> = outputs
-            .iter()
-            .map(|o| Some(color_attachment(o, wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT))))
-            .collect();
-        let depth = covered.map(|depth| wgpu::RenderPassDepthStencilAttachment {
-            view: depth.view(),
-            depth_ops: None,
+        let group = inputs_group(self.gpu, draw.label, &made.inputs, draw.inputs);
+        let load = match draw.onto {
+            Onto::Nothing => wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
+            Onto::Old | Onto::Blended => wgpu::LoadOp::Load,
+        };
+        let color: Vec<_> = draw.outputs.iter().map(|o| Some(color_attachment(o, load))).collect();
+        let depth = draw.depth.map(|(target, rule)| wgpu::RenderPassDepthStencilAttachment {
+            view: target.view(),
+            depth_ops: rule.cleared_to().map(|clear| wgpu::Operations {
+                load: wgpu::LoadOp::Clear(clear),
+                store: wgpu::StoreOp::Store,
+            }),
             stencil_ops: None,
         });
-        let mut pass = self.pass(label, &color, depth);
+        let mut pass = self.pass(draw.label, &color, depth);
         pass.set_pipeline(&pipeline);
         pass.set_bind_group(1, &group, &[]);
-        pass.draw(0..3, 0..1);
+        match draw.instances {
+            Some(instances) => {
+                pass.set_vertex_buffer(0, instances.buffer.slice(..));
+                pass.draw(0..4, 0..instances.count);
+            }
+            None => pass.draw(0..3, 0..1),
+        }
+        Ok(())
+    }
+
+    /// Runs a compute program with this many workgroups.
+    ///
+    /// # Errors
+    /// [`ShaderError::Missing`].
+    pub fn compute(
+        &mut self,
+        label: &'static str,
+        program: Program,
+        inputs: &[Input<'_>],
+        workgroups: [u32; 2],
+    ) -> Result<(), ShaderError> {
+        let key = ComputeKey { program, inputs: inputs.iter().map(Input::binding).collect() };
+        let made = self.pipelines.compute(self.gpu, &key)?;
+        let pipeline = made.pipeline.clone();
+        let group = inputs_group(self.gpu, label, &made.inputs, inputs);
+        let timestamp_writes = self.timers.as_mut().and_then(|t| t.pass(label));
+        let mut pass = self.encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+            label: Some(label),
+            timestamp_writes: timestamp_writes.map(|t| wgpu::ComputePassTimestampWrites {
+                query_set: t.query_set,
+                beginning_of_pass_write_index: Some(t.begin),
+                end_of_pass_write_index: Some(t.end),
+            }),
+        });
+        pass.set_pipeline(&pipeline);
+        pass.set_bind_group(0, self.frame, &[]);
+        pass.set_bind_group(1, &group, &[]);
+        pass.dispatch_workgroups(workgroups[0], workgroups[1], 1);
         Ok(())
     }
 
@@ -345,6 +242,20 @@ impl<'a> Recorder<'a> {
         }
         self.gpu.queue.submit([self.encoder.finish()]);
     }
+}
+
+fn inputs_group(
+    gpu: &Gpu,
+    label: &str,
+    layout: &wgpu::BindGroupLayout,
+    inputs: &[Input<'_>],
+) -> wgpu::BindGroup {
+    let entries: Vec<_> = inputs
+        .iter()
+        .enumerate()
+        .map(|(binding, input)| wgpu::BindGroupEntry { binding: binding as u32, resource: input.resource() })
+        .collect();
+    gpu.device.create_bind_group(&wgpu::BindGroupDescriptor { label: Some(label), layout, entries: &entries })
 }
 
 /// A target as an output of a pass.

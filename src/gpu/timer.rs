@@ -13,6 +13,16 @@ pub struct Timers {
     nanoseconds_per_tick: f32,
 }
 
+/// The timestamps of one pass.
+pub struct Timestamps<'a> {
+    /// Where they are written.
+    pub query_set: &'a wgpu::QuerySet,
+    /// Index of the one at the beginning.
+    pub begin: u32,
+    /// Index of the one at the end.
+    pub end: u32,
+}
+
 impl Timers {
     /// Timers, if the device has them.
     pub fn new(gpu: &Gpu) -> Option<Self> {
@@ -37,17 +47,13 @@ impl Timers {
     }
 
     /// What a pass of this name has to write.
-    pub fn pass(&mut self, label: &'static str) -> Option<wgpu::RenderPassTimestampWrites<'_>> {
+    pub fn pass(&mut self, label: &'static str) -> Option<Timestamps<'_>> {
         let index = self.labels.len() as u32;
         if index >= MAX_PASSES {
             return None;
         }
         self.labels.push(label);
-        Some(wgpu::RenderPassTimestampWrites {
-            query_set: &self.queries,
-            beginning_of_pass_write_index: Some(index * 2),
-            end_of_pass_write_index: Some(index * 2 + 1),
-        })
+        Some(Timestamps { query_set: &self.queries, begin: index * 2, end: index * 2 + 1 })
     }
 
     /// Records the end of the frame.

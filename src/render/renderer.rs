@@ -11,8 +11,9 @@ use super::groups::{Objects, node_of};
 use crate::document::Document;
 use crate::geometry::Topology;
 use crate::gpu::readback::Readback;
-use crate::gpu::recorder::Pipelines;
-use crate::gpu::{Gpu, GpuError, Recorder, ShaderError, Shaders, TargetPool, Timers, UniformBuffer};
+use crate::gpu::{
+    Gpu, GpuError, Pipelines, Recorder, ShaderError, Shaders, TargetPool, Timers, UniformBuffer,
+};
 use crate::scene::{Camera, NodeId, Scene};
 
 /// Why there is no picture.

@@ -4,8 +4,8 @@ use encase::ShaderType;
 use glam::Vec3;
 
 use super::gbuffer::GBuffer;
-use crate::gpu::recorder::{Input, Program};
-use crate::gpu::{Recorder, Target};
+use crate::gpu::recorder::Input;
+use crate::gpu::{Program, Recorder, Target};
 use crate::render::RenderError;
 use crate::style::{DepthOperator, Edges};
 

@@ -7,8 +7,8 @@ use glam::{Mat3, Mat4};
 
 use crate::gpu::geometry::Attributes;
 use crate::gpu::material::MaterialUniform;
-use crate::gpu::recorder::{Pipelines, color_attachment};
-use crate::gpu::{DynamicBuffer, Gpu, MaterialBindings, Recorder, Target};
+use crate::gpu::recorder::color_attachment;
+use crate::gpu::{DynamicBuffer, Gpu, MaterialBindings, Pipelines, Recorder, Target};
 use crate::render::RenderError;
 use crate::render::gpu_scene::GpuScene;
 

@@ -1,7 +1,7 @@
 //! The final image.
 
-use crate::gpu::recorder::{Input, Program};
-use crate::gpu::{Recorder, Target};
+use crate::gpu::recorder::Input;
+use crate::gpu::{Program, Recorder, Target};
 use crate::render::RenderError;
 
 /// What the window, PNG files and tests see: sRGB with straight alpha.

@@ -2,8 +2,8 @@
 
 use super::gbuffer::GBuffer;
 use super::resolve::FINAL;
-use crate::gpu::recorder::{Input, Program};
-use crate::gpu::{Recorder, Target};
+use crate::gpu::recorder::Input;
+use crate::gpu::{Program, Recorder, Target};
 use crate::render::RenderError;
 use crate::render::groups::object_id;
 use crate::scene::NodeId;

@@ -3,8 +3,8 @@
 use super::gbuffer::GBuffer;
 use super::resolve::FINAL;
 use crate::document::Show;
-use crate::gpu::recorder::{Input, Program};
-use crate::gpu::{Recorder, Target};
+use crate::gpu::recorder::Input;
+use crate::gpu::{Program, Recorder, Target};
 use crate::render::RenderError;
 
 /// Draws one buffer as the final image.

@@ -1,0 +1,363 @@
+//! Shader modules and pipelines, made when first used and kept.
+
+use std::collections::HashMap;
+
+use super::{Gpu, ShaderError, Shaders};
+
+/// A shader of a file below `shaders/`, specialised: switches are its `override` constants, and what is switched off is
+/// compiled away. Software devices run both sides of a branch, so this is what makes an unused feature free.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+pub struct Program {
+    /// File below `shaders/`.
+    pub file: &'static str,
+    /// Entry point of the fragment or compute shader.
+    pub entry_point: &'static str,
+    /// Names and values of boolean `override` constants.
+    pub switches: Vec<(&'static str, bool)>,
+}
+
+impl Program {
+    /// A program without switches.
+    pub fn new(file: &'static str, entry_point: &'static str) -> Self {
+        Self { file, entry_point, switches: Vec::new() }
+    }
+
+    fn constants(&self) -> Vec<(&'static str, f64)> {
+        self.switches.iter().map(|(name, on)| (*name, f64::from(u8::from(*on)))).collect()
+    }
+}
+
+/// What a binding of group 1 is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Binding {
+    /// A texture, read by `textureLoad`.
+    Texture(wgpu::TextureFormat),
+    /// A texture that a compute shader writes.
+    Image(wgpu::TextureFormat),
+    /// A texture that a compute shader reads and writes.
+    Scratch(wgpu::TextureFormat),
+    /// A read-only storage buffer.
+    Storage,
+}
+
+/// How a pass uses its depth buffer (reversed, 0 where nothing is).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum DepthRule {
+    /// Draws only where something has been drawn.
+    Covered,
+    /// Notes where it draws: 0 there, 1 elsewhere.
+    Mark,
+    /// Draws only where [`Self::Mark`] did.
+    Marked,
+    /// The nearest wins.
+    Nearest,
+}
+
+impl DepthRule {
+    fn state(self, format: wgpu::TextureFormat) -> wgpu::DepthStencilState {
+        // Full-screen triangles lie at depth 0.
+        let (compare, writes) = match self {
+            Self::Covered => (wgpu::CompareFunction::Less, false),
+            Self::Mark => (wgpu::CompareFunction::Always, true),
+            Self::Marked => (wgpu::CompareFunction::Equal, false),
+            Self::Nearest => (wgpu::CompareFunction::Greater, true),
+        };
+        wgpu::DepthStencilState {
+            format,
+            depth_write_enabled: Some(writes),
+            depth_compare: Some(compare),
+            stencil: wgpu::StencilState::default(),
+            bias: wgpu::DepthBiasState::default(),
+        }
+    }
+
+    /// What the buffer holds before the pass; `None`: what is in it.
+    pub fn cleared_to(self) -> Option<f32> {
+        match self {
+            Self::Covered | Self::Marked => None,
+            Self::Mark => Some(1.0),
+            Self::Nearest => Some(0.0),
+        }
+    }
+}
+
+/// Everything that a render pipeline depends on.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+pub struct RasterKey {
+    /// Its fragment shader.
+    pub program: Program,
+    /// Bindings of group 1.
+    pub inputs: Vec<Binding>,
+    /// Formats of its outputs.
+    pub outputs: Vec<wgpu::TextureFormat>,
+    /// Whether outputs are laid over what is there (premultiplied alpha).
+    pub blend: bool,
+    /// Its depth buffer.
+    pub depth: Option<(wgpu::TextureFormat, DepthRule)>,
+    /// Drawn per instance by the vertex shader `vs_main`; `None`: once per pixel.
+    pub instances: Option<wgpu::VertexBufferLayout<'static>>,
+}
+
+/// Everything that a compute pipeline depends on.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+pub struct ComputeKey {
+    /// Its shader.
+    pub program: Program,
+    /// Bindings of group 1.
+    pub inputs: Vec<Binding>,
+}
+
+/// A pipeline and the layout of its group 1.
+pub struct Made<P> {
+    /// The pipeline.
+    pub pipeline: P,
+    /// Layout of bind group 1.
+    pub inputs: wgpu::BindGroupLayout,
+}
+
+/// Shader modules and pipelines, made when first used and kept.
+pub struct Pipelines {
+    shaders: Shaders,
+    modules: HashMap<&'static str, wgpu::ShaderModule>,
+    raster: HashMap<RasterKey, Made<wgpu::RenderPipeline>>,
+    compute: HashMap<ComputeKey, Made<wgpu::ComputePipeline>>,
+    frame_layout: wgpu::BindGroupLayout,
+    generation: u64,
+}
+
+impl Pipelines {
+    /// No pipeline yet. If the shaders of a folder are wrong, the embedded ones are used and the mistake is returned.
+    pub fn new(gpu: &Gpu, shaders: Shaders) -> (Self, Option<ShaderError>) {
+        let error = if shaders.can_change() { validate_all(&shaders).err() } else { None };
+        let shaders = if error.is_some() { Shaders::default() } else { shaders };
+        let frame_layout = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some("frame"),
+            entries: &[wgpu::BindGroupLayoutEntry {
+                binding: 0,
+                visibility: wgpu::ShaderStages::all(),
+                ty: wgpu::BindingType::Buffer {
+                    ty: wgpu::BufferBindingType::Uniform,
+                    has_dynamic_offset: false,
+                    min_binding_size: None,
+                },
+                count: None,
+            }],
+        });
+        let pipelines = Self {
+            shaders,
+            modules: HashMap::new(),
+            raster: HashMap::new(),
+            compute: HashMap::new(),
+            frame_layout,
+            generation: 0,
+        };
+        (pipelines, error)
+    }
+
+    /// Reads changed shaders again. When one of them is wrong, all pipelines stay as they are.
+    ///
+    /// # Errors
+    /// The first mistake.
+    pub fn reload(&mut self) -> Result<(), ShaderError> {
+        let shaders = Shaders::from_environment();
+        validate_all(&shaders)?;
+        self.shaders = shaders;
+        self.modules.clear();
+        self.raster.clear();
+        self.compute.clear();
+        self.generation += 1;
+        Ok(())
+    }
+
+    /// Changes whenever pipelines made before are out of date.
+    pub fn generation(&self) -> u64 {
+        self.generation
+    }
+
+    /// The layout of bind group 0.
+    pub fn frame_layout(&self) -> &wgpu::BindGroupLayout {
+        &self.frame_layout
+    }
+
+    /// The compiled shader of a file below `shaders/`.
+    ///
+    /// # Errors
+    /// [`ShaderError::Missing`]; that texts are valid is checked when they are loaded.
+    pub fn module(&mut self, gpu: &Gpu, file: &'static str) -> Result<wgpu::ShaderModule, ShaderError> {
+        if let Some(module) = self.modules.get(file) {
+            return Ok(module.clone());
+        }
+        let composed = self.shaders.compose(file)?;
+        let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: Some(file),
+            source: wgpu::ShaderSource::Wgsl(composed.text.into()),
+        });
+        self.modules.insert(file, module.clone());
+        Ok(module)
+    }
+
+    /// A render pipeline.
+    ///
+    /// # Errors
+    /// [`ShaderError::Missing`].
+    pub fn raster(&mut self, gpu: &Gpu, key: &RasterKey) -> Result<&Made<wgpu::RenderPipeline>, ShaderError> {
+        if !self.raster.contains_key(key) {
+            let module = self.module(gpu, key.program.file)?;
+            let made = build_raster(gpu, &module, &self.frame_layout, key);
+            self.raster.insert(key.clone(), made);
+        }
+        self.raster.get(key).ok_or_else(|| missing(&key.program))
+    }
+
+    /// A compute pipeline.
+    ///
+    /// # Errors
+    /// [`ShaderError::Missing`].
+    pub fn compute(
+        &mut self,
+        gpu: &Gpu,
+        key: &ComputeKey,
+    ) -> Result<&Made<wgpu::ComputePipeline>, ShaderError> {
+        if !self.compute.contains_key(key) {
+            let module = self.module(gpu, key.program.file)?;
+            let made = build_compute(gpu, &module, &self.frame_layout, key);
+            self.compute.insert(key.clone(), made);
+        }
+        self.compute.get(key).ok_or_else(|| missing(&key.program))
+    }
+}
+
+fn missing(program: &Program) -> ShaderError {
+    ShaderError::Missing { file: program.file.to_owned(), imported_by: None }
+}
+
+fn validate_all(shaders: &Shaders) -> Result<(), ShaderError> {
+    Shaders::embedded().iter().try_for_each(|file| shaders.validate(file).map(|_composed| ()))
+}
+
+fn layout_of(
+    gpu: &Gpu,
+    label: &str,
+    bindings: &[Binding],
+    visibility: wgpu::ShaderStages,
+) -> wgpu::BindGroupLayout {
+    let image = |format, access| wgpu::BindingType::StorageTexture {
+        access,
+        format,
+        view_dimension: wgpu::TextureViewDimension::D2,
+    };
+    let entries: Vec<_> = bindings
+        .iter()
+        .enumerate()
+        .map(|(binding, kind)| wgpu::BindGroupLayoutEntry {
+            binding: binding as u32,
+            visibility,
+            ty: match kind {
+                Binding::Texture(format) => wgpu::BindingType::Texture {
+                    sample_type: match format.sample_type(None, None) {
+                        Some(wgpu::TextureSampleType::Float { .. }) | None => {
+                            wgpu::TextureSampleType::Float { filterable: false }
+                        }
+                        Some(other) => other,
+                    },
+                    view_dimension: wgpu::TextureViewDimension::D2,
+                    multisampled: false,
+                },
+                Binding::Image(format) => image(*format, wgpu::StorageTextureAccess::WriteOnly),
+                Binding::Scratch(format) => image(*format, wgpu::StorageTextureAccess::ReadWrite),
+                Binding::Storage => wgpu::BindingType::Buffer {
+                    ty: wgpu::BufferBindingType::Storage { read_only: true },
+                    has_dynamic_offset: false,
+                    min_binding_size: None,
+                },
+            },
+            count: None,
+        })
+        .collect();
+    gpu.device
+        .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some(label), entries: &entries })
+}
+
+fn pipeline_layout(
+    gpu: &Gpu,
+    label: &str,
+    frame: &wgpu::BindGroupLayout,
+    inputs: &wgpu::BindGroupLayout,
+) -> wgpu::PipelineLayout {
+    gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        label: Some(label),
+        bind_group_layouts: &[Some(frame), Some(inputs)],
+        immediate_size: 0,
+    })
+}
+
+fn build_raster(
+    gpu: &Gpu,
+    module: &wgpu::ShaderModule,
+    frame_layout: &wgpu::BindGroupLayout,
+    key: &RasterKey,
+) -> Made<wgpu::RenderPipeline> {
+    let label = key.program.file;
+    let inputs = layout_of(gpu, label, &key.inputs, wgpu::ShaderStages::FRAGMENT);
+    let constants = key.program.constants();
+    let blend = key.blend.then_some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING);
+    let targets: Vec<_> = key
+        .outputs
+        .iter()
+        .map(|&format| Some(wgpu::ColorTargetState { format, blend, write_mask: wgpu::ColorWrites::ALL }))
+        .collect();
+    let buffers: Vec<_> = key.instances.iter().cloned().map(Some).collect();
+    let is_instanced = key.instances.is_some();
+    let pipeline = gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some(label),
+        layout: Some(&pipeline_layout(gpu, label, frame_layout, &inputs)),
+        vertex: wgpu::VertexState {
+            module,
+            entry_point: Some(if is_instanced { "vs_main" } else { "vs_fullscreen" }),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            buffers: &buffers,
+        },
+        primitive: wgpu::PrimitiveState {
+            topology: if is_instanced {
+                wgpu::PrimitiveTopology::TriangleStrip
+            } else {
+                wgpu::PrimitiveTopology::TriangleList
+            },
+            ..Default::default()
+        },
+        depth_stencil: key.depth.map(|(format, rule)| rule.state(format)),
+        multisample: wgpu::MultisampleState::default(),
+        fragment: Some(wgpu::FragmentState {
+            module,
+            entry_point: Some(key.program.entry_point),
+            compilation_options: wgpu::PipelineCompilationOptions {
+                constants: &constants,
+                ..Default::default()
+            },
+            targets: &targets,
+        }),
+        multiview_mask: None,
+        cache: None,
+    });
+    Made { pipeline, inputs }
+}
+
+fn build_compute(
+    gpu: &Gpu,
+    module: &wgpu::ShaderModule,
+    frame_layout: &wgpu::BindGroupLayout,
+    key: &ComputeKey,
+) -> Made<wgpu::ComputePipeline> {
+    let label = key.program.file;
+    let inputs = layout_of(gpu, label, &key.inputs, wgpu::ShaderStages::COMPUTE);
+    let constants = key.program.constants();
+    let pipeline = gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+        label: Some(label),
+        layout: Some(&pipeline_layout(gpu, label, frame_layout, &inputs)),
+        module,
+        entry_point: Some(key.program.entry_point),
+        compilation_options: wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() },
+        cache: None,
+    });
+    Made { pipeline, inputs }
+}
