@@ -38,3 +38,40 @@ impl EdgeClass {
         self <= Self::Object
     }
 }
+
+/// Some of the classes of lines.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub struct ClassSet(u8);
+
+impl ClassSet {
+    /// No class.
+    pub const NONE: Self = Self(0);
+    /// Every class.
+    pub const ALL: Self = Self::of(&EdgeClass::ALL);
+
+    /// These classes.
+    pub const fn of(classes: &[EdgeClass]) -> Self {
+        let (mut bits, mut i) = (0, 0);
+        while i < classes.len() {
+            bits |= 1 << classes[i] as u8;
+            i += 1;
+        }
+        Self(bits)
+    }
+
+    /// Whether a class is among them.
+    pub const fn contains(self, class: EdgeClass) -> bool {
+        self.0 >> class as u8 & 1 != 0
+    }
+
+    /// Whether there are none.
+    pub const fn is_empty(self) -> bool {
+        self.0 == 0
+    }
+
+    /// These and one more.
+    #[must_use]
+    pub const fn with(self, class: EdgeClass) -> Self {
+        Self(self.0 | 1 << class as u8)
+    }
+}

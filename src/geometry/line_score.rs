@@ -2,7 +2,8 @@
 
 use glam::DVec2;
 
-use super::visible_edges::{EdgeClass, VisibleEdges};
+use super::EdgeClass;
+use super::visible_edges::VisibleEdges;
 
 /// The usual tolerance, in pixels.
 pub const TOLERANCE: f64 = 1.5;
@@ -14,13 +15,43 @@ const INK_THRESHOLD: f32 = 0.5;
 pub struct InkImage<'a> {
     size: [usize; 2],
     ink: &'a [f32],
+    ignored: Option<&'a [bool]>,
 }
 
 impl<'a> InkImage<'a> {
     /// A picture of `width` × `height` pixels, row by row from the top, 0 (paper) to 1 (ink); `None` if that is not
     /// how many there are.
     pub fn new(width: usize, height: usize, ink: &'a [f32]) -> Option<Self> {
-        (width.checked_mul(height)? == ink.len()).then_some(Self { size: [width, height], ink })
+        (width.checked_mul(height)? == ink.len()).then_some(Self {
+            size: [width, height],
+            ink,
+            ignored: None,
+        })
+    }
+
+    /// The same picture with pixels that count neither way, because edges do not tell what has to be there (the
+    /// outlines of holes): ink on them is neither right nor wrong, and edges on them need no ink. `None` if there are
+    /// not as many as pixels.
+    pub fn ignoring(self, ignored: &'a [bool]) -> Option<Self> {
+        (ignored.len() == self.ink.len()).then_some(Self { ignored: Some(ignored), ..self })
+    }
+
+    /// Whether each pixel is part of a line.
+    pub fn lines(&self) -> Vec<bool> {
+        self.ink.iter().map(|&ink| ink >= INK_THRESHOLD).collect()
+    }
+
+    /// The pixel at a position, if there is one and it counts.
+    fn pixel(&self, position: DVec2) -> Option<usize> {
+        let [width, height] = self.size;
+        let inside =
+            position.cmpge(DVec2::ZERO).all() && position.x < width as f64 && position.y < height as f64;
+        let at = inside.then(|| position.y as usize * width + position.x as usize)?;
+        self.counts(at).then_some(at)
+    }
+
+    fn counts(&self, pixel: usize) -> bool {
+        self.ignored.is_none_or(|ignored| !ignored[pixel])
     }
 }
 
@@ -46,27 +77,24 @@ impl LineScore {
 /// Compares pixel centres: those with ink with those that visible edges pass through, both ways. `tolerance` is in
 /// pixels.
 pub fn score(picture: InkImage<'_>, truth: &VisibleEdges, tolerance: f64) -> LineScore {
-    let [width, height] = picture.size;
+    let width = picture.size[0];
     let limit = tolerance * tolerance;
-    let pixel = |position: DVec2| {
-        let inside =
-            position.cmpge(DVec2::ZERO).all() && position.x < width as f64 && position.y < height as f64;
-        inside.then(|| position.y as usize * width + position.x as usize)
-    };
-    let ink: Vec<bool> = picture.ink.iter().map(|&ink| ink >= INK_THRESHOLD).collect();
+    let ink = picture.lines();
     let mut edges = vec![false; ink.len()];
-    for at in truth.samples.iter().flatten().filter_map(|sample| pixel(sample.position)) {
+    for at in truth.samples.iter().flatten().filter_map(|sample| picture.pixel(sample.position)) {
         edges[at] = true;
     }
 
     let from_edges = squared_distances(&edges, width);
-    let inked = ink.iter().filter(|&&ink| ink).count();
-    let right = ink.iter().zip(&from_edges).filter(|&(&ink, &distance)| ink && distance <= limit).count();
+    let judged = || (0..ink.len()).filter(|&at| ink[at] && picture.counts(at));
+    let inked = judged().count();
+    let right = judged().filter(|&at| from_edges[at] <= limit).count();
 
     let from_ink = squared_distances(&ink, width);
     let lengths = truth.samples.each_ref().map(|samples| {
-        let inside =
-            samples.iter().filter_map(|sample| Some((sample.length, from_ink[pixel(sample.position)?])));
+        let inside = samples
+            .iter()
+            .filter_map(|sample| Some((sample.length, from_ink[picture.pixel(sample.position)?])));
         inside.fold((0.0, 0.0), |(found, all), (length, distance)| {
             (if distance <= limit { found + length } else { found }, all + length)
         })
@@ -201,7 +229,10 @@ mod tests {
         for shift in [0, 1] {
             let found = score_of(&changed(|x, y| (x - shift, y - shift)));
             assert_eq!((found.precision, found.recall, found.f1()), (1.0, 1.0, 1.0), "{shift}");
-            assert_eq!(found.class_recall, [Some(1.0), None, Some(1.0), None]);
+            let mut classes = [None; EdgeClass::ALL.len()];
+            classes[EdgeClass::Silhouette as usize] = Some(1.0);
+            classes[EdgeClass::Ridge as usize] = Some(1.0);
+            assert_eq!(found.class_recall, classes);
         }
     }
 
@@ -220,8 +251,8 @@ mod tests {
         let found = score_of(&changed(|x, y| if x < 70 { (x, y) } else { (-1, -1) }));
         assert_eq!(found.precision, 1.0);
         assert!((found.recall - 220.0 / 450.0).abs() < 0.01, "{found:?}");
-        assert!((found.class_recall[0].unwrap() - 0.5).abs() < 0.01);
-        assert!((found.class_recall[2].unwrap() - 0.4).abs() < 0.03);
+        assert!((found.class_recall[EdgeClass::Silhouette as usize].unwrap() - 0.5).abs() < 0.01);
+        assert!((found.class_recall[EdgeClass::Ridge as usize].unwrap() - 0.4).abs() < 0.03);
 
         let mut ink = perfect();
         let drawn = ink.iter().filter(|&&ink| ink > 0.0).count();
@@ -230,6 +261,32 @@ mod tests {
         let found = score_of(&ink);
         assert_eq!(found.recall, 1.0);
         assert!((found.precision - drawn as f64 / (drawn + 150) as f64).abs() < 1e-12);
+    }
+
+    #[test]
+    fn what_is_ignored_counts_neither_way() {
+        // A false line of 150 px, and a gap of 40 px in the square's upper side.
+        let mut ink = perfect();
+        ink[180 * SIZE..180 * SIZE + 150].fill(1.0);
+        ink[30 * SIZE + 50..30 * SIZE + 90].fill(0.0);
+        let found = score_of(&ink);
+        assert!(found.precision < 0.8 && found.recall < 0.93, "{found:?}");
+        let mut ignored = vec![false; SIZE * SIZE];
+        ignored[180 * SIZE..180 * SIZE + 150].fill(true);
+        ignored[30 * SIZE + 50..30 * SIZE + 90].fill(true);
+        let picture = InkImage::new(SIZE, SIZE, &ink).unwrap();
+        assert!(picture.ignoring(&ignored[1..]).is_none());
+        let found = score(picture.ignoring(&ignored).unwrap(), &truth(), TOLERANCE);
+        assert_eq!((found.precision, found.recall), (1.0, 1.0));
+        // All the rest still has to be there.
+        let blank = vec![0.0; SIZE * SIZE];
+        let picture = InkImage::new(SIZE, SIZE, &blank).unwrap().ignoring(&ignored);
+        assert_eq!(score(picture.unwrap(), &truth(), TOLERANCE).recall, 0.0);
+        // Ink there does not make up for what is missing elsewhere beyond the tolerance, nor excuse other ink.
+        let shifted = changed(|x, y| (x - 4, y - 4));
+        let picture = InkImage::new(SIZE, SIZE, &shifted).unwrap();
+        let found = score(picture.ignoring(&ignored).unwrap(), &truth(), TOLERANCE);
+        assert!(found.f1() < 0.05, "{found:?}");
     }
 
     #[test]

@@ -1,40 +1,30 @@
 //! The exact visible edges of meshes for a camera, found without a renderer: what a picture of lines is measured
 //! against.
 //!
-//! Edges come from the welded topology, visibility from rays, four samples per pixel of length.
+//! Edges come from the welded topology and from triangles that run through each other, visibility from rays, four
+//! samples per pixel of length. Winding decides nothing, so flipped triangles and mirrored placements change nothing:
+//! a crease is a ridge or a valley as it is seen, so that what is a ridge from outside of an open box is a valley from
+//! inside. Triangles that lie on each other at an edge count once.
+//!
+//! Surfaces that coincide do not hide each other's edges: where two objects touch or share a plane, the edges of both
+//! are seen, each as what it is. Where the near plane cuts a surface open, the cut is no edge. A border that lies
+//! beside another one without touching it is a border, however narrow the gap.
+
+mod crossings;
+mod sight;
+mod world_edge;
 
 use glam::{DMat4, DVec2, DVec3};
 use rayon::prelude::*;
 
-use super::{Adjacency, Bvh, EdgeKind, Mesh, Projector};
+use self::sight::{Hiders, Sight};
+use self::world_edge::WorldEdge;
+use super::{Adjacency, Bvh, EdgeClass, Mesh, Projector};
 
 /// Distance between samples along an edge, in pixels.
 const SAMPLE_STEP: f64 = 0.25;
-/// How much nearer than a sample a surface must be to hide it: this part of the distance, or in parallel projection of
-/// the picture's height.
-const DEPTH_SLACK: f64 = 1e-4;
-/// How far beside a silhouette, in pixels, is looked at too.
-const BESIDE: f64 = 0.5;
 /// Most samples on one edge, against absurd picture sizes.
 const MOST_SAMPLES: f64 = 1e6;
-
-/// What kind of line an edge is. Where several apply, the first one counts.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum EdgeClass {
-    /// All surfaces at the edge lie on one side of it in the picture; at least two.
-    Silhouette,
-    /// The surface ends.
-    Border,
-    /// Convex crease.
-    Ridge,
-    /// Concave crease.
-    Valley,
-}
-
-impl EdgeClass {
-    /// All classes, in the order of [`VisibleEdges::samples`].
-    pub const ALL: [Self; 4] = [Self::Silhouette, Self::Border, Self::Ridge, Self::Valley];
-}
 
 /// A mesh somewhere in the world.
 #[derive(Debug, Clone, Copy)]
@@ -47,6 +37,44 @@ pub struct PlacedMesh<'a> {
     pub world_from_local: DMat4,
     /// A number for the object, returned with its edges.
     pub object: u32,
+}
+
+/// What counts as a line.
+#[derive(Clone, Copy)]
+pub struct LineRules<'a> {
+    /// Two surfaces that are seen to meet make a crease where they bend by more than this angle, in degrees.
+    pub crease_angle: f64,
+    /// The classes that are looked for. Where several apply, the first one of these counts.
+    pub classes: &'a [EdgeClass],
+    /// Whether a surface has a hole at a point (alpha masks); `None`: nothing has. Holes hide nothing and have no
+    /// edges of their own.
+    pub is_hole: Option<&'a (dyn Fn(SurfacePoint) -> bool + Sync)>,
+}
+
+impl Default for LineRules<'_> {
+    /// Creases from 30°, every class but [`EdgeClass::Material`], no holes.
+    fn default() -> Self {
+        const CLASSES: [EdgeClass; 6] = [
+            EdgeClass::Silhouette,
+            EdgeClass::Border,
+            EdgeClass::Object,
+            EdgeClass::Ridge,
+            EdgeClass::Valley,
+            EdgeClass::Intersection,
+        ];
+        Self { crease_angle: 30.0, classes: &CLASSES, is_hole: None }
+    }
+}
+
+/// A point on a triangle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SurfacePoint {
+    /// Which of the meshes that [`EdgeScene::new`] was given.
+    pub mesh: usize,
+    /// Index into [`Mesh::triangles`].
+    pub triangle: usize,
+    /// Weights of the triangle's corners; they add up to 1.
+    pub weights: DVec3,
 }
 
 /// A point on a visible edge.
@@ -63,10 +91,10 @@ pub struct Sample {
 pub struct VisibleSegment {
     /// What kind of line it is.
     pub class: EdgeClass,
-    /// [`PlacedMesh::object`].
+    /// [`PlacedMesh::object`]; of an intersection, that of the first triangle.
     pub object: u32,
-    /// Index into [`Adjacency::edges`].
-    pub edge: u32,
+    /// Index into [`Adjacency::edges`]; `None` for an intersection.
+    pub edge: Option<u32>,
     /// Where its ends appear, in pixels as [`Sample::position`].
     pub ends: [DVec2; 2],
     /// Length in world units.
@@ -86,216 +114,112 @@ pub struct VisibleEdges {
 #[derive(Debug, Clone)]
 pub struct EdgeScene {
     tree: Bvh,
+    /// Corners of all triangles, mesh after mesh.
+    triangles: Vec<[DVec3; 3]>,
+    /// For each mesh the number of its first triangle, and its object.
+    meshes: Vec<(usize, u32)>,
     edges: Vec<WorldEdge>,
 }
 
-#[derive(Debug, Clone)]
-struct WorldEdge {
-    ends: [DVec3; 2],
-    /// Numbers of all triangles at the edge.
-    faces: Vec<u32>,
-    /// The corner of each of them that is not on the edge.
-    opposite: Vec<DVec3>,
-    /// Greatest angle between two of them, in radians, negative where concave.
-    angle: f64,
-    object: u32,
-    edge: u32,
-}
-
 impl EdgeScene {
-    /// Gathers triangles and edges. Edges that other ones continue (T-junctions) are left out.
+    /// Gathers triangles, edges and intersections.
     pub fn new(meshes: &[PlacedMesh<'_>]) -> Self {
         let mut triangles: Vec<[DVec3; 3]> = Vec::new();
-        let mut edges = Vec::new();
+        let mut firsts = Vec::new();
         for placed in meshes {
-            let first = triangles.len();
+            firsts.push((triangles.len(), placed.object));
             let place = |p: glam::Vec3| placed.world_from_local.transform_point3(p.as_dvec3());
             triangles.extend(placed.mesh.triangles().iter().map(|&t| placed.mesh.corners(t).map(place)));
-            let own = &triangles[first..];
-            edges.extend((0..placed.adjacency.edges.len()).filter_map(|e| world_edge(placed, e, own, first)));
         }
-        Self { tree: Bvh::new(&triangles), edges }
+        let tree = Bvh::new(&triangles);
+        let mut edges: Vec<WorldEdge> = meshes
+            .par_iter()
+            .zip(&firsts)
+            .flat_map_iter(|(placed, &(first, _))| world_edge::edges_of(placed, &triangles, first))
+            .collect();
+        edges.extend(crossings::find(meshes, &firsts, &tree, &triangles));
+        Self { tree, triangles, meshes: firsts, edges }
     }
 
-    /// The edges that a camera sees. An edge is a crease where its surfaces meet at more than `crease_angle` degrees.
-    pub fn visible(&self, projector: &Projector, crease_angle: f64) -> VisibleEdges {
-        let view = View { projector, world_from_view: projector.view_from_world.inverse() };
-        let crease = crease_angle.to_radians();
-        let stretches: Vec<_> = self
-            .edges
-            .par_iter()
-            .filter_map(|edge| {
-                let class = edge.class(&view, crease)?;
-                Some((class, self.visible_part(edge, class, &view)?))
-            })
-            .collect();
+    /// The edges that a camera sees.
+    pub fn visible(&self, projector: &Projector, rules: &LineRules<'_>) -> VisibleEdges {
+        let sight = Sight::new(self, projector, rules);
+        let stretches: Vec<_> = self.edges.par_iter().filter_map(|edge| visible_part(edge, &sight)).collect();
         let mut visible = VisibleEdges::default();
-        for (class, (samples, segments)) in stretches {
-            visible.samples[class as usize].extend(samples);
+        for (samples, segments) in stretches {
+            for (class, sample) in samples {
+                visible.samples[class as usize].push(sample);
+            }
             visible.segments.extend(segments);
         }
         visible
     }
 
-    fn visible_part(
-        &self,
-        edge: &WorldEdge,
-        class: EdgeClass,
-        view: &View<'_>,
-    ) -> Option<(Vec<Sample>, Vec<VisibleSegment>)> {
-        let projector = view.projector;
-        let ends = projector.clip(edge.ends.map(|p| projector.view_from_world.transform_point3(p)))?;
-        let pixels = ends.map(|p| projector.pixel(p));
-        let length = pixels[0].distance(pixels[1]);
-        let count = (length / SAMPLE_STEP).ceil().clamp(1.0, MOST_SAMPLES) as u32;
-        let across = (pixels[1] - pixels[0]).perp().normalize_or_zero() * BESIDE;
-        let at = |along: f64| ends[0].lerp(ends[1], projector.along_segment(ends, along));
-        let step = 1.0 / f64::from(count);
-
-        let mut samples = Vec::new();
-        let mut segments = Vec::new();
-        let mut start = None;
-        for i in 0..=count {
-            let here = f64::from(i) * step;
-            let along = here + 0.5 * step;
-            let position = pixels[0].lerp(pixels[1], along);
-            let seen = i < count && {
-                let point = at(along);
-                self.sees(view, point, &edge.faces)
-                    || class == EdgeClass::Silhouette
-                        && [across, -across].into_iter().any(|side| {
-                            self.sees(view, projector.unproject(position + side, -point.z), &edge.faces)
-                        })
-            };
-            if seen {
-                samples.push(Sample { position, length: length * step });
-                start.get_or_insert(here);
-            } else if let Some(from) = start.take() {
-                segments.push(VisibleSegment {
-                    class,
-                    object: edge.object,
-                    edge: edge.edge,
-                    ends: [pixels[0].lerp(pixels[1], from), pixels[0].lerp(pixels[1], here)],
-                    world_length: at(from).distance(at(here)),
-                });
-            }
-        }
-        Some((samples, segments))
+    /// How many holes the centre of each pixel is seen through, row by row from the top. Where that changes is the
+    /// outline of a hole, which is no edge.
+    pub fn holes_before(&self, projector: &Projector, rules: &LineRules<'_>) -> Vec<u32> {
+        let sight = Sight::new(self, projector, rules);
+        let [width, height] = projector.size;
+        let center = |i: u32| DVec2::new(f64::from(i % width) + 0.5, f64::from(i / width) + 0.5);
+        (0..width * height).into_par_iter().map(|i| sight.holes_at(center(i))).collect()
     }
 
-    /// Whether nothing but `own` triangles hides a point in view space.
-    fn sees(&self, view: &View<'_>, point: DVec3, own: &[u32]) -> bool {
-        let (near, depth) = (view.projector.near, -point.z);
-        let direction = view.projector.view_direction(point);
-        // The ray starts where the depth is 0; with `scale` the parameter runs from there to the point.
-        let origin = match view.projector.lens {
-            super::Lens::Perspective { .. } => DVec3::ZERO,
-            super::Lens::Orthographic { .. } => point.with_z(0.0),
-        };
-        let (from, to) = match view.projector.lens {
-            super::Lens::Perspective { .. } => (near / depth, 1.0 - DEPTH_SLACK),
-            super::Lens::Orthographic { half_height } => (near, depth - DEPTH_SLACK * 2.0 * half_height),
-        };
-        let skip = |triangle: usize| own.contains(&(triangle as u32));
-        !self.tree.any_hit(
-            view.world_from_view.transform_point3(origin),
-            view.world_from_view.transform_vector3(direction),
-            from,
-            to,
-            skip,
-        )
+    /// The mesh that a triangle belongs to, and the number of the mesh's first triangle.
+    fn mesh_of(&self, triangle: usize) -> (usize, usize) {
+        let mesh = self.meshes.partition_point(|&(first, _)| first <= triangle).saturating_sub(1);
+        (mesh, self.meshes.get(mesh).map_or(0, |&(first, _)| first))
     }
 }
 
-struct View<'a> {
-    projector: &'a Projector,
-    world_from_view: DMat4,
-}
+/// Samples and stretches of one edge; `None` if it is no line for this eye or out of the picture.
+fn visible_part(
+    edge: &WorldEdge,
+    sight: &Sight<'_>,
+) -> Option<(Vec<(EdgeClass, Sample)>, Vec<VisibleSegment>)> {
+    let (projector, rules) = (sight.projector, sight.rules);
+    let line = edge.line(sight.to_eye(edge.ends[0]), rules)?;
+    let ends = projector.clip(edge.ends.map(|p| projector.view_from_world.transform_point3(p)))?;
+    let pixels = ends.map(|p| projector.pixel(p));
+    let length = pixels[0].distance(pixels[1]);
+    let count = (length / SAMPLE_STEP).ceil().clamp(1.0, MOST_SAMPLES) as u32;
+    let at = |along: f64| ends[0].lerp(ends[1], projector.along_segment(ends, along));
+    let step = 1.0 / f64::from(count);
+    let outwards = sight.outwards(&line, pixels, ends[0]);
 
-impl WorldEdge {
-    /// What the edge is for this view; `None` if it is no line.
-    fn class(&self, view: &View<'_>, crease: f64) -> Option<EdgeClass> {
-        if self.opposite.len() == 1 {
-            return Some(EdgeClass::Border);
-        }
-        let [a, b] = self.ends;
-        let to_edge = view.projector.view_direction(view.projector.view_from_world.transform_point3(a));
-        let plane = (b - a).cross(view.world_from_view.transform_vector3(to_edge)).normalize_or_zero();
-        // On which side of the plane through the eye and the edge each surface lies; edge-on counts as either.
-        let (mut left, mut right) = (false, false);
-        for &corner in &self.opposite {
-            let side = plane.dot((corner - a).normalize_or_zero());
-            left |= side < -1e-9;
-            right |= side > 1e-9;
-        }
-        if left != right {
-            Some(EdgeClass::Silhouette)
-        } else if self.angle > crease {
-            Some(EdgeClass::Ridge)
+    let mut samples = Vec::new();
+    let mut segments = Vec::new();
+    let mut hiders = Hiders::default();
+    let mut current: Option<(EdgeClass, f64)> = None;
+    for i in 0..=count {
+        let here = f64::from(i) * step;
+        let along = here + 0.5 * step;
+        let position = pixels[0].lerp(pixels[1], along);
+        let class = if i < count {
+            sight.class_at(edge, &line, position, at(along), outwards, &mut hiders)
         } else {
-            (self.angle < -crease).then_some(EdgeClass::Valley)
+            None
+        };
+        if let Some(class) = class {
+            samples.push((class, Sample { position, length: length * step }));
         }
+        if current.map(|(class, _)| class) == class {
+            continue;
+        }
+        if let Some((class, from)) = current {
+            segments.push(VisibleSegment {
+                class,
+                object: edge.object,
+                edge: edge.edge,
+                ends: [from, here].map(|along| pixels[0].lerp(pixels[1], along)),
+                world_length: at(from).distance(at(here)),
+            });
+        }
+        current = class.map(|class| (class, here));
     }
-}
-
-/// Edge `index` of a mesh whose triangles in world space are `triangles`, the first of them being number `first`.
-fn world_edge(
-    placed: &PlacedMesh<'_>,
-    index: usize,
-    triangles: &[[DVec3; 3]],
-    first: usize,
-) -> Option<WorldEdge> {
-    let PlacedMesh { mesh, adjacency, .. } = placed;
-    let edge = adjacency.edges.get(index)?;
-    let faces: Vec<u32> = match edge.kind {
-        EdgeKind::Stitched => return None,
-        EdgeKind::Border => vec![edge.faces[0]],
-        EdgeKind::Manifold | EdgeKind::Flipped => edge.faces.to_vec(),
-        EdgeKind::NonManifold => {
-            let all = &adjacency.non_manifold;
-            let start = all.partition_point(|&(e, _)| (e as usize) < index);
-            all[start..].iter().take_while(|&&(e, _)| e as usize == index).map(|&(_, face)| face).collect()
-        }
-    };
-    let point = |v: u32| adjacency.weld.representative.get(v as usize).copied();
-    let on_edge = edge.vertices.map(point);
-    let opposite = faces
-        .iter()
-        .filter_map(|&face| {
-            let corner =
-                mesh.triangles().get(face as usize)?.iter().position(|&v| !on_edge.contains(&point(v)))?;
-            Some(triangles.get(face as usize)?[corner])
-        })
-        .collect();
-    let normals: Vec<DVec3> = faces
-        .iter()
-        .filter_map(|&face| triangles.get(face as usize))
-        .map(|&[a, b, c]| (b - a).cross(c - a).normalize_or_zero())
-        .collect();
-    let mut angle = 0.0_f64;
-    for (i, &n) in normals.iter().enumerate() {
-        for &m in &normals[i + 1..] {
-            let cosine = match edge.kind {
-                EdgeKind::Flipped => -n.dot(m),
-                // Which of them belong together is not known; as planes they still meet at an angle.
-                EdgeKind::NonManifold => n.dot(m).abs(),
-                _ => n.dot(m),
-            };
-            angle = angle.max(n.cross(m).length().atan2(cosine));
-        }
-    }
-    let place = |v: u32| placed.world_from_local.transform_point3(mesh.positions[v as usize].as_dvec3());
-    Some(WorldEdge {
-        ends: edge.vertices.map(place),
-        faces: faces.iter().map(|face| face + first as u32).collect(),
-        opposite,
-        // A placement, mirrored or not, leaves convex what is convex.
-        angle: if edge.dihedral < 0.0 { -angle } else { angle },
-        object: placed.object,
-        edge: index as u32,
-    })
+    Some((samples, segments))
 }
 
 #[cfg(test)]
-#[path = "visible_edges_tests.rs"]
+mod class_tests;
+#[cfg(test)]
 mod tests;

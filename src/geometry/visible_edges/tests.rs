@@ -1,15 +1,23 @@
 use super::*;
 use crate::geometry::{Lens, primitives};
 
-fn look_from(eye: DVec3, lens: Lens) -> Projector {
+pub(super) fn look_from(eye: DVec3, lens: Lens) -> Projector {
     let view_from_world = look_at(eye);
     Projector { view_from_world, lens, size: [800, 800], near: 0.01, far: 100.0 }
 }
 
-const LENSES: [Lens; 2] =
+pub(super) const LENSES: [Lens; 2] =
     [Lens::Perspective { tan_half_angle: 0.3 }, Lens::Orthographic { half_height: 1.5 }];
 
-fn see(meshes: &[(&Mesh, DMat4)], projector: &Projector) -> VisibleEdges {
+pub(super) fn see(meshes: &[(&Mesh, DMat4)], projector: &Projector) -> VisibleEdges {
+    see_by(meshes, projector, &LineRules::default())
+}
+
+pub(super) fn see_by(
+    meshes: &[(&Mesh, DMat4)],
+    projector: &Projector,
+    rules: &LineRules<'_>,
+) -> VisibleEdges {
     let adjacency: Vec<Adjacency> = meshes.iter().map(|(mesh, _)| Adjacency::new(mesh)).collect();
     let placed: Vec<PlacedMesh<'_>> = meshes
         .iter()
@@ -22,10 +30,11 @@ fn see(meshes: &[(&Mesh, DMat4)], projector: &Projector) -> VisibleEdges {
             object: i as u32,
         })
         .collect();
-    EdgeScene::new(&placed).visible(projector, 30.0)
+    EdgeScene::new(&placed).visible(projector, rules)
 }
 
-fn length(visible: &VisibleEdges, class: EdgeClass) -> f64 {
+/// Length of what is visible, in pixels.
+pub(super) fn length(visible: &VisibleEdges, class: EdgeClass) -> f64 {
     visible.samples[class as usize].iter().map(|s| s.length).sum()
 }
 
@@ -54,8 +63,12 @@ fn a_cube_shows_nine_edges_of_their_full_length() {
                         }
                     }
                 }
-                let drawn: std::collections::BTreeSet<u32> =
-                    visible.segments.iter().filter(|s| s.world_length > 0.01).map(|s| s.edge).collect();
+                let drawn: std::collections::BTreeSet<u32> = visible
+                    .segments
+                    .iter()
+                    .filter(|s| s.world_length > 0.01)
+                    .filter_map(|s| s.edge)
+                    .collect();
                 assert_eq!(drawn.len(), 9, "{:?}", visible.segments);
                 assert!((length(&visible, EdgeClass::Silhouette) - outline).abs() < 1.0);
                 assert!((length(&visible, EdgeClass::Ridge) - inner).abs() < 1.0);
