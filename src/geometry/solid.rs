@@ -1,15 +1,19 @@
 //! What drawing needs to know of a mesh's topology.
 
-use super::{Adjacency, Mesh, Provoking, provoking};
+use std::sync::Arc;
+
+use super::{Adjacency, FeatureEdges, Mesh, Provoking, provoking};
 
 /// The findings of topology about one mesh, in the form that drawing needs.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Topology {
     /// Surface ids at the first vertex of each triangle.
     pub provoking: Provoking,
     /// Whether the mesh encloses a volume and all its triangles face outwards: then nobody outside ever sees a back
     /// face.
     pub is_solid: bool,
+    /// The edges, to be classified for every camera.
+    pub edges: Arc<FeatureEdges>,
 }
 
 impl Topology {
@@ -20,9 +24,11 @@ impl Topology {
     /// When an index is out of range.
     pub fn new(mesh: &Mesh, crease_angle: f32) -> Self {
         let adjacency = Adjacency::new(mesh);
+        let surfaces = adjacency.surfaces(crease_angle);
         Self {
             is_solid: is_solid(mesh, &adjacency),
-            provoking: provoking(mesh, &adjacency.surfaces(crease_angle)),
+            provoking: provoking(mesh, &surfaces),
+            edges: Arc::new(FeatureEdges::new(mesh, &adjacency, surfaces)),
         }
     }
 }

@@ -1,0 +1,226 @@
+//! The edges of a mesh in the form in which they are classified for every camera: small, and without T-junctions.
+//!
+//! Built once per mesh; [`super::line_segments()`] picks those that a picture shows.
+
+pub(super) mod creases;
+mod stretches;
+
+use std::f32::consts::PI;
+
+use self::stretches::Stretch;
+use super::topology::NO_FACE;
+use super::weld::TOLERANCE;
+use super::{Adjacency, Bounds, EdgeKind, Mesh, Surfaces};
+
+/// What distinguishes an edge: a set of bits.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(super) struct Traits(u8);
+
+impl Traits {
+    /// One of the two triangles is turned inside out against the other. The lowest bit.
+    pub(super) const FLIPPED: Self = Self(1);
+    /// The surface ends.
+    pub(super) const BORDER: Self = Self(2);
+    /// The two triangles have different materials.
+    pub(super) const MATERIAL: Self = Self(4);
+    /// Three triangles or more; all of them are in [`FeatureEdges::fans`].
+    pub(super) const FAN: Self = Self(8);
+
+    /// All traits of both.
+    pub(super) const fn and(self, other: Self) -> Self {
+        Self(self.0 | other.0)
+    }
+
+    /// Whether it has at least one of these.
+    pub(super) const fn any(self, of: Self) -> bool {
+        self.0 & of.0 != 0
+    }
+
+    /// 1 for a flipped pair, else 0.
+    pub(super) const fn flip(self) -> u8 {
+        self.0 & Self::FLIPPED.0
+    }
+
+    const fn when(self, is: bool) -> Self {
+        if is { self } else { Self(0) }
+    }
+}
+
+/// Above this angle (radians) two triangles lie on each other: a wall that was modelled twice, with one surface.
+const FOLDED: f32 = PI - 1e-3;
+
+/// All edges of a mesh at which a line can be, one entry each: about 21 bytes, and 4 per triangle.
+///
+/// Where edges meet others only partly (T-junctions), each stretch with the same triangles on both sides is an edge of
+/// its own.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FeatureEdges {
+    /// The two ends, as indices of welded vertices ([`super::Weld::representative`]): edges that meet share them. In the
+    /// direction in which the first triangle runs.
+    pub(super) ends: Vec<[u32; 2]>,
+    /// The two triangles. At a border twice the same one; of a fan the first two.
+    pub(super) faces: Vec<[u32; 2]>,
+    /// As [`super::Edge::dihedral`]; 0 at a border.
+    pub(super) dihedral: Vec<f32>,
+    pub(super) traits: Vec<Traits>,
+    /// Every (edge, triangle) of the edges with more than two triangles, in order.
+    pub(super) fans: Vec<(u32, u32)>,
+    /// The surface of each triangle, as in [`Surfaces::of_triangle`].
+    pub(super) surface_of_triangle: Vec<u32>,
+    /// The box around the mesh, local space.
+    pub(super) bounds: Bounds,
+    kept: creases::Kept,
+}
+
+impl FeatureEdges {
+    /// Gathers the edges of a mesh. Adjacency and surfaces must be those of the same mesh.
+    pub fn new(mesh: &Mesh, adjacency: &Adjacency, surfaces: Surfaces) -> Self {
+        let count = adjacency.edges.len();
+        let mut all = Self {
+            ends: Vec::with_capacity(count),
+            faces: Vec::with_capacity(count),
+            dihedral: Vec::with_capacity(count),
+            traits: Vec::with_capacity(count),
+            fans: Vec::new(),
+            surface_of_triangle: surfaces.of_triangle,
+            bounds: mesh.bounds(),
+            kept: creases::Kept::default(),
+        };
+        let point = |v: u32| adjacency.weld.representative.get(v as usize).copied().unwrap_or(v);
+        let materials = Materials::new(mesh);
+        let seams = stretches::seams_by_edge(adjacency);
+        let mut seams = seams.as_slice();
+        let mut non_manifold = adjacency.non_manifold.as_slice();
+        let shortest = 4.0 * TOLERANCE * all.bounds.diagonal();
+        let mut own_stretches = Vec::new();
+        for (number, edge) in (0..).zip(&adjacency.edges) {
+            let own_seams = split_front(&mut seams, |&(e, _)| e <= number);
+            let own_faces = split_front(&mut non_manifold, |&(e, _)| e <= number);
+            let ends = edge.vertices.map(point);
+            match edge.kind {
+                EdgeKind::Border | EdgeKind::Stitched if !own_seams.is_empty() => {
+                    stretches::cut(mesh, adjacency, number, own_seams, shortest, &mut own_stretches);
+                    for stretch in own_stretches.drain(..) {
+                        all.add_stretch(&stretch, point, &materials);
+                    }
+                }
+                EdgeKind::Border | EdgeKind::Stitched => {
+                    all.add(ends, [edge.faces[0]; 2], 0.0, Traits::BORDER);
+                }
+                EdgeKind::Manifold | EdgeKind::Flipped => {
+                    let flipped = Traits::FLIPPED.when(edge.kind == EdgeKind::Flipped);
+                    all.add_pair(ends, edge.faces, edge.dihedral, flipped, &materials);
+                }
+                EdgeKind::NonManifold => {
+                    let faces = own_faces.iter().map(|&(_, face)| face);
+                    all.add_fan(ends, edge.faces, edge.dihedral, faces);
+                }
+            }
+        }
+        all
+    }
+
+    /// Number of edges.
+    pub fn len(&self) -> usize {
+        self.ends.len()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.ends.is_empty()
+    }
+
+    /// Memory that it takes, in bytes.
+    pub fn size_in_bytes(&self) -> usize {
+        size_of_val(self.ends.as_slice())
+            + size_of_val(self.faces.as_slice())
+            + size_of_val(self.dihedral.as_slice())
+            + size_of_val(self.traits.as_slice())
+            + size_of_val(self.fans.as_slice())
+            + size_of_val(self.surface_of_triangle.as_slice())
+    }
+
+    /// The triangles of a fan, each with the number of the edge.
+    pub(super) fn fan(&self, edge: u32) -> &[(u32, u32)] {
+        let start = self.fans.partition_point(|&(e, _)| e < edge);
+        let rest = self.fans.get(start..).unwrap_or_default();
+        rest.get(..rest.partition_point(|&(e, _)| e == edge)).unwrap_or_default()
+    }
+
+    fn add(&mut self, ends: [u32; 2], faces: [u32; 2], dihedral: f32, traits: Traits) {
+        self.ends.push(ends);
+        self.faces.push(faces);
+        self.dihedral.push(dihedral);
+        self.traits.push(traits);
+    }
+
+    fn add_pair(
+        &mut self,
+        ends: [u32; 2],
+        faces: [u32; 2],
+        dihedral: f32,
+        traits: Traits,
+        materials: &Materials<'_>,
+    ) {
+        if dihedral.abs() > FOLDED {
+            self.add(ends, [faces[0]; 2], 0.0, Traits::BORDER);
+        } else {
+            let differ = Traits::MATERIAL.when(materials.differ(faces));
+            self.add(ends, faces, dihedral, traits.and(differ));
+        }
+    }
+
+    fn add_fan(
+        &mut self,
+        ends: [u32; 2],
+        faces: [u32; 2],
+        dihedral: f32,
+        all_faces: impl Iterator<Item = u32>,
+    ) {
+        let number = self.ends.len() as u32;
+        self.fans.extend(all_faces.map(|face| (number, face)));
+        self.add(ends, faces, dihedral, Traits::FAN);
+    }
+
+    fn add_stretch(&mut self, stretch: &Stretch, point: impl Fn(u32) -> u32, materials: &Materials<'_>) {
+        let ends = stretch.ends.map(point);
+        match stretch.faces[..] {
+            [] => {}
+            [face] => self.add(ends, [face; 2], 0.0, Traits::BORDER),
+            // Seams join only edges that run against each other: no pair is flipped.
+            [a, b] => self.add_pair(ends, [a, b], stretch.dihedral, Traits::default(), materials),
+            [a, b, ..] => self.add_fan(ends, [a, b], stretch.dihedral, stretch.faces.iter().copied()),
+        }
+    }
+}
+
+/// Which material each triangle has.
+pub(super) struct Materials<'a> {
+    mesh: &'a Mesh,
+}
+
+impl<'a> Materials<'a> {
+    pub(super) fn new(mesh: &'a Mesh) -> Self {
+        Self { mesh }
+    }
+
+    pub(super) fn differ(&self, [a, b]: [u32; 2]) -> bool {
+        self.mesh.parts.len() > 1 && a != NO_FACE && b != NO_FACE && self.of(a) != self.of(b)
+    }
+
+    fn of(&self, face: u32) -> usize {
+        let parts = &self.mesh.parts;
+        let part = parts.partition_point(|part| part.first_index <= 3 * face).saturating_sub(1);
+        parts.get(part).map_or(0, |part| part.material)
+    }
+}
+
+/// Cuts off the front of a slice as long as `is_front`.
+fn split_front<'a, T>(slice: &mut &'a [T], is_front: impl Fn(&T) -> bool) -> &'a [T] {
+    let (front, rest) = slice.split_at(slice.iter().take_while(|item| is_front(item)).count());
+    *slice = rest;
+    front
+}
+
+#[cfg(test)]
+pub(super) mod tests;

@@ -1,0 +1,128 @@
+//! Chains of the edges that are lines from all sides: creases, borders and where materials meet.
+
+use std::sync::{Arc, Mutex, PoisonError};
+
+use super::{FeatureEdges, Traits};
+use crate::geometry::Mesh;
+use crate::geometry::line_chains::{Chains, Link};
+
+/// Cosine of the angle by which a chain may turn at a point: 60°.
+const MOST_TURN: f32 = 0.5;
+/// How many choices of angles are kept.
+const KEPT: usize = 8;
+
+/// From which angles (radians) creases are ridges and valleys.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(in crate::geometry) struct CreaseAngles {
+    pub ridge: f32,
+    pub valley: f32,
+}
+
+/// The chains for some angles. Their links are counted along the chains.
+#[derive(Debug, Clone, PartialEq)]
+pub(in crate::geometry) struct CreaseChains {
+    /// (edge, chain, number of the link in `chains`), sorted.
+    pub by_edge: Vec<(u32, u32, u32)>,
+    /// The edge of each link.
+    pub edges: Vec<u32>,
+    /// The links of these are indices into `edges`.
+    pub chains: Chains,
+    /// The fixed point of each chain, its middle: the place of a link in the chain, and a part of that link from where
+    /// the chain enters it, 0 to 1.
+    pub anchors: Vec<(u32, f32)>,
+}
+
+/// Chains that were asked for before. No part of what makes edges equal.
+#[derive(Debug, Default)]
+pub(super) struct Kept(Mutex<Vec<(CreaseAngles, Arc<CreaseChains>)>>);
+
+impl Clone for Kept {
+    fn clone(&self) -> Self {
+        Self::default()
+    }
+}
+
+impl PartialEq for Kept {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
+}
+
+impl FeatureEdges {
+    /// The chains for these angles; made when they are asked for first.
+    pub(in crate::geometry) fn creases(&self, mesh: &Mesh, angles: CreaseAngles) -> Arc<CreaseChains> {
+        let mut kept = self.kept.0.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((_, chains)) = kept.iter().find(|(of, _)| *of == angles) {
+            return Arc::clone(chains);
+        }
+        let chains = Arc::new(CreaseChains::new(self, mesh, angles));
+        if kept.len() >= KEPT {
+            kept.remove(0);
+        }
+        kept.push((angles, Arc::clone(&chains)));
+        chains
+    }
+
+    /// Only edges of one kind follow each other; `None` for those that are lines only as silhouettes.
+    fn kind(&self, edge: usize, angles: CreaseAngles) -> Option<u8> {
+        let (&traits, &dihedral) = (self.traits.get(edge)?, self.dihedral.get(edge)?);
+        let kinds = [
+            traits.any(Traits::FAN),
+            traits.any(Traits::BORDER),
+            dihedral >= angles.ridge,
+            dihedral <= -angles.valley,
+            traits.any(Traits::MATERIAL),
+        ];
+        kinds.iter().position(|is| *is).map(|kind| kind as u8)
+    }
+}
+
+impl CreaseChains {
+    fn new(all: &FeatureEdges, mesh: &Mesh, angles: CreaseAngles) -> Self {
+        let mut edges: Vec<u32> = Vec::new();
+        let mut links = Vec::new();
+        for (edge, &ends) in all.ends.iter().enumerate() {
+            if let Some(kind) = all.kind(edge, angles) {
+                edges.push(edge as u32);
+                links.push(Link { ends: ends.map(Some), kind });
+            }
+        }
+        let span = |link: u32| {
+            let ends = edges.get(link as usize).and_then(|&edge| all.ends.get(edge as usize));
+            let [a, b] = ends.copied().unwrap_or_default().map(|v| mesh.positions.get(v as usize).copied());
+            b.unwrap_or_default() - a.unwrap_or_default()
+        };
+        // From the common point along a link.
+        let leave = |(link, end): (u32, usize)| {
+            let span = span(link).normalize_or_zero();
+            if end == 0 { span } else { -span }
+        };
+        let chains = Chains::new(&links, |a, b| leave(a).dot(leave(b)) <= -MOST_TURN);
+        let mut by_edge = Vec::with_capacity(edges.len());
+        let mut anchors = Vec::with_capacity(chains.starts.len());
+        let mut number = 0;
+        for (chain, (own, is_closed)) in (0..).zip(chains.iter()) {
+            let lengths: Vec<f32> = own.iter().map(|l| span(l.link).length()).collect();
+            // A loop is held where it begins.
+            anchors.push(if is_closed { (0, 0.0) } else { middle(&lengths) });
+            for l in own {
+                by_edge.push((edges.get(l.link as usize).copied().unwrap_or(0), chain, number));
+                number += 1;
+            }
+        }
+        by_edge.sort_unstable();
+        Self { by_edge, edges, chains, anchors }
+    }
+}
+
+/// Where half of the whole length is reached: an index and a part of that length.
+fn middle(lengths: &[f32]) -> (u32, f32) {
+    let mut left = 0.5 * lengths.iter().sum::<f32>();
+    for (i, &length) in (0..).zip(lengths) {
+        if left <= length && length > 0.0 {
+            return (i, left / length);
+        }
+        left -= length;
+    }
+    (0, 0.0)
+}

@@ -1,0 +1,84 @@
+//! Border edges on which others lie (T-junctions), cut where one of them begins or ends.
+
+use glam::DVec3;
+
+use crate::geometry::{Adjacency, Mesh};
+
+/// A part of an edge with the same triangles on both sides all along.
+pub(super) struct Stretch {
+    /// Vertices at its ends.
+    pub ends: [u32; 2],
+    /// All triangles that meet here.
+    pub faces: Vec<u32>,
+    /// Of two triangles, the angle between them.
+    pub dihedral: f32,
+}
+
+/// Another edge on one that is being cut.
+struct Other {
+    edge: u32,
+    face: u32,
+    dihedral: f32,
+    /// From where to where it lies on the edge, 0 to 1.
+    span: [f64; 2],
+}
+
+/// (edge, number of a seam that it takes part in), sorted.
+pub(super) fn seams_by_edge(adjacency: &Adjacency) -> Vec<(u32, u32)> {
+    let mut seams: Vec<(u32, u32)> = (0..)
+        .zip(&adjacency.seams)
+        .flat_map(|(number, seam)| seam.edges.map(|edge| (edge, number)))
+        .collect();
+    seams.sort_unstable();
+    seams
+}
+
+/// The stretches of edge `number`, whose seams are given, without those shorter than `shortest` (units of the mesh). A
+/// stretch is listed for the first edge that it belongs to.
+pub(super) fn cut(
+    mesh: &Mesh,
+    adjacency: &Adjacency,
+    number: u32,
+    seams: &[(u32, u32)],
+    shortest: f64,
+    out: &mut Vec<Stretch>,
+) {
+    let position = |v: u32| mesh.positions.get(v as usize).map_or(DVec3::ZERO, |p| p.as_dvec3());
+    let Some(own) = adjacency.edges.get(number as usize) else { return };
+    let [a, b] = own.vertices.map(position);
+    let along = |v: u32| ((position(v) - a).dot(b - a) / a.distance_squared(b)).clamp(0.0, 1.0);
+    // Where stretches may begin and end, and the vertex that is there.
+    let mut cuts: Vec<(f64, u32)> = vec![(1.0, own.vertices[1])];
+    let mut others = Vec::with_capacity(seams.len());
+    for seam in seams.iter().filter_map(|&(_, seam)| adjacency.seams.get(seam as usize)) {
+        let which = usize::from(seam.edges[0] == number);
+        let edge = seam.edges[which];
+        let Some(vertices) = adjacency.edges.get(edge as usize).map(|e| e.vertices) else { continue };
+        let [from, to] = vertices.map(along);
+        others.push(Other {
+            edge,
+            face: seam.faces[which],
+            dihedral: seam.dihedral,
+            span: [from.min(to), from.max(to)],
+        });
+        cuts.extend(vertices.map(|v| (along(v), v)).into_iter().filter(|&(t, _)| t > 0.0 && t < 1.0));
+    }
+    cuts.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let shortest = shortest / a.distance(b);
+    let (mut from, mut start) = (0.0, own.vertices[0]);
+    for (to, end) in cuts {
+        if to - from <= shortest {
+            continue;
+        }
+        let middle = 0.5 * (from + to);
+        let here: Vec<&Other> = others.iter().filter(|o| o.span[0] <= middle && middle < o.span[1]).collect();
+        if here.iter().all(|other| other.edge >= number) {
+            out.push(Stretch {
+                ends: [start, end],
+                faces: std::iter::once(own.faces[0]).chain(here.iter().map(|other| other.face)).collect(),
+                dihedral: here.first().map_or(0.0, |other| other.dihedral),
+            });
+        }
+        (from, start) = (to, end);
+    }
+}

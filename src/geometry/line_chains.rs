@@ -1,0 +1,137 @@
+//! Edges one after the other: what dashes run along.
+
+/// Marks the end of a chain.
+const NO_HALF: u32 = u32::MAX;
+
+/// An edge that takes part in chains.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Link {
+    /// The points at both ends, as any numbers; `None` where it never goes on.
+    pub ends: [Option<u32>; 2],
+    /// Only links of one kind are joined.
+    pub kind: u8,
+}
+
+/// A link as a part of a chain.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct ChainLink {
+    /// Index of the link.
+    pub link: u32,
+    /// Whether the chain runs from its second to its first end.
+    pub reversed: bool,
+}
+
+/// All links in the order of their chains.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub(super) struct Chains {
+    pub links: Vec<ChainLink>,
+    /// For each chain the number of its first link in `links`, and whether its end meets its start.
+    pub starts: Vec<(u32, bool)>,
+}
+
+impl Chains {
+    /// Joins links at points where exactly two of a kind meet and `goes_on` says of both (link, end there) that the
+    /// chain goes on.
+    pub(super) fn new(links: &[Link], goes_on: impl Fn((u32, usize), (u32, usize)) -> bool) -> Self {
+        // A half is the number of a link and of one of its ends.
+        let mut halves: Vec<(u32, u8, u32)> = (0_u32..)
+            .step_by(2)
+            .zip(links)
+            .flat_map(|(half, link)| {
+                let at = |end: u32| Some((link.ends[end as usize]?, link.kind, half | end));
+                [at(0), at(1)].into_iter().flatten()
+            })
+            .collect();
+        halves.sort_unstable();
+        let mut partner = vec![NO_HALF; 2 * links.len()];
+        for here in halves.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
+            if let &[(_, _, a), (_, _, b)] = here
+                && a >> 1 != b >> 1
+                && goes_on((a >> 1, (a & 1) as usize), (b >> 1, (b & 1) as usize))
+            {
+                partner[a as usize] = b;
+                partner[b as usize] = a;
+            }
+        }
+        let mut all = Self::default();
+        let mut is_used = vec![false; links.len()];
+        // Open chains first: each from the one of its ends that comes first.
+        for half in 0..partner.len() as u32 {
+            if partner[half as usize] == NO_HALF && !is_used[half as usize >> 1] {
+                all.walk(half, &partner, &mut is_used, false);
+            }
+        }
+        for link in 0..links.len() as u32 {
+            if !is_used[link as usize] {
+                all.walk(2 * link, &partner, &mut is_used, true);
+            }
+        }
+        all
+    }
+
+    /// The chains: their links, and whether they are closed.
+    pub(super) fn iter(&self) -> impl Iterator<Item = (&[ChainLink], bool)> {
+        (0..self.starts.len()).filter_map(|chain| self.get(chain))
+    }
+
+    /// The links of a chain, and whether it is closed.
+    pub(super) fn get(&self, chain: usize) -> Option<(&[ChainLink], bool)> {
+        let &(start, is_closed) = self.starts.get(chain)?;
+        let end = self.starts.get(chain + 1).map_or(self.links.len(), |next| next.0 as usize);
+        Some((self.links.get(start as usize..end)?, is_closed))
+    }
+
+    /// Adds the chain that begins at this half.
+    fn walk(&mut self, start: u32, partner: &[u32], is_used: &mut [bool], is_closed: bool) {
+        self.starts.push((self.links.len() as u32, is_closed));
+        let mut half = start;
+        loop {
+            let link = half >> 1;
+            is_used[link as usize] = true;
+            self.links.push(ChainLink { link, reversed: half & 1 == 1 });
+            half = partner[half as usize ^ 1];
+            if half == NO_HALF || half == start {
+                return;
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn link(a: u32, b: u32, kind: u8) -> Link {
+        Link { ends: [Some(a), Some(b)], kind }
+    }
+
+    /// (links, negative where reversed and counted from 1; closed) of each chain.
+    fn chains(links: &[Link], goes_on: impl Fn((u32, usize), (u32, usize)) -> bool) -> Vec<(Vec<i32>, bool)> {
+        let signed = |l: &ChainLink| if l.reversed { -(l.link as i32 + 1) } else { l.link as i32 + 1 };
+        let chains = Chains::new(links, goes_on);
+        chains.iter().map(|(own, closed)| (own.iter().map(signed).collect(), closed)).collect()
+    }
+
+    #[test]
+    fn links_are_joined_end_to_end() {
+        let links = [link(5, 6, 0), link(8, 7, 0), link(6, 7, 0)];
+        assert_eq!(chains(&links, |_, _| true), [(vec![1, 3, -2], false)]);
+        assert_eq!(chains(&links, |a, b| a.0 + b.0 != 3), [(vec![1, 3], false), (vec![2], false)]);
+        let mut cut = links;
+        cut[2].ends[0] = None;
+        assert_eq!(chains(&cut, |_, _| true), [(vec![1], false), (vec![2, -3], false)]);
+    }
+
+    #[test]
+    fn loops_are_closed_and_branches_end_chains() {
+        let ring = [link(0, 1, 0), link(2, 1, 0), link(2, 0, 0)];
+        assert_eq!(chains(&ring, |_, _| true), [(vec![1, -2, 3], true)]);
+        let star = [link(0, 1, 0), link(0, 2, 0), link(0, 3, 0), link(3, 4, 1), link(3, 5, 0)];
+        let expected = [(vec![1], false), (vec![2], false), (vec![3, 5], false), (vec![4], false)];
+        assert_eq!(chains(&star, |_, _| true), expected);
+        // Two points joined twice, and one with itself.
+        assert_eq!(chains(&[link(0, 1, 0), link(0, 1, 0)], |_, _| true), [(vec![1, -2], true)]);
+        assert_eq!(chains(&[link(4, 4, 0)], |_, _| true), [(vec![1], false)]);
+        assert!(chains(&[], |_, _| true).is_empty());
+    }
+}

@@ -1,0 +1,374 @@
+//! The edges of a mesh that are lines for one camera, as segments in the picture.
+//!
+//! Hidden ones are among them: what lies in front is decided per pixel, against the depth buffer. Silhouettes are
+//! edges between a triangle that faces the eye and one that does not; every triangle is asked once per view, so that
+//! the outlines of closed meshes are closed.
+
+mod angles;
+mod arcs;
+mod clip;
+mod facing;
+mod fan;
+mod outlines;
+
+use bytemuck::{Pod, Zeroable};
+use glam::{DMat4, DVec2};
+use rayon::prelude::*;
+
+use self::angles::Angles;
+use self::clip::PictureMap;
+use self::facing::Facings;
+use self::fan::Fans;
+use super::feature_edges::Traits;
+use super::{ClassSet, EdgeClass, FeatureEdges, Mesh, Projector};
+
+/// Edges that one thread takes at a time; fewer are not worth a thread.
+const EDGES_PER_TASK: usize = 1 << 14;
+
+/// Edges that are looked at side by side.
+const BLOCK: usize = 64;
+
+/// Stands for "no second surface".
+pub const NO_SURFACE: u32 = u32::MAX;
+
+/// A straight line in the picture.
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+pub struct LineSegment {
+    /// Both ends, in pixels: (0, 0) is the upper left corner of the picture, y runs down.
+    pub ends: [[f32; 2]; 2],
+    /// Distance of both ends from the eye along the view, in world units. Its inverse (in parallel projection itself)
+    /// is linear along the segment.
+    pub depths: [f32; 2],
+    /// Length of the line up to both ends, in pixels and never negative; 0 without dashes. Differences and what is left
+    /// after whole periods have a meaning; along a line it goes on from segment to segment.
+    pub arcs: [f32; 2],
+    /// Angle between the two surfaces as they are placed, in radians, −π to π: positive if they are convex as seen from
+    /// the eye's side (at a silhouette, from the first triangle's front), 0 at a border.
+    pub angle: f32,
+    /// [`EdgeClass`] as a number; plus [`LineSegment::HIDDEN`]. Never [`EdgeClass::Object`] nor
+    /// [`EdgeClass::Intersection`].
+    pub class: u32,
+    /// [`PlacedEdges::object`].
+    pub object: u32,
+    /// The surfaces that meet here ([`super::Surfaces::of_triangle`]); [`NO_SURFACE`] as the second at a border.
+    pub surfaces: [u32; 2],
+}
+
+impl LineSegment {
+    /// A bit of `class`: nobody asked for this line, but its surfaces differ, which is to be taken for no other line.
+    pub const HIDDEN: u32 = 1 << 31;
+
+    /// What kind of line it is, hidden or not.
+    pub fn edge_class(&self) -> Option<EdgeClass> {
+        EdgeClass::ALL.get((self.class & !Self::HIDDEN) as usize).copied()
+    }
+
+    /// Whether nobody asked for it.
+    pub fn is_hidden(&self) -> bool {
+        self.class & Self::HIDDEN != 0
+    }
+}
+
+/// A camera and the picture that it makes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LineView {
+    /// The camera.
+    pub projector: Projector,
+    /// Added to all positions in the picture, in pixels (anti-aliasing by several slightly shifted pictures).
+    pub jitter: DVec2,
+    /// How far beyond the sides of the picture segments go on, in pixels; at least half of the widest line.
+    pub margin: f64,
+}
+
+/// Which lines are looked for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Wanted {
+    /// The classes. With [`EdgeClass::Object`], silhouettes and borders are found too. Intersections are not found
+    /// here.
+    pub classes: ClassSet,
+    /// Creases of at least this angle that are convex as seen from the eye are ridges; radians.
+    pub ridge_angle: f32,
+    /// Concave ones of at least this angle are valleys; radians.
+    pub valley_angle: f32,
+    /// Creases of at least this angle (radians), and all edges between different surfaces, are found as
+    /// [`LineSegment::HIDDEN`] if they are nothing that is wanted. Infinite: none.
+    pub suppress_angle: f32,
+    /// Which lines have [`LineSegment::arcs`]; `None`: no line has.
+    pub dashes: Option<Dashes>,
+}
+
+/// Lines that are interrupted regularly.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Dashes {
+    /// The classes that are dashed; [`EdgeClass::Object`] stands for all silhouettes and borders.
+    pub classes: ClassSet,
+    /// After how many pixels dashes repeat, greater than 0. Loops are stretched by up to a tenth, so that a whole
+    /// number of periods fits.
+    pub period: f32,
+}
+
+/// A mesh's edges somewhere in the world.
+#[derive(Debug, Clone, Copy)]
+pub struct PlacedEdges<'a> {
+    /// The edges.
+    pub edges: &'a FeatureEdges,
+    /// The mesh from which they were made.
+    pub mesh: &'a Mesh,
+    /// Local coordinates to world space.
+    pub world_from_local: DMat4,
+    /// A number for the object, returned with its segments.
+    pub object: u32,
+    /// [`super::Topology::is_solid`].
+    pub is_solid: bool,
+}
+
+/// Appends the segments of an object that are lines for a camera, in the order of its edges: the same for any number of
+/// threads. Costs one look at each triangle and edge, about 4 ms per million triangles on two cores.
+pub fn line_segments(placed: &PlacedEdges<'_>, view: &LineView, wanted: &Wanted, out: &mut Vec<LineSegment>) {
+    if wanted.classes.is_empty() && wanted.suppress_angle == f32::INFINITY {
+        return;
+    }
+    let view_from_local = view.projector.view_from_world * placed.world_from_local;
+    let picture = PictureMap::new(view, &view_from_local);
+    if !picture.may_show(&placed.edges.bounds) {
+        return;
+    }
+    let finder = Finder::new(placed, view, wanted, &view_from_local, picture);
+    let first = out.len();
+    let mut trace = Trace::default();
+    let count = placed.edges.len();
+    if count <= 2 * EDGES_PER_TASK {
+        finder.find(0..count, out, &mut trace);
+    } else {
+        let found: Vec<(Vec<LineSegment>, Trace)> = (0..count.div_ceil(EDGES_PER_TASK))
+            .into_par_iter()
+            .map(|task| {
+                let start = task * EDGES_PER_TASK;
+                let (mut found, mut trace) = (Vec::new(), Trace::default());
+                finder.find(start..(start + EDGES_PER_TASK).min(count), &mut found, &mut trace);
+                (found, trace)
+            })
+            .collect();
+        out.reserve(found.iter().map(|(segments, _)| segments.len()).sum());
+        for (segments, own) in found {
+            out.extend_from_slice(&segments);
+            trace.edges.extend_from_slice(&own.edges);
+            trace.unseen.extend_from_slice(&own.unseen);
+        }
+    }
+    if let (Some(dashes), Some(segments)) = (&wanted.dashes, out.get_mut(first..)) {
+        finder.measure(dashes, &trace, segments);
+    }
+}
+
+/// Where segments come from. Kept only for dashes.
+#[derive(Default)]
+struct Trace {
+    /// The edge of each segment.
+    edges: Vec<u32>,
+    /// Silhouettes beyond the picture, in order.
+    unseen: Vec<u32>,
+}
+
+/// What an edge is for a view.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Line {
+    class: u32,
+    angle: f32,
+    /// Triangles whose surfaces are seen, the same one twice at a border.
+    faces: [u32; 2],
+}
+
+/// One object before one camera.
+struct Finder<'a> {
+    placed: &'a PlacedEdges<'a>,
+    wanted: &'a Wanted,
+    picture: PictureMap,
+    facings: Facings,
+    fans: Fans<'a>,
+    angles: Angles<'a>,
+    /// Edges with these traits are looked at closely, whatever their angle.
+    special: Traits,
+    /// No edge that bends less than this (radians, local space) can be a crease.
+    least_angle: f32,
+    /// Whether creases that face away are hidden by their own object.
+    hides_its_back: bool,
+}
+
+impl<'a> Finder<'a> {
+    fn new(
+        placed: &'a PlacedEdges<'a>,
+        view: &LineView,
+        wanted: &'a Wanted,
+        view_from_local: &DMat4,
+        picture: PictureMap,
+    ) -> Self {
+        let PlacedEdges { edges, mesh, .. } = *placed;
+        let lens = view.projector.lens;
+        let angles = Angles::new(mesh, view_from_local);
+        let asked = |class: EdgeClass, angle: f32| {
+            if wanted.classes.contains(class) { angle } else { f32::INFINITY }
+        };
+        let least_angle = asked(EdgeClass::Ridge, wanted.ridge_angle)
+            .min(asked(EdgeClass::Valley, wanted.valley_angle))
+            .min(wanted.suppress_angle);
+        let rims = ClassSet::of(&[EdgeClass::Border, EdgeClass::Object]);
+        let mut special = Traits::FAN;
+        if EdgeClass::ALL.iter().any(|&class| rims.contains(class) && wanted.classes.contains(class)) {
+            special = special.and(Traits::BORDER);
+        }
+        if wanted.classes.contains(EdgeClass::Material) {
+            special = special.and(Traits::MATERIAL);
+        }
+        Self {
+            placed,
+            wanted,
+            picture,
+            facings: Facings::new(mesh, &edges.bounds, view_from_local, lens),
+            fans: Fans::new(edges, mesh, *view_from_local, lens),
+            least_angle: angles.least_local(least_angle),
+            angles,
+            special,
+            hides_its_back: placed.is_solid && clip::is_before_the_eye(&edges.bounds, view_from_local, lens),
+        }
+    }
+
+    /// Appends the segments of a range of edges.
+    fn find(&self, range: std::ops::Range<usize>, out: &mut Vec<LineSegment>, trace: &mut Trace) {
+        let edges = self.placed.edges;
+        let (Some(faces), Some(dihedral), Some(traits)) = (
+            edges.faces.get(range.clone()),
+            edges.dihedral.get(range.clone()),
+            edges.traits.get(range.clone()),
+        ) else {
+            return;
+        };
+        let blocks = faces.chunks(BLOCK).zip(dihedral.chunks(BLOCK)).zip(traits.chunks(BLOCK));
+        for (start, ((faces, dihedral), traits)) in (range.start..).step_by(BLOCK).zip(blocks) {
+            // Most edges are no lines. That is found without a branch for each of them.
+            let mut marks = [0_u8; BLOCK];
+            for (mark, &faces) in marks.iter_mut().zip(faces) {
+                *mark = self.facings.differ(faces);
+            }
+            for ((mark, dihedral), traits) in marks.iter_mut().zip(dihedral).zip(traits) {
+                let is_sharp = dihedral.abs() >= self.least_angle;
+                *mark = *mark ^ traits.flip() | u8::from(is_sharp) | u8::from(traits.any(self.special));
+            }
+            let words: [u64; BLOCK / 8] = bytemuck::cast(marks);
+            for (word, start_of_word) in words.into_iter().zip((0..).step_by(8)) {
+                if word == 0 {
+                    continue;
+                }
+                for i in start_of_word..(start_of_word + 8).min(faces.len()) {
+                    if marks[i] == 0 {
+                        continue;
+                    }
+                    if let Some(line) = self.line((start + i) as u32, faces[i], dihedral[i], traits[i]) {
+                        self.push((start + i) as u32, &line, out, trace);
+                    }
+                }
+            }
+        }
+    }
+
+    /// What an edge is; `None` if it is nothing.
+    fn line(&self, edge: u32, faces: [u32; 2], dihedral: f32, traits: Traits) -> Option<Line> {
+        if traits.any(Traits::FAN) {
+            let seen = self.fans.look(edge)?;
+            return match seen.rim {
+                Some(rim) => self.rim(rim, seen.angle, seen.faces),
+                None => self.crease(seen.angle, seen.faces, seen.materials_differ),
+            };
+        }
+        if traits.any(Traits::BORDER) {
+            return self.rim(EdgeClass::Border, 0.0, faces);
+        }
+        let is_away = self.facings.of(faces[0]) == 0;
+        let is_silhouette = self.facings.differ(faces) != traits.flip();
+        if is_away && !is_silhouette && self.hides_its_back {
+            return None;
+        }
+        let angle = self.angles.of(faces, dihedral, traits);
+        if is_silhouette {
+            // In a hollow of a solid, what lies before a silhouette hides it.
+            if self.hides_its_back && angle < -1e-3 {
+                return None;
+            }
+            return self.rim(EdgeClass::Silhouette, angle, faces);
+        }
+        // From behind, what is convex looks concave.
+        self.crease(if is_away { -angle } else { angle }, faces, traits.any(Traits::MATERIAL))
+    }
+
+    /// A line with all surfaces on one side of it.
+    fn rim(&self, class: EdgeClass, angle: f32, faces: [u32; 2]) -> Option<Line> {
+        let is_wanted =
+            self.wanted.classes.contains(class) || self.wanted.classes.contains(EdgeClass::Object);
+        let class = if is_wanted { class as u32 } else { self.hidden(class, angle, faces)? };
+        Some(Line { class, angle, faces })
+    }
+
+    /// A line with a surface on either side.
+    fn crease(&self, angle: f32, faces: [u32; 2], materials_differ: bool) -> Option<Line> {
+        let candidates = [
+            (angle >= self.wanted.ridge_angle, EdgeClass::Ridge),
+            (angle <= -self.wanted.valley_angle, EdgeClass::Valley),
+            (materials_differ, EdgeClass::Material),
+        ];
+        let first = candidates.into_iter().find(|&(is, class)| is && self.wanted.classes.contains(class));
+        let class = match first {
+            Some((_, class)) => class as u32,
+            None if angle < 0.0 => self.hidden(EdgeClass::Valley, angle, faces)?,
+            None => self.hidden(EdgeClass::Ridge, angle, faces)?,
+        };
+        Some(Line { class, angle, faces })
+    }
+
+    /// The class of a line that nobody wants, if it has to be known.
+    fn hidden(&self, class: EdgeClass, angle: f32, faces: [u32; 2]) -> Option<u32> {
+        let [one, two] = faces.map(|face| self.surface(face));
+        let is_boundary = angle.abs() >= self.wanted.suppress_angle
+            || one != two && self.wanted.suppress_angle < f32::INFINITY;
+        is_boundary.then_some(class as u32 | LineSegment::HIDDEN)
+    }
+
+    fn surface(&self, face: u32) -> u32 {
+        self.placed.edges.surface_of_triangle.get(face as usize).copied().unwrap_or(NO_SURFACE)
+    }
+
+    fn push(&self, edge: u32, line: &Line, out: &mut Vec<LineSegment>, trace: &mut Trace) {
+        let PlacedEdges { edges, mesh, object, .. } = self.placed;
+        let Some(ends) = edges.ends.get(edge as usize) else { return };
+        let [Some(&a), Some(&b)] = ends.map(|v| mesh.positions.get(v as usize)) else { return };
+        let is_traced = self.wanted.dashes.is_some();
+        let Some([from, to]) = self.picture.segment([a, b]) else {
+            if is_traced && line.class == EdgeClass::Silhouette as u32 {
+                trace.unseen.push(edge);
+            }
+            return;
+        };
+        if is_traced {
+            trace.edges.push(edge);
+        }
+        let [one, two] = line.faces;
+        out.push(LineSegment {
+            ends: [from.px.as_vec2().to_array(), to.px.as_vec2().to_array()],
+            depths: [from.depth as f32, to.depth as f32],
+            arcs: [0.0; 2],
+            angle: line.angle,
+            class: line.class,
+            object: *object,
+            surfaces: [self.surface(one), if one == two { NO_SURFACE } else { self.surface(two) }],
+        });
+    }
+}
+
+#[cfg(test)]
+mod arc_tests;
+#[cfg(test)]
+mod speed;
+#[cfg(test)]
+mod tests;
+#[cfg(test)]
+mod truth_tests;

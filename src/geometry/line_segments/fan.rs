@@ -1,0 +1,101 @@
+//! Edges at which three triangles or more meet. Winding decides nothing there.
+
+use glam::{DMat4, DVec3};
+
+use crate::geometry::feature_edges::Materials;
+use crate::geometry::{EdgeClass, FeatureEdges, Lens, Mesh};
+
+/// Two surfaces that leave an edge in directions closer than this (radians) lie on each other.
+const SAME_DIRECTION: f64 = 1e-3;
+/// Sine of the angle to the view up to which a surface counts as seen edge-on.
+const EDGE_ON: f64 = 1e-9;
+
+/// What is seen of a fan.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Seen {
+    /// The class, if all surfaces are on one side.
+    pub rim: Option<EdgeClass>,
+    /// Angle between the two surfaces that are seen, positive convex; 0 at a border.
+    pub angle: f32,
+    /// The triangles that are seen on either side, or twice the same one.
+    pub faces: [u32; 2],
+    pub materials_differ: bool,
+}
+
+/// The fans of one object before an eye.
+pub(super) struct Fans<'a> {
+    edges: &'a FeatureEdges,
+    mesh: &'a Mesh,
+    view_from_local: DMat4,
+    lens: Lens,
+}
+
+impl<'a> Fans<'a> {
+    pub(super) fn new(edges: &'a FeatureEdges, mesh: &'a Mesh, view_from_local: DMat4, lens: Lens) -> Self {
+        Self { edges, mesh, view_from_local, lens }
+    }
+
+    /// What is seen of an edge; `None`: nothing, or it has no extent.
+    pub(super) fn look(&self, edge: u32) -> Option<Seen> {
+        let ends = self.edges.ends.get(edge as usize)?;
+        let [a, b] = ends.map(|v| self.view_position(v));
+        let (a, b) = (a?, b?);
+        let along = (b - a).try_normalize()?;
+        let to_eye = match self.lens {
+            Lens::Perspective { .. } => -a,
+            Lens::Orthographic { .. } => DVec3::Z,
+        };
+        // The picture of the cross section: x is aside, y is towards the eye.
+        let towards = (to_eye - along * to_eye.dot(along)).normalize_or_zero();
+        let aside = along.cross(towards);
+        // On each side, the surface that is nearest to the eye: its angle from the direction to the eye.
+        let (mut left, mut right): (Option<(f64, u32)>, Option<(f64, u32)>) = (None, None);
+        let mut first: Option<(DVec3, u32)> = None;
+        let mut is_fold = false;
+        for &(_, face) in self.edges.fan(edge) {
+            let Some(away) = self.away(face, a, along) else { continue };
+            let (other, _) = *first.get_or_insert((away, face));
+            is_fold |= other.distance(away) > SAME_DIRECTION;
+            let (x, y) = (away.dot(aside), away.dot(towards));
+            let side = match x {
+                x if x < -EDGE_ON => &mut left,
+                x if x > EDGE_ON => &mut right,
+                _ => continue,
+            };
+            let angle = x.abs().atan2(y);
+            if side.is_none_or(|(nearest, _)| angle < nearest) {
+                *side = Some((angle, face));
+            }
+        }
+        let rim = if is_fold { EdgeClass::Silhouette } else { EdgeClass::Border };
+        match (left, right) {
+            (Some((left, one)), Some((right, two))) => Some(Seen {
+                rim: None,
+                angle: (left + right - std::f64::consts::PI) as f32,
+                faces: [one, two],
+                materials_differ: Materials::new(self.mesh).differ([one, two]),
+            }),
+            (Some((_, face)), None) | (None, Some((_, face))) => {
+                Some(Seen { rim: Some(rim), angle: 0.0, faces: [face; 2], materials_differ: false })
+            }
+            (None, None) if is_fold => None,
+            (None, None) => {
+                let (_, face) = first?;
+                Some(Seen { rim: Some(rim), angle: 0.0, faces: [face; 2], materials_differ: false })
+            }
+        }
+    }
+
+    /// From an edge into a triangle: a unit vector in view space, perpendicular to the edge.
+    fn away(&self, face: u32, start: DVec3, along: DVec3) -> Option<DVec3> {
+        let corners = self.mesh.triangles().get(face as usize)?.map(|v| self.view_position(v));
+        let aside = corners.into_iter().flatten().map(|p| (p - start) - along * (p - start).dot(along));
+        // The corner that is not on the edge.
+        aside.max_by(|p, q| p.length_squared().total_cmp(&q.length_squared()))?.try_normalize()
+    }
+
+    fn view_position(&self, vertex: u32) -> Option<DVec3> {
+        let position = self.mesh.positions.get(vertex as usize)?;
+        Some(self.view_from_local.transform_point3(position.as_dvec3()))
+    }
+}
