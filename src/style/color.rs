@@ -15,6 +15,16 @@ impl Color {
     /// `#ffffff`
     pub const WHITE: Self = Self([255; 3]);
 
+    /// Between this colour (share 0) and another one (share 1), in even steps as displayed.
+    #[must_use]
+    pub fn mixed(self, other: Self, share: f32) -> Self {
+        let mix = |(a, b): (u8, u8)| {
+            (f32::from(a) + (f32::from(b) - f32::from(a)) * share.clamp(0.0, 1.0)).round() as u8
+        };
+        let ([r, g, b], [r2, g2, b2]) = (self.0, other.0);
+        Self([(r, r2), (g, g2), (b, b2)].map(mix))
+    }
+
     /// Linear RGB, 0 to 1 (IEC 61966-2-1).
     pub fn to_linear(self) -> Vec3 {
         Vec3::from_array(self.0.map(|c| {

@@ -1,17 +1,81 @@
-//! Lines from the edge map (edge-enhancement paper, sections 3 and 4).
+//! Lines: how edges are found (edge-enhancement paper, sections 3 and 4, or exactly) and how they are drawn.
 
-use super::Color;
+use super::edge_group::{EdgeGroup, Inner, Profile};
+use super::edge_line::{ClassStyle, Line};
 use super::param::Params;
+use crate::geometry::EdgeClass;
 
 /// How edges are found and drawn.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Edges {
-    /// The operator that finds depth discontinuities.
+    /// How edges are found.
+    pub mode: EdgeMode,
+    /// Where the width of a line lies. Exact mode.
+    pub alignment: Alignment,
+    /// The operator that finds depth discontinuities. Paper mode.
     pub operator: DepthOperator,
-    /// Profile edges: silhouettes and borders, found in depth.
+    /// Profile edges: silhouettes, borders and the outlines of objects.
     pub profile: EdgeGroup<Profile>,
-    /// Inner edges: creases, found in normals.
+    /// Inner edges: creases, borders of materials, intersections.
     pub inner: EdgeGroup<Inner>,
+    /// What each class has of its own, in the order of [`EdgeClass::ALL`]. Exact mode.
+    classes: [ClassStyle; EdgeClass::ALL.len()],
+    /// Dashes of the lines that have them. Exact mode.
+    pub dash: Dash,
+    /// Share of the surface's colour in the lines, 0 (the constant colour) to 1 (the surface's own). Exact mode.
+    pub surface_color: f32,
+    /// How much the surface's colour is darkened in lines, 0 (not) to 1 (black). Exact mode.
+    pub darken: f32,
+    /// What makes lines thinner. Exact mode.
+    pub variation: Variation,
+    /// How the width changes along a line. Exact mode.
+    pub pressure: Pressure,
+}
+
+/// How edges are found.
+#[derive(
+    Debug,
+    Clone,
+    Copy,
+    PartialEq,
+    Eq,
+    Hash,
+    Default,
+    strum::EnumString,
+    strum::IntoStaticStr,
+    strum::VariantNames,
+)]
+#[strum(serialize_all = "snake_case")]
+pub enum EdgeMode {
+    /// From the edges of the meshes and from what is in front of what.
+    #[default]
+    Exact,
+    /// With the operators of the edge-enhancement paper.
+    Paper,
+}
+
+/// Where the width of a line lies.
+#[derive(
+    Debug,
+    Clone,
+    Copy,
+    PartialEq,
+    Eq,
+    Hash,
+    Default,
+    strum::EnumString,
+    strum::IntoStaticStr,
+    strum::VariantNames,
+)]
+#[strum(serialize_all = "snake_case")]
+pub enum Alignment {
+    /// Half on either side of the edge.
+    #[default]
+    Centered,
+    /// Outside of the object.
+    Outward,
+    /// On the object.
+    Inward,
 }
 
 /// Operator on the depth buffer (paper, section 4.1.2).
@@ -36,117 +100,215 @@ pub enum DepthOperator {
     C1,
 }
 
-/// What the profile group has beyond [`EdgeGroup`].
-#[derive(Debug, Clone, PartialEq)]
-pub struct Profile {
-    /// Ink per unit of C1; takes the place of `gain` with that operator.
-    pub gain_c1: f32,
+/// Dashes, in reference pixels, 1 to 512.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Dash {
+    /// Length of a dash.
+    pub length: f32,
+    /// Length of the gap behind it.
+    pub gap: f32,
 }
 
-/// What the inner group has beyond [`EdgeGroup`]: nothing.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Inner;
-
-/// One of the two groups of edges.
-#[derive(Debug, Clone, PartialEq)]
-pub struct EdgeGroup<More> {
-    /// Whether the group is drawn.
-    pub show: bool,
-    /// Colour of the lines.
-    pub color: Color,
-    /// Opacity of full ink, 0 to 1.
-    pub strength: f32,
-    /// Ink per unit of discontinuity (1 − I), 0 to 100.
-    pub gain: f32,
-    /// Ink at or below this share is dropped, the rest is stretched to 0..1; 0 to 0.99.
-    pub threshold: f32,
-    /// What only this group has.
-    pub more: More,
+/// What makes lines thinner; each 0 (nothing) to 1.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Variation {
+    /// Distance from the eye.
+    pub distance: f32,
+    /// Light on the surface.
+    pub light: f32,
 }
 
-impl Default for Profile {
-    fn default() -> Self {
-        // A straight step of 0.1 gives C1 = 0.1 · (1 + 2 + 1) / 8.
-        Self { gain_c1: 20.0 }
-    }
+/// How the width changes along a line, as under a hand.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pressure {
+    /// How much, 0 to 1.
+    pub amount: f32,
+    /// Length of the changes in reference pixels, 4 to 2000.
+    pub scale: f32,
 }
 
-impl Default for EdgeGroup<Profile> {
+impl Default for Edges {
     fn default() -> Self {
         Self {
-            show: true,
-            color: Color::BLACK,
-            strength: 1.0,
-            // A step of 0.1 in one diagonal pair gives 1 − I_Z = 1 − 0.95², about 1 / 10.3.
-            gain: 10.3,
-            threshold: 0.2,
-            more: Profile::default(),
-        }
-    }
-}
-
-impl Default for EdgeGroup<Inner> {
-    fn default() -> Self {
-        Self {
-            show: true,
-            color: Color::BLACK,
-            strength: 1.0,
-            // Full ink at a dihedral angle of about 41°, none below about 18° (1 − cos).
-            gain: 4.0,
-            threshold: 0.2,
-            more: Inner,
+            mode: EdgeMode::default(),
+            alignment: Alignment::default(),
+            operator: DepthOperator::default(),
+            profile: EdgeGroup::default(),
+            inner: EdgeGroup::default(),
+            classes: EdgeClass::ALL.map(ClassStyle::new),
+            dash: Dash { length: 12.0, gap: 6.0 },
+            surface_color: 0.0,
+            darken: 0.6,
+            variation: Variation::default(),
+            pressure: Pressure { amount: 0.0, scale: 60.0 },
         }
     }
 }
 
 impl Edges {
+    /// The look of a class: what it has of its own, the rest from its group.
+    pub fn line(&self, class: EdgeClass) -> Line {
+        let group = if class.is_profile() { self.profile.line() } else { self.inner.line() };
+        self.class(class).resolve(&group)
+    }
+
+    /// What a class has of its own.
+    pub fn class(&self, class: EdgeClass) -> &ClassStyle {
+        &self.classes[class as usize]
+    }
+
+    /// What a class has of its own, to be changed.
+    pub fn class_mut(&mut self, class: EdgeClass) -> &mut ClassStyle {
+        &mut self.classes[class as usize]
+    }
+
     pub(super) fn params<'a>(&'a mut self, list: &mut Params<'a>) {
+        let (profile, inner) = (self.profile.line(), self.inner.line());
+        let (profile_classes, inner_classes): (Vec<_>, Vec<_>) =
+            EdgeClass::ALL.into_iter().zip(&mut self.classes).partition(|(class, _)| class.is_profile());
+
         list.choice(
-            "operator",
-            "Operator",
-            "How depth discontinuities are found: two diagonal pairs, or eight neighbours (C1).",
-            &mut self.operator,
+            "mode",
+            "Mode",
+            "How edges are found: exactly, or with the operators of the edge-enhancement paper.",
+            &mut self.mode,
         );
-        let profile = &mut self.profile;
-        list.section("profile", None, |list| {
-            list.switch("show", "Profile edges", "Draw silhouettes and borders.", &mut profile.show);
-            list.color("color", "Colour", "Colour of profile edges.", &mut profile.color);
-            list.number("strength", "Strength", "", 0.0..=1.0, 0.0..=1.0, "Opacity of profile edges.", &mut profile.strength);
-            list.number("threshold", "Threshold", "", 0.0..=0.95, 0.0..=0.99, "Weaker discontinuities in depth draw nothing.", &mut profile.threshold);
-            list.number("gain", "Gain", "", 1.0..=40.0, 0.0..=1000.0, "Ink per discontinuity with the diagonal operator; 10.3 makes a step of a tenth of the depth range full ink.", &mut profile.gain);
-            list.number("gain_c1", "Gain (C1)", "", 1.0..=80.0, 0.0..=1000.0, "Ink per discontinuity with the C1 operator; 20 makes a step of a tenth of the depth range full ink.", &mut profile.more.gain_c1);
+        list.when("edges.mode", EdgeMode::Paper, |list| {
+            list.choice(
+                "operator",
+                "Operator",
+                "How depth discontinuities are found: two diagonal pairs, or eight neighbours (C1).",
+                &mut self.operator,
+            );
         });
-        let inner = &mut self.inner;
-        list.section("inner", None, |list| {
-            list.switch("show", "Inner edges", "Draw creases.", &mut inner.show);
-            list.color("color", "Colour", "Colour of inner edges.", &mut inner.color);
+        list.when("edges.mode", EdgeMode::Exact, |list| {
+            list.choice(
+                "alignment",
+                "Alignment",
+                "Where the width of a line lies: half on either side, outside of the object, or on it.",
+                &mut self.alignment,
+            );
             list.number(
-                "strength",
-                "Strength",
+                "surface_color",
+                "Surface colour",
                 "",
                 0.0..=1.0,
                 0.0..=1.0,
-                "Opacity of inner edges.",
-                &mut inner.strength,
+                "Share of the surface's own colour in the lines; 0 leaves the colours below.",
+                &mut self.surface_color,
             );
             list.number(
-                "threshold",
-                "Threshold",
+                "darken",
+                "Darken",
                 "",
-                0.0..=0.95,
-                0.0..=0.99,
-                "Weaker discontinuities in normals draw nothing.",
-                &mut inner.threshold,
-            );
-            list.number(
-                "gain",
-                "Gain",
-                "",
-                0.5..=20.0,
-                0.0..=1000.0,
-                "Ink per discontinuity: 4 makes a fold of 41° full ink.",
-                &mut inner.gain,
+                0.0..=1.0,
+                0.0..=1.0,
+                "How much darker than the surface its colour is in the lines.",
+                &mut self.darken,
             );
         });
+        list.section("profile", |list| self.profile.params(list));
+        for (class, style) in profile_classes {
+            style.params(class, "profile", &profile, list);
+        }
+        list.section("inner", |list| self.inner.params(list));
+        for (class, style) in inner_classes {
+            style.params(class, "inner", &inner, list);
+        }
+        list.when("edges.mode", EdgeMode::Exact, |list| {
+            list.detail("dash", |list| self.dash.params(list));
+            list.detail("variation", |list| self.variation.params(list));
+            list.detail("pressure", |list| self.pressure.params(list));
+        });
+    }
+}
+
+impl Dash {
+    fn params<'a>(&'a mut self, list: &mut Params<'a>) {
+        let (soft, hard) = (1.0..=64.0, 1.0..=512.0);
+        list.number(
+            "length",
+            "Length",
+            "px",
+            soft.clone(),
+            hard.clone(),
+            "Length of a dash.",
+            &mut self.length,
+        );
+        list.number("gap", "Gap", "px", soft, hard, "Length of the gap behind a dash.", &mut self.gap);
+    }
+}
+
+impl Variation {
+    fn params<'a>(&'a mut self, list: &mut Params<'a>) {
+        let unit = 0.0..=1.0;
+        list.number(
+            "distance",
+            "By distance",
+            "",
+            unit.clone(),
+            unit.clone(),
+            "How much thinner far lines are.",
+            &mut self.distance,
+        );
+        list.number(
+            "light",
+            "By light",
+            "",
+            unit.clone(),
+            unit,
+            "How much thinner lines are on the side that faces the light.",
+            &mut self.light,
+        );
+    }
+}
+
+impl Pressure {
+    fn params<'a>(&'a mut self, list: &mut Params<'a>) {
+        list.number(
+            "amount",
+            "Amount",
+            "",
+            0.0..=1.0,
+            0.0..=1.0,
+            "How much the width changes along a line, as under a hand.",
+            &mut self.amount,
+        );
+        list.number(
+            "scale",
+            "Scale",
+            "px",
+            8.0..=400.0,
+            4.0..=2000.0,
+            "How long a change of the width is.",
+            &mut self.scale,
+        );
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::style::Color;
+
+    #[test]
+    fn a_class_is_as_its_group_until_it_is_set() {
+        let mut edges = Edges::default();
+        for class in EdgeClass::ALL {
+            let (group, width) =
+                if class.is_profile() { (edges.profile.line(), 2.5) } else { (edges.inner.line(), 2.2) };
+            let line = edges.line(class);
+            assert_eq!((line.color, line.strength, line.width), (group.color, 1.0, width), "{class:?}");
+            assert_eq!(line.show, class != EdgeClass::Material);
+        }
+        edges.inner.color = Color::WHITE;
+        edges.inner.width = 1.0;
+        edges.class_mut(EdgeClass::Valley).width = Some(3.0);
+        edges.class_mut(EdgeClass::Valley).dashed = Some(true);
+        let (ridge, valley) = (edges.line(EdgeClass::Ridge), edges.line(EdgeClass::Valley));
+        assert_eq!((ridge.width, ridge.dashed, ridge.color), (1.0, false, Color::WHITE));
+        assert_eq!((valley.width, valley.dashed, valley.color), (3.0, true, Color::WHITE));
+        assert_eq!(edges.line(EdgeClass::Silhouette), edges.profile.line());
+        assert_eq!((valley.threshold, edges.line(EdgeClass::Intersection).threshold), (30.0, 2.0));
     }
 }

@@ -4,19 +4,29 @@
 //! reference of `hachure styles` all read that list (see [`param`]).
 
 pub mod color;
+mod declare;
+pub mod edge_group;
+pub mod edge_line;
 pub mod edges;
 pub mod gooch;
 pub mod param;
+#[cfg(test)]
+mod param_tests;
 pub mod plain;
 pub mod preset;
+mod slot;
 mod toml_file;
+pub mod toon;
+mod value;
 
 pub use color::Color;
-pub use edges::{DepthOperator, EdgeGroup, Edges};
+pub use edge_line::Line;
+pub use edges::{Alignment, DepthOperator, EdgeMode, Edges};
 pub use gooch::Gooch;
 pub use param::{Param, Slot, Value};
 pub use plain::Plain;
 pub use toml_file::{diff_to_toml, set_from_toml};
+pub use toon::Toon;
 
 use param::Params;
 
@@ -44,6 +54,8 @@ pub enum Technique {
     /// Cool-to-warm technical illustration.
     #[default]
     Gooch,
+    /// Flat shades from a ramp, as in a comic.
+    Toon,
 }
 
 /// The complete look of one object.
@@ -55,6 +67,8 @@ pub struct Style {
     pub plain: Plain,
     /// Parameters of [`Technique::Gooch`].
     pub gooch: Gooch,
+    /// Parameters of [`Technique::Toon`].
+    pub toon: Toon,
     /// Lines.
     pub edges: Edges,
 }
@@ -64,9 +78,16 @@ impl Style {
     pub fn params(&mut self) -> Vec<Param<'_>> {
         let mut list = Params::default();
         list.choice("technique", "Technique", "How surfaces are shaded.", &mut self.technique);
-        list.section("plain", Some(Technique::Plain), |list| self.plain.params(list));
-        list.section("gooch", Some(Technique::Gooch), |list| self.gooch.params(list));
-        list.section("edges", None, |list| self.edges.params(list));
+        list.when("technique", Technique::Plain, |list| {
+            list.section("plain", |list| self.plain.params(list));
+        });
+        list.when("technique", Technique::Gooch, |list| {
+            list.section("gooch", |list| self.gooch.params(list));
+        });
+        list.when("technique", Technique::Toon, |list| {
+            list.section("toon", |list| self.toon.params(list));
+        });
+        list.section("edges", |list| self.edges.params(list));
         list.finish()
     }
 }
@@ -157,46 +178,4 @@ pub(crate) fn nearest<'a>(wanted: &str, candidates: impl IntoIterator<Item = &'a
         .filter(|(similarity, _)| *similarity > 0.6)
         .max_by(|a, b| a.0.total_cmp(&b.0))
         .map(|(_, c)| c.to_owned())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn keys_are_unique_and_defaults_lie_in_their_ranges() {
-        let mut style = Style::default();
-        let params = style.params();
-        for (i, param) in params.iter().enumerate() {
-            assert!(params.iter().skip(i + 1).all(|p| p.key != param.key), "{} twice", param.key);
-            assert!(!param.help.is_empty(), "{} has no help", param.key);
-            if let Slot::Number { value, soft, hard } = &param.slot {
-                assert!(soft.contains(value), "{}", param.key);
-                assert!(hard.contains(soft.start()) && hard.contains(soft.end()), "{}", param.key);
-            }
-        }
-    }
-
-    #[test]
-    fn every_parameter_survives_a_round_trip_through_text() {
-        let mut style = Style::default();
-        for i in 0..style.params().len() {
-            let (key, value) = {
-                let mut params = style.params();
-                let param = &mut params[i];
-                let value = match &mut param.slot {
-                    Slot::Bool(b) => Value::Bool(!**b),
-                    Slot::Number { hard, .. } => Value::Number(f64::from(*hard.start())),
-                    Slot::Color(_) => Value::Text("#123456".to_owned()),
-                    Slot::Choice(c) => Value::Text(c.names()[c.names().len() - 1].to_owned()),
-                };
-                (param.key.clone(), value)
-            };
-            param::set(&mut style.params(), &key, &value).unwrap();
-        }
-        let text = diff_to_toml(&mut style.params(), &mut Style::default().params()).to_string();
-        let mut read = Style::default();
-        set_from_toml(&mut read.params(), &text, "test").unwrap();
-        assert_eq!(read, style);
-    }
 }

@@ -1,4 +1,7 @@
 //! Parameters as TOML: only what differs from the defaults is written, every mistake is told with its line.
+//!
+//! A parameter that inherits, as by default, is left out; one that would have a value of its own by default is
+//! written as `"inherit"`.
 
 use toml::de::{DeTable, DeValue};
 use toml::{Spanned, Table};
@@ -10,8 +13,8 @@ use super::{StyleError, Value};
 pub fn diff_to_toml(params: &mut [Param<'_>], defaults: &mut [Param<'_>]) -> Table {
     let mut root = Table::new();
     for (param, default) in params.iter().zip(defaults.iter()) {
-        let value = param.value();
-        if value == default.value() {
+        let value = param.own();
+        if value == default.own() {
             continue;
         }
         let mut table = &mut root;
@@ -23,7 +26,7 @@ pub fn diff_to_toml(params: &mut [Param<'_>], defaults: &mut [Param<'_>]) -> Tab
                     match &value {
                         Value::Bool(b) => (*b).into(),
                         Value::Number(n) => (*n).into(),
-                        Value::Text(t) => t.clone().into(),
+                        Value::Text(_) | Value::Inherit => value.to_string().into(),
                     },
                 );
                 break;
@@ -89,7 +92,7 @@ fn scalar(key: &str, value: &Spanned<DeValue<'_>>) -> Result<Value, StyleError> 
         DeValue::Float(f) => {
             f.as_str().parse().map(Value::Number).map_err(|_malformed| wrong("a malformed number"))
         }
-        DeValue::String(s) => Ok(Value::Text(s.to_string())),
+        DeValue::String(s) => Ok(Value::from(s.as_ref())),
         DeValue::Array(_) => Err(wrong("an array")),
         _ => Err(wrong("something else")),
     }

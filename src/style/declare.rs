@@ -1,0 +1,130 @@
+//! The list of parameters while it is being declared.
+
+use std::ops::RangeInclusive;
+
+use super::Color;
+use super::param::{Condition, Param};
+use super::slot::{Choice, Place, Slot};
+
+/// The list while it is being declared.
+#[derive(Default)]
+pub struct Params<'a> {
+    list: Vec<Param<'a>>,
+    prefix: String,
+    conditions: Vec<Condition>,
+    detail: bool,
+}
+
+impl<'a> Params<'a> {
+    /// Declares the parameters of one effect or group: their keys begin with `name.`.
+    pub fn section(&mut self, name: &str, declare: impl FnOnce(&mut Self)) {
+        let outer = self.prefix.len();
+        self.prefix.push_str(name);
+        self.prefix.push('.');
+        declare(self);
+        self.prefix.truncate(outer);
+    }
+
+    /// A section that the panel shows folded at first.
+    pub fn detail(&mut self, name: &str, declare: impl FnOnce(&mut Self)) {
+        let outer = std::mem::replace(&mut self.detail, true);
+        self.section(name, declare);
+        self.detail = outer;
+    }
+
+    /// Declares parameters that matter only while the choice `key` (a whole key) is `value`.
+    pub fn when(
+        &mut self,
+        key: &'static str,
+        value: impl Into<&'static str>,
+        declare: impl FnOnce(&mut Self),
+    ) {
+        let condition = Condition { key, value: value.into() };
+        let is_new = !self.conditions.contains(&condition);
+        self.conditions.extend(is_new.then_some(condition));
+        declare(self);
+        if is_new {
+            self.conditions.pop();
+        }
+    }
+
+    fn push(
+        &mut self,
+        key: &str,
+        label: &'static str,
+        unit: &'static str,
+        help: &'static str,
+        slot: Slot<'a>,
+    ) {
+        self.list.push(Param {
+            key: format!("{}{key}", self.prefix),
+            label,
+            unit,
+            help,
+            conditions: self.conditions.clone(),
+            detail: self.detail,
+            head: false,
+            slot,
+        });
+    }
+
+    /// The switch of a whole section: the panel puts it and its label in the section's heading.
+    pub fn head(
+        &mut self,
+        key: &str,
+        label: &'static str,
+        help: &'static str,
+        value: impl Into<Place<'a, bool>>,
+    ) {
+        self.switch(key, label, help, value);
+        if let Some(param) = self.list.last_mut() {
+            param.head = true;
+        }
+    }
+
+    /// A switch.
+    pub fn switch(
+        &mut self,
+        key: &str,
+        label: &'static str,
+        help: &'static str,
+        value: impl Into<Place<'a, bool>>,
+    ) {
+        self.push(key, label, "", help, Slot::Bool(value.into()));
+    }
+
+    /// A number with the range of its slider (`soft`) and the range that is accepted (`hard`).
+    pub fn number(
+        &mut self,
+        key: &str,
+        label: &'static str,
+        unit: &'static str,
+        soft: RangeInclusive<f32>,
+        hard: RangeInclusive<f32>,
+        help: &'static str,
+        value: impl Into<Place<'a, f32>>,
+    ) {
+        self.push(key, label, unit, help, Slot::Number { value: value.into(), soft, hard });
+    }
+
+    /// A colour.
+    pub fn color(
+        &mut self,
+        key: &str,
+        label: &'static str,
+        help: &'static str,
+        value: impl Into<Place<'a, Color>>,
+    ) {
+        self.push(key, label, "", help, Slot::Color(value.into()));
+    }
+
+    /// One of the variants of an enumeration.
+    pub fn choice(&mut self, key: &str, label: &'static str, help: &'static str, value: &'a mut dyn Choice) {
+        self.push(key, label, "", help, Slot::Choice(value));
+    }
+
+    /// The finished list.
+    pub fn finish(self) -> Vec<Param<'a>> {
+        self.list
+    }
+}

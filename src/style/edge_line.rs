@@ -1,0 +1,181 @@
+//! The look of one class of lines, which it has from its group as far as it has none of its own.
+
+use super::Color;
+use super::edges::EdgeMode;
+use super::param::{Params, Place};
+use crate::geometry::EdgeClass;
+
+/// The look of a class of lines, complete.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Line {
+    /// Whether it is drawn.
+    pub show: bool,
+    /// Colour.
+    pub color: Color,
+    /// Opacity, 0 to 1.
+    pub strength: f32,
+    /// Width in reference pixels, 0.25 to 64.
+    pub width: f32,
+    /// Whether it is drawn in dashes.
+    pub dashed: bool,
+    /// What an edge must reach to be drawn: profile edges the step in depth behind them in reference pixels (0 to
+    /// 1000), creases and intersections the angle between the surfaces in degrees (0 to 180).
+    pub threshold: f32,
+}
+
+/// What a person set for one class of lines; what is `None` is as in the class's group.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ClassStyle {
+    /// Whether it is drawn.
+    pub show: Option<bool>,
+    /// Colour.
+    pub color: Option<Color>,
+    /// Opacity.
+    pub strength: Option<f32>,
+    /// Width in reference pixels.
+    pub width: Option<f32>,
+    /// Whether it is drawn in dashes.
+    pub dashed: Option<bool>,
+    /// See [`Line::threshold`].
+    pub threshold: f32,
+}
+
+impl ClassStyle {
+    /// What a class has at first.
+    pub(super) fn new(class: EdgeClass) -> Self {
+        let threshold = match class {
+            EdgeClass::Silhouette | EdgeClass::Border | EdgeClass::Object | EdgeClass::Material => 0.0,
+            EdgeClass::Ridge | EdgeClass::Valley => 30.0,
+            EdgeClass::Intersection => 2.0,
+        };
+        // Materials are many in some files, and what they separate has colours of its own.
+        let show = (class == EdgeClass::Material).then_some(false);
+        Self { show, color: None, strength: None, width: None, dashed: None, threshold }
+    }
+
+    /// Fills in from the group what is not set.
+    pub(super) fn resolve(&self, group: &Line) -> Line {
+        Line {
+            show: self.show.unwrap_or(group.show),
+            color: self.color.unwrap_or(group.color),
+            strength: self.strength.unwrap_or(group.strength),
+            width: self.width.unwrap_or(group.width),
+            dashed: self.dashed.unwrap_or(group.dashed),
+            threshold: self.threshold,
+        }
+    }
+
+    /// Declares the parameters of `class`, whose group has the key `edges.GROUP` and the look `group`.
+    pub(super) fn params<'a>(
+        &'a mut self,
+        class: EdgeClass,
+        group_key: &str,
+        group: &Line,
+        list: &mut Params<'a>,
+    ) {
+        let from = |name: &str| format!("edges.{group_key}.{name}");
+        let (label, help) = words(class);
+        let places = Places {
+            show: Place::Inheriting { own: &mut self.show, inherited: group.show, from: from("show") },
+            color: Place::Inheriting { own: &mut self.color, inherited: group.color, from: from("color") },
+            strength: Place::Inheriting {
+                own: &mut self.strength,
+                inherited: group.strength,
+                from: from("strength"),
+            },
+            width: Place::Inheriting { own: &mut self.width, inherited: group.width, from: from("width") },
+            dashed: Place::Inheriting {
+                own: &mut self.dashed,
+                inherited: group.dashed,
+                from: from("dashed"),
+            },
+        };
+        list.when("edges.mode", EdgeMode::Exact, |list| {
+            list.detail(class.into(), |list| {
+                places.declare(label, help, list);
+                let threshold = &mut self.threshold;
+                match class {
+                    EdgeClass::Silhouette | EdgeClass::Border | EdgeClass::Object => list.number(
+                        "threshold",
+                        "Least step",
+                        "px",
+                        0.0..=100.0,
+                        0.0..=1000.0,
+                        "Drawn only where what lies behind is at least this much farther away.",
+                        threshold,
+                    ),
+                    EdgeClass::Ridge | EdgeClass::Valley => list.number(
+                        "threshold",
+                        "Least angle",
+                        "°",
+                        0.0..=90.0,
+                        0.0..=180.0,
+                        "Flatter folds draw nothing.",
+                        threshold,
+                    ),
+                    EdgeClass::Intersection => list.number(
+                        "threshold",
+                        "Least angle",
+                        "°",
+                        0.0..=90.0,
+                        0.0..=180.0,
+                        "Surfaces that meet at a smaller angle draw nothing.",
+                        threshold,
+                    ),
+                    EdgeClass::Material => {}
+                }
+            });
+        });
+    }
+}
+
+/// Name and help of a class in the panel.
+fn words(class: EdgeClass) -> (&'static str, &'static str) {
+    match class {
+        EdgeClass::Silhouette => ("Silhouettes", "Draw lines where a surface turns out of sight."),
+        EdgeClass::Border => ("Borders", "Draw lines where a surface ends."),
+        EdgeClass::Object => ("Object outlines", "Draw the outlines of objects against objects behind them."),
+        EdgeClass::Ridge => ("Ridges", "Draw convex creases."),
+        EdgeClass::Valley => ("Valleys", "Draw concave creases."),
+        EdgeClass::Material => ("Material borders", "Draw lines where two materials of one object meet."),
+        EdgeClass::Intersection => ("Intersections", "Draw lines where two surfaces run through each other."),
+    }
+}
+
+/// Where the look of a group or class is kept.
+pub(super) struct Places<'a> {
+    pub show: Place<'a, bool>,
+    pub color: Place<'a, Color>,
+    pub strength: Place<'a, f32>,
+    pub width: Place<'a, f32>,
+    pub dashed: Place<'a, bool>,
+}
+
+impl<'a> Places<'a> {
+    /// Declares the rows that groups and classes share.
+    pub(super) fn declare(self, label: &'static str, help: &'static str, list: &mut Params<'a>) {
+        list.head("show", label, help, self.show);
+        list.color("color", "Colour", "Colour of these lines.", self.color);
+        list.number(
+            "strength",
+            "Strength",
+            "",
+            0.0..=1.0,
+            0.0..=1.0,
+            "Opacity of these lines.",
+            self.strength,
+        );
+        list.when("edges.mode", EdgeMode::Exact, |list| {
+            list.number(
+                "width",
+                "Width",
+                "px",
+                0.5..=16.0,
+                0.25..=64.0,
+                "Width of these lines; a picture of any size has 1080 of these pixels in its height.",
+                self.width,
+            );
+            list.switch("dashed", "Dashed", "Draw these lines in dashes.", self.dashed);
+        });
+    }
+}

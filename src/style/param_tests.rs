@@ -1,0 +1,170 @@
+//! Of the declared list as a whole.
+
+use super::param::{self, Condition};
+use super::*;
+use crate::geometry::EdgeClass;
+
+/// For every parameter, in order, its key and a value that is not its default.
+fn other_values() -> Vec<(String, Value)> {
+    let mut style = Style::default();
+    let other = |p: &Param<'_>| match &p.slot {
+        Slot::Bool(b) => Value::Bool(!b.get()),
+        Slot::Number { value, hard, .. } if value.get() == *hard.start() => {
+            Value::Number((*hard.end()).into())
+        }
+        Slot::Number { hard, .. } => Value::Number((*hard.start()).into()),
+        Slot::Color(_) => Value::Text("#123456".to_owned()),
+        Slot::Choice(c) => Value::Text(c.names().iter().find(|n| **n != c.name()).unwrap().to_string()),
+    };
+    style.params().iter().map(|p| (p.key.clone(), other(p))).collect()
+}
+
+fn set(style: &mut Style, key: &str, value: &str) -> Result<(), String> {
+    param::set(&mut style.params(), key, &Value::parse(value)).map_err(|e| e.to_string())
+}
+
+fn own(style: &Style, key: &str) -> Value {
+    style.clone().params().iter().find(|p| p.key == key).unwrap().own()
+}
+
+fn to_toml(style: &Style) -> String {
+    diff_to_toml(&mut style.clone().params(), &mut Style::default().params()).to_string()
+}
+
+fn from_toml(text: &str) -> Style {
+    let mut style = Style::default();
+    set_from_toml(&mut style.params(), text, "test").unwrap();
+    style
+}
+
+#[test]
+fn keys_are_unique_and_defaults_lie_in_their_ranges() {
+    let mut style = Style::default();
+    let params = style.params();
+    for (i, param) in params.iter().enumerate() {
+        assert!(params.iter().skip(i + 1).all(|p| p.key != param.key), "{} twice", param.key);
+        assert!(!param.help.is_empty(), "{} has no help", param.key);
+        if let Slot::Number { value, soft, hard } = &param.slot {
+            assert!(soft.contains(&value.get()), "{}", param.key);
+            assert!(hard.contains(soft.start()) && hard.contains(soft.end()), "{}", param.key);
+        }
+    }
+}
+
+#[test]
+fn conditions_and_sources_are_parameters_of_the_list() {
+    let mut style = Style::default();
+    let params = style.params();
+    let find = |key: &str| params.iter().find(|p| p.key == key).unwrap();
+    for param in &params {
+        for Condition { key, value } in &param.conditions {
+            assert!(matches!(&find(key).slot, Slot::Choice(c) if c.names().contains(value)), "{key}={value}");
+        }
+        if let Some(other) = param.slot.inherits() {
+            assert_eq!(std::mem::discriminant(&param.slot), std::mem::discriminant(&find(other).slot));
+        }
+    }
+    assert_eq!(params.iter().filter(|p| p.slot.inherits().is_some()).count(), 5 * EdgeClass::ALL.len());
+}
+
+#[test]
+fn every_parameter_is_set_read_written_and_reset() {
+    for (key, value) in other_values() {
+        let mut style = Style::default();
+        let default = own(&style, &key);
+        param::set(&mut style.params(), &key, &value).unwrap();
+        assert_eq!(own(&style, &key), value, "{key}");
+        assert_eq!(Value::parse(&value.to_string()), value, "{key}: the command line reads what is printed");
+        assert_ne!(style, Style::default(), "{key}");
+        assert_eq!(from_toml(&to_toml(&style)), style, "{key}");
+        param::set(&mut style.params(), &key, &default).unwrap();
+        assert_eq!(style, Style::default(), "{key}");
+        assert_eq!(to_toml(&style), "", "{key}");
+    }
+}
+
+#[test]
+fn all_parameters_at_once_survive_a_round_trip_through_text() {
+    let mut style = Style::default();
+    for (key, value) in other_values() {
+        param::set(&mut style.params(), &key, &value).unwrap();
+    }
+    assert_eq!(from_toml(&to_toml(&style)), style);
+}
+
+#[test]
+fn what_is_inherited_follows_until_it_is_set() {
+    let mut style = Style::default();
+    set(&mut style, "edges.profile.width", "4").unwrap();
+    assert_eq!(own(&style, "edges.silhouette.width"), Value::Inherit);
+    assert_eq!(style.edges.line(EdgeClass::Silhouette).width, 4.0);
+    assert_eq!(to_toml(&style), "[edges.profile]\nwidth = 4.0\n", "what is inherited is not written");
+
+    set(&mut style, "edges.silhouette.width", "4").unwrap();
+    set(&mut style, "edges.profile.width", "5").unwrap();
+    assert_eq!(style.edges.line(EdgeClass::Silhouette).width, 4.0, "set to the same value it is its own");
+    assert_eq!(style.edges.line(EdgeClass::Border).width, 5.0);
+    assert_eq!(from_toml(&to_toml(&style)), style);
+
+    set(&mut style, "edges.silhouette.width", "inherit").unwrap();
+    assert_eq!(style.edges.line(EdgeClass::Silhouette).width, 5.0);
+}
+
+#[test]
+fn a_class_that_is_off_by_itself_can_inherit_too() {
+    let mut style = from_toml("[edges.material]\nshow = \"inherit\"\n");
+    assert!(style.edges.line(EdgeClass::Material).show);
+    assert_eq!(to_toml(&style), "[edges.material]\nshow = \"inherit\"\n");
+    set(&mut style, "edges.inner.show", "false").unwrap();
+    assert!(EdgeClass::ALL.iter().all(|class| style.edges.line(*class).show == class.is_profile()));
+}
+
+#[test]
+fn mistakes_say_what_would_be_right() {
+    let mut style = Style::default();
+    let mut message = |key: &str, value: &str| set(&mut style, key, value).unwrap_err();
+    assert_eq!(
+        message("edges.silhoutte.width", "2"),
+        "unknown parameter `edges.silhoutte.width`; did you mean `edges.silhouette.width`?"
+    );
+    assert_eq!(
+        message("edges.silhouette.width", "100"),
+        "`edges.silhouette.width` = 100 is out of range: 0.25 to 64"
+    );
+    assert_eq!(
+        message("edges.ridge.width", "thick"),
+        "`edges.ridge.width` takes a number from 0.25 to 64, or inherit, not the text `thick`"
+    );
+    assert_eq!(
+        message("edges.inner.width", "inherit"),
+        "`edges.inner.width` takes a number from 0.25 to 64, not `inherit`, for it inherits from nothing"
+    );
+    assert_eq!(
+        message("edges.mode", "exakt"),
+        "`edges.mode` takes one of exact, paper, not the text `exakt`"
+    );
+    assert_eq!(style, Style::default());
+}
+
+#[test]
+fn only_what_matters_is_retained() {
+    let keys = |style: &Style| -> Vec<String> {
+        let mut style = style.clone();
+        let mut params = style.params();
+        param::retain_relevant(&mut params);
+        params.iter().map(|p| p.key.clone()).collect()
+    };
+    let mut style = Style::default();
+    let exact = keys(&style);
+    set(&mut style, "edges.mode", "paper").unwrap();
+    let paper = keys(&style);
+    let has = |keys: &[String], key: &str| keys.iter().any(|k| k == key);
+    for key in ["edges.profile.width", "edges.ridge.threshold", "edges.dash.gap", "edges.alignment"] {
+        assert!(has(&exact, key) && !has(&paper, key), "{key}");
+    }
+    for key in ["edges.operator", "edges.profile.gain", "edges.inner.threshold"] {
+        assert!(!has(&exact, key) && has(&paper, key), "{key}");
+    }
+    assert!(!has(&paper, "edges.profile.gain_c1"), "of the other operator");
+    assert!(has(&paper, "edges.inner.color") && has(&exact, "gooch.cool") && !has(&exact, "plain.ambient"));
+}

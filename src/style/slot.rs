@@ -1,0 +1,143 @@
+//! Where the value of a parameter is kept: a field that is borrowed, with a value of its own or an inherited one.
+
+use std::ops::RangeInclusive;
+
+use super::Color;
+
+/// The borrowed value of a parameter.
+pub enum Slot<'a> {
+    /// A switch.
+    Bool(Place<'a, bool>),
+    /// A number.
+    Number {
+        /// The value.
+        value: Place<'a, f32>,
+        /// What a slider offers.
+        soft: RangeInclusive<f32>,
+        /// What is accepted at all.
+        hard: RangeInclusive<f32>,
+    },
+    /// A colour.
+    Color(Place<'a, Color>),
+    /// One of a few names.
+    Choice(&'a mut dyn Choice),
+}
+
+impl Slot<'_> {
+    /// The parameter whose value it takes while it has none of its own.
+    pub fn inherits(&self) -> Option<&str> {
+        match self {
+            Self::Bool(place) => place.source(),
+            Self::Number { value, .. } => value.source(),
+            Self::Color(place) => place.source(),
+            Self::Choice(_) => None,
+        }
+    }
+
+    /// Whether the value is not its own at present.
+    pub fn is_inherited(&self) -> bool {
+        match self {
+            Self::Bool(place) => place.is_inherited(),
+            Self::Number { value, .. } => value.is_inherited(),
+            Self::Color(place) => place.is_inherited(),
+            Self::Choice(_) => false,
+        }
+    }
+
+    /// Drops the value of its own; `false` if it inherits from nothing.
+    pub(super) fn inherit(&mut self) -> bool {
+        match self {
+            Self::Bool(place) => place.inherit(),
+            Self::Number { value, .. } => value.inherit(),
+            Self::Color(place) => place.inherit(),
+            Self::Choice(_) => false,
+        }
+    }
+}
+
+/// A field of a style.
+pub enum Place<'a, T> {
+    /// It always has a value.
+    Own(&'a mut T),
+    /// It takes the value of another parameter until it has one of its own.
+    Inheriting {
+        /// The field.
+        own: &'a mut Option<T>,
+        /// What the other parameter has now.
+        inherited: T,
+        /// Key of the other parameter.
+        from: String,
+    },
+}
+
+impl<'a, T> From<&'a mut T> for Place<'a, T> {
+    fn from(value: &'a mut T) -> Self {
+        Self::Own(value)
+    }
+}
+
+impl<T: Copy> Place<'_, T> {
+    /// The value that holds.
+    pub fn get(&self) -> T {
+        match self {
+            Self::Own(value) => **value,
+            Self::Inheriting { own, inherited, .. } => own.unwrap_or(*inherited),
+        }
+    }
+
+    /// Gives it a value of its own.
+    pub fn set(&mut self, new: T) {
+        match self {
+            Self::Own(value) => **value = new,
+            Self::Inheriting { own, .. } => **own = Some(new),
+        }
+    }
+
+    fn source(&self) -> Option<&str> {
+        match self {
+            Self::Own(_) => None,
+            Self::Inheriting { from, .. } => Some(from),
+        }
+    }
+
+    fn is_inherited(&self) -> bool {
+        matches!(self, Self::Inheriting { own: None, .. })
+    }
+
+    fn inherit(&mut self) -> bool {
+        match self {
+            Self::Own(_) => false,
+            Self::Inheriting { own, .. } => {
+                **own = None;
+                true
+            }
+        }
+    }
+}
+
+/// An enumeration whose variants have names.
+pub trait Choice {
+    /// All names.
+    fn names(&self) -> &'static [&'static str];
+    /// The name of the current variant.
+    fn name(&self) -> &'static str;
+    /// Takes the variant of that name; `false` if there is none.
+    fn choose(&mut self, name: &str) -> bool;
+}
+
+impl<T> Choice for T
+where
+    T: strum::VariantNames + std::str::FromStr + Into<&'static str> + Copy,
+{
+    fn names(&self) -> &'static [&'static str] {
+        T::VARIANTS
+    }
+
+    fn name(&self) -> &'static str {
+        (*self).into()
+    }
+
+    fn choose(&mut self, name: &str) -> bool {
+        name.parse().map(|value| *self = value).is_ok()
+    }
+}

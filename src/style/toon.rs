@@ -1,0 +1,203 @@
+//! Toon shading: a few flat shades from a ramp (Lake et al. 2000; edge-enhancement paper, section 5, "Edge-Enhanced
+//! Cartoon-Style Rendering").
+
+use super::Color;
+use super::param::Params;
+
+/// The ramp has at most so many bands.
+pub const MAX_BANDS: usize = 8;
+
+/// Parameters of the technique `toon`.
+///
+/// The cosine N·L of the angle between the surface's normal and the direction to the first light selects a shade from
+/// a ramp of flat bands. Over them lie a highlight and a rim, both with a hard border too.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Toon {
+    /// Number of bands, 2 to 8; the nearest whole number counts.
+    pub bands: f32,
+    /// How borders between bands are drawn.
+    pub border: Border,
+    /// Colour of the darkest band.
+    pub shadow: Color,
+    /// Colour halfway; with two bands it has no place.
+    pub mid: Color,
+    /// Colour of the lightest band.
+    pub light: Color,
+    /// Share of the object's own colour, 0 (the ramp's colours as they are) to 1 (they multiply the object's colour).
+    pub tint: f32,
+    /// N·L at which the ramp begins, −1 to 1; the paper's ramp begins at 0.
+    pub start: f32,
+    /// N·L at which the ramp ends, −1 to 1; the paper's ramp ends at 1.
+    pub end: f32,
+    /// Opacity of the white highlight, 0 (none) to 1.
+    pub highlight: f32,
+    /// Angle between the normal and the middle of light and eye up to which the highlight reaches, degrees, 1 to 60.
+    pub highlight_size: f32,
+    /// Opacity of the rim, 0 (none) to 1.
+    pub rim: f32,
+    /// Cosine of the angle between the normal and the direction to the eye below which a point is of the rim, 0 to 1.
+    pub rim_width: f32,
+    /// Colour of the rim.
+    pub rim_color: Color,
+}
+
+/// How borders between bands are drawn (paper, Fig. 9).
+#[derive(
+    Debug,
+    Clone,
+    Copy,
+    PartialEq,
+    Eq,
+    Hash,
+    Default,
+    strum::EnumString,
+    strum::IntoStaticStr,
+    strum::VariantNames,
+)]
+#[strum(serialize_all = "snake_case")]
+pub enum Border {
+    /// Each pixel has the shade of one band: edged, and jagged.
+    Nearest,
+    /// The bands are kept as a texture, the cartoon map, and a pixel's shade is a mean of its neighbours' there.
+    #[default]
+    CartoonMap,
+    /// The share of each band in a pixel, from the slope of N·L.
+    Analytic,
+}
+
+impl Default for Toon {
+    fn default() -> Self {
+        Self {
+            bands: 3.0,
+            border: Border::default(),
+            shadow: Color([110, 106, 140]),
+            mid: Color([196, 194, 208]),
+            light: Color::WHITE,
+            tint: 1.0,
+            start: 0.0,
+            end: 1.0,
+            highlight: 0.0,
+            highlight_size: 14.0,
+            rim: 0.0,
+            rim_width: 0.3,
+            rim_color: Color::WHITE,
+        }
+    }
+}
+
+impl Toon {
+    /// The colours of the bands, from shadow to light: even steps from `shadow` over `mid` to `light`, as displayed.
+    pub fn ramp(&self) -> Vec<Color> {
+        let count = self.bands.round().clamp(2.0, MAX_BANDS as f32) as usize;
+        let color = |band: usize| {
+            let place = 2.0 * band as f32 / (count - 1) as f32;
+            if place <= 1.0 {
+                self.shadow.mixed(self.mid, place)
+            } else {
+                self.mid.mixed(self.light, place - 1.0)
+            }
+        };
+        (0..count).map(color).collect()
+    }
+
+    pub(super) fn params<'a>(&'a mut self, list: &mut Params<'a>) {
+        list.number(
+            "bands",
+            "Bands",
+            "",
+            2.0..=MAX_BANDS as f32,
+            2.0..=MAX_BANDS as f32,
+            "Number of flat shades; rounded to a whole one.",
+            &mut self.bands,
+        );
+        list.choice("border", "Borders", "How borders between bands are smoothed.", &mut self.border);
+        list.color("shadow", "Shadow", "Colour of the darkest band.", &mut self.shadow);
+        list.color("mid", "Middle", "Colour halfway; two bands do without.", &mut self.mid);
+        list.color("light", "Light", "Colour of the lightest band.", &mut self.light);
+        list.number(
+            "tint",
+            "Own colour",
+            "",
+            0.0..=1.0,
+            0.0..=1.0,
+            "How far the bands are multiplied by the object's own colour; 0 leaves them as they are.",
+            &mut self.tint,
+        );
+        list.number(
+            "start",
+            "Ramp from",
+            "",
+            -1.0..=1.0,
+            -1.0..=1.0,
+            "Where the bands begin: -1 faces away from the light, 0 is lit from the side, 1 faces it.",
+            &mut self.start,
+        );
+        list.number(
+            "end",
+            "Ramp to",
+            "",
+            -1.0..=1.0,
+            -1.0..=1.0,
+            "Where the bands end: less makes the lightest one larger.",
+            &mut self.end,
+        );
+        list.number(
+            "highlight",
+            "Highlight",
+            "",
+            0.0..=1.0,
+            0.0..=1.0,
+            "Opacity of the white highlight; 0 switches it off.",
+            &mut self.highlight,
+        );
+        list.number(
+            "highlight_size",
+            "Highlight size",
+            "°",
+            2.0..=40.0,
+            1.0..=60.0,
+            "How far the highlight reaches around the point that mirrors the light.",
+            &mut self.highlight_size,
+        );
+        list.number(
+            "rim",
+            "Rim",
+            "",
+            0.0..=1.0,
+            0.0..=1.0,
+            "Opacity of a band where the surface turns away from the eye; 0 switches it off.",
+            &mut self.rim,
+        );
+        list.number(
+            "rim_width",
+            "Rim width",
+            "",
+            0.0..=0.8,
+            0.0..=1.0,
+            "How far the rim reaches inwards: 0 nowhere, 1 to where the surface faces the eye.",
+            &mut self.rim_width,
+        );
+        list.color("rim_color", "Rim colour", "Colour of the rim.", &mut self.rim_color);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_ramp_runs_from_shadow_over_middle_to_light() {
+        let toon = |bands| Toon {
+            bands,
+            shadow: Color([0, 0, 0]),
+            mid: Color([100, 40, 0]),
+            light: Color([200, 240, 100]),
+            ..Toon::default()
+        };
+        assert_eq!(toon(2.0).ramp(), [Color([0, 0, 0]), Color([200, 240, 100])]);
+        assert_eq!(toon(3.2).ramp(), [Color([0, 0, 0]), Color([100, 40, 0]), Color([200, 240, 100])]);
+        assert_eq!(toon(5.0).ramp()[1], Color([50, 20, 0]));
+        assert_eq!(toon(5.0).ramp()[3], Color([150, 140, 50]));
+        assert_eq!([toon(0.0).ramp().len(), toon(8.0).ramp().len(), toon(99.0).ramp().len()], [2, 8, 8]);
+    }
+}
