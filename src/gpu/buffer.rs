@@ -142,3 +142,44 @@ impl ArrayBuffer {
         &self.buffer
     }
 }
+
+/// A read-only storage buffer of plain records, which a vertex shader reads word by word; grows with their number.
+pub struct RecordBuffer {
+    buffer: wgpu::Buffer,
+    label: &'static str,
+}
+
+impl RecordBuffer {
+    /// An empty one.
+    pub fn new(gpu: &Gpu, label: &'static str) -> Self {
+        Self { buffer: Self::create(gpu, label, 256), label }
+    }
+
+    fn create(gpu: &Gpu, label: &str, size: u64) -> wgpu::Buffer {
+        gpu.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some(label),
+            size,
+            usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        })
+    }
+
+    /// Writes all records.
+    ///
+    /// # Errors
+    /// [`GpuError::TooLarge`].
+    pub fn write<T: bytemuck::NoUninit>(&mut self, gpu: &Gpu, records: &[T]) -> Result<(), GpuError> {
+        let bytes: &[u8] = bytemuck::cast_slice(records);
+        gpu.check_buffer_size(self.label, bytes.len() as u64)?;
+        if self.buffer.size() < bytes.len() as u64 {
+            self.buffer = Self::create(gpu, self.label, (bytes.len() as u64).next_power_of_two());
+        }
+        gpu.queue.write_buffer(&self.buffer, 0, bytes);
+        Ok(())
+    }
+
+    /// The buffer itself.
+    pub fn buffer(&self) -> &wgpu::Buffer {
+        &self.buffer
+    }
+}

@@ -1,5 +1,9 @@
 //! Finding an adapter and opening a device.
 
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
+
 /// Why there is no device to draw with, or why it could not do something.
 #[derive(Debug, thiserror::Error)]
 pub enum GpuError {
@@ -109,6 +113,32 @@ impl Gpu {
             .poll(wgpu::PollType::wait_indefinitely())
             .map(|_status| ())
             .map_err(|e| GpuError::Lost(e.to_string()))
+    }
+
+    /// All work submitted so far, to be waited for in another thread.
+    pub fn submitted(&self) -> Submitted {
+        let done = Arc::new(AtomicBool::new(false));
+        let signal = Arc::clone(&done);
+        self.queue.on_submitted_work_done(move || signal.store(true, Ordering::Release));
+        Submitted { done, device: self.device.clone() }
+    }
+}
+
+/// Work that was submitted to a device.
+pub struct Submitted {
+    done: Arc<AtomicBool>,
+    device: wgpu::Device,
+}
+
+impl Submitted {
+    /// Waits for it, or until nobody is interested any more. Unlike [`Gpu::wait`], that does not keep other threads
+    /// from submitting work.
+    pub fn wait(&self, is_cancelled: impl Fn() -> bool) {
+        while !self.done.load(Ordering::Acquire) && !is_cancelled() {
+            std::thread::sleep(Duration::from_millis(1));
+            // A lost device shows elsewhere.
+            let _ = self.device.poll(wgpu::PollType::Poll);
+        }
     }
 }
 

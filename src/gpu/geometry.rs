@@ -7,6 +7,7 @@ use super::{Gpu, GpuError};
 use crate::geometry::{Mesh, Provoking};
 
 /// All vertices and indices of a scene in one set of buffers.
+#[derive(Clone)]
 pub struct GeometryBuffers {
     /// `vec3<f32>` per vertex.
     pub positions: wgpu::Buffer,

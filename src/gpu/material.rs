@@ -37,6 +37,7 @@ impl From<&Material> for MaterialUniform {
 }
 
 /// All materials of a scene: their numbers, and their images in one bind group (group 1) each.
+#[derive(Clone)]
 pub struct MaterialBindings {
     uniforms: Vec<MaterialUniform>,
     groups: Vec<wgpu::BindGroup>,

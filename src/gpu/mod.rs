@@ -12,11 +12,11 @@ pub mod recorder;
 pub mod shader;
 pub mod timer;
 
-pub use buffer::{ArrayBuffer, DynamicBuffer, UniformBuffer};
+pub use buffer::{ArrayBuffer, DynamicBuffer, RecordBuffer, UniformBuffer};
 pub use device::{Gpu, GpuError};
 pub use geometry::GeometryBuffers;
 pub use material::MaterialBindings;
-pub use pipelines::{Pipelines, Program};
+pub use pipelines::{DepthRule, Pipelines, Program};
 pub use pool::{Target, TargetPool};
 pub use recorder::Recorder;
 pub use shader::{ShaderError, Shaders};

@@ -40,14 +40,17 @@ pub enum Binding {
     Storage,
 }
 
-/// How a pass uses its depth buffer (reversed, 0 where nothing is).
+/// How a pass uses its depth buffer (reversed, 0 where nothing is). What covers the picture lies at 1e-30: behind
+/// everything that is drawn, but before nothing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum DepthRule {
     /// Draws only where something has been drawn.
     Covered,
-    /// Notes where it draws: 0 there, 1 elsewhere.
+    /// Notes where it draws.
     Mark,
-    /// Draws only where [`Self::Mark`] did.
+    /// Notes where it draws, which is only where something has been drawn; forgets the depth there.
+    MarkCovered,
+    /// Draws only where [`Self::Mark`] or [`Self::MarkCovered`] did.
     Marked,
     /// The nearest wins.
     Nearest,
@@ -55,10 +58,10 @@ pub enum DepthRule {
 
 impl DepthRule {
     fn state(self, format: wgpu::TextureFormat) -> wgpu::DepthStencilState {
-        // Full-screen triangles lie at depth 0.
         let (compare, writes) = match self {
             Self::Covered => (wgpu::CompareFunction::Less, false),
             Self::Mark => (wgpu::CompareFunction::Always, true),
+            Self::MarkCovered => (wgpu::CompareFunction::Less, true),
             Self::Marked => (wgpu::CompareFunction::Equal, false),
             Self::Nearest => (wgpu::CompareFunction::Greater, true),
         };
@@ -71,13 +74,14 @@ impl DepthRule {
         }
     }
 
-    /// What the buffer holds before the pass; `None`: what is in it.
-    pub fn cleared_to(self) -> Option<f32> {
-        match self {
-            Self::Covered | Self::Marked => None,
-            Self::Mark => Some(1.0),
-            Self::Nearest => Some(0.0),
-        }
+    /// What the pass does with what the buffer holds; `None`: it only reads it.
+    pub fn operations(self) -> Option<wgpu::Operations<f32>> {
+        let load = match self {
+            Self::Covered | Self::Marked => return None,
+            Self::MarkCovered => wgpu::LoadOp::Load,
+            Self::Mark | Self::Nearest => wgpu::LoadOp::Clear(0.0),
+        };
+        Some(wgpu::Operations { load, store: wgpu::StoreOp::Store })
     }
 }
 
@@ -94,8 +98,8 @@ pub struct RasterKey {
     pub blend: bool,
     /// Its depth buffer.
     pub depth: Option<(wgpu::TextureFormat, DepthRule)>,
-    /// Drawn per instance by the vertex shader `vs_main`; `None`: once per pixel.
-    pub instances: Option<wgpu::VertexBufferLayout<'static>>,
+    /// Whether lines are drawn, whose ends the vertex shader `vs_main` makes; otherwise the whole picture.
+    pub lines: bool,
 }
 
 /// Everything that a compute pipeline depends on.
@@ -108,6 +112,7 @@ pub struct ComputeKey {
 }
 
 /// A pipeline and the layout of its group 1.
+#[derive(Clone)]
 pub struct Made<P> {
     /// The pipeline.
     pub pipeline: P,
@@ -116,6 +121,7 @@ pub struct Made<P> {
 }
 
 /// Shader modules and pipelines, made when first used and kept.
+#[derive(Clone)]
 pub struct Pipelines {
     shaders: Shaders,
     modules: HashMap<&'static str, wgpu::ShaderModule>,
@@ -298,7 +304,8 @@ fn build_raster(
     key: &RasterKey,
 ) -> Made<wgpu::RenderPipeline> {
     let label = key.program.file;
-    let inputs = layout_of(gpu, label, &key.inputs, wgpu::ShaderStages::FRAGMENT);
+    let stages = if key.lines { wgpu::ShaderStages::VERTEX_FRAGMENT } else { wgpu::ShaderStages::FRAGMENT };
+    let inputs = layout_of(gpu, label, &key.inputs, stages);
     let constants = key.program.constants();
     let blend = key.blend.then_some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING);
     let targets: Vec<_> = key
@@ -306,20 +313,18 @@ fn build_raster(
         .iter()
         .map(|&format| Some(wgpu::ColorTargetState { format, blend, write_mask: wgpu::ColorWrites::ALL }))
         .collect();
-    let buffers: Vec<_> = key.instances.iter().cloned().map(Some).collect();
-    let is_instanced = key.instances.is_some();
     let pipeline = gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some(label),
         layout: Some(&pipeline_layout(gpu, label, frame_layout, &inputs)),
         vertex: wgpu::VertexState {
             module,
-            entry_point: Some(if is_instanced { "vs_main" } else { "vs_fullscreen" }),
+            entry_point: Some(if key.lines { "vs_main" } else { "vs_fullscreen" }),
             compilation_options: wgpu::PipelineCompilationOptions::default(),
-            buffers: &buffers,
+            buffers: &[],
         },
         primitive: wgpu::PrimitiveState {
-            topology: if is_instanced {
-                wgpu::PrimitiveTopology::TriangleStrip
+            topology: if key.lines {
+                wgpu::PrimitiveTopology::LineList
             } else {
                 wgpu::PrimitiveTopology::TriangleList
             },

@@ -87,5 +87,9 @@ fn usage(format: wgpu::TextureFormat) -> wgpu::TextureUsages {
     let usage = wgpu::TextureUsages::RENDER_ATTACHMENT
         | wgpu::TextureUsages::TEXTURE_BINDING
         | wgpu::TextureUsages::COPY_SRC;
-    if format == wgpu::TextureFormat::R32Uint { usage | wgpu::TextureUsages::STORAGE_BINDING } else { usage }
+    match format {
+        wgpu::TextureFormat::R32Uint => usage | wgpu::TextureUsages::STORAGE_BINDING,
+        wgpu::TextureFormat::Depth32Float => usage | wgpu::TextureUsages::COPY_DST,
+        _ => usage,
+    }
 }

@@ -49,17 +49,6 @@ pub enum Onto {
     Blended,
 }
 
-/// What a pass draws per instance: a strip of four vertices made by its vertex shader `vs_main`.
-#[derive(Clone)]
-pub struct Instances<'a> {
-    /// One record per instance.
-    pub buffer: &'a wgpu::Buffer,
-    /// What a record holds.
-    pub layout: wgpu::VertexBufferLayout<'static>,
-    /// How many there are.
-    pub count: u32,
-}
-
 /// One render pass with one draw.
 pub struct Draw<'a> {
     /// Name, for timings.
@@ -74,8 +63,8 @@ pub struct Draw<'a> {
     pub onto: Onto,
     /// Its depth buffer.
     pub depth: Option<(&'a Target, DepthRule)>,
-    /// `None`: once per pixel.
-    pub instances: Option<Instances<'a>>,
+    /// `Some`: so many lines, whose ends the vertex shader `vs_main` makes from its index; `None`: once per pixel.
+    pub lines: Option<u32>,
 }
 
 /// One frame while it is being recorded.
@@ -159,7 +148,7 @@ impl<'a> Recorder<'a> {
         covered: Option<&Target>,
     ) -> Result<(), ShaderError> {
         let depth = covered.map(|target| (target, DepthRule::Covered));
-        self.draw(Draw { label, program, inputs, outputs, onto: Onto::Nothing, depth, instances: None })
+        self.draw(Draw { label, program, inputs, outputs, onto: Onto::Nothing, depth, lines: None })
     }
 
     /// Runs one render pass with one draw.
@@ -173,7 +162,7 @@ impl<'a> Recorder<'a> {
             outputs: draw.outputs.iter().map(|o| o.format()).collect(),
             blend: draw.onto == Onto::Blended,
             depth: draw.depth.map(|(target, rule)| (target.format(), rule)),
-            instances: draw.instances.as_ref().map(|i| i.layout.clone()),
+            lines: draw.lines.is_some(),
         };
         let made = self.pipelines.raster(self.gpu, &key)?;
         let pipeline = made.pipeline.clone();
@@ -185,23 +174,27 @@ impl<'a> Recorder<'a> {
         let color: Vec<_> = draw.outputs.iter().map(|o| Some(color_attachment(o, load))).collect();
         let depth = draw.depth.map(|(target, rule)| wgpu::RenderPassDepthStencilAttachment {
             view: target.view(),
-            depth_ops: rule.cleared_to().map(|clear| wgpu::Operations {
-                load: wgpu::LoadOp::Clear(clear),
-                store: wgpu::StoreOp::Store,
-            }),
+            depth_ops: rule.operations(),
             stencil_ops: None,
         });
         let mut pass = self.pass(draw.label, &color, depth);
         pass.set_pipeline(&pipeline);
         pass.set_bind_group(1, &group, &[]);
-        match draw.instances {
-            Some(instances) => {
-                pass.set_vertex_buffer(0, instances.buffer.slice(..));
-                pass.draw(0..4, 0..instances.count);
-            }
+        match draw.lines {
+            // Not one instance per line: software devices set up every instance anew.
+            Some(count) => pass.draw(0..2 * count, 0..1),
             None => pass.draw(0..3, 0..1),
         }
         Ok(())
+    }
+
+    /// Copies a target into another one of the same size and format.
+    pub fn copy(&mut self, from: &Target, to: &Target) {
+        self.encoder.copy_texture_to_texture(
+            from.texture().as_image_copy(),
+            to.texture().as_image_copy(),
+            to.texture().size(),
+        );
     }
 
     /// Runs a compute program with this many workgroups.

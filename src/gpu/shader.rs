@@ -132,7 +132,7 @@ impl Shaders {
         })?;
         wgpu::naga::valid::Validator::new(
             wgpu::naga::valid::ValidationFlags::all(),
-            wgpu::naga::valid::Capabilities::default(),
+            wgpu::naga::valid::Capabilities::SHADER_FLOAT16_IN_FLOAT32,
         )
         .validate(&module)
         .map_err(|e| {
