@@ -1,15 +1,52 @@
-// How the edges of an object are found and drawn. Twin: `EdgeUniform` in src/render/passes/edge_map.rs.
+// How the edges of an object are found and drawn. Twins in src/render/passes/edge_style.rs.
+
+struct LineStyle {
+    color: vec3<f32>,
+    // Opacity, 0 to 1; 0: not drawn.
+    strength: f32,
+    // px of this picture.
+    width: f32,
+    // Least step in depth (px) or angle (radians).
+    threshold: f32,
+    // 1: dashed.
+    dashed: u32,
+}
+
 struct EdgeStyle {
-    profile_color: vec3<f32>,
-    profile_strength: f32,
-    inner_color: vec3<f32>,
-    inner_strength: f32,
-    // Ink per unit of 1 − I_Z, of C1, of 1 − I_N.
+    // By class.
+    lines: array<LineStyle, 7>,
+    // 0: none, 1: exact, 2: the papers' operators.
+    mode: u32,
+    // Where the width goes: 0 both sides, 1 outwards, 2 inwards.
+    alignment: u32,
+    // px of this picture.
+    dash_period: f32,
+    // Share of the period that has ink.
+    dash_share: f32,
+    // Share of the surface's own colour in the lines, and how far it is darkened.
+    surface_color: f32,
+    darken: f32,
+    // How far the strength of creases is weighed by their angle.
+    by_angle: f32,
+    // Thinner far away, on the lit side, by hand pressure: 0 to 1 each.
+    by_distance: f32,
+    by_light: f32,
+    pressure: f32,
+    // Scale of the pressure's noise, px of this picture.
+    pressure_scale: f32,
+    // The papers' operators: ink per unit of 1 − I_Z, of C1, of 1 − I_N.
     gain_z: f32,
     gain_c1: f32,
     gain_n: f32,
     profile_threshold: f32,
     inner_threshold: f32,
+    profile_color: vec3<f32>,
+    profile_strength: f32,
+    inner_color: vec3<f32>,
+    inner_strength: f32,
     // 1: the C1 operator finds profile edges, otherwise the diagonal one.
     use_c1: u32,
 }
+
+const EXACT_MODE: u32 = 1u;
+const PAPER_MODE: u32 = 2u;

@@ -9,15 +9,28 @@ struct Light {
 
 struct Frame {
     clip_from_view: mat4x4<f32>,
+    // World axes about the middle of everything visible.
+    world_from_view: mat4x4<f32>,
     // Picture in pixels.
     size: vec2<f32>,
     // Half the picture at depth 1 (perspective) or at any depth (orthographic), in scene units.
     half_extent: vec2<f32>,
     // Linear depth of the nearest and farthest point of the enhanced objects.
     depth_range: vec2<f32>,
+    // How far this sample of the picture is moved, right and down, in pixels.
+    jitter: vec2<f32>,
+    // Width in pixels of the soft rim of what is covered by a computed share: 1 in a single picture, less the more
+    // samples are averaged.
+    coverage_ramp: f32,
+    // Weight of this sample beside the mean of those before it.
+    sample_weight: f32,
     // 1: orthographic.
     orthographic: u32,
     light_count: u32,
+    // Depth of that middle.
+    center_depth: f32,
+    // Depth at which the near plane cuts something; 0: it cuts nothing.
+    cut_depth: f32,
     // Paper: linear colour and opacity.
     background: vec4<f32>,
     lights: array<Light, 8>,
@@ -27,7 +40,7 @@ struct Frame {
 
 // The point that a pixel of this linear depth shows, in view space.
 fn pos_view_of(px: vec2<i32>, depth: f32) -> vec3<f32> {
-    let ndc = (vec2<f32>(px) + 0.5) / frame.size * vec2(2.0, -2.0) + vec2(-1.0, 1.0);
+    let ndc = (vec2<f32>(px) + 0.5 - frame.jitter) / frame.size * vec2(2.0, -2.0) + vec2(-1.0, 1.0);
     let scale = select(depth, 1.0, frame.orthographic == 1u);
     return vec3(ndc * frame.half_extent * scale, -depth);
 }

@@ -1,18 +1,18 @@
-// The surface techniques, shaded from the G-buffer, with the lines of the edge map over them.
+// The surface techniques, shaded from the G-buffer.
 #import common/frame.wgsl
 #import common/fullscreen.wgsl
 #import common/gbuffer.wgsl
-#import common/edge_style.wgsl
+#import effects/toon.wgsl
 
 const BLANK: u32 = 0u;
 const PLAIN: u32 = 1u;
 const UNLIT: u32 = 2u;
 const GOOCH: u32 = 3u;
+const TOON: u32 = 4u;
 
-// Which techniques any object uses, and whether any has lines.
+// Which techniques any object uses.
 override WITH_PLAIN: bool = true;
 override WITH_GOOCH: bool = true;
-override WITH_EDGES: bool = true;
 
 // Twin: `SurfaceUniform` in src/render/effects/surface.rs.
 struct SurfaceStyle {
@@ -26,10 +26,8 @@ struct SurfaceStyle {
     technique: u32,
 }
 
-@group(1) @binding(1) var base_color_tex: texture_2d<f32>;
-@group(1) @binding(2) var edge_map_tex: texture_2d<u32>;
-@group(1) @binding(3) var<storage, read> surface_styles: array<SurfaceStyle>;
-@group(1) @binding(4) var<storage, read> edge_styles: array<EdgeStyle>;
+@group(1) @binding(4) var base_color_tex: texture_2d<f32>;
+@group(1) @binding(5) var<storage, read> surface_styles: array<SurfaceStyle>;
 
 fn plain(style: SurfaceStyle, base: vec3<f32>, normal: vec3<f32>, pos_view: vec3<f32>) -> vec3<f32> {
     var light = vec3(style.ambient);
@@ -69,20 +67,11 @@ fn fs_main(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
                 shade = gooch(style, base, s.normal, pos_view);
             } else if WITH_PLAIN && style.technique == PLAIN {
                 shade = plain(style, base, s.normal, pos_view);
+            } else if WITH_TOON && style.technique == TOON {
+                shade = toon(px, s, base);
             }
             color = vec4(shade, 1.0);
         }
-    }
-    // Paper, section 5: inner edges first, then profile edges over them.
-    if !WITH_EDGES {
-        return color;
-    }
-    let edge = textureLoad(edge_map_tex, px, 0).xy;
-    if edge.x != 0u {
-        let lines = edge_styles[edge.y];
-        let ink = unpack2x16unorm(edge.x) * vec2(lines.inner_strength, lines.profile_strength);
-        color = mix(color, vec4(lines.inner_color, 1.0), ink.x);
-        color = mix(color, vec4(lines.profile_color, 1.0), ink.y);
     }
     return color;
 }

@@ -54,7 +54,7 @@ struct Full {
 struct GBuffer {
     @location(0) geometry: vec4<u32>,
     @location(1) base_color: vec4<f32>,
-    @location(2) surface: u32,
+    @location(2) region: u32,
 }
 
 fn pos_view_of_vertex(position: vec3<f32>) -> vec4<f32> {
@@ -133,11 +133,16 @@ fn pack(normal: vec3<f32>, face: vec3<f32>, depth: f32, object: u32) -> vec4<u32
     );
 }
 
+// Tells the surfaces of all objects apart; 0 is the background. Twin: `region` in src/render/groups.rs.
+fn region(surface: u32) -> u32 {
+    return max((draw.object & 0x7fffffffu) * 2654435769u + surface, 1u);
+}
+
 @fragment
 fn fs_lean(v: Lean) -> GBuffer {
     let face = face_normal(v.pos_oriented);
     let color = draw.material.base_color.rgb;
-    return GBuffer(pack(face, face, v.depth, draw.object), vec4(color, 1.0), v.surface);
+    return GBuffer(pack(face, face, v.depth, draw.object), vec4(color, 1.0), region(v.surface));
 }
 
 // Seen from behind, a surface is shaded as if it were two-sided.
@@ -150,7 +155,7 @@ fn fs_smooth(v: Smooth) -> GBuffer {
     let face = face_normal(v.pos_oriented);
     let color = draw.material.base_color.rgb * v.color;
     let normal = select(turned_to(face, normalize(v.normal)), face, draw.is_flat == 1u);
-    return GBuffer(pack(normal, face, v.depth, draw.object), vec4(color, 1.0), v.surface);
+    return GBuffer(pack(normal, face, v.depth, draw.object), vec4(color, 1.0), region(v.surface));
 }
 
 @fragment
@@ -176,5 +181,5 @@ fn fs_full(v: Full) -> GBuffer {
         }
         normal = turned_to(face, normal);
     }
-    return GBuffer(pack(normal, face, v.depth, draw.object), vec4(color.rgb, 1.0), v.surface);
+    return GBuffer(pack(normal, face, v.depth, draw.object), vec4(color.rgb, 1.0), region(v.surface));
 }

@@ -3,8 +3,15 @@
 #import common/fullscreen.wgsl
 #import common/gbuffer.wgsl
 #import common/color.wgsl
+#import common/edge_map.wgsl
 
-@group(1) @binding(1) var surface_tex: texture_2d<u32>;
+// Silhouette, border, object boundary, ridge, valley, material boundary, intersection.
+const CLASS_COLORS = array<vec3<f32>, 7>(
+    vec3(0.0), vec3(0.0, 0.35, 0.8), vec3(0.45, 0.0, 0.6), vec3(0.85, 0.25, 0.0), vec3(0.0, 0.5, 0.15),
+    vec3(0.5, 0.4, 0.0), vec3(0.9, 0.0, 0.35),
+);
+
+@group(1) @binding(1) var region_tex: texture_2d<u32>;
 @group(1) @binding(2) var base_color_tex: texture_2d<f32>;
 @group(1) @binding(3) var edge_map_tex: texture_2d<u32>;
 @group(1) @binding(4) var operators_tex: texture_2d<f32>;
@@ -54,8 +61,8 @@ fn fs_objects(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> 
 fn fs_surfaces(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     let px = vec2<i32>(position.xy);
     let s = surfel(px);
-    let id = textureLoad(surface_tex, px, 0).x;
-    return vec4(select(vec3(1.0), color_of(id * 31u + s.object), s.object != 0u), 1.0);
+    let region = textureLoad(region_tex, px, 0).x;
+    return vec4(select(vec3(1.0), color_of(region), s.object != 0u), 1.0);
 }
 
 @fragment
@@ -82,6 +89,12 @@ fn fs_c1_operator(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f
 
 @fragment
 fn fs_edge_map(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
-    let ink = unpack2x16unorm(textureLoad(edge_map_tex, vec2<i32>(position.xy), 0).x);
-    return vec4(vec3(1.0 - max(ink.x, ink.y)), 1.0);
+    let texel = textureLoad(edge_map_tex, vec2<i32>(position.xy), 0);
+    if class_of(texel) == PAPER {
+        let ink = paper_ink(texel);
+        return vec4(vec3(1.0 - max(ink.x, ink.y)), 1.0);
+    }
+    // A colour for each class.
+    let weight = unpack_edge(texel).weight * select(0.0, 1.0, texel.x != 0u);
+    return vec4(mix(vec3(1.0), CLASS_COLORS[max(class_of(texel), 1u) - 1u], weight), 1.0);
 }

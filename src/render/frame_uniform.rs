@@ -3,7 +3,8 @@
 use encase::ShaderType;
 use glam::{DMat4, DVec3, Mat4, UVec2, Vec2, Vec3, Vec4};
 
-use crate::geometry::Bounds;
+use super::sample::Sample;
+use crate::geometry::{Bounds, Lens, Projector};
 use crate::scene::{Camera, Light, LightKind, Projection};
 
 /// More lights are left out.
@@ -20,11 +21,17 @@ pub struct LightUniform {
 #[derive(Debug, Clone, Copy, PartialEq, ShaderType)]
 pub struct FrameUniform {
     clip_from_view: Mat4,
+    world_from_view: Mat4,
     size: Vec2,
     half_extent: Vec2,
     depth_range: Vec2,
+    jitter: Vec2,
+    coverage_ramp: f32,
+    sample_weight: f32,
     orthographic: u32,
     light_count: u32,
+    center_depth: f32,
+    cut_depth: f32,
     background: Vec4,
     lights: [LightUniform; MAX_LIGHTS],
 }
@@ -42,6 +49,14 @@ pub struct View {
     pub half_extent: Vec2,
     /// Whether the projection is parallel.
     pub orthographic: bool,
+    /// Depths of the nearest and farthest plane, scene units.
+    pub clip_range: [f64; 2],
+    /// Whether the nearest plane cuts something.
+    pub is_cut: bool,
+    /// The middle of everything visible, world space.
+    pub center: DVec3,
+    /// How far the picture is moved, right and down; pixels, −0.5 to 0.5.
+    pub jitter: Vec2,
 }
 
 /// Nearest and farthest depth of a box in view space; `None` when it is empty or wholly behind the eye.
@@ -57,7 +72,7 @@ impl View {
         let view_from_world = camera.view_from_world();
         let aspect = f64::from(size.x.max(1)) / f64::from(size.y.max(1));
         let (near, far) = depth_range(visible, &view_from_world).unwrap_or((0.1, 1.0));
-        let (half_height, clip_from_view, orthographic) = match camera.projection {
+        let (half_height, clip_from_view, orthographic, clip_range) = match camera.projection {
             Projection::Perspective { view_angle } => {
                 let half = (view_angle.clamp(1.0, 170.0).to_radians() * 0.5).tan();
                 // Slightly before the nearest point, but never so close that depth loses its digits.
@@ -69,7 +84,7 @@ impl View {
                     0.0, 0.0, 0.0, -1.0, //
                     0.0, 0.0, near, 0.0,
                 ]);
-                (half, matrix, false)
+                (half, matrix, false, [near, f64::INFINITY])
             }
             Projection::Orthographic { view_height } => {
                 let half = (view_height * 0.5).max(f64::MIN_POSITIVE);
@@ -94,7 +109,7 @@ impl View {
                     far * z,
                     1.0,
                 ]);
-                (half, matrix, true)
+                (half, matrix, true, [near, far])
             }
         };
         Self {
@@ -103,7 +118,19 @@ impl View {
             size,
             half_extent: Vec2::new((half_height * aspect) as f32, half_height as f32),
             orthographic,
+            clip_range,
+            is_cut: !orthographic && near < clip_range[0],
+            center: if visible.is_empty() { DVec3::ZERO } else { visible.center() },
+            jitter: Vec2::ZERO,
         }
+    }
+
+    /// The same with the picture moved by so many pixels, right and down; less than one in each direction.
+    #[must_use]
+    pub fn moved(self, jitter: Vec2) -> Self {
+        let ndc = (jitter - self.jitter) / self.size.as_vec2() * Vec2::new(2.0, -2.0);
+        let clip_from_view = Mat4::from_translation(ndc.extend(0.0)) * self.clip_from_view;
+        Self { clip_from_view, jitter, ..self }
     }
 
     /// Linear depth of the nearest and farthest corner of the given boxes (local space, and local to world), in front
@@ -123,9 +150,26 @@ impl View {
         Vec2::new(near as f32, far as f32)
     }
 
+    /// The same in plain numbers, for what is projected without the device.
+    pub fn projector(&self) -> Projector {
+        let half = f64::from(self.half_extent.y);
+        let [near, far] = self.clip_range;
+        Projector {
+            view_from_world: self.view_from_world,
+            lens: if self.orthographic {
+                Lens::Orthographic { half_height: half }
+            } else {
+                Lens::Perspective { tan_half_angle: half }
+            },
+            size: self.size.to_array(),
+            near,
+            far,
+        }
+    }
+
     /// The point in world space that a pixel of this linear depth shows.
     pub fn unproject(&self, px: Vec2, depth: f32) -> DVec3 {
-        let ndc = (px / self.size.as_vec2() * 2.0 - 1.0) * Vec2::new(1.0, -1.0);
+        let ndc = ((px - self.jitter) / self.size.as_vec2() * 2.0 - 1.0) * Vec2::new(1.0, -1.0);
         let xy = ndc * self.half_extent * if self.orthographic { 1.0 } else { depth };
         let pos_view = DVec3::new(f64::from(xy.x), f64::from(xy.y), -f64::from(depth));
         self.view_from_world.inverse().transform_point3(pos_view)
@@ -134,7 +178,7 @@ impl View {
 
 impl FrameUniform {
     /// All that the shaders know of camera, lights and paper. `background`: linear colour and opacity.
-    pub fn new(view: &View, depth_range: Vec2, lights: &[Light], background: Vec4) -> Self {
+    pub fn new(view: &View, sample: Sample, depth_range: Vec2, lights: &[Light], background: Vec4) -> Self {
         let mut uniforms = [LightUniform::default(); MAX_LIGHTS];
         for (uniform, light) in uniforms.iter_mut().zip(lights) {
             *uniform = light_uniform(light, &view.view_from_world);
@@ -145,11 +189,19 @@ impl FrameUniform {
         }
         Self {
             clip_from_view: view.clip_from_view,
+            // About the middle, so that digits are not lost far from the origin.
+            world_from_view: (DMat4::from_translation(-view.center) * view.view_from_world.inverse())
+                .as_mat4(),
             size: view.size.as_vec2(),
             half_extent: view.half_extent,
             depth_range,
+            jitter: view.jitter,
+            coverage_ramp: sample.coverage_ramp(),
+            sample_weight: sample.weight(),
             orthographic: u32::from(view.orthographic),
             light_count: lights.len().min(MAX_LIGHTS) as u32,
+            center_depth: -view.view_from_world.transform_point3(view.center).z as f32,
+            cut_depth: if view.is_cut { view.clip_range[0] as f32 } else { 0.0 },
             background,
             lights: uniforms,
         }
@@ -194,8 +246,9 @@ mod tests {
     fn a_pixel_unprojects_to_the_point_that_projects_there() {
         let bounds = Bounds { min: DVec3::splat(-1.0), max: DVec3::ONE };
         let camera = Camera::looking_from(DVec3::new(1.0, 2.0, 3.0), DVec3::Y, &bounds.corners(), 1.5);
-        for camera in [camera, camera.with_orthographic(true)] {
-            let view = View::new(&camera, &bounds, UVec2::new(600, 400));
+        let cameras = [camera, camera.with_orthographic(true)];
+        for (camera, jitter) in cameras.into_iter().zip([Vec2::ZERO, Vec2::new(0.5, -0.25)]) {
+            let view = View::new(&camera, &bounds, UVec2::new(600, 400)).moved(jitter);
             let world = DVec3::new(0.3, -0.2, 0.5);
             let pos_view = view.view_from_world.transform_point3(world);
             let clip = view.clip_from_view.as_dmat4() * pos_view.extend(1.0);

@@ -4,12 +4,13 @@ use std::sync::Arc;
 
 use glam::DMat4;
 
-use crate::geometry::{Bounds, Topology};
+use crate::geometry::{Bounds, FeatureEdges, Topology};
 use crate::gpu::geometry::MeshSource;
 use crate::gpu::{GeometryBuffers, Gpu, GpuError, MaterialBindings};
-use crate::scene::{NodeId, Scene};
+use crate::scene::{AlphaMode, NodeId, Scene};
 
-/// A scene on the device.
+/// A scene on the device. Clones share it.
+#[derive(Clone)]
 pub struct GpuScene {
     /// The scene itself.
     pub scene: Arc<Scene>,
@@ -19,6 +20,8 @@ pub struct GpuScene {
     pub materials: MaterialBindings,
     /// The box of each mesh, local space.
     pub mesh_bounds: Vec<Bounds>,
+    /// The edges of each mesh that may become lines; empty until topology is known.
+    pub edges: Vec<Arc<FeatureEdges>>,
     /// Per mesh, whether it is solid; empty until topology is known.
     is_solid: Vec<bool>,
 }
@@ -38,6 +41,7 @@ impl GpuScene {
             geometry: upload(gpu, scene, topology)?,
             materials: MaterialBindings::new(gpu, material_layout, scene)?,
             mesh_bounds: scene.meshes.iter().map(|m| m.bounds()).collect(),
+            edges: edges(topology),
             is_solid: topology.iter().map(|t| t.is_solid).collect(),
             scene: Arc::clone(scene),
         })
@@ -46,7 +50,13 @@ impl GpuScene {
     /// Takes over what topology found out meanwhile.
     pub fn set_topology(&mut self, uploaded: UploadedTopology) {
         self.geometry = uploaded.geometry;
+        self.edges = uploaded.edges;
         self.is_solid = uploaded.is_solid;
+    }
+
+    /// Whether a mesh is known to enclose a volume.
+    pub fn is_solid(&self, mesh: usize) -> bool {
+        self.is_solid.get(mesh).copied().unwrap_or(false)
     }
 
     /// Which side of a node's triangles nobody can see: solid meshes wholly before the eye show no back face.
@@ -56,11 +66,21 @@ impl GpuScene {
         view_from_local: &DMat4,
         orthographic: bool,
     ) -> Option<wgpu::Face> {
-        let is_solid = self.is_solid.get(mesh).copied().unwrap_or(false);
+        let is_solid = self.is_solid(mesh);
         let is_before_the_eye = orthographic
             || self.mesh_bounds.get(mesh).is_some_and(|b| b.transformed(view_from_local).max.z < 0.0);
         let mirrored = view_from_local.determinant() < 0.0;
         (is_solid && is_before_the_eye).then_some(if mirrored { wgpu::Face::Front } else { wgpu::Face::Back })
+    }
+
+    /// Whether any material of a node has holes by alpha.
+    pub fn has_holes(&self, node: NodeId) -> bool {
+        let mesh = self.scene.nodes[node].mesh.and_then(|m| self.scene.meshes.get(m));
+        mesh.is_some_and(|mesh| {
+            mesh.parts.iter().any(|part| {
+                self.scene.materials.get(part.material).is_some_and(|m| m.alpha != AlphaMode::Opaque)
+            })
+        })
     }
 
     /// The box of a node's own mesh, world space.
@@ -75,7 +95,12 @@ impl GpuScene {
 /// The findings of topology on the device, for the scene from which they were made.
 pub struct UploadedTopology {
     geometry: GeometryBuffers,
+    edges: Vec<Arc<FeatureEdges>>,
     is_solid: Vec<bool>,
+}
+
+fn edges(topology: &[Topology]) -> Vec<Arc<FeatureEdges>> {
+    topology.iter().map(|t| Arc::clone(&t.edges)).collect()
 }
 
 /// Uploads scenes, from any thread: large ones take longer than a window may wait. Clones share the device.
@@ -106,6 +131,7 @@ impl Uploader {
     pub fn topology(&self, scene: &Scene, topology: &[Topology]) -> Result<UploadedTopology, GpuError> {
         Ok(UploadedTopology {
             geometry: upload(&self.gpu, scene, topology)?,
+            edges: edges(topology),
             is_solid: topology.iter().map(|t| t.is_solid).collect(),
         })
     }

@@ -3,13 +3,15 @@
 use glam::{DMat4, Mat3, Mat4};
 
 use super::effects::surface::SurfaceUniform;
+use super::effects::toon::ToonUniform;
 use super::frame_uniform::View;
 use super::gpu_scene::GpuScene;
-use super::passes::edge_map::EdgeUniform;
+use super::passes::edge_style::EdgeUniform;
 use super::passes::gbuffer::{Detail, DrawCall, DrawUniform};
 use crate::document::Document;
 use crate::geometry::Bounds;
 use crate::scene::{AlphaMode, NodeId};
+use crate::style::Technique;
 
 /// Object ids are kept in 31 bits; the highest one is the enhanced flag.
 pub const ENHANCED: u32 = 0x8000_0000;
@@ -24,6 +26,11 @@ pub fn node_of(object: u32) -> Option<NodeId> {
     (object & !ENHANCED).checked_sub(1).map(|n| n as usize)
 }
 
+/// The number in the G-buffer for a surface of an object; twin of `region` in `shaders/passes/gbuffer.wgsl`.
+pub fn region(object: u32, surface: u32) -> u32 {
+    object.wrapping_mul(2_654_435_761).wrapping_add(surface).max(1)
+}
+
 /// Everything that is visible, resolved for one frame.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Objects {
@@ -34,16 +41,20 @@ pub struct Objects {
     pub edge_styles: Vec<EdgeUniform>,
     /// Shading parameters by object id.
     pub surface_styles: Vec<SurfaceUniform>,
+    /// Parameters of toon shading by object id; empty when no object is a toon.
+    pub toon_styles: Vec<ToonUniform>,
+    /// Whether any object with lines has holes by alpha.
+    pub has_holes: bool,
 }
 
 impl Objects {
-    /// Resolves styles and roles of a document for the nodes of a scene.
-    pub fn new(document: &Document, scene: &GpuScene) -> Self {
+    /// Resolves styles and roles of a document for the nodes of a scene; `scale`: pixels per reference pixel.
+    pub fn new(document: &Document, scene: &GpuScene, scale: f32) -> Self {
         let resolved = document.resolve(&scene.scene);
         let mut objects = Self::default();
         // What is not drawn, entry 0 (the background) included, has neither shading nor lines.
         let count = resolved.len() + 1;
-        objects.edge_styles = vec![EdgeUniform::NONE; count];
+        objects.edge_styles = vec![EdgeUniform::default(); count];
         objects.surface_styles = vec![SurfaceUniform::BLANK; count];
         for (node, r) in resolved.iter().enumerate() {
             if !r.visible || scene.scene.nodes[node].mesh.is_none() {
@@ -51,8 +62,13 @@ impl Objects {
             }
             let id = object_id(node) as usize;
             objects.surface_styles[id] = SurfaceUniform::from(r.style);
+            if r.style.technique == Technique::Toon {
+                objects.toon_styles.resize(count, ToonUniform::default());
+                objects.toon_styles[id] = ToonUniform::from(&r.style.toon);
+            }
             if r.enhanced {
-                objects.edge_styles[id] = EdgeUniform::from(&r.style.edges);
+                objects.edge_styles[id] = EdgeUniform::new(&r.style.edges, scale);
+                objects.has_holes |= scene.has_holes(node);
             }
             objects.visible.push((node, r.enhanced));
             objects.visible_bounds = objects.visible_bounds.union(&scene.bounds_of(node));
@@ -62,7 +78,17 @@ impl Objects {
 
     /// Whether any visible object has lines.
     pub fn have_lines(&self) -> bool {
-        self.edge_styles.iter().any(EdgeUniform::draws_anything)
+        self.edge_styles.iter().any(|s| s.is_exact() || s.is_paper())
+    }
+
+    /// Whether any visible object needs the cartoon map.
+    pub fn have_cartoon_map(&self) -> bool {
+        self.toon_styles.iter().any(ToonUniform::has_cartoon_map)
+    }
+
+    /// The visible objects, and whether each is enhanced.
+    pub fn visible(&self) -> &[(NodeId, bool)] {
+        &self.visible
     }
 
     /// The boxes of the enhanced objects, each in its own space, and where that lies.

@@ -7,8 +7,11 @@ pub mod gpu_scene;
 pub mod groups;
 pub mod passes;
 mod renderer;
+pub mod sample;
+mod segments;
 pub mod stage;
 
 pub use frame::Picture;
 pub use gpu_scene::{GpuScene, UploadedTopology, Uploader};
 pub use renderer::{Pick, RenderError, Renderer, Request};
+pub use sample::Sample;

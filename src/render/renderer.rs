@@ -8,6 +8,7 @@ use super::frame::{FrameInputs, FrameState, Picture};
 use super::frame_uniform::{FrameUniform, View};
 use super::gpu_scene::{GpuScene, UploadedTopology, Uploader};
 use super::groups::{Objects, node_of};
+use super::passes::accumulate::Subject;
 use crate::document::Document;
 use crate::geometry::Topology;
 use crate::gpu::readback::Readback;
@@ -15,6 +16,9 @@ use crate::gpu::{
     Gpu, GpuError, Pipelines, Recorder, ShaderError, Shaders, TargetPool, Timers, UniformBuffer,
 };
 use crate::scene::{Camera, NodeId, Scene};
+
+/// Height of the picture in reference pixels, in which widths and scales are given.
+const REFERENCE_HEIGHT: f32 = 1080.0;
 
 /// Why there is no picture.
 #[derive(Debug, thiserror::Error)]
@@ -40,6 +44,8 @@ pub struct Request<'a> {
     pub transparent: bool,
     /// Nodes to outline.
     pub selected: &'a [NodeId],
+    /// How many samples per pixel the picture is to have in the end; see [`Renderer::render`].
+    pub samples: u32,
 }
 
 /// What lies under a pixel.
@@ -99,6 +105,18 @@ impl Renderer {
         }
     }
 
+    /// Another renderer of the same scene: it draws in another thread, and neither disturbs the other's pictures. Asked
+    /// for the present picture, it goes on with the samples that there are.
+    #[must_use]
+    pub fn twin(&self) -> Self {
+        let mut twin = Self::new(self.gpu.clone());
+        twin.pipelines = self.pipelines.clone();
+        twin.scene = self.scene.clone();
+        twin.scene_revision = self.scene_revision;
+        twin.state.go_on_from(&self.state);
+        twin
+    }
+
     /// The device it draws with.
     pub fn gpu(&self) -> &Gpu {
         &self.gpu
@@ -150,7 +168,9 @@ impl Renderer {
         })
     }
 
-    /// Draws. Without a scene, or with nothing visible, that is empty paper.
+    /// Draws one sample of a picture. Whoever wants a smooth one asks again with the same request until
+    /// [`Picture::sample`] is the last one; each answer shows the mean of all samples so far. After any change the next
+    /// request begins anew, so no picture holds anything of another one. Without a scene, or with nothing visible, that is empty paper.
     ///
     /// # Errors
     /// [`RenderError`].
@@ -162,12 +182,22 @@ impl Renderer {
             return Err(GpuError::Lost("no scene".to_owned()).into());
         };
         let size = request.size.map(|s| s.max(1));
-        let objects = Objects::new(request.document, scene);
+        let scale = size[1] as f32 / REFERENCE_HEIGHT;
+        let objects = Objects::new(request.document, scene, scale);
+        let subject = Subject {
+            shaders: self.pipelines.generation(),
+            scene_revision: self.scene_revision,
+            document: request.document.clone(),
+            camera: *request.camera,
+            size,
+        };
+        let sample = self.state.next_sample(subject, request.samples);
         let view = View::new(request.camera, &objects.visible_bounds, UVec2::from_array(size));
+        let view = view.moved(sample.jitter());
         let depth_range = view.fitted_depth_range(objects.enhanced_boxes(scene));
         let paper = request.document.view.background.to_linear();
         let background = paper.extend(if request.transparent { 0.0 } else { 1.0 });
-        let uniform = FrameUniform::new(&view, depth_range, &request.document.lights, background);
+        let uniform = FrameUniform::new(&view, sample, depth_range, &request.document.lights, background);
         self.uniform.write(&self.gpu, &uniform);
 
         let timers = self.timers.as_mut();
@@ -178,6 +208,7 @@ impl Renderer {
             scene_revision: self.scene_revision,
             document: request.document,
             objects: &objects,
+            sample,
             view: &view,
             depth_range,
             uniform: &uniform,
@@ -194,7 +225,7 @@ impl Renderer {
     }
 
     /// How often each stage has run so far.
-    pub fn runs(&self) -> [(&'static str, u64); 4] {
+    pub fn runs(&self) -> [(&'static str, u64); 6] {
         self.state.runs()
     }
 

@@ -1,3 +1,4 @@
 //! What an object looks like: one file per effect, named as its style and its shader.
 
 pub mod surface;
+pub mod toon;

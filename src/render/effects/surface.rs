@@ -1,9 +1,10 @@
-//! The surface techniques (blank, plain, unlit, Gooch), shaded from the G-buffer in one full-screen pass: the scene is
+//! The surface techniques (blank, plain, unlit, Gooch, toon), shaded from the G-buffer in one full-screen pass: the scene is
 //! traversed once, where the edge-enhancement paper's pipeline traverses it twice.
 
 use encase::ShaderType;
 use glam::Vec3;
 
+use super::toon::{self, ToonUniform};
 use crate::gpu::recorder::Input;
 use crate::gpu::{Program, Recorder, Target};
 use crate::render::RenderError;
@@ -42,6 +43,7 @@ const BLANK: u32 = 0;
 const PLAIN: u32 = 1;
 const UNLIT: u32 = 2;
 const GOOCH: u32 = 3;
+const TOON: u32 = 4;
 
 impl From<&Style> for SurfaceUniform {
     fn from(style: &Style) -> Self {
@@ -59,42 +61,51 @@ impl From<&Style> for SurfaceUniform {
                 Technique::Plain => PLAIN,
                 Technique::Unlit => UNLIT,
                 Technique::Gooch => GOOCH,
+                Technique::Toon => TOON,
             },
         }
     }
 }
 
-/// Linear colour times opacity, and opacity; `styles` are those of all visible objects. Shaded surfaces with their lines, nothing where there is no object.
+/// How all visible objects are shaded, and where the device has it.
+#[derive(Clone, Copy)]
+pub struct Shading<'a> {
+    /// By object id.
+    pub surfaces: &'a [SurfaceUniform],
+    /// `surfaces` on the device.
+    pub surface_styles: &'a wgpu::Buffer,
+    /// By object id; empty when no object is a toon.
+    pub toons: &'a [ToonUniform],
+    /// `toons` on the device.
+    pub toon_styles: &'a wgpu::Buffer,
+    /// See [`toon::cartoon_map`]; `None` when no object asks for it.
+    pub cartoon_map: Option<&'a Target>,
+}
+
+/// Linear colour times opacity, and opacity. Nothing where there is no object.
 ///
 /// # Errors
 /// [`RenderError`].
 pub fn surface(
     rec: &mut Recorder<'_>,
     gbuffer: &GBuffer,
-    edge_map: Option<&Target>,
-    styles: &[SurfaceUniform],
-    surface_styles: &wgpu::Buffer,
-    edge_styles: &wgpu::Buffer,
+    shading: &Shading<'_>,
 ) -> Result<Target, RenderError> {
     let color = rec.target("color", wgpu::TextureFormat::Rgba16Float)?;
+    let uses = |technique| shading.surfaces.iter().any(|s| s.technique == technique);
+    let mut switches = vec![("WITH_PLAIN", uses(PLAIN)), ("WITH_GOOCH", uses(GOOCH))];
+    switches.extend(toon::switches(shading.toons));
     rec.fullscreen(
         "surface",
-        Program {
-            file: "effects/surface.wgsl",
-            entry_point: "fs_main",
-            switches: vec![
-                ("WITH_PLAIN", styles.iter().any(|s| s.technique == PLAIN)),
-                ("WITH_GOOCH", styles.iter().any(|s| s.technique == GOOCH)),
-                ("WITH_EDGES", edge_map.is_some()),
-            ],
-        },
+        Program { file: "effects/surface.wgsl", entry_point: "fs_main", switches },
         &[
             Input::Texture(&gbuffer.geometry),
+            Input::Storage(shading.toon_styles),
+            // A shader that does not read it is given any texture of its kind.
+            Input::Texture(shading.cartoon_map.unwrap_or(&gbuffer.region)),
+            Input::Texture(&gbuffer.region),
             Input::Texture(&gbuffer.base_color),
-            // Unread without edges: any texture of its kind.
-            Input::Texture(edge_map.unwrap_or(&gbuffer.geometry)),
-            Input::Storage(surface_styles),
-            Input::Storage(edge_styles),
+            Input::Storage(shading.surface_styles),
         ],
         &[&color],
         Some(&gbuffer.depth),

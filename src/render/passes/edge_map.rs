@@ -1,118 +1,146 @@
-//! The edge map: ink per pixel, and whose it is (edge-enhancement paper, section 4.1.2).
+//! The edge map: for each pixel the edge that runs through it, its class and whose it is, before lines get their width.
+//!
+//! Exact mode is a hybrid. Silhouettes, borders, creases and material boundaries come from topology, as segments that
+//! are tested against the G-buffer; what topology does not know (intersections, outlines of holes) is found where
+//! neighbouring pixels show different surfaces. Paper mode is the papers' operators. See `common/edge_map.wgsl`.
 
-use encase::ShaderType;
-use glam::Vec3;
-
+use super::edge_style::EdgeUniform;
 use super::gbuffer::GBuffer;
-use crate::gpu::recorder::Input;
-use crate::gpu::{Program, Recorder, Target};
+use super::operators::paper_edges;
+use crate::geometry::LineSegment;
+use crate::gpu::recorder::{Draw, Input, Onto};
+use crate::gpu::{DepthRule, Gpu, Program, RecordBuffer, Recorder, Target};
 use crate::render::RenderError;
-use crate::style::{DepthOperator, Edges};
 
-/// Twin of `EdgeStyle` in `shaders/common/edge_style.wgsl`.
-#[derive(Debug, Clone, Copy, PartialEq, ShaderType)]
-pub struct EdgeUniform {
-    profile_color: Vec3,
-    profile_strength: f32,
-    inner_color: Vec3,
-    inner_strength: f32,
-    gain_z: f32,
-    gain_c1: f32,
-    gain_n: f32,
-    profile_threshold: f32,
-    inner_threshold: f32,
-    use_c1: u32,
+const EDGE_MAP: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Uint;
+/// What the distance transform reads of it.
+const SPINES: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;
+const MARKS: wgpu::TextureFormat = wgpu::TextureFormat::R8Unorm;
+const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
+
+/// The edge map, and of its lines what [`super::line_distance`] reads.
+#[derive(Debug, Clone)]
+pub struct EdgeMap {
+    /// See `common/edge_map.wgsl`.
+    pub edges: Target,
+    /// Where spines of exact lines run and how wide they are; `None` without any.
+    pub spines: Option<Target>,
 }
 
-impl From<&Edges> for EdgeUniform {
-    fn from(edges: &Edges) -> Self {
-        let (profile, inner) = (&edges.profile, &edges.inner);
-        let gain = |show: bool, gain: f32| if show { gain.clamp(0.0, 1000.0) } else { 0.0 };
-        Self {
-            profile_color: profile.color.to_linear(),
-            profile_strength: profile.strength.clamp(0.0, 1.0),
-            inner_color: inner.color.to_linear(),
-            inner_strength: inner.strength.clamp(0.0, 1.0),
-            gain_z: gain(profile.show, profile.gain),
-            gain_c1: gain(profile.show, profile.more.gain_c1),
-            gain_n: gain(inner.show, inner.gain),
-            profile_threshold: profile.threshold.clamp(0.0, 0.99),
-            inner_threshold: inner.threshold.clamp(0.0, 0.99),
-            use_c1: u32::from(edges.operator == DepthOperator::C1),
+/// What makes the edge map.
+pub struct EdgeMapPass {
+    segments: RecordBuffer,
+}
+
+/// What the edge map is made of.
+#[derive(Clone, Copy)]
+pub struct EdgeInputs<'a> {
+    /// Per-pixel geometry.
+    pub gbuffer: &'a GBuffer,
+    /// Edge styles by object id.
+    pub styles: &'a [EdgeUniform],
+    /// The same on the device.
+    pub edge_styles: &'a wgpu::Buffer,
+    /// What topology knows, for the view of the G-buffer.
+    pub segments: &'a [LineSegment],
+    /// Whether any material of an object with lines has holes.
+    pub has_holes: bool,
+}
+
+impl EdgeMapPass {
+    /// Holds nothing yet.
+    pub fn new(gpu: &Gpu) -> Self {
+        Self { segments: RecordBuffer::new(gpu, "segments") }
+    }
+
+    /// Makes the edge map: exact edges first, then those of the papers' operators.
+    ///
+    /// # Errors
+    /// [`RenderError`].
+    pub fn run(&mut self, rec: &mut Recorder<'_>, inputs: &EdgeInputs<'_>) -> Result<EdgeMap, RenderError> {
+        let edge_map = rec.target("edge map", EDGE_MAP)?;
+        let mut spines = None;
+        let mut onto = Onto::Nothing;
+        if inputs.styles.iter().any(EdgeUniform::is_exact) {
+            spines = Some(self.exact_edges(rec, inputs, &edge_map)?);
+            onto = Onto::Old;
         }
+        // Without exact edges it is this that clears the map.
+        if onto == Onto::Nothing || inputs.styles.iter().any(EdgeUniform::is_paper) {
+            paper_edges(rec, inputs.gbuffer, inputs.styles, inputs.edge_styles, &edge_map, onto)?;
+        }
+        Ok(EdgeMap { edges: edge_map, spines })
     }
-}
 
-impl EdgeUniform {
-    /// No lines at all.
-    pub const NONE: Self = Self {
-        profile_color: Vec3::ZERO,
-        profile_strength: 0.0,
-        inner_color: Vec3::ZERO,
-        inner_strength: 0.0,
-        gain_z: 0.0,
-        gain_c1: 0.0,
-        gain_n: 0.0,
-        profile_threshold: 0.0,
-        inner_threshold: 0.0,
-        use_c1: 0,
-    };
+    fn exact_edges(
+        &mut self,
+        rec: &mut Recorder<'_>,
+        inputs: &EdgeInputs<'_>,
+        edge_map: &Target,
+    ) -> Result<Target, RenderError> {
+        let EdgeInputs { gbuffer, styles, edge_styles, segments, has_holes } = *inputs;
+        let any = |has: fn(&EdgeUniform) -> bool| styles.iter().any(|s| s.is_exact() && has(s));
+        let variation =
+            [("WITH_VARIATION", any(EdgeUniform::varies)), ("WITH_PRESSURE", any(|s| s.pressure > 0.0))];
+        let with_angles = any(|s| s.by_angle > 0.0);
+        let spines = rec.target("spines", SPINES)?;
+        let marks = rec.target("segment marks", MARKS)?;
+        let order = rec.target("segment order", DEPTH)?;
+        self.segments.write(rec.gpu, segments)?;
+        rec.draw(Draw {
+            label: "segments",
+            program: Program {
+                file: "passes/segments.wgsl",
+                entry_point: "fs_main",
+                switches: [("WITH_HOLES", has_holes), ("WITH_ANGLES", with_angles)]
+                    .into_iter()
+                    .chain(variation)
+                    .collect(),
+            },
+            inputs: &[
+                Input::Texture(&gbuffer.geometry),
+                Input::Texture(&gbuffer.region),
+                Input::Storage(edge_styles),
+                Input::Storage(self.segments.buffer()),
+            ],
+            outputs: &[edge_map, &spines, &marks],
+            onto: Onto::Nothing,
+            depth: Some((&order, DepthRule::Nearest)),
+            lines: Some(segments.len() as u32),
+        })?;
 
-    /// Whether any line can come of it.
-    pub fn draws_anything(&self) -> bool {
-        let profile = if self.use_c1 == 1 { self.gain_c1 } else { self.gain_z };
-        profile * self.profile_strength > 0.0 || self.gain_n * self.inner_strength > 0.0
+        let inputs = [
+            Input::Texture(&gbuffer.geometry),
+            Input::Texture(&gbuffer.region),
+            Input::Storage(edge_styles),
+            Input::Texture(&marks),
+        ];
+        let switches = variation.to_vec();
+        let program = |entry_point| Program {
+            file: "passes/discontinuities.wgsl",
+            entry_point,
+            switches: switches.clone(),
+        };
+        let borders = rec.target("surface borders", DEPTH)?;
+        rec.copy(&gbuffer.depth, &borders);
+        rec.draw(Draw {
+            label: "surface borders",
+            program: program("fs_borders"),
+            inputs: &inputs,
+            outputs: &[],
+            onto: Onto::Nothing,
+            depth: Some((&borders, DepthRule::MarkCovered)),
+            lines: None,
+        })?;
+        rec.draw(Draw {
+            label: "discontinuities",
+            program: program("fs_main"),
+            inputs: &inputs,
+            outputs: &[edge_map, &spines],
+            onto: Onto::Old,
+            depth: Some((&borders, DepthRule::Marked)),
+            lines: None,
+        })?;
+        Ok(spines)
     }
-}
-
-/// Makes the edge map: per pixel inner and profile ink (2 × 16-bit unorm) and the object whose style draws it.
-///
-/// # Errors
-/// [`RenderError`].
-pub fn edge_map(
-    rec: &mut Recorder<'_>,
-    gbuffer: &GBuffer,
-    styles: &[EdgeUniform],
-    edge_styles: &wgpu::Buffer,
-) -> Result<Target, RenderError> {
-    let with_c1 = styles.iter().any(|s| s.use_c1 == 1);
-    run(
-        rec,
-        gbuffer,
-        edge_styles,
-        "edge map",
-        "fs_main",
-        with_c1,
-        Some(&gbuffer.depth),
-        wgpu::TextureFormat::Rg32Uint,
-    )
-}
-
-/// The operators' own values per pixel: `I_N`, `I_Z`, C1 (no edge: 1, 1, 0).
-///
-/// # Errors
-/// [`RenderError`].
-pub fn operators(
-    rec: &mut Recorder<'_>,
-    gbuffer: &GBuffer,
-    edge_styles: &wgpu::Buffer,
-) -> Result<Target, RenderError> {
-    run(rec, gbuffer, edge_styles, "operators", "fs_operators", true, None, wgpu::TextureFormat::Rgba32Float)
-}
-
-fn run(
-    rec: &mut Recorder<'_>,
-    gbuffer: &GBuffer,
-    edge_styles: &wgpu::Buffer,
-    label: &'static str,
-    entry_point: &'static str,
-    with_c1: bool,
-    covered: Option<&Target>,
-    format: wgpu::TextureFormat,
-) -> Result<Target, RenderError> {
-    let out = rec.target(label, format)?;
-    let inputs = [Input::Texture(&gbuffer.geometry), Input::Storage(edge_styles)];
-    let program = Program { file: "passes/edge_map.wgsl", entry_point, switches: vec![("WITH_C1", with_c1)] };
-    rec.fullscreen(label, program, &inputs, &[&out], covered)?;
-    Ok(out)
 }

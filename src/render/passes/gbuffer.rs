@@ -16,8 +16,8 @@ use crate::render::gpu_scene::GpuScene;
 const GEOMETRY: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Uint;
 /// Unlit base colour.
 const BASE_COLOR: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
-/// Surface id.
-const SURFACE: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;
+/// Which surface of which object.
+const REGION: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;
 /// Reversed: 1 at the near plane.
 const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 
@@ -28,8 +28,8 @@ pub struct GBuffer {
     pub geometry: Target,
     /// Unlit base colour.
     pub base_color: Target,
-    /// Surface id within the object.
-    pub surface: Target,
+    /// A number for each surface of each object; 0: background.
+    pub region: Target,
     /// Reversed depth.
     pub depth: Target,
 }
@@ -143,7 +143,7 @@ impl GBufferPass {
         let gbuffer = GBuffer {
             geometry: rec.target("geometry", GEOMETRY)?,
             base_color: rec.target("base color", BASE_COLOR)?,
-            surface: rec.target("surface", SURFACE)?,
+            region: rec.target("regions", REGION)?,
             depth: rec.target("depth", DEPTH)?,
         };
         let gpu = rec.gpu;
@@ -157,7 +157,7 @@ impl GBufferPass {
             entries: &[wgpu::BindGroupEntry { binding: 0, resource: self.draws.binding::<DrawUniform>() }],
         });
         let clear = || wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT);
-        let color = [&gbuffer.geometry, &gbuffer.base_color, &gbuffer.surface]
+        let color = [&gbuffer.geometry, &gbuffer.base_color, &gbuffer.region]
             .map(|target| Some(color_attachment(target, clear())));
         let depth = wgpu::RenderPassDepthStencilAttachment {
             view: gbuffer.depth.view(),
@@ -243,7 +243,7 @@ fn build(
             module,
             entry_point: Some(fragment),
             compilation_options: wgpu::PipelineCompilationOptions::default(),
-            targets: &[Some(GEOMETRY.into()), Some(BASE_COLOR.into()), Some(SURFACE.into())],
+            targets: &[Some(GEOMETRY.into()), Some(BASE_COLOR.into()), Some(REGION.into())],
         }),
         multiview_mask: None,
         cache: None,

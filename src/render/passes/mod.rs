@@ -1,7 +1,12 @@
 //! What effects are made of: plain functions from textures to textures.
 
+pub mod accumulate;
 pub mod edge_map;
+pub mod edge_style;
 pub mod gbuffer;
+pub mod line_distance;
+pub mod lines;
+pub mod operators;
 pub mod resolve;
 pub mod selection;
 pub mod show;

@@ -33,7 +33,7 @@ pub fn show(
     let image = rec.target("final image", FINAL)?;
     let inputs = [
         Input::Texture(&gbuffer.geometry),
-        Input::Texture(&gbuffer.surface),
+        Input::Texture(&gbuffer.region),
         Input::Texture(&gbuffer.base_color),
         Input::Texture(edge_map),
         Input::Texture(operators),

@@ -1,7 +1,8 @@
-// The edge map by the operators of the edge-enhancement paper, section 4.1.2.
+// The operators of the edge-enhancement paper, section 4.1.2.
 #import common/frame.wgsl
 #import common/fullscreen.wgsl
 #import common/gbuffer.wgsl
+#import common/edge_map.wgsl
 #import common/edge_style.wgsl
 
 // Whether any object uses the C1 operator.
@@ -85,21 +86,27 @@ fn past(ink: f32, threshold: f32) -> f32 {
     return clamp((ink - threshold) / (1.0 - threshold), 0.0, 1.0);
 }
 
-// x: inner and profile ink (2 × 16-bit unorm), y: the object whose edge style draws it.
 @fragment
-fn fs_main(@builtin(position) position: vec4<f32>) -> @location(0) vec2<u32> {
+fn fs_main(@builtin(position) position: vec4<f32>) -> @location(0) vec4<u32> {
     let px = vec2<i32>(position.xy);
     let x = unpack_surfel(geometry_at(px));
-    if !x.enhanced {
-        return vec2(0u);
+    // Single fields are read, never whole structs, which software devices would copy.
+    if !x.enhanced || edge_styles[x.object].mode != PAPER_MODE {
+        discard;
     }
-    let own = edge_styles[x.object];
-    let o = operators(px, x, own.use_c1 == 1u);
-    let style = edge_styles[o.owner];
-    let profile = select(style.gain_z * (1.0 - o.i_z), style.gain_c1 * o.c1, own.use_c1 == 1u);
-    let inner = style.gain_n * (1.0 - o.i_n);
-    let ink = vec2(past(inner, style.inner_threshold), past(profile, style.profile_threshold));
-    return vec2(pack2x16unorm(ink), o.owner);
+    let use_c1 = edge_styles[x.object].use_c1 == 1u;
+    let o = operators(px, x, use_c1);
+    let owner = o.owner;
+    let profile = select(edge_styles[owner].gain_z * (1.0 - o.i_z), edge_styles[owner].gain_c1 * o.c1, use_c1);
+    let inner = edge_styles[owner].gain_n * (1.0 - o.i_n);
+    let ink = vec2(
+        past(inner, edge_styles[owner].inner_threshold),
+        past(profile, edge_styles[owner].profile_threshold),
+    );
+    if all(ink <= vec2(0.0)) {
+        discard;
+    }
+    return pack_paper(ink, owner, x.depth);
 }
 
 // I_N, I_Z and C1 themselves (no edge: 1, 1, 0), for a look at them and for tests.

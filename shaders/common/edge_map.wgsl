@@ -1,0 +1,110 @@
+// The edge map: one texel per pixel, before lines get their width. Each texel of an exact line holds the point of the
+// line's spine that is nearest to the pixel's centre. Written by passes/{operators,segments,discontinuities}.wgsl.
+
+const NO_EDGE: u32 = 0u;
+// Classes as in src/geometry/edge_class.rs, plus 1.
+const SILHOUETTE: u32 = 1u;
+const BORDER: u32 = 2u;
+const OBJECT: u32 = 3u;
+const RIDGE: u32 = 4u;
+const VALLEY: u32 = 5u;
+const MATERIAL: u32 = 6u;
+const INTERSECTION: u32 = 7u;
+// Ink of the papers' operators at this very pixel.
+const PAPER: u32 = 15u;
+
+struct Edge {
+    class_of: u32,
+    // The object whose style draws it.
+    object: u32,
+    // From the pixel's centre to the spine, px, each within ±1.
+    offset: vec2<f32>,
+    // Direction of the line, see `pack_tangent`.
+    tangent: u32,
+    // 1: left of the tangent (x to the right, y down) is outside of the object, −1: right of it.
+    outside: f32,
+    // How far the line goes on in both directions of the tangent, px: 0, 0.25, 0.5 or 0.75.
+    extent: f32,
+    // Linear depth of the spine.
+    depth: f32,
+    // px.
+    half_width: f32,
+    // Position in the period of the dashes, 0 to 1.
+    phase: f32,
+    // 0 to 1. With weight 0 nothing is drawn, but what causes the edge is known.
+    weight: f32,
+}
+
+const TAU: f32 = 6.283185307;
+
+// A direction as one of 512 angles.
+fn pack_tangent(tangent: vec2<f32>) -> u32 {
+    return u32(round(fract(atan2(tangent.y, tangent.x) / TAU) * 512.0)) & 511u;
+}
+
+fn unpack_tangent(tangent: u32) -> vec2<f32> {
+    let angle = f32(tangent) / 512.0 * TAU;
+    return vec2(cos(angle), sin(angle));
+}
+
+// x: class (4 bits), extent (2), outside (1), angle of the tangent (9), offset (2 × 8); y: object; z: depth; w: weight
+// (6), phase (10), half width (f16).
+fn pack_edge(e: Edge) -> vec4<u32> {
+    let outside = select(0u, 1u, e.outside > 0.0);
+    let offset = vec2<u32>(round((clamp(e.offset, vec2(-1.0), vec2(1.0)) + 1.0) * 127.0));
+    let extent = u32(clamp(e.extent, 0.0, 0.75) * 4.0);
+    let phase = u32(fract(e.phase) * 1023.0 + 0.5);
+    let weight = u32(clamp(e.weight, 0.0, 1.0) * 63.0 + 0.5);
+    return vec4(
+        (e.class_of << 28u) | (extent << 26u) | (outside << 25u) | (e.tangent << 16u) | (offset.x << 8u) | offset.y,
+        e.object,
+        bitcast<u32>(e.depth),
+        (weight << 26u) | (phase << 16u) | pack2x16float(vec2(e.half_width, 0.0)),
+    );
+}
+
+fn class_of(texel: vec4<u32>) -> u32 {
+    return texel.x >> 28u;
+}
+
+fn offset_of(texel: vec4<u32>) -> vec2<f32> {
+    return vec2(f32((texel.x >> 8u) & 255u), f32(texel.x & 255u)) / 127.0 - 1.0;
+}
+
+fn half_width_of(texel: vec4<u32>) -> f32 {
+    return unpack2x16float(texel.w & 0xffffu).x;
+}
+
+// What finding the line of each pixel needs of a texel: the offset as above, and over it a radius as f16; 0 where no
+// line with ink is. The radius is half the width, and up to a pixel more for lines that are to win where others run
+// close beside them, so that wide lines are not torn: profile edges before inner ones (`rank` 1 or 0), near ones
+// before far ones (`nearness`, 0 to 1).
+fn spine_of(texel: vec4<u32>, rank: f32, nearness: f32) -> u32 {
+    let is_line = texel.x != 0u && class_of(texel) != PAPER && (texel.w >> 26u) != 0u;
+    let radius = half_width_of(texel) + 0.5 * rank + 0.5 * clamp(nearness, 0.0, 1.0);
+    return select(0u, (pack2x16float(vec2(radius, 0.0)) << 16u) | (texel.x & 0xffffu), is_line);
+}
+
+fn unpack_edge(texel: vec4<u32>) -> Edge {
+    return Edge(
+        class_of(texel),
+        texel.y,
+        offset_of(texel),
+        (texel.x >> 16u) & 511u,
+        select(-1.0, 1.0, ((texel.x >> 25u) & 1u) == 1u),
+        f32((texel.x >> 26u) & 3u) * 0.25,
+        bitcast<f32>(texel.z),
+        half_width_of(texel),
+        f32((texel.w >> 16u) & 1023u) / 1023.0,
+        f32(texel.w >> 26u) / 63.0,
+    );
+}
+
+// Inner and profile ink of the papers' operators: x, y, z as above, w: two 16-bit numbers from 0 to 1.
+fn pack_paper(ink: vec2<f32>, object: u32, depth: f32) -> vec4<u32> {
+    return vec4(PAPER << 28u, object, bitcast<u32>(depth), pack2x16unorm(ink));
+}
+
+fn paper_ink(texel: vec4<u32>) -> vec2<f32> {
+    return unpack2x16unorm(texel.w);
+}

@@ -1,0 +1,205 @@
+// Toon shading: flat shades from a ramp, indexed by N·L (Lake et al. 2000; edge-enhancement paper, section 5, Fig. 9).
+#import common/frame.wgsl
+#import common/fullscreen.wgsl
+#import common/gbuffer.wgsl
+#import common/plane.wgsl
+
+const NEAREST: u32 = 1u;
+const CARTOON_MAP: u32 = 2u;
+const ANALYTIC: u32 = 3u;
+
+// Whether any object is drawn in this way, and which borders there are.
+override WITH_TOON: bool = true;
+override WITH_NEAREST: bool = true;
+override WITH_CARTOON_MAP: bool = true;
+override WITH_ANALYTIC: bool = true;
+
+// Twin: `ToonUniform` in src/render/effects/toon.rs.
+struct ToonStyle {
+    // Linear colours from shadow to light.
+    ramp: array<vec4<f32>, 8>,
+    rim_color: vec3<f32>,
+    // Opacities.
+    rim: f32,
+    highlight: f32,
+    // The highlight is where N·H is at least this, the rim where N·V is at most that.
+    highlight_from: f32,
+    rim_to: f32,
+    // Share of the object's own colour.
+    tint: f32,
+    bands: u32,
+    // N·L at which the ramp begins, and bands per unit of N·L.
+    start: f32,
+    bands_per_unit: f32,
+    // 0: not a toon.
+    border: u32,
+}
+
+@group(1) @binding(1) var<storage, read> toon_styles: array<ToonStyle>;
+// The bands of the objects whose borders are smoothed by it.
+@group(1) @binding(2) var cartoon_map_tex: texture_2d<u32>;
+@group(1) @binding(3) var toon_region_tex: texture_2d<u32>;
+
+// x: place on the ramp, in bands; y: N·H past the highlight's border; z: N·V past the rim's border; w: N·L.
+fn toon_fields(object: u32, normal: vec3<f32>, pos_view: vec3<f32>) -> vec4<f32> {
+    let l = towards_light(frame.lights[0], pos_view);
+    let v = towards_eye(pos_view);
+    let n_l = dot(normal, l);
+    return vec4(
+        (n_l - toon_styles[object].start) * toon_styles[object].bands_per_unit,
+        dot(normal, normalize(l + v)) - toon_styles[object].highlight_from,
+        toon_styles[object].rim_to - dot(normal, v),
+        n_l,
+    );
+}
+
+const HIGHLIGHT: u32 = 16u;
+const RIM: u32 = 32u;
+
+// What there is at a point: 1 + band, highlight, rim; never 0.
+fn toon_code(object: u32, fields: vec4<f32>) -> u32 {
+    let last = f32(toon_styles[object].bands - 1u);
+    var code = 1u + u32(clamp(floor(fields.x), 0.0, last));
+    code |= select(0u, HIGHLIGHT, fields.y >= 0.0 && fields.w > 0.0);
+    code |= select(0u, RIM, fields.z >= 0.0);
+    return code;
+}
+
+// The bands' colour with the object's own, and shares of highlight and rim over it.
+fn toon_layers(object: u32, base: vec3<f32>, ramp: vec3<f32>, highlight: f32, rim: f32) -> vec3<f32> {
+    let tinted = ramp * mix(vec3(1.0), base, toon_styles[object].tint);
+    let lit = mix(tinted, vec3(1.0), toon_styles[object].highlight * highlight);
+    return mix(lit, toon_styles[object].rim_color, toon_styles[object].rim * rim);
+}
+
+fn toon_color(object: u32, base: vec3<f32>, code: u32) -> vec3<f32> {
+    let ramp = toon_styles[object].ramp[min((code & 15u) - 1u, 7u)].rgb;
+    return toon_layers(object, base, ramp, f32((code >> 4u) & 1u), f32((code >> 5u) & 1u));
+}
+
+// A step in depth of so many pixels' widths parts a surface from itself.
+const DEPTH_STEP: f32 = 2.0;
+
+// Whether a surface goes on from one pixel to a near one: the same surface of the same object, and one of the two
+// predicts the other's depth.
+fn goes_on(px: vec2<i32>, s: Surfel, other_px: vec2<i32>, other: Surfel) -> bool {
+    if other.object != s.object
+        || textureLoad(toon_region_tex, px, 0).x != textureLoad(toon_region_tex, other_px, 0).x {
+        return false;
+    }
+    let offset = vec2<f32>(other_px - px);
+    let here = plane_of(px, s.depth, s.face_normal);
+    let there = plane_of(other_px, other.depth, other.face_normal);
+    let miss = min(
+        abs(there.center - nearness_at(here, offset)),
+        abs(here.center - nearness_at(there, -offset)),
+    );
+    return step_px(miss, min(s.depth, other.depth)) < DEPTH_STEP;
+}
+
+// The cartoon map: what there is at each pixel, without a mean.
+@fragment
+fn fs_cartoon_map(@builtin(position) position: vec4<f32>) -> @location(0) u32 {
+    let px = vec2<i32>(position.xy);
+    let s = unpack_surfel(geometry_at(px));
+    var code = 0u;
+    if toon_styles[s.object].border == CARTOON_MAP {
+        code = toon_code(s.object, toon_fields(s.object, s.normal, pos_view_of(px, s.depth)));
+    }
+    return code;
+}
+
+fn code_at(px: vec2<i32>) -> u32 {
+    return textureLoad(cartoon_map_tex, px, 0).x;
+}
+
+// From a pixel to itself and its eight neighbours, row by row.
+fn neighbour_offset(n: u32) -> vec2<i32> {
+    return vec2<i32>(vec2(n % 3u, n / 3u)) - 1;
+}
+
+fn inside(px: vec2<i32>) -> vec2<i32> {
+    return clamp(px, vec2(0), vec2<i32>(frame.size) - 1);
+}
+
+// The mean of the neighbours' shades in the cartoon map, weighted 1 2 1, 2 8 2, 1 2 1: a mean that is wider smooths
+// more, but errs more than it mends. The more samples are averaged anyway, the less the neighbours count. Where the
+// surface does not go on, the pixel stands for its neighbour. Only the bands are averaged, never the object's own
+// colour, so that images on it stay sharp.
+fn smoothed(px: vec2<i32>, s: Surfel, base: vec3<f32>) -> vec3<f32> {
+    let code = code_at(px);
+    let color = toon_color(s.object, base, code);
+    // Bit by bit the neighbours that differ: nearly everywhere there are none, and then nothing more is read.
+    var differing = 0u;
+    for (var n = 0u; n < 9u; n++) {
+        let other = code_at(inside(px + neighbour_offset(n)));
+        differing |= select(0u, 1u << n, other != code && other != 0u);
+    }
+    var change = vec3(0.0);
+    while differing != 0u {
+        let offset = neighbour_offset(firstTrailingBit(differing));
+        let q = inside(px + offset);
+        differing &= differing - 1u;
+        if goes_on(px, s, q, unpack_surfel(geometry_at(q))) {
+            let weight = f32((2 - abs(offset.x)) * (2 - abs(offset.y)));
+            change += weight * (toon_color(s.object, base, code_at(q)) - color);
+        }
+    }
+    return color + change * frame.coverage_ramp / (8.0 + 12.0 * frame.coverage_ramp);
+}
+
+struct Change {
+    fields: vec4<f32>,
+    // 1 if it is known, else all is 0.
+    weight: f32,
+}
+
+// Change of the fields from a pixel to a near one, if the surface goes on there.
+fn toon_change(px: vec2<i32>, s: Surfel, fields: vec4<f32>, step: vec2<i32>) -> Change {
+    let q = px + step;
+    let other = unpack_surfel(geometry_at(q));
+    let is_inside = all(q >= vec2(0)) && all(q < vec2<i32>(frame.size));
+    if !is_inside || !goes_on(px, s, q, other) {
+        return Change(vec4(0.0), 0.0);
+    }
+    return Change(toon_fields(s.object, other.normal, pos_view_of(q, other.depth)) - fields, 1.0);
+}
+
+// Change of the fields per pixel along an axis, from both sides where the surface goes on there.
+fn toon_slope(px: vec2<i32>, s: Surfel, fields: vec4<f32>, axis: vec2<i32>) -> vec4<f32> {
+    let after = toon_change(px, s, fields, axis);
+    let before = toon_change(px, s, fields, -axis);
+    return (after.fields - before.fields) / max(after.weight + before.weight, 1.0);
+}
+
+// The bands' shares in the pixel, from the slopes of the fields.
+fn analytic(px: vec2<i32>, s: Surfel, base: vec3<f32>) -> vec3<f32> {
+    let fields = toon_fields(s.object, s.normal, pos_view_of(px, s.depth));
+    let dx = toon_slope(px, s, fields, vec2(1, 0));
+    let dy = toon_slope(px, s, fields, vec2(0, 1));
+    // Where nothing changes, a border is a step.
+    let softness = max(sqrt(dx * dx + dy * dy) * frame.coverage_ramp, vec4(1e-6));
+    var ramp = toon_styles[s.object].ramp[0].rgb;
+    for (var band = 1u; band < toon_styles[s.object].bands; band++) {
+        let share = clamp((fields.x - f32(band)) / softness.x + 0.5, 0.0, 1.0);
+        ramp += share * (toon_styles[s.object].ramp[band].rgb - toon_styles[s.object].ramp[band - 1u].rgb);
+    }
+    let shares = clamp(fields / softness + 0.5, vec4(0.0), vec4(1.0));
+    return toon_layers(s.object, base, ramp, shares.y * shares.w, shares.z);
+}
+
+fn toon(px: vec2<i32>, s: Surfel, base: vec3<f32>) -> vec3<f32> {
+    let border = toon_styles[s.object].border;
+    var color = base;
+    if WITH_CARTOON_MAP && border == CARTOON_MAP {
+        color = smoothed(px, s, base);
+    }
+    if WITH_ANALYTIC && border == ANALYTIC {
+        color = analytic(px, s, base);
+    }
+    if WITH_NEAREST && border == NEAREST {
+        let fields = toon_fields(s.object, s.normal, pos_view_of(px, s.depth));
+        color = toon_color(s.object, base, toon_code(s.object, fields));
+    }
+    return color;
+}

@@ -1,0 +1,160 @@
+// The lines that topology does not know, found where neighbouring pixels show different surfaces: intersections,
+// outlines of holes, objects before others.
+#import common/frame.wgsl
+#import common/fullscreen.wgsl
+#import common/gbuffer.wgsl
+#import common/plane.wgsl
+#import common/edge_map.wgsl
+#import common/edge_style.wgsl
+#import common/line_width.wgsl
+
+@group(1) @binding(1) var region_tex: texture_2d<u32>;
+// 1 where a segment is.
+@group(1) @binding(3) var mark_tex: texture_2d<f32>;
+
+// A step in depth, in pixels, from which two surfaces do not touch.
+const STEP: f32 = 2.0;
+
+fn region_at(px: vec2<i32>) -> u32 {
+    return textureLoad(region_tex, clamp(px, vec2(0), vec2<i32>(frame.size) - 1), 0).x;
+}
+
+fn mark_at(px: vec2<i32>) -> f32 {
+    return textureLoad(mark_tex, clamp(px, vec2(0), vec2<i32>(frame.size) - 1), 0).x;
+}
+
+// Marks the pixels beside which another surface begins that no segment explains.
+@fragment
+fn fs_borders(@builtin(position) position: vec4<f32>) {
+    let px = vec2<i32>(position.xy);
+    let own = region_at(px);
+    let differs = (region_at(px + vec2(1, 0)) ^ own) | (region_at(px - vec2(1, 0)) ^ own)
+        | (region_at(px + vec2(0, 1)) ^ own) | (region_at(px - vec2(0, 1)) ^ own);
+    // The corners are looked at later, of the few that are left.
+    let marks = mark_at(px) + mark_at(px + vec2(1, 0)) + mark_at(px - vec2(1, 0)) + mark_at(px + vec2(0, 1))
+        + mark_at(px - vec2(0, 1));
+    if own == 0u || differs == 0u || marks > 0.0 {
+        discard;
+    }
+}
+
+// The spine between the centre of a pixel and that of its neighbour.
+struct Spine {
+    class_of: u32,
+    offset: vec2<f32>,
+    tangent: vec2<f32>,
+}
+
+// What lies between pixel `px` (surface `x`) and its neighbour; class 0: nothing that `x` has to draw.
+fn between(px: vec2<i32>, x: Surfel, own: u32, plane: Plane, towards: vec2<i32>) -> Spine {
+    let q = px + towards;
+    let none = Spine(NO_EDGE, vec2(0.0), vec2(1.0, 0.0));
+    let region = region_at(q);
+    if region == own {
+        return none;
+    }
+    let half = 0.5 * vec2<f32>(towards);
+    let across = vec2(half.y, -half.x) * 2.0;
+    let n = unpack_surfel(geometry_at(q));
+    if n.object == 0u {
+        return Spine(SILHOUETTE, half, across);
+    }
+    let other = plane_of(q, n.depth, n.face_normal);
+    let depth = min(x.depth, n.depth);
+    let gap = step_px(nearness_at(plane, half) - nearness_at(other, -half), depth);
+    // Steep surfaces may seem to touch only where they are continued.
+    let jump = step_px(abs(nearness_at(plane, vec2<f32>(towards)) - other.center), depth);
+    let back = step_px(abs(nearness_at(other, -vec2<f32>(towards)) - plane.center), depth);
+    if min(jump, back) > STEP {
+        // The nearer surface draws.
+        let class_of = select(OBJECT, SILHOUETTE, n.object == x.object);
+        if gap > 0.0 && gap >= edge_styles[x.object].lines[class_of - 1u].threshold {
+            return Spine(class_of, half, across);
+        }
+        return none;
+    }
+    let angle = acos(clamp(abs(dot(x.face_normal, n.face_normal)), 0.0, 1.0));
+    let other_draws = n.enhanced && edge_styles[n.object].lines[INTERSECTION - 1u].strength > 0.0;
+    // One of the two draws it.
+    if angle < edge_styles[x.object].lines[INTERSECTION - 1u].threshold || (other_draws && region < own) {
+        return none;
+    }
+    // Where the two planes meet.
+    let slope = plane.slope - other.slope;
+    let start = plane.center - nearness_at(other, -vec2<f32>(towards));
+    let steep = dot(slope, slope);
+    let offset = -start * slope / max(steep, 1e-38);
+    if steep < 1e-38 || dot(offset, offset) > 1.0 {
+        return Spine(INTERSECTION, half, across);
+    }
+    return Spine(INTERSECTION, offset, normalize(vec2(slope.y, -slope.x)));
+}
+
+// Whether the first is an edge, and the second none or farther from the pixel's centre.
+fn is_nearer(first: Spine, second: Spine) -> bool {
+    return first.class_of != NO_EDGE
+        && (second.class_of == NO_EDGE || dot(first.offset, first.offset) < dot(second.offset, second.offset));
+}
+
+struct Out {
+    @location(0) edge: vec4<u32>,
+    @location(1) spine: u32,
+}
+
+@fragment
+fn fs_main(@builtin(position) position: vec4<f32>) -> Out {
+    let px = vec2<i32>(position.xy);
+    let x = unpack_surfel(geometry_at(px));
+    let own = region_at(px);
+    // An edge near a segment is the segment's; where the near plane cuts, there is no edge.
+    let marks = mark_at(px + vec2(-1, -1)) + mark_at(px + vec2(1, -1)) + mark_at(px + vec2(-1, 1))
+        + mark_at(px + vec2(1, 1));
+    if !x.enhanced || marks > 0.0 || x.depth < 1.5 * frame.cut_depth {
+        discard;
+    }
+    if edge_styles[x.object].mode != EXACT_MODE {
+        discard;
+    }
+    let plane = plane_of(px, x.depth, x.face_normal);
+    let right = between(px, x, own, plane, vec2(1, 0));
+    let left = between(px, x, own, plane, vec2(-1, 0));
+    let below = between(px, x, own, plane, vec2(0, 1));
+    let above = between(px, x, own, plane, vec2(0, -1));
+    // The line nearest to the centre; between two neighbours it runs aslant.
+    var spine = right;
+    if is_nearer(left, spine) {
+        spine = left;
+    }
+    var other = below;
+    if is_nearer(above, other) {
+        other = above;
+    }
+    if spine.class_of == NO_EDGE {
+        spine = other;
+    } else if other.class_of == spine.class_of && spine.class_of != INTERSECTION {
+        let corner = spine.offset + other.offset;
+        spine = Spine(spine.class_of, 0.5 * corner, normalize(vec2(corner.y, -corner.x)));
+    } else if is_nearer(other, spine) {
+        spine = other;
+    }
+    if spine.class_of == NO_EDGE {
+        discard;
+    }
+    let pos_view = pos_view_of(px, x.depth);
+    let normal = vec2(spine.tangent.y, -spine.tangent.x);
+    // Without a neighbour along the line nobody knows how long it is: dashes count along its direction.
+    let arc = dot(vec2<f32>(px) + 0.5 + spine.offset, spine.tangent);
+    let texel = pack_edge(Edge(
+        spine.class_of,
+        x.object,
+        spine.offset,
+        pack_tangent(spine.tangent),
+        select(-1.0, 1.0, dot(normal, spine.offset) >= 0.0),
+        0.5,
+        x.depth,
+        half_width(x.object, spine.class_of, pos_view, x.normal),
+        arc / edge_styles[x.object].dash_period,
+        select(0.0, 1.0, edge_styles[x.object].lines[spine.class_of - 1u].strength > 0.0),
+    ));
+    return Out(texel, spine_of(texel, select(0.0, 1.0, spine.class_of <= OBJECT), 1.0 - range_share(x.depth)));
+}

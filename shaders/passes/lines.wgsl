@@ -1,0 +1,257 @@
+// Lines with their width and colour, over the shaded surfaces.
+#import common/frame.wgsl
+#import common/fullscreen.wgsl
+#import common/gbuffer.wgsl
+#import common/plane.wgsl
+#import common/edge_map.wgsl
+#import common/edge_style.wgsl
+
+// Whether any object is drawn in paper or exact mode, whether widths differ, whether anything is dashed, and whether a
+// line takes its colour from the surface.
+override WITH_PAPER: bool = true;
+override WITH_EXACT: bool = true;
+override WITH_WIDTHS: bool = true;
+// Whether all lines are so thin that they reach no farther than to the next pixel: then nobody has looked for them yet,
+// and `farthest_tex` holds the spines.
+override NARROW: bool = false;
+override WITH_DASHES: bool = true;
+override WITH_SURFACE_COLOR: bool = true;
+
+@group(1) @binding(1) var edge_map_tex: texture_2d<u32>;
+@group(1) @binding(2) var base_color_tex: texture_2d<f32>;
+// As `found_tex` in passes/line_distance.wgsl: the line that reaches farthest, and the nearest one.
+@group(1) @binding(3) var farthest_tex: texture_2d<u32>;
+@group(1) @binding(4) var nearest_tex: texture_2d<u32>;
+@group(1) @binding(5) var<storage, read> edge_styles: array<EdgeStyle>;
+
+// A surface so far before a line, in pixels, hides it.
+const SLACK: f32 = 2.0;
+
+// The share of a unit square on the near side of a straight edge at this signed distance from its centre (positive:
+// the centre is inside); `normal` is the edge's.
+fn square_share(distance: f32, normal: vec2<f32>) -> f32 {
+    let n = abs(normal) * frame.coverage_ramp;
+    // The square's shadow on the normal is a trapezoid.
+    let outer = 0.5 * (n.x + n.y);
+    let inner = 0.5 * abs(n.x - n.y);
+    let d = min(abs(distance), outer);
+    let height = 1.0 / max(outer + inner, 1e-6);
+    var beyond = 0.5 * (outer - d) * (outer - d) * height / max(outer - inner, 1e-6);
+    if d < inner {
+        beyond = 0.5 - d * height;
+    }
+    return select(beyond, 1.0 - beyond, distance > 0.0);
+}
+
+// The share of a pixel that a strip covers: from `low` to `high` along `normal`, the pixel's centre at `at`.
+fn strip_share(at: f32, low: f32, high: f32, normal: vec2<f32>) -> f32 {
+    return max(square_share(high - at, normal) - square_share(low - at, normal), 0.0);
+}
+
+fn is_hidden(g: Surfel, px: vec2<i32>, edge: Edge, spine: vec2<f32>) -> bool {
+    if g.object == 0u || g.object == edge.object {
+        return false;
+    }
+    let line = nearness_of(edge.depth);
+    let plane = plane_of(px, g.depth, g.face_normal);
+    // Neither here nor where it is continued to the spine may the surface lie before the line: what an object stands
+    // on does not hide the line at its foot.
+    let lead = min(plane.center, nearness_at(plane, spine - vec2<f32>(px) - 0.5)) - line;
+    return step_px(lead, edge.depth) > SLACK;
+}
+
+struct Line {
+    // Linear colour times coverage, and coverage.
+    ink: vec4<f32>,
+    // Whether it would be here, were it not for a surface before it.
+    is_hidden: bool,
+}
+
+fn line_at(px: vec2<i32>, g: Surfel, found: u32) -> Line {
+    if found == 0u {
+        return Line(vec4(0.0), false);
+    }
+    let from_px = vec2<i32>(vec2((found - 1u) & 0xffffu, (found - 1u) >> 16u));
+    let edge = unpack_edge(textureLoad(edge_map_tex, from_px, 0));
+    let spine = vec2<f32>(from_px) + 0.5 + edge.offset;
+    let index = edge.class_of - 1u;
+    let d = vec2<f32>(px) + 0.5 - spine;
+    let tangent = unpack_tangent(edge.tangent);
+    let left = vec2(tangent.y, -tangent.x);
+    let along = dot(d, tangent);
+    let past = sign(along) * max(abs(along) - edge.extent, 0.0);
+    // From the nearest point of the line's piece to here.
+    let away = left * dot(d, left) + tangent * past;
+    let distance = length(away);
+    let normal = select(left, away / distance, distance > 1e-4);
+    var low = -edge.half_width;
+    var high = edge.half_width;
+    var at = distance;
+    if edge_styles[edge.object].alignment != 0u {
+        // All of the width on one side of the spine.
+        let outwards = select(-1.0, 1.0, edge_styles[edge.object].alignment == 1u) * edge.outside;
+        at = distance * select(-1.0, 1.0, dot(away, left) * outwards >= 0.0);
+        low = 0.0;
+        high = 2.0 * edge.half_width;
+    }
+    var coverage = strip_share(at, low, high, normal);
+    if WITH_DASHES && edge_styles[edge.object].lines[index].dashed == 1u {
+        let period = edge_styles[edge.object].dash_period;
+        let ink = edge_styles[edge.object].dash_share * period;
+        let arc = fract(edge.phase + along / period) * period;
+        let inside = min(arc, ink - arc);
+        let until_next = max(inside, arc - period);
+        coverage *= clamp(until_next / frame.coverage_ramp + 0.5, 0.0, 1.0);
+    }
+    coverage *= edge_styles[edge.object].lines[index].strength * edge.weight;
+    if coverage <= 0.0 || is_hidden(g, px, edge, spine) {
+        return Line(vec4(0.0), coverage > 0.0);
+    }
+    var color = edge_styles[edge.object].lines[index].color;
+    if WITH_SURFACE_COLOR {
+        // Of the object's pixel beside the spine.
+        let inwards = vec2<i32>(floor(spine - 0.8 * left * edge.outside));
+        let inside = clamp(inwards, vec2(0), vec2<i32>(frame.size) - 1);
+        let base = textureLoad(base_color_tex, inside, 0).rgb;
+        color = mix(color, base * (1.0 - edge_styles[edge.object].darken), edge_styles[edge.object].surface_color);
+    }
+    return Line(vec4(color, 1.0) * coverage, false);
+}
+
+// A hidden line may have won against one that is not: of the lines of the pixels around, the one that covers most.
+fn line_around(px: vec2<i32>, g: Surfel, hidden: u32) -> vec4<f32> {
+    let last = vec2<i32>(frame.size) - 1;
+    var best = vec4(0.0);
+    var tried = hidden;
+    for (var reach = 2; reach <= 16; reach *= 2) {
+        for (var i = 0; i < 9; i++) {
+            let q = clamp(px + reach * (vec2(i % 3, i / 3) - 1), vec2(0), last);
+            let found = textureLoad(farthest_tex, q, 0).x;
+            if found != tried && found != hidden {
+                let line = line_at(px, g, found).ink;
+                best = select(best, line, line.a > best.a);
+            }
+            tried = found;
+        }
+    }
+    return best;
+}
+
+// As `cs_rows` in passes/line_distance.wgsl finds it, among the neighbours.
+fn found_nearby(px: vec2<i32>) -> u32 {
+    let last = vec2<i32>(frame.size) - 1;
+    var best = 0.0;
+    var found = 0u;
+    for (var y = -1; y <= 1; y++) {
+        for (var x = -1; x <= 1; x++) {
+            let q = clamp(px + vec2(x, y), vec2(0), last);
+            let spine = textureLoad(farthest_tex, q, 0).x;
+            let r = unpack2x16float(spine >> 16u).x + 1.25;
+            let d = vec2<f32>(q - px) + vec2(f32((spine >> 8u) & 255u), f32(spine & 255u)) / 127.0 - 1.0;
+            let power = select(0.0, dot(d, d) - r * r, spine != 0u);
+            found = select(found, ((u32(q.y) << 16u) | u32(q.x)) + 1u, power < best);
+            best = min(best, power);
+        }
+    }
+    return found;
+}
+
+fn farthest_at(px: vec2<i32>) -> u32 {
+    if NARROW {
+        return found_nearby(px);
+    }
+    return textureLoad(farthest_tex, px, 0).x;
+}
+
+// Whether any line is in the neighbourhood.
+fn is_near_line(px: vec2<i32>) -> bool {
+    let last = vec2<i32>(frame.size) - 1;
+    var any_spine = 0u;
+    for (var y = -1; y <= 1; y++) {
+        for (var x = -1; x <= 1; x++) {
+            any_spine |= textureLoad(farthest_tex, clamp(px + vec2(x, y), vec2(0), last), 0).x;
+        }
+    }
+    return any_spine != 0u;
+}
+
+// How far a thin line shows inside a wide one: not at all where both run along one spine. Where widths differ less, other
+// objects' lines would come to depend on whether any are so different that they are looked for.
+fn apart(thin: u32, wide: u32) -> f32 {
+    if wide == 0u || thin == 0u {
+        return 1.0;
+    }
+    let thin_px = vec2<i32>(vec2((thin - 1u) & 0xffffu, (thin - 1u) >> 16u));
+    let wide_px = vec2<i32>(vec2((wide - 1u) & 0xffffu, (wide - 1u) >> 16u));
+    let a = unpack_edge(textureLoad(edge_map_tex, thin_px, 0));
+    let b = unpack_edge(textureLoad(edge_map_tex, wide_px, 0));
+    if b.half_width - a.half_width <= 1.0 {
+        return 0.0;
+    }
+    let tangent = unpack_tangent(b.tangent);
+    let d = vec2<f32>(thin_px - wide_px) + a.offset - b.offset;
+    let beside = smoothstep(0.75, 1.5, abs(dot(d, vec2(tangent.y, -tangent.x))));
+    return max(beside, smoothstep(1.5, 3.0, abs(dot(d, tangent))));
+}
+
+fn over(front: vec4<f32>, back: vec4<f32>) -> vec4<f32> {
+    return front + back * (1.0 - front.a);
+}
+
+// Marks the pixels that lines can reach.
+@fragment
+fn fs_reached(@builtin(position) position: vec4<f32>) {
+    let px = vec2<i32>(position.xy);
+    var reached = 0u;
+    if WITH_EXACT {
+        if NARROW {
+            reached |= select(0u, 1u, is_near_line(px));
+        } else {
+            reached |= textureLoad(farthest_tex, px, 0).x;
+        }
+        if WITH_WIDTHS {
+            reached |= textureLoad(nearest_tex, px, 0).x;
+        }
+    }
+    if WITH_PAPER {
+        reached |= textureLoad(edge_map_tex, px, 0).x;
+    }
+    if reached == 0u {
+        discard;
+    }
+}
+
+@fragment
+fn fs_main(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
+    let px = vec2<i32>(position.xy);
+    var lines = vec4(0.0);
+    if WITH_EXACT {
+        let g = unpack_surfel(geometry_at(px));
+        let farthest = farthest_at(px);
+        let line = line_at(px, g, farthest);
+        lines = line.ink;
+        if !NARROW && line.is_hidden {
+            lines = line_around(px, g, farthest);
+        }
+        if WITH_WIDTHS {
+            // A thin line inside a wide one is the nearer one.
+            let nearest = textureLoad(nearest_tex, px, 0).x;
+            if nearest != farthest {
+                lines = over(line_at(px, g, nearest).ink * apart(nearest, farthest), lines);
+            }
+        }
+    }
+    if WITH_PAPER {
+        let texel = textureLoad(edge_map_tex, px, 0);
+        if class_of(texel) == PAPER {
+            // Edge-enhancement paper, section 5: inner edges first, then profile edges over them.
+            let object = texel.y;
+            let ink = paper_ink(texel)
+                * vec2(edge_styles[object].inner_strength, edge_styles[object].profile_strength);
+            let inner = vec4(edge_styles[object].inner_color, 1.0) * ink.x;
+            let profile = vec4(edge_styles[object].profile_color, 1.0) * ink.y;
+            lines = over(over(profile, inner), lines);
+        }
+    }
+    return lines;
+}

@@ -1,0 +1,111 @@
+//! Toon shading: what the surface pass needs for it, and the cartoon map (edge-enhancement paper, section 5, Fig. 9).
+//!
+//! The paper draws the scene in toon shades, keeps their colours as a texture and averages neighbours there. Here that
+//! texture, the cartoon map, holds which band a pixel is of, not its colour: a mean of bands leaves the images on a
+//! surface sharp, and one byte per pixel is cheap to read nine times.
+
+use encase::ShaderType;
+use glam::{Vec3, Vec4};
+
+use crate::gpu::recorder::Input;
+use crate::gpu::{Program, Recorder, Target};
+use crate::render::RenderError;
+use crate::render::passes::gbuffer::GBuffer;
+use crate::style::Toon;
+use crate::style::toon::{Border, MAX_BANDS};
+
+/// 1 + band, 16: highlight, 32: rim; 0 where no object asks for it.
+const BANDS: wgpu::TextureFormat = wgpu::TextureFormat::R8Uint;
+
+/// Twin of `ToonStyle` in `shaders/effects/toon.wgsl`.
+#[derive(Debug, Clone, Copy, PartialEq, ShaderType, Default)]
+pub struct ToonUniform {
+    ramp: [Vec4; MAX_BANDS],
+    rim_color: Vec3,
+    rim: f32,
+    highlight: f32,
+    highlight_from: f32,
+    rim_to: f32,
+    tint: f32,
+    bands: u32,
+    start: f32,
+    bands_per_unit: f32,
+    border: u32,
+}
+
+// As in `shaders/effects/toon.wgsl`.
+const NEAREST: u32 = 1;
+const CARTOON_MAP: u32 = 2;
+const ANALYTIC: u32 = 3;
+
+/// Beyond any cosine.
+const NOWHERE: f32 = 2.0;
+
+impl From<&Toon> for ToonUniform {
+    fn from(toon: &Toon) -> Self {
+        let colors = toon.ramp();
+        let mut ramp = [Vec4::ZERO; MAX_BANDS];
+        for (slot, color) in ramp.iter_mut().zip(&colors) {
+            *slot = color.to_linear().extend(1.0);
+        }
+        let start = toon.start.clamp(-1.0, 1.0);
+        // A ramp that ends where it begins is one step there.
+        let range = (toon.end.clamp(-1.0, 1.0) - start).max(1e-3);
+        let angle = toon.highlight_size.clamp(1.0, 60.0).to_radians();
+        Self {
+            ramp,
+            rim_color: toon.rim_color.to_linear(),
+            rim: toon.rim.clamp(0.0, 1.0),
+            highlight: toon.highlight.clamp(0.0, 1.0),
+            highlight_from: if toon.highlight > 0.0 { angle.cos() } else { NOWHERE },
+            rim_to: if toon.rim > 0.0 { toon.rim_width.clamp(0.0, 1.0) } else { -NOWHERE },
+            tint: toon.tint.clamp(0.0, 1.0),
+            bands: colors.len() as u32,
+            start,
+            bands_per_unit: colors.len() as f32 / range,
+            border: match toon.border {
+                Border::Nearest => NEAREST,
+                Border::CartoonMap => CARTOON_MAP,
+                Border::Analytic => ANALYTIC,
+            },
+        }
+    }
+}
+
+impl ToonUniform {
+    /// Whether the borders of its bands are smoothed by the cartoon map.
+    pub fn has_cartoon_map(&self) -> bool {
+        self.border == CARTOON_MAP
+    }
+}
+
+/// Which features of the shader any object uses; `styles` are those of all visible objects, or none.
+pub fn switches(styles: &[ToonUniform]) -> [(&'static str, bool); 4] {
+    let any = |border| styles.iter().any(|s| s.border == border);
+    [
+        ("WITH_TOON", styles.iter().any(|s| s.border != 0)),
+        ("WITH_NEAREST", any(NEAREST)),
+        ("WITH_CARTOON_MAP", any(CARTOON_MAP)),
+        ("WITH_ANALYTIC", any(ANALYTIC)),
+    ]
+}
+
+/// The cartoon map: which band each pixel is of. Nothing where there is no object that asks for it.
+///
+/// # Errors
+/// [`RenderError`].
+pub fn cartoon_map(
+    rec: &mut Recorder<'_>,
+    gbuffer: &GBuffer,
+    toon_styles: &wgpu::Buffer,
+) -> Result<Target, RenderError> {
+    let map = rec.target("cartoon map", BANDS)?;
+    rec.fullscreen(
+        "cartoon map",
+        Program::new("effects/toon.wgsl", "fs_cartoon_map"),
+        &[Input::Texture(&gbuffer.geometry), Input::Storage(toon_styles)],
+        &[&map],
+        Some(&gbuffer.depth),
+    )?;
+    Ok(map)
+}

@@ -1,0 +1,153 @@
+//! What the passes that find and draw lines read of an object's style.
+
+use encase::ShaderType;
+use glam::Vec3;
+
+use crate::geometry::EdgeClass;
+use crate::style::{DepthOperator, EdgeMode, Edges};
+
+/// Twin of `LineStyle` in `shaders/common/edge_style.wgsl`.
+#[derive(Debug, Clone, Copy, PartialEq, ShaderType, Default)]
+pub struct LineUniform {
+    color: Vec3,
+    /// Opacity; 0: not drawn.
+    pub strength: f32,
+    /// px of the picture.
+    pub width: f32,
+    /// A step in depth (px of the picture) for profile edges, an angle (radians) for the others.
+    pub threshold: f32,
+    /// 1: dashed.
+    pub dashed: u32,
+}
+
+/// Twin of `EdgeStyle` in `shaders/common/edge_style.wgsl`.
+#[derive(Debug, Clone, Copy, PartialEq, ShaderType, Default)]
+pub struct EdgeUniform {
+    /// By class.
+    pub lines: [LineUniform; 7],
+    /// 0: none.
+    pub mode: u32,
+    /// 0: both sides of the spine.
+    pub alignment: u32,
+    /// px of the picture.
+    pub dash_period: f32,
+    dash_share: f32,
+    /// Share of the surface's own colour.
+    pub surface_color: f32,
+    darken: f32,
+    /// How far creases are weighed by their angle.
+    pub by_angle: f32,
+    /// Thinner far away.
+    pub by_distance: f32,
+    /// Thinner on the lit side.
+    pub by_light: f32,
+    /// Thinner by hand pressure.
+    pub pressure: f32,
+    pressure_scale: f32,
+    gain_z: f32,
+    gain_c1: f32,
+    gain_n: f32,
+    profile_threshold: f32,
+    inner_threshold: f32,
+    profile_color: Vec3,
+    profile_strength: f32,
+    inner_color: Vec3,
+    inner_strength: f32,
+    /// 1: the C1 operator.
+    pub use_c1: u32,
+}
+
+// As in `shaders/common/edge_style.wgsl`.
+const EXACT: u32 = 1;
+const PAPER: u32 = 2;
+
+impl EdgeUniform {
+    /// The parameters of an object in a picture with this many pixels per reference pixel.
+    pub fn new(edges: &Edges, scale: f32) -> Self {
+        let (profile, inner) = (&edges.profile, &edges.inner);
+        let gain = |show: bool, gain: f32| if show { gain.clamp(0.0, 1000.0) } else { 0.0 };
+        let (length, gap) = (edges.dash.length.clamp(1.0, 512.0), edges.dash.gap.clamp(1.0, 512.0));
+        let lines = EdgeClass::ALL.map(|class| {
+            let line = edges.line(class);
+            LineUniform {
+                color: line.color.to_linear(),
+                strength: if line.show { line.strength.clamp(0.0, 1.0) } else { 0.0 },
+                width: line.width.clamp(0.25, 64.0) * scale,
+                threshold: match class {
+                    EdgeClass::Silhouette | EdgeClass::Border | EdgeClass::Object => line.threshold * scale,
+                    _ => line.threshold.to_radians(),
+                },
+                dashed: u32::from(line.dashed),
+            }
+        });
+        Self {
+            lines,
+            mode: match edges.mode {
+                EdgeMode::Exact => EXACT,
+                EdgeMode::Paper => PAPER,
+            },
+            alignment: edges.alignment as u32,
+            dash_period: (length + gap) * scale,
+            dash_share: length / (length + gap),
+            surface_color: edges.surface_color.clamp(0.0, 1.0),
+            darken: edges.darken.clamp(0.0, 1.0),
+            by_angle: edges.inner.more.by_angle.clamp(0.0, 1.0),
+            by_distance: edges.variation.distance.clamp(0.0, 1.0),
+            by_light: edges.variation.light.clamp(0.0, 1.0),
+            pressure: edges.pressure.amount.clamp(0.0, 1.0),
+            pressure_scale: edges.pressure.scale.clamp(4.0, 2000.0) * scale,
+            profile_color: profile.color.to_linear(),
+            profile_strength: profile.strength.clamp(0.0, 1.0),
+            inner_color: inner.color.to_linear(),
+            inner_strength: inner.strength.clamp(0.0, 1.0),
+            gain_z: gain(profile.show, profile.gain),
+            gain_c1: gain(profile.show, profile.more.gain_c1),
+            gain_n: gain(inner.show, inner.gain),
+            profile_threshold: profile.threshold.clamp(0.0, 0.99),
+            inner_threshold: inner.threshold.clamp(0.0, 0.99),
+            use_c1: u32::from(edges.operator == DepthOperator::C1),
+        }
+    }
+
+    /// Whether exact lines are drawn.
+    pub fn is_exact(&self) -> bool {
+        self.mode == EXACT && self.lines.iter().any(|l| l.strength > 0.0)
+    }
+
+    /// Whether the width of its lines varies.
+    pub fn varies(&self) -> bool {
+        self.by_distance > 0.0 || self.by_light > 0.0 || self.pressure > 0.0
+    }
+
+    /// Whether the papers' operators draw.
+    pub fn is_paper(&self) -> bool {
+        let profile = if self.use_c1 == 1 { self.gain_c1 } else { self.gain_z };
+        self.mode == PAPER
+            && (profile * self.profile_strength > 0.0 || self.gain_n * self.inner_strength > 0.0)
+    }
+
+    /// The lines that are drawn in exact mode.
+    pub fn drawn(&self) -> impl Iterator<Item = (EdgeClass, &LineUniform)> {
+        let is_exact = self.mode == EXACT;
+        EdgeClass::ALL.into_iter().zip(&self.lines).filter(move |(_, l)| is_exact && l.strength > 0.0)
+    }
+
+    /// Greatest distance from the spine at which a line of this object has ink, px.
+    pub fn greatest_radius(&self) -> f32 {
+        let width = self.drawn().map(|(_, l)| l.width).fold(0.0, f32::max);
+        if self.alignment == 0 { 0.5 * width } else { width }
+    }
+
+    /// The same as far as finding edges goes: what only drawing them depends on is left out.
+    #[must_use]
+    pub fn for_finding(&self) -> Self {
+        let mut same = *self;
+        for line in &mut same.lines {
+            line.color = Vec3::ZERO;
+            line.strength = f32::from(u8::from(line.strength > 0.0));
+        }
+        (same.profile_color, same.inner_color) = (Vec3::ZERO, Vec3::ZERO);
+        (same.surface_color, same.darken) = (0.0, 0.0);
+        same
+    }
+}

@@ -1,0 +1,92 @@
+//! Which line each pixel belongs to: an exact distance transform whose cost does not depend on the lines' width.
+
+use super::edge_style::EdgeUniform;
+use crate::gpu::recorder::Input;
+use crate::gpu::{ArrayBuffer, Program, Recorder, Target};
+use crate::render::RenderError;
+
+const INDEX: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;
+/// Columns or rows per workgroup, as in `passes/line_distance.wgsl`.
+const GROUP: u32 = 64;
+
+/// Lines with a greater radius than this (px) reach farther than to the next pixel.
+const NARROW: f32 = 0.95;
+
+/// How the lines that reach a pixel are found.
+#[derive(Debug, Clone)]
+pub enum Reach {
+    /// All lines are thin: by looking at the spines in the neighbouring pixels.
+    Narrow(Target),
+    /// Per pixel the pixel of the edge map that holds its line, plus 1 (column in the lower 16 bits, row in the upper
+    /// ones); 0: none.
+    Wide {
+        /// The line that reaches farthest beyond the pixel.
+        farthest: Target,
+        /// The nearest spine; `None` where all lines are about equally wide, so that it is the same.
+        nearest: Option<Target>,
+    },
+}
+
+/// Finds the lines that reach each pixel from where spines run; `radius` is room for what the device is told.
+///
+/// # Errors
+/// [`RenderError`].
+pub fn line_distance(
+    rec: &mut Recorder<'_>,
+    spines: &Target,
+    styles: &[EdgeUniform],
+    radius: &mut ArrayBuffer,
+) -> Result<Reach, RenderError> {
+    let greatest = styles.iter().map(EdgeUniform::greatest_radius).fold(0.0, f32::max);
+    if greatest <= NARROW {
+        return Ok(Reach::Narrow(spines.clone()));
+    }
+    radius.write(rec.gpu, &vec![greatest]);
+    let is_one_sided = styles.iter().any(|s| s.is_exact() && s.alignment != 0);
+    let farthest = transform(rec, spines, radius.buffer(), false, is_one_sided)?;
+    let nearest = if have_widths(styles) {
+        Some(transform(rec, spines, radius.buffer(), true, is_one_sided)?)
+    } else {
+        None
+    };
+    Ok(Reach::Wide { farthest, nearest })
+}
+
+/// Whether two lines differ so much in width that the thin one can be seen inside the wide one.
+fn have_widths(styles: &[EdgeUniform]) -> bool {
+    let widths = styles.iter().flat_map(|style| {
+        let thinnest = if style.varies() { 0.1 } else { 1.0 };
+        style.drawn().flat_map(move |(_, line)| [line.width, line.width * thinnest])
+    });
+    let (least, most) =
+        widths.fold((f32::INFINITY, 0.0_f32), |(least, most), width| (least.min(width), most.max(width)));
+    most - least > 2.0
+}
+
+fn transform(
+    rec: &mut Recorder<'_>,
+    spines: &Target,
+    radius: &wgpu::Buffer,
+    nearest: bool,
+    is_one_sided: bool,
+) -> Result<Target, RenderError> {
+    let columns = rec.target("line of column", INDEX)?;
+    let found = rec.target("line of pixel", INDEX)?;
+    let stack = rec.target("envelopes", INDEX)?;
+    let [width, height] = rec.size();
+    let inputs = [
+        Input::Texture(spines),
+        Input::Storage(radius),
+        Input::Scratch(&columns),
+        Input::Image(&found),
+        Input::Scratch(&stack),
+    ];
+    let program = |entry_point| Program {
+        file: "passes/line_distance.wgsl",
+        entry_point,
+        switches: vec![("NEAREST", nearest), ("ONE_SIDED", is_one_sided)],
+    };
+    rec.compute("line columns", program("cs_columns"), &inputs, [width.div_ceil(GROUP), 1])?;
+    rec.compute("line rows", program("cs_rows"), &inputs, [height.div_ceil(GROUP), 1])?;
+    Ok(found)
+}

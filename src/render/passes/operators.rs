@@ -1,0 +1,50 @@
+//! The papers' operators: ink per pixel, and whose it is (edge-enhancement paper, section 4.1.2).
+
+use super::edge_style::EdgeUniform;
+use super::gbuffer::GBuffer;
+use crate::gpu::recorder::{Draw, Input, Onto};
+use crate::gpu::{DepthRule, Program, Recorder, Target};
+use crate::render::RenderError;
+
+fn program(entry_point: &'static str, with_c1: bool) -> Program {
+    Program { file: "passes/operators.wgsl", entry_point, switches: vec![("WITH_C1", with_c1)] }
+}
+
+/// Adds the ink of the objects that are drawn in paper mode to the edge map.
+///
+/// # Errors
+/// [`RenderError`].
+pub fn paper_edges(
+    rec: &mut Recorder<'_>,
+    gbuffer: &GBuffer,
+    styles: &[EdgeUniform],
+    edge_styles: &wgpu::Buffer,
+    edge_map: &Target,
+    onto: Onto,
+) -> Result<(), RenderError> {
+    rec.draw(Draw {
+        label: "operators",
+        program: program("fs_main", styles.iter().any(|s| s.is_paper() && s.use_c1 == 1)),
+        inputs: &[Input::Texture(&gbuffer.geometry), Input::Storage(edge_styles)],
+        outputs: &[edge_map],
+        onto,
+        depth: Some((&gbuffer.depth, DepthRule::Covered)),
+        lines: None,
+    })?;
+    Ok(())
+}
+
+/// The operators' own values per pixel: `I_N`, `I_Z`, C1 (no edge: 1, 1, 0).
+///
+/// # Errors
+/// [`RenderError`].
+pub fn operators(
+    rec: &mut Recorder<'_>,
+    gbuffer: &GBuffer,
+    edge_styles: &wgpu::Buffer,
+) -> Result<Target, RenderError> {
+    let out = rec.target("operators", wgpu::TextureFormat::Rgba32Float)?;
+    let inputs = [Input::Texture(&gbuffer.geometry), Input::Storage(edge_styles)];
+    rec.fullscreen("operators", program("fs_operators", true), &inputs, &[&out], None)?;
+    Ok(out)
+}

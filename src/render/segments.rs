@@ -1,0 +1,65 @@
+//! The lines that topology knows, for one view.
+
+use super::frame_uniform::View;
+use super::gpu_scene::GpuScene;
+use super::groups::{Objects, object_id, region};
+use super::passes::edge_style::EdgeUniform;
+use crate::geometry::line_segments::{Dashes, LineView, PlacedEdges, Wanted};
+use crate::geometry::{ClassSet, EdgeClass, LineSegment, line_segments};
+
+/// Silhouettes, borders, creases and material boundaries of all objects with exact lines, hidden ones included. Empty
+/// while topology is not known. `crease_angle` (radians): above it edges separate surfaces.
+pub(super) fn segments(
+    scene: &GpuScene,
+    objects: &Objects,
+    view: &View,
+    crease_angle: f32,
+) -> Vec<LineSegment> {
+    let margin = objects.edge_styles.iter().map(EdgeUniform::greatest_radius).fold(0.0, f32::max) + 2.0;
+    // The vertex shader adds the jitter.
+    let view = LineView { projector: view.projector(), jitter: glam::DVec2::ZERO, margin: f64::from(margin) };
+    let mut all = Vec::new();
+    for &(node, enhanced) in objects.visible() {
+        let id = object_id(node);
+        let Some(style) = objects.edge_styles.get(id as usize).filter(|s| enhanced && s.is_exact()) else {
+            continue;
+        };
+        let found = &scene.scene.nodes[node];
+        let Some((index, mesh)) = found.mesh.and_then(|m| Some((m, scene.scene.meshes.get(m)?))) else {
+            continue;
+        };
+        let Some(edges) = scene.edges.get(index) else { continue };
+        let placed = PlacedEdges {
+            edges,
+            mesh,
+            world_from_local: found.world_from_local,
+            object: id,
+            is_solid: scene.is_solid(index),
+        };
+        let first = all.len();
+        line_segments(&placed, &view, &wanted(style, crease_angle), &mut all);
+        for segment in all.iter_mut().skip(first) {
+            segment.surfaces = segment.surfaces.map(|surface| region(id, surface));
+        }
+    }
+    all
+}
+
+/// What an object's style asks for. Creases that separate surfaces are found even where they are not drawn: they tell
+/// that there is no intersection, nor a step in depth where one of the surfaces is steep.
+fn wanted(style: &EdgeUniform, crease_angle: f32) -> Wanted {
+    let of = |class: EdgeClass| &style.lines[class as usize];
+    let classes = style.drawn().fold(ClassSet::NONE, |classes, (class, _)| classes.with(class));
+    let dashed = style.drawn().filter(|(_, line)| line.dashed == 1);
+    let dashed = dashed.fold(ClassSet::NONE, |classes, (class, _)| classes.with(class));
+    let with_discontinuities = [EdgeClass::Silhouette, EdgeClass::Object, EdgeClass::Intersection]
+        .into_iter()
+        .any(|class| classes.contains(class));
+    Wanted {
+        dashes: (!dashed.is_empty()).then_some(Dashes { classes: dashed, period: style.dash_period }),
+        classes,
+        ridge_angle: of(EdgeClass::Ridge).threshold,
+        valley_angle: of(EdgeClass::Valley).threshold,
+        suppress_angle: if with_discontinuities { crease_angle } else { f32::INFINITY },
+    }
+}
