@@ -21,6 +21,9 @@ use crate::render::Pick;
 /// How often the progress of a load is shown anew.
 const PROGRESS: Duration = Duration::from_millis(100);
 
+/// The same for screenshots: on a software device, each time costs as much as a sample.
+const SAVING: Duration = Duration::from_millis(300);
+
 impl Viewer {
     /// Starts to load files; a load that is still running is cancelled. The present scene stays until then.
     pub fn load(&mut self, context: &egui::Context, files: Vec<PathBuf>, intent: Intent) {
@@ -279,7 +282,7 @@ impl Viewer {
             DialogFor::Open => self.load(context, paths, Intent::Open),
             DialogFor::Add => self.load(context, paths, Intent::Add),
             DialogFor::Save => self.save_document(context, first),
-            DialogFor::Screenshot => self.capture(false, Destination::File(first)),
+            DialogFor::Screenshot => self.capture(context, false, Destination::File(first)),
         }
     }
 
@@ -290,32 +293,30 @@ impl Viewer {
         self.jobs.save = Some(Job::start("saving", context, work));
     }
 
-    /// Starts a screenshot.
-    pub(super) fn capture(&mut self, transparent: bool, destination: Destination) {
-        match self.viewport.capture(&self.document, transparent) {
-            Ok(capture) => self.jobs.captures.push((capture, destination)),
-            Err(error) => self.notices.error(format!("No screenshot: {error}")),
-        }
+    /// Asks for a screenshot of what is shown now.
+    pub(super) fn capture(&mut self, context: &egui::Context, transparent: bool, destination: Destination) {
+        let shot = self.viewport.shot(&self.document, transparent, self.state.samples.in_screenshots());
+        self.jobs.waiting.push_back((shot, destination));
+        self.answer_pictures(context);
     }
 
     fn answer_pictures(&mut self, context: &egui::Context) {
-        for (capture, destination) in std::mem::take(&mut self.jobs.captures) {
-            match self.viewport.poll_capture(&capture, context) {
-                None => self.jobs.captures.push((capture, destination)),
-                Some(bytes) => {
-                    let size = capture.size;
-                    let work = move |_: &_| screenshot::save(bytes, size, &destination);
-                    self.jobs.pictures.push(Job::start("saving a screenshot", context, work));
-                }
+        if let Some(result) = self.jobs.picture.as_ref().and_then(Job::poll) {
+            self.jobs.picture = None;
+            match result {
+                Ok(Ok(path)) => self.notices.saved(path),
+                Ok(Err(error)) => self.notices.error(format!("No screenshot: {error}")),
+                Err(error) => self.notices.error(error.to_string()),
             }
         }
-        for job in std::mem::take(&mut self.jobs.pictures) {
-            match job.poll() {
-                None => self.jobs.pictures.push(job),
-                Some(Ok(Ok(path))) => self.notices.saved(path),
-                Some(Ok(Err(error))) => self.notices.error(error.to_string()),
-                Some(Err(error)) => self.notices.error(error.to_string()),
-            }
+        if self.jobs.picture.is_none()
+            && let Some((shot, destination)) = self.jobs.waiting.pop_front()
+        {
+            let work = move |progress: &Progress| screenshot::save(&shot.take(progress)?, &destination);
+            self.jobs.picture = Some(Job::start("saving a screenshot", context, work));
+        }
+        if self.jobs.picture.is_some() {
+            context.request_repaint_after(SAVING);
         }
     }
 

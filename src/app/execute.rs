@@ -86,8 +86,8 @@ impl Viewer {
                 None => self.ask_for_file(context, DialogFor::Save),
             },
             Command::SaveAs => self.ask_for_file(context, DialogFor::Save),
-            Command::Screenshot => self.capture(false, self.numbered()),
-            Command::TransparentScreenshot => self.capture(true, self.numbered()),
+            Command::Screenshot => self.capture(context, false, self.numbered()),
+            Command::TransparentScreenshot => self.capture(context, true, self.numbered()),
             Command::ScreenshotAs => self.ask_for_file(context, DialogFor::Screenshot),
             Command::Quit => context.send_viewport_cmd(egui::ViewportCommand::Close),
             Command::Undo => {

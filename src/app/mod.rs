@@ -3,7 +3,7 @@
 //! [`run`] opens it. [`viewer`] holds everything and runs a frame: keys and finished work first, then the panels and
 //! the picture, then what they asked for. Panels change the document in place; everything else is a
 //! [`command::Command`], carried out in `execute.rs`. Slow work is a [`jobs::Job`], answered in `background.rs`.
-//! An idle window draws nothing.
+//! A picture that rests gets smoother ([`refining`]); then an idle window draws nothing.
 
 mod background;
 pub mod command;
@@ -15,6 +15,7 @@ pub mod loading;
 pub mod navigation;
 pub mod notices;
 pub mod panels;
+pub mod refining;
 pub mod screenshot;
 pub mod selection;
 pub mod state;

@@ -1,10 +1,15 @@
-//! Pictures of the viewport as PNG files.
+//! Pictures of the viewport as PNG files, drawn and written beside the window.
 
 use std::path::{Path, PathBuf};
 
 use image::RgbaImage;
 
+use crate::document::Document;
 use crate::export::{ExportError, save_png};
+use crate::gpu::readback::Readback;
+use crate::gpu::{Gpu, GpuError, Target};
+use crate::import::Progress;
+use crate::render::{RenderError, Renderer, Request};
 
 /// Where screenshots go if this variable is set.
 pub const FOLDER_VARIABLE: &str = "HACHURE_PICTURES";
@@ -26,9 +31,12 @@ pub enum Destination {
 /// Why a screenshot could not be saved.
 #[derive(Debug, thiserror::Error)]
 pub enum ScreenshotError {
-    /// The device gave fewer pixels than the picture has.
-    #[error("the picture came back incomplete; try again")]
-    Incomplete,
+    /// It was not wanted any more.
+    #[error("no picture was saved")]
+    Cancelled,
+    /// The picture could not be drawn.
+    #[error("the picture could not be drawn: {0}")]
+    Render(#[from] RenderError),
     /// No folder is known.
     #[error("there is no folder for pictures; set {FOLDER_VARIABLE} to one")]
     NoFolder,
@@ -43,6 +51,57 @@ pub enum ScreenshotError {
     /// The file could not be written.
     #[error(transparent)]
     Export(#[from] ExportError),
+}
+
+/// A picture that is to be taken.
+pub struct Shot {
+    /// What draws it; nobody else uses it.
+    pub renderer: Renderer,
+    /// What it shows.
+    pub document: Document,
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+    /// Whether the paper is left out.
+    pub transparent: bool,
+    /// Samples per pixel.
+    pub samples: u32,
+}
+
+impl Shot {
+    /// Draws the picture, one sample after the other, so that the window gets its turn between them.
+    ///
+    /// # Errors
+    /// [`ScreenshotError::Render`] or [`ScreenshotError::Cancelled`].
+    pub fn take(mut self, progress: &Progress) -> Result<RgbaImage, ScreenshotError> {
+        let camera = self.document.camera.unwrap_or_default();
+        let request = Request {
+            document: &self.document,
+            camera: &camera,
+            size: self.size,
+            transparent: self.transparent,
+            selected: &[],
+            samples: self.samples,
+        };
+        loop {
+            let picture = self.renderer.render(&request)?;
+            self.renderer.gpu().submitted().wait(|| progress.is_cancelled());
+            if progress.is_cancelled() {
+                return Err(ScreenshotError::Cancelled);
+            }
+            progress.report((picture.sample.index + 1) as f32 / picture.sample.of as f32);
+            if picture.sample.is_last() {
+                return Ok(read(self.renderer.gpu(), &picture.image, progress)?);
+            }
+        }
+    }
+}
+
+fn read(gpu: &Gpu, image: &Target, progress: &Progress) -> Result<RgbaImage, RenderError> {
+    let [width, height] = image.size();
+    let readback = Readback::start(gpu, image, [0, 0], [width, height])?;
+    gpu.submitted().wait(|| progress.is_cancelled());
+    let image = RgbaImage::from_raw(width, height, readback.wait(gpu)?);
+    Ok(image.ok_or_else(|| GpuError::Lost("the picture came back incomplete".to_owned()))?)
 }
 
 /// The folders where screenshots may go: the person's pictures, else beside the model.
@@ -71,22 +130,21 @@ fn pictures_of_user_dirs() -> Option<PathBuf> {
     }
 }
 
-/// Writes straight RGBA bytes as a PNG; returns the file.
+/// Writes a picture as a PNG; returns the file.
 ///
 /// # Errors
 /// [`ScreenshotError`]; a file that was there is then untouched.
-pub fn save(rgba: Vec<u8>, size: [u32; 2], destination: &Destination) -> Result<PathBuf, ScreenshotError> {
-    let image = RgbaImage::from_raw(size[0], size[1], rgba).ok_or(ScreenshotError::Incomplete)?;
+pub fn save(image: &RgbaImage, destination: &Destination) -> Result<PathBuf, ScreenshotError> {
     let (model, folders) = match destination {
         Destination::File(path) => {
-            save_png(path, image)?;
+            save_png(path, image.clone())?;
             return Ok(path.clone());
         }
         Destination::Numbered { model, folders } => (model, folders),
     };
     let mut result = Err(ScreenshotError::NoFolder);
     for folder in folders {
-        result = save_numbered(folder, model, &image);
+        result = save_numbered(folder, model, image);
         if result.is_ok() {
             break;
         }
@@ -120,7 +178,8 @@ mod tests {
             // The first one cannot be made, because a file is in its way.
             folders: vec![folder.path().join("file/Hachure"), folder.path().join("Hachure")],
         };
-        let shoot = |alpha| save([7, 7, 7, alpha].repeat(4), [2, 2], &destination).unwrap();
+        let shoot =
+            |alpha| save(&RgbaImage::from_pixel(2, 2, image::Rgba([7, 7, 7, alpha])), &destination).unwrap();
         let (first, second) = (shoot(255), shoot(7));
         assert_eq!(first.file_name().unwrap(), "crank_1.png");
         assert_eq!(second.file_name().unwrap(), "crank_2.png");

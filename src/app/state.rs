@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 
 use crate::document::Document;
+use crate::render::sample::MAX_SAMPLES;
 use crate::scene::Up;
 
 /// How many files are remembered.
@@ -32,6 +33,8 @@ pub struct AppState {
     pub page: Page,
     /// Whether the status bar shows how long a picture takes.
     pub statistics: bool,
+    /// How smooth pictures are.
+    pub samples: Samples,
     /// Whether panels are dark; `None`: as the system wants.
     pub dark: Option<bool>,
 }
@@ -44,6 +47,44 @@ pub enum Page {
     Style,
     /// How the picture is shown.
     View,
+}
+
+/// Samples per pixel: how smooth pictures are on this machine. One is no anti-aliasing.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Samples {
+    at_rest: u32,
+    in_screenshots: u32,
+}
+
+impl Default for Samples {
+    fn default() -> Self {
+        Self { at_rest: 64, in_screenshots: 64 }
+    }
+}
+
+impl Samples {
+    /// Those of the picture in the window once nothing moves.
+    pub fn at_rest(self) -> u32 {
+        self.at_rest.clamp(1, MAX_SAMPLES)
+    }
+
+    /// Those of screenshots.
+    pub fn in_screenshots(self) -> u32 {
+        self.in_screenshots.clamp(1, MAX_SAMPLES)
+    }
+
+    /// The settings themselves, each with a name and an explanation, to be changed.
+    pub fn settings(&mut self) -> [(&'static str, &'static str, &mut u32); 2] {
+        [
+            (
+                "Smooth at rest",
+                "Samples per pixel of the picture here, once nothing moves",
+                &mut self.at_rest,
+            ),
+            ("Screenshots", "Samples per pixel of saved pictures", &mut self.in_screenshots),
+        ]
+    }
 }
 
 /// What is remembered about one file.
@@ -68,6 +109,7 @@ impl Default for AppState {
             inspector: true,
             page: Page::default(),
             statistics: false,
+            samples: Samples::default(),
             dark: None,
         }
     }

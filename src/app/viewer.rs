@@ -1,5 +1,6 @@
 //! The window: what it holds and how a frame of it runs.
 
+use std::collections::VecDeque;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -11,10 +12,10 @@ use super::leaving::{Leaving, is_changed};
 use super::loading::{Intent, LoadError, Loaded, Loader, Model};
 use super::notices::Notices;
 use super::panels::{Editing, empty, help, menu, outliner::Outliner, status, style, view};
-use super::screenshot::{Destination, ScreenshotError};
+use super::screenshot::{Destination, ScreenshotError, Shot};
 use super::selection::Selection;
-use super::state::{AppState, Page};
-use super::viewport::{Capture, Viewport};
+use super::state::{AppState, Page, Samples};
+use super::viewport::Viewport;
 use super::{AppError, theme};
 use crate::document::{Document, DocumentError, History};
 use crate::gpu::GpuError;
@@ -67,8 +68,9 @@ pub(super) struct Jobs {
     pub(super) dialog: Option<(DialogFor, Job<Vec<PathBuf>>)>,
     pub(super) topology: Option<Job<Result<UploadedTopology, GpuError>>>,
     pub(super) save: Option<Job<Result<(PathBuf, Document), DocumentError>>>,
-    pub(super) captures: Vec<(Capture, Destination)>,
-    pub(super) pictures: Vec<Job<Result<PathBuf, ScreenshotError>>>,
+    pub(super) picture: Option<Job<Result<PathBuf, ScreenshotError>>>,
+    /// Pictures that are taken after that one, so that no two of them get the same number.
+    pub(super) waiting: VecDeque<(Shot, Destination)>,
 }
 
 /// The window's application.
@@ -252,8 +254,13 @@ impl Viewer {
                 selection: &self.selection,
                 milliseconds,
                 adapter: &adapter,
+                refining: self.viewport.refining().progress(),
+                saving: self.jobs.picture.as_ref().map(|job| job.progress().share()),
             };
-            status::status_ui(ui, &status, &mut self.commands);
+            if status::status_ui(ui, &status, &mut self.commands) {
+                self.jobs.picture = None;
+                self.jobs.waiting.clear();
+            }
         });
         self.side_panels(ui);
     }
@@ -272,11 +279,13 @@ impl Viewer {
             &mut self.state.outliner,
             |ui| outliner.ui(ui, &mut editing),
         );
-        let page = &mut self.state.page;
+        let (page, samples) = (&mut self.state.page, &mut self.state.samples);
         let turned = egui::Panel::right("inspector")
             .default_size(290.0)
             .size_range(240.0..=460.0)
-            .show_collapsible(ui, &mut self.state.inspector, |ui| inspector_ui(ui, page, &mut editing));
+            .show_collapsible(ui, &mut self.state.inspector, |ui| {
+                inspector_ui(ui, page, samples, &mut editing)
+            });
         if turned.is_some_and(|t| t.inner) {
             self.commands.push(Command::Home);
         }
@@ -293,8 +302,9 @@ impl Viewer {
             self.context_menu(&response);
         }
         self.viewport.set_measures(self.state.statistics);
+        self.viewport.pause(self.jobs.picture.is_some());
         let selected = self.selection.with_descendants(&self.model.scene);
-        if let Err(error) = self.viewport.draw(ui, &self.document, selected) {
+        if let Err(error) = self.viewport.draw(ui, &self.document, selected, self.state.samples.at_rest()) {
             self.notices.error(format!("The picture could not be drawn: {error}"));
         }
         let area = self.viewport.rect();
@@ -372,7 +382,12 @@ impl Viewer {
 }
 
 /// The pages of the panel on the right. Returns whether the model is to be seen upright again.
-fn inspector_ui(ui: &mut egui::Ui, page: &mut Page, editing: &mut Editing<'_>) -> bool {
+fn inspector_ui(
+    ui: &mut egui::Ui,
+    page: &mut Page,
+    samples: &mut Samples,
+    editing: &mut Editing<'_>,
+) -> bool {
     ui.add_space(4.0);
     ui.horizontal(|ui| {
         for (this, name) in [(Page::Style, "Style"), (Page::View, "View")] {
@@ -386,7 +401,7 @@ fn inspector_ui(ui: &mut egui::Ui, page: &mut Page, editing: &mut Editing<'_>) -
     egui::ScrollArea::vertical().id_salt(format!("{page:?}")).auto_shrink([false, false]).show(ui, |ui| {
         match page {
             Page::Style => style::style_ui(ui, editing),
-            Page::View => turned = view::view_ui(ui, editing),
+            Page::View => turned = view::view_ui(ui, editing, samples),
         }
         ui.add_space(8.0);
     });

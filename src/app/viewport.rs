@@ -1,8 +1,6 @@
 //! The picture in the window: what the mouse does in it, when it is drawn again, what lies under a pixel.
 
 use eframe::egui;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use eframe::egui::emath::GuiRounding as _;
@@ -13,8 +11,9 @@ use glam::DVec2;
 use super::gesture::{self, Gestures};
 use super::jobs::Job;
 use super::navigation;
+use super::refining::Refining;
+use super::screenshot::Shot;
 use crate::document::Document;
-use crate::gpu::readback::Readback;
 use crate::gpu::{Gpu, Target};
 use crate::render::{GpuScene, Pick, RenderError, Renderer, Request, UploadedTopology, Uploader};
 use crate::scene::{Camera, NodeId, Up};
@@ -62,20 +61,13 @@ impl Shown {
     }
 }
 
-/// All that a picture depends on.
+/// All that a picture depends on, its outlines apart.
 #[derive(PartialEq)]
 struct Inputs {
     document: Document,
     size: [u32; 2],
-    selected: Vec<NodeId>,
+    samples_at_rest: u32,
     generation: u64,
-}
-
-/// A picture on its way to a file.
-pub struct Capture {
-    readback: Readback,
-    /// Width and height in pixels.
-    pub size: [u32; 2],
 }
 
 /// The picture and everything that draws it.
@@ -86,6 +78,8 @@ pub struct Viewport {
     outline: Shown,
     has_outline: bool,
     drawn: Option<Inputs>,
+    selected: Vec<NodeId>,
+    refining: Refining,
     measures: bool,
     generation: u64,
     pick: Option<PickFor>,
@@ -93,6 +87,7 @@ pub struct Viewport {
     rect: Rect,
     size: [u32; 2],
     measuring: Option<Job<f64>>,
+    is_paused: bool,
     milliseconds: f64,
     pictures: u64,
 }
@@ -117,6 +112,8 @@ impl Viewport {
             outline: Shown::default(),
             has_outline: false,
             drawn: None,
+            selected: Vec::new(),
+            refining: Refining::default(),
             measures: false,
             generation: 0,
             pick: None,
@@ -124,6 +121,7 @@ impl Viewport {
             rect: Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(16.0, 10.0)),
             size: [16, 10],
             measuring: None,
+            is_paused: false,
             milliseconds: 0.0,
             pictures: 0,
         }
@@ -152,18 +150,28 @@ impl Viewport {
         self.measures = measures;
     }
 
+    /// Whether the picture at rest leaves the device to other work for now.
+    pub fn pause(&mut self, is_paused: bool) {
+        self.is_paused = is_paused;
+    }
+
     /// How many pictures have been drawn so far.
     pub fn pictures(&self) -> u64 {
         self.pictures
     }
 
-    /// Milliseconds from the request of a picture until the device was done with it, as last measured.
+    /// Milliseconds from the request of a picture, or of one sample more, until the device was done with it, as last
+    /// measured.
     pub fn milliseconds(&mut self) -> f64 {
+        self.take_measurement();
+        self.milliseconds
+    }
+
+    fn take_measurement(&mut self) {
         if let Some(Ok(milliseconds)) = self.measuring.as_ref().and_then(Job::poll) {
             self.milliseconds = milliseconds;
             self.measuring = None;
         }
-        self.milliseconds
     }
 
     /// Measures the picture that was just asked for, unless another one is still being measured.
@@ -171,15 +179,9 @@ impl Viewport {
         if self.measuring.is_some() {
             return;
         }
-        let (done, device) = (Arc::new(AtomicBool::new(false)), self.state.device.clone());
-        let signal = Arc::clone(&done);
-        self.state.queue.on_submitted_work_done(move || signal.store(true, Ordering::Release));
+        let submitted = self.renderer.gpu().submitted();
         self.measuring = Some(Job::start("measuring", context, move |progress| {
-            while !done.load(Ordering::Acquire) && !progress.is_cancelled() {
-                std::thread::sleep(Duration::from_millis(1));
-                // Waiting here would keep the window from drawing; a lost device shows elsewhere.
-                let _ = device.poll(wgpu::PollType::Poll);
-            }
+            submitted.wait(|| progress.is_cancelled());
             began.elapsed().as_secs_f64() * 1000.0
         }));
     }
@@ -283,17 +285,36 @@ impl Viewport {
         None
     }
 
-    /// Draws the picture if anything changed that it depends on, and shows it.
+    /// Draws the picture if anything changed that it depends on, and shows it. When nothing has moved for a moment, it
+    /// gets one sample more, and so on up to `samples_at_rest`.
     ///
     /// # Errors
     /// When it cannot be drawn; once per cause.
-    pub fn draw(&mut self, ui: &Ui, document: &Document, selected: Vec<NodeId>) -> Result<(), RenderError> {
-        let inputs =
-            Inputs { document: document.clone(), size: self.size, selected, generation: self.generation };
-        let mut result = Ok(());
-        if self.drawn.as_ref() != Some(&inputs) {
-            result = self.render(ui.ctx(), &inputs);
+    pub fn draw(
+        &mut self,
+        ui: &Ui,
+        document: &Document,
+        selected: Vec<NodeId>,
+        samples_at_rest: u32,
+    ) -> Result<(), RenderError> {
+        let inputs = Inputs {
+            document: document.clone(),
+            size: self.size,
+            samples_at_rest,
+            generation: self.generation,
+        };
+        let is_changed = self.drawn.as_ref() != Some(&inputs);
+        if is_changed {
+            self.refining.begin(samples_at_rest);
             self.drawn = Some(inputs);
+        }
+        self.take_measurement();
+        let cost = Duration::from_secs_f64(self.milliseconds.max(0.0) * 1e-3);
+        let is_refined = self.refining.is_due(ui.ctx(), cost, self.is_paused || self.measuring.is_some());
+        let mut result = Ok(());
+        if is_changed || is_refined || self.selected != selected {
+            self.selected = selected;
+            result = self.render(ui.ctx(), document);
         }
         let whole = Rect::from_min_max(egui::pos2(0.0, 0.0), egui::pos2(1.0, 1.0));
         let outline = self.outline.id.filter(|_| self.has_outline);
@@ -303,18 +324,21 @@ impl Viewport {
         result
     }
 
-    fn render(&mut self, context: &egui::Context, inputs: &Inputs) -> Result<(), RenderError> {
-        let camera = inputs.document.camera.unwrap_or_default();
+    fn render(&mut self, context: &egui::Context, document: &Document) -> Result<(), RenderError> {
+        let camera = document.camera.unwrap_or_default();
         let began = Instant::now();
-        let picture = self.renderer.render(&Request {
-            document: &inputs.document,
+        let drawn = self.renderer.render(&Request {
+            document,
             camera: &camera,
-            size: inputs.size,
+            size: self.size,
             transparent: false,
-            selected: &inputs.selected,
-        })?;
+            selected: &self.selected,
+            samples: self.refining.samples(),
+        });
+        self.refining.note(drawn.as_ref().ok().map(|picture| picture.sample));
+        let picture = drawn?;
         self.pictures += 1;
-        if self.measures {
+        if self.measures || !self.refining.is_complete() {
             self.measure(context, began);
         }
         self.image.show(&self.state, &picture.image);
@@ -325,27 +349,15 @@ impl Viewport {
         Ok(())
     }
 
-    /// Starts to fetch the picture as it is in the window, without outline, or without paper.
-    ///
-    /// # Errors
-    /// When it cannot be drawn or is too large to be fetched.
-    pub fn capture(&mut self, document: &Document, transparent: bool) -> Result<Capture, RenderError> {
-        let camera = document.camera.unwrap_or_default();
-        let size = self.size;
-        let request = Request { document, camera: &camera, size, transparent, selected: &[] };
-        let picture = self.renderer.render(&request)?;
-        let readback = Readback::start(self.renderer.gpu(), &picture.image, [0, 0], size)?;
-        self.draw_again();
-        Ok(Capture { readback, size })
+    /// How far the picture at rest is.
+    pub fn refining(&self) -> &Refining {
+        &self.refining
     }
 
-    /// The bytes of a capture, once they are there.
-    pub fn poll_capture(&self, capture: &Capture, context: &egui::Context) -> Option<Vec<u8>> {
-        let bytes = capture.readback.poll(self.renderer.gpu());
-        if bytes.is_none() {
-            context.request_repaint_after(POLL);
-        }
-        bytes
+    /// The picture as it is in the window, without outline, or without paper, to be taken beside the window.
+    pub fn shot(&self, document: &Document, transparent: bool, samples: u32) -> Shot {
+        let (renderer, size) = (self.renderer.twin(), self.size);
+        Shot { renderer, document: document.clone(), size, transparent, samples }
     }
 
     /// The place of the picture in the window.

@@ -235,6 +235,7 @@ pub fn write_atomically(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::EdgeClass;
     use crate::style::Technique;
 
     #[test]
@@ -251,6 +252,7 @@ mod tests {
         document.node_mut("/crank/rod.3").style =
             Some(Style { technique: Technique::Plain, ..Style::default() });
         document.node_mut("/crank/rod.4").visible = Some(false);
+        document.style.edges.class_mut(EdgeClass::Ridge).width = Some(document.style.edges.inner.width);
         document.save(&path).unwrap();
         assert!(std::fs::read_to_string(&path).unwrap().contains("\"models/crank.glb\""));
         assert_eq!(Document::open(&path).unwrap(), document);

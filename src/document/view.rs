@@ -64,7 +64,7 @@ impl View {
     /// Every parameter, like [`crate::style::Style::params`].
     pub fn params(&mut self) -> Vec<Param<'_>> {
         let mut list = Params::default();
-        list.section("view", None, |list| {
+        list.section("view", |list| {
             list.color(
                 "background",
                 "Background",

@@ -43,6 +43,27 @@ pub fn toggle(
     response
 }
 
+/// A small button that brings defaults back.
+pub fn reset(ui: &Ui, rect: Rect, id: egui::Id, name: &str) -> Response {
+    let response = ui.interact(rect, id, Sense::click());
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, name));
+    let visuals = ui.visuals();
+    let color = if response.hovered() { visuals.strong_text_color() } else { visuals.hyperlink_color };
+    turned_back(ui.painter(), rect.center(), color);
+    response
+}
+
+/// An arrow that goes round against the clock.
+fn turned_back(painter: &Painter, center: Pos2, color: Color32) {
+    let at = |angle: f32, radius: f32| center + radius * vec2(angle.cos(), angle.sin());
+    let start = -2.6_f32;
+    let arc: Vec<Pos2> = (0..=12).map(|i| at(start + 5.0 * i as f32 / 12.0, 3.6)).collect();
+    painter.line(arc, Stroke::new(1.2, color));
+    let tip = at(start, 3.6);
+    let head = vec![tip + vec2(-2.2, -2.0), tip + vec2(2.2, -0.6), tip + vec2(-1.4, 2.4)];
+    painter.add(egui::Shape::convex_polygon(head, color, Stroke::NONE));
+}
+
 fn eye(painter: &Painter, center: Pos2, open: bool, color: Color32) {
     let stroke = Stroke::new(1.2, color);
     let arc = |sign: f32| -> Vec<Pos2> {

@@ -7,6 +7,7 @@ pub mod leave;
 pub mod menu;
 pub mod outliner;
 pub mod params;
+pub mod row;
 pub mod status;
 pub mod style;
 pub mod view;

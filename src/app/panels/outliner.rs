@@ -307,7 +307,7 @@ fn style_chip(
             for preset in editing.presets {
                 let is_it = own.is_some_and(|style| *style == preset.style);
                 if ui
-                    .selectable_label(is_it, super::params::label_of(&preset.name))
+                    .selectable_label(is_it, super::row::label_of(&preset.name))
                     .on_hover_text(&preset.description)
                     .clicked()
                 {

@@ -1,16 +1,15 @@
-//! One row per declared parameter: the only place where a slider is written.
+//! The declared parameters in foldable sections.
 
 use eframe::egui;
+use eframe::egui::collapsing_header::CollapsingState;
 use eframe::egui::{RichText, Ui};
 
-use crate::style::Value;
-use crate::style::param::{Param, Slot};
+use super::icons;
+use super::row::{Change, RESET_WIDTH, Row, capitalised, spaced};
+use crate::style::param::Param;
 
-/// Width of the column of names.
-const LABEL_WIDTH: f32 = 104.0;
-
-/// Width of the column of numbers.
-const NUMBER_WIDTH: f32 = 58.0;
+/// How far a section within a section is moved to the right.
+const INDENT: i8 = 12;
 
 /// The part of a key before its last dot.
 pub fn section_of(key: &str) -> &str {
@@ -24,172 +23,105 @@ pub fn heading(section: &str) -> String {
     std::iter::once(first).chain(words).collect::<Vec<_>>().join(" · ")
 }
 
-/// `face_normals` → `Face normals`.
-pub fn label_of(name: &str) -> String {
-    capitalised(&spaced(name))
-}
+/// Rows for all of `params` in sections that can be folded; a section that inherits from another one lies in it.
+/// `defaults` is the same list with the values that a reset brings back. Returns the keys that changed, with their
+/// new values.
+pub fn params_ui(ui: &mut Ui, salt: &str, params: &mut [Param<'_>], defaults: &[Param<'_>]) -> Vec<Change> {
+    let mut sections: Vec<Section<'_, '_>> = Vec::new();
+    for param in params {
+        let default = defaults.iter().find(|d| d.key == param.key).map_or_else(|| param.own(), Param::own);
+        let key = section_of(&param.key).to_owned();
+        let row = Row { param, default };
+        match sections.last_mut().filter(|s| s.key == key) {
+            Some(section) => section.rows.push(row),
+            None => sections.push(Section { key, rows: vec![row] }),
+        }
+    }
 
-fn spaced(name: &str) -> String {
-    name.replace('_', " ")
-}
-
-fn capitalised(text: &str) -> String {
-    let mut letters = text.chars();
-    letters
-        .next()
-        .map_or_else(String::new, |first| first.to_uppercase().collect::<String>() + letters.as_str())
-}
-
-/// Rows for all of `params`; sections of more than one part can be folded. `defaults` is the same list with the
-/// values that a reset brings back. Returns the keys that changed, with their new values.
-pub fn params_ui(
-    ui: &mut Ui,
-    salt: &str,
-    params: &mut [Param<'_>],
-    defaults: &[Param<'_>],
-) -> Vec<(String, Value)> {
     let mut changes = Vec::new();
-    let mut rest = params;
-    while let Some(first) = rest.first() {
-        let section = section_of(&first.key).to_owned();
-        let count = rest.iter().take_while(|p| section_of(&p.key) == section).count();
-        let (rows, others) = rest.split_at_mut(count);
+    let mut rest = sections.as_mut_slice();
+    while let Some((section, others)) = rest.split_first_mut() {
+        let is_inner = |s: &&Section<'_, '_>| s.parent().is_some_and(|p| p == section.key);
+        let (inner, others) = others.split_at_mut(others.iter().take_while(is_inner).count());
         rest = others;
-        let mut show = |ui: &mut Ui| {
-            for param in rows.iter_mut() {
-                let default = defaults.iter().find(|d| d.key == param.key).map(Param::value);
-                if row_ui(ui, param, default.as_ref()) {
-                    changes.push((param.key.clone(), param.value()));
-                }
-            }
-        };
-        if section.is_empty() || salt == section {
-            show(ui);
+        if section.key.is_empty() || section.key == salt {
+            section.rows_ui(ui, &mut changes);
         } else {
-            section_ui(ui, salt, &section, &mut show);
+            section.ui(ui, salt, inner, &mut changes);
         }
     }
     changes
 }
 
-fn section_ui(ui: &mut Ui, salt: &str, section: &str, show: &mut dyn FnMut(&mut Ui)) {
-    ui.add_space(4.0);
-    egui::CollapsingHeader::new(RichText::new(heading(section)).strong())
-        .id_salt((salt, section))
-        .default_open(true)
-        .show_unindented(ui, |ui| show(ui));
+/// The parameters of one effect, group or class.
+struct Section<'p, 'a> {
+    key: String,
+    rows: Vec<Row<'p, 'a>>,
 }
 
-/// One parameter. Returns whether it changed.
-fn row_ui(ui: &mut Ui, param: &mut Param<'_>, default: Option<&Value>) -> bool {
-    let changed_from_default = default.is_some_and(|d| *d != param.value());
-    let mut help = format!("{}\n\n{}", param.help, param.key);
-    if let (true, Some(default)) = (changed_from_default, default) {
-        help.push_str(&format!("\ndefault {default}; double-click the name to go back"));
+impl Section<'_, '_> {
+    /// The section that it inherits from.
+    fn parent(&self) -> Option<&str> {
+        self.rows.iter().find_map(|row| row.param.slot.inherits()).map(section_of)
     }
-    let before = param.value();
-    let mut reset = false;
-    ui.horizontal(|ui| {
-        let label = label_ui(ui, param.label, changed_from_default).on_hover_text(&help);
-        reset |= label.double_clicked();
-        label.context_menu(|ui| {
-            if ui.add_enabled(changed_from_default, egui::Button::new("Reset to default")).clicked() {
-                reset = true;
-            }
-            if ui.button("Copy key").clicked() {
-                ui.ctx().copy_text(param.key.clone());
-            }
-        });
-        slot_ui(ui, param, label.id, &help);
-    });
-    if let (true, Some(default)) = (reset, default) {
-        // A default always fits its own parameter.
-        let _ = param.set(default);
-    }
-    param.value() != before
-}
 
-/// The name of a parameter, marked when it differs from the default.
-fn label_ui(ui: &mut Ui, text: &str, marked: bool) -> egui::Response {
-    let height = ui.spacing().interact_size.y;
-    let (rect, response) = ui.allocate_exact_size(egui::vec2(LABEL_WIDTH, height), egui::Sense::click());
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, text));
-    if ui.is_rect_visible(rect) {
-        let visuals = ui.visuals();
-        let color = if marked { visuals.strong_text_color() } else { visuals.text_color() };
-        let font = egui::TextStyle::Body.resolve(ui.style());
-        let mut job = egui::text::LayoutJob::simple_singleline(text.to_owned(), font, color);
-        job.wrap = egui::text::TextWrapping::truncate_at_width(LABEL_WIDTH - 10.0);
-        let galley = ui.painter().layout_job(job);
-        let at = egui::pos2(rect.left() + 10.0, rect.center().y - galley.size().y * 0.5);
-        if marked {
-            let center = egui::pos2(rect.left() + 3.5, rect.center().y);
-            ui.painter().circle_filled(center, 2.5, visuals.hyperlink_color);
+    fn ui(&mut self, ui: &mut Ui, salt: &str, inner: &mut [Self], changes: &mut Vec<Change>) {
+        let id = ui.make_persistent_id((salt, &self.key));
+        let open = !self.rows.iter().any(|row| row.param.detail);
+        let state = CollapsingState::load_with_default_open(ui.ctx(), id, open);
+        ui.add_space(if self.parent().is_some() { 0.0 } else { 4.0 });
+        let mut clicked = false;
+        let mut header = state.show_header(ui, |ui| clicked = self.heading_ui(ui, changes));
+        if clicked {
+            header.toggle();
         }
-        ui.painter().galley(at, galley, color);
-    }
-    response
-}
-
-fn slot_ui(ui: &mut Ui, param: &mut Param<'_>, label: egui::Id, help: &str) {
-    match &mut param.slot {
-        Slot::Bool(value) => {
-            ui.checkbox(value, "").labelled_by(label).on_hover_text(help);
-        }
-        Slot::Number { value, soft, hard } => {
-            let gap = ui.spacing().item_spacing.x;
-            ui.spacing_mut().slider_width = (ui.available_width() - NUMBER_WIDTH - gap).max(40.0);
-            let slider = egui::Slider::new(&mut **value, soft.clone())
-                .show_value(false)
-                .trailing_fill(true)
-                .clamping(egui::SliderClamping::Edits);
-            ui.add(slider).labelled_by(label).on_hover_text(help);
-            let speed = f64::from(soft.end() - soft.start()) / 200.0;
-            let number = egui::DragValue::new(&mut **value)
-                .range(hard.clone())
-                .speed(speed)
-                .custom_formatter(|n, _| short(n))
-                .suffix(if param.unit.is_empty() { String::new() } else { format!(" {}", param.unit) });
-            ui.add_sized([NUMBER_WIDTH, ui.spacing().interact_size.y], number)
-                .labelled_by(label)
-                .on_hover_text(help);
-        }
-        Slot::Color(color) => {
-            let button = ui.color_edit_button_srgb(&mut color.0);
-            button.labelled_by(label).on_hover_text(help);
-            ui.label(RichText::new(color.to_string()).weak());
-        }
-        Slot::Choice(choice) => {
-            let (names, mut current) = (choice.names(), choice.name());
-            let combo = egui::ComboBox::from_id_salt(&param.key)
-                .width(ui.available_width())
-                .selected_text(label_of(current))
-                .show_ui(ui, |ui| {
-                    for name in names {
-                        ui.selectable_value(&mut current, *name, label_of(name));
+        header.body_unindented(|ui| {
+            self.rows_ui(ui, changes);
+            egui::Frame::new().inner_margin(egui::Margin { left: INDENT, ..egui::Margin::ZERO }).show(
+                ui,
+                |ui| {
+                    for section in inner {
+                        section.ui(ui, salt, &mut [], changes);
                     }
-                });
-            combo.response.labelled_by(label).on_hover_text(help);
-            if current != choice.name() {
-                choice.choose(current);
+                },
+            );
+        });
+    }
+
+    /// The switch of the section, if it has one, its name, and a button that resets all of it. Returns whether the
+    /// name was clicked.
+    fn heading_ui(&mut self, ui: &mut Ui, changes: &mut Vec<Change>) -> bool {
+        let mut title = heading(&self.key);
+        let head = self.rows.iter_mut().find(|row| row.param.head);
+        if let Some(head) = &head {
+            title = head.param.label.to_owned();
+        }
+        let button = egui::Button::new(RichText::new(&title).strong()).frame(false);
+        let response = match head {
+            Some(head) => {
+                changes.extend(head.head_ui(ui));
+                let response = ui.add(button).on_hover_text(head.help());
+                response.context_menu(|ui| changes.extend(head.menu_ui(ui)));
+                response
+            }
+            None => ui.add(button),
+        };
+        if self.rows.iter().any(Row::differs) {
+            let (rect, _) =
+                ui.allocate_exact_size(egui::vec2(RESET_WIDTH, response.rect.height()), egui::Sense::hover());
+            let name = format!("Reset {title}");
+            if icons::reset(ui, rect, response.id.with("reset"), &name).on_hover_text(&name).clicked() {
+                changes.extend(self.rows.iter_mut().filter(|row| row.differs()).filter_map(Row::reset));
             }
         }
+        response.clicked()
     }
-}
 
-/// At most three decimals and no trailing zeros.
-fn short(number: f64) -> String {
-    let text = format!("{number:.3}");
-    text.trim_end_matches('0').trim_end_matches('.').to_owned()
-}
-
-/// A row with a name like those of parameters.
-pub fn named_row<R>(ui: &mut Ui, name: &str, help: &str, add: impl FnOnce(&mut Ui, egui::Id) -> R) -> R {
-    ui.horizontal(|ui| {
-        let label = label_ui(ui, name, false).on_hover_text(help);
-        add(ui, label.id)
-    })
-    .inner
+    fn rows_ui(&mut self, ui: &mut Ui, changes: &mut Vec<Change>) {
+        for row in self.rows.iter_mut().filter(|row| !row.param.head) {
+            changes.extend(row.ui(ui));
+        }
+    }
 }
 
 #[cfg(test)]
@@ -200,7 +132,6 @@ mod tests {
     fn keys_become_headings() {
         assert_eq!(section_of("edges.profile.gain"), "edges.profile");
         assert_eq!(section_of("technique"), "");
-        assert_eq!(heading("edges.profile"), "Edges · profile");
-        assert_eq!(label_of("face_normals"), "Face normals");
+        assert_eq!(heading("edges.dash"), "Edges · dash");
     }
 }

@@ -20,6 +20,10 @@ pub struct Status<'a> {
     pub milliseconds: Option<f64>,
     /// Name of the graphics driver.
     pub adapter: &'a str,
+    /// Samples of the picture at rest, and how many it is to have; `None` when it is complete.
+    pub refining: Option<(u32, u32)>,
+    /// Share of a screenshot that is done, while one is made.
+    pub saving: Option<f32>,
 }
 
 /// A number with its thousands set apart.
@@ -35,8 +39,9 @@ pub fn grouped(number: usize) -> String {
     out
 }
 
-/// The line.
-pub fn status_ui(ui: &mut Ui, status: &Status<'_>, commands: &mut Vec<Command>) {
+/// The line. Returns whether the screenshot is not wanted any more.
+pub fn status_ui(ui: &mut Ui, status: &Status<'_>, commands: &mut Vec<Command>) -> bool {
+    let mut is_cancelled = false;
     ui.horizontal_centered(|ui| {
         let scene = &status.model.scene;
         if !scene.nodes.is_empty() {
@@ -69,8 +74,19 @@ pub fn status_ui(ui: &mut Ui, status: &Status<'_>, commands: &mut Vec<Command>) 
                     commands.push(Command::Help);
                 }
             }
+            if let Some((samples, of)) = status.refining {
+                ui.separator();
+                ui.weak(format!("{samples}/{of}"))
+                    .on_hover_text("The picture gets smoother while nothing moves: samples per pixel so far");
+            }
+            if let Some(share) = status.saving {
+                ui.separator();
+                is_cancelled = ui.link("Cancel").on_hover_text("Save no picture").clicked();
+                ui.label(format!("Saving a picture, {:.0} %", share * 100.0));
+            }
         });
     });
+    is_cancelled
 }
 
 #[cfg(test)]

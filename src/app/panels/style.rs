@@ -5,8 +5,9 @@ use eframe::egui::{RichText, Ui};
 
 use super::Editing;
 use super::outliner::{inherit, style_name};
-use super::params::{label_of, named_row, params_ui};
-use crate::style::{Param, Style, Value, param};
+use super::params::params_ui;
+use super::row::{Change, label_of, named_row};
+use crate::style::{Style, param};
 
 /// The page.
 pub fn style_ui(ui: &mut Ui, editing: &mut Editing<'_>) {
@@ -37,12 +38,10 @@ pub fn style_ui(ui: &mut Ui, editing: &mut Editing<'_>) {
         return;
     }
 
-    let technique = style.technique;
-    let concerns = |p: &Param<'_>| p.technique.is_none_or(|t| t == technique);
     let mut default = Style::default();
     let defaults = default.params();
     let mut params = style.params();
-    params.retain(concerns);
+    param::retain_relevant(&mut params);
     let changes = params_ui(ui, "style", &mut params, &defaults);
     apply(editing, &targets, &changes);
 }
@@ -100,7 +99,7 @@ fn preset_ui(ui: &mut Ui, editing: &Editing<'_>, style: &Style) -> Option<Style>
     chosen
 }
 
-fn apply(editing: &mut Editing<'_>, targets: &[usize], changes: &[(String, Value)]) {
+fn apply(editing: &mut Editing<'_>, targets: &[usize], changes: &[Change]) {
     for (key, value) in changes {
         // The value comes out of the parameter itself, so that it fits.
         let done = if targets.is_empty() {

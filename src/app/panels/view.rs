@@ -1,11 +1,13 @@
-//! How the picture is shown: axis, unit, projection, paper.
+//! How the picture is shown: axis, unit, projection, paper, smoothness.
 
 use eframe::egui;
 use eframe::egui::Ui;
 
 use super::Editing;
-use super::params::{named_row, params_ui};
+use super::params::params_ui;
+use super::row::named_row;
 use crate::app::navigation::with_view_angle;
+use crate::app::state::Samples;
 use crate::document::View;
 use crate::scene::{Projection, Up};
 
@@ -19,8 +21,11 @@ const UNITS: [(&str, f64); 6] = [
     ("Foot", 0.3048),
 ];
 
+/// Samples per pixel to choose from.
+const SAMPLES: [u32; 4] = [1, 16, 64, 256];
+
 /// The page. Returns whether the axis changed, so that the model is to be seen upright again.
-pub fn view_ui(ui: &mut Ui, editing: &mut Editing<'_>) -> bool {
+pub fn view_ui(ui: &mut Ui, editing: &mut Editing<'_>, samples: &mut Samples) -> bool {
     let scene = &editing.model.scene;
     let document = &mut *editing.document;
     let before = document.up(scene);
@@ -98,7 +103,24 @@ pub fn view_ui(ui: &mut Ui, editing: &mut Editing<'_>) -> bool {
     let mut default = View::default();
     let defaults = default.params();
     params_ui(ui, "view", &mut document.view.params(), &defaults);
+    for (name, help, value) in samples.settings() {
+        named_row(ui, name, help, |ui, label| {
+            let combo = egui::ComboBox::from_id_salt(name)
+                .width(ui.available_width())
+                .selected_text(samples_name(*value))
+                .show_ui(ui, |ui| {
+                    for choice in SAMPLES {
+                        ui.selectable_value(value, choice, samples_name(choice));
+                    }
+                });
+            combo.response.labelled_by(label);
+        });
+    }
     document.up(scene) != before
+}
+
+fn samples_name(samples: u32) -> String {
+    if samples > 1 { format!("{samples} samples") } else { "Off".to_owned() }
 }
 
 fn unit_name(metres: f64) -> String {

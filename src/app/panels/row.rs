@@ -1,0 +1,260 @@
+//! One row per declared parameter: the only place where a slider is written.
+
+use eframe::egui;
+use eframe::egui::{Color32, RichText, Ui};
+
+use super::icons;
+use crate::style::Value;
+use crate::style::param::{Param, Place, Slot};
+
+/// Width of the column of names.
+const LABEL_WIDTH: f32 = 108.0;
+
+/// Width of the column of numbers.
+const NUMBER_WIDTH: f32 = 58.0;
+
+/// Width of a button that resets.
+pub const RESET_WIDTH: f32 = 14.0;
+
+/// How clearly a value is seen that is inherited.
+const INHERITED_OPACITY: f32 = 0.55;
+
+/// A parameter that was changed, and its new value.
+pub type Change = (String, Value);
+
+/// `face_normals` → `Face normals`.
+pub fn label_of(name: &str) -> String {
+    capitalised(&spaced(name))
+}
+
+/// `face_normals` → `face normals`.
+pub fn spaced(name: &str) -> String {
+    name.replace('_', " ")
+}
+
+/// With a capital first letter.
+pub fn capitalised(text: &str) -> String {
+    let mut letters = text.chars();
+    letters
+        .next()
+        .map_or_else(String::new, |first| first.to_uppercase().collect::<String>() + letters.as_str())
+}
+
+/// A parameter and what a reset brings back.
+pub struct Row<'p, 'a> {
+    /// The parameter.
+    pub param: &'p mut Param<'a>,
+    /// The default: a value of its own, or that it inherits.
+    pub default: Value,
+}
+
+impl Row<'_, '_> {
+    /// Whether a reset would change it.
+    pub fn differs(&self) -> bool {
+        self.param.own() != self.default
+    }
+
+    /// Brings the default back.
+    pub fn reset(&mut self) -> Option<Change> {
+        let default = self.default.clone();
+        self.set(&default)
+    }
+
+    fn set(&mut self, value: &Value) -> Option<Change> {
+        // A default always fits its own parameter, and only what inherits is asked to.
+        self.param.set(value).ok().map(|()| (self.param.key.clone(), value.clone()))
+    }
+
+    /// What the pointer is told.
+    pub fn help(&self) -> String {
+        let param = &self.param;
+        let mut help = format!("{}\n\n{}", param.help, param.key);
+        if let (true, Some(other)) = (param.slot.is_inherited(), param.slot.inherits()) {
+            help.push_str(&format!("\nas {other}, until it is changed here"));
+        }
+        if self.differs() {
+            help.push_str(&format!("\ndefault {}", self.default));
+        }
+        help
+    }
+
+    /// Name, value and what it takes to change it. Returns the change.
+    pub fn ui(&mut self, ui: &mut Ui) -> Option<Change> {
+        let before = self.param.own();
+        let mut help = self.help();
+        if self.differs() {
+            help.push_str("; double-click the name to go back");
+        }
+        let mut reset = None;
+        ui.horizontal(|ui| {
+            let inherited = self.param.slot.is_inherited();
+            let color = match (self.differs(), inherited) {
+                (_, true) => ui.visuals().weak_text_color(),
+                (true, false) => ui.visuals().strong_text_color(),
+                (false, false) => ui.visuals().text_color(),
+            };
+            let label = label_ui(ui, self.param.label, color).on_hover_text(&help);
+            if label.double_clicked() {
+                reset = self.reset();
+            }
+            label.context_menu(|ui| reset = self.menu_ui(ui));
+            if self.differs() {
+                let at =
+                    egui::Rect::from_min_size(label.rect.min, egui::vec2(RESET_WIDTH, label.rect.height()));
+                let name = format!("Reset {}", self.param.label);
+                if icons::reset(ui, at, label.id.with("reset"), &name).on_hover_text(&name).clicked() {
+                    reset = self.reset();
+                }
+            }
+            if inherited {
+                ui.multiply_opacity(INHERITED_OPACITY);
+            }
+            slot_ui(ui, self.param, label.id, &help);
+        });
+        let after = self.param.own();
+        reset.or_else(|| (after != before).then(|| (self.param.key.clone(), after)))
+    }
+
+    /// What can be done with the parameter beside changing it. Returns the change.
+    pub fn menu_ui(&mut self, ui: &mut Ui) -> Option<Change> {
+        let mut change = None;
+        if self.default != Value::Inherit
+            && ui.add_enabled(self.differs(), egui::Button::new("Reset to default")).clicked()
+        {
+            change = self.reset();
+        }
+        if let Some(other) = self.param.slot.inherits() {
+            let text = format!("Inherit {}", spaced(other));
+            let is_own = !self.param.slot.is_inherited();
+            if ui.add_enabled(is_own, egui::Button::new(text)).clicked() {
+                change = self.set(&Value::Inherit);
+            }
+        }
+        if ui.button("Copy key").clicked() {
+            ui.ctx().copy_text(self.param.key.clone());
+        }
+        change
+    }
+
+    /// The switch of a section, for its heading. Returns the change.
+    pub fn head_ui(&mut self, ui: &mut Ui) -> Option<Change> {
+        let help = self.help();
+        let inherited = self.param.slot.is_inherited();
+        let Slot::Bool(place) = &mut self.param.slot else {
+            return None;
+        };
+        let response = ui.scope(|ui| {
+            if inherited {
+                ui.multiply_opacity(INHERITED_OPACITY);
+            }
+            switch_ui(ui, place)
+        });
+        let response = response.inner.accessible_name(self.param.label).on_hover_text(help);
+        response.changed().then(|| (self.param.key.clone(), self.param.own()))
+    }
+}
+
+/// A row with a name like those of parameters.
+pub fn named_row<R>(ui: &mut Ui, name: &str, help: &str, add: impl FnOnce(&mut Ui, egui::Id) -> R) -> R {
+    ui.horizontal(|ui| {
+        let label = label_ui(ui, name, ui.visuals().text_color()).on_hover_text(help);
+        add(ui, label.id)
+    })
+    .inner
+}
+
+/// The name of a parameter, behind room for a button that resets.
+fn label_ui(ui: &mut Ui, text: &str, color: Color32) -> egui::Response {
+    let height = ui.spacing().interact_size.y;
+    let (rect, response) = ui.allocate_exact_size(egui::vec2(LABEL_WIDTH, height), egui::Sense::click());
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, text));
+    if ui.is_rect_visible(rect) {
+        let font = egui::TextStyle::Body.resolve(ui.style());
+        let mut job = egui::text::LayoutJob::simple_singleline(text.to_owned(), font, color);
+        job.wrap = egui::text::TextWrapping::truncate_at_width(LABEL_WIDTH - RESET_WIDTH);
+        let galley = ui.painter().layout_job(job);
+        let at = egui::pos2(rect.left() + RESET_WIDTH, rect.center().y - galley.size().y * 0.5);
+        ui.painter().galley(at, galley, color);
+    }
+    response
+}
+
+fn switch_ui(ui: &mut Ui, place: &mut Place<'_, bool>) -> egui::Response {
+    let mut value = place.get();
+    let response = ui.checkbox(&mut value, "");
+    if response.changed() {
+        place.set(value);
+    }
+    response
+}
+
+fn slot_ui(ui: &mut Ui, param: &mut Param<'_>, label: egui::Id, help: &str) {
+    match &mut param.slot {
+        Slot::Bool(place) => {
+            switch_ui(ui, place).labelled_by(label).on_hover_text(help);
+        }
+        Slot::Number { value: place, soft, hard } => {
+            let mut value = place.get();
+            let gap = ui.spacing().item_spacing.x;
+            ui.spacing_mut().slider_width = (ui.available_width() - NUMBER_WIDTH - gap).max(40.0);
+            let slider = egui::Slider::new(&mut value, soft.clone())
+                .show_value(false)
+                .trailing_fill(true)
+                .clamping(egui::SliderClamping::Edits);
+            ui.add(slider).labelled_by(label).on_hover_text(help);
+            let speed = f64::from(soft.end() - soft.start()) / 200.0;
+            let number = egui::DragValue::new(&mut value)
+                .range(hard.clone())
+                .speed(speed)
+                .custom_formatter(|n, _| short(n))
+                .suffix(if param.unit.is_empty() { String::new() } else { format!(" {}", param.unit) });
+            ui.add_sized([NUMBER_WIDTH, ui.spacing().interact_size.y], number)
+                .labelled_by(label)
+                .on_hover_text(help);
+            if value != place.get() {
+                place.set(value);
+            }
+        }
+        Slot::Color(place) => {
+            let mut color = place.get();
+            let button = ui.color_edit_button_srgb(&mut color.0);
+            button.labelled_by(label).on_hover_text(help);
+            ui.label(RichText::new(color.to_string()).weak());
+            if color != place.get() {
+                place.set(color);
+            }
+        }
+        Slot::Choice(choice) => {
+            let (names, mut current) = (choice.names(), choice.name());
+            let combo = egui::ComboBox::from_id_salt(&param.key)
+                .width(ui.available_width())
+                .selected_text(label_of(current))
+                .show_ui(ui, |ui| {
+                    for name in names {
+                        ui.selectable_value(&mut current, *name, label_of(name));
+                    }
+                });
+            combo.response.labelled_by(label).on_hover_text(help);
+            if current != choice.name() {
+                choice.choose(current);
+            }
+        }
+    }
+}
+
+/// At most three decimals and no trailing zeros.
+fn short(number: f64) -> String {
+    let text = format!("{number:.3}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_and_numbers_are_written_for_people() {
+        assert_eq!(label_of("face_normals"), "Face normals");
+        assert_eq!(["2.5", "30", "0.1"], [2.5, 30.0, 0.1_f32.into()].map(short));
+    }
+}
