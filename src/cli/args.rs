@@ -6,6 +6,7 @@ use std::str::FromStr;
 use clap::{Args, Parser, Subcommand};
 use glam::DVec3;
 
+use crate::render::sample::MAX_SAMPLES;
 use crate::scene::Up;
 use crate::style::{Color, Value};
 
@@ -45,6 +46,9 @@ pub(super) struct RenderArgs {
     /// Size of the picture in pixels
     #[arg(long, value_name = "W,H", default_value = "1000,800")]
     pub resolution: Resolution,
+    /// Samples per pixel, 1 to 1024: more are smoother and take as many times as long; 64 is as smooth as eyes can tell
+    #[arg(long, value_name = "N", default_value = "1", value_parser = samples)]
+    pub samples: u32,
     #[command(flatten)]
     pub look: LookArgs,
     #[command(flatten)]
@@ -69,7 +73,7 @@ pub(super) struct LookArgs {
     /// Style of the objects that match a pattern (`/crank/rod.3/*`, or `rod*` for names)
     #[arg(long, value_name = "GLOB=NAME|FILE")]
     pub object_style: Vec<Assignment>,
-    /// Set a parameter of all objects (`edges.profile.threshold=0.2`) or of some (`rod*:gooch.alpha=0.3`)
+    /// Set a parameter of all objects (`edges.profile.width=2`) or of some (`rod*:gooch.alpha=0.3`)
     #[arg(long, value_name = "[GLOB:]KEY=VALUE")]
     pub set: Vec<Setting>,
     /// Do not draw the objects that match
@@ -159,6 +163,11 @@ fn positive(s: &str) -> Result<f64, String> {
 
 fn view_angle(s: &str) -> Result<f64, String> {
     number(s, |n| (1.0..=170.0).contains(&n), "angle from 1 to 170 degrees")
+}
+
+fn samples(s: &str) -> Result<u32, String> {
+    let samples = s.trim().parse().ok().filter(|n| (1..=MAX_SAMPLES).contains(n));
+    samples.ok_or_else(|| format!("`{s}` is no number of samples from 1 to {MAX_SAMPLES}"))
 }
 
 /// Width and height of a picture in pixels.

@@ -12,7 +12,8 @@ use crate::gpu::Gpu;
 use crate::import::Progress;
 use crate::render::Request;
 use crate::scene::Camera;
-use crate::style::{DepthOperator, Style, preset};
+use crate::style::toon::Border;
+use crate::style::{DepthOperator, EdgeMode, Style, Technique, preset};
 
 /// One style, measured.
 struct Row {
@@ -100,6 +101,7 @@ impl Bench {
             size: self.size,
             transparent: false,
             selected: &[],
+            samples: 1,
         })?;
         self.session.renderer().gpu().wait()?;
         Ok(started.elapsed().as_secs_f64() * 1e3)
@@ -108,16 +110,34 @@ impl Bench {
 
 fn styles() -> Result<Vec<(&'static str, Style)>, CliError> {
     let gooch = preset::load("gooch")?.style;
-    let mut c1 = gooch.clone();
+    let mut diagonal = gooch.clone();
+    diagonal.edges.mode = EdgeMode::Paper;
+    let mut c1 = diagonal.clone();
     c1.edges.operator = DepthOperator::C1;
     let mut no_edges = gooch.clone();
     no_edges.edges.profile.show = false;
     no_edges.edges.inner.show = false;
+    let toon = |border| {
+        let mut style = no_edges.clone();
+        style.technique = Technique::Toon;
+        style.toon.border = border;
+        style
+    };
+    let exact = |width: f32| {
+        let mut style = gooch.clone();
+        (style.edges.profile.width, style.edges.inner.width) = (width, width);
+        style
+    };
     Ok(vec![
         ("plain", preset::load("plain")?.style),
+        ("toon, nearest", toon(Border::Nearest)),
+        ("toon, cartoon map", toon(Border::CartoonMap)),
+        ("toon, analytic", toon(Border::Analytic)),
         ("gooch, no edges", no_edges),
-        ("gooch + edges, diagonal", gooch),
+        ("gooch + edges, diagonal", diagonal),
         ("gooch + edges, C1", c1),
+        ("gooch + edges, 2 px", exact(2.0)),
+        ("gooch + edges, 32 px", exact(32.0)),
         ("lines", preset::load("lines")?.style),
     ])
 }

@@ -11,6 +11,7 @@ use crate::export::session::{Opened, initial_camera, open};
 use crate::export::{Session, save_png};
 use crate::gpu::{Gpu, GpuError};
 use crate::import::Progress;
+use crate::render::RenderError;
 use crate::scene::{Camera, NodeId, Projection, Scene};
 use crate::style::{Value, preset};
 
@@ -26,6 +27,10 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
     opened.document.camera = Some(camera(&opened, &args.camera, aspect));
 
     let mut session = Session::new(device.wait()?);
+    if let Some(mistake) = session.renderer().take_shader_error() {
+        return Err(RenderError::from(mistake).into());
+    }
+    session.set_samples(args.samples);
     session.set_scene(&opened)?;
     let image = session.image(&opened, size, args.no_background)?;
     save_png(&args.output, image)?;
@@ -35,6 +40,7 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
         print_json(&json!({
             "output": args.output,
             "resolution": size,
+            "samples": args.samples,
             "adapter": session.renderer().gpu().adapter_name,
             "triangles": scene.triangle_count(),
             "warnings": scene.warnings.iter().map(ToString::to_string).collect::<Vec<_>>(),

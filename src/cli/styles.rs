@@ -1,5 +1,7 @@
 //! `hachure styles`: presets and the reference of all parameters.
 
+use std::collections::BTreeMap;
+
 use serde_json::json;
 
 use super::args::StylesArgs;
@@ -29,12 +31,29 @@ pub(super) fn run(args: &StylesArgs) -> Result<(), CliError> {
         print_line(&format!("  {:<10} {technique:<8} {}", preset.name, preset.description))?;
     }
     print_line("\nParameters (for --set KEY=VALUE and style files)")?;
+    let width = params.iter().map(|p| p.key.len()).max().unwrap_or_default();
     for param in &params {
-        let unit = param.unit;
-        print_line(&format!("  {:<26} {}{unit}, {}", param.key, param.value(), param.domain()))?;
-        print_line(&format!("  {:<26} {}", "", param.help))?;
+        print_line(&format!("  {:<width$} {}, {}", param.key, default_of(param), param.domain()))?;
+        print_line(&format!("  {:<width$} {}{}", "", param.help, conditions_of(param)))?;
     }
     Ok(())
+}
+
+/// `2.5 px`, or `as edges.profile.width`.
+fn default_of(param: &Param<'_>) -> String {
+    match (param.own(), param.slot.inherits()) {
+        (Value::Inherit, Some(other)) => format!("as {other}"),
+        (own, _) => format!("{own} {}", param.unit).trim_end().to_owned(),
+    }
+}
+
+/// ` (edges.mode=exact)`, or nothing.
+fn conditions_of(param: &Param<'_>) -> String {
+    if param.conditions.is_empty() {
+        return String::new();
+    }
+    let conditions: Vec<_> = param.conditions.iter().map(|c| format!("{}={}", c.key, c.value)).collect();
+    format!(" ({})", conditions.join(", "))
 }
 
 fn parameter_json(param: &Param<'_>) -> serde_json::Value {
@@ -50,11 +69,12 @@ fn parameter_json(param: &Param<'_>) -> serde_json::Value {
         "key": param.key,
         "label": param.label,
         "unit": param.unit,
-        "technique": param.technique.map(<&str>::from),
-        "default": match param.value() {
+        "when": param.conditions.iter().map(|c| (c.key, c.value)).collect::<BTreeMap<_, _>>(),
+        "inherits": param.slot.inherits(),
+        "default": match param.own() {
             Value::Bool(b) => json!(b),
             Value::Number(n) => json!(n),
-            Value::Text(t) => json!(t),
+            own @ (Value::Text(_) | Value::Inherit) => json!(own.to_string()),
         },
         "range": range,
         "choices": choices,

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use image::RgbaImage;
 
-use crate::document::{Document, DocumentError, Show};
+use crate::document::{Document, DocumentError};
 use crate::geometry::Topology;
 use crate::gpu::{Gpu, GpuError, readback};
 use crate::import::{ImportError, ImportOptions, Progress, load_all};
@@ -85,12 +85,13 @@ pub fn topology(scene: &Scene, crease_angle: f32) -> Vec<Topology> {
 /// A renderer that gives its pictures back.
 pub struct Session {
     renderer: Renderer,
+    samples: u32,
 }
 
 impl Session {
     /// Takes over a device.
     pub fn new(gpu: Gpu) -> Self {
-        Self { renderer: Renderer::new(gpu) }
+        Self { renderer: Renderer::new(gpu), samples: 1 }
     }
 
     /// The renderer.
@@ -98,17 +99,17 @@ impl Session {
         &mut self.renderer
     }
 
-    /// Uploads what was opened. Topology is examined only if the document's view asks for surfaces: for one picture it
-    /// would cost more time than it saves.
+    /// How many samples per pixel pictures have from now on; at first one.
+    pub fn set_samples(&mut self, samples: u32) {
+        self.samples = samples;
+    }
+
+    /// Uploads what was opened, with its topology: exact lines come from it.
     ///
     /// # Errors
     /// [`RenderError`].
     pub fn set_scene(&mut self, opened: &Opened) -> Result<(), RenderError> {
-        let topology = if opened.document.view.show == Show::Surfaces {
-            topology(&opened.scene, opened.document.view.crease_angle)
-        } else {
-            Vec::new()
-        };
+        let topology = topology(&opened.scene, opened.document.view.crease_angle);
         self.renderer.set_scene(&opened.scene, &topology)
     }
 
@@ -125,13 +126,22 @@ impl Session {
         let aspect = f64::from(size[0].max(1)) / f64::from(size[1].max(1));
         let camera =
             opened.document.camera.unwrap_or_else(|| initial_camera(&opened.document, &opened.scene, aspect));
-        self.renderer.render(&Request {
+        let request = Request {
             document: &opened.document,
             camera: &camera,
             size,
             transparent,
             selected: &[],
-        })
+            samples: self.samples,
+        };
+        let mut picture = self.renderer.render(&request)?;
+        while !picture.sample.is_last() {
+            // One sample at a time, so that not all of them lie in the queue at once.
+            self.renderer.gpu().wait()?;
+            drop(picture);
+            picture = self.renderer.render(&request)?;
+        }
+        Ok(picture)
     }
 
     /// Draws and reads the picture back.
