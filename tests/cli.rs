@@ -47,6 +47,10 @@ fn mistakes_end_with_the_right_code_and_a_message_that_helps() {
         (&["--camera-view-angle", "nan"], 2, "angle from 1 to 170"),
         (&["--camera-azimuth-angle", "inf"], 2, "is no number"),
         (&["--up", "W"], 2, "is no axis"),
+        (&["--samples", "0"], 2, "`0` is no number of samples from 1 to 1024"),
+        (&["--samples", "2000"], 2, "from 1 to 1024"),
+        (&["--samples", "many"], 2, "`many` is no number of samples"),
+        (&["--samples=-4"], 2, "is no number of samples"),
         (&["--background", "red"], 2, "is no colour"),
     ];
     for (args, code, message) in cases {
@@ -131,16 +135,31 @@ fn info_styles_and_bench_print_what_they_promise() {
     let styles: serde_json::Value = serde_json::from_str(&stdout(&hachure(&["styles", "--json"]))).unwrap();
     let names: Vec<_> =
         styles["presets"].as_array().unwrap().iter().map(|p| p["name"].as_str().unwrap()).collect();
-    assert_eq!(names, ["gooch", "lines", "plain", "statue"]);
+    assert_eq!(names, ["comic", "gooch", "lines", "plain", "statue", "two-tone"]);
     let parameters = styles["parameters"].as_array().unwrap();
-    let threshold = parameters.iter().find(|p| p["key"] == "edges.profile.threshold").unwrap();
+    let parameter = |key: &str| parameters.iter().find(|p| p["key"] == key).unwrap();
+    let threshold = parameter("edges.profile.threshold");
     assert!(threshold["range"]["hard"].is_array() && !threshold["help"].as_str().unwrap().is_empty());
-    assert!(stdout(&hachure(&["styles"])).contains("edges.profile.threshold"));
+    assert_eq!(threshold["when"]["edges.mode"], "paper");
+    let width = parameter("edges.silhouette.width");
+    assert_eq!((&width["default"], &width["unit"]), (&"inherit".into(), &"px".into()));
+    assert_eq!(width["inherits"], "edges.profile.width");
+    let text = stdout(&hachure(&["styles"]));
+    assert!(text.contains("edges.profile.threshold") && text.contains("(edges.mode=paper"));
+    assert!(text.contains("2.5 px, a number from 0.25 to 64\n"), "{text}");
+    assert!(text.contains("as edges.profile.width, a number from 0.25 to 64, or inherit"), "{text}");
 
     let bench = hachure(&["bench", &crank(), "--frames", "1", "--resolution", "64,64", "--json"]);
     let bench: serde_json::Value = serde_json::from_str(&stdout(&bench)).unwrap();
     assert_eq!(bench["styles"][0]["style"], "plain");
-    assert!(bench["styles"][2]["stages_ms"]["edge map"].as_f64().unwrap() > 0.0);
+    let stage = |style: &str, stage: &str| {
+        let found = bench["styles"].as_array().unwrap().iter().find(|s| s["style"] == style).unwrap();
+        found["stages_ms"][stage].as_f64().unwrap_or_default()
+    };
+    assert!(stage("gooch + edges, diagonal", "operators") > 0.0);
+    assert!(stage("gooch + edges, 2 px", "segments") > 0.0);
+    assert!(stage("gooch + edges, 32 px", "lines") > 0.0);
+    assert_eq!(stage("plain", "lines"), 0.0);
 }
 
 #[test]
@@ -176,6 +195,24 @@ fn camera_flags_mean_what_they_say() {
     let narrow = share(&[&from[..], &["--camera-view-angle", "20"]].concat());
     let wide = share(&[&from[..], &["--camera-view-angle", "60"]].concat());
     assert!(narrow > 4 * wide && wide > 0, "{narrow} {wide}");
+}
+
+#[test]
+fn more_samples_are_smoother() {
+    let folder = tempfile::tempdir().unwrap();
+    let colors = |name: &str, args: &[&str]| {
+        let flat = ["--style", "plain", "--no-background", "--json"];
+        let (result, path) = render(folder.path(), name, &crank(), &[&flat, args].concat());
+        assert!(result.status.success(), "{}", String::from_utf8_lossy(&result.stderr));
+        let said: serde_json::Value = serde_json::from_str(&stdout(&result)).unwrap();
+        let image = image::open(path).unwrap().into_rgba8();
+        let alphas: std::collections::BTreeSet<u8> = image.pixels().map(|p| p.0[3]).collect();
+        (alphas.len(), said["samples"].as_u64().unwrap())
+    };
+    let (one, four, many) =
+        (colors("1.png", &[]), colors("4.png", &["--samples", "4"]), colors("64.png", &["--samples", "64"]));
+    assert_eq!((one.1, four.1, many.1), (1, 4, 64));
+    assert!(one.0 == 2 && (5..=6).contains(&four.0) && many.0 > 50, "{one:?} {four:?} {many:?}");
 }
 
 #[test]

@@ -15,11 +15,11 @@ use glam::{DMat4, DVec3};
 use hachure::app::command::Command;
 use hachure::app::{self, Launch, Viewer};
 use hachure::document::Document;
-use hachure::geometry::primitives;
+use hachure::geometry::{EdgeClass, primitives};
 use hachure::gpu::Gpu;
 use hachure::import::{ImportError, Progress};
 use hachure::scene::{Material, Node, NodeId, Projection, Scene, Up, Warning};
-use hachure::style::preset;
+use hachure::style::{EdgeMode, Edges, preset};
 
 type Window = Harness<'static, Viewer>;
 
@@ -170,6 +170,67 @@ fn a_slider_changes_the_style_and_a_double_click_on_its_name_resets_it() {
 }
 
 #[test]
+fn the_mode_of_edges_says_which_of_their_parameters_are_shown() {
+    let mut window = window();
+    choose(&mut window, "Preset", "Lines");
+    let shows = |window: &Window, role, label| window.query_all_by_role_and_label(role, label).count();
+    let counts = |window: &Window| {
+        [
+            (Role::ComboBox, "Alignment"),
+            (Role::Slider, "Width"),
+            (Role::Button, "Silhouettes"),
+            (Role::Slider, "Gain"),
+        ]
+        .map(|(role, label)| shows(window, role, label))
+    };
+    assert_eq!(counts(&window), [1, 2, 1, 0], "the groups' widths, classes folded");
+    choose(&mut window, "Mode", "Paper");
+    assert_eq!(window.state().document().style.edges.mode, EdgeMode::Paper);
+    assert_eq!(counts(&window), [0, 0, 0, 2], "one gain of each group, that of the operator in use");
+    assert_eq!(shows(&window, Role::CheckBox, "Profile edges"), 1, "of both modes");
+    ask(&mut window, Command::Undo);
+    assert_eq!(counts(&window), [1, 2, 1, 0]);
+}
+
+#[test]
+fn a_class_of_lines_is_like_its_group_until_it_is_set_and_after_a_reset() {
+    let mut window = window();
+    choose(&mut window, "Preset", "Lines");
+    click(&mut window, Role::Button, "Silhouettes");
+    let widths = |window: &Window| -> Vec<f64> {
+        let sliders = window.get_all_by_role_and_label(Role::Slider, "Width");
+        sliders.map(|slider| slider.accesskit_node().numeric_value().unwrap()).collect()
+    };
+    let set = |window: &mut Window, slider: usize, width| {
+        window
+            .get_all_by_role_and_label(Role::Slider, "Width")
+            .nth(slider)
+            .unwrap()
+            .set_value_accesskit(width);
+        settle(window);
+    };
+    let own = |window: &Window| *window.state().document().style.edges.class(EdgeClass::Silhouette);
+    assert_eq!(widths(&window), [3.0, 3.0, 1.5], "of the profile edges, the silhouettes, the inner edges");
+    set(&mut window, 0, 5.0);
+    assert_eq!((widths(&window), own(&window).width), (vec![5.0, 5.0, 1.5], None));
+    set(&mut window, 1, 8.0);
+    set(&mut window, 0, 4.0);
+    assert_eq!((widths(&window), own(&window).width), (vec![4.0, 8.0, 1.5], Some(8.0)));
+
+    window.get_all_by_role_and_label(Role::Button, "Reset Width").nth(1).unwrap().click();
+    settle(&mut window);
+    assert_eq!((widths(&window), own(&window).width), (vec![4.0, 4.0, 1.5], None));
+    ask(&mut window, Command::Undo);
+    assert_eq!(own(&window).width, Some(8.0));
+
+    click(&mut window, Role::CheckBox, "Silhouettes");
+    assert_eq!(own(&window).show, Some(false));
+    assert!(window.state().document().style.edges.line(EdgeClass::Border).show);
+    click(&mut window, Role::Button, "Reset Silhouettes");
+    assert_eq!(own(&window), *Edges::default().class(EdgeClass::Silhouette));
+}
+
+#[test]
 fn a_preset_replaces_the_style() {
     let mut window = window();
     choose(&mut window, "Preset", "Statue");
@@ -282,13 +343,75 @@ fn a_drag_turns_the_model_in_one_step_and_an_idle_window_draws_nothing() {
     assert!(window.state().selection().is_empty(), "a drag is no click");
     ask(&mut window, Command::Undo);
     assert_eq!(window.state().document().camera, Some(before));
+}
 
-    let pictures = window.state().viewport().pictures();
-    window.hover_at(middle + Vec2::new(3.0, 3.0));
-    for _ in 0..10 {
+/// Waits until the picture at rest is as smooth as it gets.
+fn rest(window: &mut Window) {
+    until(window, "the picture is complete", |v| v.viewport().refining().is_complete());
+}
+
+/// How many pictures there would be without the samples that were added to the present one.
+fn first_samples(window: &Window) -> u64 {
+    let viewport = window.state().viewport();
+    let added = viewport.refining().progress().map_or(0, |(samples, _)| samples - 1);
+    viewport.pictures() - u64::from(added)
+}
+
+#[test]
+fn a_picture_at_rest_gets_smooth_and_then_nothing_is_drawn_until_something_changes() {
+    let mut window = window();
+    until(&mut window, "the meshes are examined", Viewer::has_topology);
+    ask(&mut window, Command::Front);
+    assert!(!window.state().viewport().refining().is_complete());
+    let moved = first_samples(&window);
+    until(&mut window, "a sample is added", |v| v.viewport().refining().progress().is_some());
+    assert!(window.get_all_by_role(Role::Label).any(|l| {
+        l.accesskit_node().value().or_else(|| l.accesskit_node().label()).is_some_and(|t| t.ends_with("/64"))
+    }));
+    // What the pointer does over the picture is no change, but postpones the next sample.
+    let before = window.state().viewport().refining().progress();
+    let picture = window.get_by_label("Picture").rect();
+    for i in 0..20u8 {
+        window.hover_at(picture.center() + Vec2::splat(f32::from(i)));
         window.step();
     }
-    assert_eq!(window.state().viewport().pictures(), pictures, "nothing changed, so nothing is drawn");
+    assert_eq!(window.state().viewport().refining().progress(), before);
+    rest(&mut window);
+    let complete = window.state().viewport().pictures();
+    assert_eq!(complete, moved + 63, "the picture that moved was the first of 64");
+
+    window.hover_at(picture.center());
+    for _ in 0..20 {
+        std::thread::sleep(Duration::from_millis(20));
+        window.step();
+    }
+    assert_eq!(window.state().viewport().pictures(), complete, "nothing changed, so nothing is drawn");
+    // A selection has outlines drawn, but the picture stays.
+    ask(&mut window, Command::SelectAll);
+    assert_eq!(window.state().viewport().pictures(), complete + 1);
+    assert!(window.state().viewport().refining().is_complete());
+    ask(&mut window, Command::Back);
+    assert_eq!(first_samples(&window), complete + 2);
+    assert!(!window.state().viewport().refining().is_complete(), "a change begins anew");
+    rest(&mut window);
+}
+
+#[test]
+fn smoothness_at_rest_can_be_switched_off() {
+    let mut window = window();
+    click(&mut window, Role::Tab, "View");
+    choose(&mut window, "Smooth at rest", "16 samples");
+    let first = first_samples(&window);
+    rest(&mut window);
+    assert_eq!(window.state().viewport().pictures(), first + 15);
+    choose(&mut window, "Smooth at rest", "Off");
+    assert!(window.state().viewport().refining().is_complete());
+    assert_eq!(window.state().state().samples.at_rest(), 1);
+    choose(&mut window, "Show", "Normals");
+    choose(&mut window, "Smooth at rest", "64 samples");
+    let pictures = window.state().viewport().pictures();
+    rest(&mut window);
+    assert!(window.state().viewport().pictures() <= pictures + 1, "a buffer is shown as it is");
 }
 
 #[test]

@@ -12,19 +12,59 @@ use image::RgbaImage;
 /// Structural similarity (1 = equal) that a picture must reach in its worst channel.
 const SIMILARITY: f64 = 0.985;
 
+// Widths as people set them; a picture of 256 pixels has about a quarter of a pixel for each.
+const PROFILE_1: &str = "edges.profile.width=1";
+const INNER_1: &str = "edges.inner.width=1";
+const PROFILE_4: &str = "edges.profile.width=4";
+const INNER_4: &str = "edges.inner.width=4";
+const PROFILE_16: &str = "edges.profile.width=16";
+const INNER_16: &str = "edges.inner.width=16";
+
 /// Name, model and further arguments of every golden picture.
 const PICTURES: &[(&str, &str, &[&str])] = &[
     ("gooch_crank", "crank", &["--style", "gooch"]),
     ("gooch_ogre", "ogre", &["--style", "gooch"]),
+    ("comic_ogre", "ogre", &["--style", "comic"]),
+    ("two_tone_crank", "crank", &["--style", "two-tone"]),
     ("plain_crank", "crank", &["--style", "plain"]),
     ("lines_crank", "crank", &["--style", "lines"]),
-    ("lines_c1_crank", "crank", &["--style", "lines", "--set", "edges.operator=c1"]),
+    ("lines_paper_crank", "crank", &["--style", "lines", "--set", "edges.mode=paper"]),
+    ("width_1_crank", "crank", &["--style", "lines", "--set", PROFILE_1, "--set", INNER_1]),
+    ("width_4_crank", "crank", &["--style", "lines", "--set", PROFILE_4, "--set", INNER_4]),
+    ("width_16_crank", "crank", &["--style", "lines", "--set", PROFILE_16, "--set", INNER_16]),
+    (
+        "classes_crank",
+        "crank",
+        &[
+            "--style",
+            "lines",
+            "--set",
+            PROFILE_4,
+            "--set",
+            INNER_4,
+            "--set",
+            "edges.silhouette.color=#c02020",
+            "--set",
+            "edges.object.color=#e08000",
+            "--set",
+            "edges.ridge.color=#2050c0",
+            "--set",
+            "edges.valley.color=#108040",
+            "--set",
+            "edges.intersection.color=#a020a0",
+        ],
+    ),
+    (
+        "lines_c1_crank",
+        "crank",
+        &["--style", "lines", "--set", "edges.mode=paper", "--set", "edges.operator=c1"],
+    ),
     ("statue_ogre", "ogre", &["--style", "statue"]),
     ("unlit_ogre", "ogre", &["--style", "plain", "--set", "technique=unlit"]),
     ("normals_crank", "crank", &["--set", "view.show=normals"]),
     ("depth_crank", "crank", &["--set", "view.show=depth"]),
     ("surfaces_crank", "crank", &["--set", "view.show=surfaces"]),
-    ("edge_map_ogre", "ogre", &["--set", "view.show=edge_map"]),
+    ("edge_map_ogre", "ogre", &["--set", "edges.mode=paper", "--set", "view.show=edge_map"]),
     (
         "mixed_crank",
         "crank",

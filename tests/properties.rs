@@ -25,6 +25,9 @@ fn directions(count: i32) -> impl Iterator<Item = DVec3> {
     })
 }
 
+/// How edges are found. `exact_lines.rs` has more of exact mode.
+const MODES: [&str; 2] = ["paper", "exact"];
+
 #[test]
 fn a_tilted_plane_has_no_inner_edge() {
     let mut session = session();
@@ -32,7 +35,8 @@ fn a_tilted_plane_has_no_inner_edge() {
         for size in [1e-3, 1.0, 1e3] {
             let turn = DMat4::from_quat(DQuat::from_rotation_x(tilt.to_radians()));
             let scene = scene(vec![("plane", primitives::plane(size), turn, [0.7; 3])]);
-            let opened = opened(&scene, DVec3::Z);
+            let mut opened = opened(&scene, DVec3::Z);
+            set(&mut opened, "edges.mode", "paper");
             let picture = draw(&mut session, &opened, 128);
             let buffer = surfels(&mut session, &picture);
             let ink = ink(&mut session, &picture);
@@ -60,7 +64,9 @@ fn the_outline_of_a_cube_is_closed_from_any_side() {
     let mut session = session();
     let scene = scene(vec![("cube", primitives::cube(2.0), DMat4::IDENTITY, [0.7; 3])]);
     for direction in directions(32) {
-        let picture = draw(&mut session, &opened(&scene, direction), 96);
+        let mut opened = opened(&scene, direction);
+        set(&mut opened, "edges.mode", "paper");
+        let picture = draw(&mut session, &opened, 96);
         let buffer = surfels(&mut session, &picture);
         let ink = ink(&mut session, &picture);
         for y in 1..95 {
@@ -90,11 +96,17 @@ fn the_order_of_objects_changes_no_pixel() {
     };
     let mut session = session();
     let direction = DVec3::new(0.5, 0.6, 1.0);
-    let forward = image(&mut session, &opened(&scene(objects()), direction), 160);
     let mut reversed = objects();
     reversed.reverse();
-    let backward = image(&mut session, &opened(&scene(reversed), direction), 160);
-    assert!(forward == backward);
+    let [forward, backward] = [objects(), reversed].map(scene);
+    for mode in MODES {
+        let mut drawn = |scene| {
+            let mut opened = opened(scene, direction);
+            set(&mut opened, "edges.mode", mode);
+            image(&mut session, &opened, 160)
+        };
+        assert!(drawn(&forward) == drawn(&backward), "{mode}");
+    }
 }
 
 #[test]
@@ -104,14 +116,17 @@ fn hiding_an_object_removes_its_ink_and_nobody_elses() {
         ("big", primitives::cube(2.0), at(0.0, 0.0, 0.0), [0.7; 3]),
         ("small", primitives::sphere(0.4, 16, 24), at(2.0, 0.0, 0.0), [0.7; 3]),
     ]);
-    let mut all = opened(&scene, DVec3::new(0.1, 0.2, 1.0));
-    let with = draw(&mut session, &all, 128);
-    let ink_with = ink(&mut session, &with);
-    all.document.node_mut("/small").visible = Some(false);
-    let without = draw(&mut session, &all, 128);
-    let ink_without = ink(&mut session, &without);
-    assert!(ink_with.iter().any(|i| i.2 == 2) && !ink_without.iter().any(|i| i.2 == 2));
-    assert!(ink_with.iter().zip(&ink_without).all(|(a, b)| a.2 == 2 || a == b));
+    for mode in MODES {
+        let mut all = opened(&scene, DVec3::new(0.1, 0.2, 1.0));
+        set(&mut all, "edges.mode", mode);
+        let with = draw(&mut session, &all, 128);
+        let ink_with = ink(&mut session, &with);
+        all.document.node_mut("/small").visible = Some(false);
+        let without = draw(&mut session, &all, 128);
+        let ink_without = ink(&mut session, &without);
+        assert!(ink_with.iter().any(|i| i.2 == 2) && !ink_without.iter().any(|i| i.2 == 2), "{mode}");
+        assert!(ink_with.iter().zip(&ink_without).all(|(a, b)| a.2 == 2 || a == b), "{mode}");
+    }
 }
 
 #[test]
@@ -121,13 +136,16 @@ fn what_is_not_enhanced_has_no_ink_and_hides_that_of_others() {
         ("back", primitives::cube(1.0), at(0.0, 0.0, -2.0), [0.7; 3]),
         ("front", primitives::plane(3.0), at(0.0, 0.0, 0.0), [0.7; 3]),
     ]);
-    let mut all = opened(&scene, DVec3::Z);
-    all.document.node_mut("/front").enhanced = Some(false);
-    let picture = draw(&mut session, &all, 128);
-    assert!(ink(&mut session, &picture).iter().all(|i| i.0 + i.1 == 0.0), "the hidden cube leaks ink");
-    all.document.node_mut("/front").visible = Some(false);
-    let picture = draw(&mut session, &all, 128);
-    assert!(ink(&mut session, &picture).iter().any(|i| i.1 > 0.9));
+    for mode in MODES {
+        let mut all = opened(&scene, DVec3::Z);
+        set(&mut all, "edges.mode", mode);
+        all.document.node_mut("/front").enhanced = Some(false);
+        let picture = draw(&mut session, &all, 128);
+        assert!(ink(&mut session, &picture).iter().all(|i| i.0 + i.1 == 0.0), "the hidden cube leaks ink");
+        all.document.node_mut("/front").visible = Some(false);
+        let picture = draw(&mut session, &all, 128);
+        assert!(ink(&mut session, &picture).iter().any(|i| i.1 > 0.9), "{mode}");
+    }
 }
 
 #[test]
@@ -135,16 +153,20 @@ fn zero_strength_is_the_picture_without_edges() {
     let mut session = session();
     let scene = scene(vec![("cube", primitives::cube(2.0), DMat4::IDENTITY, [0.7, 0.5, 0.3])]);
     let direction = DVec3::new(0.5, 0.6, 1.0);
-    let mut zero = opened(&scene, direction);
-    set(&mut zero, "edges.profile.strength", "0");
-    set(&mut zero, "edges.inner.strength", "0");
-    let mut off = opened(&scene, direction);
-    set(&mut off, "edges.profile.show", "false");
-    set(&mut off, "edges.inner.show", "false");
-    let with = image(&mut session, &opened(&scene, direction), 128);
-    let zero = image(&mut session, &zero, 128);
-    assert!(zero == image(&mut session, &off, 128));
-    assert!(zero != with);
+    for mode in MODES {
+        let drawn = |session: &mut _, changes: [(&str, &str); 2]| {
+            let mut opened = opened(&scene, direction);
+            set(&mut opened, "edges.mode", mode);
+            for (key, value) in changes {
+                set(&mut opened, key, value);
+            }
+            image(session, &opened, 128)
+        };
+        let with = drawn(&mut session, [("edges.profile.strength", "1"), ("edges.inner.strength", "1")]);
+        let zero = drawn(&mut session, [("edges.profile.strength", "0"), ("edges.inner.strength", "0")]);
+        let off = drawn(&mut session, [("edges.profile.show", "false"), ("edges.inner.show", "false")]);
+        assert!(zero == off && zero != with, "{mode}");
+    }
 }
 
 #[test]
@@ -154,25 +176,23 @@ fn one_objects_parameters_change_no_pixel_of_another() {
         ("a", primitives::cube(1.0), at(-1.0, 0.0, 0.0), [0.7; 3]),
         ("b", primitives::cube(1.0), at(1.0, 0.0, 0.0), [0.7; 3]),
     ]);
-    let before = opened(&scene, DVec3::new(0.1, 0.4, 1.0));
-    let first = image(&mut session, &before, 128);
-    for (key, value) in [
-        ("technique", "plain"),
-        ("gooch.cool", "#ff0000"),
-        ("edges.profile.color", "#00ff00"),
-        ("edges.profile.threshold", "0.9"),
-        ("edges.operator", "c1"),
-    ] {
-        let mut after = before.clone();
-        after.document.set_for(&scene, &[1], key, &hachure::style::Value::parse(value)).unwrap();
-        let second = image(&mut session, &after, 128);
-        let changed: Vec<u32> = first
-            .enumerate_pixels()
-            .zip(second.pixels())
-            .filter(|((.., a), b)| *a != *b)
-            .map(|((x, ..), _)| x)
-            .collect();
-        assert!(!changed.is_empty() && changed.iter().all(|x| *x >= 64), "{key}");
+    let paper = ["edges.profile.threshold=0.9", "edges.operator=c1"];
+    let exact = ["edges.alignment=outward", "edges.ridge.width=20", "edges.silhouette.dashed=true"];
+    let both = ["technique=plain", "gooch.cool=#ff0000", "edges.profile.color=#00ff00"];
+    for (mode, keys) in [("paper", &paper[..]), ("exact", &exact[..])] {
+        let mut before = opened(&scene, DVec3::new(0.1, 0.4, 1.0));
+        set(&mut before, "edges.mode", mode);
+        let first = image(&mut session, &before, 128);
+        for change in both.iter().chain(keys) {
+            let (key, value) = change.split_once('=').unwrap();
+            let mut after = before.clone();
+            after.document.set_for(&scene, &[1], key, &hachure::style::Value::parse(value)).unwrap();
+            let second = image(&mut session, &after, 128);
+            let pairs = first.enumerate_pixels().zip(second.pixels());
+            let changed: Vec<u32> = pairs.filter(|((.., a), b)| *a != *b).map(|((x, ..), _)| x).collect();
+            let others = changed.iter().filter(|x| **x < 64).count();
+            assert!(!changed.is_empty() && others == 0, "{mode}: {change}: {others} of {}", changed.len());
+        }
     }
 }
 
@@ -180,7 +200,8 @@ fn one_objects_parameters_change_no_pixel_of_another() {
 fn only_what_changed_runs_again() {
     let mut session = session();
     let scene = scene(vec![("cube", primitives::cube(2.0), DMat4::IDENTITY, [0.7; 3])]);
-    let opened = opened(&scene, DVec3::new(0.5, 0.6, 1.0));
+    let mut opened = opened(&scene, DVec3::new(0.5, 0.6, 1.0));
+    set(&mut opened, "edges.mode", "paper");
     session.set_scene(&opened).unwrap();
     let mut runs = |change: &dyn Fn(&mut Document)| {
         let mut document = opened.document.clone();
@@ -193,6 +214,7 @@ fn only_what_changed_runs_again() {
             size: [64, 64],
             transparent: false,
             selected: &[],
+            samples: 1,
         };
         renderer.render(&request(&opened.document)).unwrap();
         let before = renderer.runs();
@@ -214,23 +236,25 @@ fn mirrored_transforms_and_flipped_windings_draw_the_same_picture() {
     let mut session = session();
     let direction = DVec3::new(0.5, 0.6, 1.0);
     let cube = || ("cube", primitives::cube(2.0), DMat4::IDENTITY, [0.7, 0.6, 0.5]);
-    let normal = image(&mut session, &opened(&scene(vec![cube()]), direction), 128);
     let mut mirrored = cube();
     mirrored.2 = DMat4::from_scale(DVec3::new(-1.0, 1.0, 1.0));
-    let mirrored = image(&mut session, &opened(&scene(vec![mirrored]), direction), 128);
     let mut flipped = cube();
     for triangle in flipped.1.indices.chunks_exact_mut(3) {
         triangle.swap(0, 1);
     }
-    let flipped = image(&mut session, &opened(&scene(vec![flipped]), direction), 128);
-    // A mirrored vertex is the exact negative; only which triangle of a side owns a pixel may differ.
-    let differing = |a: &image::RgbaImage| normal.pixels().zip(a.pixels()).filter(|(a, b)| a != b).count();
-    assert!(
-        differing(&mirrored) < 40 && differing(&flipped) < 40,
-        "{} {}",
-        differing(&mirrored),
-        differing(&flipped)
-    );
+    let scenes = [cube(), mirrored, flipped].map(|object| scene(vec![object]));
+    for mode in MODES {
+        let [normal, mirrored, flipped] = [0, 1, 2].map(|i: usize| {
+            let mut opened = opened(&scenes[i], direction);
+            set(&mut opened, "edges.mode", mode);
+            image(&mut session, &opened, 128)
+        });
+        // A mirrored vertex is the exact negative; only which triangle of a side owns a pixel may differ.
+        let differing =
+            |a: &image::RgbaImage| normal.pixels().zip(a.pixels()).filter(|(a, b)| a != b).count();
+        let [mirrored, flipped] = [&mirrored, &flipped].map(differing);
+        assert!(mirrored < 40 && flipped < 40, "{mode}: {mirrored} {flipped}");
+    }
 }
 
 #[test]

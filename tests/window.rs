@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
+use std::os::unix::net::UnixStream;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
@@ -33,7 +34,7 @@ fn display() -> (Running, String) {
         }
         let name = format!(":{number}");
         let child = Command::new("Xvfb")
-            .args([&name, "-screen", "0", "900x700x24", "-nolisten", "tcp"])
+            .args([&name, "-screen", "0", "900x700x24", "-nolisten", "tcp", "-noreset"])
             .stdout(Stdio::null())
             .stderr(Stdio::null())
             .spawn()
@@ -41,7 +42,8 @@ fn display() -> (Running, String) {
         let mut server = Running(child);
         let began = Instant::now();
         while began.elapsed() < PATIENCE {
-            if Path::new(&format!("/tmp/.X11-unix/X{number}")).exists() {
+            // The socket's file is there a moment before anybody answers.
+            if UnixStream::connect(format!("/tmp/.X11-unix/X{number}")).is_ok() {
                 return (server, name);
             }
             // Somebody else took the number in the meantime.

@@ -1,6 +1,12 @@
 //! What the tests of pictures share: a device, small scenes, read-back.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+#![allow(clippy::print_stdout, reason = "what is left out is said")]
 #![allow(dead_code, unreachable_pub, reason = "each test program uses a part of it")]
+
+pub mod line_drawing;
+pub mod line_scenes;
+pub mod line_truth;
+pub mod outline;
 
 use std::sync::Arc;
 
@@ -104,13 +110,24 @@ pub fn surfels(session: &mut Session, picture: &Picture) -> Vec<Surfel> {
         .collect()
 }
 
-/// Inner and profile ink per pixel, 0 to 1, and whose it is.
+/// Inner and profile ink per pixel, 0 to 1, and whose it is. See `shaders/common/edge_map.wgsl`.
 pub fn ink(session: &mut Session, picture: &Picture) -> Vec<(f32, f32, u32)> {
     let Some(edge_map) = &picture.edge_map else {
         return vec![(0.0, 0.0, 0); (picture.image.size()[0] * picture.image.size()[1]) as usize];
     };
-    texels::<[u32; 2]>(session, edge_map)
+    texels::<[u32; 4]>(session, edge_map)
         .into_iter()
-        .map(|[ink, owner]| ((ink & 0xffff) as f32 / 65535.0, (ink >> 16) as f32 / 65535.0, owner))
+        .map(|[class, object, _, ink]| match class >> 28 {
+            0 => (0.0, 0.0, 0),
+            PAPER => ((ink & 0xffff) as f32 / 65535.0, (ink >> 16) as f32 / 65535.0, object),
+            class => {
+                let weight = (ink >> 26) as f32 / 63.0;
+                if class <= LAST_PROFILE { (0.0, weight, object) } else { (weight, 0.0, object) }
+            }
+        })
         .collect()
 }
+
+/// Classes in the edge map: the papers' operators, and the last of the profile edges.
+const PAPER: u32 = 15;
+const LAST_PROFILE: u32 = 3;
