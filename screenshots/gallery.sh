@@ -10,28 +10,49 @@ draw() { # draw NAME MODEL ARGUMENTS...
 	name=$1
 	model=$2
 	shift 2
-	target/release/hachure render "$model" --output "screenshots/$name.png" --resolution 1000,1000 "$@"
+	target/release/hachure render "$model" --output "screenshots/$name.png" --resolution 1000,1000 --samples 64 "$@"
 	echo "screenshots/$name.png"
 }
 
 # Technical illustration with white inner and black profile edges (paper, Fig. 7).
 draw gooch "$crank" --style gooch
 draw gooch_ogre "$ogre" --style gooch
-
-# The edge map and the buffers it comes from (Fig. 4 and 6).
-for sample in crank ogre; do
-	for buffer in normals depth normal_operator depth_operator edge_map; do
-		draw "${sample}_$buffer" "assets/models/$sample.glb" --set "view.show=$buffer"
-	done
-done
 draw statue "$ogre" --style statue
 
-# The C1 operator beside the diagonal one (Fig. 5).
-draw lines_diagonal "$crank" --style lines
-draw lines_c1 "$crank" --style lines --set edges.operator=c1
+# The papers' edge map and the buffers it comes from (Fig. 4 and 6).
+for sample in crank ogre; do
+	for buffer in normals depth normal_operator depth_operator edge_map; do
+		draw "${sample}_$buffer" "assets/models/$sample.glb" --set edges.mode=paper --set "view.show=$buffer"
+	done
+done
 
-# Silhouettes and creases told apart (Fig. 1).
-draw classes "$crank" --style lines --set edges.profile.color=#c02020 --set edges.inner.color=#2050c0
+# Exact lines beside those of the papers' operators, diagonal and C1 (Fig. 5).
+draw lines_exact "$crank" --style lines
+draw lines_diagonal "$crank" --style lines --set edges.mode=paper
+draw lines_c1 "$crank" --style lines --set edges.mode=paper --set edges.operator=c1
+
+# Lines of any width.
+for width in 1 4 16; do
+	draw "width_$width" "$crank" --style lines \
+		--set "edges.profile.width=$width" --set "edges.inner.width=$width"
+done
+
+# Classes told apart (Fig. 1): silhouettes, outlines before other objects, ridges, valleys, intersections.
+draw classes "$crank" --style lines --set edges.inner.width=3 \
+	--set edges.silhouette.color=#c02020 --set edges.object.color=#e08000 --set edges.ridge.color=#2050c0 \
+	--set edges.valley.color=#108040 --set edges.intersection.color=#a020a0
+
+# Dashed creases.
+draw dashed "$crank" --style lines --set edges.inner.dashed=true --set edges.inner.width=2 \
+	--set edges.dash.length=10 --set edges.dash.gap=5
+
+# A pen that is pressed more and less.
+draw pressure "$ogre" --style lines --set edges.profile.width=7 --set edges.inner.width=4 \
+	--set edges.pressure.amount=0.9 --set edges.pressure.scale=70
+
+# Lines in the surface's own colour, darkened.
+draw surface_color "$ogre" --style statue --set edges.surface_color=1 --set edges.darken=0.65 \
+	--set edges.profile.width=5 --set edges.inner.width=3
 
 # Every object in a style of its own.
 draw mixed "$crank" --style statue --object-style 'piston*=gooch' --object-style 'flywheel=lines' \
