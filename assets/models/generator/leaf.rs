@@ -30,16 +30,14 @@ fn inside(p: DVec2) -> f64 {
     half_width(p.y) - p.x.abs()
 }
 
-/// Half the leaf's width at a height: a stalk, a round base, an outline in shallow teeth, a drawn-out tip.
+/// Half the leaf's width at a height: a stalk, a round base, a drawn-out tip.
 fn half_width(y: f64) -> f64 {
     let stalk = if y < STALK + 0.05 { 0.011 } else { -1.0 };
     let t = (y - STALK) / (0.985 - STALK);
     if !(0.0..=1.0).contains(&t) {
         return if t < 0.0 { stalk } else { 0.985 - y };
     }
-    let blade = 0.232 * (std::f64::consts::PI * t.powf(0.72)).sin().max(0.0).powf(0.82);
-    let teeth = 0.006 * ((y + 0.02) * VEINS * 2.0 * std::f64::consts::TAU).sin() * smoothstep(0.02, 0.1, blade);
-    stalk.max(blade + teeth)
+    stalk.max(0.236 * (std::f64::consts::PI * t.powf(0.72)).sin().max(0.0).powf(0.85))
 }
 
 /// The colour: two halves in unlike light, a dark rim, pale veins.

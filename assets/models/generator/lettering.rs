@@ -54,7 +54,8 @@ impl Ink {
             let margin = DVec2::splat(long) + texel;
             let low = (pair[0].min(pair[1]) - margin) / texel;
             let high = (pair[0].max(pair[1]) + margin) / texel;
-            let rows = (f64::from(height) - high.y).max(0.0) as u32..=((f64::from(height) - low.y) as u32).min(height - 1);
+            let rows = (f64::from(height) - high.y).max(0.0) as u32
+                ..=((f64::from(height) - low.y) as u32).min(height - 1);
             for row in rows {
                 for column in low.x.max(0.0) as u32..=(high.x as u32).min(width - 1) {
                     let p = to_nib * self.canvas.place(column, row);
@@ -105,15 +106,21 @@ fn strokes(letter: char) -> (f64, Vec<Stroke>) {
     let stem = || line(&[(0.0, 0.0), (0.0, 1.0)]);
     let chain = |parts: &[Stroke]| parts.concat();
     match letter {
-        'A' => (0.74, vec![line(&[(0.0, 0.0), (0.37, 1.0), (0.74, 0.0)]), line(&[(0.13, 0.36), (0.61, 0.36)])]),
+        'A' => {
+            (0.74, vec![line(&[(0.0, 0.0), (0.37, 1.0), (0.74, 0.0)]), line(&[(0.13, 0.36), (0.61, 0.36)])])
+        }
         'C' => (0.76, vec![arc((0.45, 0.5), (0.45, 0.5), 0.55, 3.45)]),
         'D' => {
             let bowl = arc((0.28, 0.5), (0.44, 0.5), 1.0, -1.0);
             (0.72, vec![stem(), chain(&[line(&[(0.0, 1.0)]), bowl, line(&[(0.0, 0.0)])])])
         }
-        'E' => {
-            (0.54, vec![line(&[(0.54, 1.0), (0.0, 1.0), (0.0, 0.0), (0.54, 0.0)]), line(&[(0.0, 0.52), (0.44, 0.52)])])
-        }
+        'E' => (
+            0.54,
+            vec![
+                line(&[(0.54, 1.0), (0.0, 1.0), (0.0, 0.0), (0.54, 0.0)]),
+                line(&[(0.0, 0.52), (0.44, 0.52)]),
+            ],
+        ),
         'F' => (0.5, vec![line(&[(0.5, 1.0), (0.0, 1.0), (0.0, 0.0)]), line(&[(0.0, 0.52), (0.4, 0.52)])]),
         'G' => {
             let bowl = arc((0.45, 0.5), (0.45, 0.5), 0.55, 3.5);
@@ -140,7 +147,9 @@ fn strokes(letter: char) -> (f64, Vec<Stroke>) {
             (0.66, vec![chain(&[line(&[(0.0, 1.0)]), bowl, line(&[(0.66, 1.0)])])])
         }
         'W' => (1.0, vec![line(&[(0.0, 1.0), (0.25, 0.0), (0.5, 1.0), (0.75, 0.0), (1.0, 1.0)])]),
-        'Y' => (0.68, vec![line(&[(0.0, 1.0), (0.34, 0.48), (0.34, 0.0)]), line(&[(0.68, 1.0), (0.34, 0.48)])]),
+        'Y' => {
+            (0.68, vec![line(&[(0.0, 1.0), (0.34, 0.48), (0.34, 0.0)]), line(&[(0.68, 1.0), (0.34, 0.48)])])
+        }
         '0' => (0.58, vec![arc((0.29, 0.5), (0.29, 0.5), 0.0, 4.0)]),
         '5' => {
             let bowl = arc((0.24, 0.31), (0.29, 0.31), 1.4, -1.6);

@@ -143,7 +143,8 @@ impl Solid {
             *sums.entry(fan).or_default() += normals[face] * angle;
             let uv = uvs.get(face).map(|uvs| uvs[k].as_vec2());
             let next = vertices.len();
-            let vertex = *vertices.entry((fan, uv.unwrap_or_default().to_array().map(f32::to_bits))).or_insert(next);
+            let vertex =
+                *vertices.entry((fan, uv.unwrap_or_default().to_array().map(f32::to_bits))).or_insert(next);
             if vertex == next {
                 mesh.positions.push(p.as_vec3().to_array());
                 mesh.uvs.extend(uv.map(|uv| uv.to_array()));

@@ -107,10 +107,10 @@ pub(crate) fn scene() -> Scene {
         on_table(plant::node(&mut studio), 12.0, -104.0),
         on_table(bottle::node(&mut studio), 166.0, -66.0),
         on_table(toys::ball(&mut studio), 36.0, 44.0),
-        on_table(toys::cube(&mut studio), -172.0, 44.0).turned(DQuat::from_rotation_y(0.35)),
-        on_table(fruit::pear(&mut studio), 176.0, 34.0).turned(DQuat::from_rotation_y(0.6)),
-        on_table(fruit::apple(&mut studio), 126.0, 92.0),
-        whisk::node(&mut studio, dvec3(70.0, 0.0, 152.0), DVec3::new(-1.0, 0.0, -0.17)),
+        on_table(toys::cube(&mut studio), -170.0, 14.0).turned(DQuat::from_rotation_y(0.3)),
+        on_table(fruit::pear(&mut studio), 250.0, -44.0).turned(DQuat::from_rotation_y(0.6)),
+        on_table(fruit::apple(&mut studio), 122.0, 84.0),
+        whisk::node(&mut studio, dvec3(86.0, 0.0, 150.0), DVec3::new(-1.0, 0.0, 0.02)),
     ];
     (studio.scene.materials, studio.scene.images) = Finish::all();
     studio.scene.roots = roots;

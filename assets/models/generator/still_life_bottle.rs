@@ -14,7 +14,7 @@ const RADIUS: f64 = 37.0;
 /// The lower and the upper edge of the label.
 const LABEL: [f64; 2] = [30.0, 108.0];
 /// The direction to the middle of the label, from +Z to +X, in radians.
-const FACING: f64 = 0.42;
+const FACING: f64 = 0.46;
 /// How much of the body's circumference the label covers, in radians.
 const COVERED: f64 = 3.3;
 /// What the image of the label covers.
@@ -26,20 +26,22 @@ pub(crate) fn node(studio: &mut Studio) -> Node {
     let corner = [(33.0, 0.0), (35.8, 1.2), (RADIUS, 4.0), (RADIUS, 30.0)];
     body.extend(profile(&corner, 3).into_iter().skip(1));
     body.extend([70.0, 112.0, 124.0].map(|y| dvec2(RADIUS, y)));
-    let shoulder = [(RADIUS, 124.0), (34.4, 139.0), (24.0, 153.0), (15.6, 168.0), (13.4, 184.0), (13.2, 206.0)];
+    let shoulder =
+        [(RADIUS, 124.0), (34.4, 139.0), (24.0, 153.0), (15.6, 168.0), (13.4, 184.0), (13.2, 206.0)];
     body.extend(profile(&shoulder, 5).into_iter().skip(1));
-    let lip = [(15.4, 206.6), (16.6, 208.6), (16.6, 214.0), (15.2, 216.4), (11.6, 216.8), (10.2, 215.6), (10.0, 196.0)];
+    let lip = [
+        (15.4, 206.6),
+        (16.6, 208.6),
+        (16.6, 214.0),
+        (15.2, 216.4),
+        (11.6, 216.8),
+        (10.2, 215.6),
+        (10.0, 196.0),
+    ];
     body.extend(lip.map(DVec2::from));
     body.push(dvec2(0.0, 196.0));
-    let cork = [
-        (0.0, 198.0),
-        (9.6, 198.0),
-        (10.3, 214.0),
-        (11.0, 226.0),
-        (10.4, 227.6),
-        (9.0, 228.2),
-        (0.0, 228.2),
-    ];
+    let cork =
+        [(0.0, 198.0), (9.6, 198.0), (10.3, 214.0), (11.0, 226.0), (10.4, 227.6), (9.0, 228.2), (0.0, 228.2)];
     Node::new("bottle", None).with(vec![
         studio.node("body", Finish::Bottle, turned_plain(&body, 64)),
         studio.node("label", Finish::Label, label()),
@@ -47,21 +49,24 @@ pub(crate) fn node(studio: &mut Studio) -> Node {
     ])
 }
 
-/// The paper around the body: as thick as needed to hide the facets of both cylinders in each other.
+/// The paper around the body: thick, so that the facets of both cylinders hide its inner side.
 fn label() -> Solid {
     let pieces = 40;
     let point = |i: usize, radius: f64, y: f64| {
         let angle = FACING + COVERED * (i as f64 / pieces as f64 - 0.5);
         dvec3(radius * angle.sin(), y, radius * angle.cos())
     };
-    let (outer, inner) = (RADIUS + 0.35, RADIUS - 0.4);
-    let edges = [(inner, LABEL[0]), (outer, LABEL[0]), (outer, LABEL[1]), (inner, LABEL[1]), (inner, LABEL[0])];
+    let (outer, inner) = (RADIUS + 0.5, RADIUS - 1.5);
+    let edges =
+        [(inner, LABEL[0]), (outer, LABEL[0]), (outer, LABEL[1]), (inner, LABEL[1]), (inner, LABEL[0])];
     // Only the outer side shows the image; what is seen of the others has the colour of its border.
     let v = [1.0, 0.998, 0.002, 0.0, -0.01];
     let rows: Vec<Vec<Corner>> = edges
         .iter()
         .zip(v)
-        .map(|(&(radius, y), v)| (0..=pieces).map(|i| (point(i, radius, y), dvec2(u(i, pieces), v))).collect())
+        .map(|(&(radius, y), v)| {
+            (0..=pieces).map(|i| (point(i, radius, y), dvec2(u(i, pieces), v))).collect()
+        })
         .collect();
     let mut out = Solid::default();
     out.sheet(&rows);
@@ -69,7 +74,11 @@ fn label() -> Solid {
         let ring: Vec<DVec3> = edges[..4].iter().map(|&(radius, y)| point(i, radius, y)).collect();
         let near = u(i, pieces);
         let side = |j: usize| (ring[j], dvec2(near + if j % 3 == 0 { 0.001 } else { 0.0 }, v[j]));
-        let rows = if turned { [[side(1), side(0)], [side(2), side(3)]] } else { [[side(0), side(1)], [side(3), side(2)]] };
+        let rows = if turned {
+            [[side(1), side(0)], [side(2), side(3)]]
+        } else {
+            [[side(0), side(1)], [side(3), side(2)]]
+        };
         out.sheet(&rows.map(Vec::from));
     }
     out
@@ -84,13 +93,13 @@ fn u(i: usize, pieces: usize) -> f64 {
 pub(crate) fn label_image() -> Image {
     let middle = CANVAS.size * 0.5;
     let (mut black, mut red) = (Ink::on(CANVAS), Ink::on(CANVAS));
-    let broad = Nib { widths: [2.9, 1.1], angle: 0.5 };
-    black.write("HACHURE", middle + dvec2(0.0, 3.0), 15.0, 3.6, broad);
-    red.write("DRAWING INK", middle + dvec2(0.0, -13.5), 5.6, 1.7, Nib::round(0.95));
-    black.write("FOR LINES OF ANY WIDTH", middle + dvec2(0.0, -22.0), 3.2, 1.0, Nib::round(0.55));
-    black.write("NO. 7", middle + dvec2(-22.0, 22.0), 4.4, 1.2, Nib::round(0.7));
-    black.write("50 CL", middle + dvec2(22.0, 22.0), 4.4, 1.2, Nib::round(0.7));
-    hatched_ball(&mut black, middle + dvec2(0.0, 22.5), 8.0);
+    let broad = Nib { widths: [2.7, 1.0], angle: 0.5 };
+    black.write("HACHURE", middle + dvec2(0.0, 2.5), 13.0, 2.6, broad);
+    red.write("DRAWING INK", middle + dvec2(0.0, -13.0), 5.4, 1.4, Nib::round(0.95));
+    black.write("FOR LINES OF ANY WIDTH", middle + dvec2(0.0, -22.5), 3.2, 0.9, Nib::round(0.55));
+    black.write("NO. 7", middle + dvec2(-21.0, 21.0), 4.6, 1.1, Nib::round(0.75));
+    black.write("50 CL", middle + dvec2(21.0, 21.0), 4.6, 1.1, Nib::round(0.75));
+    hatched_ball(&mut black, middle + dvec2(0.0, 21.5), 8.0);
     for (margin, width) in [(3.0, 1.1), (5.2, 0.45)] {
         let (low, high) = (DVec2::splat(margin), CANVAS.size - DVec2::splat(margin));
         let corners = [low, dvec2(high.x, low.y), high, dvec2(low.x, high.y), low];
@@ -105,8 +114,9 @@ pub(crate) fn label_image() -> Image {
 
 /// The emblem: a ball that is nothing but hachures, denser and longer where it is dark.
 fn hatched_ball(ink: &mut Ink, centre: DVec2, radius: f64) {
-    let rim: Vec<DVec2> =
-        (0..=48).map(|i| centre + radius * DVec2::from_angle(std::f64::consts::TAU * f64::from(i) / 48.0)).collect();
+    let rim: Vec<DVec2> = (0..=48)
+        .map(|i| centre + radius * DVec2::from_angle(std::f64::consts::TAU * f64::from(i) / 48.0))
+        .collect();
     ink.line(&rim, Nib::round(0.6));
     for i in 1..14 {
         let offset = radius * (f64::from(i) / 7.0 - 1.0);

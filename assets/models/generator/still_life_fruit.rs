@@ -28,11 +28,14 @@ pub(crate) fn pear(studio: &mut Studio) -> Node {
     );
     // It grew a little crooked.
     let body = turned_plain(&skin, 48).bent(|p| p + dvec3(10.0 * (p.y / 92.0).max(0.0).powi(2), 0.0, 0.0));
-    let stalk = stalk(&[dvec3(9.5, 86.0, 0.0), dvec3(10.5, 96.0, 0.0), dvec3(15.0, 106.0, 1.0), dvec3(22.0, 112.0, 2.0)]);
-    Node::new("pear", None).with(vec![
-        studio.node("body", Finish::Pear, body),
-        studio.node("stalk", Finish::Bark, stalk),
-    ])
+    let stalk = stalk(&[
+        dvec3(9.5, 86.0, 0.0),
+        dvec3(10.5, 96.0, 0.0),
+        dvec3(15.0, 106.0, 1.0),
+        dvec3(22.0, 112.0, 2.0),
+    ]);
+    Node::new("pear", None)
+        .with(vec![studio.node("body", Finish::Pear, body), studio.node("stalk", Finish::Bark, stalk)])
 }
 
 /// The apple, standing on the origin.
@@ -53,7 +56,12 @@ pub(crate) fn apple(studio: &mut Studio) -> Node {
         ],
         4,
     );
-    let stalk = stalk(&[dvec3(0.0, 50.0, 0.0), dvec3(0.5, 62.0, 0.0), dvec3(3.5, 74.0, -1.0), dvec3(9.0, 82.0, -2.0)]);
+    let stalk = stalk(&[
+        dvec3(0.0, 50.0, 0.0),
+        dvec3(0.5, 62.0, 0.0),
+        dvec3(3.5, 74.0, -1.0),
+        dvec3(9.0, 82.0, -2.0),
+    ]);
     Node::new("apple", None).with(vec![
         studio.node("body", Finish::Apple, turned_plain(&skin, 48)),
         studio.node("stalk", Finish::Bark, stalk),

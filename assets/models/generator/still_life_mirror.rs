@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec2, DVec3, dvec2, dvec3};
 
-use crate::curve::{half_circle, turned_plain};
+use crate::curve::{half_circle, profile, turned_plain};
 use crate::glb::Node;
 use crate::outline::{Outline, inset};
 use crate::solid::Solid;
@@ -10,22 +10,6 @@ use crate::still_life::{Finish, SUNK, Studio};
 
 /// Outer size of the frame.
 const SIZE: DVec2 = dvec2(232.0, 292.0);
-/// The frame from its outer edge at the back once around: how far inwards, how high.
-const PROFILE: [(f64, f64); 13] = [
-    (0.0, 0.0),
-    (0.0, 13.0),
-    (1.6, 15.6),
-    (4.0, 16.5),
-    (6.4, 15.6),
-    (8.0, 13.0),
-    (11.0, 10.6),
-    (15.0, 9.6),
-    (18.0, 10.4),
-    (19.5, 12.4),
-    (21.5, 12.4),
-    (22.5, 10.8),
-    (22.5, 0.0),
-];
 /// The pane's height in the frame.
 const PANE: f64 = 6.0;
 /// How far the mirror leans back, in radians.
@@ -74,9 +58,14 @@ fn pane(outline: &Outline) -> Solid {
     out
 }
 
-/// The profile, led around the outline with mitred corners.
+/// A moulding, led around the outline with mitred corners: from its outer edge a round and a hollow, a step, a bead.
 fn frame(outline: &Outline) -> Solid {
-    let rings: Vec<Vec<DVec3>> = PROFILE.iter().map(|&(d, z)| lifted(&inset(outline, d), z)).collect();
+    let moulding =
+        profile(&[(0.0, 12.0), (1.2, 15.4), (4.4, 16.8), (8.0, 14.6), (11.6, 10.8), (17.0, 9.4)], 3);
+    let bead = profile(&[(17.0, 11.2), (18.0, 13.0), (20.0, 13.6), (22.0, 12.8), (23.0, 10.8)], 2);
+    let back = [dvec2(23.0, 0.0), dvec2(0.0, 0.0)];
+    let section = moulding.into_iter().chain(bead).chain(back);
+    let rings: Vec<Vec<DVec3>> = section.map(|p| lifted(&inset(outline, p.x), p.y)).collect();
     let mut out = Solid::default();
     for (i, ring) in rings.iter().enumerate() {
         out.band(ring, &rings[(i + 1) % rings.len()]);

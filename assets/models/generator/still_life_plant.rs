@@ -16,9 +16,9 @@ const BRANCHES: [(f64, f64, f64, usize); 6] = [
     (0.02, 116.0, 268.0, 2),
     (0.20, 74.0, 330.0, 2),
     (0.40, 112.0, 300.0, 2),
-    (0.57, 104.0, 246.0, 1),
+    (0.57, 104.0, 246.0, 2),
     (0.74, 84.0, 285.0, 2),
-    (0.88, 112.0, 222.0, 1),
+    (0.88, 112.0, 222.0, 2),
 ];
 /// Rows of the mesh of a leaf, and columns on either side of its middle.
 const ROWS: usize = 8;
@@ -56,10 +56,15 @@ pub(crate) fn node(studio: &mut Studio) -> Node {
         }
     }
     for (i, (at, forward, side, size)) in leaves.into_iter().enumerate() {
-        let length = size * chance.between(74.0, 92.0);
+        let length = size * chance.between(76.0, 96.0);
         let (droop, fold) = (chance.between(0.5, 1.0), chance.between(0.18, 0.34));
         let turn = attitude(forward, side, &mut chance);
-        let leaf = studio.node_creased(&format!("leaf.{:02}", i + 1), Finish::Leaf, blade(length, droop, fold), 80.0);
+        let leaf = studio.node_creased(
+            &format!("leaf.{:02}", i + 1),
+            Finish::Leaf,
+            blade(length, droop, fold),
+            80.0,
+        );
         children.push(leaf.at(at.x, at.y, at.z).turned(turn));
     }
     Node::new("plant", None).with(children)

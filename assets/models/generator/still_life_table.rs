@@ -12,7 +12,7 @@ use crate::still_life::{Finish, SUNK, Studio};
 use crate::wood;
 
 /// Length and width of a plank, and its thickness.
-const PLANK: [f64; 3] = [620.0, 104.0, 20.0];
+const PLANK: [f64; 3] = [610.0, 97.0, 20.0];
 /// Between two planks.
 const GAP: f64 = 1.2;
 /// The radius of the planks' edges.

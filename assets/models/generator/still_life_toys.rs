@@ -28,7 +28,8 @@ pub(crate) fn ball(studio: &mut Studio) -> Node {
 
 /// The cube, standing on the origin.
 pub(crate) fn cube(studio: &mut Studio) -> Node {
-    let outline: Outline = vec![dvec2(-CUBE, -CUBE), dvec2(CUBE, -CUBE), dvec2(CUBE, CUBE), dvec2(-CUBE, CUBE)];
+    let outline: Outline =
+        vec![dvec2(-CUBE, -CUBE), dvec2(CUBE, -CUBE), dvec2(CUBE, CUBE), dvec2(-CUBE, CUBE)];
     let solid = Plate { outline, rim: vec![(0.0, 0.0), (0.0, 2.0 * CUBE)], ..Plate::default() }.solid();
     studio.node("cube", Finish::Clay, solid.along(Axis::Y))
 }

@@ -56,11 +56,11 @@ pub(crate) fn node(studio: &mut Studio) -> Node {
     body.extend(outside.iter().copied());
     let last_outside = body.len();
     body.extend(inside.iter().copied());
-    // Inside and underneath is plain glaze: there the image runs up and down its uppermost part.
+    // Inside and underneath is plain glaze: there the image goes on beyond its borders.
     let v = |i: usize| match i {
         i if i < 2 => 1.0 + 0.02 * (2 - i) as f64,
         i if i < last_outside => 1.0 - body[i].y / HEIGHT,
-        i => 0.06 * (i + 1 - last_outside) as f64 / (body.len() - last_outside) as f64,
+        i => -0.06 * (i + 1 - last_outside) as f64 / (body.len() - last_outside) as f64,
     };
     let solid = turned(&body, 72, PETALS as f64, v);
     studio.node("vase", Finish::Vase, solid)

@@ -1,4 +1,4 @@
-//! The whisk: a turned handle and five nested loops of wire.
+//! The whisk: a turned handle and four nested loops of wire.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -10,7 +10,7 @@ use crate::solid::Solid;
 use crate::still_life::{Finish, SUNK, Studio};
 
 /// Loops, and the radius of their wire.
-const LOOPS: usize = 5;
+const LOOPS: usize = 4;
 const WIRE: f64 = 0.9;
 /// Half of the outermost loop: along the axis from the handle's end, away from the axis.
 const LOOP: [(f64, f64); 7] =

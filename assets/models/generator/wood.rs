@@ -35,10 +35,9 @@ pub(crate) fn relief() -> Image {
 /// How dark the ring is at a place: grows slowly through the year and ends at once, 0 to 1.
 fn late_wood(p: DVec2) -> f64 {
     let size = CANVAS.size;
-    let trunk = 3.6 * tiled(1, size, dvec2(160.0, 64.0), p) + 1.1 * tiled(2, size, dvec2(64.0, 20.0), p);
+    let trunk = 2.9 * tiled(1, size, dvec2(213.0, 64.0), p) + 0.5 * tiled(2, size, dvec2(80.0, 20.0), p);
     let ring = (p.y / size.y * RINGS + trunk + 3.0 * knot(p, 1.6)).rem_euclid(1.0);
-    ring.powi(3) * (1.0 - smoothstep(0.88, 1.0, ring))
-        / (0.88 * 0.88)
+    ring.powi(3) * (1.0 - smoothstep(0.88, 1.0, ring)) / (0.88 * 0.88)
 }
 
 /// Streaks along the grain, −1 to 1.
