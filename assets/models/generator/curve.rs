@@ -1,6 +1,6 @@
 //! Curves in space and what is made by leading a circle along them: wires, stems, turned bodies.
 
-use std::f64::consts::{FRAC_PI_6, PI, TAU};
+use std::f64::consts::{FRAC_PI_8, PI, TAU};
 
 use glam::{DVec2, DVec3, dvec2, dvec3};
 
@@ -57,8 +57,11 @@ pub(crate) fn turned_plain(profile: &[DVec2], segments: usize) -> Solid {
     Solid { uvs: Vec::new(), ..turned(profile, segments, 1.0, |_| 0.0) }
 }
 
+/// Sides of a wire: enough that none of its edges is sharp enough to be drawn.
+const SIDES: usize = 14;
+
 /// A round wire with round ends along a curve; `radius` is asked for parts of its length, 0 to 1.
-pub(crate) fn wire(path: &[DVec3], radius: impl Fn(f64) -> f64, sides: usize) -> Solid {
+pub(crate) fn wire(path: &[DVec3], radius: impl Fn(f64) -> f64) -> Solid {
     let last = path.len() - 1;
     let direction = |i: usize| (path[(i + 1).min(last)] - path[i.max(1) - 1]).normalize();
     let mut across = direction(0).any_orthonormal_vector();
@@ -66,25 +69,25 @@ pub(crate) fn wire(path: &[DVec3], radius: impl Fn(f64) -> f64, sides: usize) ->
     let mut ring = |centre: DVec3, across: DVec3, along: DVec3, radius: f64| {
         let other = along.cross(across);
         let point = |j: usize| {
-            let (sin, cos) = (TAU * j as f64 / sides as f64).sin_cos();
+            let (sin, cos) = (TAU * j as f64 / SIDES as f64).sin_cos();
             centre + (across * cos + other * sin) * radius
         };
-        rings.push((0..sides).map(point).collect());
+        rings.push((0..SIDES).map(point).collect());
     };
     for i in 0..=last {
         let along = direction(i);
         // As little twist as the curve allows.
         across = across.reject_from(along).normalize();
         let r = radius(i as f64 / last as f64);
-        let cap = |k: f64| (r * (k * FRAC_PI_6).cos(), r * (k * FRAC_PI_6).sin());
+        let cap = |k: f64| (r * (k * FRAC_PI_8).cos(), r * (k * FRAC_PI_8).sin());
         if i == 0 {
-            for k in [2.0, 1.0] {
+            for k in [3.0, 2.0, 1.0] {
                 ring(path[i] - along * cap(k).1, across, along, cap(k).0);
             }
         }
         ring(path[i], across, along, r);
         if i == last {
-            for k in [1.0, 2.0] {
+            for k in [1.0, 2.0, 3.0] {
                 ring(path[i] + along * cap(k).1, across, along, cap(k).0);
             }
         }
@@ -94,8 +97,8 @@ pub(crate) fn wire(path: &[DVec3], radius: impl Fn(f64) -> f64, sides: usize) ->
         out.band(&pair[0], &pair[1]);
     }
     let (foot, tip) = (path[0] - direction(0) * radius(0.0), path[last] + direction(last) * radius(1.0));
-    for j in 0..sides {
-        let next = (j + 1) % sides;
+    for j in 0..SIDES {
+        let next = (j + 1) % SIDES;
         out.triangle(rings[0][next], rings[0][j], foot);
         let end = &rings[rings.len() - 1];
         out.triangle(end[j], end[next], tip);

@@ -20,6 +20,7 @@ pub(crate) const SUNK: f64 = 0.2;
 #[derive(Clone, Copy)]
 pub(crate) enum Finish {
     Wood,
+    DarkWood,
     Vase,
     Label,
     Leaf,
@@ -47,12 +48,12 @@ impl Finish {
         };
         let plain = |name, srgb, roughness| Material { name, srgb, roughness, ..Material::default() };
         let white = |name, roughness| plain(name, 0xff_ffff, roughness);
+        let (rings, grain) = (image(wood::color()), image(wood::relief()));
+        let wood =
+            |name, srgb| Material { color_image: rings, normal_image: grain, ..plain(name, srgb, 0.7) };
         let materials = vec![
-            Material {
-                color_image: image(wood::color()),
-                normal_image: image(wood::relief()),
-                ..white("wood", 0.7)
-            },
+            wood("wood", 0xff_ffff),
+            wood("dark wood", 0xf0_e2d2),
             Material {
                 color_image: image(vase::color()),
                 normal_image: image(vase::relief()),
@@ -108,7 +109,7 @@ pub(crate) fn scene() -> Scene {
         on_table(bottle::node(&mut studio), 166.0, -66.0),
         on_table(toys::ball(&mut studio), 36.0, 44.0),
         on_table(toys::cube(&mut studio), -170.0, 14.0).turned(DQuat::from_rotation_y(0.3)),
-        on_table(fruit::pear(&mut studio), 250.0, -44.0).turned(DQuat::from_rotation_y(0.6)),
+        on_table(fruit::pear(&mut studio), 249.0, -18.0).turned(DQuat::from_rotation_y(0.6)),
         on_table(fruit::apple(&mut studio), 122.0, 84.0),
         whisk::node(&mut studio, dvec3(86.0, 0.0, 150.0), DVec3::new(-1.0, 0.0, 0.02)),
     ];

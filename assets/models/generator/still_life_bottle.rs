@@ -1,6 +1,6 @@
 //! The bottle of ink with its cork and its label.
 
-use glam::{DVec2, DVec3, dvec2, dvec3};
+use glam::{DVec2, dvec2, dvec3};
 
 use crate::curve::{profile, turned_plain};
 use crate::glb::{Image, Node};
@@ -14,7 +14,7 @@ const RADIUS: f64 = 37.0;
 /// The lower and the upper edge of the label.
 const LABEL: [f64; 2] = [30.0, 108.0];
 /// The direction to the middle of the label, from +Z to +X, in radians.
-const FACING: f64 = 0.46;
+const FACING: f64 = 0.4;
 /// How much of the body's circumference the label covers, in radians.
 const COVERED: f64 = 3.3;
 /// What the image of the label covers.
@@ -49,44 +49,21 @@ pub(crate) fn node(studio: &mut Studio) -> Node {
     ])
 }
 
-/// The paper around the body: thick, so that the facets of both cylinders hide its inner side.
+/// The paper around the body: a sheet that clears the facets of the glass.
 fn label() -> Solid {
     let pieces = 40;
-    let point = |i: usize, radius: f64, y: f64| {
-        let angle = FACING + COVERED * (i as f64 / pieces as f64 - 0.5);
-        dvec3(radius * angle.sin(), y, radius * angle.cos())
-    };
-    let (outer, inner) = (RADIUS + 0.5, RADIUS - 1.5);
-    let edges =
-        [(inner, LABEL[0]), (outer, LABEL[0]), (outer, LABEL[1]), (inner, LABEL[1]), (inner, LABEL[0])];
-    // Only the outer side shows the image; what is seen of the others has the colour of its border.
-    let v = [1.0, 0.998, 0.002, 0.0, -0.01];
-    let rows: Vec<Vec<Corner>> = edges
-        .iter()
-        .zip(v)
-        .map(|(&(radius, y), v)| {
-            (0..=pieces).map(|i| (point(i, radius, y), dvec2(u(i, pieces), v))).collect()
-        })
-        .collect();
-    let mut out = Solid::default();
-    out.sheet(&rows);
-    for (i, turned) in [(0, false), (pieces, true)] {
-        let ring: Vec<DVec3> = edges[..4].iter().map(|&(radius, y)| point(i, radius, y)).collect();
-        let near = u(i, pieces);
-        let side = |j: usize| (ring[j], dvec2(near + if j % 3 == 0 { 0.001 } else { 0.0 }, v[j]));
-        let rows = if turned {
-            [[side(1), side(0)], [side(2), side(3)]]
-        } else {
-            [[side(0), side(1)], [side(3), side(2)]]
+    let row = |y: f64, v: f64| -> Vec<Corner> {
+        let corner = |i: i32| {
+            let part = f64::from(i) / f64::from(pieces);
+            let angle = FACING + COVERED * (part - 0.5);
+            let radius = RADIUS + 0.35;
+            (dvec3(radius * angle.sin(), y, radius * angle.cos()), dvec2(part, v))
         };
-        out.sheet(&rows.map(Vec::from));
-    }
+        (0..=pieces).map(corner).collect()
+    };
+    let mut out = Solid::default();
+    out.sheet(&[row(LABEL[0], 1.0), row(LABEL[1], 0.0)]);
     out
-}
-
-/// The image's coordinate at a piece of the label.
-fn u(i: usize, pieces: usize) -> f64 {
-    0.002 + 0.996 * i as f64 / pieces as f64
 }
 
 /// The printed label.

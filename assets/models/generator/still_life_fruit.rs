@@ -70,5 +70,5 @@ pub(crate) fn apple(studio: &mut Studio) -> Node {
 
 /// A stalk that gets thicker towards its end.
 fn stalk(points: &[DVec3]) -> Solid {
-    wire(&through(points, 5), |t| 1.5 + 0.9 * t * t, 10)
+    wire(&through(points, 5), |t| 1.5 + 0.9 * t * t)
 }

@@ -39,9 +39,9 @@ pub(crate) fn node(studio: &mut Studio) -> Node {
                 out * (16.5 + reach * 0.38) + DVec3::Y * (162.0 + (height - 162.0) * 0.55),
                 out * reach + DVec3::Y * height,
             ],
-            10,
+            8,
         );
-        let solid = wire(&path, |t| 2.1 - 1.2 * t, 8);
+        let solid = wire(&path, |t| 2.1 - 1.2 * t);
         children.push(studio.node(&format!("stem.{}", i + 1), Finish::Stem, solid));
         let tip = path.len() - 1;
         leaves.push((path[tip], (path[tip] - path[tip - 1]).normalize(), 0.0, 1.0));
@@ -57,7 +57,7 @@ pub(crate) fn node(studio: &mut Studio) -> Node {
     }
     for (i, (at, forward, side, size)) in leaves.into_iter().enumerate() {
         let length = size * chance.between(76.0, 96.0);
-        let (droop, fold) = (chance.between(0.5, 1.0), chance.between(0.18, 0.34));
+        let (droop, fold) = (chance.between(0.5, 1.0), chance.between(0.13, 0.23));
         let turn = attitude(forward, side, &mut chance);
         let leaf = studio.node_creased(
             &format!("leaf.{:02}", i + 1),

@@ -14,7 +14,7 @@ use crate::wood;
 /// Length and width of a plank, and its thickness.
 const PLANK: [f64; 3] = [610.0, 97.0, 20.0];
 /// Between two planks.
-const GAP: f64 = 1.2;
+const GAP: f64 = 1.4;
 /// The radius of the planks' edges.
 const ROUND: f64 = 2.4;
 /// Planks.
@@ -29,13 +29,14 @@ pub(crate) fn node(studio: &mut Studio) -> Node {
     for (i, cut) in CUTS.into_iter().enumerate() {
         let solid = sawn(board(PLANK[0], width, thickness), [0, 2], cut);
         let z = (width + GAP) * (i as f64 - (COUNT - 1) as f64 / 2.0);
-        let plank = studio.node(&format!("plank.{}", i + 1), Finish::Wood, solid);
+        let finish = if i % 2 == 0 { Finish::Wood } else { Finish::DarkWood };
+        let plank = studio.node(&format!("plank.{}", i + 1), finish, solid);
         children.push(plank.at(0.0, -thickness * 0.5, z));
     }
     let across = (width + GAP) * COUNT as f64 - 60.0;
     for (i, x) in [-210.0, 210.0].into_iter().enumerate() {
         let solid = sawn(board(46.0, across, 16.0), [2, 0], [0.2, 0.5]);
-        let batten = studio.node(&format!("batten.{}", i + 1), Finish::Wood, solid);
+        let batten = studio.node(&format!("batten.{}", i + 1), Finish::DarkWood, solid);
         children.push(batten.at(x, -thickness - 8.0 + SUNK, 0.0));
     }
     Node::new("table", None).with(children)

@@ -11,7 +11,7 @@ use crate::still_life::{Finish, SUNK, Studio};
 
 /// Loops, and the radius of their wire.
 const LOOPS: usize = 4;
-const WIRE: f64 = 0.9;
+const WIRE: f64 = 1.0;
 /// Half of the outermost loop: along the axis from the handle's end, away from the axis.
 const LOOP: [(f64, f64); 7] =
     [(104.0, 5.2), (118.0, 5.4), (142.0, 12.0), (176.0, 23.0), (212.0, 29.0), (242.0, 21.0), (256.0, 7.0)];
@@ -25,7 +25,7 @@ pub(crate) fn node(studio: &mut Studio, at: DVec3, towards: DVec3) -> Node {
         studio.node("ferrule", Finish::Steel, ferrule()),
     ];
     for i in 0..LOOPS {
-        let solid = wire(&path(i), |_| WIRE, 10);
+        let solid = wire(&path(i), |_| WIRE);
         children.push(studio.node(&format!("wire.{}", i + 1), Finish::Steel, solid));
     }
     // The body lies on the line that touches its two thickest places from below.

@@ -29,7 +29,7 @@ pub(crate) fn color() -> Image {
 
 /// The normal map: hard late wood stands out, as on a brushed board.
 pub(crate) fn relief() -> Image {
-    encoded("wood grain", &CANVAS.relief(|p| 0.32 * late_wood(p) + 0.09 * fibre(p)))
+    encoded("wood grain", &CANVAS.relief(|p| 0.2 * late_wood(p) + 0.06 * fibre(p)))
 }
 
 /// How dark the ring is at a place: grows slowly through the year and ends at once, 0 to 1.
