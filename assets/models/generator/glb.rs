@@ -9,6 +9,8 @@ pub(crate) struct Image {
     pub(crate) name: &'static str,
     /// Its PNG.
     pub(crate) png: Vec<u8>,
+    /// Whether it repeats beyond its borders.
+    pub(crate) tiles: bool,
 }
 
 /// A surface finish that parts share.
@@ -142,8 +144,10 @@ impl Scene {
             "buffers": [{ "byteLength": buffer.bytes.len() }],
         });
         if !images.is_empty() {
-            document["textures"] = (0..images.len()).map(|i| json!({ "source": i, "sampler": 0 })).collect();
-            document["samplers"] = json!([{ "magFilter": Buffer::LINEAR, "minFilter": Buffer::MIPMAPS }]);
+            let texture =
+                |(i, image): (usize, &Image)| json!({ "source": i, "sampler": usize::from(image.tiles) });
+            document["textures"] = self.images.iter().enumerate().map(texture).collect();
+            document["samplers"] = [Buffer::CLAMP, Buffer::REPEAT].into_iter().map(Buffer::sampler).collect();
             document["images"] = json!(images);
         }
         let mut text = document.to_string().into_bytes();
@@ -178,6 +182,8 @@ impl Buffer {
     const INDICES: u32 = 34963;
     const LINEAR: u32 = 9729;
     const MIPMAPS: u32 = 9987;
+    const CLAMP: u32 = 33071;
+    const REPEAT: u32 = 10497;
 
     /// Stores a mesh and returns its JSON.
     fn mesh(&mut self, mesh: &Mesh) -> Value {
@@ -217,6 +223,11 @@ impl Buffer {
     fn floats<const N: usize>(&mut self, shape: &str, values: &[[f32; N]]) -> usize {
         let bytes: Vec<u8> = values.iter().flatten().flat_map(|v| v.to_le_bytes()).collect();
         self.accessor(&bytes, Self::VERTICES, Self::F32, shape, values.len())
+    }
+
+    /// The JSON of a smooth sampler.
+    fn sampler(wrap: u32) -> Value {
+        json!({ "magFilter": Self::LINEAR, "minFilter": Self::MIPMAPS, "wrapS": wrap, "wrapT": wrap })
     }
 
     /// Stores an image and returns its JSON.

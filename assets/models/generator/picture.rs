@@ -61,6 +61,11 @@ pub(crate) fn smoothstep(from: f64, to: f64, x: f64) -> f64 {
     t * t * (3.0 - 2.0 * t)
 }
 
+/// An image ready for the file, which repeats beyond its borders.
+pub(crate) fn tile(name: &'static str, picture: &RgbImage) -> Image {
+    Image { tiles: true, ..encoded(name, picture) }
+}
+
 /// An image ready for the file.
 pub(crate) fn encoded<P: PixelWithColorType<Subpixel = u8>>(
     name: &'static str,
@@ -70,5 +75,5 @@ pub(crate) fn encoded<P: PixelWithColorType<Subpixel = u8>>(
     PngEncoder::new_with_quality(&mut png, CompressionType::Best, FilterType::Adaptive)
         .write_image(picture, picture.width(), picture.height(), P::COLOR_TYPE.into())
         .expect("memory takes any image");
-    Image { name, png }
+    Image { name, png, tiles: false }
 }

@@ -44,7 +44,7 @@ pub(crate) fn node(studio: &mut Studio) -> Node {
         let solid = wire(&path, |t| 2.1 - 1.2 * t);
         children.push(studio.node(&format!("stem.{}", i + 1), Finish::Stem, solid));
         let tip = path.len() - 1;
-        leaves.push((path[tip], (path[tip] - path[tip - 1]).normalize(), 0.0, 1.0));
+        leaves.push((path[tip - 1], (path[tip] - path[tip - 1]).normalize(), 0.0, 1.0));
         for pair in 0..pairs {
             for side in [-1.0, 1.0] {
                 // From the mouth of the vase to just below the tip, never two at one height.

@@ -4,7 +4,7 @@ use glam::{DVec2, dvec2};
 
 use crate::curve::{profile, turned};
 use crate::glb::{Image, Node};
-use crate::picture::{Canvas, encoded, paint, rgb, smoothstep};
+use crate::picture::{Canvas, paint, rgb, smoothstep, tile};
 use crate::still_life::{Finish, Studio};
 
 /// Height of the vase.
@@ -79,12 +79,12 @@ pub(crate) fn color() -> Image {
         }
         rgb(color)
     });
-    encoded("glaze", &picture)
+    tile("glaze", &picture)
 }
 
 /// The normal map.
 pub(crate) fn relief() -> Image {
-    encoded("ornament", &CANVAS.relief(height))
+    tile("ornament", &CANVAS.relief(height))
 }
 
 /// The height of the relief in millimetres.

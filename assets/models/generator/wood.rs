@@ -4,7 +4,7 @@ use glam::{DVec2, dvec2};
 
 use crate::glb::Image;
 use crate::noise::tiled;
-use crate::picture::{Canvas, encoded, paint, rgb, smoothstep};
+use crate::picture::{Canvas, paint, rgb, smoothstep, tile};
 
 /// What the image covers; the grain runs along x.
 pub(crate) const CANVAS: Canvas = Canvas { texels: [1024, 512], size: dvec2(640.0, 320.0) };
@@ -20,16 +20,16 @@ pub(crate) fn color() -> Image {
     let (light, dark) = (paint(0xdd_b98a), paint(0x96_6238));
     let picture = CANVAS.paint(|p| {
         let large = tiled(5, CANVAS.size, dvec2(200.0, 30.0), p);
-        let tone = 0.1 + 0.58 * late_wood(p) + 0.1 * fibre(p) + 0.1 * large + 0.35 * knot(p, 0.7);
+        let tone = 0.1 + 0.75 * late_wood(p) + 0.1 * fibre(p) + 0.1 * large + 0.35 * knot(p, 0.7);
         let shade = (tone.clamp(0.0, 1.0) * SHADES).round() / SHADES;
         rgb(light.lerp(dark, shade))
     });
-    encoded("wood", &picture)
+    tile("wood", &picture)
 }
 
 /// The normal map: hard late wood stands out, as on a brushed board.
 pub(crate) fn relief() -> Image {
-    encoded("wood grain", &CANVAS.relief(|p| 0.2 * late_wood(p) + 0.06 * fibre(p)))
+    tile("wood grain", &CANVAS.relief(|p| 0.26 * late_wood(p) + 0.06 * fibre(p)))
 }
 
 /// How dark the ring is at a place: grows slowly through the year and ends at once, 0 to 1.
@@ -37,7 +37,7 @@ fn late_wood(p: DVec2) -> f64 {
     let size = CANVAS.size;
     let trunk = 2.9 * tiled(1, size, dvec2(213.0, 64.0), p) + 0.5 * tiled(2, size, dvec2(80.0, 20.0), p);
     let ring = (p.y / size.y * RINGS + trunk + 3.0 * knot(p, 1.6)).rem_euclid(1.0);
-    ring.powi(3) * (1.0 - smoothstep(0.88, 1.0, ring)) / (0.88 * 0.88)
+    ring.powi(3) * (1.0 - smoothstep(0.88, 1.0, ring))
 }
 
 /// Streaks along the grain, −1 to 1.
