@@ -44,7 +44,7 @@ struct Drawn {
     image: RgbaImage,
     surfels: Vec<Surfel>,
     regions: Vec<u32>,
-    cartoon_map: Option<Vec<u8>>,
+    cartoon_map: Option<Vec<u16>>,
 }
 
 fn drawn(session: &mut Session, opened: &Opened) -> Drawn {
@@ -53,7 +53,7 @@ fn drawn(session: &mut Session, opened: &Opened) -> Drawn {
         image: RgbaImage::from_raw(SIDE as u32, SIDE as u32, texels::<u8>(session, &picture.image)).unwrap(),
         surfels: surfels(session, &picture),
         regions: texels::<u32>(session, &picture.gbuffer.region),
-        cartoon_map: picture.cartoon_map.as_ref().map(|map| texels::<u8>(session, map)),
+        cartoon_map: picture.cartoon_map.as_ref().map(|map| texels::<u16>(session, map)),
     }
 }
 
@@ -71,6 +71,10 @@ const SETTINGS: [(&str, &str); 11] = [
     ("toon.rim", "0.5"),
     ("toon.rim_width", "0.4"),
 ];
+
+// As in `shaders/effects/toon.wgsl`.
+const HIGHLIGHT: u16 = 512;
+const RIM: u16 = 1024;
 
 /// What the twins know of the scene: first light and camera.
 struct Twin {
@@ -97,13 +101,13 @@ impl Twin {
         ]
     }
 
-    fn color(&self, object: u32, code: u8) -> Vec3 {
+    fn color(&self, object: u32, code: u16) -> Vec3 {
         // Even steps from the shadow over the middle to the light.
         let ramp = [[64, 32, 96], [128, 96, 96], [192, 165, 128], [255, 240, 192]];
-        let band = Color(ramp[usize::from(code & 15) - 1]).to_linear();
+        let band = Color(ramp[usize::from(code & 511) - 1]).to_linear();
         let tinted = band * (0.5 + 0.5 * self.base[object as usize - 1]);
-        let lit = if code & 16 == 0 { tinted } else { tinted.lerp(Vec3::ONE, 0.8) };
-        if code & 32 == 0 { lit } else { lit.lerp(Vec3::ONE, 0.5) }
+        let lit = if code & HIGHLIGHT == 0 { tinted } else { tinted.lerp(Vec3::ONE, 0.8) };
+        if code & RIM == 0 { lit } else { lit.lerp(Vec3::ONE, 0.5) }
     }
 
     /// By how many pixels the plane at `px` misses the depth at `other_px`.
@@ -147,12 +151,12 @@ fn ramp_and_cartoon_map_equal_their_twins() {
         inside += 1;
         // The ramp, from the normals.
         let fields = twin.fields(px, s);
-        let mut code = 1 + fields[0].floor().clamp(0.0, 3.0) as u8;
-        code |= if fields[1] >= 0.0 { 16 } else { 0 } | if fields[2] >= 0.0 { 32 } else { 0 };
+        let mut code = 1 + fields[0].floor().clamp(0.0, 3.0) as u16;
+        code |= if fields[1] >= 0.0 { HIGHLIGHT } else { 0 } | if fields[2] >= 0.0 { RIM } else { 0 };
         let on_a_border =
             (fields[0] - fields[0].round()).abs().min(fields[1].abs()).min(fields[2].abs()) < 1e-4;
         assert!(code == map[i] || on_a_border, "{px:?}: {code} against {}, {fields:?}", map[i]);
-        accents |= map[i] & 48;
+        accents |= map[i] & (HIGHLIGHT | RIM);
 
         // Its mean, from the map.
         let own = twin.color(s.object, map[i]);
@@ -179,7 +183,7 @@ fn ramp_and_cartoon_map_equal_their_twins() {
         }
     }
     assert!(
-        inside > 5000 && smoothed > 500 && accents == 48,
+        inside > 5000 && smoothed > 500 && accents == HIGHLIGHT | RIM,
         "{inside} {smoothed} {accents}: nothing to see"
     );
 }

@@ -26,8 +26,8 @@ struct SurfaceStyle {
     technique: u32,
 }
 
-@group(1) @binding(4) var base_color_tex: texture_2d<f32>;
-@group(1) @binding(5) var<storage, read> surface_styles: array<SurfaceStyle>;
+@group(1) @binding(5) var base_color_tex: texture_2d<f32>;
+@group(1) @binding(6) var<storage, read> surface_styles: array<SurfaceStyle>;
 
 fn plain(style: SurfaceStyle, base: vec3<f32>, normal: vec3<f32>, pos_view: vec3<f32>) -> vec3<f32> {
     var light = vec3(style.ambient);

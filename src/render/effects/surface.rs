@@ -4,7 +4,7 @@
 use encase::ShaderType;
 use glam::Vec3;
 
-use super::toon::{self, ToonUniform};
+use super::toon::{self, ToonBuffers, Toons};
 use crate::gpu::recorder::Input;
 use crate::gpu::{Program, Recorder, Target};
 use crate::render::RenderError;
@@ -74,10 +74,10 @@ pub struct Shading<'a> {
     pub surfaces: &'a [SurfaceUniform],
     /// `surfaces` on the device.
     pub surface_styles: &'a wgpu::Buffer,
-    /// By object id; empty when no object is a toon.
-    pub toons: &'a [ToonUniform],
+    /// Those that are toons.
+    pub toons: &'a Toons,
     /// `toons` on the device.
-    pub toon_styles: &'a wgpu::Buffer,
+    pub toon_buffers: ToonBuffers<'a>,
     /// See [`toon::cartoon_map`]; `None` when no object asks for it.
     pub cartoon_map: Option<&'a Target>,
 }
@@ -94,13 +94,14 @@ pub fn surface(
     let color = rec.target("color", wgpu::TextureFormat::Rgba16Float)?;
     let uses = |technique| shading.surfaces.iter().any(|s| s.technique == technique);
     let mut switches = vec![("WITH_PLAIN", uses(PLAIN)), ("WITH_GOOCH", uses(GOOCH))];
-    switches.extend(toon::switches(shading.toons));
+    switches.extend(toon::switches(&shading.toons.styles));
     rec.fullscreen(
         "surface",
         Program { file: "effects/surface.wgsl", entry_point: "fs_main", switches },
         &[
             Input::Texture(&gbuffer.geometry),
-            Input::Storage(shading.toon_styles),
+            Input::Storage(shading.toon_buffers.styles),
+            Input::Storage(shading.toon_buffers.bands),
             // A shader that does not read it is given any texture of its kind.
             Input::Texture(shading.cartoon_map.unwrap_or(&gbuffer.region)),
             Input::Texture(&gbuffer.region),
