@@ -2,7 +2,7 @@
 #import common/frame.wgsl
 #import common/fullscreen.wgsl
 #import common/gbuffer.wgsl
-#import common/plane.wgsl
+#import common/same_surface.wgsl
 
 const NEAREST: u32 = 1u;
 const CARTOON_MAP: u32 = 2u;
@@ -40,7 +40,6 @@ struct ToonStyle {
 @group(1) @binding(2) var<storage, read> toon_bands: array<vec4<f32>>;
 // The bands of the objects whose borders are smoothed by it.
 @group(1) @binding(3) var cartoon_map_tex: texture_2d<u32>;
-@group(1) @binding(4) var toon_region_tex: texture_2d<u32>;
 
 // x: place on the ramp, in bands; y: N·H past the highlight's border; z: N·V past the rim's border; w: N·L.
 fn toon_fields(object: u32, normal: vec3<f32>, pos_view: vec3<f32>) -> vec4<f32> {
@@ -87,26 +86,6 @@ fn toon_color(object: u32, base: vec3<f32>, code: u32) -> vec3<f32> {
     let has = vec2((code & HIGHLIGHT) != 0u, (code & RIM) != 0u);
     let shares = select(vec2(0.0), vec2(1.0), has);
     return toon_layers(object, base, band_color(object, (code & BAND) - 1u), shares.x, shares.y);
-}
-
-// A step in depth of so many pixels' widths parts a surface from itself.
-const DEPTH_STEP: f32 = 2.0;
-
-// Whether a surface goes on from one pixel to a near one: the same surface of the same object, and one of the two
-// predicts the other's depth.
-fn goes_on(px: vec2<i32>, s: Surfel, other_px: vec2<i32>, other: Surfel) -> bool {
-    if other.object != s.object
-        || textureLoad(toon_region_tex, px, 0).x != textureLoad(toon_region_tex, other_px, 0).x {
-        return false;
-    }
-    let offset = vec2<f32>(other_px - px);
-    let here = plane_of(px, s.depth, s.face_normal);
-    let there = plane_of(other_px, other.depth, other.face_normal);
-    let miss = min(
-        abs(there.center - nearness_at(here, offset)),
-        abs(here.center - nearness_at(there, -offset)),
-    );
-    return step_px(miss, min(s.depth, other.depth)) < DEPTH_STEP;
 }
 
 // The cartoon map: what there is at each pixel, without a mean.

@@ -26,9 +26,10 @@ pub(super) fn run(args: &StylesArgs) -> Result<(), CliError> {
         }));
     }
     print_line("Presets")?;
+    let width = presets.iter().map(|p| p.name.len()).max().unwrap_or_default();
     for preset in &presets {
         let technique: &str = preset.style.technique.into();
-        print_line(&format!("  {:<10} {technique:<8} {}", preset.name, preset.description))?;
+        print_line(&format!("  {:<width$} {technique:<8} {}", preset.name, preset.description))?;
     }
     print_line("\nParameters (for --set KEY=VALUE and style files)")?;
     let width = params.iter().map(|p| p.key.len()).max().unwrap_or_default();

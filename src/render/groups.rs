@@ -56,13 +56,14 @@ impl Objects {
         // What is not drawn, entry 0 (the background) included, has neither shading nor lines.
         let count = resolved.len() + 1;
         objects.edge_styles = vec![EdgeUniform::default(); count];
-        objects.surface_styles = vec![SurfaceUniform::BLANK; count];
+        objects.surface_styles = vec![SurfaceUniform::default(); count];
         for (node, r) in resolved.iter().enumerate() {
             if !r.visible || scene.scene.nodes[node].mesh.is_none() {
                 continue;
             }
             let id = object_id(node) as usize;
-            objects.surface_styles[id] = SurfaceUniform::from(r.style);
+            objects.surface_styles[id] =
+                SurfaceUniform::new(r.style, &scene.scene.nodes[node].world_from_local);
             if r.style.technique == Technique::Toon {
                 objects.toons.set(id, count, &r.style.toon, images);
             }

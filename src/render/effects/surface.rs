@@ -2,8 +2,9 @@
 //! traversed once, where the edge-enhancement paper's pipeline traverses it twice.
 
 use encase::ShaderType;
-use glam::Vec3;
+use glam::DMat4;
 
+use super::gooch::GoochUniform;
 use super::toon::{self, ToonBuffers, Toons};
 use crate::gpu::recorder::Input;
 use crate::gpu::{Program, Recorder, Target};
@@ -11,31 +12,12 @@ use crate::render::RenderError;
 use crate::render::passes::gbuffer::GBuffer;
 use crate::style::{Style, Technique};
 
-/// Twin of `SurfaceStyle` in `shaders/effects/surface.wgsl`.
-#[derive(Debug, Clone, Copy, PartialEq, ShaderType)]
+/// Twin of `SurfaceStyle` in `shaders/effects/surface.wgsl`; by default paper only.
+#[derive(Debug, Clone, Copy, PartialEq, ShaderType, Default)]
 pub struct SurfaceUniform {
-    cool: Vec3,
-    alpha: f32,
-    warm: Vec3,
-    beta: f32,
-    highlight: f32,
-    shininess: f32,
+    gooch: GoochUniform,
     ambient: f32,
     technique: u32,
-}
-
-impl SurfaceUniform {
-    /// Paper only.
-    pub const BLANK: Self = Self {
-        cool: Vec3::ZERO,
-        alpha: 0.0,
-        warm: Vec3::ZERO,
-        beta: 0.0,
-        highlight: 0.0,
-        shininess: 1.0,
-        ambient: 0.0,
-        technique: BLANK,
-    };
 }
 
 // As in `shaders/effects/surface.wgsl`.
@@ -45,16 +27,14 @@ const UNLIT: u32 = 2;
 const GOOCH: u32 = 3;
 const TOON: u32 = 4;
 
-impl From<&Style> for SurfaceUniform {
-    fn from(style: &Style) -> Self {
-        let gooch = &style.gooch;
+impl SurfaceUniform {
+    /// Of an object that lies at `world_from_local`.
+    pub fn new(style: &Style, world_from_local: &DMat4) -> Self {
         Self {
-            cool: gooch.cool.to_linear(),
-            alpha: gooch.alpha.clamp(0.0, 1.0),
-            warm: gooch.warm.to_linear(),
-            beta: gooch.beta.clamp(0.0, 1.0),
-            highlight: gooch.highlight.clamp(0.0, 1.0),
-            shininess: gooch.shininess.clamp(1.0, 256.0),
+            gooch: match style.technique {
+                Technique::Gooch => GoochUniform::new(&style.gooch, world_from_local),
+                _ => GoochUniform::default(),
+            },
             ambient: style.plain.ambient.clamp(0.0, 1.0),
             technique: match style.technique {
                 Technique::Blank => BLANK,
@@ -93,7 +73,11 @@ pub fn surface(
 ) -> Result<Target, RenderError> {
     let color = rec.target("color", wgpu::TextureFormat::Rgba16Float)?;
     let uses = |technique| shading.surfaces.iter().any(|s| s.technique == technique);
-    let mut switches = vec![("WITH_PLAIN", uses(PLAIN)), ("WITH_GOOCH", uses(GOOCH))];
+    let mut switches = vec![
+        ("WITH_PLAIN", uses(PLAIN)),
+        ("WITH_GOOCH", uses(GOOCH)),
+        ("WITH_METAL", shading.surfaces.iter().any(|s| s.gooch.has_metal())),
+    ];
     switches.extend(toon::switches(&shading.toons.styles));
     rec.fullscreen(
         "surface",
