@@ -48,8 +48,10 @@ impl Workplace {
     fn drawn(&self, args: &[&str]) -> (RgbImage, String) {
         let _ = std::fs::remove_file(self.path("out.png"));
         let output = self.hachure(args);
-        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        let said = String::from_utf8_lossy(&output.stderr);
         assert_eq!(output.status.code(), Some(0), "{args:?}: {said}");
+        // Graphics drivers may say something too.
+        let said = said.lines().filter(|line| line.starts_with("hachure: ")).collect();
         (image::open(self.path("out.png")).unwrap().into_rgb8(), said)
     }
 }
