@@ -126,6 +126,9 @@ impl Viewer {
             Intent::Reload => self.notices.done("Read again"),
             Intent::Add | Intent::Restore => {}
         }
+        for fault in self.document.mirror_faults(&self.model.scene) {
+            self.notices.warning(fault.to_string());
+        }
         let warnings = self.model.scene.warnings.len();
         if warnings > 0 && intent != Intent::Restore {
             let plural = if warnings == 1 { "" } else { "s" };

@@ -82,6 +82,9 @@ pub(super) struct LookArgs {
     /// Draw no edges of the objects that match
     #[arg(long, value_name = "GLOB")]
     pub no_enhance: Vec<String>,
+    /// Make the flat objects that match mirrors
+    #[arg(long, value_name = "GLOB")]
+    pub mirror: Vec<String>,
     /// The axis that is up: +X, -X, +Y, -Y, +Z or -Z
     #[arg(long, value_name = "AXIS", allow_hyphen_values = true)]
     pub up: Option<Up>,

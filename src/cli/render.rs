@@ -39,8 +39,8 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
     save_png(&args.output, image)?;
 
     let scene = &opened.scene;
-    let mut warnings = images.warnings(&uses);
-    warnings.extend_from_slice(&scene.warnings);
+    let faults = opened.document.mirror_faults(scene);
+    let warnings = images.warnings(&uses).into_iter().chain(scene.warnings.iter().cloned()).chain(faults);
     if args.json {
         print_json(&json!({
             "output": args.output,
@@ -48,10 +48,10 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
             "samples": args.samples,
             "adapter": session.renderer().gpu().adapter_name,
             "triangles": scene.triangle_count(),
-            "warnings": warnings.iter().map(ToString::to_string).collect::<Vec<_>>(),
+            "warnings": warnings.map(|w| w.to_string()).collect::<Vec<_>>(),
         }))
     } else {
-        for warning in &warnings {
+        for warning in warnings {
             eprintln!("hachure: warning: {warning}");
         }
         Ok(())
@@ -125,6 +125,9 @@ pub(super) fn apply_look(opened: &mut Opened, look: &LookArgs) -> Result<(), Cli
         for id in matching(scene, pattern)? {
             document.node_mut(&scene.nodes[id].path).enhanced = Some(false);
         }
+    }
+    for pattern in &look.mirror {
+        document.set_mirror(scene, &matching(scene, pattern)?, true);
     }
     document.up = look.up.or(document.up);
     document.tidy();

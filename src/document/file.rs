@@ -82,6 +82,8 @@ struct NodeForm {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     enhanced: Option<bool>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    mirror: Option<bool>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     style: Option<toml::Table>,
 }
 
@@ -151,7 +153,8 @@ impl Document {
                     fill(&mut style.params(), &table, &node).map(|()| style)
                 })
                 .transpose()?;
-            let settings = NodeSettings { style, visible: form.visible, enhanced: form.enhanced };
+            let NodeForm { visible, enhanced, mirror, .. } = form;
+            let settings = NodeSettings { style, visible, enhanced, mirror };
             document.nodes.insert(node, settings);
         }
         let own = document.nodes.values_mut().filter_map(|n| n.style.as_mut());
@@ -195,6 +198,7 @@ impl Document {
                     let form = NodeForm {
                         visible: own.visible,
                         enhanced: own.enhanced,
+                        mirror: own.mirror,
                         style: own.style.as_ref().map(style_table),
                     };
                     (node.clone(), form)

@@ -2,6 +2,7 @@
 
 pub mod file;
 pub mod history;
+pub mod mirrors;
 pub mod pattern;
 pub mod view;
 
@@ -46,6 +47,8 @@ pub struct NodeSettings {
     pub visible: Option<bool>,
     /// Whether its edges are drawn.
     pub enhanced: Option<bool>,
+    /// Whether it is a mirror.
+    pub mirror: Option<bool>,
 }
 
 /// A use of an image by a style.
@@ -66,6 +69,8 @@ pub struct Resolved<'a> {
     pub visible: bool,
     /// Whether its edges are drawn.
     pub enhanced: bool,
+    /// Whether it is a mirror, if it can be one: see [`mirrors::mirror_fault`].
+    pub mirror: bool,
 }
 
 impl Default for Document {
@@ -101,7 +106,7 @@ impl Document {
 
     /// Style and roles of every node, in the order of `scene.nodes`.
     pub fn resolve(&self, scene: &Scene) -> Vec<Resolved<'_>> {
-        let root = Resolved { style: &self.style, visible: true, enhanced: true };
+        let root = Resolved { style: &self.style, visible: true, enhanced: true, mirror: false };
         let mut resolved: Vec<Resolved<'_>> = Vec::with_capacity(scene.nodes.len());
         for node in &scene.nodes {
             let above = node.parent.and_then(|p| resolved.get(p)).copied().unwrap_or(root);
@@ -110,6 +115,7 @@ impl Document {
                 style: own.and_then(|n| n.style.as_ref()).unwrap_or(above.style),
                 visible: above.visible && own.and_then(|n| n.visible).unwrap_or(true),
                 enhanced: own.and_then(|n| n.enhanced).unwrap_or(above.enhanced),
+                mirror: own.and_then(|n| n.mirror).unwrap_or(above.mirror),
             });
         }
         resolved

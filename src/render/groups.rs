@@ -2,6 +2,7 @@
 
 use glam::{DMat4, Mat3, Mat4};
 
+use super::effects::mirror::Mirror;
 use super::effects::surface::SurfaceUniform;
 use super::effects::toon::{ToonUniform, Toons};
 use super::frame_uniform::View;
@@ -46,6 +47,8 @@ pub struct Objects {
     pub toons: Toons,
     /// Whether any object with lines has holes by alpha.
     pub has_holes: bool,
+    /// The mirrors among them.
+    pub mirrors: Vec<Mirror>,
 }
 
 impl Objects {
@@ -70,6 +73,11 @@ impl Objects {
             if r.enhanced {
                 objects.edge_styles[id] = EdgeUniform::new(&r.style.edges, scale);
                 objects.has_holes |= scene.has_holes(node);
+            }
+            if r.mirror
+                && let Ok(plane) = scene.plane_of(node)
+            {
+                objects.mirrors.push(Mirror::new(id as u32, plane, scene.corners_of(node), &r.style.mirror));
             }
             objects.visible.push((node, r.enhanced));
             objects.visible_bounds = objects.visible_bounds.union(&scene.bounds_of(node));
@@ -114,6 +122,12 @@ impl Objects {
             // Combined in double precision, so that models far from the origin do not jitter.
             let view_from_local = view.view_from_world * node.world_from_local;
             let local_bounds = scene.mesh_bounds.get(mesh_index).copied().unwrap_or(Bounds::EMPTY);
+            if view.cut.is_some()
+                && view
+                    .cuts_off(&local_bounds.corners().map(|corner| view_from_local.transform_point3(corner)))
+            {
+                continue;
+            }
             let hidden_side = scene.hidden_side(mesh_index, &view_from_local, view.orthographic);
             let has_images = |material: usize| {
                 scene.scene.materials.get(material).is_some_and(|m| {

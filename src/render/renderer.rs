@@ -117,7 +117,7 @@ impl Renderer {
 
     /// Uploads scenes for this renderer, from any thread.
     pub fn uploader(&self) -> Uploader {
-        Uploader::new(&self.gpu, self.state.drawing().material_layout())
+        Uploader::new(&self.gpu, self.state.material_layout())
     }
 
     /// Shows a scene, which the renderer's own [`Self::uploader`] uploaded, in place of the last one.
@@ -210,6 +210,7 @@ impl Renderer {
                 sample,
                 view: &view,
                 background,
+                reflections: request.document.view.reflections.round().clamp(0.0, 8.0) as u32,
             },
             show: request.document.view.show,
             selected: request.selected,

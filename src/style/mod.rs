@@ -9,6 +9,7 @@ pub mod edge_group;
 pub mod edge_line;
 pub mod edges;
 pub mod gooch;
+pub mod mirror;
 pub mod param;
 #[cfg(test)]
 mod param_tests;
@@ -26,6 +27,7 @@ pub use color::Color;
 pub use edge_line::Line;
 pub use edges::{Alignment, DepthOperator, EdgeMode, Edges};
 pub use gooch::Gooch;
+pub use mirror::Mirror;
 pub use param::{Param, Slot, Value};
 pub use plain::Plain;
 pub use toml_file::{diff_to_toml, set_from_toml};
@@ -74,6 +76,8 @@ pub struct Style {
     pub toon: Toon,
     /// Lines.
     pub edges: Edges,
+    /// What a mirror shows.
+    pub mirror: Mirror,
 }
 
 impl Style {
@@ -91,6 +95,7 @@ impl Style {
             list.section("toon", |list| self.toon.params(list));
         });
         list.section("edges", |list| self.edges.params(list));
+        list.section("mirror", |list| self.mirror.params(list));
         list.finish()
     }
 

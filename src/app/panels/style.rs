@@ -16,11 +16,10 @@ pub fn style_ui(ui: &mut Ui, editing: &mut Editing<'_>) {
     let targets = editing.selection.topmost(&editing.model.scene);
     let lead = editing.selection.lead();
     let scene = editing.model.scene.clone();
-    let mut style = match lead {
-        Some(lead) => editing.document.resolve(&scene).get(lead).map(|r| r.style.clone()),
-        None => None,
-    }
-    .unwrap_or_else(|| editing.document.style.clone());
+    let resolved = editing.document.resolve(&scene);
+    let roles = lead.and_then(|lead| resolved.get(lead));
+    let mut style = roles.map_or(&editing.document.style, |r| r.style).clone();
+    let is_mirror = roles.is_some_and(|r| r.mirror);
 
     let has_own = targets.iter().any(|&n| {
         let node = scene.nodes.get(n).and_then(|n| editing.document.nodes.get(&n.path));
@@ -44,6 +43,9 @@ pub fn style_ui(ui: &mut Ui, editing: &mut Editing<'_>) {
     let defaults = default.params();
     let mut params = style.params();
     param::retain_relevant(&mut params);
+    if !is_mirror {
+        params.retain(|param| !param.key.starts_with("mirror."));
+    }
     let changes = params_ui(ui, "style", &mut params, &defaults);
     apply(editing, &targets, changes);
 }

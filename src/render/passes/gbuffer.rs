@@ -81,12 +81,20 @@ pub struct DrawCall {
 
 /// The pipelines of the pass, made when first needed.
 pub struct GBufferPass {
-    pipelines: HashMap<(Detail, Option<wgpu::Face>), wgpu::RenderPipeline>,
+    pipelines: HashMap<Variant, wgpu::RenderPipeline>,
     generation: u64,
     draw_layout: wgpu::BindGroupLayout,
     /// Layout of bind group 1.
     pub material_layout: wgpu::BindGroupLayout,
-    draws: DynamicBuffer,
+}
+
+/// What tells the pipelines apart.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+struct Variant {
+    detail: Detail,
+    hidden_side: Option<wgpu::Face>,
+    /// Whether what lies behind a plane is left out.
+    is_cut: bool,
 }
 
 impl GBufferPass {
@@ -110,26 +118,29 @@ impl GBufferPass {
             generation: 0,
             draw_layout,
             material_layout: MaterialBindings::layout(gpu),
-            draws: DynamicBuffer::new::<DrawUniform>(gpu, "draws"),
         }
     }
 
-    fn prepare(&mut self, gpu: &Gpu, pipelines: &mut Pipelines, call: &DrawCall) -> Result<(), RenderError> {
+    fn prepare(&mut self, gpu: &Gpu, pipelines: &mut Pipelines, key: Variant) -> Result<(), RenderError> {
         if self.generation != pipelines.generation() {
             self.pipelines.clear();
             self.generation = pipelines.generation();
         }
-        let key = (call.detail, call.hidden_side);
         if self.pipelines.contains_key(&key) {
             return Ok(());
         }
         let module = pipelines.module(gpu, "passes/gbuffer.wgsl")?;
         let layouts = [pipelines.frame_layout(), &self.material_layout, &self.draw_layout];
-        self.pipelines.insert(key, build(gpu, &module, &layouts, call.detail, call.hidden_side));
+        self.pipelines.insert(key, build(gpu, &module, &layouts, key));
         Ok(())
     }
 
-    /// Draws the given parts of a scene.
+    /// A buffer for the uniforms of draws.
+    pub fn draw_buffer(gpu: &Gpu) -> DynamicBuffer {
+        DynamicBuffer::new::<DrawUniform>(gpu, "draws")
+    }
+
+    /// Draws the given parts of a scene, whose uniforms go to `buffer`.
     ///
     /// # Errors
     /// [`RenderError`].
@@ -137,8 +148,9 @@ impl GBufferPass {
         &mut self,
         rec: &mut Recorder<'_>,
         scene: &GpuScene,
-        draws: &[DrawUniform],
-        calls: &[DrawCall],
+        buffer: &mut DynamicBuffer,
+        (draws, calls): (&[DrawUniform], &[DrawCall]),
+        is_cut: bool,
     ) -> Result<GBuffer, RenderError> {
         let gbuffer = GBuffer {
             geometry: rec.target("geometry", GEOMETRY)?,
@@ -147,14 +159,16 @@ impl GBufferPass {
             depth: rec.target("depth", DEPTH)?,
         };
         let gpu = rec.gpu;
+        let variant =
+            |call: &DrawCall| Variant { detail: call.detail, hidden_side: call.hidden_side, is_cut };
         for call in calls {
-            self.prepare(gpu, rec.pipelines, call)?;
+            self.prepare(gpu, rec.pipelines, variant(call))?;
         }
-        self.draws.write(gpu, draws)?;
+        buffer.write(gpu, draws)?;
         let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("draws"),
             layout: &self.draw_layout,
-            entries: &[wgpu::BindGroupEntry { binding: 0, resource: self.draws.binding::<DrawUniform>() }],
+            entries: &[wgpu::BindGroupEntry { binding: 0, resource: buffer.binding::<DrawUniform>() }],
         });
         let clear = || wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT);
         let color = [&gbuffer.geometry, &gbuffer.base_color, &gbuffer.region]
@@ -173,7 +187,7 @@ impl GBufferPass {
         pass.set_index_buffer(scene.geometry.indices.slice(..), wgpu::IndexFormat::Uint32);
         let (mut bound, mut material) = (None, None);
         for call in calls {
-            let key = (call.detail, call.hidden_side);
+            let key = variant(call);
             if bound != Some(key) {
                 let Some(pipeline) = self.pipelines.get(&key) else { continue };
                 pass.set_pipeline(pipeline);
@@ -184,7 +198,7 @@ impl GBufferPass {
                 material = Some(call.material_group);
             }
             let indices = call.first_index..call.first_index + call.index_count;
-            pass.set_bind_group(2, &group, &[self.draws.offset(call.draw)]);
+            pass.set_bind_group(2, &group, &[buffer.offset(call.draw)]);
             pass.draw_indexed(indices, call.base_vertex, 0..1);
         }
         drop(pass);
@@ -196,8 +210,7 @@ fn build(
     gpu: &Gpu,
     module: &wgpu::ShaderModule,
     layouts: &[&wgpu::BindGroupLayout; 3],
-    detail: Detail,
-    hidden_side: Option<wgpu::Face>,
+    variant: Variant,
 ) -> wgpu::RenderPipeline {
     let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
         label: Some("g-buffer"),
@@ -215,7 +228,7 @@ fn build(
         attributes: &wgpu::vertex_attr_array![1 => Uint32],
     };
     let buffers = [Some(position), Some(surface), Some(Attributes::LAYOUT)];
-    let (vertex, fragment) = match detail {
+    let (vertex, fragment) = match variant.detail {
         Detail::Lean => ("vs_lean", "fs_lean"),
         Detail::Smooth => ("vs_smooth", "fs_smooth"),
         Detail::Full => ("vs_full", "fs_full"),
@@ -227,10 +240,10 @@ fn build(
             module,
             entry_point: Some(vertex),
             compilation_options: wgpu::PipelineCompilationOptions::default(),
-            buffers: if detail == Detail::Lean { &buffers[..2] } else { &buffers },
+            buffers: if variant.detail == Detail::Lean { &buffers[..2] } else { &buffers },
         },
         // Unless a mesh is known to be solid, both sides are drawn: flipped or mixed winding is common in files.
-        primitive: wgpu::PrimitiveState { cull_mode: hidden_side, ..Default::default() },
+        primitive: wgpu::PrimitiveState { cull_mode: variant.hidden_side, ..Default::default() },
         depth_stencil: Some(wgpu::DepthStencilState {
             format: DEPTH,
             depth_write_enabled: Some(true),
@@ -242,7 +255,10 @@ fn build(
         fragment: Some(wgpu::FragmentState {
             module,
             entry_point: Some(fragment),
-            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            compilation_options: wgpu::PipelineCompilationOptions {
+                constants: &[("WITH_CUT", f64::from(u8::from(variant.is_cut)))],
+                ..Default::default()
+            },
             targets: &[Some(GEOMETRY.into()), Some(BASE_COLOR.into()), Some(REGION.into())],
         }),
         multiview_mask: None,
