@@ -2,6 +2,7 @@
 #import common/frame.wgsl
 #import common/fullscreen.wgsl
 #import common/gbuffer.wgsl
+#import common/light.wgsl
 #import effects/toon.wgsl
 
 const BLANK: u32 = 0u;
@@ -11,6 +12,10 @@ const GOOCH: u32 = 3u;
 const TOON: u32 = 4u;
 
 // Which techniques any object uses.
+// How far Gooch's shadows go to the cool end, and up to which N·L the form's own shadow reaches.
+const SHADE: f32 = 0.7;
+const TERMINATOR: f32 = 0.25;
+
 override WITH_PLAIN: bool = true;
 override WITH_GOOCH: bool = true;
 
@@ -26,28 +31,37 @@ struct SurfaceStyle {
     technique: u32,
 }
 
-@group(1) @binding(4) var base_color_tex: texture_2d<f32>;
-@group(1) @binding(5) var<storage, read> surface_styles: array<SurfaceStyle>;
+@group(1) @binding(5) var base_color_tex: texture_2d<f32>;
+@group(1) @binding(6) var<storage, read> surface_styles: array<SurfaceStyle>;
 
-fn plain(style: SurfaceStyle, base: vec3<f32>, normal: vec3<f32>, pos_view: vec3<f32>) -> vec3<f32> {
+fn plain(px: vec2<i32>, style: SurfaceStyle, base: vec3<f32>, normal: vec3<f32>, pos_view: vec3<f32>) -> vec3<f32> {
     var light = vec3(style.ambient);
     for (var i = 0u; i < frame.light_count; i++) {
         let l = towards_light(frame.lights[i], pos_view);
-        light += frame.lights[i].color * max(dot(normal, l), 0.0);
+        light += frame.lights[i].color * max(dot(normal, l), 0.0) * visibility(px, i);
     }
     return base * light;
 }
 
 // Gooch et al. 1998: cool + alpha · base to warm + beta · base by (1 + n·l) / 2, and a Phong highlight, with the
 // first light as the key.
-fn gooch(style: SurfaceStyle, base: vec3<f32>, normal: vec3<f32>, pos_view: vec3<f32>) -> vec3<f32> {
+fn gooch(px: vec2<i32>, style: SurfaceStyle, base: vec3<f32>, normal: vec3<f32>, pos_view: vec3<f32>) -> vec3<f32> {
     let l = towards_light(frame.lights[0], pos_view);
     let cool = min(style.cool + style.alpha * base, vec3(1.0));
     let warm = min(style.warm + style.beta * base, vec3(1.0));
-    let shade = mix(cool, warm, 0.5 + 0.5 * dot(normal, l));
+    let n_l = dot(normal, l);
+    let lit = visibility(px, 0u);
+    var warmth = 0.5 + 0.5 * n_l;
+    if WITH_SHADOWS {
+        // Towards the terminator the form's own shadow begins, softly where the surface is smooth: so that shadows
+        // neither end there nor show the facets of the mesh.
+        let own = frame.shadow_density * (1.0 - smoothstep(0.0, TERMINATOR, n_l));
+        warmth *= 1.0 - SHADE * max(1.0 - lit, own * f32(frame.lights[0].shadow != 0u));
+    }
+    let shade = mix(cool, warm, warmth);
     let reflected = reflect(-l, normal);
     let gloss = pow(max(dot(reflected, towards_eye(pos_view)), 0.0), style.shininess);
-    return mix(shade, vec3(1.0), style.highlight * gloss);
+    return mix(shade, vec3(1.0), style.highlight * gloss * lit);
 }
 
 // Linear colour times opacity, and opacity.
@@ -64,9 +78,9 @@ fn fs_main(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
             let pos_view = pos_view_of(px, s.depth);
             var shade = base;
             if WITH_GOOCH && style.technique == GOOCH {
-                shade = gooch(style, base, s.normal, pos_view);
+                shade = gooch(px, style, base, s.normal, pos_view);
             } else if WITH_PLAIN && style.technique == PLAIN {
-                shade = plain(style, base, s.normal, pos_view);
+                shade = plain(px, style, base, s.normal, pos_view);
             } else if WITH_TOON && style.technique == TOON {
                 shade = toon(px, s, base);
             }

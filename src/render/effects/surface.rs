@@ -78,6 +78,8 @@ pub struct Shading<'a> {
     pub toons: &'a [ToonUniform],
     /// `toons` on the device.
     pub toon_styles: &'a wgpu::Buffer,
+    /// See `shaders/common/light.wgsl`; `None` when no light throws shadows.
+    pub shadow_mask: Option<&'a Target>,
     /// See [`toon::cartoon_map`]; `None` when no object asks for it.
     pub cartoon_map: Option<&'a Target>,
 }
@@ -94,6 +96,7 @@ pub fn surface(
     let color = rec.target("color", wgpu::TextureFormat::Rgba16Float)?;
     let uses = |technique| shading.surfaces.iter().any(|s| s.technique == technique);
     let mut switches = vec![("WITH_PLAIN", uses(PLAIN)), ("WITH_GOOCH", uses(GOOCH))];
+    switches.push(("WITH_SHADOWS", shading.shadow_mask.is_some()));
     switches.extend(toon::switches(shading.toons));
     rec.fullscreen(
         "surface",
@@ -101,7 +104,8 @@ pub fn surface(
         &[
             Input::Texture(&gbuffer.geometry),
             Input::Storage(shading.toon_styles),
-            // A shader that does not read it is given any texture of its kind.
+            // A shader that does not read one of these is given any texture of its kind.
+            Input::Texture(shading.shadow_mask.unwrap_or(&gbuffer.base_color)),
             Input::Texture(shading.cartoon_map.unwrap_or(&gbuffer.region)),
             Input::Texture(&gbuffer.region),
             Input::Texture(&gbuffer.base_color),
