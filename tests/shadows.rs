@@ -1,0 +1,231 @@
+//! Shadows against rays that are cast from what each pixel shows to the lights, and what must hold of them.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+#![allow(clippy::print_stdout, reason = "the measurement is printed")]
+
+mod common;
+
+use std::sync::Arc;
+
+use common::{draw, image, opened, scene, session, set, surfels, texels};
+use glam::{DMat4, DQuat, DVec3, UVec2, Vec2, Vec3};
+use hachure::document::Document;
+use hachure::export::Session;
+use hachure::export::session::{Opened, open};
+use hachure::geometry::bvh::Bvh;
+use hachure::geometry::primitives;
+use hachure::import::Progress;
+use hachure::render::Request;
+use hachure::render::frame_uniform::View;
+use hachure::scene::{Camera, Light, LightKind, Scene};
+
+fn at(x: f64, y: f64, z: f64) -> DMat4 {
+    DMat4::from_translation(DVec3::new(x, y, z))
+}
+
+/// A square that faces up.
+fn floor(size: f64) -> DMat4 {
+    DMat4::from_scale_rotation_translation(
+        DVec3::splat(size),
+        DQuat::from_rotation_x(-90_f64.to_radians()),
+        DVec3::ZERO,
+    )
+}
+
+/// All triangles in world space.
+fn triangles(scene: &Scene) -> Vec<[DVec3; 3]> {
+    let objects = scene.nodes.iter().filter_map(|n| Some((n, scene.meshes.get(n.mesh?)?)));
+    objects
+        .flat_map(|(node, mesh)| {
+            mesh.indices.chunks_exact(3).map(|corners| {
+                [0, 1, 2].map(|i| {
+                    let local = mesh.positions[corners[i] as usize].as_dvec3();
+                    node.world_from_local.transform_point3(local)
+                })
+            })
+        })
+        .collect()
+}
+
+/// Throws shadows in the light of these lights, which stand in the world.
+fn lit_by(opened: &mut Opened, kinds: &[LightKind]) {
+    let light = |kind: &LightKind| Light {
+        kind: *kind,
+        color: Vec3::ONE,
+        intensity: 1.0,
+        attached_to_camera: false,
+        casts_shadow: true,
+    };
+    opened.document.lights = kinds.iter().map(light).collect();
+    set(opened, "light.source", "file");
+    set(opened, "light.shadows", "on");
+}
+
+fn directional(x: f64, y: f64, z: f64) -> LightKind {
+    LightKind::Directional { direction: -DVec3::new(x, y, z).normalize() }
+}
+
+/// Of a picture: how many pixels are farther than 2 px from the border of a ray-cast shadow, how many of them are
+/// wrong in the mask, and how many lie in shadow.
+#[derive(Debug, Default, Clone, Copy)]
+struct Score {
+    counted: usize,
+    wrong: usize,
+    shadowed: usize,
+}
+
+impl Score {
+    fn share(&self) -> f64 {
+        self.wrong as f64 / self.counted.max(1) as f64
+    }
+}
+
+/// The score of each light.
+fn scores(session: &mut Session, opened: &Opened, bvh: &Bvh, side: u32) -> Vec<Score> {
+    let picture = draw(session, opened, side);
+    let surfels = surfels(session, &picture);
+    let mask: Vec<[u8; 4]> = texels(session, picture.shadow_mask.as_ref().unwrap());
+    let bounds = opened.scene.bounds();
+    let view = View::new(&opened.document.camera.unwrap(), &bounds, UVec2::splat(side));
+    let world_from_view = view.view_from_world.inverse();
+    let step = bounds.diagonal() * 1e-6;
+    let n = side as i32;
+    let lights = opened.document.lights.iter().enumerate();
+    lights
+        .map(|(channel, light)| {
+            let truth: Vec<Option<bool>> = (0..n * n)
+                .map(|i| {
+                    let surfel = &surfels[i as usize];
+                    if surfel.object == 0 {
+                        return None;
+                    }
+                    let px = Vec2::new((i % n) as f32 + 0.5, (i / n) as f32 + 0.5);
+                    let point = view.unproject(px, surfel.depth);
+                    let normal = world_from_view.transform_vector3(surfel.face_normal.as_dvec3()).normalize();
+                    let (towards, reach) = match light.kind {
+                        LightKind::Directional { direction } => (-direction, f64::INFINITY),
+                        LightKind::Point { position } => (position - point, 1.0),
+                    };
+                    let origin = point + normal * step;
+                    let faces = normal.dot(towards) > 0.0;
+                    Some(faces && bvh.any_hit(origin, towards, 0.0, reach, |_| false).is_none())
+                })
+                .collect();
+            let at = |x: i32, y: i32| {
+                if x < 0 || y < 0 || x >= n || y >= n { None } else { truth[(y * n + x) as usize] }
+            };
+            let mut score = Score::default();
+            for y in 0..n {
+                for x in 0..n {
+                    let Some(is_lit) = at(x, y) else { continue };
+                    let near_border = (-2..=2).any(|dy: i32| {
+                        (-2..=2).any(|dx: i32| {
+                            dx * dx + dy * dy <= 4 && at(x + dx, y + dy).is_some_and(|other| other != is_lit)
+                        })
+                    });
+                    if near_border {
+                        continue;
+                    }
+                    score.counted += 1;
+                    score.shadowed += usize::from(!is_lit);
+                    let shown = mask[(y * n + x) as usize][channel];
+                    score.wrong += usize::from((shown >= 128) != is_lit);
+                }
+            }
+            score
+        })
+        .collect()
+}
+
+/// The worst share of wrong pixels over lights and cameras is at most a thousandth.
+fn check(session: &mut Session, name: &str, scene: &Arc<Scene>, kinds: &[LightKind], side: u32) {
+    let bvh = Bvh::new(&triangles(scene));
+    let mut worst = Score::default();
+    let mut shadowed = 0;
+    for (direction, parallel) in [(DVec3::new(0.4, 0.5, 1.0), false), (DVec3::new(-0.7, 0.9, 0.6), true)] {
+        let mut opened = opened(scene, direction);
+        opened.document.camera = opened.document.camera.map(|c| c.with_orthographic(parallel));
+        lit_by(&mut opened, kinds);
+        for (light, score) in kinds.iter().zip(scores(session, &opened, &bvh, side)) {
+            shadowed += score.shadowed;
+            if score.share() > worst.share() {
+                worst = score;
+            }
+            println!("{name} {parallel} {light:?} {score:?} {:.4}", score.share()*100.0);
+        }
+    }
+    assert!(shadowed > 0, "{name}: no shadow to be seen");
+    println!("{name:<12} worst {:.5} % ({} of {})", worst.share() * 100.0, worst.wrong, worst.counted);
+}
+
+/// Scenes that tempt shadow maps to err, each with the lights that do.
+fn small_scenes() -> Vec<(&'static str, Arc<Scene>, Vec<LightKind>)> {
+    let white = [0.8; 3];
+    let ground = || ("floor", primitives::plane(1.0), floor(6.0), white);
+    let lights = || {
+        vec![
+            directional(0.6, 1.0, 0.3),
+            directional(-1.0, 0.25, 0.4),
+            LightKind::Point { position: DVec3::new(1.5, 4.0, 2.5) },
+            directional(0.0, 1.0, 0.0),
+        ]
+    };
+    let upright = DMat4::from_rotation_y(0.5) * at(0.0, 0.75, 0.0);
+    let room = vec![
+        ground(),
+        ("cube", primitives::cube(0.8), at(1.2, 0.4, 0.3), white),
+        ("ball", primitives::sphere(0.4, 24, 36), at(-1.3, 0.6, 0.2), white),
+        ("ring", primitives::torus(0.5, 0.1, 48, 16), at(0.0, 0.3, -1.4), white),
+    ];
+    vec![
+        ("cube", scene(vec![ground(), ("cube", primitives::cube(1.5), at(0.0, 0.75, 0.0), white)]), lights()),
+        (
+            "sphere",
+            scene(vec![ground(), ("ball", primitives::sphere(1.0, 32, 48), at(0.0, 1.0, 0.0), white)]),
+            lights(),
+        ),
+        ("thin plate", scene(vec![ground(), ("plate", primitives::plane(1.5), upright, white)]), lights()),
+        ("light amid", scene(room), vec![LightKind::Point { position: DVec3::new(0.1, 0.9, 0.2) }]),
+    ]
+}
+
+fn sample(name: &str) -> Arc<Scene> {
+    let path = format!("{}/assets/models/{name}.glb", env!("CARGO_MANIFEST_DIR"));
+    open(&[path.into()], None, &Progress::default()).unwrap().scene
+}
+
+fn sample_lights(scene: &Scene) -> [LightKind; 4] {
+    let bounds = scene.bounds();
+    let away = DVec3::new(-0.6, 0.9, 0.8).normalize() * bounds.diagonal();
+    [
+        directional(-0.5, 0.7, 0.75),
+        directional(0.9, 0.3, 0.2),
+        directional(0.1, 1.0, -0.2),
+        LightKind::Point { position: bounds.center() + away },
+    ]
+}
+
+#[test]
+fn shadows_are_where_rays_find_them() {
+    let mut session = session();
+    for (name, scene, lights) in small_scenes() {
+        check(&mut session, name, &scene, &lights, 256);
+    }
+    for name in ["crank", "ogre"] {
+        let scene = sample(name);
+        check(&mut session, name, &scene, &sample_lights(&scene), 320);
+    }
+}
+
+#[test]
+#[ignore = "large; part of `make quality`"]
+fn shadows_are_where_rays_find_them_in_large_pictures() {
+    let mut session = session();
+    for (name, scene, lights) in small_scenes() {
+        check(&mut session, name, &scene, &lights, 800);
+    }
+    for name in ["crank", "ogre"] {
+        let scene = sample(name);
+        check(&mut session, name, &scene, &sample_lights(&scene), 800);
+    }
+}
