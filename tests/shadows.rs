@@ -19,6 +19,9 @@ use hachure::render::Request;
 use hachure::render::frame_uniform::View;
 use hachure::scene::{Camera, Light, LightKind, Scene};
 
+/// As in `shaders/passes/shadow.wgsl`: light that grazes a surface at less than this cosine lights nothing.
+const GRAZING: f64 = 1e-3;
+
 fn at(x: f64, y: f64, z: f64) -> DMat4 {
     DMat4::from_translation(DVec3::new(x, y, z))
 }
@@ -107,7 +110,7 @@ fn scores(session: &mut Session, opened: &Opened, bvh: &Bvh, side: u32) -> Vec<S
                         LightKind::Point { position } => (position - point, 1.0),
                     };
                     let origin = point + normal * step;
-                    let faces = normal.dot(towards) > 0.0;
+                    let faces = normal.dot(towards.normalize()) > GRAZING;
                     Some(faces && bvh.any_hit(origin, towards, 0.0, reach, |_| false).is_none())
                 })
                 .collect();

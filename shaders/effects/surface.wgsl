@@ -11,11 +11,11 @@ const UNLIT: u32 = 2u;
 const GOOCH: u32 = 3u;
 const TOON: u32 = 4u;
 
-// Which techniques any object uses.
 // How far Gooch's shadows go to the cool end, and up to which N·L the form's own shadow reaches.
 const SHADE: f32 = 0.7;
 const TERMINATOR: f32 = 0.25;
 
+// Which techniques any object uses.
 override WITH_PLAIN: bool = true;
 override WITH_GOOCH: bool = true;
 
