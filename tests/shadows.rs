@@ -64,6 +64,11 @@ fn lit_by(opened: &mut Opened, kinds: &[LightKind]) {
     set(opened, "light.shadows", "on");
 }
 
+fn without_lines(opened: &mut Opened) {
+    set(opened, "edges.profile.show", "off");
+    set(opened, "edges.inner.show", "off");
+}
+
 fn directional(x: f64, y: f64, z: f64) -> LightKind {
     LightKind::Directional { direction: -DVec3::new(x, y, z).normalize() }
 }
@@ -231,4 +236,143 @@ fn shadows_are_where_rays_find_them_in_large_pictures() {
         let scene = sample(name);
         check(&mut session, name, &scene, &sample_lights(&scene), 800);
     }
+}
+
+/// A cube above a floor, with a light that throws its shadow there.
+fn cube_on_floor() -> (Arc<Scene>, Opened) {
+    let white = [0.8; 3];
+    let scene = scene(vec![
+        ("floor", primitives::plane(1.0), floor(6.0), white),
+        ("cube", primitives::cube(1.0), at(0.0, 0.9, 0.0), white),
+    ]);
+    let mut opened = opened(&scene, DVec3::new(0.2, 0.8, 1.0));
+    lit_by(&mut opened, &[directional(0.5, 1.0, -0.3)]);
+    set(&mut opened, "technique", "plain");
+    without_lines(&mut opened);
+    (scene, opened)
+}
+
+/// Which stages run again when a document changes.
+fn runs(session: &mut Session, before: &Document, change: &dyn Fn(&mut Document)) -> Vec<&'static str> {
+    let mut after = before.clone();
+    change(&mut after);
+    let mut counts = [before, &after].map(|document| {
+        let camera: Camera = document.camera.unwrap();
+        let request = Request {
+            document,
+            camera: &camera,
+            size: [64, 64],
+            transparent: false,
+            selected: &[],
+            samples: 1,
+        };
+        session.renderer().render(&request).unwrap();
+        session.renderer().runs()
+    });
+    let [first, second] = &mut counts;
+    first.iter().zip(second).filter(|(b, a)| b.1 != a.1).map(|(b, _)| b.0).collect()
+}
+
+#[test]
+fn only_the_shadows_that_changed_are_found_again() {
+    let mut session = session();
+    let (_, opened) = cube_on_floor();
+    session.set_scene(&opened).unwrap();
+    let document = &opened.document;
+    let mut runs = |change: &dyn Fn(&mut Document)| runs(&mut session, document, change);
+    assert_eq!(runs(&|_| {}), [""; 0]);
+    // A light that stands still keeps its map while the camera turns.
+    assert_eq!(
+        runs(&|d| d.camera = d.camera.map(|c| c.orbited(DVec3::Y, 10.0, 0.0))),
+        ["g-buffer", "shadow", "surface", "image"]
+    );
+    assert_eq!(runs(&|d| d.lights[0].attached_to_camera = true), ["shadow", "surface", "shadow map", "image"]);
+    assert_eq!(runs(&|d| d.lighting.shadow_density = 0.5), ["surface", "image"]);
+    assert_eq!(runs(&|d| d.lighting.shadow_softness = 2.0), ["shadow", "surface", "image"]);
+    assert_eq!(runs(&|d| d.view.background = "#ff0000".parse().unwrap()), ["image"]);
+    // Without shadows nothing of them is drawn.
+    let off: &dyn Fn(&mut Document) = &|d| d.lighting.shadows = false;
+    assert_eq!(runs(off), ["surface", "image"]);
+    let mut document = document.clone();
+    off(&mut document);
+    session.draw(&Opened { document, ..opened.clone() }, [64, 64], false).unwrap();
+    let picture = session.draw(&Opened { document: Document::default(), ..opened }, [64, 64], false).unwrap();
+    assert!(picture.shadow_mask.is_none());
+}
+
+#[test]
+fn a_light_that_reaches_everything_draws_what_it_draws_without_shadows() {
+    let mut session = session();
+    let ball = scene(vec![("ball", primitives::sphere(1.0, 48, 64), DMat4::IDENTITY, [0.7, 0.5, 0.3])]);
+    for technique in ["plain", "gooch", "toon"] {
+        let mut opened = opened(&ball, DVec3::new(0.2, 0.3, 1.0));
+        lit_by(&mut opened, &[directional(0.2, 0.3, 1.0)]);
+        set(&mut opened, "technique", technique);
+        without_lines(&mut opened);
+        set(&mut opened, "light.shadow_density", "0");
+        let zero = image(&mut session, &opened, 128);
+        set(&mut opened, "light.shadows", "off");
+        let off = image(&mut session, &opened, 128);
+        assert!(zero == off, "{technique}: no density is no shadow");
+        if technique != "gooch" {
+            set(&mut opened, "light.shadows", "on");
+            set(&mut opened, "light.shadow_density", "1");
+            let on = image(&mut session, &opened, 128);
+            let differing = on.pixels().zip(off.pixels()).filter(|(a, b)| a != b).count();
+            assert!(differing < 40, "{technique}: {differing} pixels of a lit ball changed");
+        }
+    }
+}
+
+#[test]
+fn light_falls_through_holes_and_past_what_is_hidden() {
+    let mut session = session();
+    let (scene, mut opened) = cube_on_floor();
+    let dark = |session: &mut Session, opened: &Opened| {
+        let picture = draw(session, opened, 128);
+        let surfels = surfels(session, &picture);
+        let mask: Vec<[u8; 4]> = texels(session, picture.shadow_mask.as_ref().unwrap());
+        surfels.iter().zip(&mask).filter(|(s, m)| s.object == 1 && m[0] < 128).count()
+    };
+    assert!(dark(&mut session, &opened) > 300, "the floor has a shadow");
+    opened.document.node_mut("/cube").visible = Some(false);
+    assert_eq!(dark(&mut session, &opened), 0, "what is hidden throws none");
+    opened.document.node_mut("/cube").visible = None;
+    let mut holes = (*scene).clone();
+    holes.materials[1].alpha = hachure::scene::AlphaMode::Mask(0.5);
+    holes.materials[1].base_color.w = 0.2;
+    let mut mesh = primitives::cube_split(1.0);
+    mesh.parts.iter_mut().for_each(|part| part.material = 1);
+    holes.meshes[1] = Arc::new(mesh);
+    opened.scene = Arc::new(holes);
+    assert_eq!(dark(&mut session, &opened), 0, "what is all holes throws none");
+}
+
+#[test]
+fn soft_borders_are_wider_the_farther_they_fall_and_smooth_in_the_mean() {
+    let mut session = session();
+    let white = [0.8; 3];
+    // Seen from above, the shadow of an upright plate runs away from it along X.
+    let upright = at(0.0, 1.0, 0.0) * DMat4::from_rotation_y(90_f64.to_radians());
+    let scene = scene(vec![
+        ("floor", primitives::plane(1.0), floor(8.0), white),
+        ("plate", primitives::plane(2.0), upright, white),
+    ]);
+    let mut opened = opened(&scene, DVec3::new(0.0, 1.0, 0.001));
+    opened.document.camera = opened.document.camera.map(|c| c.with_orthographic(true));
+    lit_by(&mut opened, &[directional(-1.0, 1.0, 0.0)]);
+    set(&mut opened, "light.shadow_softness", "4");
+    let picture = draw(&mut session, &opened, 256);
+    let mask: Vec<[u8; 4]> = texels(&mut session, picture.shadow_mask.as_ref().unwrap());
+    // How wide the soft border along the shadow's side is in a column.
+    let grey = |x: usize| (0..256).filter(|y| (16..240).contains(&mask[y * 256 + x][0])).count();
+    let (near, far) = (grey(133), grey(180));
+    assert!(near <= 4 && far >= near + 4, "near {near} px, far {far} px");
+    session.set_samples(16);
+    set(&mut opened, "technique", "plain");
+    let mean = image(&mut session, &opened, 256);
+    let column: Vec<u8> = (0..128).map(|y| mean.get_pixel(180, y).0[0]).collect();
+    let steps = column.windows(2).map(|w| w[0].abs_diff(w[1])).max().unwrap();
+    let range = column.iter().max().unwrap() - column.iter().min().unwrap();
+    assert!(range > 60 && steps < range / 2, "a step of {steps} in {range}");
 }

@@ -1,6 +1,6 @@
 //! What lights a drawing: a key, a fill and a rim light that a person sets, or the lights of the files; and shadows.
 
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
 use crate::scene::{Light, LightKind, Up};
 use crate::style::Color;
@@ -90,6 +90,19 @@ pub enum Attached {
     World,
 }
 
+impl Attached {
+    /// Right, up and front: in view space, or in world space with the model's `up`.
+    pub fn axes(self, up: Up) -> DMat3 {
+        match self {
+            Self::Camera => DMat3::IDENTITY,
+            Self::World => {
+                let (up, front) = (up.vector(), up.front());
+                DMat3::from_cols(up.cross(front), up, front)
+            }
+        }
+    }
+}
+
 impl Default for Lamp {
     fn default() -> Self {
         Self {
@@ -146,16 +159,8 @@ impl Lamp {
     }
 
     fn light(&self, up: Up) -> Light {
-        let towards = self.direction();
-        let direction = match self.attached {
-            Attached::Camera => towards,
-            Attached::World => {
-                let (up, front) = (up.vector(), up.front());
-                up.cross(front) * towards.x + up * towards.y + front * towards.z
-            }
-        };
         Light {
-            kind: LightKind::Directional { direction: -direction },
+            kind: LightKind::Directional { direction: -(self.attached.axes(up) * self.direction()) },
             color: self.color.to_linear(),
             intensity: self.intensity,
             attached_to_camera: self.attached == Attached::Camera,
