@@ -159,7 +159,10 @@ fn check(session: &mut Session, name: &str, scene: &Arc<Scene>, kinds: &[LightKi
             if score.share() > worst.share() {
                 worst = score;
             }
-            println!("{name} {parallel} {light:?} {score:?} {:.4}", score.share()*100.0);
+            assert!(
+                score.counted > 0 && score.share() <= 1e-3,
+                "{name}, parallel {parallel}, {light:?}: {score:?}"
+            );
         }
     }
     assert!(shadowed > 0, "{name}: no shadow to be seen");

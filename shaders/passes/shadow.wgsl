@@ -51,7 +51,7 @@ struct ShadowLight {
 const LEAST: f32 = 0.5;
 const PER_TEXEL: f32 = 1.5;
 // More where light grazes: what is known of the plane is inexact.
-const PER_SLOPE: f32 = 0.05;
+const PER_SLOPE: f32 = 0.2;
 // Light that grazes a surface at less than this cosine lights nothing.
 const GRAZING: f32 = 1e-3;
 const TAPS: u32 = 16u;
