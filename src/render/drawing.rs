@@ -169,7 +169,7 @@ impl Drawing {
     }
 
     /// How often each stage has run, by name.
-    pub fn runs(&self) -> [(&'static str, u64); 6] {
+    pub fn runs(&self) -> [(&'static str, u64); 7] {
         [
             ("g-buffer", self.gbuffer.runs()),
             ("edge map", self.edge_map.runs()),
