@@ -289,7 +289,10 @@ fn only_the_shadows_that_changed_are_found_again() {
         runs(&|d| d.camera = d.camera.map(|c| c.orbited(DVec3::Y, 10.0, 0.0))),
         ["g-buffer", "shadow", "surface", "image"]
     );
-    assert_eq!(runs(&|d| d.lights[0].attached_to_camera = true), ["shadow", "surface", "shadow map", "image"]);
+    assert_eq!(
+        runs(&|d| d.lights[0].attached_to_camera = true),
+        ["shadow", "surface", "shadow map", "image"]
+    );
     assert_eq!(runs(&|d| d.lighting.shadow_density = 0.5), ["surface", "image"]);
     assert_eq!(runs(&|d| d.lighting.shadow_softness = 2.0), ["shadow", "surface", "image"]);
     assert_eq!(runs(&|d| d.view.background = "#ff0000".parse().unwrap()), ["image"]);

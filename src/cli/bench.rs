@@ -38,10 +38,8 @@ pub(super) fn run(args: &BenchArgs) -> Result<(), CliError> {
     let mut bench = Bench::new(opened, args.resolution.0)?;
 
     let looks = looks()?;
-    let mut rows: Vec<Row> = looks
-        .iter()
-        .map(|look| Row { name: look.name, frame_ms: Vec::new(), stages: Vec::new() })
-        .collect();
+    let mut rows: Vec<Row> =
+        looks.iter().map(|look| Row { name: look.name, frame_ms: Vec::new(), stages: Vec::new() }).collect();
     // The looks take turns, so that a slow moment of the machine hits all of them alike.
     for frame in 0..args.frames + WARM_UP {
         for (i, (row, look)) in rows.iter_mut().zip(&looks).enumerate() {

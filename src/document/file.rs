@@ -145,7 +145,8 @@ impl Document {
             ..Self::default()
         };
         // These tables hold the keys of one section; the list of parameters has them with their prefix.
-        let section = |name: &str, table: toml::Table| toml::Table::from_iter([(name.to_owned(), table.into())]);
+        let section =
+            |name: &str, table: toml::Table| toml::Table::from_iter([(name.to_owned(), table.into())]);
         fill(&mut document.view.params(), &section("view", form.view), "view")?;
         fill(&mut document.lighting.params(), &section("light", form.light), "light")?;
         fill(&mut document.style.params(), &form.style, "style")?;
@@ -183,10 +184,8 @@ impl Document {
             table.get(name).and_then(|v| v.as_table()).cloned().unwrap_or_default()
         };
         let view = diff_to_toml(&mut self.view.clone().params(), &mut View::default().params());
-        let light = diff_to_toml(
-            &mut self.lighting.clone().params(),
-            &mut default_lighting(has_lights).params(),
-        );
+        let light =
+            diff_to_toml(&mut self.lighting.clone().params(), &mut default_lighting(has_lights).params());
         let form = Form {
             models: self.models.iter().map(|m| relative_to(m, path)).collect(),
             up: self.up,

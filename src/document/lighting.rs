@@ -126,13 +126,7 @@ impl Default for Lighting {
             shadow_density: 1.0,
             shadow_softness: 0.0,
             shadow_detail: 2.0,
-            key: Lamp {
-                azimuth: -33.69,
-                elevation: 37.83,
-                intensity: 0.85,
-                shadow: true,
-                ..Lamp::default()
-            },
+            key: Lamp { azimuth: -33.69, elevation: 37.83, intensity: 0.85, shadow: true, ..Lamp::default() },
             fill: Lamp { azimuth: 63.43, elevation: 6.38, intensity: 0.25, ..Lamp::default() },
             rim: Lamp { show: false, azimuth: 150.0, elevation: 30.0, intensity: 0.5, ..Lamp::default() },
         }

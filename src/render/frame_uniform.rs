@@ -207,6 +207,15 @@ impl View {
         }
     }
 
+    /// Points whose hull holds all that the picture shows between two depths, world space.
+    pub fn corners(&self, depths: Vec2) -> [DVec3; 8] {
+        let size = self.size.as_vec2();
+        // A pixel more, for the jitter.
+        let px =
+            [Vec2::splat(-1.0), Vec2::new(size.x + 1.0, -1.0), Vec2::new(-1.0, size.y + 1.0), size + 1.0];
+        std::array::from_fn(|i| self.unproject(px[i % 4], depths[i / 4]))
+    }
+
     /// The point in world space that a pixel of this linear depth shows.
     pub fn unproject(&self, px: Vec2, depth: f32) -> DVec3 {
         let ndc = ((px - self.jitter) / self.size.as_vec2() * 2.0 - 1.0) * Vec2::new(1.0, -1.0);

@@ -128,9 +128,8 @@ impl Objects {
     pub fn parts<'a>(&'a self, scene: &'a GpuScene) -> impl Iterator<Item = VisiblePart> + 'a {
         self.visible.iter().flat_map(move |(id, _)| {
             let node = &scene.scene.nodes[*id];
-            let found = node.mesh.and_then(|m| {
-                Some((m, scene.scene.meshes.get(m)?, scene.geometry.meshes.get(m)?))
-            });
+            let found =
+                node.mesh.and_then(|m| Some((m, scene.scene.meshes.get(m)?, scene.geometry.meshes.get(m)?)));
             found.into_iter().flat_map(move |(mesh, source, range)| {
                 source.parts.iter().map(move |part| VisiblePart {
                     mesh,

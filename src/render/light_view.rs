@@ -9,6 +9,8 @@ use crate::scene::LightKind;
 const MARGIN: f64 = 3.0;
 /// A light that sees the scene at a wider angle than this tangent looks to all six sides.
 const WIDEST: f64 = 1.5;
+/// A picture that shows less of the scene than this many halvings leave shows nothing of it.
+const MOST_HALVINGS: f64 = 16.0;
 /// The nearest that something may be to a light, as a share of the scene's diagonal.
 const NEAREST: f64 = 1e-4;
 
@@ -84,9 +86,24 @@ impl LightView {
     }
 }
 
+/// Where shadows matter.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct LookedAt {
+    /// Points whose hull holds everything that shows shadows, world space; none: anywhere.
+    pub points: Vec<DVec3>,
+    /// Tangent of the light's radius as seen from there.
+    pub spread: f64,
+}
+
 /// What a light sees of some boxes (local space, and local to world), in a square map of `side` texels: one picture,
-/// or six when it stands among them. Nothing when there are no boxes.
-pub fn light_views(light: &LightKind, boxes: &[(Bounds, DMat4)], side: u32) -> Vec<LightView> {
+/// or six when it stands among them. Nothing when there are no boxes. Parallel light sees
+/// no more than what is looked at.
+pub fn light_views(
+    light: &LightKind,
+    boxes: &[(Bounds, DMat4)],
+    looked_at: &LookedAt,
+    side: u32,
+) -> Vec<LightView> {
     let all = boxes.iter().fold(Bounds::EMPTY, |all, (b, m)| all.union(&b.transformed(m)));
     if all.is_empty() || !all.diagonal().is_finite() {
         return Vec::new();
@@ -99,7 +116,13 @@ pub fn light_views(light: &LightKind, boxes: &[(Bounds, DMat4)], side: u32) -> V
                 .iter()
                 .fold(Bounds::EMPTY, |seen, (b, m)| seen.union(&b.transformed(&(light_from_world * *m))));
             let least = all.diagonal().max(f64::MIN_POSITIVE) * 1e-3;
-            let window = widened([seen.min.truncate(), seen.max.truncate()], least, side);
+            let whole = [seen.min.truncate(), seen.max.truncate()];
+            let points = looked_at.points.iter().map(|p| light_from_world.transform_point3(*p).truncate());
+            // Soft borders have their causes beside them.
+            let reach = DVec2::splat(looked_at.spread * (seen.max.z - seen.min.z));
+            let hull = points.map(|p| [p - reach, p + reach]);
+            let hull = hull.reduce(|[a, b], [c, d]| [a.min(c), b.max(d)]);
+            let window = widened(hull.map_or(whole, |hull| narrowed(whole, hull)), least, side);
             let range = [-seen.max.z - least, -seen.min.z + least];
             vec![LightView { light_from_world, is_central: false, window, range, tile }]
         }
@@ -124,11 +147,7 @@ pub fn light_views(light: &LightKind, boxes: &[(Bounds, DMat4)], side: u32) -> V
 }
 
 /// The window through which boxes are seen from the origin, and the nearest distance; `None` if they reach around it.
-fn window_of(
-    boxes: &[(Bounds, DMat4)],
-    light_from_world: &DMat4,
-    nearest: f64,
-) -> Option<([DVec2; 2], f64)> {
+fn window_of(boxes: &[(Bounds, DMat4)], light_from_world: &DMat4, nearest: f64) -> Option<([DVec2; 2], f64)> {
     let (mut min, mut max) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
     let mut near = f64::INFINITY;
     for (bounds, world_from_local) in boxes.iter().filter(|(b, _)| !b.is_empty()) {
@@ -169,6 +188,24 @@ fn looking(position: DVec3, towards: DVec3) -> DMat4 {
     DMat4::from_mat3_translation(axes, -(axes * position))
 }
 
+/// The part of a window that holds a smaller one. It changes in steps, and not at all while the smaller one is more than
+/// half of it, so that a map is not drawn again at every turn of the camera.
+fn narrowed([min, max]: [DVec2; 2], hull: [DVec2; 2]) -> [DVec2; 2] {
+    let axis = |i: usize| {
+        let (size, low, high) = (max[i] - min[i], hull[0][i].max(min[i]), hull[1][i].min(max[i]));
+        let halvings = (size / (high - low)).log2().floor();
+        if !(1.0..=MOST_HALVINGS).contains(&halvings) {
+            return (min[i], max[i]);
+        }
+        let cell = size / halvings.exp2();
+        let step = cell / 4.0;
+        let first = min[i] + ((low - min[i]) / step).floor() * step;
+        (first, first + cell + step)
+    };
+    let ((left, right), (bottom, top)) = (axis(0), axis(1));
+    [DVec2::new(left, bottom), DVec2::new(right, top)]
+}
+
 /// A window of at least `least` in each direction, with a margin.
 fn widened([min, max]: [DVec2; 2], least: f64, side: u32) -> [DVec2; 2] {
     let (center, half) = ((min + max) * 0.5, ((max - min) * 0.5).max(DVec2::splat(least)));
@@ -202,7 +239,7 @@ mod tests {
             LightKind::Point { position: DVec3::new(2.0, 9.0, 1.0) },
         ];
         for kind in kinds {
-            let views = light_views(&kind, &boxes(), 512);
+            let views = light_views(&kind, &boxes(), &LookedAt::default(), 512);
             assert_eq!(views.len(), 1);
             for (bounds, m) in boxes() {
                 for corner in bounds.corners().map(|c| m.transform_point3(c)) {
@@ -223,24 +260,53 @@ mod tests {
 
     #[test]
     fn a_light_among_objects_looks_to_all_sides() {
-        let views = light_views(&LightKind::Point { position: DVec3::new(2.0, 0.0, 0.0) }, &boxes(), 600);
+        let views = light_views(
+            &LightKind::Point { position: DVec3::new(2.0, 0.0, 0.0) },
+            &boxes(),
+            &LookedAt::default(),
+            600,
+        );
         assert_eq!(views.len(), 6);
-        for direction in [DVec3::new(1.0, 0.2, -0.3), DVec3::new(-0.9, -1.0, 0.8), DVec3::new(0.1, 0.2, -1.0)] {
+        for direction in [DVec3::new(1.0, 0.2, -0.3), DVec3::new(-0.9, -1.0, 0.8), DVec3::new(0.1, 0.2, -1.0)]
+        {
             let point = DVec3::new(2.0, 0.0, 0.0) + direction;
             let hits = views.iter().filter(|v| {
                 let p = v.light_from_world.transform_point3(point);
                 let (texel, _) = seen(v, point);
                 let [origin, size] = v.tile.map(|[x, y]| DVec2::new(f64::from(x), f64::from(y)));
-                -p.z > p.x.abs().max(p.y.abs()) && texel.cmpgt(origin).all() && texel.cmplt(origin + size).all()
+                -p.z > p.x.abs().max(p.y.abs())
+                    && texel.cmpgt(origin).all()
+                    && texel.cmplt(origin + size).all()
             });
             assert_eq!(hits.count(), 1);
         }
     }
 
     #[test]
+    fn a_light_looks_closer_at_what_is_looked_at_and_moves_in_steps() {
+        let whole = [DVec2::ZERO, DVec2::splat(16.0)];
+        let hull = |x: f64, size: f64| [DVec2::splat(x), DVec2::splat(x + size)];
+        assert_eq!(narrowed(whole, hull(-5.0, 30.0)), whole);
+        assert_eq!(narrowed(whole, hull(3.0, 9.0)), whole);
+        assert_eq!(narrowed(whole, hull(40.0, 1.0)), whole, "nothing of it is seen");
+        let mut windows = Vec::new();
+        for i in 0..120 {
+            let hull = hull(f64::from(i) * 0.1, 3.0);
+            let window = narrowed(whole, hull);
+            assert!(window[0].cmple(hull[0]).all() && window[1].cmpge(hull[1]).all());
+            assert!((window[1] - window[0]).max_element() <= 5.0);
+            windows.push(window);
+        }
+        windows.dedup();
+        assert!(windows.len() < 14);
+    }
+
+    #[test]
     fn nothing_is_seen_of_nothing() {
         let kind = LightKind::Directional { direction: DVec3::NEG_Y };
-        assert!(light_views(&kind, &[], 512).is_empty());
-        assert!(light_views(&kind, &[(Bounds::EMPTY, DMat4::IDENTITY)], 512).is_empty());
+        assert!(light_views(&kind, &[], &LookedAt::default(), 512).is_empty());
+        assert!(
+            light_views(&kind, &[(Bounds::EMPTY, DMat4::IDENTITY)], &LookedAt::default(), 512).is_empty()
+        );
     }
 }

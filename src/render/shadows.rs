@@ -1,13 +1,13 @@
 //! Shadow maps and the shadow mask: what of them has to be drawn again. Maps depend on lights and objects only, so that
 //! a turn of the camera redraws none of a light that stands still.
 
-use glam::DMat4;
+use glam::{DMat4, Vec2};
 
 use super::RenderError;
 use super::drawing::DrawingInputs;
 use super::gpu_scene::GpuScene;
 use super::groups::Objects;
-use super::light_view::{LightView, light_views};
+use super::light_view::{LightView, LookedAt, light_views};
 use super::lights::{MAX_SHADOWS, WorldLight};
 use super::passes::gbuffer::GBuffer;
 use super::passes::shadow::ShadowPass;
@@ -53,6 +53,14 @@ impl ShadowMaps {
         let shaders = rec.pipelines.generation();
         let [width, height] = rec.size();
         let limit = rec.gpu.device.limits().max_texture_dimension_2d.min(MOST_TEXELS);
+        // Mirrors show what the eye does not see.
+        let points = if objects.mirrors.is_empty() {
+            let depths = inputs.view.fitted_depth_range(objects.boxes(scene));
+            inputs.view.moved(Vec2::ZERO).corners(depths).to_vec()
+        } else {
+            Vec::new()
+        };
+        let looked_at = LookedAt { points, spread: f64::from(lights.spread) };
         let side = (lights.detail * width.max(height) as f32).round().max(LEAST_TEXELS as f32) as u32;
         let mut casting = lights.casting();
         let mut made = Vec::new();
@@ -61,7 +69,7 @@ impl ShadowMaps {
                 stage.clear();
                 continue;
             };
-            let seen = seen_by(light, scene, objects, side.min(limit));
+            let seen = seen_by(light, scene, objects, &looked_at, side.min(limit));
             let views = seen.views.clone();
             let map = stage.run((shaders, scene_revision, seen), |(_, _, seen)| {
                 pass.run(rec, scene, material_layout, seen)
@@ -77,10 +85,16 @@ const MOST_TEXELS: u32 = 8192;
 const LEAST_TEXELS: u32 = 256;
 
 /// All visible objects as a light sees them.
-fn seen_by(light: &WorldLight, scene: &GpuScene, objects: &Objects, side: u32) -> ShadowScene {
+fn seen_by(
+    light: &WorldLight,
+    scene: &GpuScene,
+    objects: &Objects,
+    looked_at: &LookedAt,
+    side: u32,
+) -> ShadowScene {
     let boxes: Vec<_> = objects.boxes(scene).collect();
     let mut seen = ShadowScene {
-        views: light_views(&light.kind, &boxes, side),
+        views: light_views(&light.kind, &boxes, looked_at, side),
         draws: Vec::new(),
         calls: Vec::new(),
         side,
