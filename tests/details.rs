@@ -13,8 +13,8 @@ use glam::{DMat4, DVec2, DVec3};
 use hachure::export::Session;
 use hachure::export::session::Opened;
 use hachure::geometry::{EdgeClass, primitives};
-use hachure::scene::material::{Texture, TextureRef, UvTransform, Wrap};
-use hachure::scene::{Camera, Scene};
+use hachure::scene::material::{TextureRef, UvTransform, Wrap};
+use hachure::scene::{Camera, Scene, Texture};
 
 const SIDE: u32 = 200;
 const TEXELS: u32 = 256;

@@ -2,6 +2,7 @@
 #import common/frame.wgsl
 #import common/fullscreen.wgsl
 #import common/gbuffer.wgsl
+#import common/light.wgsl
 #import effects/gooch.wgsl
 #import effects/toon.wgsl
 
@@ -22,14 +23,14 @@ struct SurfaceStyle {
     technique: u32,
 }
 
-@group(1) @binding(5) var base_color_tex: texture_2d<f32>;
-@group(1) @binding(6) var<storage, read> surface_styles: array<SurfaceStyle>;
+@group(1) @binding(6) var base_color_tex: texture_2d<f32>;
+@group(1) @binding(7) var<storage, read> surface_styles: array<SurfaceStyle>;
 
-fn plain(style: SurfaceStyle, base: vec3<f32>, normal: vec3<f32>, pos_view: vec3<f32>) -> vec3<f32> {
+fn plain(px: vec2<i32>, style: SurfaceStyle, base: vec3<f32>, normal: vec3<f32>, pos_view: vec3<f32>) -> vec3<f32> {
     var light = vec3(style.ambient);
     for (var i = 0u; i < frame.light_count; i++) {
         let l = towards_light(frame.lights[i], pos_view);
-        light += frame.lights[i].color * max(dot(normal, l), 0.0);
+        light += frame.lights[i].color * max(dot(normal, l), 0.0) * visibility(px, i);
     }
     return base * light;
 }
@@ -50,7 +51,7 @@ fn fs_main(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
             if WITH_GOOCH && style.technique == GOOCH {
                 shade = gooch(px, s, style.gooch, base, pos_view);
             } else if WITH_PLAIN && style.technique == PLAIN {
-                shade = plain(style, base, s.normal, pos_view);
+                shade = plain(px, style, base, s.normal, pos_view);
             } else if WITH_TOON && style.technique == TOON {
                 shade = toon(px, s, base);
             }

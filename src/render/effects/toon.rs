@@ -147,12 +147,22 @@ pub fn cartoon_map(
     rec: &mut Recorder<'_>,
     gbuffer: &GBuffer,
     toon_styles: &wgpu::Buffer,
+    shadow_mask: Option<&Target>,
 ) -> Result<Target, RenderError> {
     let map = rec.target("cartoon map", BANDS)?;
     rec.fullscreen(
         "cartoon map",
-        Program::new("effects/toon.wgsl", "fs_cartoon_map"),
-        &[Input::Texture(&gbuffer.geometry), Input::Storage(toon_styles)],
+        Program {
+            file: "effects/toon.wgsl",
+            entry_point: "fs_cartoon_map",
+            switches: vec![("WITH_SHADOWS", shadow_mask.is_some())],
+        },
+        &[
+            Input::Texture(&gbuffer.geometry),
+            // Unread without shadows.
+            Input::Texture(shadow_mask.unwrap_or(&gbuffer.base_color)),
+            Input::Storage(toon_styles),
+        ],
         &[&map],
         Some(&gbuffer.depth),
     )?;
