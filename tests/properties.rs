@@ -269,3 +269,16 @@ fn nothing_visible_is_empty_paper_and_a_picture_of_one_pixel_is_drawn() {
     let empty = common::opened(&Arc::default(), DVec3::Z);
     assert!(image(&mut session, &empty, 32).pixels().all(|p| p.0[..3] == paper));
 }
+
+#[test]
+fn shaders_and_program_number_surfaces_alike() {
+    let mut session = session();
+    let cubes = ["a", "b"].map(|name| (name, primitives::cube(2.0), DMat4::IDENTITY, [0.7; 3]));
+    let picture = draw(&mut session, &opened(&scene(cubes.to_vec()), DVec3::new(0.3, 0.5, 1.0)), 64);
+    let regions = common::texels::<u32>(&mut session, &picture.gbuffer.region);
+    let surfels = common::surfels(&mut session, &picture);
+    assert!(surfels.iter().any(|s| s.object != 0));
+    for (region, surfel) in regions.into_iter().zip(surfels).filter(|(_, s)| s.object != 0) {
+        assert!((0..6).any(|surface| region == hachure::render::groups::region(surfel.object, surface)));
+    }
+}

@@ -9,7 +9,7 @@
 #import common/line_width.wgsl
 
 @group(1) @binding(1) var region_tex: texture_2d<u32>;
-// 1 where a segment is.
+// 1 where a segment is, 0.5 where it is a crease that is not drawn.
 @group(1) @binding(3) var mark_tex: texture_2d<f32>;
 
 // A step in depth, in pixels, from which two surfaces do not touch.
@@ -31,9 +31,9 @@ fn fs_borders(@builtin(position) position: vec4<f32>) {
     let differs = (region_at(px + vec2(1, 0)) ^ own) | (region_at(px - vec2(1, 0)) ^ own)
         | (region_at(px + vec2(0, 1)) ^ own) | (region_at(px - vec2(0, 1)) ^ own);
     // The corners are looked at later, of the few that are left.
-    let marks = mark_at(px) + mark_at(px + vec2(1, 0)) + mark_at(px - vec2(1, 0)) + mark_at(px + vec2(0, 1))
-        + mark_at(px - vec2(0, 1));
-    if own == 0u || differs == 0u || marks > 0.0 {
+    let mark = max(max(mark_at(px + vec2(1, 0)), mark_at(px - vec2(1, 0))),
+        max(max(mark_at(px + vec2(0, 1)), mark_at(px - vec2(0, 1))), mark_at(px)));
+    if own == 0u || differs == 0u || mark > 0.75 {
         discard;
     }
 }
@@ -43,12 +43,14 @@ struct Spine {
     class_of: u32,
     offset: vec2<f32>,
     tangent: vec2<f32>,
+    // Whether the object ends here.
+    ends_object: bool,
 }
 
 // What lies between pixel `px` (surface `x`) and its neighbour; class 0: nothing that `x` has to draw.
 fn between(px: vec2<i32>, x: Surfel, own: u32, plane: Plane, towards: vec2<i32>) -> Spine {
     let q = px + towards;
-    let none = Spine(NO_EDGE, vec2(0.0), vec2(1.0, 0.0));
+    let none = Spine(NO_EDGE, vec2(0.0), vec2(1.0, 0.0), false);
     let region = region_at(q);
     if region == own {
         return none;
@@ -57,7 +59,7 @@ fn between(px: vec2<i32>, x: Surfel, own: u32, plane: Plane, towards: vec2<i32>)
     let across = vec2(half.y, -half.x) * 2.0;
     let n = unpack_surfel(geometry_at(q));
     if n.object == 0u {
-        return Spine(SILHOUETTE, half, across);
+        return Spine(SILHOUETTE, half, across, true);
     }
     let other = plane_of(q, n.depth, n.face_normal);
     let depth = min(x.depth, n.depth);
@@ -69,7 +71,7 @@ fn between(px: vec2<i32>, x: Surfel, own: u32, plane: Plane, towards: vec2<i32>)
         // The nearer surface draws.
         let class_of = select(OBJECT, SILHOUETTE, n.object == x.object);
         if gap > 0.0 && gap >= edge_styles[x.object].lines[class_of - 1u].threshold {
-            return Spine(class_of, half, across);
+            return Spine(class_of, half, across, class_of == OBJECT);
         }
         return none;
     }
@@ -85,9 +87,9 @@ fn between(px: vec2<i32>, x: Surfel, own: u32, plane: Plane, towards: vec2<i32>)
     let steep = dot(slope, slope);
     let offset = -start * slope / max(steep, 1e-38);
     if steep < 1e-38 || dot(offset, offset) > 1.0 {
-        return Spine(INTERSECTION, half, across);
+        return Spine(INTERSECTION, half, across, false);
     }
-    return Spine(INTERSECTION, offset, normalize(vec2(slope.y, -slope.x)));
+    return Spine(INTERSECTION, offset, normalize(vec2(slope.y, -slope.x)), false);
 }
 
 // Whether the first is an edge, and the second none or farther from the pixel's centre.
@@ -107,9 +109,11 @@ fn fs_main(@builtin(position) position: vec4<f32>) -> Out {
     let x = unpack_surfel(geometry_at(px));
     let own = region_at(px);
     // An edge near a segment is the segment's; where the near plane cuts, there is no edge.
-    let marks = mark_at(px + vec2(-1, -1)) + mark_at(px + vec2(1, -1)) + mark_at(px + vec2(-1, 1))
-        + mark_at(px + vec2(1, 1));
-    if !x.enhanced || marks > 0.0 || x.depth < 1.5 * frame.cut_depth {
+    var mark = 0.0;
+    for (var i = 0; i < 9; i++) {
+        mark = max(mark, mark_at(px + vec2(i % 3, i / 3) - 1));
+    }
+    if !x.enhanced || mark > 0.75 || x.depth < 1.5 * frame.cut_depth {
         discard;
     }
     if edge_styles[x.object].mode != EXACT_MODE {
@@ -133,11 +137,13 @@ fn fs_main(@builtin(position) position: vec4<f32>) -> Out {
         spine = other;
     } else if other.class_of == spine.class_of && spine.class_of != INTERSECTION {
         let corner = spine.offset + other.offset;
-        spine = Spine(spine.class_of, 0.5 * corner, normalize(vec2(corner.y, -corner.x)));
+        spine = Spine(spine.class_of, 0.5 * corner, normalize(vec2(corner.y, -corner.x)), spine.ends_object);
     } else if is_nearer(other, spine) {
         spine = other;
     }
-    if spine.class_of == NO_EDGE {
+    // A crease that is not drawn explains what is inside its object, but not where another one ends.
+    let is_explained = mark > 0.25 && !spine.ends_object;
+    if spine.class_of == NO_EDGE || is_explained {
         discard;
     }
     let pos_view = pos_view_of(px, x.depth);

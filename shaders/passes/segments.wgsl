@@ -70,24 +70,30 @@ struct Out {
 // What a pixel beside the spine shows.
 struct Beside {
     surfel: Surfel,
-    region: u32,
     // How far its surface, continued to the spine, lies before it, px.
     lead: f32,
+}
+
+// Whether a pixel or one of its neighbours shows one of these surfaces.
+fn is_beside(px: vec2<i32>, regions: vec2<u32>) -> bool {
+    let last = vec2<i32>(frame.size) - 1;
+    var found = false;
+    for (var i = 0; i < 9; i++) {
+        let q = clamp(px + vec2(i % 3, i / 3) - 1, vec2(0), last);
+        found = found || any(regions == vec2(textureLoad(region_tex, q, 0).x));
+    }
+    return found;
 }
 
 fn beside(at: vec2<f32>, spine: vec2<f32>, nearness: f32, depth: f32) -> Beside {
     let px = clamp(vec2<i32>(floor(at)), vec2(0), vec2<i32>(frame.size) - 1);
     let s = unpack_surfel(geometry_at(px));
     if s.object == 0u {
-        return Beside(s, 0u, -1e9);
+        return Beside(s, -1e9);
     }
     let plane = plane_of(px, s.depth, s.face_normal);
     let lead = step_px(nearness_at(plane, spine - vec2<f32>(px) - 0.5) - nearness, depth);
-    var region = 0u;
-    if WITH_HOLES {
-        region = textureLoad(region_tex, px, 0).x;
-    }
-    return Beside(s, region, lead);
+    return Beside(s, lead);
 }
 
 @fragment
@@ -106,9 +112,7 @@ fn fs_main(v: Segment) -> Out {
     let own = v.ids.y;
     var is_visible = min(left.lead, right.lead) <= SLACK;
     if WITH_HOLES {
-        let left_own = left.region != 0u && any(v.ids.zw == vec2(left.region));
-        let right_own = right.region != 0u && any(v.ids.zw == vec2(right.region));
-        is_visible = is_visible && (left_own || right_own);
+        is_visible = is_visible && is_beside(vec2<i32>(px), v.ids.zw);
     }
     if !is_visible {
         discard;
@@ -159,5 +163,7 @@ fn fs_main(v: Segment) -> Out {
     let nearest = bitcast<f32>((bitcast<u32>(clip.z / clip.w) & ~63u) | (own & 63u));
     let order = select(rank + 1.0 + 0.499 * nearest, 0.5 * nearest, is_hidden) / 128.0;
     let texel = pack_edge(edge);
-    return Out(texel, spine_of(texel, select(0.0, 1.0, class_of <= OBJECT), 1.0 - range_share(depth)), 1.0, order);
+    let is_rim = class_of <= OBJECT;
+    let packed = spine_of(texel, select(0.0, 1.0, is_rim), 1.0 - range_share(depth));
+    return Out(texel, packed, select(0.5, 1.0, is_rim || !is_hidden), order);
 }

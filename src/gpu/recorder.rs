@@ -75,8 +75,8 @@ pub struct Recorder<'a> {
     pub pipelines: &'a mut Pipelines,
     /// Where commands go.
     pub encoder: wgpu::CommandEncoder,
-    /// Bind group 0.
-    pub frame: &'a wgpu::BindGroup,
+    /// Bind group 0 of the passes from here on.
+    pub frame: wgpu::BindGroup,
     pool: &'a mut TargetPool,
     timers: Option<&'a mut Timers>,
     size: [u32; 2],
@@ -89,7 +89,7 @@ impl<'a> Recorder<'a> {
         pipelines: &'a mut Pipelines,
         pool: &'a mut TargetPool,
         timers: Option<&'a mut Timers>,
-        frame: &'a wgpu::BindGroup,
+        frame: wgpu::BindGroup,
         size: [u32; 2],
     ) -> Self {
         let encoder =
@@ -130,7 +130,7 @@ impl<'a> Recorder<'a> {
             occlusion_query_set: None,
             multiview_mask: None,
         });
-        pass.set_bind_group(0, self.frame, &[]);
+        pass.set_bind_group(0, &self.frame, &[]);
         pass
     }
 
@@ -222,7 +222,7 @@ impl<'a> Recorder<'a> {
             }),
         });
         pass.set_pipeline(&pipeline);
-        pass.set_bind_group(0, self.frame, &[]);
+        pass.set_bind_group(0, &self.frame, &[]);
         pass.set_bind_group(1, &group, &[]);
         pass.dispatch_workgroups(workgroups[0], workgroups[1], 1);
         Ok(())

@@ -28,7 +28,7 @@ pub fn node_of(object: u32) -> Option<NodeId> {
 
 /// The number in the G-buffer for a surface of an object; twin of `region` in `shaders/passes/gbuffer.wgsl`.
 pub fn region(object: u32, surface: u32) -> u32 {
-    object.wrapping_mul(2_654_435_761).wrapping_add(surface).max(1)
+    object.wrapping_mul(2_654_435_769).wrapping_add(surface).max(1)
 }
 
 /// Everything that is visible, resolved for one frame.

@@ -1,5 +1,6 @@
 //! One frame of one scene. Knows no window, no egui and no file.
 
+pub mod drawing;
 pub mod effects;
 pub mod frame;
 pub mod frame_uniform;

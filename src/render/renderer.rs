@@ -4,17 +4,16 @@ use std::sync::Arc;
 
 use glam::{DVec3, UVec2, Vec2};
 
+use super::drawing::DrawingInputs;
 use super::frame::{FrameInputs, FrameState, Picture};
-use super::frame_uniform::{FrameUniform, View};
+use super::frame_uniform::View;
 use super::gpu_scene::{GpuScene, UploadedTopology, Uploader};
 use super::groups::{Objects, node_of};
 use super::passes::accumulate::Subject;
 use crate::document::Document;
 use crate::geometry::Topology;
 use crate::gpu::readback::Readback;
-use crate::gpu::{
-    Gpu, GpuError, Pipelines, Recorder, ShaderError, Shaders, TargetPool, Timers, UniformBuffer,
-};
+use crate::gpu::{Gpu, GpuError, Pipelines, Recorder, ShaderError, Shaders, TargetPool, Timers};
 use crate::scene::{Camera, NodeId, Scene};
 
 /// Height of the picture in reference pixels, in which widths and scales are given.
@@ -69,8 +68,6 @@ pub struct Renderer {
     pipelines: Pipelines,
     pool: TargetPool,
     timers: Option<Timers>,
-    uniform: UniformBuffer<FrameUniform>,
-    frame_group: wgpu::BindGroup,
     state: FrameState,
     scene: Option<GpuScene>,
     scene_revision: u64,
@@ -83,20 +80,12 @@ impl Renderer {
     /// A renderer without a scene; nothing is compiled before the first frame.
     pub fn new(gpu: Gpu) -> Self {
         let (pipelines, shader_error) = Pipelines::new(&gpu, Shaders::from_environment());
-        let uniform = UniformBuffer::new(&gpu, "frame");
-        let frame_group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("frame"),
-            layout: pipelines.frame_layout(),
-            entries: &[wgpu::BindGroupEntry { binding: 0, resource: uniform.buffer().as_entire_binding() }],
-        });
         Self {
-            state: FrameState::new(&gpu),
+            state: FrameState::new(&gpu, pipelines.frame_layout()),
             gpu,
             pipelines,
             pool: TargetPool::default(),
             timers: None,
-            uniform,
-            frame_group,
             scene: None,
             scene_revision: 0,
             last: None,
@@ -124,7 +113,7 @@ impl Renderer {
 
     /// Uploads scenes for this renderer, from any thread.
     pub fn uploader(&self) -> Uploader {
-        Uploader::new(&self.gpu, self.state.material_layout())
+        Uploader::new(&self.gpu, self.state.drawing().material_layout())
     }
 
     /// Shows a scene, which the renderer's own [`Self::uploader`] uploaded, in place of the last one.
@@ -194,25 +183,23 @@ impl Renderer {
         let sample = self.state.next_sample(subject, request.samples);
         let view = View::new(request.camera, &objects.visible_bounds, UVec2::from_array(size));
         let view = view.moved(sample.jitter());
-        let depth_range = view.fitted_depth_range(objects.enhanced_boxes(scene));
         let paper = request.document.view.background.to_linear();
         let background = paper.extend(if request.transparent { 0.0 } else { 1.0 });
-        let uniform = FrameUniform::new(&view, sample, depth_range, &request.document.lights, background);
-        self.uniform.write(&self.gpu, &uniform);
-
         let timers = self.timers.as_mut();
-        let mut recorder =
-            Recorder::new(&self.gpu, &mut self.pipelines, &mut self.pool, timers, &self.frame_group, size);
+        let frame = self.state.drawing().frame_group().clone();
+        let mut recorder = Recorder::new(&self.gpu, &mut self.pipelines, &mut self.pool, timers, frame, size);
         let inputs = FrameInputs {
-            scene,
-            scene_revision: self.scene_revision,
-            document: request.document,
-            objects: &objects,
-            sample,
-            view: &view,
-            depth_range,
-            uniform: &uniform,
-            background,
+            drawing: DrawingInputs {
+                scene,
+                scene_revision: self.scene_revision,
+                objects: &objects,
+                crease_angle: request.document.view.crease_angle.to_radians(),
+                lights: &request.document.lights,
+                sample,
+                view: &view,
+                background,
+            },
+            show: request.document.view.show,
             selected: request.selected,
         };
         // The old picture's textures may be drawn into again.
@@ -225,7 +212,7 @@ impl Renderer {
     }
 
     /// How often each stage has run so far.
-    pub fn runs(&self) -> [(&'static str, u64); 6] {
+    pub fn runs(&self) -> Vec<(&'static str, u64)> {
         self.state.runs()
     }
 

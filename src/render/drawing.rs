@@ -1,0 +1,295 @@
+//! The scene drawn once, from one camera.
+//!
+//! ```text
+//! objects ─► G-buffer ─┬─► (cartoon map ─►) shaded surfaces ┬─► + lines ─► colour
+//!                      └─► edge map ─► reach of the lines ──┘
+//! segments (topology) ─────┘
+//! ```
+
+use std::sync::Arc;
+
+use glam::{Vec2, Vec4};
+
+use super::RenderError;
+use super::effects::surface::{Shading, SurfaceUniform, surface};
+use super::effects::toon::{ToonUniform, cartoon_map};
+use super::frame_uniform::{FrameUniform, View};
+use super::gpu_scene::GpuScene;
+use super::groups::Objects;
+use super::passes::edge_map::{EdgeInputs, EdgeMap, EdgeMapPass};
+use super::passes::edge_style::EdgeUniform;
+use super::passes::gbuffer::{DrawCall, DrawUniform, GBuffer, GBufferPass};
+use super::passes::line_distance::{Reach, line_distance};
+use super::passes::lines::lines;
+use super::sample::Sample;
+use super::segments::segments;
+use super::stage::{Output, Stage};
+use crate::geometry::LineSegment;
+use crate::gpu::{ArrayBuffer, Gpu, Recorder, Target, UniformBuffer};
+use crate::scene::Light;
+
+/// What is to be drawn, and from where.
+#[derive(Clone, Copy)]
+pub struct DrawingInputs<'a> {
+    /// The scene on the device.
+    pub scene: &'a GpuScene,
+    /// Changes when the scene does.
+    pub scene_revision: u64,
+    /// Styles and roles, resolved.
+    pub objects: &'a Objects,
+    /// Above it edges separate surfaces; radians.
+    pub crease_angle: f32,
+    /// The lights.
+    pub lights: &'a [Light],
+    /// Which sample of the picture this is.
+    pub sample: Sample,
+    /// The camera, moved by the sample's jitter.
+    pub view: &'a View,
+    /// Paper: linear colour and opacity.
+    pub background: Vec4,
+}
+
+/// A drawing while it is being made: what all of its passes read.
+pub struct Begun {
+    /// All that is in bind group 0.
+    pub uniform: FrameUniform,
+    /// Linear depth range of the enhanced objects.
+    pub depth_range: Vec2,
+    /// Per-pixel geometry.
+    pub gbuffer: Output<GBuffer>,
+}
+
+/// Surfaces with their lines.
+#[derive(Debug, Clone)]
+pub struct Shaded {
+    /// Linear colour times opacity, and opacity.
+    pub color: Output<Target>,
+    /// See `shaders/effects/toon.wgsl`; `None` when no object asks for it.
+    pub cartoon_map: Option<Target>,
+}
+
+/// What of a drawing lives across frames.
+pub struct Drawing {
+    uniform: UniformBuffer<FrameUniform>,
+    frame_group: wgpu::BindGroup,
+    gbuffer_pass: GBufferPass,
+    edge_map_pass: EdgeMapPass,
+    greatest_radius: ArrayBuffer,
+    edge_styles: ArrayBuffer,
+    surface_styles: ArrayBuffer,
+    toon_styles: ArrayBuffer,
+    gbuffer: Stage<(u64, u64, View, Vec<DrawUniform>, Vec<DrawCall>), GBuffer>,
+    segments: Stage<(u64, View, Vec<EdgeUniform>, f32), Arc<Vec<LineSegment>>>,
+    edge_map: Stage<(u64, Vec<EdgeUniform>, Vec2, Option<FrameUniform>), EdgeMap>,
+    reach: Stage<u64, Reach>,
+    cartoon_map: Stage<(u64, Vec<ToonUniform>, FrameUniform), Target>,
+    surface: Stage<
+        (u64, Option<[u64; 2]>, Vec<SurfaceUniform>, Vec<ToonUniform>, Vec<EdgeUniform>, FrameUniform),
+        Target,
+    >,
+}
+
+impl Drawing {
+    /// Nothing drawn yet.
+    pub fn new(gpu: &Gpu, frame_layout: &wgpu::BindGroupLayout) -> Self {
+        let uniform = UniformBuffer::new(gpu, "frame");
+        let frame_group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("frame"),
+            layout: frame_layout,
+            entries: &[wgpu::BindGroupEntry { binding: 0, resource: uniform.buffer().as_entire_binding() }],
+        });
+        Self {
+            uniform,
+            frame_group,
+            gbuffer_pass: GBufferPass::new(gpu),
+            edge_map_pass: EdgeMapPass::new(gpu),
+            greatest_radius: ArrayBuffer::new(gpu, "greatest radius"),
+            edge_styles: ArrayBuffer::new(gpu, "edge styles"),
+            surface_styles: ArrayBuffer::new(gpu, "surface styles"),
+            toon_styles: ArrayBuffer::new(gpu, "toon styles"),
+            gbuffer: Stage::default(),
+            segments: Stage::default(),
+            edge_map: Stage::default(),
+            reach: Stage::default(),
+            cartoon_map: Stage::default(),
+            surface: Stage::default(),
+        }
+    }
+
+    /// Bind group 0 of its passes.
+    pub fn frame_group(&self) -> &wgpu::BindGroup {
+        &self.frame_group
+    }
+
+    /// Layout of the materials' bind group.
+    pub fn material_layout(&self) -> &wgpu::BindGroupLayout {
+        &self.gbuffer_pass.material_layout
+    }
+
+    /// Edge styles by object id on the device.
+    pub fn edge_styles(&self) -> &wgpu::Buffer {
+        self.edge_styles.buffer()
+    }
+
+    /// How often each stage has run, by name.
+    pub fn runs(&self) -> [(&'static str, u64); 5] {
+        [
+            ("g-buffer", self.gbuffer.runs()),
+            ("edge map", self.edge_map.runs()),
+            ("line distance", self.reach.runs()),
+            ("cartoon map", self.cartoon_map.runs()),
+            ("surface", self.surface.runs()),
+        ]
+    }
+
+    /// Begins a drawing with its G-buffer; all later passes see through its camera.
+    ///
+    /// # Errors
+    /// [`RenderError`].
+    pub fn begin(
+        &mut self,
+        rec: &mut Recorder<'_>,
+        inputs: &DrawingInputs<'_>,
+    ) -> Result<Begun, RenderError> {
+        let DrawingInputs { scene, objects, view, sample, lights, background, .. } = *inputs;
+        let depth_range = view.fitted_depth_range(objects.enhanced_boxes(scene));
+        let uniform = FrameUniform::new(view, sample, depth_range, lights, background);
+        self.uniform.write(rec.gpu, &uniform);
+        rec.frame = self.frame_group.clone();
+        self.edge_styles.write(rec.gpu, &objects.edge_styles);
+
+        let (draws, calls) = objects.draws(scene, view);
+        let geometry = (rec.pipelines.generation(), inputs.scene_revision, *view, draws, calls);
+        let gbuffer = self
+            .gbuffer
+            .run(geometry, |(.., draws, calls)| self.gbuffer_pass.run(rec, scene, draws, calls))?;
+        Ok(Begun { uniform, depth_range, gbuffer })
+    }
+
+    /// The edges of what was begun.
+    ///
+    /// # Errors
+    /// [`RenderError`].
+    pub fn find_edges(
+        &mut self,
+        rec: &mut Recorder<'_>,
+        inputs: &DrawingInputs<'_>,
+        begun: &Begun,
+    ) -> Result<Output<EdgeMap>, RenderError> {
+        let styles: Vec<_> = inputs.objects.edge_styles.iter().map(EdgeUniform::for_finding).collect();
+        // Only widths that follow the light depend on more than the geometry.
+        let light = styles.iter().any(|s| s.by_light > 0.0).then(|| begun.uniform.without_background());
+        // Which edges are lines does not change from sample to sample.
+        let view = inputs.view.moved(Vec2::ZERO);
+        let found = (inputs.scene_revision, view, styles.clone(), inputs.crease_angle);
+        let segments = self.segments.run(found, |_| {
+            let found = segments(inputs.scene, inputs.objects, &view, inputs.crease_angle);
+            Ok::<_, RenderError>(Arc::new(found))
+        })?;
+        let edges = (begun.gbuffer.revision, styles, begun.depth_range, light);
+        self.edge_map.run(edges, |(_, styles, ..)| {
+            self.edge_map_pass.run(
+                rec,
+                &EdgeInputs {
+                    gbuffer: &begun.gbuffer.value,
+                    styles,
+                    edge_styles: self.edge_styles.buffer(),
+                    segments: &segments.value,
+                    has_holes: inputs.objects.has_holes,
+                },
+            )
+        })
+    }
+
+    /// Without lines: lets go of the last edge map.
+    pub fn forget_edges(&mut self) {
+        self.edge_map.clear();
+    }
+
+    /// Without surfaces: lets go of the last ones.
+    pub fn forget_surfaces(&mut self) {
+        self.surface.clear();
+        self.cartoon_map.clear();
+    }
+
+    /// Shades what was begun and draws the lines over it.
+    ///
+    /// # Errors
+    /// [`RenderError`].
+    pub fn shade(
+        &mut self,
+        rec: &mut Recorder<'_>,
+        inputs: &DrawingInputs<'_>,
+        begun: &Begun,
+        edge_map: Option<&Output<EdgeMap>>,
+    ) -> Result<Shaded, RenderError> {
+        let cartoon_map = self.find_bands(rec, inputs, begun)?;
+        let gbuffer = &begun.gbuffer;
+        let styles = &inputs.objects.edge_styles;
+        let spines = edge_map.and_then(|e| Some((e.revision, e.value.spines.as_ref()?)));
+        let reach = match spines {
+            Some((revision, spines)) => Some(
+                self.reach
+                    .run(revision, |_| line_distance(rec, spines, styles, &mut self.greatest_radius))?,
+            ),
+            None => {
+                self.reach.clear();
+                None
+            }
+        };
+        let revisions = edge_map.map(|e| [e.revision, reach.as_ref().map_or(0, |reach| reach.revision)]);
+        let shading = (
+            gbuffer.revision,
+            revisions,
+            inputs.objects.surface_styles.clone(),
+            inputs.objects.toon_styles.clone(),
+            styles.clone(),
+            begun.uniform.without_background(),
+        );
+        let color = self.surface.run(shading, |(_, _, surfaces, toons, styles, _)| {
+            self.surface_styles.write(rec.gpu, surfaces);
+            let shading = Shading {
+                surfaces,
+                surface_styles: self.surface_styles.buffer(),
+                toons,
+                toon_styles: self.toon_styles.buffer(),
+                cartoon_map: cartoon_map.as_ref(),
+            };
+            let color = surface(rec, &gbuffer.value, &shading)?;
+            if let Some(edge_map) = edge_map {
+                lines(
+                    rec,
+                    &gbuffer.value,
+                    &edge_map.value,
+                    reach.as_ref().map(|reach| &reach.value),
+                    styles,
+                    self.edge_styles.buffer(),
+                    &color,
+                )?;
+            }
+            Ok::<_, RenderError>(color)
+        })?;
+        Ok(Shaded { color, cartoon_map })
+    }
+
+    fn find_bands(
+        &mut self,
+        rec: &mut Recorder<'_>,
+        inputs: &DrawingInputs<'_>,
+        begun: &Begun,
+    ) -> Result<Option<Target>, RenderError> {
+        let toons = &inputs.objects.toon_styles;
+        if !toons.is_empty() {
+            self.toon_styles.write(rec.gpu, toons);
+        }
+        if !inputs.objects.have_cartoon_map() {
+            self.cartoon_map.clear();
+            return Ok(None);
+        }
+        let gbuffer = &begun.gbuffer;
+        let bands = (gbuffer.revision, toons.clone(), begun.uniform.without_background());
+        let map =
+            self.cartoon_map.run(bands, |_| cartoon_map(rec, &gbuffer.value, self.toon_styles.buffer()))?;
+        Ok(Some(map.value))
+    }
+}
