@@ -2,6 +2,7 @@
 #import common/frame.wgsl
 #import common/fullscreen.wgsl
 #import common/gbuffer.wgsl
+#import effects/halftone.wgsl
 #import effects/toon.wgsl
 
 const BLANK: u32 = 0u;
@@ -9,6 +10,7 @@ const PLAIN: u32 = 1u;
 const UNLIT: u32 = 2u;
 const GOOCH: u32 = 3u;
 const TOON: u32 = 4u;
+const HALFTONE: u32 = 5u;
 
 // Which techniques any object uses.
 override WITH_PLAIN: bool = true;
@@ -69,6 +71,8 @@ fn fs_main(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
                 shade = plain(style, base, s.normal, pos_view);
             } else if WITH_TOON && style.technique == TOON {
                 shade = toon(px, s, base);
+            } else if WITH_HALFTONE && style.technique == HALFTONE {
+                shade = halftone(px, s, base, pos_view);
             }
             color = vec4(shade, 1.0);
         }

@@ -11,11 +11,13 @@ use std::sync::Arc;
 use glam::{Vec2, Vec4};
 
 use super::RenderError;
+use super::effects::halftone::{HalftoneInputs, HalftoneUniform, ThresholdMaps};
 use super::effects::surface::{Shading, SurfaceUniform, surface};
 use super::effects::toon::{ToonUniform, cartoon_map};
 use super::frame_uniform::{FrameUniform, View};
 use super::gpu_scene::GpuScene;
 use super::groups::Objects;
+use super::passes::coordinates::CoordinatesPass;
 use super::passes::edge_map::{EdgeInputs, EdgeMap, EdgeMapPass};
 use super::passes::edge_style::EdgeUniform;
 use super::passes::gbuffer::{DrawCall, DrawUniform, GBuffer, GBufferPass};
@@ -57,6 +59,8 @@ pub struct Begun {
     pub depth_range: Vec2,
     /// Per-pixel geometry.
     pub gbuffer: Output<GBuffer>,
+    /// The draws of those objects whose style asks for coordinates on their surface.
+    with_coordinates: Vec<DrawCall>,
 }
 
 /// Surfaces with their lines.
@@ -74,17 +78,29 @@ pub struct Drawing {
     frame_group: wgpu::BindGroup,
     gbuffer_pass: GBufferPass,
     edge_map_pass: EdgeMapPass,
+    coordinates_pass: CoordinatesPass,
+    threshold_maps: ThresholdMaps,
     greatest_radius: ArrayBuffer,
     edge_styles: ArrayBuffer,
     surface_styles: ArrayBuffer,
     toon_styles: ArrayBuffer,
+    halftone_styles: ArrayBuffer,
     gbuffer: Stage<(u64, u64, View, Vec<DrawUniform>, Vec<DrawCall>), GBuffer>,
     segments: Stage<(u64, View, Vec<EdgeUniform>, f32), Arc<Vec<LineSegment>>>,
     edge_map: Stage<(u64, Vec<EdgeUniform>, Vec2, Option<FrameUniform>), EdgeMap>,
     reach: Stage<u64, Reach>,
     cartoon_map: Stage<(u64, Vec<ToonUniform>, FrameUniform), Target>,
+    coordinates: Stage<(u64, Vec<DrawCall>), Target>,
     surface: Stage<
-        (u64, Option<[u64; 2]>, Vec<SurfaceUniform>, Vec<ToonUniform>, Vec<EdgeUniform>, FrameUniform),
+        (
+            u64,
+            Option<[u64; 2]>,
+            Vec<SurfaceUniform>,
+            Vec<ToonUniform>,
+            Vec<HalftoneUniform>,
+            Vec<EdgeUniform>,
+            FrameUniform,
+        ),
         Target,
     >,
 }
@@ -103,15 +119,19 @@ impl Drawing {
             frame_group,
             gbuffer_pass: GBufferPass::new(gpu),
             edge_map_pass: EdgeMapPass::new(gpu),
+            coordinates_pass: CoordinatesPass::default(),
+            threshold_maps: ThresholdMaps::new(gpu),
             greatest_radius: ArrayBuffer::new(gpu, "greatest radius"),
             edge_styles: ArrayBuffer::new(gpu, "edge styles"),
             surface_styles: ArrayBuffer::new(gpu, "surface styles"),
             toon_styles: ArrayBuffer::new(gpu, "toon styles"),
+            halftone_styles: ArrayBuffer::new(gpu, "halftone styles"),
             gbuffer: Stage::default(),
             segments: Stage::default(),
             edge_map: Stage::default(),
             reach: Stage::default(),
             cartoon_map: Stage::default(),
+            coordinates: Stage::default(),
             surface: Stage::default(),
         }
     }
@@ -159,11 +179,18 @@ impl Drawing {
         self.edge_styles.write(rec.gpu, &objects.edge_styles);
 
         let (draws, calls) = objects.draws(scene, view);
+        let with_coordinates = calls
+            .iter()
+            .filter(|call| {
+                draws.get(call.draw as usize).is_some_and(|draw| objects.halftones.need_coordinates(draw.object))
+            })
+            .copied()
+            .collect();
         let geometry = (rec.pipelines.generation(), inputs.scene_revision, *view, draws, calls);
         let gbuffer = self
             .gbuffer
             .run(geometry, |(.., draws, calls)| self.gbuffer_pass.run(rec, scene, draws, calls))?;
-        Ok(Begun { uniform, depth_range, gbuffer })
+        Ok(Begun { uniform, depth_range, gbuffer, with_coordinates })
     }
 
     /// The edges of what was begun.
@@ -210,6 +237,7 @@ impl Drawing {
     pub fn forget_surfaces(&mut self) {
         self.surface.clear();
         self.cartoon_map.clear();
+        self.coordinates.clear();
     }
 
     /// Shades what was begun and draws the lines over it.
@@ -224,6 +252,8 @@ impl Drawing {
         edge_map: Option<&Output<EdgeMap>>,
     ) -> Result<Shaded, RenderError> {
         let cartoon_map = self.find_bands(rec, inputs, begun)?;
+        let coordinates = self.find_coordinates(rec, inputs, begun)?;
+        self.threshold_maps.prepare(rec.gpu, &inputs.objects.halftones)?;
         let gbuffer = &begun.gbuffer;
         let styles = &inputs.objects.edge_styles;
         let spines = edge_map.and_then(|e| Some((e.revision, e.value.spines.as_ref()?)));
@@ -243,17 +273,27 @@ impl Drawing {
             revisions,
             inputs.objects.surface_styles.clone(),
             inputs.objects.toon_styles.clone(),
+            inputs.objects.halftones.placed(inputs.scene, inputs.view),
             styles.clone(),
             begun.uniform.without_background(),
         );
-        let color = self.surface.run(shading, |(_, _, surfaces, toons, styles, _)| {
+        let color = self.surface.run(shading, |(_, _, surfaces, toons, halftones, styles, _)| {
             self.surface_styles.write(rec.gpu, surfaces);
+            if !halftones.is_empty() {
+                self.halftone_styles.write(rec.gpu, halftones);
+            }
             let shading = Shading {
                 surfaces,
                 surface_styles: self.surface_styles.buffer(),
                 toons,
                 toon_styles: self.toon_styles.buffer(),
                 cartoon_map: cartoon_map.as_ref(),
+                halftones: HalftoneInputs {
+                    styles: halftones,
+                    style_buffer: self.halftone_styles.buffer(),
+                    maps: &self.threshold_maps,
+                    coordinates: coordinates.as_ref(),
+                },
             };
             let color = surface(rec, &gbuffer.value, &shading)?;
             if let Some(edge_map) = edge_map {
@@ -270,6 +310,26 @@ impl Drawing {
             Ok::<_, RenderError>(color)
         })?;
         Ok(Shaded { color, cartoon_map })
+    }
+
+    fn find_coordinates(
+        &mut self,
+        rec: &mut Recorder<'_>,
+        inputs: &DrawingInputs<'_>,
+        begun: &Begun,
+    ) -> Result<Option<Target>, RenderError> {
+        if begun.with_coordinates.is_empty() {
+            self.coordinates.clear();
+            return Ok(None);
+        }
+        let coordinates = self.coordinates.run(
+            (begun.gbuffer.revision, begun.with_coordinates.clone()),
+            |(_, calls)| {
+                let gbuffer = (&self.gbuffer_pass, &begun.gbuffer.value);
+                self.coordinates_pass.run(rec, inputs.scene, gbuffer, calls)
+            },
+        )?;
+        Ok(Some(coordinates.value))
     }
 
     fn find_bands(

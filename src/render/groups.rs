@@ -2,6 +2,7 @@
 
 use glam::{DMat4, Mat3, Mat4};
 
+use super::effects::halftone::Halftones;
 use super::effects::surface::SurfaceUniform;
 use super::effects::toon::ToonUniform;
 use super::frame_uniform::View;
@@ -43,6 +44,8 @@ pub struct Objects {
     pub surface_styles: Vec<SurfaceUniform>,
     /// Parameters of toon shading by object id; empty when no object is a toon.
     pub toon_styles: Vec<ToonUniform>,
+    /// The objects that are halftones.
+    pub halftones: Halftones,
     /// Whether any object with lines has holes by alpha.
     pub has_holes: bool,
 }
@@ -65,6 +68,10 @@ impl Objects {
             if r.style.technique == Technique::Toon {
                 objects.toon_styles.resize(count, ToonUniform::default());
                 objects.toon_styles[id] = ToonUniform::from(&r.style.toon);
+            }
+            if r.style.technique == Technique::Halftone {
+                let has_uvs = scene.has_uvs(node);
+                objects.halftones.add(count, id, &r.style.halftone, scale, has_uvs);
             }
             if r.enhanced {
                 objects.edge_styles[id] = EdgeUniform::new(&r.style.edges, scale);

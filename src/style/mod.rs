@@ -9,6 +9,7 @@ pub mod edge_group;
 pub mod edge_line;
 pub mod edges;
 pub mod gooch;
+pub mod halftone;
 pub mod param;
 #[cfg(test)]
 mod param_tests;
@@ -23,6 +24,7 @@ pub use color::Color;
 pub use edge_line::Line;
 pub use edges::{Alignment, DepthOperator, EdgeMode, Edges};
 pub use gooch::Gooch;
+pub use halftone::Halftone;
 pub use param::{Param, Slot, Value};
 pub use plain::Plain;
 pub use toml_file::{diff_to_toml, set_from_toml};
@@ -56,6 +58,8 @@ pub enum Technique {
     Gooch,
     /// Flat shades from a ramp, as in a comic.
     Toon,
+    /// Tones by the density of ink.
+    Halftone,
 }
 
 /// The complete look of one object.
@@ -69,6 +73,8 @@ pub struct Style {
     pub gooch: Gooch,
     /// Parameters of [`Technique::Toon`].
     pub toon: Toon,
+    /// Parameters of [`Technique::Halftone`].
+    pub halftone: Halftone,
     /// Lines.
     pub edges: Edges,
 }
@@ -86,6 +92,9 @@ impl Style {
         });
         list.when("technique", Technique::Toon, |list| {
             list.section("toon", |list| self.toon.params(list));
+        });
+        list.when("technique", Technique::Halftone, |list| {
+            list.section("halftone", |list| self.halftone.params(list));
         });
         list.section("edges", |list| self.edges.params(list));
         list.finish()

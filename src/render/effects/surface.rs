@@ -1,9 +1,10 @@
-//! The surface techniques (blank, plain, unlit, Gooch, toon), shaded from the G-buffer in one full-screen pass: the scene is
-//! traversed once, where the edge-enhancement paper's pipeline traverses it twice.
+//! The surface techniques (blank, plain, unlit, Gooch, toon, halftone), shaded from the G-buffer in one full-screen pass:
+//! the scene is traversed once, where the edge-enhancement paper's pipeline traverses it twice.
 
 use encase::ShaderType;
 use glam::Vec3;
 
+use super::halftone::{self, HalftoneInputs};
 use super::toon::{self, ToonUniform};
 use crate::gpu::recorder::Input;
 use crate::gpu::{Program, Recorder, Target};
@@ -44,6 +45,7 @@ const PLAIN: u32 = 1;
 const UNLIT: u32 = 2;
 const GOOCH: u32 = 3;
 const TOON: u32 = 4;
+const HALFTONE: u32 = 5;
 
 impl From<&Style> for SurfaceUniform {
     fn from(style: &Style) -> Self {
@@ -62,6 +64,7 @@ impl From<&Style> for SurfaceUniform {
                 Technique::Unlit => UNLIT,
                 Technique::Gooch => GOOCH,
                 Technique::Toon => TOON,
+                Technique::Halftone => HALFTONE,
             },
         }
     }
@@ -80,6 +83,8 @@ pub struct Shading<'a> {
     pub toon_styles: &'a wgpu::Buffer,
     /// See [`toon::cartoon_map`]; `None` when no object asks for it.
     pub cartoon_map: Option<&'a Target>,
+    /// What halftones need.
+    pub halftones: HalftoneInputs<'a>,
 }
 
 /// Linear colour times opacity, and opacity. Nothing where there is no object.
@@ -95,6 +100,7 @@ pub fn surface(
     let uses = |technique| shading.surfaces.iter().any(|s| s.technique == technique);
     let mut switches = vec![("WITH_PLAIN", uses(PLAIN)), ("WITH_GOOCH", uses(GOOCH))];
     switches.extend(toon::switches(shading.toons));
+    switches.extend(halftone::switches(shading.halftones.styles));
     rec.fullscreen(
         "surface",
         Program { file: "effects/surface.wgsl", entry_point: "fs_main", switches },
@@ -106,6 +112,11 @@ pub fn surface(
             Input::Texture(&gbuffer.region),
             Input::Texture(&gbuffer.base_color),
             Input::Storage(shading.surface_styles),
+            Input::Storage(shading.halftones.style_buffer),
+            Input::Layers(shading.halftones.maps.thresholds()),
+            Input::Sampler(shading.halftones.maps.sampler()),
+            Input::Storage(shading.halftones.maps.calibration()),
+            Input::Texture(shading.halftones.coordinates.unwrap_or(&gbuffer.geometry)),
         ],
         &[&color],
         Some(&gbuffer.depth),

@@ -19,7 +19,7 @@ const BASE_COLOR: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
 /// Which surface of which object.
 const REGION: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;
 /// Reversed: 1 at the near plane.
-const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
+pub(super) const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 
 /// Per-pixel geometry of everything visible.
 #[derive(Debug, Clone)]
@@ -83,7 +83,8 @@ pub struct DrawCall {
 pub struct GBufferPass {
     pipelines: HashMap<(Detail, Option<wgpu::Face>), wgpu::RenderPipeline>,
     generation: u64,
-    draw_layout: wgpu::BindGroupLayout,
+    /// Layout of bind group 2.
+    pub draw_layout: wgpu::BindGroupLayout,
     /// Layout of bind group 1.
     pub material_layout: wgpu::BindGroupLayout,
     draws: DynamicBuffer,
@@ -112,6 +113,20 @@ impl GBufferPass {
             material_layout: MaterialBindings::layout(gpu),
             draws: DynamicBuffer::new::<DrawUniform>(gpu, "draws"),
         }
+    }
+
+    /// The uniforms of all draws of the last run, of which a draw sees that at its [`Self::draw_offset`].
+    pub fn draw_group(&self, gpu: &Gpu) -> wgpu::BindGroup {
+        gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("draws"),
+            layout: &self.draw_layout,
+            entries: &[wgpu::BindGroupEntry { binding: 0, resource: self.draws.binding::<DrawUniform>() }],
+        })
+    }
+
+    /// The dynamic offset of a draw's uniform.
+    pub fn draw_offset(&self, draw: u32) -> u32 {
+        self.draws.offset(draw)
     }
 
     fn prepare(&mut self, gpu: &Gpu, pipelines: &mut Pipelines, call: &DrawCall) -> Result<(), RenderError> {
@@ -151,11 +166,7 @@ impl GBufferPass {
             self.prepare(gpu, rec.pipelines, call)?;
         }
         self.draws.write(gpu, draws)?;
-        let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("draws"),
-            layout: &self.draw_layout,
-            entries: &[wgpu::BindGroupEntry { binding: 0, resource: self.draws.binding::<DrawUniform>() }],
-        });
+        let group = self.draw_group(gpu);
         let clear = || wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT);
         let color = [&gbuffer.geometry, &gbuffer.base_color, &gbuffer.region]
             .map(|target| Some(color_attachment(target, clear())));
@@ -184,7 +195,7 @@ impl GBufferPass {
                 material = Some(call.material_group);
             }
             let indices = call.first_index..call.first_index + call.index_count;
-            pass.set_bind_group(2, &group, &[self.draws.offset(call.draw)]);
+            pass.set_bind_group(2, &group, &[self.draw_offset(call.draw)]);
             pass.draw_indexed(indices, call.base_vertex, 0..1);
         }
         drop(pass);

@@ -18,6 +18,10 @@ pub const STEPS: usize = 8;
 pub const LAYERS: usize = STEPS + 1;
 /// Strokes, lines or dots beside each other along a side of a tile, at the first step.
 pub const PERIODS: usize = 32;
+/// Places in the octave, evenly from 0 to 1, for which there is a calibration; four for each step.
+pub const PLACES: usize = 4 * STEPS + 1;
+/// Tones, evenly from 0 to 1, for which there is a calibration.
+pub const TONES: usize = 33;
 /// Number of mip levels, down to one texel.
 pub const LEVELS: usize = SIDE.ilog2() as usize + 1;
 
@@ -31,6 +35,9 @@ pub type Level = Vec<[u8; 2]>;
 pub struct ThresholdMap {
     /// [`LAYERS`] layers of [`LEVELS`] levels each.
     pub layers: Vec<Vec<Level>>,
+    /// Between two steps their thresholds are mixed, and mixtures are not equally frequent: for each of [`PLACES`] places
+    /// in the octave and each of [`TONES`] tones the threshold that leaves so much paper.
+    pub calibration: Vec<f32>,
 }
 
 impl ThresholdMap {
@@ -43,7 +50,9 @@ impl ThresholdMap {
             .collect();
         let next: Vec<_> = layers.first().map(|first| next_octave(first)).unwrap_or_default();
         layers.push(next);
-        Self { layers }
+        let finest: Vec<_> = layers.iter().filter_map(|layer| layer.first()).collect();
+        let calibration = (0..PLACES).into_par_iter().flat_map_iter(|place| calibrate(&finest, place)).collect();
+        Self { layers, calibration }
     }
 }
 
@@ -123,4 +132,33 @@ fn next_octave(first: &[Level]) -> Vec<Level> {
         (0..side * side).map(|i| texels[(i / side % half) * half + i % side % half]).collect()
     });
     halved.chain(first.last().cloned()).collect()
+}
+
+/// Thresholds for all tones at a place in the octave.
+fn calibrate(steps: &[&Level], place: usize) -> Vec<f32> {
+    let (step, share) = (place / 4, place % 4);
+    let tones = (0..TONES).map(|tone| tone as f32 / (TONES - 1) as f32);
+    let (Some(here), Some(there)) = (steps.get(step), steps.get(step + 1)) else { return tones.collect() };
+    if share == 0 {
+        return tones.collect();
+    }
+    // Bytes mixed by quarters are whole numbers.
+    let mut counts = vec![0u32; 255 * 4 + 1];
+    for (a, b) in here.iter().zip(there.iter()) {
+        let mixed = usize::from(a[0]) * (4 - share) + usize::from(b[0]) * share;
+        if let Some(count) = counts.get_mut(mixed) {
+            *count += 1;
+        }
+    }
+    let (mut bin, mut below) = (0, 0.0);
+    let threshold = |tone: f32| {
+        let wanted = tone * here.len() as f32;
+        while let Some(count) = counts.get(bin).filter(|count| below + **count as f32 <= wanted) {
+            below += *count as f32;
+            bin += 1;
+        }
+        let inside = counts.get(bin).map_or(0.0, |count| (wanted - below) / *count as f32);
+        ((bin as f32 + inside) / counts.len() as f32).min(1.0)
+    };
+    tones.map(threshold).collect()
 }
