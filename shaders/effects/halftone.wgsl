@@ -43,15 +43,16 @@ struct HalftoneStyle {
 // Mean threshold and twice its standard deviation; see src/render/effects/halftone/threshold_map.rs.
 @group(1) @binding(7) var thresholds: texture_2d_array<f32>;
 @group(1) @binding(8) var threshold_sampler: sampler;
-// For each map the threshold for a tone at a place in the octave: `PLACES` rows, from 0 to 1, of `TONES` tones.
+// For each map the threshold for each of `PLACES` in the octave, `SIZES` of a pixel and `TONES`.
 @group(1) @binding(9) var<storage, read> calibration: array<f32>;
 // Texture coordinates: see shaders/passes/coordinates.wgsl.
 @group(1) @binding(10) var coordinates_tex: texture_2d<u32>;
 
-// Twins in src/render/effects/halftone/threshold_map.rs.
+// As in src/render/effects/halftone/, threshold_map.rs and calibration.rs.
 const SIDE: f32 = 512.0;
 const STEPS: f32 = 8.0;
-const PLACES: u32 = 33u;
+const PLACES: u32 = 17u;
+const SIZES: u32 = 17u;
 const TONES: u32 = 33u;
 
 // A point of a pattern, and a pixel's sides there.
@@ -79,17 +80,32 @@ fn ellipse(patch: Patch) -> Ellipse {
     return Ellipse(vec2(cos(angle), sin(angle)) * length, length, area / length);
 }
 
-// The threshold at which so much of a tile is ink as a tone asks for. Thresholds of a step are equally frequent, but
-// not their mixtures.
-fn calibrated(map: u32, step: f32, tone: f32) -> f32 {
-    let place = clamp(step / STEPS, 0.0, 1.0) * f32(PLACES - 1u);
-    let row = min(u32(place), PLACES - 2u);
-    let column = min(u32(tone * f32(TONES - 1u)), TONES - 2u);
-    let across = tone * f32(TONES - 1u) - f32(column);
-    let first = (map * PLACES + row) * TONES + column;
-    let upper = mix(calibration[first], calibration[first + 1u], across);
-    let lower = mix(calibration[first + TONES], calibration[first + TONES + 1u], across);
-    return mix(upper, lower, place - f32(row));
+// A place between two of `count`: the first of them, and how far from it.
+struct Between {
+    first: u32,
+    share: f32,
+}
+
+fn between(place: f32, count: u32) -> Between {
+    let inside = clamp(place, 0.0, f32(count - 1u));
+    let first = min(u32(inside), count - 2u);
+    return Between(first, inside - f32(first));
+}
+
+// The threshold at which so much of a tile is ink as a tone asks for; `level`: size of a pixel in texels, as a power of
+// two.
+fn calibrated(map: u32, step: f32, level: f32, tone: f32) -> f32 {
+    let place = between(step / STEPS * f32(PLACES - 1u), PLACES);
+    let size = between((level + 2.0) * 2.0, SIZES);
+    let column = between(tone * f32(TONES - 1u), TONES);
+    var thresholds: vec4<f32>;
+    for (var corner = 0u; corner < 4u; corner++) {
+        let row = (map * PLACES + place.first + (corner >> 1u)) * SIZES + size.first + (corner & 1u);
+        let i = row * TONES + column.first;
+        thresholds[corner] = mix(calibration[i], calibration[i + 1u], column.share);
+    }
+    let by_size = mix(thresholds.xz, thresholds.yw, size.share);
+    return mix(by_size.x, by_size.y, place.share);
 }
 
 // A pixel is never smoothed from more places than this.
@@ -106,7 +122,7 @@ fn ink_share(map: u32, tile: Patch, step: f32, tone: f32) -> f32 {
     // An enlarged texel changes only a little within a pixel.
     let sharpness = min(texels, 1.0);
     // Nothing is ink in white, and all is in black, whatever the rounding.
-    let threshold = calibrated(map, step, tone) * 1.01 - 0.005;
+    let threshold = calibrated(map, step, level, tone) * 1.002 - 0.001;
     let layer = map * (u32(STEPS) + 1u) + min(u32(step), u32(STEPS) - 1u);
     let next = step - min(floor(step), STEPS - 1.0);
     var ink = 0.0;

@@ -1,7 +1,6 @@
 //! Halftone: what the surface pass needs for it (Freudenberg et al. 2002; edge-enhancement paper, section 5).
 
-pub mod patterns;
-pub mod strokes;
+pub mod calibration;
 pub mod threshold_map;
 
 use std::sync::OnceLock;
@@ -143,15 +142,27 @@ pub struct HalftoneInputs<'a> {
     pub coordinates: Option<&'a Target>,
 }
 
-/// A built-in texture, made when first asked for.
+/// A built-in texture, read when first asked for. The images are made by `assets/strokes/generator`.
 pub fn built_in(texture: Texture) -> &'static ThresholdMap {
     static MAPS: [OnceLock<ThresholdMap>; Texture::VARIANTS.len()] =
         [const { OnceLock::new() }; Texture::VARIANTS.len()];
-    MAPS[texture as usize].get_or_init(|| match texture {
-        Texture::Strokes => ThresholdMap::new(strokes::crossed_strokes()),
-        Texture::Dots => ThresholdMap::new(patterns::dots),
-        Texture::Lines => ThresholdMap::new(patterns::lines),
-        Texture::Stipple => ThresholdMap::new(strokes::stipple()),
+    macro_rules! images {
+        ($name:literal) => {
+            (
+                include_bytes!(concat!("../../../assets/strokes/", $name, ".png")).as_slice(),
+                include_bytes!(concat!("../../../assets/strokes/", $name, "_calibration.png")).as_slice(),
+            )
+        };
+    }
+    MAPS[texture as usize].get_or_init(|| {
+        let (steps, calibration) = match texture {
+            Texture::Strokes => images!("strokes"),
+            Texture::Dots => images!("dots"),
+            Texture::Lines => images!("lines"),
+            Texture::Stipple => images!("stipple"),
+        };
+        // A test reads them all.
+        ThresholdMap::from_images(steps, calibration).unwrap_or_default()
     })
 }
 

@@ -10,6 +10,8 @@
 
 use rayon::prelude::*;
 
+use super::calibration;
+
 /// Texels along a side of a tile.
 pub const SIDE: usize = 512;
 /// Steps of an octave.
@@ -18,10 +20,6 @@ pub const STEPS: usize = 8;
 pub const LAYERS: usize = STEPS + 1;
 /// Strokes, lines or dots beside each other along a side of a tile, at the first step.
 pub const PERIODS: usize = 32;
-/// Places in the octave, evenly from 0 to 1, for which there is a calibration; four for each step.
-pub const PLACES: usize = 4 * STEPS + 1;
-/// Tones, evenly from 0 to 1, for which there is a calibration.
-pub const TONES: usize = 33;
 /// Number of mip levels, down to one texel.
 pub const LEVELS: usize = SIDE.ilog2() as usize + 1;
 
@@ -31,33 +29,45 @@ pub const LEVELS: usize = SIDE.ilog2() as usize + 1;
 pub type Level = Vec<[u8; 2]>;
 
 /// A prioritised texture as the device needs it.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct ThresholdMap {
     /// [`LAYERS`] layers of [`LEVELS`] levels each.
     pub layers: Vec<Vec<Level>>,
-    /// Between two steps their thresholds are mixed, and mixtures are not equally frequent: for each of [`PLACES`] places
-    /// in the octave and each of [`TONES`] tones the threshold that leaves so much paper.
+    /// Thresholds for tones: see [`calibration`].
     pub calibration: Vec<f32>,
 }
 
 impl ThresholdMap {
-    /// The map of a texture. `priority(step)` gives its texels at a place 0 ≤ `step` < 1 in the octave, row by row;
-    /// where it is greater, ink comes earlier. Only their order matters.
-    pub fn new(priority: impl Fn(f32) -> Vec<f32> + Sync) -> Self {
-        let mut layers: Vec<_> = (0..STEPS)
-            .into_par_iter()
-            .map(|step| levels(&ranks(&priority(step as f32 / STEPS as f32))))
-            .collect();
-        let next: Vec<_> = layers.first().map(|first| next_octave(first)).unwrap_or_default();
-        layers.push(next);
-        let finest: Vec<_> = layers.iter().filter_map(|layer| layer.first()).collect();
-        let calibration = (0..PLACES).into_par_iter().flat_map_iter(|place| calibrate(&finest, place)).collect();
-        Self { layers, calibration }
+    /// The map of a texture of which the thresholds at each of the [`STEPS`] are known, row by row in 256ths.
+    pub fn new(steps: &[Vec<u8>]) -> Self {
+        let layers = layers(steps);
+        Self { calibration: calibration::measure(&layers), layers }
+    }
+
+    /// Reads images that `assets/strokes/generator` made: all steps below each other, and the calibration.
+    ///
+    /// # Errors
+    /// When these are no such images.
+    pub fn from_images(steps: &[u8], calibration: &[u8]) -> image::ImageResult<Self> {
+        let steps = image::load_from_memory(steps)?.into_luma8().into_raw();
+        let calibration = image::load_from_memory(calibration)?.into_luma16().into_raw();
+        Ok(Self {
+            layers: layers(&steps.chunks(SIDE * SIDE).map(<[u8]>::to_vec).collect::<Vec<_>>()),
+            calibration: calibration.iter().map(|c| f32::from(*c) / 65535.0).collect(),
+        })
     }
 }
 
-/// Replaces values by their rank, 0 to 1: afterwards all are equally frequent. Equal ones are told apart by their place.
-pub fn ranks(values: &[f32]) -> Vec<f32> {
+fn layers(steps: &[Vec<u8>]) -> Vec<Vec<Level>> {
+    let mut layers: Vec<_> = steps.par_iter().map(|thresholds| levels(thresholds)).collect();
+    let next: Vec<_> = layers.first().map(|first| next_octave(first)).unwrap_or_default();
+    layers.push(next);
+    layers
+}
+
+/// Thresholds in 256ths from priorities, of which only the order matters: ink comes earlier where they are greater.
+/// Afterwards all thresholds are equally frequent, as far as priorities differ.
+pub fn ranked(values: &[f32]) -> Vec<u8> {
     let mut order: Vec<u64> = values
         .iter()
         .enumerate()
@@ -69,13 +79,18 @@ pub fn ranks(values: &[f32]) -> Vec<f32> {
         })
         .collect();
     order.sort_unstable();
-    let mut ranks = vec![0.0; values.len()];
-    for (rank, key) in order.iter().enumerate() {
-        if let Some(slot) = ranks.get_mut(*key as u32 as usize) {
-            *slot = (rank as f32 + 0.5) / values.len() as f32;
+    let mut ranked = vec![0; values.len()];
+    let mut rank = 0;
+    for equal in order.chunk_by(|a, b| a >> 32 == b >> 32) {
+        let middle = ((2 * rank + equal.len()) * 128 / values.len()) as u8;
+        for key in equal {
+            if let Some(slot) = ranked.get_mut(*key as u32 as usize) {
+                *slot = middle;
+            }
         }
+        rank += equal.len();
     }
-    ranks
+    ranked
 }
 
 /// Mean and variance of thresholds in the area of a texel.
@@ -85,17 +100,20 @@ struct Moments {
     variance: f32,
 }
 
-/// All mip levels of a square of thresholds.
-fn levels(thresholds: &[f32]) -> Vec<Level> {
+/// All mip levels of a square of thresholds in 256ths.
+fn levels(thresholds: &[u8]) -> Vec<Level> {
     let mut side = SIDE;
-    let at = |x: usize, y: usize| thresholds[(y % SIDE) * SIDE + x % SIDE];
+    let at = |x: usize, y: usize| {
+        let byte = thresholds.get((y % SIDE) * SIDE + x % SIDE).copied().unwrap_or_default();
+        (f32::from(byte) + 0.5) / 256.0
+    };
     let mut texels: Vec<Moments> = (0..SIDE * SIDE)
         .map(|i| {
             // Inside a texel thresholds change evenly: a range of r has a variance of r²/12.
             let (x, y) = (i % SIDE, i / SIDE);
             let dx = 0.5 * (at(x + 1, y) - at(x + SIDE - 1, y));
             let dy = 0.5 * (at(x, y + 1) - at(x, y + SIDE - 1));
-            Moments { mean: thresholds[i], variance: (dx * dx + dy * dy) / 12.0 }
+            Moments { mean: at(x, y), variance: (dx * dx + dy * dy) / 12.0 }
         })
         .collect();
     let mut levels = vec![packed(&texels)];
@@ -132,33 +150,4 @@ fn next_octave(first: &[Level]) -> Vec<Level> {
         (0..side * side).map(|i| texels[(i / side % half) * half + i % side % half]).collect()
     });
     halved.chain(first.last().cloned()).collect()
-}
-
-/// Thresholds for all tones at a place in the octave.
-fn calibrate(steps: &[&Level], place: usize) -> Vec<f32> {
-    let (step, share) = (place / 4, place % 4);
-    let tones = (0..TONES).map(|tone| tone as f32 / (TONES - 1) as f32);
-    let (Some(here), Some(there)) = (steps.get(step), steps.get(step + 1)) else { return tones.collect() };
-    if share == 0 {
-        return tones.collect();
-    }
-    // Bytes mixed by quarters are whole numbers.
-    let mut counts = vec![0u32; 255 * 4 + 1];
-    for (a, b) in here.iter().zip(there.iter()) {
-        let mixed = usize::from(a[0]) * (4 - share) + usize::from(b[0]) * share;
-        if let Some(count) = counts.get_mut(mixed) {
-            *count += 1;
-        }
-    }
-    let (mut bin, mut below) = (0, 0.0);
-    let threshold = |tone: f32| {
-        let wanted = tone * here.len() as f32;
-        while let Some(count) = counts.get(bin).filter(|count| below + **count as f32 <= wanted) {
-            below += *count as f32;
-            bin += 1;
-        }
-        let inside = counts.get(bin).map_or(0.0, |count| (wanted - below) / *count as f32);
-        ((bin as f32 + inside) / counts.len() as f32).min(1.0)
-    };
-    tones.map(threshold).collect()
 }

@@ -1,8 +1,8 @@
 //! Ruled lines and the dots of print.
 
-use std::f32::consts::TAU;
+use std::f32::consts::{SQRT_2, TAU};
 
-use super::threshold_map::{PERIODS, SIDE};
+use hachure::render::effects::halftone::threshold_map::{PERIODS, SIDE};
 
 /// Priorities of all texels from a function of their place, in periods.
 fn texels(priority: impl Fn(f32, f32) -> f32) -> Vec<f32> {
@@ -17,23 +17,20 @@ fn off(x: f32) -> f32 {
 
 /// Lines along x that grow in width. During an octave (`step` 0 to 1) a new one grows between each two, first in the
 /// darkest tones.
-pub fn lines(step: f32) -> Vec<f32> {
+pub(crate) fn lines(step: f32) -> Vec<f32> {
     texels(|_, y| (-2.0 * off(y)).max(step - 1.0 - 2.0 * off(y + 0.5)))
 }
 
 /// Dots that grow until they touch and leave round holes. During an octave one grows in the middle of each four, and
-/// then one between each two.
-pub fn dots(step: f32) -> Vec<f32> {
+/// then one between each two, first in the darkest tones.
+pub(crate) fn dots(step: f32) -> Vec<f32> {
     texels(|x, y| {
-        let (u, v) = (TAU * x, TAU * y);
-        let coarse = u.cos() + v.cos();
-        // Twice as many, turned by 45°.
-        let middle = 2.0 * u.cos() * v.cos();
-        let fine = (2.0 * u).cos() + (2.0 * v).cos();
-        if step < 0.5 {
-            coarse + (middle - coarse) * 2.0 * step
-        } else {
-            middle + (fine - middle) * (2.0 * step - 1.0)
-        }
+        let (u, v) = ((TAU * x).cos(), (TAU * y).cos());
+        // Like distances from the dots, but round about the holes too.
+        let [corner, middle, between] =
+            [(2.0 - u - v) / 2.0, (2.0 + u + v) / 2.0, (1.0 + u * v) / 2.0].map(|d: f32| d.max(0.0).sqrt());
+        let late = (1.0 - 2.0 * step).max(0.0) * SQRT_2;
+        let later = (2.0 - 2.0 * step).min(1.0);
+        (-corner).max(-middle - late).max(-between - later)
     })
 }

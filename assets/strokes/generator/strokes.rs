@@ -5,7 +5,7 @@
 //! seed set; Szécsi and Szirányi 2016, "Recursive Procedural Tonal Art Maps"). Such sets are made of orbits: the
 //! multiples p, 2p, 4p, … of a fraction come back to p.
 
-use super::threshold_map::{PERIODS, SIDE};
+use hachure::render::effects::halftone::threshold_map::{PERIODS, SIDE};
 
 /// Places are fractions of a tile with this denominator, 2⁷ − 1: then all orbits have seven places.
 const DENOMINATOR: u32 = 127;
@@ -255,12 +255,12 @@ impl Stroke {
 }
 
 /// Priorities of crossed strokes at a place in the octave.
-pub fn crossed_strokes() -> impl Fn(f32) -> Vec<f32> + Sync {
+pub(crate) fn crossed_strokes() -> impl Fn(f32) -> Vec<f32> + Sync {
     drawn(strokes(&STROKES))
 }
 
 /// Priorities of dots that are strewn evenly.
-pub fn stipple() -> impl Fn(f32) -> Vec<f32> + Sync {
+pub(crate) fn stipple() -> impl Fn(f32) -> Vec<f32> + Sync {
     drawn(strokes(&STIPPLE))
 }
 
