@@ -6,6 +6,7 @@ use encase::ShaderType;
 use encase::internal::SizeValue;
 use hachure::gpu::Shaders;
 use hachure::gpu::material::MaterialUniform;
+use hachure::render::effects::halftone::HalftoneUniform;
 use hachure::render::effects::surface::SurfaceUniform;
 use hachure::render::effects::toon::ToonUniform;
 use hachure::render::frame_uniform::{FrameUniform, LightUniform};
@@ -40,4 +41,6 @@ fn rust_and_wgsl_agree_on_every_uniform() {
     same_layout!(EdgeUniform, 22, "passes/lines.wgsl", "EdgeStyle");
     same_layout!(SurfaceUniform, 8, "effects/surface.wgsl", "SurfaceStyle");
     same_layout!(ToonUniform, 11, "effects/toon.wgsl", "ToonStyle");
+    same_layout!(HalftoneUniform, 15, "effects/halftone.wgsl", "HalftoneStyle");
+    same_layout!(DrawUniform, 5, "passes/coordinates.wgsl", "Draw");
 }

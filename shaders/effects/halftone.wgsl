@@ -69,14 +69,14 @@ struct Ellipse {
     minor_length: f32,
 }
 
-fn ellipse(patch: Patch) -> Ellipse {
-    let a = patch.dx.x * patch.dx.x + patch.dy.x * patch.dy.x;
-    let b = patch.dx.x * patch.dx.y + patch.dy.x * patch.dy.y;
-    let c = patch.dx.y * patch.dx.y + patch.dy.y * patch.dy.y;
+fn ellipse(p: Patch) -> Ellipse {
+    let a = p.dx.x * p.dx.x + p.dy.x * p.dy.x;
+    let b = p.dx.x * p.dx.y + p.dy.x * p.dy.y;
+    let c = p.dx.y * p.dx.y + p.dy.y * p.dy.y;
     let half = 0.5 * (a - c);
     let length = sqrt(max(0.5 * (a + c) + sqrt(half * half + b * b), 1e-30));
     let angle = 0.5 * atan2(b, half);
-    let area = abs(patch.dx.x * patch.dy.y - patch.dx.y * patch.dy.x);
+    let area = abs(p.dx.x * p.dy.y - p.dx.y * p.dy.x);
     return Ellipse(vec2(cos(angle), sin(angle)) * length, length, area / length);
 }
 

@@ -70,6 +70,8 @@ pub struct Shaded {
     pub color: Output<Target>,
     /// See `shaders/effects/toon.wgsl`; `None` when no object asks for it.
     pub cartoon_map: Option<Target>,
+    /// See `shaders/passes/coordinates.wgsl`; `None` when no object asks for it.
+    pub coordinates: Option<Target>,
 }
 
 /// What of a drawing lives across frames.
@@ -309,7 +311,7 @@ impl Drawing {
             }
             Ok::<_, RenderError>(color)
         })?;
-        Ok(Shaded { color, cartoon_map })
+        Ok(Shaded { color, cartoon_map, coordinates })
     }
 
     fn find_coordinates(
