@@ -31,6 +31,8 @@ struct Frame {
     center_depth: f32,
     // Depth at which the near plane cuts something; 0: it cuts nothing.
     cut_depth: f32,
+    // What lies behind this plane is not drawn; its product with (pos_view, 1) is the distance before it.
+    cut: vec4<f32>,
     // Paper: linear colour and opacity.
     background: vec4<f32>,
     lights: array<Light, 8>,

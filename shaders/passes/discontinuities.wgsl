@@ -12,6 +12,9 @@
 // 1 where a segment is, 0.5 where it is a crease that is not drawn.
 @group(1) @binding(3) var mark_tex: texture_2d<f32>;
 
+// Whether what lies behind a plane is left out.
+override WITH_CUT: bool = false;
+
 // A step in depth, in pixels, from which two surfaces do not touch.
 const STEP: f32 = 2.0;
 
@@ -47,12 +50,21 @@ struct Spine {
     ends_object: bool,
 }
 
+// Whether a surface would go on to a pixel but for the cut.
+fn is_cut_off(q: vec2<i32>, plane: Plane, towards: vec2<i32>) -> bool {
+    let there = pos_view_of(q, depth_of(nearness_at(plane, vec2<f32>(towards))));
+    return dot(frame.cut, vec4(there, 1.0)) < 0.0;
+}
+
 // What lies between pixel `px` (surface `x`) and its neighbour; class 0: nothing that `x` has to draw.
 fn between(px: vec2<i32>, x: Surfel, own: u32, plane: Plane, towards: vec2<i32>) -> Spine {
     let q = px + towards;
     let none = Spine(NO_EDGE, vec2(0.0), vec2(1.0, 0.0), false);
     let region = region_at(q);
     if region == own {
+        return none;
+    }
+    if WITH_CUT && is_cut_off(q, plane, towards) {
         return none;
     }
     let half = 0.5 * vec2<f32>(towards);

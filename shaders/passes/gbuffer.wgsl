@@ -16,6 +16,9 @@ struct Draw {
     is_flat: u32,
 }
 
+// Whether what lies behind a plane is left out.
+override WITH_CUT: bool = false;
+
 @group(1) @binding(0) var base_tex: texture_2d<f32>;
 @group(1) @binding(1) var base_sampler: sampler;
 @group(1) @binding(2) var normal_tex: texture_2d<f32>;
@@ -133,6 +136,11 @@ fn pack(normal: vec3<f32>, face: vec3<f32>, depth: f32, object: u32) -> vec4<u32
     );
 }
 
+fn is_cut_off(pos_oriented: vec3<f32>) -> bool {
+    let pos_view = pos_oriented + draw.view_from_local[3].xyz;
+    return WITH_CUT && dot(frame.cut, vec4(pos_view, 1.0)) < 0.0;
+}
+
 // Tells the surfaces of all objects apart; 0 is the background. Twin: `region` in src/render/groups.rs.
 fn region(surface: u32) -> u32 {
     return max((draw.object & 0x7fffffffu) * 2654435769u + surface, 1u);
@@ -141,6 +149,9 @@ fn region(surface: u32) -> u32 {
 @fragment
 fn fs_lean(v: Lean) -> GBuffer {
     let face = face_normal(v.pos_oriented);
+    if is_cut_off(v.pos_oriented) {
+        discard;
+    }
     let color = draw.material.base_color.rgb;
     return GBuffer(pack(face, face, v.depth, draw.object), vec4(color, 1.0), region(v.surface));
 }
@@ -153,6 +164,9 @@ fn turned_to(face: vec3<f32>, normal: vec3<f32>) -> vec3<f32> {
 @fragment
 fn fs_smooth(v: Smooth) -> GBuffer {
     let face = face_normal(v.pos_oriented);
+    if is_cut_off(v.pos_oriented) {
+        discard;
+    }
     let color = draw.material.base_color.rgb * v.color;
     let normal = select(turned_to(face, normalize(v.normal)), face, draw.is_flat == 1u);
     return GBuffer(pack(normal, face, v.depth, draw.object), vec4(color, 1.0), region(v.surface));
@@ -167,7 +181,7 @@ fn fs_full(v: Full) -> GBuffer {
     let color = textureSampleGrad(base_tex, base_sampler, base.uv, base.dx, base.dy) * draw.material.base_color * v.color;
     let fine = transformed(uv, draw.material.normal_uv);
     let bump = textureSampleGrad(normal_tex, normal_sampler, fine.uv, fine.dx, fine.dy).xyz * 2.0 - 1.0;
-    if color.a < draw.material.alpha_cutoff {
+    if color.a < draw.material.alpha_cutoff || is_cut_off(v.pos_oriented) {
         discard;
     }
     var normal = face;

@@ -118,6 +118,8 @@ fn styles() -> Result<Vec<(&'static str, Style)>, CliError> {
     let mut no_edges = gooch.clone();
     no_edges.edges.profile.show = false;
     no_edges.edges.inner.show = false;
+    let mut metal = no_edges.clone();
+    metal.gooch.metal = 1.0;
     let toon = |border| {
         let mut style = no_edges.clone();
         style.technique = Technique::Toon;
@@ -144,6 +146,7 @@ fn styles() -> Result<Vec<(&'static str, Style)>, CliError> {
         ("halftone, triplanar", halftone(Space::Surface, Mapping::Triplanar)),
         ("halftone, uv", halftone(Space::Surface, Mapping::Uv)),
         ("gooch, no edges", no_edges),
+        ("gooch, metal", metal),
         ("gooch + edges, diagonal", diagonal),
         ("gooch + edges, C1", c1),
         ("gooch + edges, 2 px", exact(2.0)),

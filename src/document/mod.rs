@@ -2,10 +2,11 @@
 
 pub mod file;
 pub mod history;
+pub mod mirrors;
 pub mod pattern;
 pub mod view;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
 use crate::scene::{Camera, Light, NodeId, Scene, Up};
@@ -46,6 +47,17 @@ pub struct NodeSettings {
     pub visible: Option<bool>,
     /// Whether its edges are drawn.
     pub enhanced: Option<bool>,
+    /// Whether it is a mirror.
+    pub mirror: Option<bool>,
+}
+
+/// A use of an image by a style.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ImageUse {
+    /// The parameter that names it, and the node whose style it is in: `toon.image`, `/crank/rod, toon.image`.
+    pub place: String,
+    /// The file; `None` where a choice asks for an image and none is named.
+    pub path: Option<PathBuf>,
 }
 
 /// What holds for one node after inheritance.
@@ -57,6 +69,8 @@ pub struct Resolved<'a> {
     pub visible: bool,
     /// Whether its edges are drawn.
     pub enhanced: bool,
+    /// Whether it is a mirror, if it can be one: see [`mirrors::mirror_fault`].
+    pub mirror: bool,
 }
 
 impl Default for Document {
@@ -92,7 +106,7 @@ impl Document {
 
     /// Style and roles of every node, in the order of `scene.nodes`.
     pub fn resolve(&self, scene: &Scene) -> Vec<Resolved<'_>> {
-        let root = Resolved { style: &self.style, visible: true, enhanced: true };
+        let root = Resolved { style: &self.style, visible: true, enhanced: true, mirror: false };
         let mut resolved: Vec<Resolved<'_>> = Vec::with_capacity(scene.nodes.len());
         for node in &scene.nodes {
             let above = node.parent.and_then(|p| resolved.get(p)).copied().unwrap_or(root);
@@ -101,9 +115,31 @@ impl Document {
                 style: own.and_then(|n| n.style.as_ref()).unwrap_or(above.style),
                 visible: above.visible && own.and_then(|n| n.visible).unwrap_or(true),
                 enhanced: own.and_then(|n| n.enhanced).unwrap_or(above.enhanced),
+                mirror: own.and_then(|n| n.mirror).unwrap_or(above.mirror),
             });
         }
         resolved
+    }
+
+    /// The images that the styles need, each with the first place that names it.
+    pub fn images(&self) -> Vec<ImageUse> {
+        let own = self.nodes.iter().filter_map(|(path, node)| Some((path.as_str(), node.style.as_ref()?)));
+        let mut seen = BTreeSet::new();
+        let mut uses = Vec::new();
+        let mut last = None;
+        for (node, style) in std::iter::once(("", &self.style)).chain(own) {
+            // Thousands of nodes may have one style.
+            if last.replace(style) == Some(style) {
+                continue;
+            }
+            for (key, path) in style.images() {
+                if seen.insert((key.clone(), path.clone())) {
+                    let place = if node.is_empty() { key } else { format!("{node}, {key}") };
+                    uses.push(ImageUse { place, path });
+                }
+            }
+        }
+        uses
     }
 
     /// The settings of one node, made if there are none.
@@ -254,5 +290,22 @@ mod tests {
         assert!(document.set("gooch.alpah", &Value::Number(0.9)).is_err());
         document.set("gooch.alpha", &Value::Number(0.1)).unwrap();
         assert!(document.resolve(&scene).iter().all(|r| r.style.gooch.alpha == 0.1));
+    }
+
+    #[test]
+    fn each_image_is_listed_once_with_the_place_that_names_it() {
+        let (scene, mut document) = (scene(), Document::default());
+        let text = |t: &str| Value::Text(t.to_owned());
+        for (key, value) in [("technique", "toon"), ("toon.ramp", "image"), ("toon.image", "a.png")] {
+            document.set(key, &text(value)).unwrap();
+        }
+        document.set_for(&scene, &[1], "toon.image", &text("b.png")).unwrap();
+        document.set_for(&scene, &[3], "gooch.alpha", &Value::Number(0.9)).unwrap();
+        let expected = [("toon.image", "a.png"), ("/m/rod.1, toon.image", "b.png")];
+        let expected =
+            expected.map(|(place, path)| ImageUse { place: place.into(), path: Some(path.into()) });
+        assert_eq!(document.images(), expected);
+        document.set("technique", &text("gooch")).unwrap();
+        assert_eq!(document.images(), []);
     }
 }

@@ -12,6 +12,8 @@ pub struct View {
     pub show: Show,
     /// Dihedral angle above which an edge separates two surfaces; degrees, 0 to 180.
     pub crease_angle: f32,
+    /// How many mirrors in a row a line of sight follows, 0 to 8; the nearest whole number counts.
+    pub reflections: f32,
 }
 
 /// What the picture shows: the drawing, or an intermediate result for a closer look.
@@ -56,7 +58,7 @@ pub enum Show {
 
 impl Default for View {
     fn default() -> Self {
-        Self { background: Color([250, 248, 242]), show: Show::Picture, crease_angle: 30.0 }
+        Self { background: Color([250, 248, 242]), show: Show::Picture, crease_angle: 30.0, reflections: 2.0 }
     }
 }
 
@@ -79,6 +81,15 @@ impl View {
                 0.0..=180.0,
                 "Folds sharper than this separate surfaces; in files without normals they are hard (after a reload).",
                 &mut self.crease_angle,
+            );
+            list.number(
+                "reflections",
+                "Reflections",
+                "",
+                0.0..=4.0,
+                0.0..=8.0,
+                "How many mirrors in a row are followed: 1 shows no mirror in a mirror, 0 switches mirrors off.",
+                &mut self.reflections,
             );
             list.choice("show", "Show", "The picture, or a buffer that it is made from.", &mut self.show);
         });

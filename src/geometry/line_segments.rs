@@ -12,7 +12,7 @@ mod fan;
 mod outlines;
 
 use bytemuck::{Pod, Zeroable};
-use glam::{DMat4, DVec2};
+use glam::{DMat4, DVec2, DVec4};
 use rayon::prelude::*;
 
 use self::angles::Angles;
@@ -79,6 +79,8 @@ pub struct LineView {
     pub jitter: DVec2,
     /// How far beyond the sides of the picture segments go on, in pixels; at least half of the widest line.
     pub margin: f64,
+    /// What lies behind this plane is left out: view space, its product with (point, 1) is the distance before it.
+    pub cut: Option<DVec4>,
 }
 
 /// Which lines are looked for.

@@ -85,6 +85,9 @@ pub struct Recorder<'a> {
     pub encoder: wgpu::CommandEncoder,
     /// Bind group 0 of the passes from here on.
     pub frame: wgpu::BindGroup,
+    /// The part of the picture into which render passes draw from here on, though all of it is cleared: left, top, right and
+    /// bottom edge; `None`: all of it.
+    pub part: Option<[u32; 4]>,
     pool: &'a mut TargetPool,
     timers: Option<&'a mut Timers>,
     size: [u32; 2],
@@ -102,7 +105,7 @@ impl<'a> Recorder<'a> {
     ) -> Self {
         let encoder =
             gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("frame") });
-        Self { gpu, pipelines, encoder, frame, pool, timers, size }
+        Self { gpu, pipelines, encoder, frame, part: None, pool, timers, size }
     }
 
     /// Width and height of the picture in pixels.
@@ -139,6 +142,9 @@ impl<'a> Recorder<'a> {
             multiview_mask: None,
         });
         pass.set_bind_group(0, &self.frame, &[]);
+        if let Some([left, top, right, bottom]) = self.part {
+            pass.set_scissor_rect(left, top, right - left, bottom - top);
+        }
         pass
     }
 

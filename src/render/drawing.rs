@@ -1,7 +1,7 @@
-//! The scene drawn once, from one camera.
+//! The scene drawn once, from one camera; and what its mirrors show, each by a drawing of its own.
 //!
 //! ```text
-//! objects ─► G-buffer ─┬─► (cartoon map ─►) shaded surfaces ┬─► + lines ─► colour
+//! objects ─► G-buffer ─┬─► (cartoon map ─►) shaded surfaces ┬─► + mirrors (drawings) ─► + lines ─► colour
 //!                      └─► edge map ─► reach of the lines ──┘
 //! segments (topology) ─────┘
 //! ```
@@ -12,12 +12,12 @@ use glam::{Vec2, Vec4};
 
 use super::RenderError;
 use super::effects::halftone::{HalftoneInputs, HalftoneUniform, ThresholdMaps};
+use super::effects::mirror::{MirrorUniform, mirror};
 use super::effects::surface::{Shading, SurfaceUniform, surface};
-use super::effects::toon::{ToonUniform, cartoon_map};
+use super::effects::toon::{ToonBuffers, Toons, cartoon_map};
 use super::frame_uniform::{FrameUniform, View};
 use super::gpu_scene::GpuScene;
 use super::groups::Objects;
-use super::passes::coordinates::CoordinatesPass;
 use super::passes::edge_map::{EdgeInputs, EdgeMap, EdgeMapPass};
 use super::passes::edge_style::EdgeUniform;
 use super::passes::gbuffer::{DrawCall, DrawUniform, GBuffer, GBufferPass};
@@ -27,7 +27,7 @@ use super::sample::Sample;
 use super::segments::segments;
 use super::stage::{Output, Stage};
 use crate::geometry::LineSegment;
-use crate::gpu::{ArrayBuffer, Gpu, Recorder, Target, UniformBuffer};
+use crate::gpu::{ArrayBuffer, DynamicBuffer, Gpu, Recorder, Target, UniformBuffer};
 use crate::scene::Light;
 
 /// What is to be drawn, and from where.
@@ -49,6 +49,8 @@ pub struct DrawingInputs<'a> {
     pub view: &'a View,
     /// Paper: linear colour and opacity.
     pub background: Vec4,
+    /// How many mirrors in a row are followed from here.
+    pub reflections: u32,
 }
 
 /// A drawing while it is being made: what all of its passes read.
@@ -78,33 +80,56 @@ pub struct Shaded {
 pub struct Drawing {
     uniform: UniformBuffer<FrameUniform>,
     frame_group: wgpu::BindGroup,
-    gbuffer_pass: GBufferPass,
+    draws: DynamicBuffer,
     edge_map_pass: EdgeMapPass,
-    coordinates_pass: CoordinatesPass,
     threshold_maps: ThresholdMaps,
     greatest_radius: ArrayBuffer,
     edge_styles: ArrayBuffer,
     surface_styles: ArrayBuffer,
     toon_styles: ArrayBuffer,
+    toon_bands: ArrayBuffer,
     halftone_styles: ArrayBuffer,
     gbuffer: Stage<(u64, u64, View, Vec<DrawUniform>, Vec<DrawCall>), GBuffer>,
     segments: Stage<(u64, View, Vec<EdgeUniform>, f32), Arc<Vec<LineSegment>>>,
     edge_map: Stage<(u64, Vec<EdgeUniform>, Vec2, Option<FrameUniform>), EdgeMap>,
     reach: Stage<u64, Reach>,
-    cartoon_map: Stage<(u64, Vec<ToonUniform>, FrameUniform), Target>,
+    cartoon_map: Stage<(u64, Toons, FrameUniform), Target>,
     coordinates: Stage<(u64, Vec<DrawCall>), Target>,
     surface: Stage<
         (
             u64,
             Option<[u64; 2]>,
             Vec<SurfaceUniform>,
-            Vec<ToonUniform>,
+            Toons,
             Vec<HalftoneUniform>,
             Vec<EdgeUniform>,
             FrameUniform,
+            Seen,
         ),
         Target,
     >,
+    reflections: Vec<Reflection>,
+    /// How often a reflection was drawn.
+    reflected: u64,
+}
+
+/// What is seen in mirrors: the revision of each drawing and how it is laid over its mirror; and the paper, which they
+/// show too.
+type Seen = Option<(Vec<(u64, MirrorUniform)>, Vec4)>;
+
+/// What a mirror shows.
+struct Reflection {
+    object: u32,
+    drawing: Drawing,
+    uniform: ArrayBuffer,
+}
+
+/// A reflection that is drawn.
+struct Reflected {
+    color: Output<Target>,
+    uniform: MirrorUniform,
+    /// Index of [`Drawing::reflections`].
+    index: usize,
 }
 
 impl Drawing {
@@ -119,14 +144,14 @@ impl Drawing {
         Self {
             uniform,
             frame_group,
-            gbuffer_pass: GBufferPass::new(gpu),
+            draws: GBufferPass::draw_buffer(gpu),
             edge_map_pass: EdgeMapPass::new(gpu),
-            coordinates_pass: CoordinatesPass::default(),
             threshold_maps: ThresholdMaps::new(gpu),
             greatest_radius: ArrayBuffer::new(gpu, "greatest radius"),
             edge_styles: ArrayBuffer::new(gpu, "edge styles"),
             surface_styles: ArrayBuffer::new(gpu, "surface styles"),
             toon_styles: ArrayBuffer::new(gpu, "toon styles"),
+            toon_bands: ArrayBuffer::new(gpu, "toon bands"),
             halftone_styles: ArrayBuffer::new(gpu, "halftone styles"),
             gbuffer: Stage::default(),
             segments: Stage::default(),
@@ -135,6 +160,8 @@ impl Drawing {
             cartoon_map: Stage::default(),
             coordinates: Stage::default(),
             surface: Stage::default(),
+            reflections: Vec::new(),
+            reflected: 0,
         }
     }
 
@@ -143,24 +170,20 @@ impl Drawing {
         &self.frame_group
     }
 
-    /// Layout of the materials' bind group.
-    pub fn material_layout(&self) -> &wgpu::BindGroupLayout {
-        &self.gbuffer_pass.material_layout
-    }
-
     /// Edge styles by object id on the device.
     pub fn edge_styles(&self) -> &wgpu::Buffer {
         self.edge_styles.buffer()
     }
 
     /// How often each stage has run, by name.
-    pub fn runs(&self) -> [(&'static str, u64); 5] {
+    pub fn runs(&self) -> [(&'static str, u64); 6] {
         [
             ("g-buffer", self.gbuffer.runs()),
             ("edge map", self.edge_map.runs()),
             ("line distance", self.reach.runs()),
             ("cartoon map", self.cartoon_map.runs()),
             ("surface", self.surface.runs()),
+            ("mirror", self.reflected),
         ]
     }
 
@@ -171,28 +194,36 @@ impl Drawing {
     pub fn begin(
         &mut self,
         rec: &mut Recorder<'_>,
+        gbuffer_pass: &mut GBufferPass,
         inputs: &DrawingInputs<'_>,
     ) -> Result<Begun, RenderError> {
         let DrawingInputs { scene, objects, view, sample, lights, background, .. } = *inputs;
         let depth_range = view.fitted_depth_range(objects.enhanced_boxes(scene));
         let uniform = FrameUniform::new(view, sample, depth_range, lights, background);
         self.uniform.write(rec.gpu, &uniform);
-        rec.frame = self.frame_group.clone();
+        self.look_through(rec, view);
         self.edge_styles.write(rec.gpu, &objects.edge_styles);
 
         let (draws, calls) = objects.draws(scene, view);
         let with_coordinates = calls
             .iter()
             .filter(|call| {
-                draws.get(call.draw as usize).is_some_and(|draw| objects.halftones.need_coordinates(draw.object))
+                draws
+                    .get(call.draw as usize)
+                    .is_some_and(|draw| objects.halftones.need_coordinates(draw.object))
             })
             .copied()
             .collect();
         let geometry = (rec.pipelines.generation(), inputs.scene_revision, *view, draws, calls);
-        let gbuffer = self
-            .gbuffer
-            .run(geometry, |(.., draws, calls)| self.gbuffer_pass.run(rec, scene, draws, calls))?;
+        let gbuffer = self.gbuffer.run(geometry, |(.., draws, calls)| {
+            gbuffer_pass.run(rec, scene, &mut self.draws, (draws, calls), view.cut.is_some())
+        })?;
         Ok(Begun { uniform, depth_range, gbuffer, with_coordinates })
+    }
+
+    fn look_through(&self, rec: &mut Recorder<'_>, view: &View) {
+        rec.frame = self.frame_group.clone();
+        rec.part = view.part;
     }
 
     /// The edges of what was begun.
@@ -225,6 +256,7 @@ impl Drawing {
                     edge_styles: self.edge_styles.buffer(),
                     segments: &segments.value,
                     has_holes: inputs.objects.has_holes,
+                    is_cut: view.cut.is_some(),
                 },
             )
         })
@@ -249,12 +281,14 @@ impl Drawing {
     pub fn shade(
         &mut self,
         rec: &mut Recorder<'_>,
+        gbuffer_pass: &mut GBufferPass,
         inputs: &DrawingInputs<'_>,
         begun: &Begun,
         edge_map: Option<&Output<EdgeMap>>,
     ) -> Result<Shaded, RenderError> {
+        let reflected = self.reflect(rec, gbuffer_pass, inputs)?;
         let cartoon_map = self.find_bands(rec, inputs, begun)?;
-        let coordinates = self.find_coordinates(rec, inputs, begun)?;
+        let coordinates = self.find_coordinates(rec, gbuffer_pass, inputs, begun)?;
         self.threshold_maps.prepare(rec.gpu, &inputs.objects.halftones)?;
         let gbuffer = &begun.gbuffer;
         let styles = &inputs.objects.edge_styles;
@@ -274,12 +308,16 @@ impl Drawing {
             gbuffer.revision,
             revisions,
             inputs.objects.surface_styles.clone(),
-            inputs.objects.toon_styles.clone(),
+            inputs.objects.toons.clone(),
             inputs.objects.halftones.placed(inputs.scene, inputs.view),
             styles.clone(),
             begun.uniform.without_background(),
+            (!reflected.is_empty()).then(|| {
+                let seen = reflected.iter().map(|r| (r.color.revision, r.uniform)).collect();
+                (seen, inputs.background)
+            }),
         );
-        let color = self.surface.run(shading, |(_, _, surfaces, toons, halftones, styles, _)| {
+        let color = self.surface.run(shading, |(_, _, surfaces, toons, halftones, styles, ..)| {
             self.surface_styles.write(rec.gpu, surfaces);
             if !halftones.is_empty() {
                 self.halftone_styles.write(rec.gpu, halftones);
@@ -288,7 +326,10 @@ impl Drawing {
                 surfaces,
                 surface_styles: self.surface_styles.buffer(),
                 toons,
-                toon_styles: self.toon_styles.buffer(),
+                toon_buffers: ToonBuffers {
+                    styles: self.toon_styles.buffer(),
+                    bands: self.toon_bands.buffer(),
+                },
                 cartoon_map: cartoon_map.as_ref(),
                 halftones: HalftoneInputs {
                     styles: halftones,
@@ -298,6 +339,11 @@ impl Drawing {
                 },
             };
             let color = surface(rec, &gbuffer.value, &shading)?;
+            for seen in &reflected {
+                let Some(reflection) = self.reflections.get_mut(seen.index) else { continue };
+                reflection.uniform.write(rec.gpu, &vec![seen.uniform]);
+                mirror(rec, &gbuffer.value, &seen.color.value, reflection.uniform.buffer(), &color)?;
+            }
             if let Some(edge_map) = edge_map {
                 lines(
                     rec,
@@ -317,6 +363,7 @@ impl Drawing {
     fn find_coordinates(
         &mut self,
         rec: &mut Recorder<'_>,
+        gbuffer_pass: &mut GBufferPass,
         inputs: &DrawingInputs<'_>,
         begun: &Begun,
     ) -> Result<Option<Target>, RenderError> {
@@ -324,14 +371,75 @@ impl Drawing {
             self.coordinates.clear();
             return Ok(None);
         }
-        let coordinates = self.coordinates.run(
-            (begun.gbuffer.revision, begun.with_coordinates.clone()),
-            |(_, calls)| {
-                let gbuffer = (&self.gbuffer_pass, &begun.gbuffer.value);
-                self.coordinates_pass.run(rec, inputs.scene, gbuffer, calls)
-            },
-        )?;
+        let asked = (begun.gbuffer.revision, begun.with_coordinates.clone());
+        let coordinates = self.coordinates.run(asked, |(_, calls)| {
+            let draws = (&gbuffer_pass.draw_layout, &self.draws);
+            gbuffer_pass.coordinates.run(rec, inputs.scene, &begun.gbuffer.value, draws, calls)
+        })?;
         Ok(Some(coordinates.value))
+    }
+
+    /// Draws what is seen in the mirrors.
+    fn reflect(
+        &mut self,
+        rec: &mut Recorder<'_>,
+        gbuffer_pass: &mut GBufferPass,
+        inputs: &DrawingInputs<'_>,
+    ) -> Result<Vec<Reflected>, RenderError> {
+        let objects = inputs.objects;
+        let mirrors = if inputs.reflections > 0 { objects.mirrors.as_slice() } else { &[] };
+        let margin = objects.edge_styles.iter().map(EdgeUniform::greatest_radius).fold(0.0, f32::max);
+        let seen: Vec<_> = mirrors
+            .iter()
+            .filter_map(|m| Some((m, m.seen_from(inputs.view, &objects.visible_bounds, margin)?)))
+            .collect();
+        self.reflections.retain(|r| seen.iter().any(|(mirror, _)| mirror.object == r.object));
+        if seen.is_empty() {
+            return Ok(Vec::new());
+        }
+        let world_from_view = inputs.view.view_from_world.inverse();
+        let lights: Vec<_> = inputs.lights.iter().map(|light| light.placed(&world_from_view)).collect();
+        let mut reflected = Vec::new();
+        for (mirror, view) in &seen {
+            let index = match self.reflections.iter().position(|r| r.object == mirror.object) {
+                Some(index) => index,
+                None => {
+                    self.reflections.push(Reflection {
+                        object: mirror.object,
+                        drawing: Self::new(rec.gpu, rec.pipelines.frame_layout()),
+                        uniform: ArrayBuffer::new(rec.gpu, "mirror"),
+                    });
+                    self.reflections.len() - 1
+                }
+            };
+            let Some(reflection) = self.reflections.get_mut(index) else { continue };
+            let inner =
+                DrawingInputs { lights: &lights, view, reflections: inputs.reflections - 1, ..*inputs };
+            let before = reflection.drawing.drawn();
+            let color = reflection.drawing.record(rec, gbuffer_pass, &inner)?;
+            self.reflected += reflection.drawing.drawn() - before;
+            reflected.push(Reflected { color, uniform: mirror.uniform(), index });
+        }
+        self.look_through(rec, inputs.view);
+        Ok(reflected)
+    }
+
+    /// How often it was drawn, with what is seen in its mirrors.
+    fn drawn(&self) -> u64 {
+        self.surface.runs() + self.reflected
+    }
+
+    /// All of a drawing.
+    fn record(
+        &mut self,
+        rec: &mut Recorder<'_>,
+        gbuffer_pass: &mut GBufferPass,
+        inputs: &DrawingInputs<'_>,
+    ) -> Result<Output<Target>, RenderError> {
+        let begun = self.begin(rec, gbuffer_pass, inputs)?;
+        let edge_map =
+            if inputs.objects.have_lines() { Some(self.find_edges(rec, inputs, &begun)?) } else { None };
+        Ok(self.shade(rec, gbuffer_pass, inputs, &begun, edge_map.as_ref())?.color)
     }
 
     fn find_bands(
@@ -340,9 +448,10 @@ impl Drawing {
         inputs: &DrawingInputs<'_>,
         begun: &Begun,
     ) -> Result<Option<Target>, RenderError> {
-        let toons = &inputs.objects.toon_styles;
-        if !toons.is_empty() {
-            self.toon_styles.write(rec.gpu, toons);
+        let toons = &inputs.objects.toons;
+        if !toons.styles.is_empty() {
+            self.toon_styles.write(rec.gpu, &toons.styles);
+            self.toon_bands.write(rec.gpu, &toons.bands);
         }
         if !inputs.objects.have_cartoon_map() {
             self.cartoon_map.clear();
@@ -350,8 +459,8 @@ impl Drawing {
         }
         let gbuffer = &begun.gbuffer;
         let bands = (gbuffer.revision, toons.clone(), begun.uniform.without_background());
-        let map =
-            self.cartoon_map.run(bands, |_| cartoon_map(rec, &gbuffer.value, self.toon_styles.buffer()))?;
+        let toon_styles = self.toon_styles.buffer();
+        let map = self.cartoon_map.run(bands, |_| cartoon_map(rec, &gbuffer.value, toon_styles))?;
         Ok(Some(map.value))
     }
 }

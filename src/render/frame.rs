@@ -9,7 +9,7 @@ use glam::{Vec2, Vec4};
 use super::RenderError;
 use super::drawing::{Begun, Drawing, DrawingInputs};
 use super::passes::accumulate::{Accumulation, Subject};
-use super::passes::gbuffer::GBuffer;
+use super::passes::gbuffer::{GBuffer, GBufferPass};
 use super::passes::operators::operators;
 use super::passes::resolve::resolve;
 use super::passes::selection::{self, selection};
@@ -56,6 +56,7 @@ pub struct Picture {
 
 /// What lives across frames.
 pub struct FrameState {
+    gbuffer_pass: GBufferPass,
     drawing: Drawing,
     operators: Stage<(u64, Vec2), Target>,
     accumulation: Accumulation,
@@ -73,6 +74,7 @@ impl FrameState {
     /// Nothing drawn yet.
     pub fn new(gpu: &Gpu, frame_layout: &wgpu::BindGroupLayout) -> Self {
         Self {
+            gbuffer_pass: GBufferPass::new(gpu),
             drawing: Drawing::new(gpu, frame_layout),
             operators: Stage::default(),
             accumulation: Accumulation::default(),
@@ -82,6 +84,11 @@ impl FrameState {
             selected: ArrayBuffer::new(gpu, "selected"),
             selection: Stage::default(),
         }
+    }
+
+    /// Layout of the materials' bind group.
+    pub fn material_layout(&self) -> &wgpu::BindGroupLayout {
+        &self.gbuffer_pass.material_layout
     }
 
     /// What the eye sees.
@@ -119,7 +126,7 @@ impl FrameState {
     ) -> Result<Picture, RenderError> {
         let FrameInputs { drawing: eye, show: what, .. } = inputs;
         let shaders = rec.pipelines.generation();
-        let begun = self.drawing.begin(rec, eye)?;
+        let begun = self.drawing.begin(rec, &mut self.gbuffer_pass, eye)?;
         let edge_map = if *what != Show::Picture || eye.objects.have_lines() {
             Some(self.drawing.find_edges(rec, eye, &begun)?)
         } else {
@@ -130,7 +137,7 @@ impl FrameState {
 
         let (mut cartoon_map, mut coordinates) = (None, None);
         let image = if *what == Show::Picture {
-            let shaded = self.drawing.shade(rec, eye, &begun, edge_map.as_ref())?;
+            let shaded = self.drawing.shade(rec, &mut self.gbuffer_pass, eye, &begun, edge_map.as_ref())?;
             (cartoon_map, coordinates) = (shaded.cartoon_map, shaded.coordinates);
             let color = self.accumulation.add(rec, eye.sample, shaded.color)?;
             let final_inputs = (shaders, *what, [color.revision, 0, 0], eye.background);

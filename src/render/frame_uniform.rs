@@ -1,11 +1,14 @@
 //! Bind group 0: camera, lights and paper.
 
 use encase::ShaderType;
-use glam::{DMat4, DVec3, Mat4, UVec2, Vec2, Vec3, Vec4};
+use glam::{DMat4, DVec3, DVec4, Mat4, UVec2, Vec2, Vec3, Vec4};
 
 use super::sample::Sample;
-use crate::geometry::{Bounds, Lens, Projector};
+use crate::geometry::{Bounds, Lens, Plane, Projector};
 use crate::scene::{Camera, Light, LightKind, Projection};
+
+/// What lies this close before a mirror belongs to the mirror; share of the diagonal of everything visible.
+const CUT_MARGIN: f64 = 1e-5;
 
 /// More lights are left out.
 pub const MAX_LIGHTS: usize = 8;
@@ -32,6 +35,7 @@ pub struct FrameUniform {
     light_count: u32,
     center_depth: f32,
     cut_depth: f32,
+    cut: Vec4,
     background: Vec4,
     lights: [LightUniform; MAX_LIGHTS],
 }
@@ -49,6 +53,8 @@ pub struct View {
     pub half_extent: Vec2,
     /// Whether the projection is parallel.
     pub orthographic: bool,
+    /// How view space is projected.
+    pub projection: Projection,
     /// Depths of the nearest and farthest plane, scene units.
     pub clip_range: [f64; 2],
     /// Whether the nearest plane cuts something.
@@ -57,6 +63,10 @@ pub struct View {
     pub center: DVec3,
     /// How far the picture is moved, right and down; pixels, −0.5 to 0.5.
     pub jitter: Vec2,
+    /// What lies behind this plane is not drawn: view space, its product with (point, 1) is the distance before it.
+    pub cut: Option<DVec4>,
+    /// The part of the picture that is wanted: left, top, right and bottom edge in pixels; `None`: all of it.
+    pub part: Option<[u32; 4]>,
 }
 
 /// Nearest and farthest depth of a box in view space; `None` when it is empty or wholly behind the eye.
@@ -69,10 +79,13 @@ fn depth_range(bounds: &Bounds, view_from_world: &DMat4) -> Option<(f64, f64)> {
 impl View {
     /// The view of `camera` on a scene of which `visible` is the box around everything that is drawn.
     pub fn new(camera: &Camera, visible: &Bounds, size: UVec2) -> Self {
-        let view_from_world = camera.view_from_world();
+        Self::through(camera.view_from_world(), camera.projection, visible, size)
+    }
+
+    fn through(view_from_world: DMat4, projection: Projection, visible: &Bounds, size: UVec2) -> Self {
         let aspect = f64::from(size.x.max(1)) / f64::from(size.y.max(1));
         let (near, far) = depth_range(visible, &view_from_world).unwrap_or((0.1, 1.0));
-        let (half_height, clip_from_view, orthographic, clip_range) = match camera.projection {
+        let (half_height, clip_from_view, orthographic, clip_range) = match projection {
             Projection::Perspective { view_angle } => {
                 let half = (view_angle.clamp(1.0, 170.0).to_radians() * 0.5).tan();
                 // Slightly before the nearest point, but never so close that depth loses its digits.
@@ -118,11 +131,38 @@ impl View {
             size,
             half_extent: Vec2::new((half_height * aspect) as f32, half_height as f32),
             orthographic,
+            projection,
             clip_range,
             is_cut: !orthographic && near < clip_range[0],
             center: if visible.is_empty() { DVec3::ZERO } else { visible.center() },
             jitter: Vec2::ZERO,
+            cut: None,
+            part: None,
         }
+    }
+
+    /// What this view shows in a mirror: the view of the eye's mirror image, flipped left to right so that nothing is
+    /// inside out. A pixel of the mirror shows the pixel of this view that lies as far from the opposite side of the
+    /// picture. What lies behind the mirror or on it is left out; `part` as in [`View::part`], for this view.
+    #[must_use]
+    pub fn mirrored(&self, plane: &Plane, visible: &Bounds, part: [u32; 4]) -> Self {
+        let flipped = DMat4::from_scale(DVec3::new(-1.0, 1.0, 1.0));
+        let view_from_world = flipped * self.view_from_world * plane.reflection();
+        let [left, top, right, bottom] = part;
+        let margin = visible.diagonal() * CUT_MARGIN;
+        let cut = plane.equation() - DVec4::W * margin;
+        Self {
+            cut: Some(view_from_world.inverse().transpose() * cut),
+            part: Some([self.size.x - right, top, self.size.x - left, bottom]),
+            center: self.center,
+            ..Self::through(view_from_world, self.projection, visible, self.size)
+        }
+        .moved(self.jitter * Vec2::new(-1.0, 1.0))
+    }
+
+    /// Whether the cut leaves nothing of what lies between these points, in view space.
+    pub fn cuts_off(&self, corners: &[DVec3]) -> bool {
+        self.cut.is_some_and(|cut| corners.iter().all(|c| cut.dot(c.extend(1.0)) < 0.0))
     }
 
     /// The same with the picture moved by so many pixels, right and down; less than one in each direction.
@@ -202,6 +242,7 @@ impl FrameUniform {
             light_count: lights.len().min(MAX_LIGHTS) as u32,
             center_depth: -view.view_from_world.transform_point3(view.center).z as f32,
             cut_depth: if view.is_cut { view.clip_range[0] as f32 } else { 0.0 },
+            cut: view.cut.map_or(Vec4::ZERO, |cut| cut.as_vec4()),
             background,
             lights: uniforms,
         }

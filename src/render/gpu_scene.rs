@@ -1,10 +1,10 @@
 //! A scene on the device, and what of it decides how it can be drawn.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
-use glam::DMat4;
+use glam::{DMat4, DVec3};
 
-use crate::geometry::{Bounds, FeatureEdges, Topology};
+use crate::geometry::{Bounds, FeatureEdges, NotFlat, Plane, Topology};
 use crate::gpu::geometry::MeshSource;
 use crate::gpu::{GeometryBuffers, Gpu, GpuError, MaterialBindings};
 use crate::scene::{AlphaMode, NodeId, Scene};
@@ -24,6 +24,8 @@ pub struct GpuScene {
     pub edges: Vec<Arc<FeatureEdges>>,
     /// Per mesh, whether it is solid; empty until topology is known.
     is_solid: Vec<bool>,
+    /// The plane of each mesh, once somebody asked for it.
+    planes: Arc<[OnceLock<Result<Plane, NotFlat>>]>,
 }
 
 impl GpuScene {
@@ -43,6 +45,7 @@ impl GpuScene {
             mesh_bounds: scene.meshes.iter().map(|m| m.bounds()).collect(),
             edges: edges(topology),
             is_solid: topology.iter().map(|t| t.is_solid).collect(),
+            planes: scene.meshes.iter().map(|_| OnceLock::new()).collect(),
             scene: Arc::clone(scene),
         })
     }
@@ -87,6 +90,25 @@ impl GpuScene {
     pub fn has_uvs(&self, node: NodeId) -> bool {
         let mesh = self.scene.nodes[node].mesh.and_then(|m| self.scene.meshes.get(m));
         mesh.is_some_and(|mesh| !mesh.uvs.is_empty())
+    }
+
+    /// The plane of a node's own mesh, world space.
+    ///
+    /// # Errors
+    /// [`NotFlat`].
+    pub fn plane_of(&self, node: NodeId) -> Result<Plane, NotFlat> {
+        let node = &self.scene.nodes[node];
+        let mesh = node.mesh.and_then(|m| Some((self.planes.get(m)?, self.scene.meshes.get(m)?)));
+        let (plane, mesh) = mesh.ok_or(NotFlat::NoArea)?;
+        plane.get_or_init(|| Plane::of_mesh(mesh)).and_then(|p| p.transformed(&node.world_from_local))
+    }
+
+    /// The corners of the box around a node's own mesh in its own space, world space, in the order of
+    /// [`Bounds::corners`].
+    pub fn corners_of(&self, node: NodeId) -> [DVec3; 8] {
+        let node = &self.scene.nodes[node];
+        let bounds = node.mesh.and_then(|m| self.mesh_bounds.get(m)).copied().unwrap_or(Bounds::EMPTY);
+        bounds.corners().map(|corner| node.world_from_local.transform_point3(corner))
     }
 
     /// The box of a node's own mesh, world space.

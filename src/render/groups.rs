@@ -3,12 +3,14 @@
 use glam::{DMat4, Mat3, Mat4};
 
 use super::effects::halftone::Halftones;
+use super::effects::mirror::Mirror;
 use super::effects::surface::SurfaceUniform;
-use super::effects::toon::ToonUniform;
+use super::effects::toon::{ToonUniform, Toons};
 use super::frame_uniform::View;
 use super::gpu_scene::GpuScene;
 use super::passes::edge_style::EdgeUniform;
 use super::passes::gbuffer::{Detail, DrawCall, DrawUniform};
+use super::style_images::StyleImages;
 use crate::document::Document;
 use crate::geometry::Bounds;
 use crate::scene::{AlphaMode, NodeId};
@@ -42,40 +44,47 @@ pub struct Objects {
     pub edge_styles: Vec<EdgeUniform>,
     /// Shading parameters by object id.
     pub surface_styles: Vec<SurfaceUniform>,
-    /// Parameters of toon shading by object id; empty when no object is a toon.
-    pub toon_styles: Vec<ToonUniform>,
+    /// Parameters of toon shading.
+    pub toons: Toons,
     /// The objects that are halftones.
     pub halftones: Halftones,
     /// Whether any object with lines has holes by alpha.
     pub has_holes: bool,
+    /// The mirrors among them.
+    pub mirrors: Vec<Mirror>,
 }
 
 impl Objects {
     /// Resolves styles and roles of a document for the nodes of a scene; `scale`: pixels per reference pixel.
-    pub fn new(document: &Document, scene: &GpuScene, scale: f32) -> Self {
+    pub fn new(document: &Document, scene: &GpuScene, images: &StyleImages, scale: f32) -> Self {
         let resolved = document.resolve(&scene.scene);
         let mut objects = Self::default();
         // What is not drawn, entry 0 (the background) included, has neither shading nor lines.
         let count = resolved.len() + 1;
         objects.edge_styles = vec![EdgeUniform::default(); count];
-        objects.surface_styles = vec![SurfaceUniform::BLANK; count];
+        objects.surface_styles = vec![SurfaceUniform::default(); count];
         for (node, r) in resolved.iter().enumerate() {
             if !r.visible || scene.scene.nodes[node].mesh.is_none() {
                 continue;
             }
             let id = object_id(node) as usize;
-            objects.surface_styles[id] = SurfaceUniform::from(r.style);
+            objects.surface_styles[id] =
+                SurfaceUniform::new(r.style, &scene.scene.nodes[node].world_from_local);
             if r.style.technique == Technique::Toon {
-                objects.toon_styles.resize(count, ToonUniform::default());
-                objects.toon_styles[id] = ToonUniform::from(&r.style.toon);
+                objects.toons.set(id, count, &r.style.toon, images);
             }
             if r.style.technique == Technique::Halftone {
                 let has_uvs = scene.has_uvs(node);
-                objects.halftones.add(count, id, &r.style.halftone, scale, has_uvs);
+                objects.halftones.add((count, id), &r.style.halftone, images, scale, has_uvs);
             }
             if r.enhanced {
                 objects.edge_styles[id] = EdgeUniform::new(&r.style.edges, scale);
                 objects.has_holes |= scene.has_holes(node);
+            }
+            if r.mirror
+                && let Ok(plane) = scene.plane_of(node)
+            {
+                objects.mirrors.push(Mirror::new(id as u32, plane, scene.corners_of(node), &r.style.mirror));
             }
             objects.visible.push((node, r.enhanced));
             objects.visible_bounds = objects.visible_bounds.union(&scene.bounds_of(node));
@@ -90,7 +99,7 @@ impl Objects {
 
     /// Whether any visible object needs the cartoon map.
     pub fn have_cartoon_map(&self) -> bool {
-        self.toon_styles.iter().any(ToonUniform::has_cartoon_map)
+        self.toons.styles.iter().any(ToonUniform::has_cartoon_map)
     }
 
     /// The visible objects, and whether each is enhanced.
@@ -120,6 +129,12 @@ impl Objects {
             // Combined in double precision, so that models far from the origin do not jitter.
             let view_from_local = view.view_from_world * node.world_from_local;
             let local_bounds = scene.mesh_bounds.get(mesh_index).copied().unwrap_or(Bounds::EMPTY);
+            if view.cut.is_some()
+                && view
+                    .cuts_off(&local_bounds.corners().map(|corner| view_from_local.transform_point3(corner)))
+            {
+                continue;
+            }
             let hidden_side = scene.hidden_side(mesh_index, &view_from_local, view.orthographic);
             let has_images = |material: usize| {
                 scene.scene.materials.get(material).is_some_and(|m| {

@@ -11,6 +11,7 @@ mod renderer;
 pub mod sample;
 mod segments;
 pub mod stage;
+mod style_images;
 
 pub use frame::Picture;
 pub use gpu_scene::{GpuScene, UploadedTopology, Uploader};

@@ -10,11 +10,12 @@ use super::frame_uniform::View;
 use super::gpu_scene::{GpuScene, UploadedTopology, Uploader};
 use super::groups::{Objects, node_of};
 use super::passes::accumulate::Subject;
+use super::style_images::StyleImages;
 use crate::document::Document;
 use crate::geometry::Topology;
 use crate::gpu::readback::Readback;
 use crate::gpu::{Gpu, GpuError, Pipelines, Recorder, ShaderError, Shaders, TargetPool, Timers};
-use crate::scene::{Camera, NodeId, Scene};
+use crate::scene::{Camera, Images, NodeId, Scene};
 
 /// Height of the picture in reference pixels, in which widths and scales are given.
 const REFERENCE_HEIGHT: f32 = 1080.0;
@@ -71,6 +72,7 @@ pub struct Renderer {
     state: FrameState,
     scene: Option<GpuScene>,
     scene_revision: u64,
+    images: StyleImages,
     last: Option<(Picture, View)>,
     pick: Option<PendingPick>,
     shader_error: Option<ShaderError>,
@@ -88,6 +90,7 @@ impl Renderer {
             timers: None,
             scene: None,
             scene_revision: 0,
+            images: StyleImages::default(),
             last: None,
             pick: None,
             shader_error,
@@ -102,6 +105,7 @@ impl Renderer {
         twin.pipelines = self.pipelines.clone();
         twin.scene = self.scene.clone();
         twin.scene_revision = self.scene_revision;
+        twin.images = self.images.clone();
         twin.state.go_on_from(&self.state);
         twin
     }
@@ -113,7 +117,7 @@ impl Renderer {
 
     /// Uploads scenes for this renderer, from any thread.
     pub fn uploader(&self) -> Uploader {
-        Uploader::new(&self.gpu, self.state.drawing().material_layout())
+        Uploader::new(&self.gpu, self.state.material_layout())
     }
 
     /// Shows a scene, which the renderer's own [`Self::uploader`] uploaded, in place of the last one.
@@ -139,6 +143,14 @@ impl Renderer {
         let scene = self.uploader().scene(scene, topology)?;
         self.show(scene);
         Ok(())
+    }
+
+    /// Takes over the images that styles name; those that are missing are drawn without.
+    pub fn set_images(&mut self, images: Images) {
+        if *self.images.all() != images {
+            self.images = StyleImages::new(images);
+            self.scene_revision += 1;
+        }
     }
 
     /// Measures each pass from now on, if the device can; ask [`Self::timings`] after each frame.
@@ -172,7 +184,7 @@ impl Renderer {
         };
         let size = request.size.map(|s| s.max(1));
         let scale = size[1] as f32 / REFERENCE_HEIGHT;
-        let objects = Objects::new(request.document, scene, scale);
+        let objects = Objects::new(request.document, scene, &self.images, scale);
         let subject = Subject {
             shaders: self.pipelines.generation(),
             scene_revision: self.scene_revision,
@@ -198,6 +210,7 @@ impl Renderer {
                 sample,
                 view: &view,
                 background,
+                reflections: request.document.view.reflections.round().clamp(0.0, 8.0) as u32,
             },
             show: request.document.view.show,
             selected: request.selected,

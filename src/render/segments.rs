@@ -17,7 +17,12 @@ pub(super) fn segments(
 ) -> Vec<LineSegment> {
     let margin = objects.edge_styles.iter().map(EdgeUniform::greatest_radius).fold(0.0, f32::max) + 2.0;
     // The vertex shader adds the jitter.
-    let view = LineView { projector: view.projector(), jitter: glam::DVec2::ZERO, margin: f64::from(margin) };
+    let view = LineView {
+        projector: view.projector(),
+        jitter: glam::DVec2::ZERO,
+        margin: f64::from(margin),
+        cut: view.cut,
+    };
     let mut all = Vec::new();
     for &(node, enhanced) in objects.visible() {
         let id = object_id(node);

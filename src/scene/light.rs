@@ -1,6 +1,6 @@
 //! Light sources.
 
-use glam::{DVec3, Vec3};
+use glam::{DMat4, DVec3, Vec3};
 
 /// One light, in world space or in the space of the eye.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -39,6 +39,24 @@ impl Light {
             LightKind::Point { position } => position,
         };
         place.is_finite() && self.color.is_finite() && self.intensity.is_finite()
+    }
+
+    /// The same light where it stands at present, for other cameras to see; `world_from_view`: of the camera to which it
+    /// may be attached.
+    #[must_use]
+    pub fn placed(&self, world_from_view: &DMat4) -> Self {
+        if !self.attached_to_camera {
+            return self.clone();
+        }
+        let kind = match self.kind {
+            LightKind::Directional { direction } => {
+                LightKind::Directional { direction: world_from_view.transform_vector3(direction) }
+            }
+            LightKind::Point { position } => {
+                LightKind::Point { position: world_from_view.transform_point3(position) }
+            }
+        };
+        Self { kind, attached_to_camera: false, ..self.clone() }
     }
 
     /// The default rig: a key light over the viewer's left shoulder and a weaker fill from the right.

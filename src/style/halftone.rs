@@ -1,6 +1,8 @@
 //! Halftone: tones by the density of ink (Freudenberg et al. 2002; edge-enhancement paper, section 5, "Edge-Enhanced
 //! Real-Time Hatching").
 
+use std::path::{Path, PathBuf};
+
 use super::Color;
 use super::param::Params;
 
@@ -12,6 +14,8 @@ use super::param::Params;
 pub struct Halftone {
     /// What the ink looks like.
     pub texture: Texture,
+    /// The image of [`Texture::Image`]: a square tile, inked first where it is dark. Without one there are strokes.
+    pub image: Option<PathBuf>,
     /// To what the texture is fixed.
     pub space: Space,
     /// How it lies on a surface.
@@ -42,21 +46,18 @@ pub struct Halftone {
     pub gamma: f32,
 }
 
-/// What the ink looks like: the built-in prioritised textures.
+/// What the ink looks like: a built-in prioritised texture, or an image.
 #[derive(
     Debug,
     Clone,
     Copy,
     PartialEq,
     Eq,
-    PartialOrd,
-    Ord,
     Hash,
     Default,
     strum::EnumString,
     strum::IntoStaticStr,
     strum::VariantNames,
-    strum::VariantArray,
 )]
 #[strum(serialize_all = "snake_case")]
 pub enum Texture {
@@ -69,6 +70,8 @@ pub enum Texture {
     Lines,
     /// Dots of a pen, strewn evenly.
     Stipple,
+    /// An image, whose dark parts are inked first.
+    Image,
 }
 
 /// To what the texture is fixed.
@@ -119,6 +122,7 @@ impl Default for Halftone {
     fn default() -> Self {
         Self {
             texture: Texture::default(),
+            image: None,
             space: Space::default(),
             mapping: Mapping::default(),
             scale: 8.0,
@@ -138,9 +142,27 @@ impl Default for Halftone {
 }
 
 impl Halftone {
+    /// The image of the texture, if it is one.
+    pub fn texture_image(&self) -> Option<&Path> {
+        self.image.as_deref().filter(|_| self.texture == Texture::Image)
+    }
+
     pub(super) fn params<'a>(&'a mut self, list: &mut Params<'a>) {
         list.choice("texture", "Texture", "What the ink looks like.", &mut self.texture);
-        list.choice("space", "Fixed to", "Whether the ink lies on the objects or on the picture.", &mut self.space);
+        list.when("halftone.texture", Texture::Image, |list| {
+            list.file(
+                "image",
+                "Image",
+                "A tile that repeats: ink comes first where it is dark. It is fitted into a square.",
+                &mut self.image,
+            );
+        });
+        list.choice(
+            "space",
+            "Fixed to",
+            "Whether the ink lies on the objects or on the picture.",
+            &mut self.space,
+        );
         list.when("halftone.space", Space::Surface, |list| {
             list.choice(
                 "mapping",

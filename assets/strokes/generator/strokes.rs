@@ -221,7 +221,8 @@ impl Stroke {
         let beyond = along - s * self.half_length;
         let distance = (across * across + beyond * beyond).sqrt();
         // Pressed in the middle, lifted at the ends.
-        let half_width = if self.half_length > 0.0 { 1.0 - 0.7 * s * s * s.abs() } else { 1.0 } * self.half_width;
+        let half_width =
+            if self.half_length > 0.0 { 1.0 - 0.7 * s * s * s.abs() } else { 1.0 } * self.half_width;
         if distance <= half_width {
             let x = distance / half_width;
             return self.priority - SOFTNESS * x * x;

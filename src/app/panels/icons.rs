@@ -10,6 +10,8 @@ pub enum Icon {
     Eye,
     /// Its edges are drawn.
     Edges,
+    /// It is a mirror.
+    Mirror,
 }
 
 /// Side of a button.
@@ -39,6 +41,7 @@ pub fn toggle(
     match icon {
         Icon::Eye => eye(painter, rect.center(), on, color),
         Icon::Edges => cube(painter, rect.center(), on, color),
+        Icon::Mirror => looking_glass(painter, rect.center(), on, color),
     }
     response
 }
@@ -97,6 +100,19 @@ fn cube(painter: &Painter, center: Pos2, on: bool, color: Color32) {
     if on {
         for degrees in [210.0, 330.0, 90.0] {
             painter.line_segment([center, corner(degrees)], Stroke::new(1.0, color));
+        }
+    }
+}
+
+/// A pane with a glint.
+fn looking_glass(painter: &Painter, center: Pos2, on: bool, color: Color32) {
+    let stroke = Stroke::new(if on { 1.6 } else { 1.0 }, color);
+    let pane = [vec2(-4.0, -3.5), vec2(4.0, -5.5), vec2(4.0, 5.5), vec2(-4.0, 3.5)].map(|p| center + p);
+    painter.add(egui::Shape::closed_line(pane.to_vec(), stroke));
+    if on {
+        for shift in [0.0, 2.4] {
+            let ends = [vec2(-2.2 + shift, 1.2), vec2(0.2 + shift, -2.0)].map(|p| center + p);
+            painter.line_segment(ends, Stroke::new(1.0, color));
         }
     }
 }

@@ -1,4 +1,4 @@
-//! The tree of nodes: visibility, edges and style of each.
+//! The tree of nodes: visibility, edges, style and role of each.
 
 use eframe::egui;
 use std::collections::HashSet;
@@ -7,6 +7,7 @@ use eframe::egui::{Rect, Sense, Ui, pos2, vec2};
 
 use super::Editing;
 use super::icons::{self, Icon};
+use crate::document::mirrors::mirror_fault;
 use crate::document::{Document, Resolved};
 use crate::scene::{NodeId, Scene};
 use crate::style::Style;
@@ -181,6 +182,24 @@ impl Outliner {
             icons::toggle(ui, edges_at, id.with("edges"), Icon::Edges, roles.enhanced, !visible, &edges_name)
                 .on_hover_text("Draw the edges of this object (enhanced)");
         let targets = targets();
+        // Few objects are mirrors: the others have the switch only where somebody looks.
+        let looked_at = ui.rect_contains_pointer(rect);
+        let mut left_of_switches = edges_at.left();
+        if looked_at || roles.mirror {
+            let at = square(2.0);
+            left_of_switches = at.left();
+            let label = format!("Mirror {name}");
+            let mirror =
+                icons::toggle(ui, at, id.with("mirror"), Icon::Mirror, roles.mirror, !visible, &label);
+            let fault = if mirror.hovered() { mirror_fault(scene, row.node) } else { None };
+            let help = match fault {
+                Some(fault) => format!("Cannot be a mirror: {fault}"),
+                None => "Make this object a mirror (each flat face below a group)".to_owned(),
+            };
+            if mirror.on_hover_text(help).clicked() && (fault.is_none() || roles.mirror) {
+                editing.document.set_mirror(scene, &targets, !roles.mirror);
+            }
+        }
         if eye.clicked() {
             set_visible(editing.document, scene, &targets, !shown);
         }
@@ -189,14 +208,13 @@ impl Outliner {
         }
 
         let chip = Rect::from_min_max(
-            pos2(edges_at.left() - STYLE_WIDTH - 2.0, rect.top()),
-            pos2(edges_at.left() - 2.0, rect.bottom()),
+            pos2(left_of_switches - STYLE_WIDTH - 2.0, rect.top()),
+            pos2(left_of_switches - 2.0, rect.bottom()),
         );
         // What is inherited is said only where somebody looks; elsewhere its place belongs to the name.
-        let looked_at = ui.rect_contains_pointer(rect);
         style_chip(ui, looked_at, chip, own.style.as_ref(), roles.style, &node.name, &targets, editing);
 
-        let right = if looked_at || own.style.is_some() { chip.left() } else { edges_at.left() };
+        let right = if looked_at || own.style.is_some() { chip.left() } else { left_of_switches };
         let text_rect = Rect::from_min_max(pos2(left + 13.0, rect.top()), pos2(right - 4.0, rect.bottom()));
         let strength = if visible { 1.0 } else { 0.5 };
         let color = if selected {

@@ -1,18 +1,19 @@
 //! Halftone: what the surface pass needs for it (Freudenberg et al. 2002; edge-enhancement paper, section 5).
 
 pub mod calibration;
+mod own_image;
 pub mod threshold_map;
 
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 use encase::ShaderType;
 use glam::{DMat4, DVec3, Mat4, Vec2, Vec3};
-use strum::VariantArray;
 
 use crate::gpu::{ArrayBuffer, Gpu, GpuError, Target};
 use crate::render::frame_uniform::View;
 use crate::render::gpu_scene::GpuScene;
 use crate::render::groups::node_of;
+use crate::render::style_images::StyleImages;
 use crate::style::Halftone;
 use crate::style::halftone::{Mapping, Space, Texture};
 use threshold_map::{LAYERS, LEVELS, PERIODS, SIDE, ThresholdMap};
@@ -42,21 +43,48 @@ const SCREEN: u32 = 1;
 const TRIPLANAR: u32 = 2;
 const UV: u32 = 3;
 
+/// A threshold map.
+#[derive(Debug, Clone)]
+enum Map {
+    BuiltIn(Texture),
+    Own(Arc<ThresholdMap>),
+}
+
+impl PartialEq for Map {
+    fn eq(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::BuiltIn(a), Self::BuiltIn(b)) => a == b,
+            // Each image has one map.
+            (Self::Own(a), Self::Own(b)) => Arc::ptr_eq(a, b),
+            _ => false,
+        }
+    }
+}
+
 /// All visible objects that are halftones.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Halftones {
     /// By object id; empty when there are none.
     styles: Vec<HalftoneUniform>,
-    /// Their textures, by number of the threshold map.
-    textures: Vec<Texture>,
+    /// Their threshold maps, by number.
+    maps: Vec<Map>,
 }
 
 impl Halftones {
-    /// Adds an object; there are at most `count` of them. `scale`: pixels per reference pixel.
-    pub fn add(&mut self, count: usize, id: usize, style: &Halftone, scale: f32, has_uvs: bool) {
-        let map = self.textures.iter().position(|t| *t == style.texture).unwrap_or_else(|| {
-            self.textures.push(style.texture);
-            self.textures.len() - 1
+    /// Adds the object `id` of `count`. `scale`: pixels per reference pixel.
+    pub fn add(
+        &mut self,
+        (count, id): (usize, usize),
+        style: &Halftone,
+        images: &StyleImages,
+        scale: f32,
+        has_uvs: bool,
+    ) {
+        let own = style.texture_image().and_then(|path| images.threshold_map(path));
+        let map = own.map_or(Map::BuiltIn(style.texture), Map::Own);
+        let map = self.maps.iter().position(|known| *known == map).unwrap_or_else(|| {
+            self.maps.push(map);
+            self.maps.len() - 1
         });
         self.styles.resize(count, HalftoneUniform::default());
         let black = style.black.clamp(0.0, 1.0);
@@ -142,10 +170,10 @@ pub struct HalftoneInputs<'a> {
     pub coordinates: Option<&'a Target>,
 }
 
-/// A built-in texture, read when first asked for. The images are made by `assets/strokes/generator`.
+/// A built-in texture, read when first asked for; strokes, where an image is missing. They are made by
+/// `assets/strokes/generator`.
 pub fn built_in(texture: Texture) -> &'static ThresholdMap {
-    static MAPS: [OnceLock<ThresholdMap>; Texture::VARIANTS.len()] =
-        [const { OnceLock::new() }; Texture::VARIANTS.len()];
+    static MAPS: [OnceLock<ThresholdMap>; 4] = [const { OnceLock::new() }; 4];
     macro_rules! images {
         ($name:literal) => {
             (
@@ -154,13 +182,13 @@ pub fn built_in(texture: Texture) -> &'static ThresholdMap {
             )
         };
     }
-    MAPS[texture as usize].get_or_init(|| {
-        let (steps, calibration) = match texture {
-            Texture::Strokes => images!("strokes"),
-            Texture::Dots => images!("dots"),
-            Texture::Lines => images!("lines"),
-            Texture::Stipple => images!("stipple"),
-        };
+    let (number, (steps, calibration)) = match texture {
+        Texture::Strokes | Texture::Image => (0, images!("strokes")),
+        Texture::Dots => (1, images!("dots")),
+        Texture::Lines => (2, images!("lines")),
+        Texture::Stipple => (3, images!("stipple")),
+    };
+    MAPS[number].get_or_init(|| {
         // A test reads them all.
         ThresholdMap::from_images(steps, calibration).unwrap_or_default()
     })
@@ -168,7 +196,7 @@ pub fn built_in(texture: Texture) -> &'static ThresholdMap {
 
 /// Threshold maps on the device: those that the visible objects use.
 pub struct ThresholdMaps {
-    textures: Vec<Texture>,
+    uploaded: Vec<Map>,
     thresholds: wgpu::TextureView,
     calibration: ArrayBuffer,
     sampler: wgpu::Sampler,
@@ -187,7 +215,7 @@ impl ThresholdMaps {
             ..Default::default()
         });
         Self {
-            textures: Vec::new(),
+            uploaded: Vec::new(),
             thresholds: view(&texture(gpu, 1, 1, 1)),
             calibration: ArrayBuffer::new(gpu, "calibration"),
             sampler,
@@ -199,11 +227,18 @@ impl ThresholdMaps {
     /// # Errors
     /// [`GpuError::TooLarge`].
     pub fn prepare(&mut self, gpu: &Gpu, halftones: &Halftones) -> Result<(), GpuError> {
-        if halftones.textures.is_empty() || self.textures == halftones.textures {
+        if halftones.maps.is_empty() || self.uploaded == halftones.maps {
             return Ok(());
         }
         gpu.check_texture_size("a halftone texture", [SIDE as u32; 2])?;
-        let maps: Vec<_> = halftones.textures.iter().map(|t| built_in(*t)).collect();
+        let maps: Vec<&ThresholdMap> = halftones
+            .maps
+            .iter()
+            .map(|map| match map {
+                Map::BuiltIn(texture) => built_in(*texture),
+                Map::Own(map) => map.as_ref(),
+            })
+            .collect();
         let uploaded = texture(gpu, SIDE as u32, (maps.len() * LAYERS) as u32, LEVELS as u32);
         for (layer, levels) in maps.iter().flat_map(|map| &map.layers).enumerate() {
             for (level, texels) in levels.iter().enumerate() {
@@ -213,7 +248,7 @@ impl ThresholdMaps {
         self.thresholds = view(&uploaded);
         let calibration: Vec<f32> = maps.iter().flat_map(|map| &map.calibration).copied().collect();
         self.calibration.write(gpu, &calibration);
-        self.textures.clone_from(&halftones.textures);
+        self.uploaded.clone_from(&halftones.maps);
         Ok(())
     }
 

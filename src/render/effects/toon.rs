@@ -4,6 +4,8 @@
 //! texture, the cartoon map, holds which band a pixel is of, not its colour: a mean of bands leaves the images on a
 //! surface sharp, and one byte per pixel is cheap to read nine times.
 
+use std::sync::Arc;
+
 use encase::ShaderType;
 use glam::{Vec3, Vec4};
 
@@ -11,22 +13,23 @@ use crate::gpu::recorder::Input;
 use crate::gpu::{Program, Recorder, Target};
 use crate::render::RenderError;
 use crate::render::passes::gbuffer::GBuffer;
+use crate::render::style_images::StyleImages;
 use crate::style::Toon;
-use crate::style::toon::{Border, MAX_BANDS};
+use crate::style::toon::Border;
 
-/// 1 + band, 16: highlight, 32: rim; 0 where no object asks for it.
-const BANDS: wgpu::TextureFormat = wgpu::TextureFormat::R8Uint;
+/// 1 + band, 512: highlight, 1024: rim; 0 where no object asks for it.
+const BANDS: wgpu::TextureFormat = wgpu::TextureFormat::R16Uint;
 
 /// Twin of `ToonStyle` in `shaders/effects/toon.wgsl`.
 #[derive(Debug, Clone, Copy, PartialEq, ShaderType, Default)]
 pub struct ToonUniform {
-    ramp: [Vec4; MAX_BANDS],
     rim_color: Vec3,
     rim: f32,
     highlight: f32,
     highlight_from: f32,
     rim_to: f32,
     tint: f32,
+    first_band: u32,
     bands: u32,
     start: f32,
     bands_per_unit: f32,
@@ -41,28 +44,23 @@ const ANALYTIC: u32 = 3;
 /// Beyond any cosine.
 const NOWHERE: f32 = 2.0;
 
-impl From<&Toon> for ToonUniform {
-    fn from(toon: &Toon) -> Self {
-        let colors = toon.ramp();
-        let mut ramp = [Vec4::ZERO; MAX_BANDS];
-        for (slot, color) in ramp.iter_mut().zip(&colors) {
-            *slot = color.to_linear().extend(1.0);
-        }
+impl ToonUniform {
+    fn new(toon: &Toon, first_band: u32, bands: u32) -> Self {
         let start = toon.start.clamp(-1.0, 1.0);
         // A ramp that ends where it begins is one step there.
         let range = (toon.end.clamp(-1.0, 1.0) - start).max(1e-3);
         let angle = toon.highlight_size.clamp(1.0, 60.0).to_radians();
         Self {
-            ramp,
             rim_color: toon.rim_color.to_linear(),
             rim: toon.rim.clamp(0.0, 1.0),
             highlight: toon.highlight.clamp(0.0, 1.0),
             highlight_from: if toon.highlight > 0.0 { angle.cos() } else { NOWHERE },
             rim_to: if toon.rim > 0.0 { toon.rim_width.clamp(0.0, 1.0) } else { -NOWHERE },
             tint: toon.tint.clamp(0.0, 1.0),
-            bands: colors.len() as u32,
+            first_band,
+            bands,
             start,
-            bands_per_unit: colors.len() as f32 / range,
+            bands_per_unit: bands as f32 / range,
             border: match toon.border {
                 Border::Nearest => NEAREST,
                 Border::CartoonMap => CARTOON_MAP,
@@ -70,13 +68,54 @@ impl From<&Toon> for ToonUniform {
             },
         }
     }
-}
 
-impl ToonUniform {
     /// Whether the borders of its bands are smoothed by the cartoon map.
     pub fn has_cartoon_map(&self) -> bool {
         self.border == CARTOON_MAP
     }
+}
+
+/// How all visible toons are shaded; empty when no object is a toon.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Toons {
+    /// By object id.
+    pub styles: Vec<ToonUniform>,
+    /// The bands of all ramps, one after the other: linear colours from shadow to light.
+    pub bands: Vec<Vec4>,
+    /// Where each ramp begins. Few differ, however many objects there are.
+    ramps: Vec<(u32, Arc<[Vec4]>)>,
+}
+
+impl Toons {
+    /// Makes one of `count` objects a toon.
+    pub fn set(&mut self, object: usize, count: usize, toon: &Toon, images: &StyleImages) {
+        let image = toon.ramp_image().and_then(|path| images.ramp(path));
+        let ramp = image.unwrap_or_else(|| {
+            toon.colors().into_iter().map(|color| color.to_linear().extend(1.0)).collect()
+        });
+        let first = match self.ramps.iter().find(|(_, known)| *known == ramp) {
+            Some((first, _)) => *first,
+            None => {
+                let first = self.bands.len() as u32;
+                self.bands.extend(ramp.iter());
+                self.ramps.push((first, Arc::clone(&ramp)));
+                first
+            }
+        };
+        self.styles.resize(count, ToonUniform::default());
+        if let Some(style) = self.styles.get_mut(object) {
+            *style = ToonUniform::new(toon, first, ramp.len() as u32);
+        }
+    }
+}
+
+/// The toons on the device.
+#[derive(Clone, Copy)]
+pub struct ToonBuffers<'a> {
+    /// [`Toons::styles`].
+    pub styles: &'a wgpu::Buffer,
+    /// [`Toons::bands`].
+    pub bands: &'a wgpu::Buffer,
 }
 
 /// Which features of the shader any object uses; `styles` are those of all visible objects, or none.

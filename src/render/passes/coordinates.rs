@@ -3,10 +3,10 @@
 
 use std::collections::HashMap;
 
-use super::gbuffer::{DEPTH, DrawCall, GBuffer, GBufferPass};
+use super::gbuffer::{DEPTH, DrawCall, GBuffer, draw_group};
 use crate::gpu::geometry::Attributes;
 use crate::gpu::recorder::color_attachment;
-use crate::gpu::{Gpu, Recorder, Target};
+use crate::gpu::{DynamicBuffer, Gpu, Recorder, Target};
 use crate::render::RenderError;
 use crate::render::gpu_scene::GpuScene;
 
@@ -21,8 +21,8 @@ pub struct CoordinatesPass {
 }
 
 impl CoordinatesPass {
-    /// Draws parts of the scene of which a G-buffer has just been made; 0 elsewhere. Their meshes must have texture
-    /// coordinates.
+    /// Draws parts of the scene of which a G-buffer was made from the same `draws`; 0 elsewhere. Their meshes must have
+    /// texture coordinates.
     ///
     /// # Errors
     /// [`RenderError`].
@@ -30,7 +30,8 @@ impl CoordinatesPass {
         &mut self,
         rec: &mut Recorder<'_>,
         scene: &GpuScene,
-        (gbuffer_pass, gbuffer): (&GBufferPass, &GBuffer),
+        gbuffer: &GBuffer,
+        (draw_layout, draws): (&wgpu::BindGroupLayout, &DynamicBuffer),
         calls: &[DrawCall],
     ) -> Result<Target, RenderError> {
         let target = rec.target("coordinates", COORDINATES)?;
@@ -41,11 +42,11 @@ impl CoordinatesPass {
         for call in calls {
             if !self.pipelines.contains_key(&call.hidden_side) {
                 let module = rec.pipelines.module(rec.gpu, "passes/coordinates.wgsl")?;
-                let layouts = [Some(rec.pipelines.frame_layout()), None, Some(&gbuffer_pass.draw_layout)];
+                let layouts = [Some(rec.pipelines.frame_layout()), None, Some(draw_layout)];
                 self.pipelines.insert(call.hidden_side, build(rec.gpu, &module, &layouts, call.hidden_side));
             }
         }
-        let group = gbuffer_pass.draw_group(rec.gpu);
+        let group = draw_group(rec.gpu, draw_layout, draws);
         let color = [Some(color_attachment(&target, wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT)))];
         let depth = wgpu::RenderPassDepthStencilAttachment {
             view: gbuffer.depth.view(),
@@ -63,7 +64,7 @@ impl CoordinatesPass {
         for call in calls {
             let Some(pipeline) = self.pipelines.get(&call.hidden_side) else { continue };
             pass.set_pipeline(pipeline);
-            pass.set_bind_group(2, &group, &[gbuffer_pass.draw_offset(call.draw)]);
+            pass.set_bind_group(2, &group, &[draws.offset(call.draw)]);
             let indices = call.first_index..call.first_index + call.index_count;
             pass.draw_indexed(indices, call.base_vertex, 0..1);
         }

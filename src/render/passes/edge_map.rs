@@ -45,6 +45,8 @@ pub struct EdgeInputs<'a> {
     pub segments: &'a [LineSegment],
     /// Whether any material of an object with lines has holes.
     pub has_holes: bool,
+    /// Whether what lies behind a plane is left out.
+    pub is_cut: bool,
 }
 
 impl EdgeMapPass {
@@ -78,7 +80,7 @@ impl EdgeMapPass {
         inputs: &EdgeInputs<'_>,
         edge_map: &Target,
     ) -> Result<Target, RenderError> {
-        let EdgeInputs { gbuffer, styles, edge_styles, segments, has_holes } = *inputs;
+        let EdgeInputs { gbuffer, styles, edge_styles, segments, has_holes, is_cut } = *inputs;
         let any = |has: fn(&EdgeUniform) -> bool| styles.iter().any(|s| s.is_exact() && has(s));
         let variation =
             [("WITH_VARIATION", any(EdgeUniform::varies)), ("WITH_PRESSURE", any(|s| s.pressure > 0.0))];
@@ -115,7 +117,7 @@ impl EdgeMapPass {
             Input::Storage(edge_styles),
             Input::Texture(&marks),
         ];
-        let switches = variation.to_vec();
+        let switches = [("WITH_CUT", is_cut)].into_iter().chain(variation).collect::<Vec<_>>();
         let program = |entry_point| Program {
             file: "passes/discontinuities.wgsl",
             entry_point,

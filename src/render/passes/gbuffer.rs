@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use encase::ShaderType;
 use glam::{Mat3, Mat4};
 
+use super::coordinates::CoordinatesPass;
 use crate::gpu::geometry::Attributes;
 use crate::gpu::material::MaterialUniform;
 use crate::gpu::recorder::color_attachment;
@@ -81,13 +82,23 @@ pub struct DrawCall {
 
 /// The pipelines of the pass, made when first needed.
 pub struct GBufferPass {
-    pipelines: HashMap<(Detail, Option<wgpu::Face>), wgpu::RenderPipeline>,
+    pipelines: HashMap<Variant, wgpu::RenderPipeline>,
     generation: u64,
     /// Layout of bind group 2.
     pub draw_layout: wgpu::BindGroupLayout,
     /// Layout of bind group 1.
     pub material_layout: wgpu::BindGroupLayout,
-    draws: DynamicBuffer,
+    /// Draws what has been drawn once more, for coordinates on surfaces.
+    pub coordinates: CoordinatesPass,
+}
+
+/// What tells the pipelines apart.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+struct Variant {
+    detail: Detail,
+    hidden_side: Option<wgpu::Face>,
+    /// Whether what lies behind a plane is left out.
+    is_cut: bool,
 }
 
 impl GBufferPass {
@@ -111,40 +122,30 @@ impl GBufferPass {
             generation: 0,
             draw_layout,
             material_layout: MaterialBindings::layout(gpu),
-            draws: DynamicBuffer::new::<DrawUniform>(gpu, "draws"),
+            coordinates: CoordinatesPass::default(),
         }
     }
 
-    /// The uniforms of all draws of the last run, of which a draw sees that at its [`Self::draw_offset`].
-    pub fn draw_group(&self, gpu: &Gpu) -> wgpu::BindGroup {
-        gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("draws"),
-            layout: &self.draw_layout,
-            entries: &[wgpu::BindGroupEntry { binding: 0, resource: self.draws.binding::<DrawUniform>() }],
-        })
-    }
-
-    /// The dynamic offset of a draw's uniform.
-    pub fn draw_offset(&self, draw: u32) -> u32 {
-        self.draws.offset(draw)
-    }
-
-    fn prepare(&mut self, gpu: &Gpu, pipelines: &mut Pipelines, call: &DrawCall) -> Result<(), RenderError> {
+    fn prepare(&mut self, gpu: &Gpu, pipelines: &mut Pipelines, key: Variant) -> Result<(), RenderError> {
         if self.generation != pipelines.generation() {
             self.pipelines.clear();
             self.generation = pipelines.generation();
         }
-        let key = (call.detail, call.hidden_side);
         if self.pipelines.contains_key(&key) {
             return Ok(());
         }
         let module = pipelines.module(gpu, "passes/gbuffer.wgsl")?;
         let layouts = [pipelines.frame_layout(), &self.material_layout, &self.draw_layout];
-        self.pipelines.insert(key, build(gpu, &module, &layouts, call.detail, call.hidden_side));
+        self.pipelines.insert(key, build(gpu, &module, &layouts, key));
         Ok(())
     }
 
-    /// Draws the given parts of a scene.
+    /// A buffer for the uniforms of draws.
+    pub fn draw_buffer(gpu: &Gpu) -> DynamicBuffer {
+        DynamicBuffer::new::<DrawUniform>(gpu, "draws")
+    }
+
+    /// Draws the given parts of a scene, whose uniforms go to `buffer`.
     ///
     /// # Errors
     /// [`RenderError`].
@@ -152,8 +153,9 @@ impl GBufferPass {
         &mut self,
         rec: &mut Recorder<'_>,
         scene: &GpuScene,
-        draws: &[DrawUniform],
-        calls: &[DrawCall],
+        buffer: &mut DynamicBuffer,
+        (draws, calls): (&[DrawUniform], &[DrawCall]),
+        is_cut: bool,
     ) -> Result<GBuffer, RenderError> {
         let gbuffer = GBuffer {
             geometry: rec.target("geometry", GEOMETRY)?,
@@ -162,11 +164,13 @@ impl GBufferPass {
             depth: rec.target("depth", DEPTH)?,
         };
         let gpu = rec.gpu;
+        let variant =
+            |call: &DrawCall| Variant { detail: call.detail, hidden_side: call.hidden_side, is_cut };
         for call in calls {
-            self.prepare(gpu, rec.pipelines, call)?;
+            self.prepare(gpu, rec.pipelines, variant(call))?;
         }
-        self.draws.write(gpu, draws)?;
-        let group = self.draw_group(gpu);
+        buffer.write(gpu, draws)?;
+        let group = draw_group(gpu, &self.draw_layout, buffer);
         let clear = || wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT);
         let color = [&gbuffer.geometry, &gbuffer.base_color, &gbuffer.region]
             .map(|target| Some(color_attachment(target, clear())));
@@ -184,7 +188,7 @@ impl GBufferPass {
         pass.set_index_buffer(scene.geometry.indices.slice(..), wgpu::IndexFormat::Uint32);
         let (mut bound, mut material) = (None, None);
         for call in calls {
-            let key = (call.detail, call.hidden_side);
+            let key = variant(call);
             if bound != Some(key) {
                 let Some(pipeline) = self.pipelines.get(&key) else { continue };
                 pass.set_pipeline(pipeline);
@@ -195,7 +199,7 @@ impl GBufferPass {
                 material = Some(call.material_group);
             }
             let indices = call.first_index..call.first_index + call.index_count;
-            pass.set_bind_group(2, &group, &[self.draw_offset(call.draw)]);
+            pass.set_bind_group(2, &group, &[buffer.offset(call.draw)]);
             pass.draw_indexed(indices, call.base_vertex, 0..1);
         }
         drop(pass);
@@ -203,12 +207,24 @@ impl GBufferPass {
     }
 }
 
+/// The uniforms of all draws, of which each sees its own by a dynamic offset.
+pub(super) fn draw_group(
+    gpu: &Gpu,
+    layout: &wgpu::BindGroupLayout,
+    draws: &DynamicBuffer,
+) -> wgpu::BindGroup {
+    gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: Some("draws"),
+        layout,
+        entries: &[wgpu::BindGroupEntry { binding: 0, resource: draws.binding::<DrawUniform>() }],
+    })
+}
+
 fn build(
     gpu: &Gpu,
     module: &wgpu::ShaderModule,
     layouts: &[&wgpu::BindGroupLayout; 3],
-    detail: Detail,
-    hidden_side: Option<wgpu::Face>,
+    variant: Variant,
 ) -> wgpu::RenderPipeline {
     let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
         label: Some("g-buffer"),
@@ -226,7 +242,7 @@ fn build(
         attributes: &wgpu::vertex_attr_array![1 => Uint32],
     };
     let buffers = [Some(position), Some(surface), Some(Attributes::LAYOUT)];
-    let (vertex, fragment) = match detail {
+    let (vertex, fragment) = match variant.detail {
         Detail::Lean => ("vs_lean", "fs_lean"),
         Detail::Smooth => ("vs_smooth", "fs_smooth"),
         Detail::Full => ("vs_full", "fs_full"),
@@ -238,10 +254,10 @@ fn build(
             module,
             entry_point: Some(vertex),
             compilation_options: wgpu::PipelineCompilationOptions::default(),
-            buffers: if detail == Detail::Lean { &buffers[..2] } else { &buffers },
+            buffers: if variant.detail == Detail::Lean { &buffers[..2] } else { &buffers },
         },
         // Unless a mesh is known to be solid, both sides are drawn: flipped or mixed winding is common in files.
-        primitive: wgpu::PrimitiveState { cull_mode: hidden_side, ..Default::default() },
+        primitive: wgpu::PrimitiveState { cull_mode: variant.hidden_side, ..Default::default() },
         depth_stencil: Some(wgpu::DepthStencilState {
             format: DEPTH,
             depth_write_enabled: Some(true),
@@ -253,7 +269,10 @@ fn build(
         fragment: Some(wgpu::FragmentState {
             module,
             entry_point: Some(fragment),
-            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            compilation_options: wgpu::PipelineCompilationOptions {
+                constants: &[("WITH_CUT", f64::from(u8::from(variant.is_cut)))],
+                ..Default::default()
+            },
             targets: &[Some(GEOMETRY.into()), Some(BASE_COLOR.into()), Some(REGION.into())],
         }),
         multiview_mask: None,

@@ -55,7 +55,8 @@ fn bilinear(texels: &Level, u: f32, v: f32) -> [f32; 2] {
         (first, (first + 1) % side.max(1), texel - texel.floor())
     };
     let ((left, right, x), (upper, lower, y)) = (split(u), split(v));
-    let at = |column: usize, row: usize| texels.get(row * side + column).map_or([0.0; 2], |t| t.map(f32::from));
+    let at =
+        |column: usize, row: usize| texels.get(row * side + column).map_or([0.0; 2], |t| t.map(f32::from));
     let corners = [at(left, upper), at(right, upper), at(left, lower), at(right, lower)];
     [0, 1].map(|i| {
         let [a, b, c, d] = corners.map(|corner| corner[i] / 255.0);
@@ -71,16 +72,17 @@ const TRIED: usize = 128;
 
 /// Thresholds for all tones at a place in the octave, for pixels of 2^`size` texels.
 fn measure_tones(layers: &[Vec<Level>], place: usize, size: f32) -> [f32; TONES] {
-    let (step, share) = (place * STEPS / (PLACES - 1), (place * STEPS % (PLACES - 1)) as f32 / (PLACES - 1) as f32);
+    let (step, share) =
+        (place * STEPS / (PLACES - 1), (place * STEPS % (PLACES - 1)) as f32 / (PLACES - 1) as f32);
     let tried: [f32; TRIED + 1] = std::array::from_fn(|i| i as f32 / TRIED as f32);
     let mut inks = [0.0f32; TRIED + 1];
     for n in 0..MEASURED {
         // The R2 sequence fills the tile evenly.
         let at = [0.754_877_7, 0.569_840_3].map(|step: f64| (step * n as f64).fract() as f32);
-        let [here, there] = [step, step + 1].map(|step| {
-            layers.get(step).map_or([0.0; 2], |layer| sample(layer, at, size))
-        });
-        let [mean, spread] = if share == 0.0 { here } else { [0, 1].map(|i| here[i] + (there[i] - here[i]) * share) };
+        let [here, there] =
+            [step, step + 1].map(|step| layers.get(step).map_or([0.0; 2], |layer| sample(layer, at, size)));
+        let [mean, spread] =
+            if share == 0.0 { here } else { [0, 1].map(|i| here[i] + (there[i] - here[i]) * share) };
         for (sum, threshold) in inks.iter_mut().zip(&tried) {
             *sum += ink(mean, spread, size.exp2(), *threshold) / MEASURED as f32;
         }

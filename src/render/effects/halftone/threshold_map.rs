@@ -122,8 +122,8 @@ fn levels(thresholds: &[u8]) -> Vec<Level> {
         texels = (0..half * half)
             .map(|i| {
                 let (x, y) = (i % half * 2, i / half * 2);
-                let four =
-                    [y * side + x, y * side + x + 1, (y + 1) * side + x, (y + 1) * side + x + 1].map(|j| texels[j]);
+                let four = [y * side + x, y * side + x + 1, (y + 1) * side + x, (y + 1) * side + x + 1]
+                    .map(|j| texels[j]);
                 let mean = four.iter().map(|t| t.mean).sum::<f32>() * 0.25;
                 // The law of total variance.
                 let variance =

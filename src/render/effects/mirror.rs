@@ -1,0 +1,138 @@
+//! Mirrors: the scene is drawn once more from the eye's mirror image, with edges of its own, and laid over the mirror's
+//! surface (edge-enhancement paper, section 5, Fig. 8). The paper's stencil is the G-buffer's object id.
+
+use encase::ShaderType;
+use glam::{DVec2, DVec3, UVec2, Vec3};
+
+use crate::geometry::{Bounds, Plane};
+use crate::gpu::recorder::{Draw, Input, Onto};
+use crate::gpu::{DepthRule, Program, Recorder, Target};
+use crate::render::RenderError;
+use crate::render::frame_uniform::View;
+use crate::render::passes::gbuffer::GBuffer;
+use crate::style;
+use crate::style::mirror::Side;
+
+/// A flat object with the role mirror.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Mirror {
+    /// Its object id.
+    pub object: u32,
+    /// Where it lies, world space.
+    plane: Plane,
+    /// The corners of a box around it, world space, in the order of [`Bounds::corners`].
+    corners: [DVec3; 8],
+    sides: Side,
+    uniform: MirrorUniform,
+}
+
+/// Twin of `Mirror` in `shaders/effects/mirror.wgsl`.
+#[derive(Debug, Clone, Copy, PartialEq, ShaderType)]
+pub struct MirrorUniform {
+    tint: Vec3,
+    reflectivity: f32,
+    fresnel: f32,
+    object: u32,
+}
+
+impl Mirror {
+    /// A mirror in the plane of an object with this box around it.
+    pub fn new(object: u32, plane: Plane, corners: [DVec3; 8], style: &style::Mirror) -> Self {
+        let uniform = MirrorUniform {
+            tint: style.tint.to_linear(),
+            reflectivity: style.reflectivity.clamp(0.0, 1.0),
+            fresnel: style.fresnel.clamp(0.0, 1.0),
+            object,
+        };
+        Self { object, plane, corners, sides: style.side, uniform }
+    }
+
+    /// How it blends, as the shader reads it.
+    pub fn uniform(&self) -> MirrorUniform {
+        self.uniform
+    }
+
+    /// What is seen in it; `None` if that is nothing: it is beyond the picture, turned away, wholly cut off, or reflects
+    /// nothing. `margin`: how far the lines in it may reach, in pixels; `visible`: the box around everything visible.
+    pub fn seen_from(&self, view: &View, visible: &Bounds, margin: f32) -> Option<View> {
+        if self.uniform.reflectivity <= 0.0 && self.uniform.fresnel <= 0.0
+            || view.cuts_off(&self.corners.map(|corner| view.view_from_world.transform_point3(corner)))
+        {
+            return None;
+        }
+        let world_from_view = view.view_from_world.inverse();
+        let towards_eye = if view.orthographic {
+            world_from_view.transform_vector3(DVec3::Z)
+        } else {
+            world_from_view.transform_point3(DVec3::ZERO) - self.plane.point
+        };
+        let lead = self.plane.normal.dot(towards_eye);
+        // Seen exactly from the side, a mirror is a line.
+        let is_seen = match self.sides {
+            Side::Front => lead > 0.0,
+            Side::Back => lead < 0.0,
+            Side::Both => lead != 0.0,
+        };
+        let part = part_of(view, &self.corners, margin)?;
+        let facing = Plane { normal: self.plane.normal * lead.signum(), ..self.plane };
+        is_seen.then(|| view.mirrored(&facing, visible, part))
+    }
+}
+
+/// The part of the picture that a box covers at most, with a margin: left, top, right and bottom edge in pixels. `None`
+/// if it is empty. `corners`: world space, in the order of [`Bounds::corners`].
+fn part_of(view: &View, corners: &[DVec3; 8], margin: f32) -> Option<[u32; 4]> {
+    let projector = view.projector();
+    let [near, _] = view.clip_range;
+    let in_view = corners.map(|corner| view.view_from_world.transform_point3(corner));
+    let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
+    for (i, &from) in in_view.iter().enumerate() {
+        for to in [1, 2, 4].map(|bit| in_view[i ^ bit]) {
+            // Of each edge that begins before the near plane, its beginning, or where it ends there.
+            let (lead, other) = (-from.z - near, -to.z - near);
+            if !view.orthographic && lead < 0.0 {
+                continue;
+            }
+            let ends = !view.orthographic && other < 0.0;
+            let cut = if ends { from.lerp(to, lead / (lead - other)) } else { from };
+            for point in [from, cut] {
+                let px = projector.pixel(point);
+                (low, high) = (low.min(px), high.max(px));
+            }
+        }
+    }
+    let margin = f64::from(margin) + 2.0;
+    let (low, high) = (low - margin, high + margin);
+    let edge = |at: f64, size: u32| at.clamp(0.0, f64::from(size)) as u32;
+    let UVec2 { x: width, y: height } = view.size;
+    let part = [
+        edge(low.x.floor(), width),
+        edge(low.y.floor(), height),
+        edge(high.x.ceil(), width),
+        edge(high.y.ceil(), height),
+    ];
+    (part[0] < part[2] && part[1] < part[3]).then_some(part)
+}
+
+/// Lays what is seen in a mirror over its surface. `uniform`: an array of one [`MirrorUniform`].
+///
+/// # Errors
+/// [`RenderError`].
+pub fn mirror(
+    rec: &mut Recorder<'_>,
+    gbuffer: &GBuffer,
+    reflection: &Target,
+    uniform: &wgpu::Buffer,
+    color: &Target,
+) -> Result<(), RenderError> {
+    rec.draw(Draw {
+        label: "mirror",
+        program: Program::new("effects/mirror.wgsl", "fs_main"),
+        inputs: &[Input::Texture(&gbuffer.geometry), Input::Texture(reflection), Input::Storage(uniform)],
+        outputs: &[color],
+        onto: Onto::Blended,
+        depth: Some((&gbuffer.depth, DepthRule::Covered)),
+        lines: None,
+    })?;
+    Ok(())
+}
