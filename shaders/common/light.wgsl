@@ -16,3 +16,13 @@ fn visibility(px: vec2<i32>, light: u32) -> f32 {
     let mask = textureLoad(shadow_mask_tex, px, 0);
     return 1.0 - frame.shadow_density * (1.0 - mask[channel - 1u]);
 }
+
+// What reaches a surface from all lights together, as a factor of its colour.
+fn light_at(px: vec2<i32>, normal: vec3<f32>, pos_view: vec3<f32>) -> vec3<f32> {
+    var light = vec3(0.0);
+    for (var i = 0u; i < frame.light_count; i++) {
+        let l = towards_light(frame.lights[i], pos_view);
+        light += frame.lights[i].color * max(dot(normal, l), 0.0) * visibility(px, i);
+    }
+    return light;
+}

@@ -1,10 +1,11 @@
-//! The surface techniques (blank, plain, unlit, Gooch, toon), shaded from the G-buffer in one full-screen pass: the scene is
-//! traversed once, where the edge-enhancement paper's pipeline traverses it twice.
+//! The surface techniques (blank, plain, unlit, Gooch, toon, halftone), shaded from the G-buffer in one full-screen pass:
+//! the scene is traversed once, where the edge-enhancement paper's pipeline traverses it twice.
 
 use encase::ShaderType;
 use glam::DMat4;
 
 use super::gooch::GoochUniform;
+use super::halftone::{self, HalftoneInputs};
 use super::toon::{self, ToonBuffers, Toons};
 use crate::gpu::recorder::Input;
 use crate::gpu::{Program, Recorder, Target};
@@ -26,6 +27,7 @@ const PLAIN: u32 = 1;
 const UNLIT: u32 = 2;
 const GOOCH: u32 = 3;
 const TOON: u32 = 4;
+const HALFTONE: u32 = 5;
 
 impl SurfaceUniform {
     /// Of an object that lies at `world_from_local`.
@@ -42,6 +44,7 @@ impl SurfaceUniform {
                 Technique::Unlit => UNLIT,
                 Technique::Gooch => GOOCH,
                 Technique::Toon => TOON,
+                Technique::Halftone => HALFTONE,
             },
         }
     }
@@ -62,6 +65,8 @@ pub struct Shading<'a> {
     pub shadow_mask: Option<&'a Target>,
     /// See [`toon::cartoon_map`]; `None` when no object asks for it.
     pub cartoon_map: Option<&'a Target>,
+    /// What halftones need.
+    pub halftones: HalftoneInputs<'a>,
 }
 
 /// Linear colour times opacity, and opacity. Nothing where there is no object.
@@ -82,6 +87,7 @@ pub fn surface(
         ("WITH_METAL", shading.surfaces.iter().any(|s| s.gooch.has_metal())),
     ];
     switches.extend(toon::switches(&shading.toons.styles));
+    switches.extend(halftone::switches(shading.halftones.styles));
     rec.fullscreen(
         "surface",
         Program { file: "effects/surface.wgsl", entry_point: "fs_main", switches },
@@ -95,6 +101,11 @@ pub fn surface(
             Input::Texture(&gbuffer.region),
             Input::Texture(&gbuffer.base_color),
             Input::Storage(shading.surface_styles),
+            Input::Storage(shading.halftones.style_buffer),
+            Input::Layers(shading.halftones.maps.thresholds()),
+            Input::Sampler(shading.halftones.maps.sampler()),
+            Input::Storage(shading.halftones.maps.calibration()),
+            Input::Texture(shading.halftones.coordinates.unwrap_or(&gbuffer.geometry)),
         ],
         &[&color],
         Some(&gbuffer.depth),
