@@ -28,7 +28,7 @@ use super::sample::Sample;
 use super::segments::segments;
 use super::shadows::{ShadowMap, ShadowMask};
 use super::stage::{Output, Stage};
-use crate::geometry::LineSegment;
+use crate::geometry::{EdgeClass, LineSegment};
 use crate::gpu::{ArrayBuffer, DynamicBuffer, Gpu, Recorder, Target, UniformBuffer};
 
 /// What is to be drawn, and from where.
@@ -96,7 +96,7 @@ pub struct Drawing {
     halftone_styles: ArrayBuffer,
     gbuffer: Stage<(u64, u64, View, Vec<DrawUniform>, Vec<DrawCall>), GBuffer>,
     segments: Stage<(u64, View, Vec<EdgeUniform>, f32), Arc<Vec<LineSegment>>>,
-    edge_map: Stage<(u64, Vec<EdgeUniform>, Vec2, Option<FrameUniform>), EdgeMap>,
+    edge_map: Stage<([u64; 2], Vec<EdgeUniform>, Vec2, Option<FrameUniform>), EdgeMap>,
     reach: Stage<u64, Reach>,
     shadow_mask: ShadowMask,
     cartoon_map: Stage<(u64, u64, Toons, FrameUniform), Target>,
@@ -255,7 +255,10 @@ impl Drawing {
             let found = segments(inputs.scene, inputs.objects, &view, inputs.crease_angle);
             Ok::<_, RenderError>(Arc::new(found))
         })?;
-        let edges = (begun.gbuffer.revision, styles, begun.depth_range, light);
+        let has_borders = styles.iter().any(|s| s.draws(EdgeClass::Shadow));
+        let shadow_mask = begun.shadow_mask.as_ref().filter(|_| has_borders);
+        let revisions = [begun.gbuffer.revision, shadow_mask.map_or(0, |mask| mask.revision)];
+        let edges = (revisions, styles, begun.depth_range, light);
         self.edge_map.run(edges, |(_, styles, ..)| {
             self.edge_map_pass.run(
                 rec,
@@ -266,6 +269,7 @@ impl Drawing {
                     segments: &segments.value,
                     has_holes: inputs.objects.has_holes,
                     is_cut: view.cut.is_some(),
+                    shadow_mask: shadow_mask.map(|mask| &mask.value),
                 },
             )
         })
