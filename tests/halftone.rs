@@ -34,7 +34,7 @@ fn name(texture: Texture) -> &'static str {
 /// Black ink on white paper, without lines and lights: the tone is the ambient light.
 fn halftone(scene: &Arc<Scene>, towards_viewer: DVec3, texture: Texture) -> Opened {
     let mut opened = opened(scene, towards_viewer);
-    opened.document.lights.clear();
+    set(&mut opened, "light.source", "file");
     for (key, value) in [
         ("technique", "halftone"),
         ("halftone.texture", name(texture)),
@@ -331,7 +331,7 @@ fn a_picture_twice_as_large_is_the_same_drawing() {
             let mut opened = halftone(&ball, DVec3::Z, texture);
             fix(&mut opened, fixed);
             set(&mut opened, "halftone.scale", "60");
-            opened.document.lights = hachure::scene::Light::default_rig();
+            set(&mut opened, "light.source", "rig");
             session.set_scene(&opened).unwrap();
             let small = inks(&mut session, &opened, SIDE);
             let large = inks(&mut session, &opened, 2 * SIDE);
@@ -358,7 +358,7 @@ fn one_halftones_parameters_change_no_pixel_of_another() {
         ("b", primitives::sphere(0.7, 48, 64), at(0.8, 0.2, 0.4), [0.4, 0.4, 0.8]),
     ]);
     let mut before = halftone(&scene, DVec3::new(0.1, 0.4, 1.0), Texture::Strokes);
-    before.document.lights = hachure::scene::Light::default_rig();
+    set(&mut before, "light.source", "rig");
     let first = image(&mut session, &before, SIDE);
     let picture = draw(&mut session, &before, SIDE);
     let objects: Vec<u32> = surfels(&mut session, &picture).iter().map(|s| s.object).collect();

@@ -27,7 +27,6 @@ fn at(x: f64, y: f64, z: f64) -> DMat4 {
 /// A toon without lines.
 fn toon(scene: &Arc<Scene>, towards_viewer: DVec3, border: &str) -> Opened {
     let mut opened = opened(scene, towards_viewer);
-    opened.document.lights.truncate(1);
     for (key, value) in [
         ("technique", "toon"),
         ("toon.border", border),

@@ -1,7 +1,12 @@
 // Gooch shading: cool to warm, a highlight, and the stripes of milled metal (Gooch et al. 1998, sections 3.1 and 3.2).
 #import common/frame.wgsl
 #import common/gbuffer.wgsl
+#import common/light.wgsl
 #import common/same_surface.wgsl
+
+// How far shadows go to the cool end, and up to which N·L the form's own shadow reaches.
+const SHADE: f32 = 0.7;
+const TERMINATOR: f32 = 0.25;
 
 // Whether any object has stripes.
 override WITH_METAL: bool = true;
@@ -116,11 +121,20 @@ fn gooch(px: vec2<i32>, s: Surfel, style: GoochStyle, base: vec3<f32>, pos_view:
     let l = towards_light(frame.lights[0], pos_view);
     let cool = min(style.cool + style.alpha * base, vec3(1.0));
     let warm = min(style.warm + style.beta * base, vec3(1.0));
-    var shade = mix(cool, warm, 0.5 + 0.5 * dot(s.normal, l));
+    let n_l = dot(s.normal, l);
+    let lit = visibility(px, 0u);
+    var warmth = 0.5 + 0.5 * n_l;
+    if WITH_SHADOWS {
+        // Towards the terminator the form's own shadow begins, softly where the surface is smooth: so that shadows
+        // neither end there nor show the facets of the mesh.
+        let own = frame.shadow_density * (1.0 - smoothstep(0.0, TERMINATOR, n_l));
+        warmth *= 1.0 - SHADE * max(1.0 - lit, own * f32(frame.lights[0].shadow != 0u));
+    }
+    var shade = mix(cool, warm, warmth);
     if WITH_METAL && style.metal > 0.0 {
         shade = metallic(px, s, style, shade, l);
     }
     let reflected = reflect(-l, s.normal);
     let gloss = pow(max(dot(reflected, towards_eye(pos_view)), 0.0), style.shininess);
-    return mix(shade, vec3(1.0), style.highlight * gloss);
+    return mix(shade, vec3(1.0), style.highlight * gloss * lit);
 }

@@ -2,6 +2,7 @@
 // Non-Photorealistic Shading"), of which the mean ink is exactly what the tone asks for.
 #import common/frame.wgsl
 #import common/gbuffer.wgsl
+#import common/light.wgsl
 
 const SCREEN: u32 = 1u;
 const TRIPLANAR: u32 = 2u;
@@ -39,14 +40,14 @@ struct HalftoneStyle {
     space: u32,
 }
 
-@group(1) @binding(7) var<storage, read> halftone_styles: array<HalftoneStyle>;
+@group(1) @binding(8) var<storage, read> halftone_styles: array<HalftoneStyle>;
 // Mean threshold and twice its standard deviation; see src/render/effects/halftone/threshold_map.rs.
-@group(1) @binding(8) var thresholds: texture_2d_array<f32>;
-@group(1) @binding(9) var threshold_sampler: sampler;
+@group(1) @binding(9) var thresholds: texture_2d_array<f32>;
+@group(1) @binding(10) var threshold_sampler: sampler;
 // For each map the threshold for each of `PLACES` in the octave, `SIZES` of a pixel and `TONES`.
-@group(1) @binding(10) var<storage, read> calibration: array<f32>;
+@group(1) @binding(11) var<storage, read> calibration: array<f32>;
 // Texture coordinates: see shaders/passes/coordinates.wgsl.
-@group(1) @binding(11) var coordinates_tex: texture_2d<u32>;
+@group(1) @binding(12) var coordinates_tex: texture_2d<u32>;
 
 // As in src/render/effects/halftone/, threshold_map.rs and calibration.rs.
 const SIDE: f32 = 512.0;
@@ -221,19 +222,16 @@ fn luminance(linear: vec3<f32>) -> f32 {
 }
 
 // Desired share of paper, from the light.
-fn halftone_tone(object: u32, base: vec3<f32>, normal: vec3<f32>, pos_view: vec3<f32>) -> f32 {
-    var light = vec3(halftone_styles[object].ambient);
-    for (var i = 0u; i < frame.light_count; i++) {
-        let l = towards_light(frame.lights[i], pos_view);
-        light += frame.lights[i].color * max(dot(normal, l), 0.0);
-    }
+fn halftone_tone(px: vec2<i32>, s: Surfel, base: vec3<f32>, pos_view: vec3<f32>) -> f32 {
+    let object = s.object;
+    let light = halftone_styles[object].ambient + light_at(px, s.normal, pos_view);
     let reflected = luminance(light) * mix(1.0, luminance(base), halftone_styles[object].own_tone);
     let linear = (reflected - halftone_styles[object].black) / halftone_styles[object].range;
     return pow(clamp(linear, 0.0, 1.0), halftone_styles[object].gamma);
 }
 
 fn halftone(px: vec2<i32>, s: Surfel, base: vec3<f32>, pos_view: vec3<f32>) -> vec3<f32> {
-    let tone = halftone_tone(s.object, base, s.normal, pos_view);
+    let tone = halftone_tone(px, s, base, pos_view);
     let space = halftone_styles[s.object].space;
     var ink = 1.0 - tone;
     if WITH_SCREEN && space == SCREEN {

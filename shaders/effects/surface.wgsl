@@ -2,6 +2,7 @@
 #import common/frame.wgsl
 #import common/fullscreen.wgsl
 #import common/gbuffer.wgsl
+#import common/light.wgsl
 #import effects/gooch.wgsl
 #import effects/halftone.wgsl
 #import effects/toon.wgsl
@@ -24,17 +25,8 @@ struct SurfaceStyle {
     technique: u32,
 }
 
-@group(1) @binding(5) var base_color_tex: texture_2d<f32>;
-@group(1) @binding(6) var<storage, read> surface_styles: array<SurfaceStyle>;
-
-fn plain(style: SurfaceStyle, base: vec3<f32>, normal: vec3<f32>, pos_view: vec3<f32>) -> vec3<f32> {
-    var light = vec3(style.ambient);
-    for (var i = 0u; i < frame.light_count; i++) {
-        let l = towards_light(frame.lights[i], pos_view);
-        light += frame.lights[i].color * max(dot(normal, l), 0.0);
-    }
-    return base * light;
-}
+@group(1) @binding(6) var base_color_tex: texture_2d<f32>;
+@group(1) @binding(7) var<storage, read> surface_styles: array<SurfaceStyle>;
 
 // Linear colour times opacity, and opacity.
 @fragment
@@ -52,7 +44,7 @@ fn fs_main(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
             if WITH_GOOCH && style.technique == GOOCH {
                 shade = gooch(px, s, style.gooch, base, pos_view);
             } else if WITH_PLAIN && style.technique == PLAIN {
-                shade = plain(style, base, s.normal, pos_view);
+                shade = base * (style.ambient + light_at(px, s.normal, pos_view));
             } else if WITH_TOON && style.technique == TOON {
                 shade = toon(px, s, base);
             } else if WITH_HALFTONE && style.technique == HALFTONE {

@@ -2,6 +2,7 @@
 #import common/frame.wgsl
 #import common/fullscreen.wgsl
 #import common/gbuffer.wgsl
+#import common/light.wgsl
 #import common/same_surface.wgsl
 
 const NEAREST: u32 = 1u;
@@ -35,22 +36,25 @@ struct ToonStyle {
     border: u32,
 }
 
-@group(1) @binding(1) var<storage, read> toon_styles: array<ToonStyle>;
+@group(1) @binding(2) var<storage, read> toon_styles: array<ToonStyle>;
 // Linear colours of all ramps.
-@group(1) @binding(2) var<storage, read> toon_bands: array<vec4<f32>>;
+@group(1) @binding(3) var<storage, read> toon_bands: array<vec4<f32>>;
 // The bands of the objects whose borders are smoothed by it.
-@group(1) @binding(3) var cartoon_map_tex: texture_2d<u32>;
+@group(1) @binding(4) var cartoon_map_tex: texture_2d<u32>;
 
-// x: place on the ramp, in bands; y: N·H past the highlight's border; z: N·V past the rim's border; w: N·L.
-fn toon_fields(object: u32, normal: vec3<f32>, pos_view: vec3<f32>) -> vec4<f32> {
+// x: place on the ramp, in bands: its beginning in shadow; y: N·H past the highlight's border; z: N·V past the rim's
+// border; w: N·L, negative in shadow.
+fn toon_fields(px: vec2<i32>, object: u32, normal: vec3<f32>, pos_view: vec3<f32>) -> vec4<f32> {
     let l = towards_light(frame.lights[0], pos_view);
     let v = towards_eye(pos_view);
     let n_l = dot(normal, l);
+    let place = (n_l - toon_styles[object].start) * toon_styles[object].bands_per_unit;
+    let lit = visibility(px, 0u);
     return vec4(
-        (n_l - toon_styles[object].start) * toon_styles[object].bands_per_unit,
+        mix(min(place, 0.0), place, lit),
         dot(normal, normalize(l + v)) - toon_styles[object].highlight_from,
         toon_styles[object].rim_to - dot(normal, v),
-        n_l,
+        n_l * (2.0 * lit - 1.0),
     );
 }
 
@@ -95,7 +99,7 @@ fn fs_cartoon_map(@builtin(position) position: vec4<f32>) -> @location(0) u32 {
     let s = unpack_surfel(geometry_at(px));
     var code = 0u;
     if toon_styles[s.object].border == CARTOON_MAP {
-        code = toon_code(s.object, toon_fields(s.object, s.normal, pos_view_of(px, s.depth)));
+        code = toon_code(s.object, toon_fields(px, s.object, s.normal, pos_view_of(px, s.depth)));
     }
     return code;
 }
@@ -153,7 +157,7 @@ fn toon_change(px: vec2<i32>, s: Surfel, fields: vec4<f32>, step: vec2<i32>) -> 
     if !is_inside || !goes_on(px, s, q, other) {
         return Change(vec4(0.0), 0.0);
     }
-    return Change(toon_fields(s.object, other.normal, pos_view_of(q, other.depth)) - fields, 1.0);
+    return Change(toon_fields(q, s.object, other.normal, pos_view_of(q, other.depth)) - fields, 1.0);
 }
 
 // Change of the fields per pixel along an axis, from both sides where the surface goes on there.
@@ -165,7 +169,7 @@ fn toon_slope(px: vec2<i32>, s: Surfel, fields: vec4<f32>, axis: vec2<i32>) -> v
 
 // The bands' shares in the pixel, from the slopes of the fields.
 fn analytic(px: vec2<i32>, s: Surfel, base: vec3<f32>) -> vec3<f32> {
-    let fields = toon_fields(s.object, s.normal, pos_view_of(px, s.depth));
+    let fields = toon_fields(px, s.object, s.normal, pos_view_of(px, s.depth));
     let dx = toon_slope(px, s, fields, vec2(1, 0));
     let dy = toon_slope(px, s, fields, vec2(0, 1));
     // Where nothing changes, a border is a step.
@@ -193,7 +197,7 @@ fn toon(px: vec2<i32>, s: Surfel, base: vec3<f32>) -> vec3<f32> {
         color = analytic(px, s, base);
     }
     if WITH_NEAREST && border == NEAREST {
-        let fields = toon_fields(s.object, s.normal, pos_view_of(px, s.depth));
+        let fields = toon_fields(px, s.object, s.normal, pos_view_of(px, s.depth));
         color = toon_color(s.object, base, toon_code(s.object, fields));
     }
     return color;

@@ -176,15 +176,12 @@ impl Viewer {
             self.document = Document {
                 up: memory.and_then(|m| m.up),
                 metres_per_unit: memory.and_then(|m| m.metres_per_unit),
-                lights: if scene.lights.is_empty() {
-                    Document::default().lights
-                } else {
-                    scene.lights.clone()
-                },
+                lighting: self.document.lighting.clone(),
                 style: self.document.style.clone(),
                 view: self.document.view.clone(),
                 ..Document::default()
             };
+            self.document.use_lights_of(scene);
         }
         self.document.models = models.to_vec();
         if let Some(style) = self.start_style.take() {

@@ -12,7 +12,7 @@ use super::jobs::Job;
 use super::leaving::{Leaving, is_changed};
 use super::loading::{Intent, LoadError, Loaded, Loader, Model};
 use super::notices::Notices;
-use super::panels::{Choosing, Editing, empty, help, menu, outliner::Outliner, status, style, view};
+use super::panels::{Choosing, Editing, empty, help, light, menu, outliner::Outliner, status, style, view};
 use super::screenshot::{Destination, ScreenshotError, Shot};
 use super::selection::Selection;
 use super::state::{AppState, Page, Samples};
@@ -402,7 +402,7 @@ fn inspector_ui(
 ) -> bool {
     ui.add_space(4.0);
     ui.horizontal(|ui| {
-        for (this, name) in [(Page::Style, "Style"), (Page::View, "View")] {
+        for (this, name) in [(Page::Style, "Style"), (Page::Light, "Light"), (Page::View, "View")] {
             let is_open = *page == this;
             let tab = ui.selectable_value(page, this, name);
             tab.widget_info(|| egui::WidgetInfo::selected(egui::Role::Tab, true, is_open, name));
@@ -413,6 +413,7 @@ fn inspector_ui(
     egui::ScrollArea::vertical().id_salt(format!("{page:?}")).auto_shrink([false, false]).show(ui, |ui| {
         match page {
             Page::Style => style::style_ui(ui, editing),
+            Page::Light => light::light_ui(ui, editing),
             Page::View => turned = view::view_ui(ui, editing, samples),
         }
         ui.add_space(8.0);

@@ -6,6 +6,7 @@ use serde_json::json;
 
 use super::args::BenchArgs;
 use super::{CliError, print_json, print_line, sample};
+use crate::document::Lighting;
 use crate::export::Session;
 use crate::export::session::{Opened, initial_camera, open, topology};
 use crate::gpu::Gpu;
@@ -16,7 +17,14 @@ use crate::style::halftone::{Mapping, Space};
 use crate::style::toon::Border;
 use crate::style::{DepthOperator, EdgeMode, Style, Technique, preset};
 
-/// One style, measured.
+/// What is measured: a style in some light.
+struct Look {
+    name: &'static str,
+    style: Style,
+    lighting: Lighting,
+}
+
+/// One look, measured.
 struct Row {
     name: &'static str,
     frame_ms: Vec<f64>,
@@ -30,12 +38,13 @@ pub(super) fn run(args: &BenchArgs) -> Result<(), CliError> {
     let load_ms = started.elapsed().as_secs_f64() * 1e3;
     let mut bench = Bench::new(opened, args.resolution.0)?;
 
+    let looks = looks()?;
     let mut rows: Vec<Row> =
-        styles()?.iter().map(|(name, _)| Row { name, frame_ms: Vec::new(), stages: Vec::new() }).collect();
-    // The styles take turns, so that a slow moment of the machine hits all of them alike.
+        looks.iter().map(|look| Row { name: look.name, frame_ms: Vec::new(), stages: Vec::new() }).collect();
+    // The looks take turns, so that a slow moment of the machine hits all of them alike.
     for frame in 0..args.frames + WARM_UP {
-        for (i, (row, (_, style))) in rows.iter_mut().zip(styles()?).enumerate() {
-            let ms = bench.frame(&style, turn(frame, i))?;
+        for (i, (row, look)) in rows.iter_mut().zip(&looks).enumerate() {
+            let ms = bench.frame(look, turn(frame, i))?;
             if frame >= WARM_UP {
                 row.frame_ms.push(ms);
             }
@@ -44,8 +53,8 @@ pub(super) fn run(args: &BenchArgs) -> Result<(), CliError> {
     // Timing each pass holds the device up, so it is done by itself.
     bench.session.renderer().enable_timers();
     for frame in 0..args.frames.min(10) + WARM_UP {
-        for (i, (row, (_, style))) in rows.iter_mut().zip(styles()?).enumerate() {
-            bench.frame(&style, turn(frame, i))?;
+        for (i, (row, look)) in rows.iter_mut().zip(&looks).enumerate() {
+            bench.frame(look, turn(frame, i))?;
             for (label, ms) in bench.session.renderer().timings()?.into_iter().filter(|_| frame >= WARM_UP) {
                 match row.stages.iter_mut().find(|(known, _)| *known == label) {
                     Some((_, all)) => all.push(ms),
@@ -89,10 +98,11 @@ impl Bench {
         Ok(Self { session, opened, size, camera, topology_ms })
     }
 
-    /// Draws everything in one style, turned by so many degrees; returns milliseconds.
-    fn frame(&mut self, style: &Style, turn: f64) -> Result<f64, CliError> {
+    /// Draws everything in one look, turned by so many degrees; returns milliseconds.
+    fn frame(&mut self, look: &Look, turn: f64) -> Result<f64, CliError> {
         let mut document = self.opened.document.clone();
-        document.style = style.clone();
+        document.style = look.style.clone();
+        document.lighting = look.lighting.clone();
         document.nodes.clear();
         let camera = self.camera.orbited(document.up(&self.opened.scene).vector(), turn, 0.0);
         let started = Instant::now();
@@ -109,7 +119,7 @@ impl Bench {
     }
 }
 
-fn styles() -> Result<Vec<(&'static str, Style)>, CliError> {
+fn looks() -> Result<Vec<Look>, CliError> {
     let gooch = preset::load("gooch")?.style;
     let mut diagonal = gooch.clone();
     diagonal.edges.mode = EdgeMode::Paper;
@@ -137,8 +147,12 @@ fn styles() -> Result<Vec<(&'static str, Style)>, CliError> {
         (style.edges.profile.width, style.edges.inner.width) = (width, width);
         style
     };
-    Ok(vec![
-        ("plain", preset::load("plain")?.style),
+    let plain = preset::load("plain")?.style;
+    let unshadowed = Lighting::default();
+    let hard = Lighting { shadows: true, ..Lighting::default() };
+    let soft = Lighting { shadow_softness: 2.0, ..hard.clone() };
+    let styles = [
+        ("plain", plain.clone()),
         ("toon, nearest", toon(Border::Nearest)),
         ("toon, cartoon map", toon(Border::CartoonMap)),
         ("toon, analytic", toon(Border::Analytic)),
@@ -152,7 +166,13 @@ fn styles() -> Result<Vec<(&'static str, Style)>, CliError> {
         ("gooch + edges, 2 px", exact(2.0)),
         ("gooch + edges, 32 px", exact(32.0)),
         ("lines", preset::load("lines")?.style),
-    ])
+    ];
+    let look = |name, style, lighting: &Lighting| Look { name, style, lighting: lighting.clone() };
+    let mut looks: Vec<Look> =
+        styles.into_iter().map(|(name, style)| look(name, style, &unshadowed)).collect();
+    looks.push(look("plain, shadow", plain.clone(), &hard));
+    looks.push(look("plain, soft shadow", plain, &soft));
+    Ok(looks)
 }
 
 fn median(values: &[f64]) -> f64 {

@@ -6,15 +6,17 @@ use serde_json::json;
 
 use super::args::StylesArgs;
 use super::{CliError, print_json, print_line};
-use crate::document::View;
+use crate::document::{Lighting, View};
 use crate::style::{Param, Slot, Style, Value, preset};
 
 pub(super) fn run(args: &StylesArgs) -> Result<(), CliError> {
     let presets = preset::all();
     let mut style = Style::default();
     let mut view = View::default();
+    let mut lighting = Lighting::default();
     let mut params = style.params();
     params.extend(view.params());
+    params.extend(lighting.params());
     if args.json {
         return print_json(&json!({
             "presets": presets.iter().map(|p| json!({

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
+use super::lighting::{Lighting, Source};
 use super::{Document, NodeSettings, View};
 use crate::scene::{Camera, Light, Up};
 use crate::style::param::{Param, map_paths};
@@ -41,12 +42,12 @@ pub enum DocumentError {
         /// What is wrong and in which line.
         message: String,
     },
-    /// A style or view parameter in it is wrong.
+    /// A parameter of a style, of the view or of the light in it is wrong.
     #[error("{}, {place}: {source}", path.display())]
     Style {
         /// The file.
         path: PathBuf,
-        /// `style`, `view` or the path of the node.
+        /// `style`, `view`, `light` or the path of the node.
         place: String,
         /// What is wrong.
         source: StyleError,
@@ -66,6 +67,8 @@ struct Form {
     camera: Option<Camera>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     lights: Option<Vec<Light>>,
+    #[serde(default, skip_serializing_if = "toml::Table::is_empty")]
+    light: toml::Table,
     #[serde(default, skip_serializing_if = "toml::Table::is_empty")]
     view: toml::Table,
     #[serde(default, skip_serializing_if = "toml::Table::is_empty")]
@@ -136,14 +139,16 @@ impl Document {
             up: form.up,
             metres_per_unit: form.metres_per_unit.filter(|u| u.is_finite() && *u > 0.0),
             camera: form.camera,
-            lights: form.lights.unwrap_or_else(Light::default_rig),
+            lighting: default_lighting(form.lights.is_some()),
+            lights: form.lights.unwrap_or_default(),
             style: Style::default(),
             ..Self::default()
         };
-        // A view table holds the keys of one section; the list of parameters has them with their prefix.
-        let mut view = toml::Table::new();
-        view.insert("view".to_owned(), form.view.into());
-        fill(&mut document.view.params(), &view, "view")?;
+        // These tables hold the keys of one section; the list of parameters has them with their prefix.
+        let section =
+            |name: &str, table: toml::Table| toml::Table::from_iter([(name.to_owned(), table.into())]);
+        fill(&mut document.view.params(), &section("view", form.view), "view")?;
+        fill(&mut document.lighting.params(), &section("light", form.light), "light")?;
         fill(&mut document.style.params(), &form.style, "style")?;
         for (node, form) in form.nodes {
             let style = form
@@ -182,14 +187,21 @@ impl Document {
             map_paths(&mut params, |image| relative_to(image, path));
             diff_to_toml(&mut params, &mut Style::default().params())
         };
+        let has_lights = !self.lights.is_empty();
+        let section = |name: &str, table: toml::Table| {
+            table.get(name).and_then(|v| v.as_table()).cloned().unwrap_or_default()
+        };
         let view = diff_to_toml(&mut self.view.clone().params(), &mut View::default().params());
+        let light =
+            diff_to_toml(&mut self.lighting.clone().params(), &mut default_lighting(has_lights).params());
         let form = Form {
             models: self.models.iter().map(|m| relative_to(m, path)).collect(),
             up: self.up,
             metres_per_unit: self.metres_per_unit,
             camera: self.camera,
-            lights: (self.lights != Light::default_rig()).then(|| self.lights.clone()),
-            view: view.get("view").and_then(|v| v.as_table()).cloned().unwrap_or_default(),
+            lights: has_lights.then(|| self.lights.clone()),
+            light: section("light", light),
+            view: section("view", view),
             style: style_table(&self.style),
             nodes: self
                 .nodes
@@ -208,6 +220,11 @@ impl Document {
         toml::to_string(&form)
             .map_err(|e| DocumentError::Malformed { path: path.into(), message: e.to_string() })
     }
+}
+
+/// A document that lists lights uses them unless it says otherwise.
+fn default_lighting(has_lights: bool) -> Lighting {
+    Lighting { source: if has_lights { Source::File } else { Source::Rig }, ..Lighting::default() }
 }
 
 /// `file` as it is seen from the folder of `document`; absolute where the two share no folder.
@@ -261,6 +278,8 @@ mod tests {
             ..Document::default()
         };
         document.view.background = "#102030".parse().unwrap();
+        document.lighting.shadows = true;
+        document.lighting.rim.azimuth = -12.5;
         document.node_mut("/crank/rod.3").style =
             Some(Style { technique: Technique::Plain, ..Style::default() });
         document.node_mut("/crank/rod.4").visible = Some(false);
@@ -288,6 +307,20 @@ mod tests {
         let styles = [Some(&again.style), again.nodes["/m"].style.as_ref()];
         assert!(styles.iter().all(|s| s.unwrap().toon.image.as_ref().unwrap().exists()), "{again:?}");
         assert!(std::fs::read_to_string(&second).unwrap().contains("\"../ramp.png\""));
+    }
+
+    #[test]
+    fn listed_lights_shine_unless_the_rig_is_asked_for() {
+        let lights = "[[lights]]\nkind = { directional = { direction = [0.0, -1.0, 0.0] } }\n\
+                      color = [1.0, 1.0, 1.0]\nintensity = 1.0\nattached_to_camera = false\n";
+        for (text, source) in
+            [(lights.to_owned(), Source::File), (format!("{lights}[light]\nsource = \"rig\""), Source::Rig)]
+        {
+            let document = Document::from_text(&text, Path::new("a.hachure")).unwrap();
+            assert_eq!((document.lights.len(), document.lighting.source), (1, source));
+            let again = document.to_text(Path::new("a.hachure")).unwrap();
+            assert_eq!(Document::from_text(&again, Path::new("a.hachure")).unwrap(), document);
+        }
     }
 
     #[test]

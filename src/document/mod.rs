@@ -2,6 +2,7 @@
 
 pub mod file;
 pub mod history;
+pub mod lighting;
 pub mod mirrors;
 pub mod pattern;
 pub mod view;
@@ -14,6 +15,7 @@ use crate::style::{Style, StyleError, Value, param};
 
 pub use file::DocumentError;
 pub use history::History;
+pub use lighting::Lighting;
 pub use pattern::{Pattern, PatternError};
 pub use view::{Show, View};
 
@@ -28,7 +30,9 @@ pub struct Document {
     pub metres_per_unit: Option<f64>,
     /// Where the eye is; `None` until a scene has been framed.
     pub camera: Option<Camera>,
-    /// The lights.
+    /// Which lights there are, and their shadows.
+    pub lighting: Lighting,
+    /// The lights of the model files, where [`lighting::Source::File`] asks for them.
     pub lights: Vec<Light>,
     /// How the picture is shown.
     pub view: View,
@@ -80,7 +84,8 @@ impl Default for Document {
             up: None,
             metres_per_unit: None,
             camera: None,
-            lights: Light::default_rig(),
+            lighting: Lighting::default(),
+            lights: Vec::new(),
             view: View::default(),
             style: default_style(),
             nodes: BTreeMap::new(),
@@ -102,6 +107,21 @@ impl Document {
     /// Metres per unit of a scene, where anybody said so.
     pub fn metres_per_unit(&self, scene: &Scene) -> Option<f64> {
         self.metres_per_unit.or(scene.metres_per_unit)
+    }
+
+    /// The lights that shine; `up`: the model's.
+    pub fn light_sources(&self, up: Up) -> Vec<Light> {
+        match self.lighting.source {
+            lighting::Source::Rig => self.lighting.rig(up),
+            lighting::Source::File => self.lights.clone(),
+        }
+    }
+
+    /// Takes over the lights of model files, if they have any.
+    pub fn use_lights_of(&mut self, scene: &Scene) {
+        self.lights = scene.lights.clone();
+        self.lighting.source =
+            if scene.lights.is_empty() { lighting::Source::Rig } else { lighting::Source::File };
     }
 
     /// Style and roles of every node, in the order of `scene.nodes`.
@@ -183,15 +203,16 @@ impl Document {
         self.tidy();
     }
 
-    /// Sets one parameter of the default style or of the view, and in all styles that single nodes have.
+    /// Sets one parameter of the default style, of the view or of the light, and in all styles that single nodes have.
     ///
     /// # Errors
     /// See [`param::set`].
     pub fn set(&mut self, key: &str, value: &Value) -> Result<(), StyleError> {
         let mut params = self.view.params();
+        params.extend(self.lighting.params());
         params.extend(self.style.params());
         param::set(&mut params, key, value)?;
-        if !key.starts_with("view.") {
+        if !key.starts_with("view.") && !key.starts_with("light.") {
             for style in self.nodes.values_mut().filter_map(|n| n.style.as_mut()) {
                 param::set(&mut style.params(), key, value)?;
             }

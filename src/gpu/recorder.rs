@@ -121,6 +121,19 @@ impl<'a> Recorder<'a> {
         self.pool.get(self.gpu, label, self.size, format)
     }
 
+    /// A target of another size than the picture, with undefined contents.
+    ///
+    /// # Errors
+    /// [`GpuError::TooLarge`].
+    pub fn target_of(
+        &mut self,
+        label: &str,
+        format: wgpu::TextureFormat,
+        size: [u32; 2],
+    ) -> Result<Target, GpuError> {
+        self.pool.get(self.gpu, label, size, format)
+    }
+
     /// Begins a render pass that is timed under its label.
     pub fn pass<'e>(
         &'e mut self,

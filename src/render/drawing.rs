@@ -1,8 +1,8 @@
 //! The scene drawn once, from one camera; and what its mirrors show, each by a drawing of its own.
 //!
 //! ```text
-//! objects ─► G-buffer ─┬─► (cartoon map ─►) shaded surfaces ┬─► + mirrors (drawings) ─► + lines ─► colour
-//!                      └─► edge map ─► reach of the lines ──┘
+//! objects ─► G-buffer ─┬─► (shadow mask ─► cartoon map ─►) surfaces ┬─► + mirrors (drawings) ─► + lines ─► colour
+//!                      └─► edge map ─► reach of the lines ──────────┘
 //! segments (topology) ─────┘
 //! ```
 
@@ -18,6 +18,7 @@ use super::effects::toon::{ToonBuffers, Toons, cartoon_map};
 use super::frame_uniform::{FrameUniform, View};
 use super::gpu_scene::GpuScene;
 use super::groups::Objects;
+use super::lights::Lights;
 use super::passes::edge_map::{EdgeInputs, EdgeMap, EdgeMapPass};
 use super::passes::edge_style::EdgeUniform;
 use super::passes::gbuffer::{DrawCall, DrawUniform, GBuffer, GBufferPass};
@@ -25,10 +26,10 @@ use super::passes::line_distance::{Reach, line_distance};
 use super::passes::lines::lines;
 use super::sample::Sample;
 use super::segments::segments;
+use super::shadows::{ShadowMap, ShadowMask};
 use super::stage::{Output, Stage};
 use crate::geometry::LineSegment;
 use crate::gpu::{ArrayBuffer, DynamicBuffer, Gpu, Recorder, Target, UniformBuffer};
-use crate::scene::Light;
 
 /// What is to be drawn, and from where.
 #[derive(Clone, Copy)]
@@ -42,7 +43,9 @@ pub struct DrawingInputs<'a> {
     /// Above it edges separate surfaces; radians.
     pub crease_angle: f32,
     /// The lights.
-    pub lights: &'a [Light],
+    pub lights: &'a Lights,
+    /// The maps of those that throw shadows, by channel; they are for all cameras.
+    pub shadow_maps: &'a [ShadowMap],
     /// Which sample of the picture this is.
     pub sample: Sample,
     /// The camera, moved by the sample's jitter.
@@ -61,6 +64,8 @@ pub struct Begun {
     pub depth_range: Vec2,
     /// Per-pixel geometry.
     pub gbuffer: Output<GBuffer>,
+    /// See [`ShadowMask`]; `None` when no light throws shadows.
+    pub shadow_mask: Option<Output<Target>>,
     /// The draws of those objects whose style asks for coordinates on their surface.
     with_coordinates: Vec<DrawCall>,
 }
@@ -93,11 +98,12 @@ pub struct Drawing {
     segments: Stage<(u64, View, Vec<EdgeUniform>, f32), Arc<Vec<LineSegment>>>,
     edge_map: Stage<(u64, Vec<EdgeUniform>, Vec2, Option<FrameUniform>), EdgeMap>,
     reach: Stage<u64, Reach>,
-    cartoon_map: Stage<(u64, Toons, FrameUniform), Target>,
+    shadow_mask: ShadowMask,
+    cartoon_map: Stage<(u64, u64, Toons, FrameUniform), Target>,
     coordinates: Stage<(u64, Vec<DrawCall>), Target>,
     surface: Stage<
         (
-            u64,
+            [u64; 2],
             Option<[u64; 2]>,
             Vec<SurfaceUniform>,
             Toons,
@@ -157,6 +163,7 @@ impl Drawing {
             segments: Stage::default(),
             edge_map: Stage::default(),
             reach: Stage::default(),
+            shadow_mask: ShadowMask::new(gpu),
             cartoon_map: Stage::default(),
             coordinates: Stage::default(),
             surface: Stage::default(),
@@ -176,18 +183,19 @@ impl Drawing {
     }
 
     /// How often each stage has run, by name.
-    pub fn runs(&self) -> [(&'static str, u64); 6] {
+    pub fn runs(&self) -> [(&'static str, u64); 7] {
         [
             ("g-buffer", self.gbuffer.runs()),
             ("edge map", self.edge_map.runs()),
             ("line distance", self.reach.runs()),
+            ("shadow", self.shadow_mask.runs()),
             ("cartoon map", self.cartoon_map.runs()),
             ("surface", self.surface.runs()),
             ("mirror", self.reflected),
         ]
     }
 
-    /// Begins a drawing with its G-buffer; all later passes see through its camera.
+    /// Begins a drawing with its G-buffer and the shadows on it; all later passes see through its camera.
     ///
     /// # Errors
     /// [`RenderError`].
@@ -218,7 +226,8 @@ impl Drawing {
         let gbuffer = self.gbuffer.run(geometry, |(.., draws, calls)| {
             gbuffer_pass.run(rec, scene, &mut self.draws, (draws, calls), view.cut.is_some())
         })?;
-        Ok(Begun { uniform, depth_range, gbuffer, with_coordinates })
+        let shadow_mask = self.shadow_mask.run(rec, &gbuffer, inputs)?;
+        Ok(Begun { uniform, depth_range, gbuffer, shadow_mask, with_coordinates })
     }
 
     fn look_through(&self, rec: &mut Recorder<'_>, view: &View) {
@@ -305,7 +314,7 @@ impl Drawing {
         };
         let revisions = edge_map.map(|e| [e.revision, reach.as_ref().map_or(0, |reach| reach.revision)]);
         let shading = (
-            gbuffer.revision,
+            [gbuffer.revision, begun.shadow_mask.as_ref().map_or(0, |mask| mask.revision)],
             revisions,
             inputs.objects.surface_styles.clone(),
             inputs.objects.toons.clone(),
@@ -330,6 +339,7 @@ impl Drawing {
                     styles: self.toon_styles.buffer(),
                     bands: self.toon_bands.buffer(),
                 },
+                shadow_mask: begun.shadow_mask.as_ref().map(|mask| &mask.value),
                 cartoon_map: cartoon_map.as_ref(),
                 halftones: HalftoneInputs {
                     styles: halftones,
@@ -397,8 +407,6 @@ impl Drawing {
         if seen.is_empty() {
             return Ok(Vec::new());
         }
-        let world_from_view = inputs.view.view_from_world.inverse();
-        let lights: Vec<_> = inputs.lights.iter().map(|light| light.placed(&world_from_view)).collect();
         let mut reflected = Vec::new();
         for (mirror, view) in &seen {
             let index = match self.reflections.iter().position(|r| r.object == mirror.object) {
@@ -413,8 +421,7 @@ impl Drawing {
                 }
             };
             let Some(reflection) = self.reflections.get_mut(index) else { continue };
-            let inner =
-                DrawingInputs { lights: &lights, view, reflections: inputs.reflections - 1, ..*inputs };
+            let inner = DrawingInputs { view, reflections: inputs.reflections - 1, ..*inputs };
             let before = reflection.drawing.drawn();
             let color = reflection.drawing.record(rec, gbuffer_pass, &inner)?;
             self.reflected += reflection.drawing.drawn() - before;
@@ -458,9 +465,13 @@ impl Drawing {
             return Ok(None);
         }
         let gbuffer = &begun.gbuffer;
-        let bands = (gbuffer.revision, toons.clone(), begun.uniform.without_background());
+        let mask = begun.shadow_mask.as_ref();
+        let shadows = mask.map_or(0, |mask| mask.revision);
+        let bands = (gbuffer.revision, shadows, toons.clone(), begun.uniform.without_background());
         let toon_styles = self.toon_styles.buffer();
-        let map = self.cartoon_map.run(bands, |_| cartoon_map(rec, &gbuffer.value, toon_styles))?;
+        let map = self
+            .cartoon_map
+            .run(bands, |_| cartoon_map(rec, &gbuffer.value, toon_styles, mask.map(|mask| &mask.value)))?;
         Ok(Some(map.value))
     }
 }

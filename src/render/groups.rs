@@ -34,6 +34,23 @@ pub fn region(object: u32, surface: u32) -> u32 {
     object.wrapping_mul(2_654_435_769).wrapping_add(surface).max(1)
 }
 
+/// A part of a visible object: what has one material.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct VisiblePart {
+    /// Number of its mesh.
+    pub mesh: usize,
+    /// Where the object lies.
+    pub world_from_local: DMat4,
+    /// Number of its material.
+    pub material: usize,
+    /// Range of the index buffer.
+    pub first_index: u32,
+    /// Number of indices.
+    pub index_count: u32,
+    /// First vertex of the mesh.
+    pub base_vertex: i32,
+}
+
 /// Everything that is visible, resolved for one frame.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Objects {
@@ -105,6 +122,33 @@ impl Objects {
     /// The visible objects, and whether each is enhanced.
     pub fn visible(&self) -> &[(NodeId, bool)] {
         &self.visible
+    }
+
+    /// The boxes of all visible objects, each in its own space, and where that lies.
+    pub fn boxes<'a>(&'a self, scene: &'a GpuScene) -> impl Iterator<Item = (Bounds, DMat4)> + 'a {
+        self.visible.iter().filter_map(|(id, _)| {
+            let node = &scene.scene.nodes[*id];
+            Some((*scene.mesh_bounds.get(node.mesh?)?, node.world_from_local))
+        })
+    }
+
+    /// The parts of all visible objects.
+    pub fn parts<'a>(&'a self, scene: &'a GpuScene) -> impl Iterator<Item = VisiblePart> + 'a {
+        self.visible.iter().flat_map(move |(id, _)| {
+            let node = &scene.scene.nodes[*id];
+            let found =
+                node.mesh.and_then(|m| Some((m, scene.scene.meshes.get(m)?, scene.geometry.meshes.get(m)?)));
+            found.into_iter().flat_map(move |(mesh, source, range)| {
+                source.parts.iter().map(move |part| VisiblePart {
+                    mesh,
+                    world_from_local: node.world_from_local,
+                    material: part.material,
+                    first_index: range.first_index + part.first_index,
+                    index_count: part.index_count,
+                    base_vertex: range.base_vertex,
+                })
+            })
+        })
     }
 
     /// The boxes of the enhanced objects, each in its own space, and where that lies.

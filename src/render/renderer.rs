@@ -9,6 +9,7 @@ use super::frame::{FrameInputs, FrameState, Picture};
 use super::frame_uniform::View;
 use super::gpu_scene::{GpuScene, UploadedTopology, Uploader};
 use super::groups::{Objects, node_of};
+use super::lights::Lights;
 use super::passes::accumulate::Subject;
 use super::style_images::StyleImages;
 use crate::document::Document;
@@ -200,13 +201,15 @@ impl Renderer {
         let timers = self.timers.as_mut();
         let frame = self.state.drawing().frame_group().clone();
         let mut recorder = Recorder::new(&self.gpu, &mut self.pipelines, &mut self.pool, timers, frame, size);
+        let lights = Lights::new(request.document, &scene.scene, &view.view_from_world);
         let inputs = FrameInputs {
             drawing: DrawingInputs {
                 scene,
                 scene_revision: self.scene_revision,
                 objects: &objects,
                 crease_angle: request.document.view.crease_angle.to_radians(),
-                lights: &request.document.lights,
+                lights: &lights,
+                shadow_maps: &[],
                 sample,
                 view: &view,
                 background,

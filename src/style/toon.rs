@@ -104,6 +104,12 @@ impl Toon {
         self.image.as_deref().filter(|_| self.ramp == Ramp::Image)
     }
 
+    /// Whether another toon has the same ramp.
+    pub fn has_ramp_of(&self, other: &Self) -> bool {
+        let ramp = |toon: &Self| (toon.ramp, toon.bands, toon.shadow, toon.mid, toon.light);
+        ramp(self) == ramp(other) && self.image == other.image
+    }
+
     /// The colours of the ramp where they do not come from an image, from shadow to light: those of a built-in one, or
     /// even steps from `shadow` over `mid` to `light`, as displayed.
     pub fn colors(&self) -> Vec<Color> {

@@ -4,6 +4,7 @@ pub mod empty;
 pub mod help;
 pub mod icons;
 pub mod leave;
+pub mod light;
 pub mod menu;
 pub mod outliner;
 pub mod params;

@@ -11,6 +11,9 @@ use crate::document::Document;
 use crate::scene::{Node, NodeId, Scene};
 use crate::style::{Style, StyleError, Value, param};
 
+/// The most that the list of presets is high, in points: all of them are seen at once.
+const PRESETS_HEIGHT: f32 = 480.0;
+
 /// The page.
 pub fn style_ui(ui: &mut Ui, editing: &mut Editing<'_>) {
     let targets = editing.selection.topmost(&editing.model.scene);
@@ -85,6 +88,7 @@ fn preset_ui(ui: &mut Ui, editing: &Editing<'_>, style: &Style) -> Option<Style>
         let text = if current == "own" { "Own".to_owned() } else { label_of(current) };
         let combo = egui::ComboBox::from_id_salt("preset")
             .width(ui.available_width())
+            .height(PRESETS_HEIGHT)
             .selected_text(text)
             .show_ui(ui, |ui| {
                 for preset in editing.presets {

@@ -61,6 +61,8 @@ pub struct Shading<'a> {
     pub toons: &'a Toons,
     /// `toons` on the device.
     pub toon_buffers: ToonBuffers<'a>,
+    /// See `shaders/common/light.wgsl`; `None` when no light throws shadows.
+    pub shadow_mask: Option<&'a Target>,
     /// See [`toon::cartoon_map`]; `None` when no object asks for it.
     pub cartoon_map: Option<&'a Target>,
     /// What halftones need.
@@ -79,6 +81,7 @@ pub fn surface(
     let color = rec.target("color", wgpu::TextureFormat::Rgba16Float)?;
     let uses = |technique| shading.surfaces.iter().any(|s| s.technique == technique);
     let mut switches = vec![
+        ("WITH_SHADOWS", shading.shadow_mask.is_some()),
         ("WITH_PLAIN", uses(PLAIN)),
         ("WITH_GOOCH", uses(GOOCH)),
         ("WITH_METAL", shading.surfaces.iter().any(|s| s.gooch.has_metal())),
@@ -90,9 +93,10 @@ pub fn surface(
         Program { file: "effects/surface.wgsl", entry_point: "fs_main", switches },
         &[
             Input::Texture(&gbuffer.geometry),
+            // A shader that does not read one of these is given any texture of its kind.
+            Input::Texture(shading.shadow_mask.unwrap_or(&gbuffer.base_color)),
             Input::Storage(shading.toon_buffers.styles),
             Input::Storage(shading.toon_buffers.bands),
-            // A shader that does not read it is given any texture of its kind.
             Input::Texture(shading.cartoon_map.unwrap_or(&gbuffer.region)),
             Input::Texture(&gbuffer.region),
             Input::Texture(&gbuffer.base_color),

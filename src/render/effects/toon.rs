@@ -4,8 +4,6 @@
 //! texture, the cartoon map, holds which band a pixel is of, not its colour: a mean of bands leaves the images on a
 //! surface sharp, and one byte per pixel is cheap to read nine times.
 
-use std::sync::Arc;
-
 use encase::ShaderType;
 use glam::{Vec3, Vec4};
 
@@ -82,30 +80,42 @@ pub struct Toons {
     pub styles: Vec<ToonUniform>,
     /// The bands of all ramps, one after the other: linear colours from shadow to light.
     pub bands: Vec<Vec4>,
-    /// Where each ramp begins. Few differ, however many objects there are.
-    ramps: Vec<(u32, Arc<[Vec4]>)>,
+    /// Few differ, however many objects there are.
+    ramps: Vec<PlacedRamp>,
+}
+
+/// A ramp among [`Toons::bands`].
+#[derive(Debug, Clone, PartialEq)]
+struct PlacedRamp {
+    /// The first toon that has it.
+    toon: Toon,
+    first_band: u32,
+    bands: u32,
 }
 
 impl Toons {
     /// Makes one of `count` objects a toon.
     pub fn set(&mut self, object: usize, count: usize, toon: &Toon, images: &StyleImages) {
-        let image = toon.ramp_image().and_then(|path| images.ramp(path));
-        let ramp = image.unwrap_or_else(|| {
-            toon.colors().into_iter().map(|color| color.to_linear().extend(1.0)).collect()
-        });
-        let first = match self.ramps.iter().find(|(_, known)| *known == ramp) {
-            Some((first, _)) => *first,
-            None => {
-                let first = self.bands.len() as u32;
-                self.bands.extend(ramp.iter());
-                self.ramps.push((first, Arc::clone(&ramp)));
-                first
-            }
+        let known = self.ramps.iter().find(|known| known.toon.has_ramp_of(toon));
+        let [first_band, bands] = match known {
+            Some(known) => [known.first_band, known.bands],
+            None => self.place_ramp(toon, images),
         };
         self.styles.resize(count, ToonUniform::default());
         if let Some(style) = self.styles.get_mut(object) {
-            *style = ToonUniform::new(toon, first, ramp.len() as u32);
+            *style = ToonUniform::new(toon, first_band, bands);
         }
+    }
+
+    fn place_ramp(&mut self, toon: &Toon, images: &StyleImages) -> [u32; 2] {
+        let first_band = self.bands.len() as u32;
+        match toon.ramp_image().and_then(|path| images.ramp(path)) {
+            Some(image) => self.bands.extend(image.iter()),
+            None => self.bands.extend(toon.colors().iter().map(|color| color.to_linear().extend(1.0))),
+        }
+        let bands = self.bands.len() as u32 - first_band;
+        self.ramps.push(PlacedRamp { toon: toon.clone(), first_band, bands });
+        [first_band, bands]
     }
 }
 
@@ -137,12 +147,22 @@ pub fn cartoon_map(
     rec: &mut Recorder<'_>,
     gbuffer: &GBuffer,
     toon_styles: &wgpu::Buffer,
+    shadow_mask: Option<&Target>,
 ) -> Result<Target, RenderError> {
     let map = rec.target("cartoon map", BANDS)?;
     rec.fullscreen(
         "cartoon map",
-        Program::new("effects/toon.wgsl", "fs_cartoon_map"),
-        &[Input::Texture(&gbuffer.geometry), Input::Storage(toon_styles)],
+        Program {
+            file: "effects/toon.wgsl",
+            entry_point: "fs_cartoon_map",
+            switches: vec![("WITH_SHADOWS", shadow_mask.is_some())],
+        },
+        &[
+            Input::Texture(&gbuffer.geometry),
+            // Unread without shadows.
+            Input::Texture(shadow_mask.unwrap_or(&gbuffer.base_color)),
+            Input::Storage(toon_styles),
+        ],
         &[&map],
         Some(&gbuffer.depth),
     )?;

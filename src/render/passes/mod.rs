@@ -10,4 +10,6 @@ pub mod lines;
 pub mod operators;
 pub mod resolve;
 pub mod selection;
+pub mod shadow;
+pub mod shadow_map;
 pub mod show;
