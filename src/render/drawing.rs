@@ -11,7 +11,7 @@ use std::sync::Arc;
 use glam::{Vec2, Vec4};
 
 use super::RenderError;
-use super::effects::halftone::{HalftoneInputs, HalftoneUniform, ThresholdMaps};
+use super::effects::halftone::{HalftoneInputs, HalftoneUniform, Halftones, ThresholdMaps};
 use super::effects::mirror::{MirrorUniform, mirror};
 use super::effects::surface::{Shading, SurfaceUniform, surface};
 use super::effects::toon::{ToonBuffers, Toons, cartoon_map};
@@ -107,7 +107,7 @@ pub struct Drawing {
             Option<[u64; 2]>,
             Vec<SurfaceUniform>,
             Toons,
-            Vec<HalftoneUniform>,
+            (Vec<HalftoneUniform>, Halftones),
             Vec<EdgeUniform>,
             FrameUniform,
             Seen,
@@ -322,7 +322,7 @@ impl Drawing {
             revisions,
             inputs.objects.surface_styles.clone(),
             inputs.objects.toons.clone(),
-            inputs.objects.halftones.placed(inputs.scene, inputs.view),
+            (inputs.objects.halftones.placed(inputs.scene, inputs.view), inputs.objects.halftones.clone()),
             styles.clone(),
             begun.uniform.without_background(),
             (!reflected.is_empty()).then(|| {
@@ -330,7 +330,7 @@ impl Drawing {
                 (seen, inputs.background)
             }),
         );
-        let color = self.surface.run(shading, |(_, _, surfaces, toons, halftones, styles, ..)| {
+        let color = self.surface.run(shading, |(_, _, surfaces, toons, (halftones, _), styles, ..)| {
             self.surface_styles.write(rec.gpu, surfaces);
             if !halftones.is_empty() {
                 self.halftone_styles.write(rec.gpu, halftones);
