@@ -141,9 +141,7 @@ fn changes_with(technique: &str) -> Vec<Change> {
     let mut all = changes();
     all.retain(|change| {
         let of_it = |c: &Condition| c.key != "technique" || c.value == technique;
-        change.key != "technique"
-            && !change.key.starts_with("edges.")
-            && change.conditions.iter().all(of_it)
+        change.key != "technique" && !change.key.starts_with("edges.") && change.conditions.iter().all(of_it)
     });
     all
 }
@@ -211,22 +209,31 @@ fn the_lines_of_one_object_change_no_pixel_beyond_their_reach() {
     let mut session = session();
     let all = composed(&mut session, Technique::VARIANTS);
     let of_a = pixels_of(&mut session, &all, A);
-    // The widest line lies wholly outside; a pixel for the spines, which part of the neighbours' may be hidden by.
-    let reach = 64.0 * SIDE as f32 / 1080.0 + 1.5;
-    let near_a = widened(&of_a, reach);
-    let mut changed = 0;
-    for Change { key, conditions, values } in changes().iter().filter(|c| c.key.starts_with("edges.")) {
-        let before = with_conditions(&all, A, conditions);
-        let first = drawn(&mut session, &before);
-        for value in values {
-            let mut after = before.clone();
-            set_for(&mut after, A, key, value);
-            let (inside, outside) = difference(&first, &drawn(&mut session, &after), &near_a);
-            assert_eq!(outside, None, "{key} = {value} changes another object");
-            changed += usize::from(inside > 0);
+    // Reference pixels: the widest lines lie wholly outside.
+    let px = |width: f32| width * SIDE as f32 / 1080.0;
+    for (mode, width) in [("exact", 2.5_f32), ("exact", 32.0), ("paper", 2.5)] {
+        // Where a line of the object covers another one's spine, that one's width is missing beside it.
+        let near_a = widened(&of_a, px(64.0) + px(width) * 0.5 + 1.5);
+        let mut all = all.clone();
+        set(&mut all, "edges.mode", mode);
+        set(&mut all, "edges.profile.width", &width.to_string());
+        let mut changed = 0;
+        for Change { key, conditions, values } in changes().iter().filter(|c| c.key.starts_with("edges.")) {
+            let before = with_conditions(&all, A, conditions);
+            let first = drawn(&mut session, &before);
+            for value in values {
+                let mut after = before.clone();
+                set_for(&mut after, A, key, value);
+                let (inside, outside) = difference(&first, &drawn(&mut session, &after), &near_a);
+                assert_eq!(
+                    outside, None,
+                    "beside {mode}, {width} px: {key} = {value} changes another object"
+                );
+                changed += usize::from(inside > 0);
+            }
         }
+        assert!(changed > 40, "{mode}, {width} px: only {changed} changes were seen");
     }
-    assert!(changed > 40, "only {changed} changes were seen");
 }
 
 #[test]
