@@ -19,7 +19,8 @@ use hachure::geometry::{EdgeClass, primitives};
 use hachure::gpu::Gpu;
 use hachure::import::{ImportError, Progress};
 use hachure::scene::{Material, Node, NodeId, Projection, Scene, Up, Warning};
-use hachure::style::{EdgeMode, Edges, preset};
+use hachure::style::toon::Ramp;
+use hachure::style::{EdgeMode, Edges, Style, Technique, preset};
 
 type Window = Harness<'static, Viewer>;
 
@@ -62,15 +63,18 @@ fn window_loading(
     file: &str,
     load: impl Fn(&[PathBuf], &Progress) -> Result<Scene, ImportError> + Send + Sync + 'static,
 ) -> Window {
+    window_of(Launch {
+        files: vec![file.into()],
+        loader: Arc::new(move |paths, _, progress| load(paths, progress)),
+        ..Launch::default()
+    })
+}
+
+fn window_of(launch: Launch) -> Window {
     // Says what to install where there is no driver.
     if let Err(error) = Gpu::headless() {
         panic!("{error}");
     }
-    let launch = Launch {
-        files: vec![file.into()],
-        loader: Arc::new(move |paths, _, progress| load(paths, progress)),
-        ..Launch::default()
-    };
     Harness::builder()
         .with_size(Vec2::new(1200.0, 900.0))
         .with_step_dt(1.0 / 60.0)
@@ -352,6 +356,45 @@ fn drag(window: &mut Window, from: Pos2, by: Vec2, button: PointerButton) {
     }
     window.event(press(false, from + by));
     settle(window);
+}
+
+#[test]
+fn a_light_is_dragged_on_its_ball_and_past_the_rim_goes_behind() {
+    let mut window = window();
+    click(&mut window, Role::Tab, "Light");
+    let key = |window: &Window| window.state().document().lighting.key.clone();
+    let before = key(&window);
+    let ball = window.get_by_label("Light ball").rect().center();
+    let dot = |window: &Window| window.get_by_label("Direction of the key light").rect().center();
+    let from = dot(&window);
+    assert!(from.x < ball.x && from.y < ball.y, "over the left shoulder");
+    drag(&mut window, from, Vec2::new(2.0 * (ball.x - from.x), 0.0), PointerButton::Primary);
+    let after = key(&window);
+    assert!((after.azimuth + before.azimuth).abs() < 2.0 && after.elevation > 30.0, "{after:?}");
+    ask(&mut window, Command::Undo);
+    assert_eq!(key(&window), before);
+    ask(&mut window, Command::Redo);
+    let from = dot(&window);
+    drag(&mut window, from, ball + Vec2::new(64.0, 0.0) - from, PointerButton::Primary);
+    let after = key(&window);
+    assert!(after.azimuth > 95.0 && after.elevation.abs() < 5.0, "{after:?}");
+    // Where the ball itself is touched, the selected light goes.
+    click(&mut window, Role::Button, "Fill");
+    drag(&mut window, ball + Vec2::new(0.0, 30.0), Vec2::new(1.0, 0.0), PointerButton::Primary);
+    assert!(window.state().document().lighting.fill.elevation < -30.0);
+    assert_eq!(key(&window), after);
+}
+
+#[test]
+fn a_light_that_is_fixed_to_the_world_stays_where_it_was() {
+    let mut window = window();
+    click(&mut window, Role::Tab, "Light");
+    let dot = |window: &Window| window.get_by_label("Direction of the key light").rect().center();
+    let before = dot(&window);
+    choose(&mut window, "Fixed to", "World");
+    assert!((dot(&window) - before).length() < 1.0, "fixing it moved it");
+    ask(&mut window, Command::Back);
+    assert!((dot(&window) - before).length() > 10.0, "it did not stand still");
 }
 
 #[test]
@@ -691,4 +734,43 @@ fn two_thousand_objects_cost_only_the_rows_that_are_seen() {
     settle(&mut window);
     assert!(began.elapsed() < Duration::from_secs(2), "{:?}", began.elapsed());
     assert!(window.root().children().count() > 0);
+}
+
+#[test]
+fn images_of_styles_are_read_beside_the_window_and_again_when_it_is_come_back_to() {
+    let folder = tempfile::tempdir().unwrap();
+    let ramp = folder.path().join("ramp.png");
+    let mut style = Style { technique: Technique::Toon, ..Style::default() };
+    (style.toon.ramp, style.toon.image) = (Ramp::Image, Some(ramp.clone()));
+    let launch = Launch {
+        files: vec!["/models/engine.glb".into()],
+        style: Some(style),
+        loader: Arc::new(|paths, _, _| Ok(engine(paths))),
+    };
+    let mut window = window_of(launch);
+    until(&mut window, "the missing image is told", |v| {
+        v.notices().list().iter().any(|n| n.text.contains("ramp.png"))
+    });
+    assert_eq!(window.query_all_by_label("1 warning").count(), 1);
+
+    image::GrayImage::from_pixel(4, 1, image::Luma([90])).save(&ramp).unwrap();
+    window.input_mut().events.push(egui::Event::WindowFocused(true));
+    settle(&mut window);
+    let began = Instant::now();
+    while window.query_by_label("1 warning").is_some() {
+        assert!(began.elapsed() < Duration::from_secs(30), "the image is not read again");
+        window.step();
+    }
+
+    let rows = |window: &Window| {
+        ["Image", "No image"].map(|name| window.query_all_by_role_and_label(Role::Button, name).count())
+    };
+    assert_eq!(rows(&window), [1, 1]);
+    click(&mut window, Role::Button, "No image");
+    assert_eq!(window.state().document().style.toon.image, None);
+    assert_eq!(rows(&window), [1, 0]);
+    ask(&mut window, Command::Undo);
+    assert_eq!(window.state().document().style.toon.image, Some(ramp));
+    choose(&mut window, "Ramp", "Ink wash");
+    assert_eq!(rows(&window), [0, 0]);
 }

@@ -7,6 +7,7 @@ mod common;
 use common::{image, scene, session, set};
 use glam::{DMat4, DQuat, DVec3};
 use hachure::document::Document;
+use hachure::document::lighting::Source;
 use hachure::export::Session;
 use hachure::export::session::Opened;
 use hachure::geometry::{Mesh, Plane, primitives};
@@ -55,8 +56,10 @@ fn seen(scene: &Arc<Scene>, camera: Camera) -> Opened {
         color: glam::Vec3::ONE,
         intensity: 1.0,
         attached_to_camera: false,
+        casts_shadow: false,
     };
-    let document = Document { camera: Some(camera), lights: vec![light], ..Document::default() };
+    let mut document = Document { camera: Some(camera), lights: vec![light], ..Document::default() };
+    document.lighting.source = Source::File;
     Opened { document, scene: Arc::clone(scene) }
 }
 

@@ -175,7 +175,7 @@ fn any_change_begins_a_new_picture_without_ghosts() {
         ("style", &|d| d.style.technique = hachure::style::Technique::Plain),
         ("lines", &|d| d.style.edges.profile.show = true),
         ("visibility", &|d| d.node_mut("/cube").visible = Some(false)),
-        ("lights", &|d| d.lights.clear()),
+        ("light", &|d| d.lighting.key.show = false),
         ("paper", &|d| d.view.background.0 = [1, 2, 3]),
         ("nothing at all", &|_| {}),
     ];

@@ -6,12 +6,16 @@ use encase::ShaderType;
 use encase::internal::SizeValue;
 use hachure::gpu::Shaders;
 use hachure::gpu::material::MaterialUniform;
+use hachure::render::effects::gooch::GoochUniform;
+use hachure::render::effects::halftone::HalftoneUniform;
 use hachure::render::effects::mirror::MirrorUniform;
 use hachure::render::effects::surface::SurfaceUniform;
 use hachure::render::effects::toon::ToonUniform;
 use hachure::render::frame_uniform::{FrameUniform, LightUniform};
 use hachure::render::passes::edge_style::{EdgeUniform, LineUniform};
 use hachure::render::passes::gbuffer::DrawUniform;
+use hachure::render::passes::shadow::{LightViewUniform, ShadowLightUniform};
+use hachure::render::passes::shadow_map::ShadowDraw;
 use wgpu::naga::{TypeInner, front::wgsl};
 
 /// Byte offsets of a WGSL struct's members and its size.
@@ -33,13 +37,19 @@ macro_rules! same_layout {
 
 #[test]
 fn rust_and_wgsl_agree_on_every_uniform() {
-    same_layout!(FrameUniform, 15, "passes/resolve.wgsl", "Frame");
-    same_layout!(LightUniform, 2, "passes/resolve.wgsl", "Light");
+    same_layout!(FrameUniform, 16, "passes/resolve.wgsl", "Frame");
+    same_layout!(LightUniform, 3, "passes/resolve.wgsl", "Light");
     same_layout!(DrawUniform, 5, "passes/gbuffer.wgsl", "Draw");
     same_layout!(MaterialUniform, 6, "passes/gbuffer.wgsl", "Material");
     same_layout!(LineUniform, 5, "passes/lines.wgsl", "LineStyle");
     same_layout!(EdgeUniform, 22, "passes/lines.wgsl", "EdgeStyle");
-    same_layout!(SurfaceUniform, 8, "effects/surface.wgsl", "SurfaceStyle");
+    same_layout!(SurfaceUniform, 3, "effects/surface.wgsl", "SurfaceStyle");
+    same_layout!(GoochUniform, 11, "effects/surface.wgsl", "GoochStyle");
     same_layout!(MirrorUniform, 4, "effects/mirror.wgsl", "Mirror");
+    same_layout!(ShadowDraw, 2, "passes/shadow_map.wgsl", "ShadowDraw");
+    same_layout!(ShadowLightUniform, 3, "passes/shadow.wgsl", "ShadowLight");
+    same_layout!(LightViewUniform, 8, "passes/shadow.wgsl", "LightView");
     same_layout!(ToonUniform, 11, "effects/toon.wgsl", "ToonStyle");
+    same_layout!(HalftoneUniform, 15, "effects/halftone.wgsl", "HalftoneStyle");
+    same_layout!(DrawUniform, 5, "passes/coordinates.wgsl", "Draw");
 }

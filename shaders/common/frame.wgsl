@@ -5,6 +5,8 @@ struct Light {
     vector: vec4<f32>,
     // Linear colour times intensity.
     color: vec3<f32>,
+    // Its channel in the shadow mask plus 1; 0: it throws no shadow.
+    shadow: u32,
 }
 
 struct Frame {
@@ -33,6 +35,8 @@ struct Frame {
     cut_depth: f32,
     // What lies behind this plane is not drawn; its product with (pos_view, 1) is the distance before it.
     cut: vec4<f32>,
+    // How dark shadows are, 0 to 1.
+    shadow_density: f32,
     // Paper: linear colour and opacity.
     background: vec4<f32>,
     lights: array<Light, 8>,

@@ -2,6 +2,9 @@
 #import common/frame.wgsl
 #import common/fullscreen.wgsl
 #import common/gbuffer.wgsl
+#import common/light.wgsl
+#import effects/gooch.wgsl
+#import effects/halftone.wgsl
 #import effects/toon.wgsl
 
 const BLANK: u32 = 0u;
@@ -9,6 +12,7 @@ const PLAIN: u32 = 1u;
 const UNLIT: u32 = 2u;
 const GOOCH: u32 = 3u;
 const TOON: u32 = 4u;
+const HALFTONE: u32 = 5u;
 
 // Which techniques any object uses.
 override WITH_PLAIN: bool = true;
@@ -16,39 +20,13 @@ override WITH_GOOCH: bool = true;
 
 // Twin: `SurfaceUniform` in src/render/effects/surface.rs.
 struct SurfaceStyle {
-    cool: vec3<f32>,
-    alpha: f32,
-    warm: vec3<f32>,
-    beta: f32,
-    highlight: f32,
-    shininess: f32,
+    gooch: GoochStyle,
     ambient: f32,
     technique: u32,
 }
 
-@group(1) @binding(4) var base_color_tex: texture_2d<f32>;
-@group(1) @binding(5) var<storage, read> surface_styles: array<SurfaceStyle>;
-
-fn plain(style: SurfaceStyle, base: vec3<f32>, normal: vec3<f32>, pos_view: vec3<f32>) -> vec3<f32> {
-    var light = vec3(style.ambient);
-    for (var i = 0u; i < frame.light_count; i++) {
-        let l = towards_light(frame.lights[i], pos_view);
-        light += frame.lights[i].color * max(dot(normal, l), 0.0);
-    }
-    return base * light;
-}
-
-// Gooch et al. 1998: cool + alpha · base to warm + beta · base by (1 + n·l) / 2, and a Phong highlight, with the
-// first light as the key.
-fn gooch(style: SurfaceStyle, base: vec3<f32>, normal: vec3<f32>, pos_view: vec3<f32>) -> vec3<f32> {
-    let l = towards_light(frame.lights[0], pos_view);
-    let cool = min(style.cool + style.alpha * base, vec3(1.0));
-    let warm = min(style.warm + style.beta * base, vec3(1.0));
-    let shade = mix(cool, warm, 0.5 + 0.5 * dot(normal, l));
-    let reflected = reflect(-l, normal);
-    let gloss = pow(max(dot(reflected, towards_eye(pos_view)), 0.0), style.shininess);
-    return mix(shade, vec3(1.0), style.highlight * gloss);
-}
+@group(1) @binding(6) var base_color_tex: texture_2d<f32>;
+@group(1) @binding(7) var<storage, read> surface_styles: array<SurfaceStyle>;
 
 // Linear colour times opacity, and opacity.
 @fragment
@@ -64,11 +42,13 @@ fn fs_main(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
             let pos_view = pos_view_of(px, s.depth);
             var shade = base;
             if WITH_GOOCH && style.technique == GOOCH {
-                shade = gooch(style, base, s.normal, pos_view);
+                shade = gooch(px, s, style.gooch, base, pos_view);
             } else if WITH_PLAIN && style.technique == PLAIN {
-                shade = plain(style, base, s.normal, pos_view);
+                shade = base * (style.ambient + light_at(px, s.normal, pos_view));
             } else if WITH_TOON && style.technique == TOON {
                 shade = toon(px, s, base);
+            } else if WITH_HALFTONE && style.technique == HALFTONE {
+                shade = halftone(px, s, base, pos_view);
             }
             color = vec4(shade, 1.0);
         }

@@ -175,7 +175,7 @@ impl Command {
             Self::Projection => ("Parallel projection", "Switch between perspective and parallel projection"),
             Self::Panels => ("All panels", "Show or hide everything around the picture"),
             Self::Outliner => ("Outliner", "Show or hide the list of objects"),
-            Self::Inspector => ("Style and view", "Show or hide the panel of styles and view"),
+            Self::Inspector => ("Style, light and view", "Show or hide the panel of styles, lights and view"),
             Self::Statistics => ("Statistics", "Show how long a picture takes"),
             Self::DarkPanels => {
                 ("Dark panels", "Make the panels dark or light; at first they are as the system wants")

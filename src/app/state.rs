@@ -45,6 +45,8 @@ pub enum Page {
     /// The look of the selection.
     #[default]
     Style,
+    /// What lights it.
+    Light,
     /// How the picture is shown.
     View,
 }

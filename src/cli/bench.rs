@@ -8,6 +8,7 @@ use serde_json::json;
 
 use super::args::BenchArgs;
 use super::{CliError, print_json, print_line, sample};
+use crate::document::Lighting;
 use crate::export::Session;
 use crate::export::session::{Opened, initial_camera, open, topology};
 use crate::geometry::primitives;
@@ -15,13 +16,15 @@ use crate::gpu::Gpu;
 use crate::import::Progress;
 use crate::render::Request;
 use crate::scene::{Camera, Material, Node, Scene};
+use crate::style::halftone::{Mapping, Space};
 use crate::style::toon::Border;
 use crate::style::{DepthOperator, EdgeMode, Style, Technique, preset};
 
-/// What is measured: a style, and what stands behind the model.
+/// What is measured: a style in some light, and what stands behind the model.
 struct Look {
     name: &'static str,
     style: Style,
+    lighting: Lighting,
     behind: Behind,
 }
 
@@ -153,6 +156,7 @@ impl Bench {
     fn frame(&mut self, look: &Look, turn: f64) -> Result<f64, CliError> {
         let mut document = self.opened.document.clone();
         document.style = look.style.clone();
+        document.lighting = look.lighting.clone();
         document.nodes.clear();
         let wall = document.node_mut(WALL);
         wall.visible = Some(look.behind != Behind::Nothing);
@@ -181,10 +185,18 @@ fn looks() -> Result<Vec<Look>, CliError> {
     let mut no_edges = gooch.clone();
     no_edges.edges.profile.show = false;
     no_edges.edges.inner.show = false;
+    let mut metal = no_edges.clone();
+    metal.gooch.metal = 1.0;
     let toon = |border| {
         let mut style = no_edges.clone();
         style.technique = Technique::Toon;
         style.toon.border = border;
+        style
+    };
+    let halftone = |space, mapping| {
+        let mut style = no_edges.clone();
+        style.technique = Technique::Halftone;
+        (style.halftone.space, style.halftone.mapping) = (space, mapping);
         style
     };
     let exact = |width: f32| {
@@ -192,22 +204,38 @@ fn looks() -> Result<Vec<Look>, CliError> {
         (style.edges.profile.width, style.edges.inner.width) = (width, width);
         style
     };
+    let plain = preset::load("plain")?.style;
+    let unshadowed = Lighting::default();
+    let hard = Lighting { shadows: true, ..Lighting::default() };
+    let soft = Lighting { shadow_softness: 2.0, ..hard.clone() };
     let styles = [
-        ("plain", preset::load("plain")?.style),
+        ("plain", plain.clone()),
         ("toon, nearest", toon(Border::Nearest)),
         ("toon, cartoon map", toon(Border::CartoonMap)),
         ("toon, analytic", toon(Border::Analytic)),
+        ("halftone, screen", halftone(Space::Screen, Mapping::Triplanar)),
+        ("halftone, triplanar", halftone(Space::Surface, Mapping::Triplanar)),
+        ("halftone, uv", halftone(Space::Surface, Mapping::Uv)),
         ("gooch, no edges", no_edges),
+        ("gooch, metal", metal),
         ("gooch + edges, diagonal", diagonal),
         ("gooch + edges, C1", c1),
         ("gooch + edges, 2 px", exact(2.0)),
         ("gooch + edges, 32 px", exact(32.0)),
         ("lines", preset::load("lines")?.style),
     ];
-    let look = |(name, style)| Look { name, style, behind: Behind::Nothing };
-    let mut looks: Vec<Look> = styles.into_iter().map(look).collect();
+    let look = |name, style, lighting: &Lighting| Look {
+        name,
+        style,
+        lighting: lighting.clone(),
+        behind: Behind::Nothing,
+    };
+    let mut looks: Vec<Look> =
+        styles.into_iter().map(|(name, style)| look(name, style, &unshadowed)).collect();
+    looks.push(look("plain, shadow", plain.clone(), &hard));
+    looks.push(look("plain, soft shadow", plain, &soft));
     for (name, behind) in [("before a wall", Behind::Wall), ("before a mirror", Behind::Mirror)] {
-        looks.push(Look { name, style: exact(2.0), behind });
+        looks.push(Look { behind, ..look(name, exact(2.0), &unshadowed) });
     }
     Ok(looks)
 }

@@ -6,9 +6,10 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
+use super::lighting::{Lighting, Source};
 use super::{Document, NodeSettings, View};
 use crate::scene::{Camera, Light, Up};
-use crate::style::param::Param;
+use crate::style::param::{Param, map_paths};
 use crate::style::{Style, StyleError, diff_to_toml, set_from_toml};
 
 /// A document is text that a person could have written; anything larger is a mistake.
@@ -41,12 +42,12 @@ pub enum DocumentError {
         /// What is wrong and in which line.
         message: String,
     },
-    /// A style or view parameter in it is wrong.
+    /// A parameter of a style, of the view or of the light in it is wrong.
     #[error("{}, {place}: {source}", path.display())]
     Style {
         /// The file.
         path: PathBuf,
-        /// `style`, `view` or the path of the node.
+        /// `style`, `view`, `light` or the path of the node.
         place: String,
         /// What is wrong.
         source: StyleError,
@@ -66,6 +67,8 @@ struct Form {
     camera: Option<Camera>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     lights: Option<Vec<Light>>,
+    #[serde(default, skip_serializing_if = "toml::Table::is_empty")]
+    light: toml::Table,
     #[serde(default, skip_serializing_if = "toml::Table::is_empty")]
     view: toml::Table,
     #[serde(default, skip_serializing_if = "toml::Table::is_empty")]
@@ -88,7 +91,7 @@ struct NodeForm {
 }
 
 impl Document {
-    /// Reads a `.hachure` file. Model paths become relative to the current folder.
+    /// Reads a `.hachure` file. Paths of models and images become relative to the current folder.
     ///
     /// # Errors
     /// See [`DocumentError`]; nothing is half read.
@@ -136,14 +139,16 @@ impl Document {
             up: form.up,
             metres_per_unit: form.metres_per_unit.filter(|u| u.is_finite() && *u > 0.0),
             camera: form.camera,
-            lights: form.lights.unwrap_or_else(Light::default_rig),
+            lighting: default_lighting(form.lights.is_some()),
+            lights: form.lights.unwrap_or_default(),
             style: Style::default(),
             ..Self::default()
         };
-        // A view table holds the keys of one section; the list of parameters has them with their prefix.
-        let mut view = toml::Table::new();
-        view.insert("view".to_owned(), form.view.into());
-        fill(&mut document.view.params(), &view, "view")?;
+        // These tables hold the keys of one section; the list of parameters has them with their prefix.
+        let section =
+            |name: &str, table: toml::Table| toml::Table::from_iter([(name.to_owned(), table.into())]);
+        fill(&mut document.view.params(), &section("view", form.view), "view")?;
+        fill(&mut document.lighting.params(), &section("light", form.light), "light")?;
         fill(&mut document.style.params(), &form.style, "style")?;
         for (node, form) in form.nodes {
             let style = form
@@ -157,11 +162,15 @@ impl Document {
             let settings = NodeSettings { style, visible, enhanced, mirror };
             document.nodes.insert(node, settings);
         }
+        let own = document.nodes.values_mut().filter_map(|n| n.style.as_mut());
+        for style in own.chain([&mut document.style]) {
+            map_paths(&mut style.params(), |image| folder.join(image));
+        }
         document.tidy();
         Ok(document)
     }
 
-    /// Writes a `.hachure` file; model paths are written relative to it where they lie beside or below it.
+    /// Writes a `.hachure` file; paths of models and images are written relative to it where they share a folder with it.
     ///
     /// # Errors
     /// [`DocumentError::Write`]; an existing file is then untouched.
@@ -172,16 +181,27 @@ impl Document {
     }
 
     fn to_text(&self, path: &Path) -> Result<String, DocumentError> {
-        let style_table =
-            |style: &Style| diff_to_toml(&mut style.clone().params(), &mut Style::default().params());
+        let style_table = |style: &Style| {
+            let mut style = style.clone();
+            let mut params = style.params();
+            map_paths(&mut params, |image| relative_to(image, path));
+            diff_to_toml(&mut params, &mut Style::default().params())
+        };
+        let has_lights = !self.lights.is_empty();
+        let section = |name: &str, table: toml::Table| {
+            table.get(name).and_then(|v| v.as_table()).cloned().unwrap_or_default()
+        };
         let view = diff_to_toml(&mut self.view.clone().params(), &mut View::default().params());
+        let light =
+            diff_to_toml(&mut self.lighting.clone().params(), &mut default_lighting(has_lights).params());
         let form = Form {
             models: self.models.iter().map(|m| relative_to(m, path)).collect(),
             up: self.up,
             metres_per_unit: self.metres_per_unit,
             camera: self.camera,
-            lights: (self.lights != Light::default_rig()).then(|| self.lights.clone()),
-            view: view.get("view").and_then(|v| v.as_table()).cloned().unwrap_or_default(),
+            lights: has_lights.then(|| self.lights.clone()),
+            light: section("light", light),
+            view: section("view", view),
             style: style_table(&self.style),
             nodes: self
                 .nodes
@@ -202,19 +222,24 @@ impl Document {
     }
 }
 
-/// `model` as it is seen from the folder of `document`; absolute where the two share no folder.
-fn relative_to(model: &Path, document: &Path) -> PathBuf {
+/// A document that lists lights uses them unless it says otherwise.
+fn default_lighting(has_lights: bool) -> Lighting {
+    Lighting { source: if has_lights { Source::File } else { Source::Rig }, ..Lighting::default() }
+}
+
+/// `file` as it is seen from the folder of `document`; absolute where the two share no folder.
+fn relative_to(file: &Path, document: &Path) -> PathBuf {
     let absolute = |p: &Path| std::path::absolute(p).unwrap_or_else(|_unknown| p.to_owned());
-    let model = absolute(model);
+    let file = absolute(file);
     let document = absolute(document);
     let folder = document.parent().unwrap_or(Path::new("/"));
-    let shared = model.components().zip(folder.components()).take_while(|(a, b)| a == b).count();
+    let shared = file.components().zip(folder.components()).take_while(|(a, b)| a == b).count();
     // Sharing only the root is sharing nothing.
     if shared < 2 {
-        return model;
+        return file;
     }
     let up = folder.components().skip(shared).map(|_| "..");
-    let down = model.components().skip(shared).map(|c| c.as_os_str());
+    let down = file.components().skip(shared).map(|c| c.as_os_str());
     up.map(std::ffi::OsStr::new).chain(down).collect()
 }
 
@@ -253,13 +278,49 @@ mod tests {
             ..Document::default()
         };
         document.view.background = "#102030".parse().unwrap();
+        document.lighting.shadows = true;
+        document.lighting.rim.azimuth = -12.5;
         document.node_mut("/crank/rod.3").style =
             Some(Style { technique: Technique::Plain, ..Style::default() });
         document.node_mut("/crank/rod.4").visible = Some(false);
         document.style.edges.class_mut(EdgeClass::Ridge).width = Some(document.style.edges.inner.width);
+        document.style.toon.image = Some(folder.path().join("images/ramp.png"));
         document.save(&path).unwrap();
-        assert!(std::fs::read_to_string(&path).unwrap().contains("\"models/crank.glb\""));
+        let text = std::fs::read_to_string(&path).unwrap();
+        assert!(text.contains("\"models/crank.glb\"") && text.contains("\"images/ramp.png\""), "{text}");
         assert_eq!(Document::open(&path).unwrap(), document);
+    }
+
+    #[test]
+    fn a_document_that_is_saved_elsewhere_finds_its_images() {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::create_dir(folder.path().join("drawings")).unwrap();
+        std::fs::write(folder.path().join("ramp.png"), "").unwrap();
+        let (first, second) = (folder.path().join("a.hachure"), folder.path().join("drawings/b.hachure"));
+        std::fs::write(
+            &first,
+            "[style]\ntoon.image = 'ramp.png'\n[nodes.'/m'.style]\ntoon.image = 'ramp.png'\n",
+        )
+        .unwrap();
+        Document::open(&first).unwrap().save(&second).unwrap();
+        let again = Document::open(&second).unwrap();
+        let styles = [Some(&again.style), again.nodes["/m"].style.as_ref()];
+        assert!(styles.iter().all(|s| s.unwrap().toon.image.as_ref().unwrap().exists()), "{again:?}");
+        assert!(std::fs::read_to_string(&second).unwrap().contains("\"../ramp.png\""));
+    }
+
+    #[test]
+    fn listed_lights_shine_unless_the_rig_is_asked_for() {
+        let lights = "[[lights]]\nkind = { directional = { direction = [0.0, -1.0, 0.0] } }\n\
+                      color = [1.0, 1.0, 1.0]\nintensity = 1.0\nattached_to_camera = false\n";
+        for (text, source) in
+            [(lights.to_owned(), Source::File), (format!("{lights}[light]\nsource = \"rig\""), Source::Rig)]
+        {
+            let document = Document::from_text(&text, Path::new("a.hachure")).unwrap();
+            assert_eq!((document.lights.len(), document.lighting.source), (1, source));
+            let again = document.to_text(Path::new("a.hachure")).unwrap();
+            assert_eq!(Document::from_text(&again, Path::new("a.hachure")).unwrap(), document);
+        }
     }
 
     #[test]

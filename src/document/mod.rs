@@ -2,11 +2,12 @@
 
 pub mod file;
 pub mod history;
+pub mod lighting;
 pub mod mirrors;
 pub mod pattern;
 pub mod view;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
 use crate::scene::{Camera, Light, NodeId, Scene, Up};
@@ -14,6 +15,7 @@ use crate::style::{Style, StyleError, Value, param};
 
 pub use file::DocumentError;
 pub use history::History;
+pub use lighting::Lighting;
 pub use pattern::{Pattern, PatternError};
 pub use view::{Show, View};
 
@@ -28,7 +30,9 @@ pub struct Document {
     pub metres_per_unit: Option<f64>,
     /// Where the eye is; `None` until a scene has been framed.
     pub camera: Option<Camera>,
-    /// The lights.
+    /// Which lights there are, and their shadows.
+    pub lighting: Lighting,
+    /// The lights of the model files, where [`lighting::Source::File`] asks for them.
     pub lights: Vec<Light>,
     /// How the picture is shown.
     pub view: View,
@@ -51,6 +55,15 @@ pub struct NodeSettings {
     pub mirror: Option<bool>,
 }
 
+/// A use of an image by a style.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ImageUse {
+    /// The parameter that names it, and the node whose style it is in: `toon.image`, `/crank/rod, toon.image`.
+    pub place: String,
+    /// The file; `None` where a choice asks for an image and none is named.
+    pub path: Option<PathBuf>,
+}
+
 /// What holds for one node after inheritance.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Resolved<'a> {
@@ -71,7 +84,8 @@ impl Default for Document {
             up: None,
             metres_per_unit: None,
             camera: None,
-            lights: Light::default_rig(),
+            lighting: Lighting::default(),
+            lights: Vec::new(),
             view: View::default(),
             style: default_style(),
             nodes: BTreeMap::new(),
@@ -95,6 +109,21 @@ impl Document {
         self.metres_per_unit.or(scene.metres_per_unit)
     }
 
+    /// The lights that shine; `up`: the model's.
+    pub fn light_sources(&self, up: Up) -> Vec<Light> {
+        match self.lighting.source {
+            lighting::Source::Rig => self.lighting.rig(up),
+            lighting::Source::File => self.lights.clone(),
+        }
+    }
+
+    /// Takes over the lights of model files, if they have any.
+    pub fn use_lights_of(&mut self, scene: &Scene) {
+        self.lights = scene.lights.clone();
+        self.lighting.source =
+            if scene.lights.is_empty() { lighting::Source::Rig } else { lighting::Source::File };
+    }
+
     /// Style and roles of every node, in the order of `scene.nodes`.
     pub fn resolve(&self, scene: &Scene) -> Vec<Resolved<'_>> {
         let root = Resolved { style: &self.style, visible: true, enhanced: true, mirror: false };
@@ -110,6 +139,27 @@ impl Document {
             });
         }
         resolved
+    }
+
+    /// The images that the styles need, each with the first place that names it.
+    pub fn images(&self) -> Vec<ImageUse> {
+        let own = self.nodes.iter().filter_map(|(path, node)| Some((path.as_str(), node.style.as_ref()?)));
+        let mut seen = BTreeSet::new();
+        let mut uses = Vec::new();
+        let mut last = None;
+        for (node, style) in std::iter::once(("", &self.style)).chain(own) {
+            // Thousands of nodes may have one style.
+            if last.replace(style) == Some(style) {
+                continue;
+            }
+            for (key, path) in style.images() {
+                if seen.insert((key.clone(), path.clone())) {
+                    let place = if node.is_empty() { key } else { format!("{node}, {key}") };
+                    uses.push(ImageUse { place, path });
+                }
+            }
+        }
+        uses
     }
 
     /// The settings of one node, made if there are none.
@@ -153,15 +203,16 @@ impl Document {
         self.tidy();
     }
 
-    /// Sets one parameter of the default style or of the view, and in all styles that single nodes have.
+    /// Sets one parameter of the default style, of the view or of the light, and in all styles that single nodes have.
     ///
     /// # Errors
     /// See [`param::set`].
     pub fn set(&mut self, key: &str, value: &Value) -> Result<(), StyleError> {
         let mut params = self.view.params();
+        params.extend(self.lighting.params());
         params.extend(self.style.params());
         param::set(&mut params, key, value)?;
-        if !key.starts_with("view.") {
+        if !key.starts_with("view.") && !key.starts_with("light.") {
             for style in self.nodes.values_mut().filter_map(|n| n.style.as_mut()) {
                 param::set(&mut style.params(), key, value)?;
             }
@@ -260,5 +311,22 @@ mod tests {
         assert!(document.set("gooch.alpah", &Value::Number(0.9)).is_err());
         document.set("gooch.alpha", &Value::Number(0.1)).unwrap();
         assert!(document.resolve(&scene).iter().all(|r| r.style.gooch.alpha == 0.1));
+    }
+
+    #[test]
+    fn each_image_is_listed_once_with_the_place_that_names_it() {
+        let (scene, mut document) = (scene(), Document::default());
+        let text = |t: &str| Value::Text(t.to_owned());
+        for (key, value) in [("technique", "toon"), ("toon.ramp", "image"), ("toon.image", "a.png")] {
+            document.set(key, &text(value)).unwrap();
+        }
+        document.set_for(&scene, &[1], "toon.image", &text("b.png")).unwrap();
+        document.set_for(&scene, &[3], "gooch.alpha", &Value::Number(0.9)).unwrap();
+        let expected = [("toon.image", "a.png"), ("/m/rod.1, toon.image", "b.png")];
+        let expected =
+            expected.map(|(place, path)| ImageUse { place: place.into(), path: Some(path.into()) });
+        assert_eq!(document.images(), expected);
+        document.set("technique", &text("gooch")).unwrap();
+        assert_eq!(document.images(), []);
     }
 }

@@ -62,8 +62,8 @@ pub fn open(files: &[PathBuf], crease_angle: Option<f32>, progress: &Progress) -
     let mut document = document.unwrap_or_else(|| Document { models: files.to_vec(), ..Document::default() });
     let crease_angle = crease_angle.unwrap_or(document.view.crease_angle);
     let scene = load_all(&document.models, &ImportOptions { crease_angle }, progress)?;
-    if is_new && !scene.lights.is_empty() {
-        document.lights = scene.lights.clone();
+    if is_new {
+        document.use_lights_of(&scene);
     }
     Ok(Opened { document, scene: Arc::new(scene) })
 }

@@ -59,7 +59,7 @@ impl TargetPool {
         if let Some(target) = self.targets.iter().find(free) {
             return Ok(target.clone());
         }
-        gpu.check_texture_size("the picture", size)?;
+        gpu.check_texture_size(&format!("the picture ({label})"), size)?;
         let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
             label: Some(label),
             size: wgpu::Extent3d { width: size[0], height: size[1], depth_or_array_layers: 1 },

@@ -1,8 +1,8 @@
 //! The scene drawn once, from one camera; and what its mirrors show, each by a drawing of its own.
 //!
 //! ```text
-//! objects ─► G-buffer ─┬─► (cartoon map ─►) shaded surfaces ┬─► + mirrors (drawings) ─► + lines ─► colour
-//!                      └─► edge map ─► reach of the lines ──┘
+//! objects ─► G-buffer ─┬─► (shadow mask ─► cartoon map ─►) surfaces ┬─► + mirrors (drawings) ─► + lines ─► colour
+//!                      └─► edge map ─► reach of the lines ──────────┘
 //! segments (topology) ─────┘
 //! ```
 
@@ -11,12 +11,14 @@ use std::sync::Arc;
 use glam::{Vec2, Vec4};
 
 use super::RenderError;
+use super::effects::halftone::{HalftoneInputs, HalftoneUniform, ThresholdMaps};
 use super::effects::mirror::{MirrorUniform, mirror};
 use super::effects::surface::{Shading, SurfaceUniform, surface};
-use super::effects::toon::{ToonUniform, cartoon_map};
+use super::effects::toon::{ToonBuffers, Toons, cartoon_map};
 use super::frame_uniform::{FrameUniform, View};
 use super::gpu_scene::GpuScene;
 use super::groups::Objects;
+use super::lights::Lights;
 use super::passes::edge_map::{EdgeInputs, EdgeMap, EdgeMapPass};
 use super::passes::edge_style::EdgeUniform;
 use super::passes::gbuffer::{DrawCall, DrawUniform, GBuffer, GBufferPass};
@@ -24,10 +26,10 @@ use super::passes::line_distance::{Reach, line_distance};
 use super::passes::lines::lines;
 use super::sample::Sample;
 use super::segments::segments;
+use super::shadows::{ShadowMap, ShadowMask};
 use super::stage::{Output, Stage};
 use crate::geometry::LineSegment;
 use crate::gpu::{ArrayBuffer, DynamicBuffer, Gpu, Recorder, Target, UniformBuffer};
-use crate::scene::Light;
 
 /// What is to be drawn, and from where.
 #[derive(Clone, Copy)]
@@ -41,7 +43,9 @@ pub struct DrawingInputs<'a> {
     /// Above it edges separate surfaces; radians.
     pub crease_angle: f32,
     /// The lights.
-    pub lights: &'a [Light],
+    pub lights: &'a Lights,
+    /// The maps of those that throw shadows, by channel; they are for all cameras.
+    pub shadow_maps: &'a [ShadowMap],
     /// Which sample of the picture this is.
     pub sample: Sample,
     /// The camera, moved by the sample's jitter.
@@ -60,6 +64,10 @@ pub struct Begun {
     pub depth_range: Vec2,
     /// Per-pixel geometry.
     pub gbuffer: Output<GBuffer>,
+    /// See [`ShadowMask`]; `None` when no light throws shadows.
+    pub shadow_mask: Option<Output<Target>>,
+    /// The draws of those objects whose style asks for coordinates on their surface.
+    with_coordinates: Vec<DrawCall>,
 }
 
 /// Surfaces with their lines.
@@ -69,6 +77,8 @@ pub struct Shaded {
     pub color: Output<Target>,
     /// See `shaders/effects/toon.wgsl`; `None` when no object asks for it.
     pub cartoon_map: Option<Target>,
+    /// See `shaders/passes/coordinates.wgsl`; `None` when no object asks for it.
+    pub coordinates: Option<Target>,
 }
 
 /// What of a drawing lives across frames.
@@ -77,17 +87,31 @@ pub struct Drawing {
     frame_group: wgpu::BindGroup,
     draws: DynamicBuffer,
     edge_map_pass: EdgeMapPass,
+    threshold_maps: ThresholdMaps,
     greatest_radius: ArrayBuffer,
     edge_styles: ArrayBuffer,
     surface_styles: ArrayBuffer,
     toon_styles: ArrayBuffer,
+    toon_bands: ArrayBuffer,
+    halftone_styles: ArrayBuffer,
     gbuffer: Stage<(u64, u64, View, Vec<DrawUniform>, Vec<DrawCall>), GBuffer>,
     segments: Stage<(u64, View, Vec<EdgeUniform>, f32), Arc<Vec<LineSegment>>>,
     edge_map: Stage<(u64, Vec<EdgeUniform>, Vec2, Option<FrameUniform>), EdgeMap>,
     reach: Stage<u64, Reach>,
-    cartoon_map: Stage<(u64, Vec<ToonUniform>, FrameUniform), Target>,
+    shadow_mask: ShadowMask,
+    cartoon_map: Stage<(u64, u64, Toons, FrameUniform), Target>,
+    coordinates: Stage<(u64, Vec<DrawCall>), Target>,
     surface: Stage<
-        (u64, Option<[u64; 2]>, Vec<SurfaceUniform>, Vec<ToonUniform>, Vec<EdgeUniform>, FrameUniform, Seen),
+        (
+            [u64; 2],
+            Option<[u64; 2]>,
+            Vec<SurfaceUniform>,
+            Toons,
+            Vec<HalftoneUniform>,
+            Vec<EdgeUniform>,
+            FrameUniform,
+            Seen,
+        ),
         Target,
     >,
     reflections: Vec<Reflection>,
@@ -128,15 +152,20 @@ impl Drawing {
             frame_group,
             draws: GBufferPass::draw_buffer(gpu),
             edge_map_pass: EdgeMapPass::new(gpu),
+            threshold_maps: ThresholdMaps::new(gpu),
             greatest_radius: ArrayBuffer::new(gpu, "greatest radius"),
             edge_styles: ArrayBuffer::new(gpu, "edge styles"),
             surface_styles: ArrayBuffer::new(gpu, "surface styles"),
             toon_styles: ArrayBuffer::new(gpu, "toon styles"),
+            toon_bands: ArrayBuffer::new(gpu, "toon bands"),
+            halftone_styles: ArrayBuffer::new(gpu, "halftone styles"),
             gbuffer: Stage::default(),
             segments: Stage::default(),
             edge_map: Stage::default(),
             reach: Stage::default(),
+            shadow_mask: ShadowMask::new(gpu),
             cartoon_map: Stage::default(),
+            coordinates: Stage::default(),
             surface: Stage::default(),
             reflections: Vec::new(),
             reflected: 0,
@@ -154,18 +183,19 @@ impl Drawing {
     }
 
     /// How often each stage has run, by name.
-    pub fn runs(&self) -> [(&'static str, u64); 6] {
+    pub fn runs(&self) -> [(&'static str, u64); 7] {
         [
             ("g-buffer", self.gbuffer.runs()),
             ("edge map", self.edge_map.runs()),
             ("line distance", self.reach.runs()),
+            ("shadow", self.shadow_mask.runs()),
             ("cartoon map", self.cartoon_map.runs()),
             ("surface", self.surface.runs()),
             ("mirror", self.reflected),
         ]
     }
 
-    /// Begins a drawing with its G-buffer; all later passes see through its camera.
+    /// Begins a drawing with its G-buffer and the shadows on it; all later passes see through its camera.
     ///
     /// # Errors
     /// [`RenderError`].
@@ -183,11 +213,21 @@ impl Drawing {
         self.edge_styles.write(rec.gpu, &objects.edge_styles);
 
         let (draws, calls) = objects.draws(scene, view);
+        let with_coordinates = calls
+            .iter()
+            .filter(|call| {
+                draws
+                    .get(call.draw as usize)
+                    .is_some_and(|draw| objects.halftones.need_coordinates(draw.object))
+            })
+            .copied()
+            .collect();
         let geometry = (rec.pipelines.generation(), inputs.scene_revision, *view, draws, calls);
         let gbuffer = self.gbuffer.run(geometry, |(.., draws, calls)| {
             gbuffer_pass.run(rec, scene, &mut self.draws, (draws, calls), view.cut.is_some())
         })?;
-        Ok(Begun { uniform, depth_range, gbuffer })
+        let shadow_mask = self.shadow_mask.run(rec, &gbuffer, inputs)?;
+        Ok(Begun { uniform, depth_range, gbuffer, shadow_mask, with_coordinates })
     }
 
     fn look_through(&self, rec: &mut Recorder<'_>, view: &View) {
@@ -240,6 +280,7 @@ impl Drawing {
     pub fn forget_surfaces(&mut self) {
         self.surface.clear();
         self.cartoon_map.clear();
+        self.coordinates.clear();
     }
 
     /// Shades what was begun and draws the lines over it.
@@ -256,6 +297,8 @@ impl Drawing {
     ) -> Result<Shaded, RenderError> {
         let reflected = self.reflect(rec, gbuffer_pass, inputs)?;
         let cartoon_map = self.find_bands(rec, inputs, begun)?;
+        let coordinates = self.find_coordinates(rec, gbuffer_pass, inputs, begun)?;
+        self.threshold_maps.prepare(rec.gpu, &inputs.objects.halftones)?;
         let gbuffer = &begun.gbuffer;
         let styles = &inputs.objects.edge_styles;
         let spines = edge_map.and_then(|e| Some((e.revision, e.value.spines.as_ref()?)));
@@ -271,10 +314,11 @@ impl Drawing {
         };
         let revisions = edge_map.map(|e| [e.revision, reach.as_ref().map_or(0, |reach| reach.revision)]);
         let shading = (
-            gbuffer.revision,
+            [gbuffer.revision, begun.shadow_mask.as_ref().map_or(0, |mask| mask.revision)],
             revisions,
             inputs.objects.surface_styles.clone(),
-            inputs.objects.toon_styles.clone(),
+            inputs.objects.toons.clone(),
+            inputs.objects.halftones.placed(inputs.scene, inputs.view),
             styles.clone(),
             begun.uniform.without_background(),
             (!reflected.is_empty()).then(|| {
@@ -282,14 +326,27 @@ impl Drawing {
                 (seen, inputs.background)
             }),
         );
-        let color = self.surface.run(shading, |(_, _, surfaces, toons, styles, ..)| {
+        let color = self.surface.run(shading, |(_, _, surfaces, toons, halftones, styles, ..)| {
             self.surface_styles.write(rec.gpu, surfaces);
+            if !halftones.is_empty() {
+                self.halftone_styles.write(rec.gpu, halftones);
+            }
             let shading = Shading {
                 surfaces,
                 surface_styles: self.surface_styles.buffer(),
                 toons,
-                toon_styles: self.toon_styles.buffer(),
+                toon_buffers: ToonBuffers {
+                    styles: self.toon_styles.buffer(),
+                    bands: self.toon_bands.buffer(),
+                },
+                shadow_mask: begun.shadow_mask.as_ref().map(|mask| &mask.value),
                 cartoon_map: cartoon_map.as_ref(),
+                halftones: HalftoneInputs {
+                    styles: halftones,
+                    style_buffer: self.halftone_styles.buffer(),
+                    maps: &self.threshold_maps,
+                    coordinates: coordinates.as_ref(),
+                },
             };
             let color = surface(rec, &gbuffer.value, &shading)?;
             for seen in &reflected {
@@ -310,7 +367,26 @@ impl Drawing {
             }
             Ok::<_, RenderError>(color)
         })?;
-        Ok(Shaded { color, cartoon_map })
+        Ok(Shaded { color, cartoon_map, coordinates })
+    }
+
+    fn find_coordinates(
+        &mut self,
+        rec: &mut Recorder<'_>,
+        gbuffer_pass: &mut GBufferPass,
+        inputs: &DrawingInputs<'_>,
+        begun: &Begun,
+    ) -> Result<Option<Target>, RenderError> {
+        if begun.with_coordinates.is_empty() {
+            self.coordinates.clear();
+            return Ok(None);
+        }
+        let asked = (begun.gbuffer.revision, begun.with_coordinates.clone());
+        let coordinates = self.coordinates.run(asked, |(_, calls)| {
+            let draws = (&gbuffer_pass.draw_layout, &self.draws);
+            gbuffer_pass.coordinates.run(rec, inputs.scene, &begun.gbuffer.value, draws, calls)
+        })?;
+        Ok(Some(coordinates.value))
     }
 
     /// Draws what is seen in the mirrors.
@@ -331,8 +407,6 @@ impl Drawing {
         if seen.is_empty() {
             return Ok(Vec::new());
         }
-        let world_from_view = inputs.view.view_from_world.inverse();
-        let lights: Vec<_> = inputs.lights.iter().map(|light| light.placed(&world_from_view)).collect();
         let mut reflected = Vec::new();
         for (mirror, view) in &seen {
             let index = match self.reflections.iter().position(|r| r.object == mirror.object) {
@@ -347,8 +421,7 @@ impl Drawing {
                 }
             };
             let Some(reflection) = self.reflections.get_mut(index) else { continue };
-            let inner =
-                DrawingInputs { lights: &lights, view, reflections: inputs.reflections - 1, ..*inputs };
+            let inner = DrawingInputs { view, reflections: inputs.reflections - 1, ..*inputs };
             let before = reflection.drawing.drawn();
             let color = reflection.drawing.record(rec, gbuffer_pass, &inner)?;
             self.reflected += reflection.drawing.drawn() - before;
@@ -382,18 +455,23 @@ impl Drawing {
         inputs: &DrawingInputs<'_>,
         begun: &Begun,
     ) -> Result<Option<Target>, RenderError> {
-        let toons = &inputs.objects.toon_styles;
-        if !toons.is_empty() {
-            self.toon_styles.write(rec.gpu, toons);
+        let toons = &inputs.objects.toons;
+        if !toons.styles.is_empty() {
+            self.toon_styles.write(rec.gpu, &toons.styles);
+            self.toon_bands.write(rec.gpu, &toons.bands);
         }
         if !inputs.objects.have_cartoon_map() {
             self.cartoon_map.clear();
             return Ok(None);
         }
         let gbuffer = &begun.gbuffer;
-        let bands = (gbuffer.revision, toons.clone(), begun.uniform.without_background());
-        let map =
-            self.cartoon_map.run(bands, |_| cartoon_map(rec, &gbuffer.value, self.toon_styles.buffer()))?;
+        let mask = begun.shadow_mask.as_ref();
+        let shadows = mask.map_or(0, |mask| mask.revision);
+        let bands = (gbuffer.revision, shadows, toons.clone(), begun.uniform.without_background());
+        let toon_styles = self.toon_styles.buffer();
+        let map = self
+            .cartoon_map
+            .run(bands, |_| cartoon_map(rec, &gbuffer.value, toon_styles, mask.map(|mask| &mask.value)))?;
         Ok(Some(map.value))
     }
 }

@@ -1,7 +1,7 @@
 //! THE FRAME: from a scene to the final image, in the order of the edge-enhancement paper's pipeline.
 //!
 //! ```text
-//! drawing (G-buffer ─► edges ─► surfaces + lines) ─► mean of the samples ─► resolve ─► final image
+//! shadow maps ─► drawing (G-buffer ─► edges ─► surfaces + lines) ─► mean of the samples ─► resolve ─► final image
 //! ```
 
 use glam::{Vec2, Vec4};
@@ -15,6 +15,7 @@ use super::passes::resolve::resolve;
 use super::passes::selection::{self, selection};
 use super::passes::show::show;
 use super::sample::Sample;
+use super::shadows::ShadowMaps;
 use super::stage::Stage;
 use crate::document::Show;
 use crate::gpu::{ArrayBuffer, Gpu, Recorder, Target};
@@ -48,13 +49,19 @@ pub struct Picture {
     pub operators: Option<Target>,
     /// See `shaders/common/edge_map.wgsl`; `None` when no object has lines.
     pub edge_map: Option<Target>,
+    /// Channel i: how much of the light that throws shadows as number i reaches the pixel (1: all of it); `None` when
+    /// no light does.
+    pub shadow_mask: Option<Target>,
     /// See `shaders/effects/toon.wgsl`; `None` when no object asks for it.
     pub cartoon_map: Option<Target>,
+    /// See `shaders/passes/coordinates.wgsl`; `None` when no object asks for it.
+    pub coordinates: Option<Target>,
 }
 
 /// What lives across frames.
 pub struct FrameState {
     gbuffer_pass: GBufferPass,
+    shadow_maps: ShadowMaps,
     drawing: Drawing,
     operators: Stage<(u64, Vec2), Target>,
     accumulation: Accumulation,
@@ -73,6 +80,7 @@ impl FrameState {
     pub fn new(gpu: &Gpu, frame_layout: &wgpu::BindGroupLayout) -> Self {
         Self {
             gbuffer_pass: GBufferPass::new(gpu),
+            shadow_maps: ShadowMaps::new(gpu),
             drawing: Drawing::new(gpu, frame_layout),
             operators: Stage::default(),
             accumulation: Accumulation::default(),
@@ -97,6 +105,7 @@ impl FrameState {
     /// How often each stage has run, by name.
     pub fn runs(&self) -> Vec<(&'static str, u64)> {
         let mut runs = self.drawing.runs().to_vec();
+        runs.push(("shadow map", self.shadow_maps.runs()));
         runs.push(("image", self.image.runs()));
         runs
     }
@@ -124,6 +133,8 @@ impl FrameState {
     ) -> Result<Picture, RenderError> {
         let FrameInputs { drawing: eye, show: what, .. } = inputs;
         let shaders = rec.pipelines.generation();
+        let shadow_maps = self.shadow_maps.run(rec, eye, &self.gbuffer_pass.material_layout)?;
+        let eye = &DrawingInputs { shadow_maps: &shadow_maps, ..*eye };
         let begun = self.drawing.begin(rec, &mut self.gbuffer_pass, eye)?;
         let edge_map = if *what != Show::Picture || eye.objects.have_lines() {
             Some(self.drawing.find_edges(rec, eye, &begun)?)
@@ -133,10 +144,10 @@ impl FrameState {
         };
         let operators = self.operators(rec, *what, &begun)?;
 
-        let mut cartoon_map = None;
+        let (mut cartoon_map, mut coordinates) = (None, None);
         let image = if *what == Show::Picture {
             let shaded = self.drawing.shade(rec, &mut self.gbuffer_pass, eye, &begun, edge_map.as_ref())?;
-            cartoon_map = shaded.cartoon_map;
+            (cartoon_map, coordinates) = (shaded.cartoon_map, shaded.coordinates);
             let color = self.accumulation.add(rec, eye.sample, shaded.color)?;
             let final_inputs = (shaders, *what, [color.revision, 0, 0], eye.background);
             self.image.run(final_inputs, |_| resolve(rec, &color.value))?
@@ -163,7 +174,9 @@ impl FrameState {
             gbuffer: begun.gbuffer.value,
             operators: operators.map(|(_, values)| values),
             edge_map: edge_map.map(|e| e.value.edges),
+            shadow_mask: begun.shadow_mask.map(|mask| mask.value),
             cartoon_map,
+            coordinates,
         })
     }
 

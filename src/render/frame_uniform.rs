@@ -3,21 +3,20 @@
 use encase::ShaderType;
 use glam::{DMat4, DVec3, DVec4, Mat4, UVec2, Vec2, Vec3, Vec4};
 
+use super::lights::{Lights, MAX_LIGHTS, WorldLight};
 use super::sample::Sample;
 use crate::geometry::{Bounds, Lens, Plane, Projector};
-use crate::scene::{Camera, Light, LightKind, Projection};
+use crate::scene::{Camera, LightKind, Projection};
 
 /// What lies this close before a mirror belongs to the mirror; share of the diagonal of everything visible.
 const CUT_MARGIN: f64 = 1e-5;
-
-/// More lights are left out.
-pub const MAX_LIGHTS: usize = 8;
 
 /// Twin of `Light` in `shaders/common/frame.wgsl`.
 #[derive(Debug, Clone, Copy, PartialEq, ShaderType, Default)]
 pub struct LightUniform {
     vector: Vec4,
     color: Vec3,
+    shadow: u32,
 }
 
 /// Twin of `Frame` in `shaders/common/frame.wgsl`.
@@ -36,6 +35,7 @@ pub struct FrameUniform {
     center_depth: f32,
     cut_depth: f32,
     cut: Vec4,
+    shadow_density: f32,
     background: Vec4,
     lights: [LightUniform; MAX_LIGHTS],
 }
@@ -207,6 +207,15 @@ impl View {
         }
     }
 
+    /// Points whose hull holds all that the picture shows between two depths, world space.
+    pub fn corners(&self, depths: Vec2) -> [DVec3; 8] {
+        let size = self.size.as_vec2();
+        // A pixel more, for the jitter.
+        let px =
+            [Vec2::splat(-1.0), Vec2::new(size.x + 1.0, -1.0), Vec2::new(-1.0, size.y + 1.0), size + 1.0];
+        std::array::from_fn(|i| self.unproject(px[i % 4], depths[i / 4]))
+    }
+
     /// The point in world space that a pixel of this linear depth shows.
     pub fn unproject(&self, px: Vec2, depth: f32) -> DVec3 {
         let ndc = ((px - self.jitter) / self.size.as_vec2() * 2.0 - 1.0) * Vec2::new(1.0, -1.0);
@@ -218,13 +227,13 @@ impl View {
 
 impl FrameUniform {
     /// All that the shaders know of camera, lights and paper. `background`: linear colour and opacity.
-    pub fn new(view: &View, sample: Sample, depth_range: Vec2, lights: &[Light], background: Vec4) -> Self {
+    pub fn new(view: &View, sample: Sample, depth_range: Vec2, lights: &Lights, background: Vec4) -> Self {
         let mut uniforms = [LightUniform::default(); MAX_LIGHTS];
-        for (uniform, light) in uniforms.iter_mut().zip(lights) {
+        for (uniform, light) in uniforms.iter_mut().zip(&lights.lights) {
             *uniform = light_uniform(light, &view.view_from_world);
         }
         // Without any light the first one stands for the key that some techniques cannot do without.
-        if lights.is_empty() {
+        if lights.lights.is_empty() {
             uniforms[0].vector = Vec4::new(0.0, 0.0, 1.0, 0.0);
         }
         Self {
@@ -239,10 +248,11 @@ impl FrameUniform {
             coverage_ramp: sample.coverage_ramp(),
             sample_weight: sample.weight(),
             orthographic: u32::from(view.orthographic),
-            light_count: lights.len().min(MAX_LIGHTS) as u32,
+            light_count: lights.lights.len().min(MAX_LIGHTS) as u32,
             center_depth: -view.view_from_world.transform_point3(view.center).z as f32,
             cut_depth: if view.is_cut { view.clip_range[0] as f32 } else { 0.0 },
             cut: view.cut.map_or(Vec4::ZERO, |cut| cut.as_vec4()),
+            shadow_density: lights.density,
             background,
             lights: uniforms,
         }
@@ -257,25 +267,17 @@ impl FrameUniform {
     }
 }
 
-fn light_uniform(light: &Light, view_from_world: &DMat4) -> LightUniform {
+fn light_uniform(light: &WorldLight, view_from_world: &DMat4) -> LightUniform {
     let vector = match light.kind {
         LightKind::Directional { direction } => {
-            let direction = if light.attached_to_camera {
-                direction
-            } else {
-                view_from_world.transform_vector3(direction)
-            };
-            (-direction).normalize_or(DVec3::Z).extend(0.0)
+            (-view_from_world.transform_vector3(direction)).normalize_or(DVec3::Z).extend(0.0)
         }
-        LightKind::Point { position } => {
-            let position =
-                if light.attached_to_camera { position } else { view_from_world.transform_point3(position) };
-            position.extend(1.0)
-        }
+        LightKind::Point { position } => view_from_world.transform_point3(position).extend(1.0),
     };
     LightUniform {
         vector: vector.as_vec4(),
-        color: light.color.clamp(Vec3::ZERO, Vec3::ONE) * light.intensity.max(0.0),
+        color: light.color,
+        shadow: light.shadow.map_or(0, |channel| channel as u32 + 1),
     }
 }
 

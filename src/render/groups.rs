@@ -2,13 +2,15 @@
 
 use glam::{DMat4, Mat3, Mat4};
 
+use super::effects::halftone::Halftones;
 use super::effects::mirror::Mirror;
 use super::effects::surface::SurfaceUniform;
-use super::effects::toon::ToonUniform;
+use super::effects::toon::{ToonUniform, Toons};
 use super::frame_uniform::View;
 use super::gpu_scene::GpuScene;
 use super::passes::edge_style::EdgeUniform;
 use super::passes::gbuffer::{Detail, DrawCall, DrawUniform};
+use super::style_images::StyleImages;
 use crate::document::Document;
 use crate::geometry::Bounds;
 use crate::scene::{AlphaMode, NodeId};
@@ -32,6 +34,23 @@ pub fn region(object: u32, surface: u32) -> u32 {
     object.wrapping_mul(2_654_435_769).wrapping_add(surface).max(1)
 }
 
+/// A part of a visible object: what has one material.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct VisiblePart {
+    /// Number of its mesh.
+    pub mesh: usize,
+    /// Where the object lies.
+    pub world_from_local: DMat4,
+    /// Number of its material.
+    pub material: usize,
+    /// Range of the index buffer.
+    pub first_index: u32,
+    /// Number of indices.
+    pub index_count: u32,
+    /// First vertex of the mesh.
+    pub base_vertex: i32,
+}
+
 /// Everything that is visible, resolved for one frame.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Objects {
@@ -42,8 +61,10 @@ pub struct Objects {
     pub edge_styles: Vec<EdgeUniform>,
     /// Shading parameters by object id.
     pub surface_styles: Vec<SurfaceUniform>,
-    /// Parameters of toon shading by object id; empty when no object is a toon.
-    pub toon_styles: Vec<ToonUniform>,
+    /// Parameters of toon shading.
+    pub toons: Toons,
+    /// The objects that are halftones.
+    pub halftones: Halftones,
     /// Whether any object with lines has holes by alpha.
     pub has_holes: bool,
     /// The mirrors among them.
@@ -52,22 +73,26 @@ pub struct Objects {
 
 impl Objects {
     /// Resolves styles and roles of a document for the nodes of a scene; `scale`: pixels per reference pixel.
-    pub fn new(document: &Document, scene: &GpuScene, scale: f32) -> Self {
+    pub fn new(document: &Document, scene: &GpuScene, images: &StyleImages, scale: f32) -> Self {
         let resolved = document.resolve(&scene.scene);
         let mut objects = Self::default();
         // What is not drawn, entry 0 (the background) included, has neither shading nor lines.
         let count = resolved.len() + 1;
         objects.edge_styles = vec![EdgeUniform::default(); count];
-        objects.surface_styles = vec![SurfaceUniform::BLANK; count];
+        objects.surface_styles = vec![SurfaceUniform::default(); count];
         for (node, r) in resolved.iter().enumerate() {
             if !r.visible || scene.scene.nodes[node].mesh.is_none() {
                 continue;
             }
             let id = object_id(node) as usize;
-            objects.surface_styles[id] = SurfaceUniform::from(r.style);
+            objects.surface_styles[id] =
+                SurfaceUniform::new(r.style, &scene.scene.nodes[node].world_from_local);
             if r.style.technique == Technique::Toon {
-                objects.toon_styles.resize(count, ToonUniform::default());
-                objects.toon_styles[id] = ToonUniform::from(&r.style.toon);
+                objects.toons.set(id, count, &r.style.toon, images);
+            }
+            if r.style.technique == Technique::Halftone {
+                let has_uvs = scene.has_uvs(node);
+                objects.halftones.add((count, id), &r.style.halftone, images, scale, has_uvs);
             }
             if r.enhanced {
                 objects.edge_styles[id] = EdgeUniform::new(&r.style.edges, scale);
@@ -91,12 +116,39 @@ impl Objects {
 
     /// Whether any visible object needs the cartoon map.
     pub fn have_cartoon_map(&self) -> bool {
-        self.toon_styles.iter().any(ToonUniform::has_cartoon_map)
+        self.toons.styles.iter().any(ToonUniform::has_cartoon_map)
     }
 
     /// The visible objects, and whether each is enhanced.
     pub fn visible(&self) -> &[(NodeId, bool)] {
         &self.visible
+    }
+
+    /// The boxes of all visible objects, each in its own space, and where that lies.
+    pub fn boxes<'a>(&'a self, scene: &'a GpuScene) -> impl Iterator<Item = (Bounds, DMat4)> + 'a {
+        self.visible.iter().filter_map(|(id, _)| {
+            let node = &scene.scene.nodes[*id];
+            Some((*scene.mesh_bounds.get(node.mesh?)?, node.world_from_local))
+        })
+    }
+
+    /// The parts of all visible objects.
+    pub fn parts<'a>(&'a self, scene: &'a GpuScene) -> impl Iterator<Item = VisiblePart> + 'a {
+        self.visible.iter().flat_map(move |(id, _)| {
+            let node = &scene.scene.nodes[*id];
+            let found =
+                node.mesh.and_then(|m| Some((m, scene.scene.meshes.get(m)?, scene.geometry.meshes.get(m)?)));
+            found.into_iter().flat_map(move |(mesh, source, range)| {
+                source.parts.iter().map(move |part| VisiblePart {
+                    mesh,
+                    world_from_local: node.world_from_local,
+                    material: part.material,
+                    first_index: range.first_index + part.first_index,
+                    index_count: part.index_count,
+                    base_vertex: range.base_vertex,
+                })
+            })
+        })
     }
 
     /// The boxes of the enhanced objects, each in its own space, and where that lies.

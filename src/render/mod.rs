@@ -6,11 +6,15 @@ pub mod frame;
 pub mod frame_uniform;
 pub mod gpu_scene;
 pub mod groups;
+pub mod light_view;
+pub mod lights;
 pub mod passes;
 mod renderer;
 pub mod sample;
 mod segments;
+pub mod shadows;
 pub mod stage;
+mod style_images;
 
 pub use frame::Picture;
 pub use gpu_scene::{GpuScene, UploadedTopology, Uploader};

@@ -9,12 +9,14 @@ use super::frame::{FrameInputs, FrameState, Picture};
 use super::frame_uniform::View;
 use super::gpu_scene::{GpuScene, UploadedTopology, Uploader};
 use super::groups::{Objects, node_of};
+use super::lights::Lights;
 use super::passes::accumulate::Subject;
+use super::style_images::StyleImages;
 use crate::document::Document;
 use crate::geometry::Topology;
 use crate::gpu::readback::Readback;
 use crate::gpu::{Gpu, GpuError, Pipelines, Recorder, ShaderError, Shaders, TargetPool, Timers};
-use crate::scene::{Camera, NodeId, Scene};
+use crate::scene::{Camera, Images, NodeId, Scene};
 
 /// Height of the picture in reference pixels, in which widths and scales are given.
 const REFERENCE_HEIGHT: f32 = 1080.0;
@@ -71,6 +73,7 @@ pub struct Renderer {
     state: FrameState,
     scene: Option<GpuScene>,
     scene_revision: u64,
+    images: StyleImages,
     last: Option<(Picture, View)>,
     pick: Option<PendingPick>,
     shader_error: Option<ShaderError>,
@@ -88,6 +91,7 @@ impl Renderer {
             timers: None,
             scene: None,
             scene_revision: 0,
+            images: StyleImages::default(),
             last: None,
             pick: None,
             shader_error,
@@ -102,6 +106,7 @@ impl Renderer {
         twin.pipelines = self.pipelines.clone();
         twin.scene = self.scene.clone();
         twin.scene_revision = self.scene_revision;
+        twin.images = self.images.clone();
         twin.state.go_on_from(&self.state);
         twin
     }
@@ -141,6 +146,14 @@ impl Renderer {
         Ok(())
     }
 
+    /// Takes over the images that styles name; those that are missing are drawn without.
+    pub fn set_images(&mut self, images: Images) {
+        if *self.images.all() != images {
+            self.images = StyleImages::new(images);
+            self.scene_revision += 1;
+        }
+    }
+
     /// Measures each pass from now on, if the device can; ask [`Self::timings`] after each frame.
     pub fn enable_timers(&mut self) {
         self.timers = Timers::new(&self.gpu);
@@ -172,7 +185,7 @@ impl Renderer {
         };
         let size = request.size.map(|s| s.max(1));
         let scale = size[1] as f32 / REFERENCE_HEIGHT;
-        let objects = Objects::new(request.document, scene, scale);
+        let objects = Objects::new(request.document, scene, &self.images, scale);
         let subject = Subject {
             shaders: self.pipelines.generation(),
             scene_revision: self.scene_revision,
@@ -188,13 +201,15 @@ impl Renderer {
         let timers = self.timers.as_mut();
         let frame = self.state.drawing().frame_group().clone();
         let mut recorder = Recorder::new(&self.gpu, &mut self.pipelines, &mut self.pool, timers, frame, size);
+        let lights = Lights::new(request.document, &scene.scene, &view.view_from_world);
         let inputs = FrameInputs {
             drawing: DrawingInputs {
                 scene,
                 scene_revision: self.scene_revision,
                 objects: &objects,
                 crease_angle: request.document.view.crease_angle.to_radians(),
-                lights: &request.document.lights,
+                lights: &lights,
+                shadow_maps: &[],
                 sample,
                 view: &view,
                 background,

@@ -13,6 +13,9 @@ pub struct Light {
     pub intensity: f32,
     /// Whether the light moves with the camera: its direction or position is then in view space.
     pub attached_to_camera: bool,
+    /// Whether objects throw shadows in its light, where the drawing has shadows.
+    #[serde(default)]
+    pub casts_shadow: bool,
 }
 
 /// Kind of light source, without physical units: drawings do not need them.
@@ -57,16 +60,5 @@ impl Light {
             }
         };
         Self { kind, attached_to_camera: false, ..self.clone() }
-    }
-
-    /// The default rig: a key light over the viewer's left shoulder and a weaker fill from the right.
-    pub fn default_rig() -> Vec<Self> {
-        let light = |x: f64, y: f64, z: f64, intensity| Self {
-            kind: LightKind::Directional { direction: -DVec3::new(x, y, z).normalize_or(DVec3::Z) },
-            color: Vec3::ONE,
-            intensity,
-            attached_to_camera: true,
-        };
-        vec![light(-0.5, 0.7, 0.75, 0.85), light(0.8, 0.1, 0.4, 0.25)]
     }
 }

@@ -9,21 +9,26 @@ pub mod edge_group;
 pub mod edge_line;
 pub mod edges;
 pub mod gooch;
+pub mod halftone;
 pub mod mirror;
 pub mod param;
 #[cfg(test)]
 mod param_tests;
 pub mod plain;
 pub mod preset;
+mod ramp;
 mod slot;
 mod toml_file;
 pub mod toon;
 mod value;
 
+use std::path::PathBuf;
+
 pub use color::Color;
 pub use edge_line::Line;
 pub use edges::{Alignment, DepthOperator, EdgeMode, Edges};
 pub use gooch::Gooch;
+pub use halftone::Halftone;
 pub use mirror::Mirror;
 pub use param::{Param, Slot, Value};
 pub use plain::Plain;
@@ -58,6 +63,8 @@ pub enum Technique {
     Gooch,
     /// Flat shades from a ramp, as in a comic.
     Toon,
+    /// Tones by the density of ink.
+    Halftone,
 }
 
 /// The complete look of one object.
@@ -71,6 +78,8 @@ pub struct Style {
     pub gooch: Gooch,
     /// Parameters of [`Technique::Toon`].
     pub toon: Toon,
+    /// Parameters of [`Technique::Halftone`].
+    pub halftone: Halftone,
     /// Lines.
     pub edges: Edges,
     /// What a mirror shows.
@@ -91,9 +100,24 @@ impl Style {
         list.when("technique", Technique::Toon, |list| {
             list.section("toon", |list| self.toon.params(list));
         });
+        list.when("technique", Technique::Halftone, |list| {
+            list.section("halftone", |list| self.halftone.params(list));
+        });
         list.section("edges", |list| self.edges.params(list));
         list.section("mirror", |list| self.mirror.params(list));
         list.finish()
+    }
+
+    /// The images that are needed with the choices as they are: keys of parameters, and the paths that they have.
+    pub fn images(&self) -> Vec<(String, Option<PathBuf>)> {
+        let mut style = self.clone();
+        let mut params = style.params();
+        param::retain_relevant(&mut params);
+        let image = |p: Param<'_>| match p.slot {
+            Slot::File(path) => Some((p.key, path.clone())),
+            _ => None,
+        };
+        params.into_iter().filter_map(image).collect()
     }
 }
 

@@ -82,6 +82,7 @@ fn light(declared: &DeclaredLight, world: &DMat4) -> Option<Light> {
         color: Vec3::from_array(declared.color.map(|c| sane(c, 1.0))),
         intensity: sane(declared.intensity, f32::MAX),
         attached_to_camera: false,
+        casts_shadow: false,
     })
 }
 

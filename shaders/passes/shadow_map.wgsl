@@ -1,0 +1,44 @@
+// Depth as a light sees it.
+#import common/frame.wgsl
+#import common/material.wgsl
+
+// Twin: `ShadowDraw` in src/render/passes/shadow_map.rs.
+struct ShadowDraw {
+    clip_from_local: mat4x4<f32>,
+    material: Material,
+}
+
+@group(1) @binding(0) var base_tex: texture_2d<f32>;
+@group(1) @binding(1) var base_sampler: sampler;
+
+@group(2) @binding(0) var<uniform> draw: ShadowDraw;
+
+@vertex
+fn vs_main(@location(0) position: vec3<f32>) -> @builtin(position) @invariant vec4<f32> {
+    return draw.clip_from_local * vec4(position, 1.0);
+}
+
+struct Holes {
+    @builtin(position) @invariant position: vec4<f32>,
+    @location(0) uv: vec2<f32>,
+    @location(1) alpha: f32,
+}
+
+@vertex
+fn vs_holes(
+    @location(0) position: vec3<f32>,
+    @location(4) uv: vec2<f32>,
+    @location(5) color: vec4<f32>,
+) -> Holes {
+    let uv_base = (draw.material.base_uv * vec3(uv, 1.0)).xy;
+    return Holes(draw.clip_from_local * vec4(position, 1.0), uv_base, color.a);
+}
+
+// Light falls through the holes that passes/gbuffer.wgsl leaves.
+@fragment
+fn fs_holes(v: Holes) {
+    let alpha = textureSample(base_tex, base_sampler, v.uv).a * draw.material.base_color.a * v.alpha;
+    if alpha < draw.material.alpha_cutoff {
+        discard;
+    }
+}

@@ -1,0 +1,219 @@
+//! Shadow maps: what is nearest to a light, in each direction from it (Williams 1978, "Casting Curved Shadows on
+//! Curved Surfaces").
+
+use std::collections::HashMap;
+
+use encase::ShaderType;
+use glam::Mat4;
+
+use crate::gpu::geometry::Attributes;
+use crate::gpu::material::MaterialUniform;
+use crate::gpu::{DynamicBuffer, Gpu, Pipelines, Recorder, Target};
+use crate::render::RenderError;
+use crate::render::gpu_scene::GpuScene;
+use crate::render::light_view::LightView;
+
+/// Reversed: 1 nearest to the light, 0 where it meets nothing.
+const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
+
+/// One draw; twin of `ShadowDraw` in `shaders/passes/shadow_map.wgsl`.
+#[derive(Debug, Clone, Copy, PartialEq, ShaderType)]
+pub struct ShadowDraw {
+    /// Local to the light's clip space.
+    pub clip_from_local: Mat4,
+    /// What it is made of, for its holes.
+    pub material: MaterialUniform,
+}
+
+/// One draw call.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ShadowCall {
+    /// Index of its uniform.
+    pub draw: u32,
+    /// Number of the light's picture in which it is seen.
+    pub view: usize,
+    /// Range of the index buffer.
+    pub first_index: u32,
+    /// Number of indices.
+    pub index_count: u32,
+    /// First vertex of the mesh.
+    pub base_vertex: i32,
+    /// Bind group of the material.
+    pub material_group: usize,
+    /// Whether light falls through holes.
+    pub has_holes: bool,
+    /// The side of its triangles that is left out.
+    pub hidden_side: Option<wgpu::Face>,
+}
+
+/// Everything that the map of one light depends on.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ShadowScene {
+    /// The pictures that the light sees.
+    pub views: Vec<LightView>,
+    /// What is in them.
+    pub draws: Vec<ShadowDraw>,
+    /// How it is drawn.
+    pub calls: Vec<ShadowCall>,
+    /// Width and height of the map, texels.
+    pub side: u32,
+}
+
+type Key = (bool, Option<wgpu::Face>);
+
+/// The pipelines of the pass, made when first needed, and room for the draws of one map.
+pub struct ShadowMapPass {
+    pipelines: HashMap<Key, wgpu::RenderPipeline>,
+    generation: u64,
+    draw_layout: wgpu::BindGroupLayout,
+    draws: DynamicBuffer,
+}
+
+impl ShadowMapPass {
+    /// Compiles nothing yet.
+    pub fn new(gpu: &Gpu) -> Self {
+        let draw_layout = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some("shadow draw"),
+            entries: &[wgpu::BindGroupLayoutEntry {
+                binding: 0,
+                visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
+                ty: wgpu::BindingType::Buffer {
+                    ty: wgpu::BufferBindingType::Uniform,
+                    has_dynamic_offset: true,
+                    min_binding_size: Some(ShadowDraw::min_size()),
+                },
+                count: None,
+            }],
+        });
+        Self {
+            pipelines: HashMap::new(),
+            generation: 0,
+            draw_layout,
+            draws: DynamicBuffer::new::<ShadowDraw>(gpu, "shadow draws"),
+        }
+    }
+
+    fn prepare(
+        &mut self,
+        gpu: &Gpu,
+        pipelines: &mut Pipelines,
+        material_layout: &wgpu::BindGroupLayout,
+        key: Key,
+    ) -> Result<(), RenderError> {
+        if self.generation != pipelines.generation() {
+            self.pipelines.clear();
+            self.generation = pipelines.generation();
+        }
+        if !self.pipelines.contains_key(&key) {
+            let module = pipelines.module(gpu, "passes/shadow_map.wgsl")?;
+            let layouts = [pipelines.frame_layout(), material_layout, &self.draw_layout];
+            self.pipelines.insert(key, build(gpu, &module, &layouts, key));
+        }
+        Ok(())
+    }
+
+    /// Draws the map of one light in one depth-only pass.
+    ///
+    /// # Errors
+    /// [`RenderError`].
+    pub fn run(
+        &mut self,
+        rec: &mut Recorder<'_>,
+        scene: &GpuScene,
+        material_layout: &wgpu::BindGroupLayout,
+        seen: &ShadowScene,
+    ) -> Result<Target, RenderError> {
+        let map = rec.target_of("shadow map", DEPTH, [seen.side, seen.side])?;
+        let gpu = rec.gpu;
+        for call in &seen.calls {
+            self.prepare(gpu, rec.pipelines, material_layout, (call.has_holes, call.hidden_side))?;
+        }
+        self.draws.write(gpu, &seen.draws)?;
+        let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("shadow draws"),
+            layout: &self.draw_layout,
+            entries: &[wgpu::BindGroupEntry { binding: 0, resource: self.draws.binding::<ShadowDraw>() }],
+        });
+        let depth = wgpu::RenderPassDepthStencilAttachment {
+            view: map.view(),
+            depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Store }),
+            stencil_ops: None,
+        };
+        let mut pass = rec.pass("shadow map", &[], Some(depth));
+        pass.set_vertex_buffer(0, scene.geometry.positions.slice(..));
+        if let Some(attributes) = &scene.geometry.attributes {
+            pass.set_vertex_buffer(1, attributes.slice(..));
+        }
+        pass.set_index_buffer(scene.geometry.indices.slice(..), wgpu::IndexFormat::Uint32);
+        let (mut bound, mut material, mut view) = (None, None, None);
+        for call in &seen.calls {
+            let key = (call.has_holes, call.hidden_side);
+            if bound != Some(key) {
+                let Some(pipeline) = self.pipelines.get(&key) else { continue };
+                pass.set_pipeline(pipeline);
+                bound = Some(key);
+            }
+            if view != Some(call.view) {
+                let Some(seen) = seen.views.get(call.view) else { continue };
+                let [[x, y], [w, h]] = seen.tile.map(|at| at.map(|texels| texels as f32));
+                pass.set_viewport(x, y, w, h, 0.0, 1.0);
+                view = Some(call.view);
+            }
+            if material != Some(call.material_group) {
+                pass.set_bind_group(1, scene.materials.group(call.material_group), &[]);
+                material = Some(call.material_group);
+            }
+            let indices = call.first_index..call.first_index + call.index_count;
+            pass.set_bind_group(2, &group, &[self.draws.offset(call.draw)]);
+            pass.draw_indexed(indices, call.base_vertex, 0..1);
+        }
+        drop(pass);
+        Ok(map)
+    }
+}
+
+fn build(
+    gpu: &Gpu,
+    module: &wgpu::ShaderModule,
+    layouts: &[&wgpu::BindGroupLayout; 3],
+    (has_holes, hidden_side): Key,
+) -> wgpu::RenderPipeline {
+    let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        label: Some("shadow map"),
+        bind_group_layouts: &layouts.map(Some),
+        immediate_size: 0,
+    });
+    let position = wgpu::VertexBufferLayout {
+        array_stride: 12,
+        step_mode: wgpu::VertexStepMode::Vertex,
+        attributes: &wgpu::vertex_attr_array![0 => Float32x3],
+    };
+    let buffers = [Some(position), Some(Attributes::LAYOUT)];
+    gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some("shadow map"),
+        layout: Some(&layout),
+        vertex: wgpu::VertexState {
+            module,
+            entry_point: Some(if has_holes { "vs_holes" } else { "vs_main" }),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            buffers: if has_holes { &buffers } else { &buffers[..1] },
+        },
+        primitive: wgpu::PrimitiveState { cull_mode: hidden_side, ..Default::default() },
+        depth_stencil: Some(wgpu::DepthStencilState {
+            format: DEPTH,
+            depth_write_enabled: Some(true),
+            depth_compare: Some(wgpu::CompareFunction::Greater),
+            stencil: wgpu::StencilState::default(),
+            bias: wgpu::DepthBiasState::default(),
+        }),
+        multisample: wgpu::MultisampleState::default(),
+        fragment: has_holes.then(|| wgpu::FragmentState {
+            module,
+            entry_point: Some("fs_holes"),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            targets: &[],
+        }),
+        multiview_mask: None,
+        cache: None,
+    })
+}

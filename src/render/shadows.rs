@@ -1,0 +1,175 @@
+//! Shadow maps and the shadow mask: what of them has to be drawn again. Maps depend on lights and objects only, so that
+//! a turn of the camera redraws none of a light that stands still.
+
+use glam::{DMat4, Vec2};
+
+use super::RenderError;
+use super::drawing::DrawingInputs;
+use super::gpu_scene::GpuScene;
+use super::groups::Objects;
+use super::light_view::{LightView, LookedAt, light_views};
+use super::lights::{MAX_SHADOWS, WorldLight};
+use super::passes::gbuffer::GBuffer;
+use super::passes::shadow::ShadowPass;
+use super::passes::shadow_map::{ShadowCall, ShadowDraw, ShadowMapPass, ShadowScene};
+use super::stage::{Output, Stage};
+use crate::gpu::{Gpu, Recorder, Target};
+use crate::scene::AlphaMode;
+
+/// The map of one light, and what it sees there.
+#[derive(Debug, Clone)]
+pub struct ShadowMap {
+    map: Output<Target>,
+    views: Vec<LightView>,
+}
+
+/// The maps of all lights that throw shadows.
+pub struct ShadowMaps {
+    maps: [(ShadowMapPass, Stage<(u64, u64, ShadowScene), Target>); MAX_SHADOWS],
+}
+
+impl ShadowMaps {
+    /// Nothing drawn yet.
+    pub fn new(gpu: &Gpu) -> Self {
+        Self { maps: std::array::from_fn(|_| (ShadowMapPass::new(gpu), Stage::default())) }
+    }
+
+    /// How many maps have been drawn.
+    pub fn runs(&self) -> u64 {
+        self.maps.iter().map(|(_, stage)| stage.runs()).sum()
+    }
+
+    /// The maps of the lights that throw shadows, by channel.
+    ///
+    /// # Errors
+    /// [`RenderError`].
+    pub fn run(
+        &mut self,
+        rec: &mut Recorder<'_>,
+        inputs: &DrawingInputs<'_>,
+        material_layout: &wgpu::BindGroupLayout,
+    ) -> Result<Vec<ShadowMap>, RenderError> {
+        let DrawingInputs { scene, scene_revision, objects, lights, .. } = *inputs;
+        let shaders = rec.pipelines.generation();
+        let [width, height] = rec.size();
+        let limit = rec.gpu.device.limits().max_texture_dimension_2d.min(MOST_TEXELS);
+        // Mirrors show what the eye does not see.
+        let points = if objects.mirrors.is_empty() {
+            let depths = inputs.view.fitted_depth_range(objects.boxes(scene));
+            inputs.view.moved(Vec2::ZERO).corners(depths).to_vec()
+        } else {
+            Vec::new()
+        };
+        let looked_at = LookedAt { points, spread: f64::from(lights.spread) };
+        let side = (lights.detail * width.max(height) as f32).round().max(LEAST_TEXELS as f32) as u32;
+        let mut casting = lights.casting();
+        let mut made = Vec::new();
+        for (pass, stage) in &mut self.maps {
+            let Some(light) = casting.next() else {
+                stage.clear();
+                continue;
+            };
+            let seen = seen_by(light, scene, objects, &looked_at, side.min(limit));
+            let views = seen.views.clone();
+            let map = stage.run((shaders, scene_revision, seen), |(_, _, seen)| {
+                pass.run(rec, scene, material_layout, seen)
+            })?;
+            made.push(ShadowMap { map, views });
+        }
+        Ok(made)
+    }
+}
+
+/// Greatest and least width of a shadow map, texels.
+const MOST_TEXELS: u32 = 8192;
+const LEAST_TEXELS: u32 = 256;
+
+/// All visible objects as a light sees them.
+fn seen_by(
+    light: &WorldLight,
+    scene: &GpuScene,
+    objects: &Objects,
+    looked_at: &LookedAt,
+    side: u32,
+) -> ShadowScene {
+    let boxes: Vec<_> = objects.boxes(scene).collect();
+    let mut seen = ShadowScene {
+        views: light_views(&light.kind, &boxes, looked_at, side),
+        draws: Vec::new(),
+        calls: Vec::new(),
+        side,
+    };
+    for (number, view) in seen.views.iter().enumerate() {
+        let clip_from_world = view.clip_from_light() * view.light_from_world;
+        for part in objects.parts(scene) {
+            let alpha = scene.scene.materials.get(part.material).map_or(AlphaMode::Opaque, |m| m.alpha);
+            let has_holes = alpha != AlphaMode::Opaque && scene.geometry.attributes.is_some();
+            let light_from_local = view.light_from_world * part.world_from_local;
+            seen.calls.push(ShadowCall {
+                draw: seen.draws.len() as u32,
+                view: number,
+                first_index: part.first_index,
+                index_count: part.index_count,
+                base_vertex: part.base_vertex,
+                material_group: scene.materials.group_index(part.material),
+                has_holes,
+                hidden_side: if has_holes {
+                    None
+                } else {
+                    scene.hidden_side(part.mesh, &light_from_local, !view.is_central)
+                },
+            });
+            seen.draws.push(ShadowDraw {
+                clip_from_local: (clip_from_world * part.world_from_local).as_mat4(),
+                material: scene.materials.uniform(part.material),
+            });
+        }
+    }
+    seen.calls.sort_by_key(|c| (c.view, c.has_holes, c.hidden_side.map(|s| s as u32)));
+    seen
+}
+
+/// The shadow mask of one camera's picture.
+pub struct ShadowMask {
+    pass: ShadowPass,
+    stage: Stage<(u64, DMat4, Vec<u64>, f32), Option<Target>>,
+}
+
+impl ShadowMask {
+    /// Nothing drawn yet.
+    pub fn new(gpu: &Gpu) -> Self {
+        Self { pass: ShadowPass::new(gpu), stage: Stage::default() }
+    }
+
+    /// How often it has been drawn.
+    pub fn runs(&self) -> u64 {
+        self.stage.runs()
+    }
+
+    /// Channel i: how much of the light of channel i reaches each pixel; `None` when no light throws shadows.
+    ///
+    /// # Errors
+    /// [`RenderError`].
+    pub fn run(
+        &mut self,
+        rec: &mut Recorder<'_>,
+        gbuffer: &Output<GBuffer>,
+        drawing: &DrawingInputs<'_>,
+    ) -> Result<Option<Output<Target>>, RenderError> {
+        let (maps, view_from_world) = (drawing.shadow_maps, &drawing.view.view_from_world);
+        let spread = drawing.lights.spread;
+        if maps.is_empty() {
+            self.stage.clear();
+            return Ok(None);
+        }
+        let shaders = rec.pipelines.generation();
+        let mut revisions = vec![shaders];
+        revisions.extend(maps.iter().map(|m| m.map.revision));
+        let inputs = (gbuffer.revision, *view_from_world, revisions, spread);
+        let mask = self.stage.run(inputs, |_| {
+            let maps: Vec<_> = maps.iter().map(|m| (m.views.as_slice(), &m.map.value)).collect();
+            self.pass.run(rec, &gbuffer.value, view_from_world, &maps, spread)
+        })?;
+        Ok(mask.value.map(|value| Output { value, revision: mask.revision }))
+    }
+}
