@@ -123,11 +123,12 @@ fn changes() -> Vec<Change> {
             Slot::Number { soft, hard, .. } => [soft.start(), soft.end(), hard.start(), hard.end()]
                 .map(|end| Value::Number(f64::from(*end)))
                 .to_vec(),
+            Slot::Integer { range, .. } => {
+                [range.start(), range.end()].map(|end| Value::Number(f64::from(*end))).to_vec()
+            }
             Slot::Choice(choice) => choice.names().iter().map(|name| Value::from(*name)).collect(),
-            _ => match param.value() {
-                Value::Number(number) => [number + 1.0, number - 1.0].map(Value::Number).to_vec(),
-                _ => ["#ff3010", "#10a0ff"].map(Value::from).to_vec(),
-            },
+            Slot::Color(_) => ["#ff3010", "#10a0ff"].map(Value::from).to_vec(),
+            Slot::File(_) => ["assets/strokes/dots.png", "no/such.png"].map(Value::from).to_vec(),
         };
         values.dedup();
         values.retain(|value| param.set(value).is_ok());

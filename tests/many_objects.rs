@@ -48,7 +48,7 @@ fn styles(lines: bool) -> Vec<Style> {
         param::set(&mut style.params(), "technique", &Value::from(technique)).unwrap();
         style.plain.ambient = 0.1 + 0.02 * i as f32;
         (style.gooch.cool, style.gooch.alpha) = (shade(1), 0.2 + 0.02 * i as f32);
-        (style.toon.light, style.toon.bands) = (shade(5), 2.0 + (i / 5) as f32);
+        (style.toon.light, style.toon.bands) = (shade(5), 2 + i as u32 / 5);
         style.toon.border = [Border::Nearest, Border::CartoonMap, Border::Analytic][i / 5 % 3];
         if lines {
             (style.edges.profile.color, style.edges.profile.width) = (shade(3), 1.0 + 0.2 * i as f32);
