@@ -157,6 +157,51 @@ fn the_outliner_hides_objects_and_their_edges_and_undo_brings_them_back() {
 }
 
 #[test]
+fn a_flat_object_is_made_a_mirror_in_its_row_and_undo_takes_that_back() {
+    let mut window = window_with("/models/engine.glb", |paths| {
+        let mut scene = engine(paths);
+        scene.meshes.push(Arc::new(primitives::plane(1.0)));
+        scene.nodes[3].mesh = Some(1);
+        Ok(scene)
+    });
+    until(&mut window, "the model is there", |v| !v.is_loading() && !v.model().scene.nodes.is_empty());
+    let switches = |window: &Window| -> Vec<bool> {
+        ["Mirror rod", "Mirror wheel"]
+            .map(|label| window.query_by_role_and_label(Role::CheckBox, label).is_some())
+            .to_vec()
+    };
+    let look_at = |window: &mut Window, row: &str| {
+        let at = window.get_by_role_and_label(Role::TreeItem, row).rect().center();
+        window.hover_at(at);
+        settle(window);
+    };
+    assert_eq!(switches(&window), [false, false], "only where somebody looks");
+    look_at(&mut window, "rod");
+    assert_eq!(switches(&window), [true, false]);
+    click(&mut window, Role::CheckBox, "Mirror rod");
+    assert!(own(&window, "/engine/rod").is_none(), "a cube is not flat");
+
+    look_at(&mut window, "wheel");
+    click(&mut window, Role::CheckBox, "Mirror wheel");
+    assert_eq!(own(&window, "/engine/wheel").unwrap().mirror, Some(true));
+    look_at(&mut window, "rod");
+    assert_eq!(switches(&window), [true, true], "a mirror's switch is always there");
+    click(&mut window, Role::TreeItem, "rod");
+    assert!(window.query_by_role_and_label(Role::Slider, "Reflectivity").is_none());
+    click(&mut window, Role::TreeItem, "wheel");
+    assert!(window.query_by_role_and_label(Role::Button, "Mirror").is_some(), "the section");
+    assert!(window.query_by_role_and_label(Role::Slider, "Reflectivity").is_some());
+
+    while own(&window, "/engine/wheel").is_some() {
+        assert!(window.state().is_enabled(Command::Undo));
+        ask(&mut window, Command::Undo);
+    }
+    look_at(&mut window, "rod");
+    assert_eq!(switches(&window), [true, false]);
+    assert!(window.query_by_role_and_label(Role::Slider, "Reflectivity").is_none());
+}
+
+#[test]
 fn a_slider_changes_the_style_and_a_double_click_on_its_name_resets_it() {
     let mut window = window();
     let default = window.state().document().style.gooch.alpha;

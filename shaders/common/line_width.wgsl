@@ -62,6 +62,11 @@ fn half_width(object: u32, class_of: u32, pos_view: vec3<f32>, normal: vec3<f32>
     return 0.5 * max(width, 0.1 * full);
 }
 
+// How many halves of its width a line of this object has on one side of its spine.
+fn halves_of(object: u32) -> f32 {
+    return select(2.0, 1.0, edge_styles[object].alignment == 0u);
+}
+
 // The share of a crease's ink by its dihedral angle (radians): the paper's 1 − cos, full at 41° as the operator's.
 fn crease_weight(object: u32, angle: f32) -> f32 {
     if !WITH_ANGLES {

@@ -232,5 +232,5 @@ fn fs_main(@builtin(position) position: vec4<f32>) -> Out {
         arc / edge_styles[x.object].dash_period,
         1.0,
     ));
-    return Out(texel, spine_of(texel, 0.0, 1.0 - range_share(x.depth)));
+    return Out(texel, spine_of(texel, halves_of(x.object), 0.0, 1.0 - range_share(x.depth)));
 }

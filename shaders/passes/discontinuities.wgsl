@@ -174,5 +174,6 @@ fn fs_main(@builtin(position) position: vec4<f32>) -> Out {
         arc / edge_styles[x.object].dash_period,
         select(0.0, 1.0, edge_styles[x.object].lines[spine.class_of - 1u].strength > 0.0),
     ));
-    return Out(texel, spine_of(texel, select(0.0, 1.0, spine.class_of <= OBJECT), 1.0 - range_share(x.depth)));
+    let rank = select(0.0, 1.0, spine.class_of <= OBJECT);
+    return Out(texel, spine_of(texel, halves_of(x.object), rank, 1.0 - range_share(x.depth)));
 }

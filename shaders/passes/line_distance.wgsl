@@ -9,8 +9,6 @@
 // All lines count as equally wide, with `greatest_radius`: finds the nearest spine instead of the one that reaches
 // farthest.
 override NEAREST: bool = false;
-// Whether width goes to one side only.
-override ONE_SIDED: bool = false;
 
 @group(1) @binding(0) var spine_tex: texture_2d<u32>;
 // Greatest radius of any line, px.
@@ -46,8 +44,7 @@ fn begins(left: Parabola, right: Parabola) -> i32 {
 
 fn radius_of(spine: u32) -> f32 {
     // Further for the edge of the coverage, and because spine points are up to a pixel apart.
-    let width = unpack2x16float(spine >> 16u).x * select(1.0, 2.0, ONE_SIDED);
-    return select(width, greatest_radius[0], NEAREST) + 1.25;
+    return select(unpack2x16float(spine >> 16u).x, greatest_radius[0], NEAREST) + 1.25;
 }
 
 fn offset_of_spine(spine: u32) -> vec2<f32> {

@@ -164,6 +164,6 @@ fn fs_main(v: Segment) -> Out {
     let order = select(rank + 1.0 + 0.499 * nearest, 0.5 * nearest, is_hidden) / 128.0;
     let texel = pack_edge(edge);
     let is_rim = class_of <= OBJECT;
-    let packed = spine_of(texel, select(0.0, 1.0, is_rim), 1.0 - range_share(depth));
+    let packed = spine_of(texel, halves_of(own), select(0.0, 1.0, is_rim), 1.0 - range_share(depth));
     return Out(texel, packed, select(0.5, 1.0, is_rim || !is_hidden), order);
 }

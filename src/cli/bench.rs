@@ -1,7 +1,9 @@
 //! `hachure bench`: milliseconds per stage and frame, and ratios, which hold on noisy machines too.
 
+use std::sync::Arc;
 use std::time::Instant;
 
+use glam::DMat4;
 use serde_json::json;
 
 use super::args::BenchArgs;
@@ -9,19 +11,29 @@ use super::{CliError, print_json, print_line, sample};
 use crate::document::Lighting;
 use crate::export::Session;
 use crate::export::session::{Opened, initial_camera, open, topology};
+use crate::geometry::primitives;
 use crate::gpu::Gpu;
 use crate::import::Progress;
 use crate::render::Request;
-use crate::scene::Camera;
+use crate::scene::{Camera, Material, Node, Scene};
 use crate::style::halftone::{Mapping, Space};
 use crate::style::toon::Border;
 use crate::style::{DepthOperator, EdgeMode, Style, Technique, preset};
 
-/// What is measured: a style in some light.
+/// What is measured: a style in some light, and what stands behind the model.
 struct Look {
     name: &'static str,
     style: Style,
     lighting: Lighting,
+    behind: Behind,
+}
+
+/// What stands behind the model.
+#[derive(Clone, Copy, PartialEq)]
+enum Behind {
+    Nothing,
+    Wall,
+    Mirror,
 }
 
 /// One look, measured.
@@ -29,6 +41,13 @@ struct Row {
     name: &'static str,
     frame_ms: Vec<f64>,
     stages: Vec<(&'static str, Vec<f64>)>,
+}
+
+impl Row {
+    /// How often it takes the time of another row: frame by frame against the one drawn in the same round.
+    fn ratio_to(&self, other: &Self) -> f64 {
+        median(&self.frame_ms.iter().zip(&other.frame_ms).map(|(a, b)| a / b).collect::<Vec<_>>())
+    }
 }
 
 pub(super) fn run(args: &BenchArgs) -> Result<(), CliError> {
@@ -69,10 +88,42 @@ pub(super) fn run(args: &BenchArgs) -> Result<(), CliError> {
 /// The first frames compile shaders and fault pages in.
 const WARM_UP: u32 = 2;
 
-/// Degrees of a frame's direction: each has one of its own, so that every stage has to run, and those of one round are
-/// nearly equal.
+/// Degrees of a frame's direction: it differs from the last frame's, so that every stage has to run, and those of one
+/// round are nearly equal.
 fn turn(frame: u32, row: usize) -> f64 {
-    f64::from(frame) * 3.0 + row as f64 * 0.01
+    f64::from(frame % 10) * 3.0 + row as f64 * 0.01
+}
+
+/// The middle of all turns.
+const MIDDLE: f64 = 13.5;
+
+/// Path of the node that stands behind the model.
+const WALL: &str = "/behind the model";
+
+/// A flat wall behind a scene that faces a camera and fills its picture.
+fn wall(camera: &Camera, scene: &Scene) -> Scene {
+    let bounds = scene.bounds();
+    let (size, back) = (bounds.diagonal(), -camera.forward());
+    let place = DMat4::from_cols(
+        camera.right().extend(0.0),
+        camera.up().extend(0.0),
+        back.extend(0.0),
+        (bounds.center() - 0.6 * size * back).extend(1.0),
+    );
+    let node = Node {
+        name: "wall".to_owned(),
+        path: WALL.to_owned(),
+        parent: None,
+        descendants: 0,
+        world_from_local: place,
+        mesh: Some(0),
+    };
+    Scene {
+        nodes: vec![node],
+        meshes: vec![Arc::new(primitives::plane(3.0 * size as f32))],
+        materials: vec![Material::default()],
+        ..Scene::default()
+    }
 }
 
 /// A scene on the device, ready to be drawn again and again.
@@ -89,12 +140,15 @@ impl Bench {
         let Opened { document, scene } = &opened;
         let camera = initial_camera(document, scene, f64::from(size[0]) / f64::from(size[1]));
         let mut session = Session::new(Gpu::headless()?);
-        session.set_scene(&opened)?;
         // The window knows it too, as soon as a background job has found it out.
         let started = Instant::now();
-        let topology = topology(scene, document.view.crease_angle);
+        let mut found = topology(scene, document.view.crease_angle);
         let topology_ms = started.elapsed().as_secs_f64() * 1e3;
-        session.renderer().set_scene(scene, &topology)?;
+        let wall = wall(&camera.orbited(document.up(scene).vector(), MIDDLE, 0.0), scene);
+        found.extend(topology(&wall, document.view.crease_angle));
+        let mut with_wall = (**scene).clone();
+        with_wall.append(wall);
+        session.renderer().set_scene(&Arc::new(with_wall), &found)?;
         Ok(Self { session, opened, size, camera, topology_ms })
     }
 
@@ -104,6 +158,9 @@ impl Bench {
         document.style = look.style.clone();
         document.lighting = look.lighting.clone();
         document.nodes.clear();
+        let wall = document.node_mut(WALL);
+        wall.visible = Some(look.behind != Behind::Nothing);
+        wall.mirror = Some(look.behind == Behind::Mirror);
         let camera = self.camera.orbited(document.up(&self.opened.scene).vector(), turn, 0.0);
         let started = Instant::now();
         self.session.renderer().render(&Request {
@@ -167,11 +224,19 @@ fn looks() -> Result<Vec<Look>, CliError> {
         ("gooch + edges, 32 px", exact(32.0)),
         ("lines", preset::load("lines")?.style),
     ];
-    let look = |name, style, lighting: &Lighting| Look { name, style, lighting: lighting.clone() };
+    let look = |name, style, lighting: &Lighting| Look {
+        name,
+        style,
+        lighting: lighting.clone(),
+        behind: Behind::Nothing,
+    };
     let mut looks: Vec<Look> =
         styles.into_iter().map(|(name, style)| look(name, style, &unshadowed)).collect();
     looks.push(look("plain, shadow", plain.clone(), &hard));
     looks.push(look("plain, soft shadow", plain, &soft));
+    for (name, behind) in [("before a wall", Behind::Wall), ("before a mirror", Behind::Mirror)] {
+        looks.push(Look { behind, ..look(name, exact(2.0), &unshadowed) });
+    }
     Ok(looks)
 }
 
@@ -186,11 +251,8 @@ fn report(args: &BenchArgs, bench: &mut Bench, load_ms: f64, rows: &[Row]) -> Re
     let [w, h] = args.resolution.0;
     let triangles = bench.opened.scene.triangle_count();
     let plain = rows.first().map_or(0.0, |r| median(&r.frame_ms));
-    // Frame by frame against the plain frame drawn beside it.
-    let ratio = |row: &Row| {
-        let plain = rows.first().map_or(&[][..], |r| &r.frame_ms);
-        median(&row.frame_ms.iter().zip(plain).map(|(a, b)| a / b).collect::<Vec<_>>())
-    };
+    let ratio = |row: &Row| rows.first().map_or(1.0, |plain| row.ratio_to(plain));
+    let mirror = if let [.., wall, mirror] = rows { mirror.ratio_to(wall) } else { 1.0 };
     if args.json {
         let styles: Vec<_> = rows
             .iter()
@@ -202,7 +264,7 @@ fn report(args: &BenchArgs, bench: &mut Bench, load_ms: f64, rows: &[Row]) -> Re
             .collect();
         return print_json(&json!({
             "adapter": adapter, "resolution": [w, h], "triangles": triangles, "frames": args.frames,
-            "load_ms": load_ms, "topology_ms": bench.topology_ms, "plain_ms": plain, "styles": styles,
+            "load_ms": load_ms, "topology_ms": bench.topology_ms, "plain_ms": plain, "mirror_ratio": mirror, "styles": styles,
         }));
     }
     print_line(&format!("{adapter}, {w} × {h}, {triangles} triangles, median of {} frames", args.frames))?;
@@ -219,5 +281,6 @@ fn report(args: &BenchArgs, bench: &mut Bench, load_ms: f64, rows: &[Row]) -> Re
             stages.join(", ")
         ))?;
     }
+    print_line(&format!("a mirror: × {mirror:.2} of the frame with a wall in its place"))?;
     Ok(())
 }

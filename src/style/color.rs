@@ -2,6 +2,7 @@
 
 use std::fmt;
 use std::str::FromStr;
+use std::sync::LazyLock;
 
 use glam::Vec3;
 
@@ -33,8 +34,14 @@ impl Color {
 
 /// One channel as light, 0 to 1 (IEC 61966-2-1).
 pub fn linear_from_srgb(byte: u8) -> f32 {
-    let c = f32::from(byte) / 255.0;
-    if c <= 0.040_45 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) }
+    // Thousands of objects with a dozen colours each are converted for every frame.
+    static LINEAR: LazyLock<[f32; 256]> = LazyLock::new(|| {
+        std::array::from_fn(|byte| {
+            let c = byte as f32 / 255.0;
+            if c <= 0.040_45 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) }
+        })
+    });
+    LINEAR[usize::from(byte)]
 }
 
 /// The nearest byte for a channel's light; what is beyond 0 to 1 becomes its end.

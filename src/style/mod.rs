@@ -103,8 +103,8 @@ impl Style {
         list.when("technique", Technique::Halftone, |list| {
             list.section("halftone", |list| self.halftone.params(list));
         });
-        list.section("edges", |list| self.edges.params(list));
         list.section("mirror", |list| self.mirror.params(list));
+        list.section("edges", |list| self.edges.params(list));
         list.finish()
     }
 

@@ -33,6 +33,8 @@ pub fn toggle(
     let strength = match (on, dimmed) {
         (true, false) => 0.9,
         (true, true) => 0.4,
+        // It is there only where somebody looks.
+        (false, _) if icon == Icon::Mirror => 0.5,
         (false, _) => 0.22,
     };
     let strength = if response.hovered() { 1.0 } else { strength };

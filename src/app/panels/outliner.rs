@@ -194,7 +194,9 @@ impl Outliner {
             let fault = if mirror.hovered() { mirror_fault(scene, row.node) } else { None };
             let help = match fault {
                 Some(fault) => format!("Cannot be a mirror: {fault}"),
-                None => "Make this object a mirror (each flat face below a group)".to_owned(),
+                None if roles.mirror => "Make this mirror an object like any other".to_owned(),
+                None if node.mesh.is_none() => "Make each flat object below a mirror".to_owned(),
+                None => "Make this flat object a mirror".to_owned(),
             };
             if mirror.on_hover_text(help).clicked() && (fault.is_none() || roles.mirror) {
                 editing.document.set_mirror(scene, &targets, !roles.mirror);

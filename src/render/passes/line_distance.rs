@@ -42,13 +42,9 @@ pub fn line_distance(
         return Ok(Reach::Narrow(spines.clone()));
     }
     radius.write(rec.gpu, &vec![greatest]);
-    let is_one_sided = styles.iter().any(|s| s.is_exact() && s.alignment != 0);
-    let farthest = transform(rec, spines, radius.buffer(), false, is_one_sided)?;
-    let nearest = if have_widths(styles) {
-        Some(transform(rec, spines, radius.buffer(), true, is_one_sided)?)
-    } else {
-        None
-    };
+    let farthest = transform(rec, spines, radius.buffer(), false)?;
+    let nearest =
+        if have_widths(styles) { Some(transform(rec, spines, radius.buffer(), true)?) } else { None };
     Ok(Reach::Wide { farthest, nearest })
 }
 
@@ -68,7 +64,6 @@ fn transform(
     spines: &Target,
     radius: &wgpu::Buffer,
     nearest: bool,
-    is_one_sided: bool,
 ) -> Result<Target, RenderError> {
     let columns = rec.target("line of column", INDEX)?;
     let found = rec.target("line of pixel", INDEX)?;
@@ -84,7 +79,7 @@ fn transform(
     let program = |entry_point| Program {
         file: "passes/line_distance.wgsl",
         entry_point,
-        switches: vec![("NEAREST", nearest), ("ONE_SIDED", is_one_sided)],
+        switches: vec![("NEAREST", nearest)],
     };
     rec.compute("line columns", program("cs_columns"), &inputs, [width.div_ceil(GROUP), 1])?;
     rec.compute("line rows", program("cs_rows"), &inputs, [height.div_ceil(GROUP), 1])?;

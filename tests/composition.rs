@@ -1,0 +1,297 @@
+//! Composition: objects of any styles in one picture. A parameter of one object changes no pixel of another one, except
+//! by occlusion, in a mirror, or where the object's own lines reach over its boundary. Techniques and parameters are
+//! taken from their declarations: a new one is tested without a word here.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+mod common;
+
+use std::sync::Arc;
+
+use common::{opened, scene, session, set, surfels};
+use glam::{DMat4, DQuat, DVec3};
+use hachure::export::Session;
+use hachure::export::session::Opened;
+use hachure::geometry::{Mesh, primitives};
+use hachure::scene::NodeId;
+use hachure::style::param::Condition;
+use hachure::style::{Slot, Style, Technique, Value};
+use image::RgbaImage;
+use strum::VariantNames as _;
+
+const SIDE: u32 = 96;
+
+/// The object whose parameters change.
+const A: NodeId = 0;
+/// A wall behind all others, which may be a mirror.
+const WALL: NodeId = 1;
+/// The first of the other objects.
+const B: NodeId = 2;
+
+fn at(x: f64, y: f64, z: f64) -> DMat4 {
+    DMat4::from_translation(DVec3::new(x, y, z)) * DMat4::from_quat(DQuat::from_rotation_x(0.6))
+}
+
+/// A ball before a wall, and around it an object of each of these techniques, which all reach into it.
+fn composed(session: &mut Session, techniques: &[&str]) -> Opened {
+    let mut objects = vec![
+        ("a", primitives::sphere(1.0, 12, 20), at(0.0, 0.0, 0.0), [0.8, 0.5, 0.3]),
+        ("wall", primitives::plane(6.0), DMat4::from_translation(DVec3::Z * -1.4), [0.9; 3]),
+    ];
+    let shapes: [Mesh; 3] =
+        [primitives::cube(0.8), primitives::torus(0.4, 0.15, 16, 8), primitives::sphere(0.5, 10, 16)];
+    for (i, technique) in techniques.iter().enumerate() {
+        let angle = std::f64::consts::TAU * i as f64 / techniques.len() as f64;
+        let depth = [0.5, -0.2, 0.1][i % 3];
+        objects.push((
+            technique,
+            shapes[i % 3].clone(),
+            at(1.1 * angle.cos(), 1.1 * angle.sin(), depth),
+            [0.4, 0.6, 0.8],
+        ));
+    }
+    let scene = scene(objects);
+    let mut opened = opened(&scene, DVec3::new(0.1, 0.15, 1.0));
+    for (i, technique) in techniques.iter().enumerate() {
+        set_for(&mut opened, B + i, "technique", &Value::from(*technique));
+    }
+    session.set_scene(&opened).unwrap();
+    opened
+}
+
+fn set_for(opened: &mut Opened, node: NodeId, key: &str, value: &Value) {
+    let scene = Arc::clone(&opened.scene);
+    opened.document.set_for(&scene, &[node], key, value).unwrap();
+}
+
+fn drawn(session: &mut Session, opened: &Opened) -> RgbaImage {
+    session.image(opened, [SIDE; 2], false).unwrap()
+}
+
+/// Per pixel, whether it is the node's.
+fn pixels_of(session: &mut Session, opened: &Opened, node: NodeId) -> Vec<bool> {
+    let picture = session.draw(opened, [SIDE; 2], false).unwrap();
+    let object = hachure::render::groups::object_id(node);
+    surfels(session, &picture).iter().map(|s| s.object == object).collect()
+}
+
+/// The same with all pixels that are at most so far away.
+fn widened(pixels: &[bool], by: f32) -> Vec<bool> {
+    let (side, reach) = (SIDE as i32, by.ceil() as i32);
+    let is_near = |x: i32, y: i32| {
+        (-reach..=reach).any(|dy| {
+            (-reach..=reach).any(|dx| {
+                let (x, y) = (x + dx, y + dy);
+                ((dx * dx + dy * dy) as f32) <= by * by
+                    && (0..side).contains(&x)
+                    && (0..side).contains(&y)
+                    && pixels[(y * side + x) as usize]
+            })
+        })
+    };
+    (0..side * side).map(|i| is_near(i % side, i / side)).collect()
+}
+
+/// How many pixels differ within a mask and where the first one outside of it does.
+fn difference(before: &RgbaImage, after: &RgbaImage, mask: &[bool]) -> (usize, Option<(u32, u32)>) {
+    let pairs = before.enumerate_pixels().zip(after.pixels()).zip(mask);
+    let differing = pairs.filter(|(((.., a), b), _)| *a != *b);
+    let (mut inside, mut outside) = (0, None);
+    for (((x, y, _), _), &is_inside) in differing {
+        if is_inside {
+            inside += 1;
+        } else {
+            outside.get_or_insert((x, y));
+        }
+    }
+    (inside, outside)
+}
+
+/// A parameter, what it needs to matter, and the values that it is changed to.
+struct Change {
+    key: String,
+    conditions: Vec<Condition>,
+    values: Vec<Value>,
+}
+
+/// All parameters of a style.
+fn changes() -> Vec<Change> {
+    let mut style = Style::default();
+    let change = |mut param: hachure::style::Param<'_>| {
+        let mut values = match &param.slot {
+            Slot::Bool(place) => vec![Value::Bool(!place.get())],
+            Slot::Number { soft, hard, .. } => [soft.start(), soft.end(), hard.start(), hard.end()]
+                .map(|end| Value::Number(f64::from(*end)))
+                .to_vec(),
+            Slot::Integer { range, .. } => {
+                [range.start(), range.end()].map(|end| Value::Number(f64::from(*end))).to_vec()
+            }
+            Slot::Choice(choice) => choice.names().iter().map(|name| Value::from(*name)).collect(),
+            Slot::Color(_) => ["#ff3010", "#10a0ff"].map(Value::from).to_vec(),
+            Slot::File(_) => ["assets/strokes/dots.png", "no/such.png"].map(Value::from).to_vec(),
+        };
+        values.dedup();
+        values.retain(|value| param.set(value).is_ok());
+        Change { key: param.key, conditions: param.conditions, values }
+    };
+    style.params().into_iter().map(change).collect()
+}
+
+/// Changes of all but the technique and the edges, which matter for a technique or for all of them.
+fn changes_with(technique: &str) -> Vec<Change> {
+    let mut all = changes();
+    all.retain(|change| {
+        let of_it = |c: &Condition| c.key != "technique" || c.value == technique;
+        change.key != "technique" && !change.key.starts_with("edges.") && change.conditions.iter().all(of_it)
+    });
+    all
+}
+
+/// Gives an object what a parameter needs to matter.
+fn with_conditions(opened: &Opened, node: NodeId, conditions: &[Condition]) -> Opened {
+    let mut opened = opened.clone();
+    for condition in conditions {
+        set_for(&mut opened, node, condition.key, &Value::from(condition.value));
+    }
+    opened
+}
+
+#[test]
+fn a_parameter_of_one_technique_changes_no_pixel_of_an_object_of_any_technique() {
+    let mut session = session();
+    let all = composed(&mut session, Technique::VARIANTS);
+    let of_a = pixels_of(&mut session, &all, A);
+    let mut still = Vec::new();
+    for technique in Technique::VARIANTS {
+        let mut seen = 0;
+        let changes = changes_with(technique);
+        for Change { key, conditions, values } in &changes {
+            let mut before = with_conditions(&all, A, conditions);
+            set_for(&mut before, A, "technique", &Value::from(*technique));
+            let first = drawn(&mut session, &before);
+            for value in values {
+                let mut after = before.clone();
+                set_for(&mut after, A, key, value);
+                let (inside, outside) = difference(&first, &drawn(&mut session, &after), &of_a);
+                assert_eq!(outside, None, "{technique}: {key} = {value} changes another object");
+                seen += inside;
+            }
+        }
+        if seen == 0 {
+            still.push(*technique);
+        }
+    }
+    // What has no parameters of its own cannot show any change; all others must, or nothing was tested.
+    assert_eq!(still, ["blank", "unlit"]);
+}
+
+#[test]
+fn the_technique_of_one_object_changes_no_pixel_of_another() {
+    let mut session = session();
+    for other in Technique::VARIANTS {
+        let pair = composed(&mut session, &[other]);
+        let of_a = pixels_of(&mut session, &pair, A);
+        let drawn_as = |session: &mut Session, technique: &str| {
+            let mut pair = pair.clone();
+            set_for(&mut pair, A, "technique", &Value::from(technique));
+            drawn(session, &pair)
+        };
+        let first = drawn_as(&mut session, other);
+        for technique in Technique::VARIANTS.iter().filter(|t| *t != other) {
+            let (inside, outside) = difference(&first, &drawn_as(&mut session, technique), &of_a);
+            assert_eq!(outside, None, "{technique} beside {other}");
+            assert!(inside > 100, "{technique} looks like {other}");
+        }
+    }
+}
+
+#[test]
+fn the_lines_of_one_object_change_no_pixel_beyond_their_reach() {
+    let mut session = session();
+    let all = composed(&mut session, Technique::VARIANTS);
+    let of_a = pixels_of(&mut session, &all, A);
+    // Reference pixels: the widest lines lie wholly outside.
+    let px = |width: f32| width * SIDE as f32 / 1080.0;
+    for (mode, width) in [("exact", 2.5_f32), ("exact", 32.0), ("paper", 2.5)] {
+        // Where a line of the object covers another one's spine, that one's width is missing beside it.
+        let near_a = widened(&of_a, px(64.0) + px(width) * 0.5 + 1.5);
+        let mut all = all.clone();
+        set(&mut all, "edges.mode", mode);
+        set(&mut all, "edges.profile.width", &width.to_string());
+        let mut changed = 0;
+        for Change { key, conditions, values } in changes().iter().filter(|c| c.key.starts_with("edges.")) {
+            let before = with_conditions(&all, A, conditions);
+            let first = drawn(&mut session, &before);
+            for value in values {
+                let mut after = before.clone();
+                set_for(&mut after, A, key, value);
+                let (inside, outside) = difference(&first, &drawn(&mut session, &after), &near_a);
+                assert_eq!(
+                    outside, None,
+                    "beside {mode}, {width} px: {key} = {value} changes another object"
+                );
+                changed += usize::from(inside > 0);
+            }
+        }
+        assert!(changed > 40, "{mode}, {width} px: only {changed} changes were seen");
+    }
+}
+
+#[test]
+fn in_a_mirror_a_parameter_changes_only_the_pixels_where_its_object_is_seen() {
+    let mut session = session();
+    let mut all = composed(&mut session, Technique::VARIANTS);
+    let scene = Arc::clone(&all.scene);
+    all.document.set_mirror(&scene, &[WALL], true);
+    let eye = DVec3::new(1.2, 0.5, 1.0);
+    all.document.camera = all.document.camera.map(|_| common::opened(&scene, eye).document.camera.unwrap());
+    let of_a = pixels_of(&mut session, &all, A);
+    let of_wall = pixels_of(&mut session, &all, WALL);
+    // Where it is seen in the mirror: where a red one makes a difference on blank paper.
+    let mut blank = all.clone();
+    for (key, value) in
+        [("technique", "blank"), ("edges.profile.show", "false"), ("edges.inner.show", "false")]
+    {
+        set(&mut blank, key, value);
+    }
+    let without = drawn(&mut session, &blank);
+    set_for(&mut blank, A, "technique", &Value::from("unlit"));
+    let with = drawn(&mut session, &blank);
+    let is_seen: Vec<bool> = without.pixels().zip(with.pixels()).map(|(a, b)| a != b).collect();
+    let mirrored = of_wall.iter().zip(&is_seen).filter(|(wall, seen)| **wall && **seen).count();
+    assert!(mirrored > 100, "it is seen in {mirrored} pixels of the mirror");
+
+    let of_wall: Vec<bool> = of_wall.iter().zip(&of_a).map(|(wall, a)| *wall && !a).collect();
+    for technique in Technique::VARIANTS {
+        let mut before = all.clone();
+        set_for(&mut before, A, "technique", &Value::from(*technique));
+        let first = drawn(&mut session, &before);
+        let mut changed = 0;
+        for Change { key, values, .. } in &changes_with(technique) {
+            // Every value has been tried in front of the mirror.
+            let Some(value) = values.last() else { continue };
+            let mut after = before.clone();
+            set_for(&mut after, A, key, value);
+            let after = drawn(&mut session, &after);
+            let (_, outside) = difference(&first, &after, &is_seen);
+            assert_eq!(outside, None, "{technique}: {key} = {value} in a mirror");
+            changed += first
+                .pixels()
+                .zip(after.pixels())
+                .zip(&of_wall)
+                .filter(|((a, b), wall)| a != b && **wall)
+                .count();
+        }
+        let has_parameters = !["blank", "unlit"].contains(technique);
+        assert_eq!(changed > 0, has_parameters, "{technique}: {changed} pixels changed in the mirror");
+    }
+    // What the mirror itself is set to changes its own pixels only.
+    let first = drawn(&mut session, &all);
+    let others: Vec<bool> = of_wall.clone();
+    for (key, value) in [("mirror.reflectivity", 0.1), ("mirror.fresnel", 0.0)] {
+        let mut after = all.clone();
+        set_for(&mut after, WALL, key, &Value::Number(value));
+        let (inside, outside) = difference(&first, &drawn(&mut session, &after), &others);
+        assert!(inside > 0 && outside.is_none(), "{key}: {inside} {outside:?}");
+    }
+}

@@ -1,0 +1,127 @@
+//! Heavy measurements (`make quality`): how much dearer many styles are than one. Ratios of frames drawn beside each
+//! other hold on noisy machines too.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+#![allow(clippy::print_stdout, reason = "the numbers are what it is for")]
+
+mod common;
+
+use std::sync::Arc;
+use std::time::Instant;
+
+use common::{opened, scene, session};
+use glam::{DMat4, DVec3};
+use hachure::document::Document;
+use hachure::export::Session;
+use hachure::export::session::Opened;
+use hachure::geometry::primitives;
+use hachure::render::Request;
+use hachure::scene::{Camera, Scene};
+use hachure::style::toon::Border;
+use hachure::style::{Color, Style, Technique, Value, param};
+use strum::VariantNames as _;
+
+const COLUMNS: usize = 50;
+const OBJECTS: usize = 2000;
+const STYLES: usize = 20;
+const FRAMES: u32 = 24;
+
+/// 2,000 objects of about 200 triangles each, each with a mesh of its own.
+fn many() -> Arc<Scene> {
+    let names: Vec<String> = (0..OBJECTS).map(|i| format!("part.{i}")).collect();
+    let objects = names.iter().enumerate().map(|(i, name)| {
+        let mesh =
+            if i % 2 == 0 { primitives::sphere(0.45, 8, 14) } else { primitives::torus(0.33, 0.12, 14, 7) };
+        let (x, z) = ((i % COLUMNS) as f64, (i / COLUMNS) as f64);
+        let place = DMat4::from_translation(DVec3::new(x, 0.3 * (x + z).sin(), z));
+        (name.as_str(), mesh, place, [0.8, 0.6 - 0.2 * (i % 3) as f32, 0.4])
+    });
+    scene(objects.collect())
+}
+
+/// Twenty looks of surfaces, of every technique; with `lines` also of as many colours and widths.
+fn styles(lines: bool) -> Vec<Style> {
+    let style = |i: usize| {
+        let shade = |by: usize| Color([(60 + 9 * i) as u8, (40 * by) as u8, (200 - 7 * i) as u8]);
+        let mut style = Style::default();
+        let technique = Technique::VARIANTS[i % Technique::VARIANTS.len()];
+        param::set(&mut style.params(), "technique", &Value::from(technique)).unwrap();
+        style.plain.ambient = 0.1 + 0.02 * i as f32;
+        (style.gooch.cool, style.gooch.alpha) = (shade(1), 0.2 + 0.02 * i as f32);
+        (style.toon.light, style.toon.bands) = (shade(5), 2 + i as u32 / 5);
+        style.toon.border = [Border::Nearest, Border::CartoonMap, Border::Analytic][i / 5 % 3];
+        if lines {
+            (style.edges.profile.color, style.edges.profile.width) = (shade(3), 1.0 + 0.2 * i as f32);
+            (style.edges.inner.color, style.edges.inner.width) = (shade(2), 0.5 + 0.1 * i as f32);
+        }
+        style
+    };
+    (0..STYLES).map(style).collect()
+}
+
+/// The scene in these styles by turns.
+fn dressed(document: &Document, scene: &Scene, styles: &[Style]) -> Document {
+    let mut document = document.clone();
+    for (node, style) in scene.nodes.iter().zip(styles.iter().cycle()) {
+        document.node_mut(&node.path).style = Some(style.clone());
+    }
+    document
+}
+
+/// Milliseconds until the frame is recorded, and until it is drawn.
+fn frame(session: &mut Session, document: &Document, camera: &Camera) -> [f64; 2] {
+    let began = Instant::now();
+    let request = Request { document, camera, size: [800; 2], transparent: false, selected: &[], samples: 1 };
+    session.renderer().render(&request).unwrap();
+    let recorded = began.elapsed().as_secs_f64();
+    session.renderer().gpu().wait().unwrap();
+    [recorded * 1e3, began.elapsed().as_secs_f64() * 1e3]
+}
+
+fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values[values.len() / 2]
+}
+
+#[test]
+#[ignore = "heavy: run by `make quality`"]
+fn twenty_styles_cost_little_more_than_one() {
+    let scene = many();
+    let Opened { document, .. } = opened(&scene, DVec3::new(0.4, 0.8, 1.0));
+    let camera = document.camera.unwrap().framing(&scene.extent(), 1.0);
+    let one = |style: &Style| dressed(&document, &scene, std::slice::from_ref(style));
+    let mut documents = vec![
+        ("one style for all".to_owned(), document.clone()),
+        ("20 surface styles".to_owned(), dressed(&document, &scene, &styles(false))),
+        ("20 styles, lines too".to_owned(), dressed(&document, &scene, &styles(true))),
+    ];
+    for i in 0..Technique::VARIANTS.len() {
+        documents.push((format!("{} for each", Technique::VARIANTS[i]), one(&styles(false)[i])));
+    }
+    let mut session = session();
+    session.set_scene(&Opened { document: document.clone(), scene: Arc::clone(&scene) }).unwrap();
+    let mut times = vec![Vec::new(); documents.len()];
+    // By turns, so that a slow moment of the machine hits all alike.
+    for turn in 0..FRAMES + 2 {
+        for (i, ((_, document), times)) in documents.iter().zip(&mut times).enumerate() {
+            // Every frame from a direction of its own, so that all of it is drawn anew.
+            let camera = camera.orbited(DVec3::Y, f64::from(turn) * 2.0 + i as f64 * 0.01, 0.0);
+            let ms = frame(&mut session, document, &camera);
+            if turn >= 2 {
+                times.push(ms);
+            }
+        }
+    }
+    let ratio_to =
+        |a: &[[f64; 2]], b: &[[f64; 2]]| median(a.iter().zip(b).map(|(a, b)| a[1] / b[1]).collect());
+    let triangles = scene.triangle_count();
+    println!("{OBJECTS} objects, {triangles} triangles, 800 × 800, median of {FRAMES} frames:");
+    println!("  {:<24}{:>12}{:>9}{:>9}", "", "recorded ms", "ms", "× one");
+    for ((name, _), all) in documents.iter().zip(&times) {
+        let [recorded, drawn] = [0, 1].map(|i| median(all.iter().map(|ms| ms[i]).collect()));
+        println!("  {name:<24}{recorded:>12.1}{drawn:>9.1}{:>9.2}", ratio_to(all, &times[0]));
+    }
+    for (i, (name, _)) in documents.iter().enumerate().skip(1).take(2) {
+        assert!(ratio_to(&times[i], &times[0]) <= 1.3, "{name}");
+    }
+}
