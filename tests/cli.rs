@@ -135,7 +135,21 @@ fn info_styles_and_bench_print_what_they_promise() {
     let styles: serde_json::Value = serde_json::from_str(&stdout(&hachure(&["styles", "--json"]))).unwrap();
     let names: Vec<_> =
         styles["presets"].as_array().unwrap().iter().map(|p| p["name"].as_str().unwrap()).collect();
-    assert_eq!(names, ["comic", "gooch", "lines", "plain", "statue", "two-tone"]);
+    let all = [
+        "clay-with-ink",
+        "comic",
+        "gooch",
+        "instruction-manual",
+        "line-drawing",
+        "lines",
+        "milled-metal",
+        "patent-drawing",
+        "plain",
+        "statue",
+        "technical-illustration",
+        "two-tone",
+    ];
+    assert_eq!(names, all);
     let parameters = styles["parameters"].as_array().unwrap();
     let parameter = |key: &str| parameters.iter().find(|p| p["key"] == key).unwrap();
     let threshold = parameter("edges.profile.threshold");

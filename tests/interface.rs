@@ -19,7 +19,8 @@ use hachure::geometry::{EdgeClass, primitives};
 use hachure::gpu::Gpu;
 use hachure::import::{ImportError, Progress};
 use hachure::scene::{Material, Node, NodeId, Projection, Scene, Up, Warning};
-use hachure::style::{EdgeMode, Edges, preset};
+use hachure::style::toon::Ramp;
+use hachure::style::{EdgeMode, Edges, Style, Technique, preset};
 
 type Window = Harness<'static, Viewer>;
 
@@ -62,15 +63,18 @@ fn window_loading(
     file: &str,
     load: impl Fn(&[PathBuf], &Progress) -> Result<Scene, ImportError> + Send + Sync + 'static,
 ) -> Window {
+    window_of(Launch {
+        files: vec![file.into()],
+        loader: Arc::new(move |paths, _, progress| load(paths, progress)),
+        ..Launch::default()
+    })
+}
+
+fn window_of(launch: Launch) -> Window {
     // Says what to install where there is no driver.
     if let Err(error) = Gpu::headless() {
         panic!("{error}");
     }
-    let launch = Launch {
-        files: vec![file.into()],
-        loader: Arc::new(move |paths, _, progress| load(paths, progress)),
-        ..Launch::default()
-    };
     Harness::builder()
         .with_size(Vec2::new(1200.0, 900.0))
         .with_step_dt(1.0 / 60.0)
@@ -685,4 +689,43 @@ fn two_thousand_objects_cost_only_the_rows_that_are_seen() {
     settle(&mut window);
     assert!(began.elapsed() < Duration::from_secs(2), "{:?}", began.elapsed());
     assert!(window.root().children().count() > 0);
+}
+
+#[test]
+fn images_of_styles_are_read_beside_the_window_and_again_when_it_is_come_back_to() {
+    let folder = tempfile::tempdir().unwrap();
+    let ramp = folder.path().join("ramp.png");
+    let mut style = Style { technique: Technique::Toon, ..Style::default() };
+    (style.toon.ramp, style.toon.image) = (Ramp::Image, Some(ramp.clone()));
+    let launch = Launch {
+        files: vec!["/models/engine.glb".into()],
+        style: Some(style),
+        loader: Arc::new(|paths, _, _| Ok(engine(paths))),
+    };
+    let mut window = window_of(launch);
+    until(&mut window, "the missing image is told", |v| {
+        v.notices().list().iter().any(|n| n.text.contains("ramp.png"))
+    });
+    assert_eq!(window.query_all_by_label("1 warning").count(), 1);
+
+    image::GrayImage::from_pixel(4, 1, image::Luma([90])).save(&ramp).unwrap();
+    window.input_mut().events.push(egui::Event::WindowFocused(true));
+    settle(&mut window);
+    let began = Instant::now();
+    while window.query_by_label("1 warning").is_some() {
+        assert!(began.elapsed() < Duration::from_secs(30), "the image is not read again");
+        window.step();
+    }
+
+    let rows = |window: &Window| {
+        ["Image", "No image"].map(|name| window.query_all_by_role_and_label(Role::Button, name).count())
+    };
+    assert_eq!(rows(&window), [1, 1]);
+    click(&mut window, Role::Button, "No image");
+    assert_eq!(window.state().document().style.toon.image, None);
+    assert_eq!(rows(&window), [1, 0]);
+    ask(&mut window, Command::Undo);
+    assert_eq!(window.state().document().style.toon.image, Some(ramp));
+    choose(&mut window, "Ramp", "Ink wash");
+    assert_eq!(rows(&window), [0, 0]);
 }

@@ -34,7 +34,12 @@ fn color(class: EdgeClass) -> [u8; 3] {
         [class as usize]
 }
 
-/// Objects that have lines of every class.
+/// The classes that come from the shape.
+fn shapes() -> impl Iterator<Item = EdgeClass> {
+    EdgeClass::ALL.into_iter().filter(|class| !class.is_detail())
+}
+
+/// Objects that have lines of each of them.
 fn every_class() -> Arc<Scene> {
     let mut scene = scene(vec![
         ("stairs", Mesh::clone(&named("stairs").scene.meshes[0]), at(-1.3, 0.0, 0.0), [0.7; 3]),
@@ -61,9 +66,9 @@ fn camera(scene: &Scene, towards_viewer: DVec3) -> Camera {
 /// All classes, in colours of their own.
 fn colored(scene: &Arc<Scene>) -> Opened {
     let mut opened = line_drawing(scene, camera(scene, DVec3::new(-0.5, 0.4, 1.0)));
-    only(&mut opened, &EdgeClass::ALL);
+    only(&mut opened, &shapes().collect::<Vec<_>>());
     set_width(&mut opened, 2.0, SIDE);
-    for class in EdgeClass::ALL {
+    for class in shapes() {
         let [r, g, b] = color(class);
         set(&mut opened, &format!("edges.{}.color", name(class)), &format!("#{r:02x}{g:02x}{b:02x}"));
     }
@@ -76,7 +81,7 @@ fn every_class_is_drawn_alone_in_its_color() {
     let scene = every_class();
     let mut opened = colored(&scene);
     session.set_scene(&opened).unwrap();
-    for class in EdgeClass::ALL {
+    for class in shapes() {
         only(&mut opened, &[class]);
         let picture = session.image(&opened, [SIDE; 2], true).unwrap();
         let inked: Vec<_> = picture.pixels().filter(|p| p.0[3] > 127).collect();
@@ -106,7 +111,7 @@ fn turning_a_class_off_removes_its_lines_and_nobody_elses() {
         drawn.collect::<Vec<_>>()
     };
     let all = lines(&opened);
-    for class in EdgeClass::ALL {
+    for class in shapes() {
         let key = format!("edges.{}.show", name(class));
         set(&mut opened, &key, "false");
         let without = lines(&opened);
@@ -134,11 +139,10 @@ fn materials_have_no_lines_until_asked_for_and_classes_follow_their_group() {
             |class: EdgeClass| found.iter().any(|t| t[0] >> 28 == class as u32 + 1 && t[3] >> 26 != 0);
         EdgeClass::ALL.into_iter().filter(|class| is_drawn(*class)).collect::<Vec<_>>()
     };
-    let all_but =
-        |out: &[EdgeClass]| EdgeClass::ALL.into_iter().filter(|c| !out.contains(c)).collect::<Vec<_>>();
+    let all_but = |out: &[EdgeClass]| shapes().filter(|c| !out.contains(c)).collect::<Vec<_>>();
     assert_eq!(drawn(&opened), all_but(&[EdgeClass::Material]));
     set(&mut opened, "edges.material.show", "true");
-    assert_eq!(drawn(&opened), EdgeClass::ALL);
+    assert_eq!(drawn(&opened), all_but(&[]));
     set(&mut opened, "edges.profile.show", "false");
     assert!(drawn(&opened).iter().all(|class| !class.is_profile()));
     set(&mut opened, "edges.border.show", "true");
@@ -159,7 +163,7 @@ fn every_class_has_its_own_width() {
     let mut opened = colored(&scene);
     session.set_scene(&opened).unwrap();
     let width = |class: EdgeClass| 2.0 + class as u32 as f64;
-    for class in EdgeClass::ALL {
+    for class in shapes() {
         let reference = width(class) * 1080.0 / f64::from(SIDE);
         set(&mut opened, &format!("edges.{}.width", name(class)), &format!("{reference}"));
     }
@@ -173,7 +177,7 @@ fn every_class_has_its_own_width() {
             seen[class as usize] += 1;
         }
     }
-    assert!(seen.iter().all(|count| *count > 5), "{seen:?}");
+    assert!(shapes().all(|class| seen[class as usize] > 5), "{seen:?}");
 }
 
 /// How much of a colour a pixel has beyond grey, 0 to 1; the most among it and its neighbours.

@@ -9,6 +9,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use glam::{DVec2, DVec3, Vec3};
+use hachure::geometry::Topology;
+use hachure::import::{ImportOptions, Progress, load};
+use hachure::scene::{AlphaMode, Scene};
 
 /// A named mesh with its geometry.
 struct Part {
@@ -204,4 +207,91 @@ fn the_ogre_can_be_textured() {
         stretched += ratios.iter().filter(|r| **r > 4.0 * usual || **r < usual / 4.0).count();
     }
     assert!(stretched * 100 < ogre.triangles() * 2, "{stretched} stretched faces");
+}
+
+/// The still life as the program imports it.
+fn still_life() -> Scene {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/models/still_life.glb");
+    load(&path, &ImportOptions::default(), &Progress::default()).unwrap()
+}
+
+#[test]
+fn the_still_life_is_made_of_named_solids_leaves_and_a_pane() {
+    let scene = still_life();
+    assert_eq!(scene.warnings, []);
+    assert!((30_000..60_000).contains(&scene.triangle_count()), "{}", scene.triangle_count());
+    assert!(Model::open("still_life.glb").bytes <= 5 << 19, "larger than 2.5 MiB");
+    for path in [
+        "table/plank.4",
+        "table/batten.2",
+        "mirror/frame",
+        "mirror/strut",
+        "vase",
+        "plant/stem.6",
+        "plant/leaf.07",
+        "bottle/label",
+        "ball/checker",
+        "cube",
+        "pear/body",
+        "apple/stalk",
+        "whisk/handle",
+        "whisk/wire.4",
+    ] {
+        let found = scene.find(&format!("/still_life/{path}")).and_then(|id| scene.nodes[id].mesh);
+        assert!(found.is_some(), "{path}");
+    }
+    let leaves = scene.nodes.iter().filter(|node| node.path.contains("/leaf.")).count();
+    assert!((15..=30).contains(&leaves), "{leaves}");
+    for node in &scene.nodes {
+        let Some(mesh) = node.mesh.map(|mesh| &scene.meshes[mesh]) else { continue };
+        let sheet = ["/leaf.", "/label", "/glass"].iter().any(|name| node.path.contains(name));
+        assert_eq!(Topology::new(mesh, 0.6).is_solid, !sheet, "{}", node.path);
+    }
+    for part in Model::open("still_life.glb").parts {
+        part.check_faces();
+    }
+}
+
+#[test]
+fn the_still_life_has_a_plane_mirror() {
+    let scene = still_life();
+    let glass = &scene.nodes[scene.find("/still_life/mirror/glass").unwrap()];
+    let mesh = &scene.meshes[glass.mesh.unwrap()];
+    assert_eq!((mesh.triangle_count(), mesh.positions.len()), (2, 4));
+    assert!(mesh.positions.iter().all(|p| p.z.to_bits() == mesh.positions[0].z.to_bits()));
+    assert!(mesh.normals.iter().all(|normal| *normal == Vec3::Z));
+    // Before it, and higher than the table, stands everything that it is there to show.
+    let mirror_from_world = glass.world_from_local.inverse();
+    for path in ["vase", "bottle/body", "ball/checker", "cube", "apple/body"] {
+        let id = scene.find(&format!("/still_life/{path}")).unwrap();
+        let middle = scene.bounds_of([id]).center();
+        assert!(mirror_from_world.transform_point3(middle).z > 0.03, "{path}");
+    }
+}
+
+#[test]
+fn the_still_life_has_images_of_each_kind() {
+    let scene = still_life();
+    let material_of = |path: &str| {
+        let mesh = scene.nodes[scene.find(&format!("/still_life/{path}")).unwrap()].mesh.unwrap();
+        (&scene.materials[scene.meshes[mesh].parts[0].material], &scene.meshes[mesh])
+    };
+    for path in ["table/plank.1", "vase"] {
+        let (material, mesh) = material_of(path);
+        assert!(material.base_color_texture.is_some() && material.normal_texture.is_some(), "{path}");
+        assert_eq!(mesh.tangents.len(), mesh.positions.len(), "{path}");
+        let seen = mesh.tangents.iter().zip(&mesh.normals).filter(|(_, normal)| normal.y > -0.5);
+        assert!(seen.clone().all(|(t, _)| t.w == 1.0), "{path}: an image is mirrored or on its head");
+        assert!(seen.count() > 8, "{path}");
+    }
+    for path in ["bottle/label", "ball/checker"] {
+        let (material, mesh) = material_of(path);
+        assert!(material.base_color_texture.is_some() && !mesh.uvs.is_empty(), "{path}");
+    }
+    let (leaf, _) = material_of("plant/leaf.07");
+    assert_eq!((leaf.alpha, leaf.double_sided), (AlphaMode::Mask(0.5), true));
+    let texture = &scene.textures[leaf.base_color_texture.as_ref().unwrap().texture];
+    let covered = texture.rgba.chunks_exact(4).filter(|texel| texel[3] >= 128).count();
+    let share = covered as f64 / f64::from(texture.width * texture.height);
+    assert!((0.3..0.8).contains(&share), "{share} of the image is leaf");
 }

@@ -6,6 +6,7 @@ use encase::ShaderType;
 use encase::internal::SizeValue;
 use hachure::gpu::Shaders;
 use hachure::gpu::material::MaterialUniform;
+use hachure::render::effects::gooch::GoochUniform;
 use hachure::render::effects::mirror::MirrorUniform;
 use hachure::render::effects::surface::SurfaceUniform;
 use hachure::render::effects::toon::ToonUniform;
@@ -41,7 +42,8 @@ fn rust_and_wgsl_agree_on_every_uniform() {
     same_layout!(MaterialUniform, 6, "passes/gbuffer.wgsl", "Material");
     same_layout!(LineUniform, 5, "passes/lines.wgsl", "LineStyle");
     same_layout!(EdgeUniform, 22, "passes/lines.wgsl", "EdgeStyle");
-    same_layout!(SurfaceUniform, 8, "effects/surface.wgsl", "SurfaceStyle");
+    same_layout!(SurfaceUniform, 3, "effects/surface.wgsl", "SurfaceStyle");
+    same_layout!(GoochUniform, 11, "effects/surface.wgsl", "GoochStyle");
     same_layout!(MirrorUniform, 4, "effects/mirror.wgsl", "Mirror");
     same_layout!(ShadowDraw, 2, "passes/shadow_map.wgsl", "ShadowDraw");
     same_layout!(ShadowLightUniform, 3, "passes/shadow.wgsl", "ShadowLight");

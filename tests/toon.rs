@@ -14,7 +14,7 @@ use hachure::export::Session;
 use hachure::export::session::Opened;
 use hachure::geometry::{Bounds, primitives};
 use hachure::render::frame_uniform::View;
-use hachure::scene::Scene;
+use hachure::scene::{Images, Scene, Texture};
 use hachure::style::{Color, Value};
 use image::RgbaImage;
 
@@ -43,7 +43,7 @@ struct Drawn {
     image: RgbaImage,
     surfels: Vec<Surfel>,
     regions: Vec<u32>,
-    cartoon_map: Option<Vec<u8>>,
+    cartoon_map: Option<Vec<u16>>,
 }
 
 fn drawn(session: &mut Session, opened: &Opened) -> Drawn {
@@ -52,7 +52,7 @@ fn drawn(session: &mut Session, opened: &Opened) -> Drawn {
         image: RgbaImage::from_raw(SIDE as u32, SIDE as u32, texels::<u8>(session, &picture.image)).unwrap(),
         surfels: surfels(session, &picture),
         regions: texels::<u32>(session, &picture.gbuffer.region),
-        cartoon_map: picture.cartoon_map.as_ref().map(|map| texels::<u8>(session, map)),
+        cartoon_map: picture.cartoon_map.as_ref().map(|map| texels::<u16>(session, map)),
     }
 }
 
@@ -70,6 +70,10 @@ const SETTINGS: [(&str, &str); 11] = [
     ("toon.rim", "0.5"),
     ("toon.rim_width", "0.4"),
 ];
+
+// As in `shaders/effects/toon.wgsl`.
+const HIGHLIGHT: u16 = 512;
+const RIM: u16 = 1024;
 
 /// What the twins know of the scene: first light and camera.
 struct Twin {
@@ -96,13 +100,13 @@ impl Twin {
         ]
     }
 
-    fn color(&self, object: u32, code: u8) -> Vec3 {
+    fn color(&self, object: u32, code: u16) -> Vec3 {
         // Even steps from the shadow over the middle to the light.
         let ramp = [[64, 32, 96], [128, 96, 96], [192, 165, 128], [255, 240, 192]];
-        let band = Color(ramp[usize::from(code & 15) - 1]).to_linear();
+        let band = Color(ramp[usize::from(code & 511) - 1]).to_linear();
         let tinted = band * (0.5 + 0.5 * self.base[object as usize - 1]);
-        let lit = if code & 16 == 0 { tinted } else { tinted.lerp(Vec3::ONE, 0.8) };
-        if code & 32 == 0 { lit } else { lit.lerp(Vec3::ONE, 0.5) }
+        let lit = if code & HIGHLIGHT == 0 { tinted } else { tinted.lerp(Vec3::ONE, 0.8) };
+        if code & RIM == 0 { lit } else { lit.lerp(Vec3::ONE, 0.5) }
     }
 
     /// By how many pixels the plane at `px` misses the depth at `other_px`.
@@ -146,12 +150,12 @@ fn ramp_and_cartoon_map_equal_their_twins() {
         inside += 1;
         // The ramp, from the normals.
         let fields = twin.fields(px, s);
-        let mut code = 1 + fields[0].floor().clamp(0.0, 3.0) as u8;
-        code |= if fields[1] >= 0.0 { 16 } else { 0 } | if fields[2] >= 0.0 { 32 } else { 0 };
+        let mut code = 1 + fields[0].floor().clamp(0.0, 3.0) as u16;
+        code |= if fields[1] >= 0.0 { HIGHLIGHT } else { 0 } | if fields[2] >= 0.0 { RIM } else { 0 };
         let on_a_border =
             (fields[0] - fields[0].round()).abs().min(fields[1].abs()).min(fields[2].abs()) < 1e-4;
         assert!(code == map[i] || on_a_border, "{px:?}: {code} against {}, {fields:?}", map[i]);
-        accents |= map[i] & 48;
+        accents |= map[i] & (HIGHLIGHT | RIM);
 
         // Its mean, from the map.
         let own = twin.color(s.object, map[i]);
@@ -178,7 +182,7 @@ fn ramp_and_cartoon_map_equal_their_twins() {
         }
     }
     assert!(
-        inside > 5000 && smoothed > 500 && accents == 48,
+        inside > 5000 && smoothed > 500 && accents == HIGHLIGHT | RIM,
         "{inside} {smoothed} {accents}: nothing to see"
     );
 }
@@ -291,4 +295,93 @@ fn one_toons_parameters_change_no_pixel_of_another() {
             assert_eq!(changed, HashSet::from([1]), "{border}, {key}");
         }
     }
+}
+
+/// A ramp as an image file's content.
+fn ramp_image(colors: &[[u8; 3]]) -> Texture {
+    let rgba: Vec<u8> = colors.iter().flat_map(|[r, g, b]| [*r, *g, *b, 255]).collect();
+    Texture { name: "ramp".into(), width: colors.len() as u32, height: 1, rgba: rgba.into() }
+}
+
+#[test]
+fn an_image_is_a_ramp_of_its_texels() {
+    let mut session = session();
+    let five = [[20, 20, 60], [60, 90, 160], [190, 100, 110], [240, 190, 130], [255, 255, 255]];
+    let many: Vec<[u8; 3]> = (0..=255).map(|v| [v, 255 - v, 7]).collect();
+    let images: Images = [
+        ("five.png".into(), Arc::new(ramp_image(&five))),
+        ("many.png".into(), Arc::new(ramp_image(&many))),
+        ("one.png".into(), Arc::new(ramp_image(&[[9, 90, 200]]))),
+    ]
+    .into();
+    session.renderer().set_images(images);
+    let ball = ball();
+    let mut with = |border: &str, image: &str| {
+        let mut opened = toon(&ball, DVec3::Z, border);
+        for (key, value) in [("toon.ramp", "image"), ("toon.image", image), ("toon.tint", "0")] {
+            set(&mut opened, key, value);
+        }
+        drawn(&mut session, &opened)
+    };
+    let palette = |drawn: &Drawn| -> HashSet<[u8; 3]> {
+        colors(drawn, 1).into_iter().map(|[r, g, b, _]| [r, g, b]).collect()
+    };
+    for border in ["nearest", "cartoon_map", "analytic"] {
+        assert_eq!(palette(&with(border, "one.png")), HashSet::from([[9, 90, 200]]), "{border}");
+        // Nothing but the texels and what lies between two of them.
+        let wide = with(border, "many.png");
+        let shades = palette(&wide);
+        assert!(shades.len() > 150, "{border}: {}", shades.len());
+        assert!(
+            shades
+                .iter()
+                .all(|[r, g, b]| (i32::from(*r) + i32::from(*g) - 255).abs() < 6 && b.abs_diff(7) <= 1)
+        );
+    }
+    assert_eq!(palette(&with("nearest", "five.png")), five.into());
+    // An image that is not there is drawn as bands.
+    let missing = palette(&with("nearest", "missing.png"));
+    assert_eq!(missing.len(), 3);
+    assert!(missing.contains(&[255, 255, 255]));
+}
+
+#[test]
+fn the_bands_that_a_pixel_touches_have_their_shares_in_it() {
+    // The analytic border against its definition: the mean of the ramp over the pixel's footprint.
+    let mut session = session();
+    let texels: Vec<[u8; 3]> =
+        (0..256_u32).map(|k| [(k * 83 % 256) as u8, (k * 151 % 256) as u8, k as u8]).collect();
+    session.renderer().set_images([("ramp.png".into(), Arc::new(ramp_image(&texels)))].into());
+    let mut opened = toon(&ball(), DVec3::Z, "analytic");
+    for (key, value) in
+        [("toon.ramp", "image"), ("toon.image", "ramp.png"), ("toon.tint", "0"), ("toon.start", "-1")]
+    {
+        set(&mut opened, key, value);
+    }
+    let drawn = drawn(&mut session, &opened);
+    let light = vec3(-0.5, 0.7, 0.75).normalize();
+    let place =
+        |x: i32, y: i32| (drawn.surfels[(y * SIDE + x) as usize].normal.dot(light) + 1.0) * 0.5 * 256.0;
+    let (mut compared, mut most) = (0, 0.0_f32);
+    for y in SIDE / 4..3 * SIDE / 4 {
+        for x in SIDE / 4..3 * SIDE / 4 {
+            let dx = (place(x + 1, y) - place(x - 1, y)) * 0.5;
+            let dy = (place(x, y + 1) - place(x, y - 1)) * 0.5;
+            let width = dx.hypot(dy).max(1e-6);
+            let (from, to) = (place(x, y) - width * 0.5, place(x, y) + width * 0.5);
+            let share = |k: usize| {
+                let start = if k == 0 { f32::MIN } else { k as f32 };
+                let end = if k == 255 { f32::MAX } else { k as f32 + 1.0 };
+                ((to.min(end) - from.max(start)) / width).max(0.0)
+            };
+            let mean: Vec3 = texels.iter().enumerate().map(|(k, c)| Color(*c).to_linear() * share(k)).sum();
+            let pixel = drawn.image.get_pixel(x as u32, y as u32).0;
+            for (mine, theirs) in mean.to_array().map(to_srgb).into_iter().zip(pixel) {
+                assert!(mine.abs_diff(theirs) <= 3, "{x},{y}: {mean} against {pixel:?}");
+            }
+            compared += 1;
+            most = most.max(width);
+        }
+    }
+    assert!(compared > 5000 && most > 2.0, "{compared} {most}: no pixel touches more than two bands");
 }

@@ -1,5 +1,5 @@
 // The edge map: one texel per pixel, before lines get their width. Each texel of an exact line holds the point of the
-// line's spine that is nearest to the pixel's centre. Written by passes/{operators,segments,discontinuities}.wgsl.
+// line's spine that is nearest to the pixel's centre. Written by passes/{operators,segments,discontinuities,details}.wgsl.
 
 const NO_EDGE: u32 = 0u;
 // Classes as in src/geometry/edge_class.rs, plus 1.
@@ -10,6 +10,8 @@ const RIDGE: u32 = 4u;
 const VALLEY: u32 = 5u;
 const MATERIAL: u32 = 6u;
 const INTERSECTION: u32 = 7u;
+const TEXTURE: u32 = 8u;
+const RELIEF: u32 = 9u;
 // Ink of the papers' operators at this very pixel.
 const PAPER: u32 = 15u;
 

@@ -6,7 +6,7 @@ struct LineStyle {
     strength: f32,
     // px of this picture.
     width: f32,
-    // Least step in depth (px) or angle (radians).
+    // Least step in depth (px), contrast or angle (radians).
     threshold: f32,
     // 1: dashed.
     dashed: u32,
@@ -14,7 +14,7 @@ struct LineStyle {
 
 struct EdgeStyle {
     // By class.
-    lines: array<LineStyle, 7>,
+    lines: array<LineStyle, 9>,
     // 0: none, 1: exact, 2: the papers' operators.
     mode: u32,
     // Where the width goes: 0 both sides, 1 outwards, 2 inwards.

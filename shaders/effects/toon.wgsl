@@ -3,7 +3,7 @@
 #import common/fullscreen.wgsl
 #import common/gbuffer.wgsl
 #import common/light.wgsl
-#import common/plane.wgsl
+#import common/same_surface.wgsl
 
 const NEAREST: u32 = 1u;
 const CARTOON_MAP: u32 = 2u;
@@ -17,8 +17,6 @@ override WITH_ANALYTIC: bool = true;
 
 // Twin: `ToonUniform` in src/render/effects/toon.rs.
 struct ToonStyle {
-    // Linear colours from shadow to light.
-    ramp: array<vec4<f32>, 8>,
     rim_color: vec3<f32>,
     // Opacities.
     rim: f32,
@@ -28,6 +26,8 @@ struct ToonStyle {
     rim_to: f32,
     // Share of the object's own colour.
     tint: f32,
+    // Its ramp in `toon_bands`, from shadow to light.
+    first_band: u32,
     bands: u32,
     // N·L at which the ramp begins, and bands per unit of N·L.
     start: f32,
@@ -37,9 +37,10 @@ struct ToonStyle {
 }
 
 @group(1) @binding(1) var<storage, read> toon_styles: array<ToonStyle>;
+// Linear colours of all ramps.
+@group(1) @binding(7) var<storage, read> toon_bands: array<vec4<f32>>;
 // The bands of the objects whose borders are smoothed by it.
 @group(1) @binding(3) var cartoon_map_tex: texture_2d<u32>;
-@group(1) @binding(4) var toon_region_tex: texture_2d<u32>;
 
 // x: place on the ramp, in bands: its beginning in shadow; y: N·H past the highlight's border; z: N·V past the rim's
 // border; w: N·L, negative in shadow.
@@ -57,13 +58,22 @@ fn toon_fields(px: vec2<i32>, object: u32, normal: vec3<f32>, pos_view: vec3<f32
     );
 }
 
-const HIGHLIGHT: u32 = 16u;
-const RIM: u32 = 32u;
+const BAND: u32 = 511u;
+const HIGHLIGHT: u32 = 512u;
+const RIM: u32 = 1024u;
+
+// The band at a place on the ramp.
+fn band_at(object: u32, place: f32) -> u32 {
+    return u32(clamp(place, 0.0, f32(toon_styles[object].bands - 1u)));
+}
+
+fn band_color(object: u32, band: u32) -> vec3<f32> {
+    return toon_bands[toon_styles[object].first_band + band].rgb;
+}
 
 // What there is at a point: 1 + band, highlight, rim; never 0.
 fn toon_code(object: u32, fields: vec4<f32>) -> u32 {
-    let last = f32(toon_styles[object].bands - 1u);
-    var code = 1u + u32(clamp(floor(fields.x), 0.0, last));
+    var code = 1u + band_at(object, fields.x);
     code |= select(0u, HIGHLIGHT, fields.y >= 0.0 && fields.w > 0.0);
     code |= select(0u, RIM, fields.z >= 0.0);
     return code;
@@ -77,28 +87,9 @@ fn toon_layers(object: u32, base: vec3<f32>, ramp: vec3<f32>, highlight: f32, ri
 }
 
 fn toon_color(object: u32, base: vec3<f32>, code: u32) -> vec3<f32> {
-    let ramp = toon_styles[object].ramp[min((code & 15u) - 1u, 7u)].rgb;
-    return toon_layers(object, base, ramp, f32((code >> 4u) & 1u), f32((code >> 5u) & 1u));
-}
-
-// A step in depth of so many pixels' widths parts a surface from itself.
-const DEPTH_STEP: f32 = 2.0;
-
-// Whether a surface goes on from one pixel to a near one: the same surface of the same object, and one of the two
-// predicts the other's depth.
-fn goes_on(px: vec2<i32>, s: Surfel, other_px: vec2<i32>, other: Surfel) -> bool {
-    if other.object != s.object
-        || textureLoad(toon_region_tex, px, 0).x != textureLoad(toon_region_tex, other_px, 0).x {
-        return false;
-    }
-    let offset = vec2<f32>(other_px - px);
-    let here = plane_of(px, s.depth, s.face_normal);
-    let there = plane_of(other_px, other.depth, other.face_normal);
-    let miss = min(
-        abs(there.center - nearness_at(here, offset)),
-        abs(here.center - nearness_at(there, -offset)),
-    );
-    return step_px(miss, min(s.depth, other.depth)) < DEPTH_STEP;
+    let has = vec2((code & HIGHLIGHT) != 0u, (code & RIM) != 0u);
+    let shares = select(vec2(0.0), vec2(1.0), has);
+    return toon_layers(object, base, band_color(object, (code & BAND) - 1u), shares.x, shares.y);
 }
 
 // The cartoon map: what there is at each pixel, without a mean.
@@ -183,10 +174,14 @@ fn analytic(px: vec2<i32>, s: Surfel, base: vec3<f32>) -> vec3<f32> {
     let dy = toon_slope(px, s, fields, vec2(0, 1));
     // Where nothing changes, a border is a step.
     let softness = max(sqrt(dx * dx + dy * dy) * frame.coverage_ramp, vec4(1e-6));
-    var ramp = toon_styles[s.object].ramp[0].rgb;
-    for (var band = 1u; band < toon_styles[s.object].bands; band++) {
+    // From the first to the last band that the pixel touches.
+    let last = band_at(s.object, fields.x + 0.5 * softness.x);
+    var band = band_at(s.object, fields.x - 0.5 * softness.x);
+    var ramp = band_color(s.object, band);
+    while band < last {
+        band++;
         let share = clamp((fields.x - f32(band)) / softness.x + 0.5, 0.0, 1.0);
-        ramp += share * (toon_styles[s.object].ramp[band].rgb - toon_styles[s.object].ramp[band - 1u].rgb);
+        ramp += share * (band_color(s.object, band) - band_color(s.object, band - 1u));
     }
     let shares = clamp(fields / softness + 0.5, vec4(0.0), vec4(1.0));
     return toon_layers(s.object, base, ramp, shares.y * shares.w, shares.z);

@@ -8,7 +8,7 @@ use eframe::egui;
 
 use super::jobs::Job;
 use super::leaving::Leaving;
-use super::loading::{self, DOCUMENT_ENDING, Intent, LoadError, Loaded, MODEL_ENDINGS};
+use super::loading::{self, DOCUMENT_ENDING, IMAGE_ENDINGS, Intent, LoadError, Loaded, MODEL_ENDINGS};
 use super::navigation::Standard;
 use super::screenshot::{self, Destination};
 use super::viewer::{DialogFor, Viewer};
@@ -45,6 +45,7 @@ impl Viewer {
         self.answer_load(context);
         self.answer_dialog(context);
         self.answer_topology(context);
+        self.answer_images(context);
         self.answer_pictures(context);
         if let Some(result) = self.jobs.save.as_ref().and_then(Job::poll) {
             self.jobs.save = None;
@@ -223,9 +224,9 @@ impl Viewer {
         let name = self.name();
         let models_and_documents: Vec<_> = MODEL_ENDINGS.into_iter().chain([DOCUMENT_ENDING]).collect();
         // Futures are made here because some systems open dialogs only from this thread.
-        let job = match purpose {
+        let job = match &purpose {
             DialogFor::Open | DialogFor::Add => {
-                if purpose == DialogFor::Open {
+                if matches!(purpose, DialogFor::Open) {
                     dialog = dialog
                         .set_title("Open")
                         .add_filter("All supported", &models_and_documents)
@@ -243,6 +244,16 @@ impl Viewer {
                 Job::start("file dialog", context, move |_| {
                     let files = pollster::block_on(chosen).unwrap_or_default();
                     files.iter().map(|f| f.path().to_owned()).collect()
+                })
+            }
+            DialogFor::Image(_) => {
+                let chosen = dialog
+                    .set_title("Choose an image")
+                    .add_filter("Images", &IMAGE_ENDINGS)
+                    .add_filter("All files", &["*"])
+                    .pick_file();
+                Job::start("file dialog", context, move |_| {
+                    pollster::block_on(chosen).map(|f| f.path().to_owned()).into_iter().collect()
                 })
             }
             DialogFor::Save | DialogFor::Screenshot => {
@@ -265,10 +276,11 @@ impl Viewer {
     }
 
     fn answer_dialog(&mut self, context: &egui::Context) {
-        let Some((purpose, job)) = &self.jobs.dialog else { return };
-        let Some(result) = job.poll() else { return };
-        let purpose = *purpose;
-        self.jobs.dialog = None;
+        let Some((purpose, job)) = self.jobs.dialog.take() else { return };
+        let Some(result) = job.poll() else {
+            self.jobs.dialog = Some((purpose, job));
+            return;
+        };
         let paths = match result {
             Ok(paths) => paths,
             Err(error) => {
@@ -283,6 +295,7 @@ impl Viewer {
             DialogFor::Add => self.load(context, paths, Intent::Add),
             DialogFor::Save => self.save_document(context, first),
             DialogFor::Screenshot => self.capture(context, false, Destination::File(first)),
+            DialogFor::Image(choosing) => self.take_image(&choosing, &first),
         }
     }
 

@@ -80,7 +80,10 @@ impl Viewer {
         match command {
             Command::Open => self.ask_for_file(context, DialogFor::Open),
             Command::Add => self.ask_for_file(context, DialogFor::Add),
-            Command::Reload => self.load(context, self.document.models.clone(), Intent::Reload),
+            Command::Reload => {
+                self.load(context, self.document.models.clone(), Intent::Reload);
+                self.images.look_again();
+            }
             Command::Save => match self.saved.as_ref().map(|(path, _)| path.clone()) {
                 Some(path) => self.save_document(context, path),
                 None => self.ask_for_file(context, DialogFor::Save),

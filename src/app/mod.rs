@@ -9,6 +9,7 @@ mod background;
 pub mod command;
 mod execute;
 pub mod gesture;
+mod images;
 pub mod jobs;
 mod leaving;
 pub mod loading;

@@ -7,11 +7,12 @@ use std::sync::Arc;
 use eframe::egui;
 
 use super::command::Command;
+use super::images::StyleImages;
 use super::jobs::Job;
 use super::leaving::{Leaving, is_changed};
 use super::loading::{Intent, LoadError, Loaded, Loader, Model};
 use super::notices::Notices;
-use super::panels::{Editing, empty, help, light, menu, outliner::Outliner, status, style, view};
+use super::panels::{Choosing, Editing, empty, help, light, menu, outliner::Outliner, status, style, view};
 use super::screenshot::{Destination, ScreenshotError, Shot};
 use super::selection::Selection;
 use super::state::{AppState, Page, Samples};
@@ -19,7 +20,7 @@ use super::viewport::Viewport;
 use super::{AppError, theme};
 use crate::document::{Document, DocumentError, History};
 use crate::gpu::GpuError;
-use crate::import;
+use crate::import::{self, ImageCache, ImportError};
 use crate::render::UploadedTopology;
 use crate::style::Style;
 use crate::style::preset::{self, Preset};
@@ -52,12 +53,13 @@ pub(super) struct Open {
 }
 
 /// What a file dialog was opened for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) enum DialogFor {
     Open,
     Add,
     Save,
     Screenshot,
+    Image(Choosing),
 }
 
 /// Work that runs beside the window; see [`super::jobs`]. A new kind of work is a new field, started where it is asked
@@ -68,6 +70,7 @@ pub(super) struct Jobs {
     pub(super) dialog: Option<(DialogFor, Job<Vec<PathBuf>>)>,
     pub(super) topology: Option<Job<Result<UploadedTopology, GpuError>>>,
     pub(super) save: Option<Job<Result<(PathBuf, Document), DocumentError>>>,
+    pub(super) images: Option<Job<Result<ImageCache, ImportError>>>,
     pub(super) picture: Option<Job<Result<PathBuf, ScreenshotError>>>,
     /// Pictures that are taken after that one, so that no two of them get the same number.
     pub(super) waiting: VecDeque<(Shot, Destination)>,
@@ -93,6 +96,8 @@ pub struct Viewer {
     pub(super) loaded: Vec<PathBuf>,
     /// The crease angle of the topology that the renderer has or is about to get.
     pub(super) topology_for: Option<f32>,
+    /// The images that the styles name.
+    pub(super) images: StyleImages,
     pub(super) loader: Loader,
     pub(super) start_style: Option<Style>,
     pub(super) can_reload_shaders: bool,
@@ -135,6 +140,7 @@ impl Viewer {
             saved: None,
             loaded: Vec::new(),
             topology_for: None,
+            images: StyleImages::default(),
             loader: launch.loader,
             start_style: launch.style,
             can_reload_shaders,
@@ -250,6 +256,7 @@ impl Viewer {
             let milliseconds = self.state.statistics.then(|| self.viewport.milliseconds());
             let status = status::Status {
                 model: &self.model,
+                warnings: self.model.scene.warnings.len() + self.images.warnings().len(),
                 document: &self.document,
                 selection: &self.selection,
                 milliseconds,
@@ -266,12 +273,14 @@ impl Viewer {
     }
 
     fn side_panels(&mut self, ui: &mut egui::Ui) {
+        let mut choosing = None;
         let mut editing = Editing {
             model: &self.model,
             document: &mut self.document,
             selection: &mut self.selection,
             presets: &self.presets,
             commands: &mut self.commands,
+            choosing: &mut choosing,
         };
         let outliner = &mut self.outliner;
         egui::Panel::left("outliner").default_size(250.0).size_range(180.0..=480.0).show_collapsible(
@@ -288,6 +297,9 @@ impl Viewer {
             });
         if turned.is_some_and(|t| t.inner) {
             self.commands.push(Command::Home);
+        }
+        if let Some(choosing) = choosing {
+            self.ask_for_file(ui.ctx(), DialogFor::Image(choosing));
         }
     }
 
@@ -426,7 +438,8 @@ impl eframe::App for Viewer {
             help::help_ui(&context, &mut self.open.help);
         }
         if self.open.warnings {
-            help::warnings_ui(&context, &mut self.open.warnings, &self.model.scene.warnings);
+            let warnings = [self.images.warnings(), &self.model.scene.warnings].concat();
+            help::warnings_ui(&context, &mut self.open.warnings, &warnings);
         }
         self.notices.show(&context, self.viewport.rect());
         self.leave(&context);

@@ -16,7 +16,7 @@ use super::screenshot::Shot;
 use crate::document::Document;
 use crate::gpu::{Gpu, Target};
 use crate::render::{GpuScene, Pick, RenderError, Renderer, Request, UploadedTopology, Uploader};
-use crate::scene::{Camera, NodeId, Up};
+use crate::scene::{Camera, Images, NodeId, Up};
 
 /// How long to wait between two looks for an answer of the device.
 const POLL: Duration = Duration::from_millis(8);
@@ -195,6 +195,12 @@ impl Viewport {
     pub fn show(&mut self, scene: GpuScene) {
         self.pick = None;
         self.renderer.show(scene);
+        self.draw_again();
+    }
+
+    /// Takes over the images that styles name.
+    pub fn show_images(&mut self, images: Images) {
+        self.renderer.set_images(images);
         self.draw_again();
     }
 

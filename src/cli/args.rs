@@ -235,12 +235,16 @@ impl FromStr for Setting {
     type Err = String;
 
     fn from_str(s: &str) -> Result<Self, String> {
-        let (left, value) =
-            s.rsplit_once('=').ok_or_else(|| format!("`{s}`: write a parameter, `=` and its value"))?;
-        let (pattern, key) = match left.rsplit_once(':') {
-            Some((pattern, key)) => (Some(pattern.to_owned()), key),
-            None => (None, left),
+        let split = |(at, _)| {
+            let (left, value) = (&s[..at], &s[at + 1..]);
+            let (pattern, key) = left.rsplit_once(':').map_or((None, left), |(p, k)| (Some(p.to_owned()), k));
+            // Patterns and the names of files may contain `=` too, keys do not.
+            (!key.contains('=')).then_some((pattern, key, value))
         };
+        let (pattern, key, value) = s
+            .rmatch_indices('=')
+            .find_map(split)
+            .ok_or_else(|| format!("`{s}`: write a parameter, `=` and its value"))?;
         Ok(Self { pattern, key: key.to_owned(), value: Value::parse(value) })
     }
 }
@@ -264,5 +268,8 @@ mod tests {
         let setting: Setting = "/a/b*:gooch.alpha=0.3".parse().unwrap();
         assert_eq!(setting.pattern.as_deref(), Some("/a/b*"));
         assert_eq!((setting.key.as_str(), setting.value), ("gooch.alpha", Value::Number(0.3)));
+        let setting: Setting = "a=b:toon.image=x=1.png".parse().unwrap();
+        assert_eq!((setting.pattern.as_deref(), setting.key.as_str()), (Some("a=b"), "toon.image"));
+        assert_eq!(setting.value, Value::from("x=1.png"));
     }
 }

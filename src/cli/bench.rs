@@ -127,6 +127,8 @@ fn looks() -> Result<Vec<Look>, CliError> {
     let mut no_edges = gooch.clone();
     no_edges.edges.profile.show = false;
     no_edges.edges.inner.show = false;
+    let mut metal = no_edges.clone();
+    metal.gooch.metal = 1.0;
     let toon = |border| {
         let mut style = no_edges.clone();
         style.technique = Technique::Toon;
@@ -148,6 +150,7 @@ fn looks() -> Result<Vec<Look>, CliError> {
         ("toon, cartoon map", toon(Border::CartoonMap)),
         ("toon, analytic", toon(Border::Analytic)),
         ("gooch, no edges", no_edges),
+        ("gooch, metal", metal),
         ("gooch + edges, diagonal", diagonal),
         ("gooch + edges, C1", c1),
         ("gooch + edges, 2 px", exact(2.0)),

@@ -7,10 +7,10 @@ use serde_json::json;
 use super::args::{CameraArgs, LookArgs, RenderArgs};
 use super::{CliError, print_json};
 use crate::document::{Document, Pattern};
-use crate::export::session::{Opened, initial_camera, open};
+use crate::export::session::{OpenError, Opened, initial_camera, open};
 use crate::export::{Session, save_png};
 use crate::gpu::{Gpu, GpuError};
-use crate::import::Progress;
+use crate::import::{ImageCache, Progress};
 use crate::render::RenderError;
 use crate::scene::{Camera, NodeId, Projection, Scene};
 use crate::style::{Value, preset};
@@ -22,6 +22,8 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
     if let Some(background) = args.background {
         opened.document.view.background = background;
     }
+    let uses = opened.document.images();
+    let images = ImageCache::default().read(&uses, &Progress::default()).map_err(OpenError::from)?;
     let size = args.resolution.0;
     let aspect = f64::from(size[0]) / f64::from(size[1]);
     opened.document.camera = Some(camera(&opened, &args.camera, aspect));
@@ -32,11 +34,13 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
     }
     session.set_samples(args.samples);
     session.set_scene(&opened)?;
+    session.renderer().set_images(images.images());
     let image = session.image(&opened, size, args.no_background)?;
     save_png(&args.output, image)?;
 
     let scene = &opened.scene;
-    let warnings = scene.warnings.iter().cloned().chain(opened.document.mirror_faults(scene));
+    let faults = opened.document.mirror_faults(scene);
+    let warnings = images.warnings(&uses).into_iter().chain(scene.warnings.iter().cloned()).chain(faults);
     if args.json {
         print_json(&json!({
             "output": args.output,

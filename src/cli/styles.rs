@@ -28,9 +28,10 @@ pub(super) fn run(args: &StylesArgs) -> Result<(), CliError> {
         }));
     }
     print_line("Presets")?;
+    let width = presets.iter().map(|p| p.name.len()).max().unwrap_or_default();
     for preset in &presets {
         let technique: &str = preset.style.technique.into();
-        print_line(&format!("  {:<10} {technique:<8} {}", preset.name, preset.description))?;
+        print_line(&format!("  {:<width$} {technique:<8} {}", preset.name, preset.description))?;
     }
     print_line("\nParameters (for --set KEY=VALUE and style files)")?;
     let width = params.iter().map(|p| p.key.len()).max().unwrap_or_default();
@@ -45,6 +46,7 @@ pub(super) fn run(args: &StylesArgs) -> Result<(), CliError> {
 fn default_of(param: &Param<'_>) -> String {
     match (param.own(), param.slot.inherits()) {
         (Value::Inherit, Some(other)) => format!("as {other}"),
+        (Value::Text(text), _) if text.is_empty() => "none".to_owned(),
         (own, _) => format!("{own} {}", param.unit).trim_end().to_owned(),
     }
 }
@@ -64,8 +66,12 @@ fn parameter_json(param: &Param<'_>) -> serde_json::Value {
             let ends = |r: &std::ops::RangeInclusive<f32>| json!([*r.start(), *r.end()]);
             (json!({ "soft": ends(soft), "hard": ends(hard) }), json!(null))
         }
+        Slot::Integer { range, .. } => {
+            let ends = [range.start(), range.end()];
+            (json!({ "soft": ends, "hard": ends }), json!(null))
+        }
         Slot::Choice(choice) => (json!(null), json!(choice.names())),
-        Slot::Bool(_) | Slot::Color(_) => (json!(null), json!(null)),
+        Slot::Bool(_) | Slot::Color(_) | Slot::File(_) => (json!(null), json!(null)),
     };
     json!({
         "key": param.key,
@@ -75,6 +81,7 @@ fn parameter_json(param: &Param<'_>) -> serde_json::Value {
         "inherits": param.slot.inherits(),
         "default": match param.own() {
             Value::Bool(b) => json!(b),
+            Value::Number(n) if matches!(param.slot, Slot::Integer { .. }) => json!(n as u32),
             Value::Number(n) => json!(n),
             own @ (Value::Text(_) | Value::Inherit) => json!(own.to_string()),
         },

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use super::lighting::{Lighting, Source};
 use super::{Document, NodeSettings, View};
 use crate::scene::{Camera, Light, Up};
-use crate::style::param::Param;
+use crate::style::param::{Param, map_paths};
 use crate::style::{Style, StyleError, diff_to_toml, set_from_toml};
 
 /// A document is text that a person could have written; anything larger is a mistake.
@@ -91,7 +91,7 @@ struct NodeForm {
 }
 
 impl Document {
-    /// Reads a `.hachure` file. Model paths become relative to the current folder.
+    /// Reads a `.hachure` file. Paths of models and images become relative to the current folder.
     ///
     /// # Errors
     /// See [`DocumentError`]; nothing is half read.
@@ -162,11 +162,15 @@ impl Document {
             let settings = NodeSettings { style, visible, enhanced, mirror };
             document.nodes.insert(node, settings);
         }
+        let own = document.nodes.values_mut().filter_map(|n| n.style.as_mut());
+        for style in own.chain([&mut document.style]) {
+            map_paths(&mut style.params(), |image| folder.join(image));
+        }
         document.tidy();
         Ok(document)
     }
 
-    /// Writes a `.hachure` file; model paths are written relative to it where they lie beside or below it.
+    /// Writes a `.hachure` file; paths of models and images are written relative to it where they share a folder with it.
     ///
     /// # Errors
     /// [`DocumentError::Write`]; an existing file is then untouched.
@@ -177,8 +181,12 @@ impl Document {
     }
 
     fn to_text(&self, path: &Path) -> Result<String, DocumentError> {
-        let style_table =
-            |style: &Style| diff_to_toml(&mut style.clone().params(), &mut Style::default().params());
+        let style_table = |style: &Style| {
+            let mut style = style.clone();
+            let mut params = style.params();
+            map_paths(&mut params, |image| relative_to(image, path));
+            diff_to_toml(&mut params, &mut Style::default().params())
+        };
         let has_lights = !self.lights.is_empty();
         let section = |name: &str, table: toml::Table| {
             table.get(name).and_then(|v| v.as_table()).cloned().unwrap_or_default()
@@ -219,19 +227,19 @@ fn default_lighting(has_lights: bool) -> Lighting {
     Lighting { source: if has_lights { Source::File } else { Source::Rig }, ..Lighting::default() }
 }
 
-/// `model` as it is seen from the folder of `document`; absolute where the two share no folder.
-fn relative_to(model: &Path, document: &Path) -> PathBuf {
+/// `file` as it is seen from the folder of `document`; absolute where the two share no folder.
+fn relative_to(file: &Path, document: &Path) -> PathBuf {
     let absolute = |p: &Path| std::path::absolute(p).unwrap_or_else(|_unknown| p.to_owned());
-    let model = absolute(model);
+    let file = absolute(file);
     let document = absolute(document);
     let folder = document.parent().unwrap_or(Path::new("/"));
-    let shared = model.components().zip(folder.components()).take_while(|(a, b)| a == b).count();
+    let shared = file.components().zip(folder.components()).take_while(|(a, b)| a == b).count();
     // Sharing only the root is sharing nothing.
     if shared < 2 {
-        return model;
+        return file;
     }
     let up = folder.components().skip(shared).map(|_| "..");
-    let down = model.components().skip(shared).map(|c| c.as_os_str());
+    let down = file.components().skip(shared).map(|c| c.as_os_str());
     up.map(std::ffi::OsStr::new).chain(down).collect()
 }
 
@@ -276,8 +284,10 @@ mod tests {
             Some(Style { technique: Technique::Plain, ..Style::default() });
         document.node_mut("/crank/rod.4").visible = Some(false);
         document.style.edges.class_mut(EdgeClass::Ridge).width = Some(document.style.edges.inner.width);
+        document.style.toon.image = Some(folder.path().join("images/ramp.png"));
         document.save(&path).unwrap();
-        assert!(std::fs::read_to_string(&path).unwrap().contains("\"models/crank.glb\""));
+        let text = std::fs::read_to_string(&path).unwrap();
+        assert!(text.contains("\"models/crank.glb\"") && text.contains("\"images/ramp.png\""), "{text}");
         assert_eq!(Document::open(&path).unwrap(), document);
     }
 
@@ -293,6 +303,24 @@ mod tests {
             let again = document.to_text(Path::new("a.hachure")).unwrap();
             assert_eq!(Document::from_text(&again, Path::new("a.hachure")).unwrap(), document);
         }
+    }
+
+    #[test]
+    fn a_document_that_is_saved_elsewhere_finds_its_images() {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::create_dir(folder.path().join("drawings")).unwrap();
+        std::fs::write(folder.path().join("ramp.png"), "").unwrap();
+        let (first, second) = (folder.path().join("a.hachure"), folder.path().join("drawings/b.hachure"));
+        std::fs::write(
+            &first,
+            "[style]\ntoon.image = 'ramp.png'\n[nodes.'/m'.style]\ntoon.image = 'ramp.png'\n",
+        )
+        .unwrap();
+        Document::open(&first).unwrap().save(&second).unwrap();
+        let again = Document::open(&second).unwrap();
+        let styles = [Some(&again.style), again.nodes["/m"].style.as_ref()];
+        assert!(styles.iter().all(|s| s.unwrap().toon.image.as_ref().unwrap().exists()), "{again:?}");
+        assert!(std::fs::read_to_string(&second).unwrap().contains("\"../ramp.png\""));
     }
 
     #[test]

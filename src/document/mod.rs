@@ -7,7 +7,7 @@ pub mod mirrors;
 pub mod pattern;
 pub mod view;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
 use crate::scene::{Camera, Light, NodeId, Scene, Up};
@@ -53,6 +53,15 @@ pub struct NodeSettings {
     pub enhanced: Option<bool>,
     /// Whether it is a mirror.
     pub mirror: Option<bool>,
+}
+
+/// A use of an image by a style.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ImageUse {
+    /// The parameter that names it, and the node whose style it is in: `toon.image`, `/crank/rod, toon.image`.
+    pub place: String,
+    /// The file; `None` where a choice asks for an image and none is named.
+    pub path: Option<PathBuf>,
 }
 
 /// What holds for one node after inheritance.
@@ -130,6 +139,27 @@ impl Document {
             });
         }
         resolved
+    }
+
+    /// The images that the styles need, each with the first place that names it.
+    pub fn images(&self) -> Vec<ImageUse> {
+        let own = self.nodes.iter().filter_map(|(path, node)| Some((path.as_str(), node.style.as_ref()?)));
+        let mut seen = BTreeSet::new();
+        let mut uses = Vec::new();
+        let mut last = None;
+        for (node, style) in std::iter::once(("", &self.style)).chain(own) {
+            // Thousands of nodes may have one style.
+            if last.replace(style) == Some(style) {
+                continue;
+            }
+            for (key, path) in style.images() {
+                if seen.insert((key.clone(), path.clone())) {
+                    let place = if node.is_empty() { key } else { format!("{node}, {key}") };
+                    uses.push(ImageUse { place, path });
+                }
+            }
+        }
+        uses
     }
 
     /// The settings of one node, made if there are none.
@@ -281,5 +311,22 @@ mod tests {
         assert!(document.set("gooch.alpah", &Value::Number(0.9)).is_err());
         document.set("gooch.alpha", &Value::Number(0.1)).unwrap();
         assert!(document.resolve(&scene).iter().all(|r| r.style.gooch.alpha == 0.1));
+    }
+
+    #[test]
+    fn each_image_is_listed_once_with_the_place_that_names_it() {
+        let (scene, mut document) = (scene(), Document::default());
+        let text = |t: &str| Value::Text(t.to_owned());
+        for (key, value) in [("technique", "toon"), ("toon.ramp", "image"), ("toon.image", "a.png")] {
+            document.set(key, &text(value)).unwrap();
+        }
+        document.set_for(&scene, &[1], "toon.image", &text("b.png")).unwrap();
+        document.set_for(&scene, &[3], "gooch.alpha", &Value::Number(0.9)).unwrap();
+        let expected = [("toon.image", "a.png"), ("/m/rod.1, toon.image", "b.png")];
+        let expected =
+            expected.map(|(place, path)| ImageUse { place: place.into(), path: Some(path.into()) });
+        assert_eq!(document.images(), expected);
+        document.set("technique", &text("gooch")).unwrap();
+        assert_eq!(document.images(), []);
     }
 }

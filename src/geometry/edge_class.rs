@@ -19,11 +19,15 @@ pub enum EdgeClass {
     Material,
     /// Two surfaces run through each other.
     Intersection,
+    /// The colour of a surface changes.
+    Texture,
+    /// The relief of a surface changes, which only its normal map knows.
+    Relief,
 }
 
 impl EdgeClass {
     /// All classes, in order.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 9] = [
         Self::Silhouette,
         Self::Border,
         Self::Object,
@@ -31,17 +35,24 @@ impl EdgeClass {
         Self::Valley,
         Self::Material,
         Self::Intersection,
+        Self::Texture,
+        Self::Relief,
     ];
 
     /// Whether it belongs to the profile edges; the others are inner edges.
     pub fn is_profile(self) -> bool {
         self <= Self::Object
     }
+
+    /// Whether it is a line within a surface that has nothing to do with its shape.
+    pub fn is_detail(self) -> bool {
+        self >= Self::Texture
+    }
 }
 
 /// Some of the classes of lines.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
-pub struct ClassSet(u8);
+pub struct ClassSet(u16);
 
 impl ClassSet {
     /// No class.

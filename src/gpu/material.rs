@@ -6,6 +6,7 @@ use rayon::prelude::*;
 
 use super::{Gpu, GpuError};
 use crate::scene::{AlphaMode, Material, Scene, Texture, TextureRef, Wrap};
+use crate::style::color;
 
 /// A material as the shader reads it; twin of `Material` in `shaders/common/material.wgsl`.
 #[derive(Debug, Clone, Copy, PartialEq, ShaderType)]
@@ -169,24 +170,10 @@ type Level = (u32, u32, Vec<u8>);
 
 /// The image and its halvings down to one texel, averaged in linear light where it is sRGB.
 fn mip_chain(image: &Texture, srgb: bool) -> Vec<Level> {
-    let to_linear: Vec<f32> = (0..=255u8)
-        .map(|c| f32::from(c) / 255.0)
-        .map(|c| match c {
-            _ if !srgb => c,
-            c if c <= 0.040_45 => c / 12.92,
-            c => ((c + 0.055) / 1.055).powf(2.4),
-        })
-        .collect();
-    let to_byte = |linear: f32| {
-        let c = if !srgb {
-            linear
-        } else if linear <= 0.003_130_8 {
-            linear * 12.92
-        } else {
-            1.055 * linear.powf(1.0 / 2.4) - 0.055
-        };
-        (c * 255.0).round() as u8
-    };
+    let to_linear: Vec<f32> =
+        (0..=255u8).map(|c| if srgb { color::linear_from_srgb(c) } else { f32::from(c) / 255.0 }).collect();
+    let to_byte =
+        |linear: f32| if srgb { color::srgb_from_linear(linear) } else { (linear * 255.0).round() as u8 };
     let mut levels = vec![(image.width, image.height, image.rgba.to_vec())];
     while let Some((width, height, texels)) = levels.last().filter(|(w, h, _)| w.max(h) > &1) {
         let (w, h) = ((width / 2).max(1), (height / 2).max(1));

@@ -1,12 +1,13 @@
 //! Image files become textures: PNG and JPEG, decoded side by side, refused when they declare an absurd size.
 
 use std::io::Cursor;
+use std::path::Path;
 use std::sync::Arc;
 
 use ::image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits};
 use rayon::prelude::*;
 
-use super::{ImportError, Progress};
+use super::{ImportError, Progress, source};
 use crate::scene::Texture;
 
 /// An image file's content with its name for messages.
@@ -26,6 +27,30 @@ const LARGEST_RATIO: u64 = 20;
 
 /// Images are decoded side by side until their working memory reaches this many bytes.
 const WORKING_BYTES: u64 = 160 << 20;
+
+/// An image file by itself has at most so many bytes.
+const MAX_FILE_BYTES: u64 = 512 << 20;
+
+/// An image file by itself is kept with at most so many texels a side.
+const MAX_SIDE: u32 = 4096;
+
+/// Reads an image file by itself, one that a style names. Sides of more than 4096 texels are reduced.
+///
+/// # Errors
+/// [`ImportError::Read`] or [`ImportError::Malformed`].
+pub fn load_image(path: &Path) -> Result<Texture, ImportError> {
+    let read_error = |source| ImportError::Read { path: path.into(), source };
+    let malformed = |message| ImportError::Malformed { path: path.into(), message };
+    let size = std::fs::metadata(path).map_err(read_error)?.len();
+    if size > MAX_FILE_BYTES {
+        return Err(malformed(format!("{size} bytes are too many for an image of a style")));
+    }
+    let bytes = Arc::new(source::read_regular_file(path).map_err(read_error)?);
+    let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    let image = EncodedImage { name, bytes };
+    let texture = probe(&image).and_then(|_| decode(&image)).map_err(malformed)?;
+    Ok(texture.reduced(MAX_SIDE))
+}
 
 /// Decodes images, in their order. Together they may take `budget` bytes; what would go beyond is refused, as is
 /// what is damaged or declares an absurd size. The text of an `Err` is for a person.

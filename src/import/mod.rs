@@ -7,6 +7,7 @@ mod assemble;
 mod format;
 mod gltf;
 mod image;
+mod image_cache;
 mod names;
 mod obj;
 mod ply;
@@ -18,6 +19,9 @@ use std::panic::AssertUnwindSafe;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
+
+pub use self::image::load_image;
+pub use self::image_cache::ImageCache;
 
 use self::format::Format;
 use self::names::SiblingNames;

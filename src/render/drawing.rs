@@ -13,7 +13,7 @@ use glam::{Vec2, Vec4};
 use super::RenderError;
 use super::effects::mirror::{MirrorUniform, mirror};
 use super::effects::surface::{Shading, SurfaceUniform, surface};
-use super::effects::toon::{ToonUniform, cartoon_map};
+use super::effects::toon::{ToonBuffers, Toons, cartoon_map};
 use super::frame_uniform::{FrameUniform, View};
 use super::gpu_scene::GpuScene;
 use super::groups::Objects;
@@ -86,22 +86,15 @@ pub struct Drawing {
     edge_styles: ArrayBuffer,
     surface_styles: ArrayBuffer,
     toon_styles: ArrayBuffer,
+    toon_bands: ArrayBuffer,
     gbuffer: Stage<(u64, u64, View, Vec<DrawUniform>, Vec<DrawCall>), GBuffer>,
     segments: Stage<(u64, View, Vec<EdgeUniform>, f32), Arc<Vec<LineSegment>>>,
     edge_map: Stage<(u64, Vec<EdgeUniform>, Vec2, Option<FrameUniform>), EdgeMap>,
     reach: Stage<u64, Reach>,
     shadow_mask: ShadowMask,
-    cartoon_map: Stage<(u64, u64, Vec<ToonUniform>, FrameUniform), Target>,
+    cartoon_map: Stage<([u64; 2], Toons, FrameUniform), Target>,
     surface: Stage<
-        (
-            [u64; 2],
-            Option<[u64; 2]>,
-            Vec<SurfaceUniform>,
-            Vec<ToonUniform>,
-            Vec<EdgeUniform>,
-            FrameUniform,
-            Seen,
-        ),
+        ([u64; 2], Option<[u64; 2]>, Vec<SurfaceUniform>, Toons, Vec<EdgeUniform>, FrameUniform, Seen),
         Target,
     >,
     reflections: Vec<Reflection>,
@@ -146,6 +139,7 @@ impl Drawing {
             edge_styles: ArrayBuffer::new(gpu, "edge styles"),
             surface_styles: ArrayBuffer::new(gpu, "surface styles"),
             toon_styles: ArrayBuffer::new(gpu, "toon styles"),
+            toon_bands: ArrayBuffer::new(gpu, "toon bands"),
             gbuffer: Stage::default(),
             segments: Stage::default(),
             edge_map: Stage::default(),
@@ -291,7 +285,7 @@ impl Drawing {
             [gbuffer.revision, begun.shadow_mask.as_ref().map_or(0, |mask| mask.revision)],
             revisions,
             inputs.objects.surface_styles.clone(),
-            inputs.objects.toon_styles.clone(),
+            inputs.objects.toons.clone(),
             styles.clone(),
             begun.uniform.without_background(),
             (!reflected.is_empty()).then(|| {
@@ -305,7 +299,10 @@ impl Drawing {
                 surfaces,
                 surface_styles: self.surface_styles.buffer(),
                 toons,
-                toon_styles: self.toon_styles.buffer(),
+                toon_buffers: ToonBuffers {
+                    styles: self.toon_styles.buffer(),
+                    bands: self.toon_bands.buffer(),
+                },
                 shadow_mask: begun.shadow_mask.as_ref().map(|mask| &mask.value),
                 cartoon_map: cartoon_map.as_ref(),
             };
@@ -397,9 +394,10 @@ impl Drawing {
         inputs: &DrawingInputs<'_>,
         begun: &Begun,
     ) -> Result<Option<Target>, RenderError> {
-        let toons = &inputs.objects.toon_styles;
-        if !toons.is_empty() {
-            self.toon_styles.write(rec.gpu, toons);
+        let toons = &inputs.objects.toons;
+        if !toons.styles.is_empty() {
+            self.toon_styles.write(rec.gpu, &toons.styles);
+            self.toon_bands.write(rec.gpu, &toons.bands);
         }
         if !inputs.objects.have_cartoon_map() {
             self.cartoon_map.clear();
@@ -407,11 +405,12 @@ impl Drawing {
         }
         let gbuffer = &begun.gbuffer;
         let mask = begun.shadow_mask.as_ref();
-        let shadows = mask.map_or(0, |mask| mask.revision);
-        let bands = (gbuffer.revision, shadows, toons.clone(), begun.uniform.without_background());
-        let map = self.cartoon_map.run(bands, |_| {
-            cartoon_map(rec, &gbuffer.value, self.toon_styles.buffer(), mask.map(|mask| &mask.value))
-        })?;
+        let revisions = [gbuffer.revision, mask.map_or(0, |mask| mask.revision)];
+        let bands = (revisions, toons.clone(), begun.uniform.without_background());
+        let toon_styles = self.toon_styles.buffer();
+        let map = self
+            .cartoon_map
+            .run(bands, |_| cartoon_map(rec, &gbuffer.value, toon_styles, mask.map(|mask| &mask.value)))?;
         Ok(Some(map.value))
     }
 }

@@ -4,11 +4,12 @@ use glam::{DMat4, Mat3, Mat4};
 
 use super::effects::mirror::Mirror;
 use super::effects::surface::SurfaceUniform;
-use super::effects::toon::ToonUniform;
+use super::effects::toon::{ToonUniform, Toons};
 use super::frame_uniform::View;
 use super::gpu_scene::GpuScene;
 use super::passes::edge_style::EdgeUniform;
 use super::passes::gbuffer::{Detail, DrawCall, DrawUniform};
+use super::style_images::StyleImages;
 use crate::document::Document;
 use crate::geometry::Bounds;
 use crate::scene::{AlphaMode, NodeId};
@@ -59,8 +60,8 @@ pub struct Objects {
     pub edge_styles: Vec<EdgeUniform>,
     /// Shading parameters by object id.
     pub surface_styles: Vec<SurfaceUniform>,
-    /// Parameters of toon shading by object id; empty when no object is a toon.
-    pub toon_styles: Vec<ToonUniform>,
+    /// Parameters of toon shading.
+    pub toons: Toons,
     /// Whether any object with lines has holes by alpha.
     pub has_holes: bool,
     /// The mirrors among them.
@@ -69,22 +70,22 @@ pub struct Objects {
 
 impl Objects {
     /// Resolves styles and roles of a document for the nodes of a scene; `scale`: pixels per reference pixel.
-    pub fn new(document: &Document, scene: &GpuScene, scale: f32) -> Self {
+    pub fn new(document: &Document, scene: &GpuScene, images: &StyleImages, scale: f32) -> Self {
         let resolved = document.resolve(&scene.scene);
         let mut objects = Self::default();
         // What is not drawn, entry 0 (the background) included, has neither shading nor lines.
         let count = resolved.len() + 1;
         objects.edge_styles = vec![EdgeUniform::default(); count];
-        objects.surface_styles = vec![SurfaceUniform::BLANK; count];
+        objects.surface_styles = vec![SurfaceUniform::default(); count];
         for (node, r) in resolved.iter().enumerate() {
             if !r.visible || scene.scene.nodes[node].mesh.is_none() {
                 continue;
             }
             let id = object_id(node) as usize;
-            objects.surface_styles[id] = SurfaceUniform::from(r.style);
+            objects.surface_styles[id] =
+                SurfaceUniform::new(r.style, &scene.scene.nodes[node].world_from_local);
             if r.style.technique == Technique::Toon {
-                objects.toon_styles.resize(count, ToonUniform::default());
-                objects.toon_styles[id] = ToonUniform::from(&r.style.toon);
+                objects.toons.set(id, count, &r.style.toon, images);
             }
             if r.enhanced {
                 objects.edge_styles[id] = EdgeUniform::new(&r.style.edges, scale);
@@ -108,7 +109,7 @@ impl Objects {
 
     /// Whether any visible object needs the cartoon map.
     pub fn have_cartoon_map(&self) -> bool {
-        self.toon_styles.iter().any(ToonUniform::has_cartoon_map)
+        self.toons.styles.iter().any(ToonUniform::has_cartoon_map)
     }
 
     /// The visible objects, and whether each is enhanced.

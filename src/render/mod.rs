@@ -14,6 +14,7 @@ pub mod sample;
 mod segments;
 pub mod shadows;
 pub mod stage;
+mod style_images;
 
 pub use frame::Picture;
 pub use gpu_scene::{GpuScene, UploadedTopology, Uploader};

@@ -11,11 +11,12 @@ use super::gpu_scene::{GpuScene, UploadedTopology, Uploader};
 use super::groups::{Objects, node_of};
 use super::lights::Lights;
 use super::passes::accumulate::Subject;
+use super::style_images::StyleImages;
 use crate::document::Document;
 use crate::geometry::Topology;
 use crate::gpu::readback::Readback;
 use crate::gpu::{Gpu, GpuError, Pipelines, Recorder, ShaderError, Shaders, TargetPool, Timers};
-use crate::scene::{Camera, NodeId, Scene};
+use crate::scene::{Camera, Images, NodeId, Scene};
 
 /// Height of the picture in reference pixels, in which widths and scales are given.
 const REFERENCE_HEIGHT: f32 = 1080.0;
@@ -72,6 +73,7 @@ pub struct Renderer {
     state: FrameState,
     scene: Option<GpuScene>,
     scene_revision: u64,
+    images: StyleImages,
     last: Option<(Picture, View)>,
     pick: Option<PendingPick>,
     shader_error: Option<ShaderError>,
@@ -89,6 +91,7 @@ impl Renderer {
             timers: None,
             scene: None,
             scene_revision: 0,
+            images: StyleImages::default(),
             last: None,
             pick: None,
             shader_error,
@@ -103,6 +106,7 @@ impl Renderer {
         twin.pipelines = self.pipelines.clone();
         twin.scene = self.scene.clone();
         twin.scene_revision = self.scene_revision;
+        twin.images = self.images.clone();
         twin.state.go_on_from(&self.state);
         twin
     }
@@ -142,6 +146,14 @@ impl Renderer {
         Ok(())
     }
 
+    /// Takes over the images that styles name; those that are missing are drawn without.
+    pub fn set_images(&mut self, images: Images) {
+        if *self.images.all() != images {
+            self.images = StyleImages::new(images);
+            self.scene_revision += 1;
+        }
+    }
+
     /// Measures each pass from now on, if the device can; ask [`Self::timings`] after each frame.
     pub fn enable_timers(&mut self) {
         self.timers = Timers::new(&self.gpu);
@@ -173,7 +185,7 @@ impl Renderer {
         };
         let size = request.size.map(|s| s.max(1));
         let scale = size[1] as f32 / REFERENCE_HEIGHT;
-        let objects = Objects::new(request.document, scene, scale);
+        let objects = Objects::new(request.document, scene, &self.images, scale);
         let subject = Subject {
             shaders: self.pipelines.generation(),
             scene_revision: self.scene_revision,

@@ -1,7 +1,5 @@
 //! Surface materials and their images.
 
-use std::sync::Arc;
-
 use glam::{Mat3, Vec4};
 
 /// What a surface is made of, as far as a drawing needs it.
@@ -83,17 +81,4 @@ pub enum Wrap {
     Mirror,
     /// Stretch the border texel.
     Clamp,
-}
-
-/// A decoded image: 8-bit RGBA, rows from the top.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Texture {
-    /// Name for messages.
-    pub name: String,
-    /// Width in texels.
-    pub width: u32,
-    /// Height in texels.
-    pub height: u32,
-    /// `4 · width · height` bytes.
-    pub rgba: Arc<[u8]>,
 }

@@ -4,8 +4,10 @@ pub mod camera;
 pub mod graph;
 pub mod light;
 pub mod material;
+pub mod texture;
 
 pub use camera::{Camera, Projection};
 pub use graph::{Node, NodeId, Scene, Up, Warning};
 pub use light::{Light, LightKind};
-pub use material::{AlphaMode, Material, Texture, TextureRef, UvTransform, Wrap};
+pub use material::{AlphaMode, Material, TextureRef, UvTransform, Wrap};
+pub use texture::{Images, Texture};

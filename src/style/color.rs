@@ -27,11 +27,21 @@ impl Color {
 
     /// Linear RGB, 0 to 1 (IEC 61966-2-1).
     pub fn to_linear(self) -> Vec3 {
-        Vec3::from_array(self.0.map(|c| {
-            let c = f32::from(c) / 255.0;
-            if c <= 0.04045 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) }
-        }))
+        Vec3::from_array(self.0.map(linear_from_srgb))
     }
+}
+
+/// One channel as light, 0 to 1 (IEC 61966-2-1).
+pub fn linear_from_srgb(byte: u8) -> f32 {
+    let c = f32::from(byte) / 255.0;
+    if c <= 0.040_45 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) }
+}
+
+/// The nearest byte for a channel's light; what is beyond 0 to 1 becomes its end.
+pub fn srgb_from_linear(linear: f32) -> u8 {
+    let c = linear.clamp(0.0, 1.0);
+    let c = if c <= 0.003_130_8 { c * 12.92 } else { 1.055 * c.powf(1.0 / 2.4) - 0.055 };
+    (c * 255.0).round() as u8
 }
 
 impl fmt::Display for Color {
@@ -62,6 +72,12 @@ impl FromStr for Color {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn bytes_become_light_and_bytes_again() {
+        assert!((0..=255).all(|byte| srgb_from_linear(linear_from_srgb(byte)) == byte));
+        assert_eq!([-1.0, 2.0, f32::NAN].map(srgb_from_linear), [0, 255, 0]);
+    }
 
     #[test]
     fn colours_are_read_and_written() {

@@ -1,6 +1,7 @@
 //! The list of parameters while it is being declared.
 
 use std::ops::RangeInclusive;
+use std::path::PathBuf;
 
 use super::Color;
 use super::param::{Condition, Param};
@@ -107,6 +108,19 @@ impl<'a> Params<'a> {
         self.push(key, label, unit, help, Slot::Number { value: value.into(), soft, hard });
     }
 
+    /// A whole number and the range that is offered and accepted.
+    pub fn integer(
+        &mut self,
+        key: &str,
+        label: &'static str,
+        unit: &'static str,
+        range: RangeInclusive<u32>,
+        help: &'static str,
+        value: &'a mut u32,
+    ) {
+        self.push(key, label, unit, help, Slot::Integer { value, range });
+    }
+
     /// A colour.
     pub fn color(
         &mut self,
@@ -116,6 +130,17 @@ impl<'a> Params<'a> {
         value: impl Into<Place<'a, Color>>,
     ) {
         self.push(key, label, "", help, Slot::Color(value.into()));
+    }
+
+    /// An image file (PNG or JPEG), or none. It is needed while the parameter matters; see [`super::Style::images`].
+    pub fn file(
+        &mut self,
+        key: &str,
+        label: &'static str,
+        help: &'static str,
+        value: &'a mut Option<PathBuf>,
+    ) {
+        self.push(key, label, "", help, Slot::File(value));
     }
 
     /// One of the variants of an enumeration.

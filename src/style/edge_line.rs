@@ -19,7 +19,8 @@ pub struct Line {
     /// Whether it is drawn in dashes.
     pub dashed: bool,
     /// What an edge must reach to be drawn: profile edges the step in depth behind them in reference pixels (0 to
-    /// 1000), creases and intersections the angle between the surfaces in degrees (0 to 180).
+    /// 1000), creases, intersections and relief the angle between the surfaces in degrees (0 to 180), textures the
+    /// difference of the colours (0 to 1).
     pub threshold: f32,
 }
 
@@ -47,9 +48,11 @@ impl ClassStyle {
             EdgeClass::Silhouette | EdgeClass::Border | EdgeClass::Object | EdgeClass::Material => 0.0,
             EdgeClass::Ridge | EdgeClass::Valley => 30.0,
             EdgeClass::Intersection => 2.0,
+            EdgeClass::Texture => 0.15,
+            EdgeClass::Relief => 20.0,
         };
-        // Materials are many in some files, and what they separate has colours of its own.
-        let show = (class == EdgeClass::Material).then_some(false);
+        // Materials and details are many in some files, and what they separate has colours of its own.
+        let show = (class == EdgeClass::Material || class.is_detail()).then_some(false);
         Self { show, color: None, strength: None, width: None, dashed: None, threshold }
     }
 
@@ -122,6 +125,24 @@ impl ClassStyle {
                         "Surfaces that meet at a smaller angle draw nothing.",
                         threshold,
                     ),
+                    EdgeClass::Texture => list.number(
+                        "threshold",
+                        "Least contrast",
+                        "",
+                        0.0..=0.5,
+                        0.0..=1.0,
+                        "Colours that differ by less draw nothing; 1 is from black to white.",
+                        threshold,
+                    ),
+                    EdgeClass::Relief => list.number(
+                        "threshold",
+                        "Least angle",
+                        "°",
+                        0.0..=90.0,
+                        0.0..=180.0,
+                        "Flatter steps of the relief draw nothing.",
+                        threshold,
+                    ),
                     EdgeClass::Material => {}
                 }
             });
@@ -139,6 +160,8 @@ fn words(class: EdgeClass) -> (&'static str, &'static str) {
         EdgeClass::Valley => ("Valleys", "Draw concave creases."),
         EdgeClass::Material => ("Material borders", "Draw lines where two materials of one object meet."),
         EdgeClass::Intersection => ("Intersections", "Draw lines where two surfaces run through each other."),
+        EdgeClass::Texture => ("Texture edges", "Draw lines where the colour of a surface changes suddenly."),
+        EdgeClass::Relief => ("Relief edges", "Draw lines where a normal map folds the surface."),
     }
 }
 

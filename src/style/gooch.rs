@@ -21,6 +21,38 @@ pub struct Gooch {
     pub highlight: f32,
     /// Phong exponent of the highlight, 1 (wide) to 256 (small).
     pub shininess: f32,
+    /// Strength of the stripes of milled metal, 0 (none) to 1 (section 3.2).
+    pub metal: f32,
+    /// The axis around which the stripes lie.
+    pub metal_axis: MetalAxis,
+    /// Number of stripes around it, 2 to 64.
+    pub stripes: u32,
+}
+
+/// The axis around which the stripes of milled metal lie.
+#[derive(
+    Debug,
+    Clone,
+    Copy,
+    PartialEq,
+    Eq,
+    Hash,
+    Default,
+    strum::EnumString,
+    strum::IntoStaticStr,
+    strum::VariantNames,
+)]
+#[strum(serialize_all = "snake_case")]
+pub enum MetalAxis {
+    /// The object's own first axis.
+    X,
+    /// Its second one.
+    #[default]
+    Y,
+    /// Its third one.
+    Z,
+    /// The vertical of the picture: stripes follow the eye.
+    View,
 }
 
 impl Default for Gooch {
@@ -32,6 +64,9 @@ impl Default for Gooch {
             beta: 0.65,
             highlight: 0.45,
             shininess: 32.0,
+            metal: 0.0,
+            metal_axis: MetalAxis::default(),
+            stripes: 20,
         }
     }
 }
@@ -75,6 +110,29 @@ impl Gooch {
             1.0..=256.0,
             "Phong exponent: a larger one makes the highlight smaller.",
             &mut self.shininess,
+        );
+        list.number(
+            "metal",
+            "Metal",
+            "",
+            0.0..=1.0,
+            0.0..=1.0,
+            "Strength of the stripes of milled metal; 0 switches them off.",
+            &mut self.metal,
+        );
+        list.choice(
+            "metal_axis",
+            "Milled around",
+            "The object's axis around which the stripes lie, or the vertical of the view.",
+            &mut self.metal_axis,
+        );
+        list.integer(
+            "stripes",
+            "Stripes",
+            "",
+            2..=64,
+            "Number of stripes around the axis.",
+            &mut self.stripes,
         );
     }
 }

@@ -15,10 +15,13 @@ pub mod param;
 mod param_tests;
 pub mod plain;
 pub mod preset;
+mod ramp;
 mod slot;
 mod toml_file;
 pub mod toon;
 mod value;
+
+use std::path::PathBuf;
 
 pub use color::Color;
 pub use edge_line::Line;
@@ -94,6 +97,18 @@ impl Style {
         list.section("edges", |list| self.edges.params(list));
         list.section("mirror", |list| self.mirror.params(list));
         list.finish()
+    }
+
+    /// The images that are needed with the choices as they are: keys of parameters, and the paths that they have.
+    pub fn images(&self) -> Vec<(String, Option<PathBuf>)> {
+        let mut style = self.clone();
+        let mut params = style.params();
+        param::retain_relevant(&mut params);
+        let image = |p: Param<'_>| match p.slot {
+            Slot::File(path) => Some((p.key, path.clone())),
+            _ => None,
+        };
+        params.into_iter().filter_map(image).collect()
     }
 }
 

@@ -6,6 +6,8 @@
 //! A parameter may *inherit*: until it has a value of its own, the value of another parameter holds. A value of its
 //! own stays its own where it happens to equal the other's, in memory as in files; only `inherit` gives it back.
 
+use std::path::{Path, PathBuf};
+
 use super::{Color, StyleError, nearest};
 
 pub use super::declare::Params;
@@ -48,7 +50,11 @@ impl Param<'_> {
             Slot::Bool(b) => Value::Bool(b.get()),
             // Through text, so that 0.1 is written as 0.1 and not as 0.10000000149.
             Slot::Number { value, .. } => Value::Number(value.get().to_string().parse().unwrap_or(0.0)),
+            Slot::Integer { value, .. } => Value::Number(f64::from(**value)),
             Slot::Color(c) => Value::Text(c.get().to_string()),
+            Slot::File(path) => {
+                Value::Text(path.as_ref().map_or_else(String::new, |p| p.to_string_lossy().into_owned()))
+            }
             Slot::Choice(c) => Value::Text(c.name().to_owned()),
         }
     }
@@ -63,7 +69,11 @@ impl Param<'_> {
         let mut domain = match &self.slot {
             Slot::Bool(_) => "true or false".to_owned(),
             Slot::Number { hard, .. } => format!("a number from {} to {}", hard.start(), hard.end()),
+            Slot::Integer { range, .. } => {
+                format!("a whole number from {} to {}", range.start(), range.end())
+            }
             Slot::Color(_) => "a colour as #rrggbb".to_owned(),
+            Slot::File(_) => "the path of a PNG or JPEG image, or an empty text".to_owned(),
             Slot::Choice(c) => format!("one of {}", c.names().join(", ")),
         };
         if self.slot.inherits().is_some() {
@@ -86,17 +96,24 @@ impl Param<'_> {
             (Slot::Number { value, hard, .. }, Value::Number(new)) => {
                 let narrow = *new as f32;
                 if !hard.contains(&narrow) {
-                    return Err(StyleError::OutOfRange {
-                        key: self.key.clone(),
-                        found: *new,
-                        min: *hard.start(),
-                        max: *hard.end(),
-                    });
+                    return Err(out_of_range(&self.key, *new, [*hard.start(), *hard.end()]));
                 }
                 value.set(narrow);
                 true
             }
+            (Slot::Integer { value, range }, Value::Number(new)) if new.fract() == 0.0 => {
+                let [min, max] = [*range.start(), *range.end()];
+                if !(f64::from(min)..=f64::from(max)).contains(new) {
+                    return Err(out_of_range(&self.key, *new, [min as f32, max as f32]));
+                }
+                **value = *new as u32;
+                true
+            }
             (Slot::Color(c), Value::Text(new)) => new.parse::<Color>().map(|new| c.set(new)).is_ok(),
+            (Slot::File(path), Value::Text(new)) => {
+                **path = (!new.is_empty()).then(|| PathBuf::from(new));
+                true
+            }
             (Slot::Choice(c), Value::Text(new)) => c.choose(new),
             _ => false,
         };
@@ -104,6 +121,19 @@ impl Param<'_> {
             Ok(())
         } else {
             Err(StyleError::WrongType { key: self.key.clone(), expected: self.domain(), found: new.kind() })
+        }
+    }
+}
+
+fn out_of_range(key: &str, found: f64, [min, max]: [f32; 2]) -> StyleError {
+    StyleError::OutOfRange { key: key.to_owned(), found, min, max }
+}
+
+/// Replaces the path of every image of a list.
+pub fn map_paths(params: &mut [Param<'_>], map: impl Fn(&Path) -> PathBuf) {
+    for param in params {
+        if let Slot::File(Some(path)) = &mut param.slot {
+            *path = map(path);
         }
     }
 }

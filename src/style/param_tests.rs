@@ -13,7 +13,10 @@ fn other_values() -> Vec<(String, Value)> {
             Value::Number((*hard.end()).into())
         }
         Slot::Number { hard, .. } => Value::Number((*hard.start()).into()),
+        Slot::Integer { value, range } if **value == *range.start() => Value::Number((*range.end()).into()),
+        Slot::Integer { range, .. } => Value::Number((*range.start()).into()),
         Slot::Color(_) => Value::Text("#123456".to_owned()),
+        Slot::File(_) => Value::Text("images/ramp 2.png".to_owned()),
         Slot::Choice(c) => Value::Text(c.names().iter().find(|n| **n != c.name()).unwrap().to_string()),
     };
     style.params().iter().map(|p| (p.key.clone(), other(p))).collect()
@@ -47,6 +50,9 @@ fn keys_are_unique_and_defaults_lie_in_their_ranges() {
         if let Slot::Number { value, soft, hard } = &param.slot {
             assert!(soft.contains(&value.get()), "{}", param.key);
             assert!(hard.contains(soft.start()) && hard.contains(soft.end()), "{}", param.key);
+        }
+        if let Slot::Integer { value, range } = &param.slot {
+            assert!(range.contains(value), "{}", param.key);
         }
     }
 }
@@ -140,6 +146,19 @@ fn mistakes_say_what_would_be_right() {
         "`edges.inner.width` takes a number from 0.25 to 64, not `inherit`, for it inherits from nothing"
     );
     assert_eq!(
+        message("toon.bands", "2.5"),
+        "`toon.bands` takes a whole number from 2 to 8, not the number 2.5"
+    );
+    assert_eq!(message("toon.bands", "9"), "`toon.bands` = 9 is out of range: 2 to 8");
+    assert_eq!(
+        message("toon.bands", "nan"),
+        "`toon.bands` takes a whole number from 2 to 8, not the number NaN"
+    );
+    assert_eq!(
+        message("toon.image", "3"),
+        "`toon.image` takes the path of a PNG or JPEG image, or an empty text, not the number 3"
+    );
+    assert_eq!(
         message("edges.mode", "exakt"),
         "`edges.mode` takes one of exact, paper, not the text `exakt`"
     );
@@ -167,4 +186,25 @@ fn only_what_matters_is_retained() {
     }
     assert!(!has(&paper, "edges.profile.gain_c1"), "of the other operator");
     assert!(has(&paper, "edges.inner.color") && has(&exact, "gooch.cool") && !has(&exact, "plain.ambient"));
+}
+
+#[test]
+fn images_are_needed_while_their_choices_hold() {
+    let mut style = Style::default();
+    set(&mut style, "toon.image", "ramp.png").unwrap();
+    assert_eq!(style.images(), []);
+    set(&mut style, "toon.ramp", "image").unwrap();
+    assert_eq!(style.images(), [], "no toon is drawn");
+    set(&mut style, "technique", "toon").unwrap();
+    assert_eq!(style.images(), [("toon.image".to_owned(), Some("ramp.png".into()))]);
+    set(&mut style, "toon.image", "").unwrap();
+    assert_eq!(style.images(), [("toon.image".to_owned(), None)]);
+}
+
+#[test]
+fn whole_numbers_are_written_as_such() {
+    let mut style = Style::default();
+    set(&mut style, "toon.bands", "5").unwrap();
+    assert_eq!(to_toml(&style), "[toon]\nbands = 5\n");
+    assert_eq!(from_toml("[toon]\nbands = 5.0\n"), style);
 }

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use include_dir::{Dir, include_dir};
 
+use super::param::map_paths;
 use super::{Style, StyleError, nearest, set_from_toml};
 
 static STYLES: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/assets/styles");
@@ -35,7 +36,7 @@ pub fn all() -> Vec<Preset> {
     presets
 }
 
-/// The preset of that name, or the style file at that path.
+/// The preset of that name, or the style file at that path. Its images are sought beside it.
 ///
 /// # Errors
 /// [`StyleError::UnknownPreset`] when there is neither, otherwise what is wrong in the file.
@@ -57,7 +58,10 @@ pub fn load(name_or_path: &str) -> Result<Preset, StyleError> {
     }
     let text = std::fs::read_to_string(path).map_err(|e| unreadable(e.to_string()))?;
     let stem = path.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned());
-    read(&stem, &text, name_or_path)
+    let mut preset = read(&stem, &text, name_or_path)?;
+    let folder = path.parent().unwrap_or(Path::new(""));
+    map_paths(&mut preset.style.params(), |image| folder.join(image));
+    Ok(preset)
 }
 
 fn read(name: &str, text: &str, place: &str) -> Result<Preset, StyleError> {

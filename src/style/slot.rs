@@ -1,6 +1,7 @@
 //! Where the value of a parameter is kept: a field that is borrowed, with a value of its own or an inherited one.
 
 use std::ops::RangeInclusive;
+use std::path::PathBuf;
 
 use super::Color;
 
@@ -17,8 +18,17 @@ pub enum Slot<'a> {
         /// What is accepted at all.
         hard: RangeInclusive<f32>,
     },
+    /// A whole number.
+    Integer {
+        /// The value.
+        value: &'a mut u32,
+        /// What a slider offers, and what is accepted at all.
+        range: RangeInclusive<u32>,
+    },
     /// A colour.
     Color(Place<'a, Color>),
+    /// An image file, or none.
+    File(&'a mut Option<PathBuf>),
     /// One of a few names.
     Choice(&'a mut dyn Choice),
 }
@@ -30,7 +40,7 @@ impl Slot<'_> {
             Self::Bool(place) => place.source(),
             Self::Number { value, .. } => value.source(),
             Self::Color(place) => place.source(),
-            Self::Choice(_) => None,
+            Self::Integer { .. } | Self::File(_) | Self::Choice(_) => None,
         }
     }
 
@@ -40,7 +50,7 @@ impl Slot<'_> {
             Self::Bool(place) => place.is_inherited(),
             Self::Number { value, .. } => value.is_inherited(),
             Self::Color(place) => place.is_inherited(),
-            Self::Choice(_) => false,
+            Self::Integer { .. } | Self::File(_) | Self::Choice(_) => false,
         }
     }
 
@@ -50,7 +60,7 @@ impl Slot<'_> {
             Self::Bool(place) => place.inherit(),
             Self::Number { value, .. } => value.inherit(),
             Self::Color(place) => place.inherit(),
-            Self::Choice(_) => false,
+            Self::Integer { .. } | Self::File(_) | Self::Choice(_) => false,
         }
     }
 }

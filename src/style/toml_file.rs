@@ -6,7 +6,7 @@
 use toml::de::{DeTable, DeValue};
 use toml::{Spanned, Table};
 
-use super::param::{self, Param};
+use super::param::{self, Param, Slot};
 use super::{StyleError, Value};
 
 /// The parameters of `params` that differ from `defaults`, as nested tables.
@@ -25,6 +25,7 @@ pub fn diff_to_toml(params: &mut [Param<'_>], defaults: &mut [Param<'_>]) -> Tab
                     name.to_owned(),
                     match &value {
                         Value::Bool(b) => (*b).into(),
+                        Value::Number(n) if matches!(param.slot, Slot::Integer { .. }) => (*n as i64).into(),
                         Value::Number(n) => (*n).into(),
                         Value::Text(_) | Value::Inherit => value.to_string().into(),
                     },

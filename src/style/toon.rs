@@ -1,11 +1,17 @@
 //! Toon shading: a few flat shades from a ramp (Lake et al. 2000; edge-enhancement paper, section 5, "Edge-Enhanced
 //! Cartoon-Style Rendering").
 
+use std::path::{Path, PathBuf};
+
 use super::Color;
 use super::param::Params;
+pub use super::ramp::Ramp;
 
-/// The ramp has at most so many bands.
-pub const MAX_BANDS: usize = 8;
+/// The most bands whose number is set by hand.
+const MAX_BANDS: u32 = 8;
+
+/// The most bands that any ramp has; an image of more texels is averaged.
+pub const MAX_RAMP: u32 = 256;
 
 /// Parameters of the technique `toon`.
 ///
@@ -13,8 +19,13 @@ pub const MAX_BANDS: usize = 8;
 /// a ramp of flat bands. Over them lie a highlight and a rim, both with a hard border too.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Toon {
-    /// Number of bands, 2 to 8; the nearest whole number counts.
-    pub bands: f32,
+    /// Where the shades come from.
+    pub ramp: Ramp,
+    /// The image of [`Ramp::Image`]: one band per texel along its longer side, from the left or the top. Without one
+    /// the bands are drawn.
+    pub image: Option<PathBuf>,
+    /// Number of bands, 2 to 8.
+    pub bands: u32,
     /// How borders between bands are drawn.
     pub border: Border,
     /// Colour of the darkest band.
@@ -68,7 +79,9 @@ pub enum Border {
 impl Default for Toon {
     fn default() -> Self {
         Self {
-            bands: 3.0,
+            ramp: Ramp::default(),
+            image: None,
+            bands: 3,
             border: Border::default(),
             shadow: Color([110, 106, 140]),
             mid: Color([196, 194, 208]),
@@ -86,10 +99,22 @@ impl Default for Toon {
 }
 
 impl Toon {
-    /// The colours of the bands, from shadow to light: even steps from `shadow` over `mid` to `light`, as displayed.
-    pub fn ramp(&self) -> Vec<Color> {
-        let count = self.bands.round().clamp(2.0, MAX_BANDS as f32) as usize;
-        let color = |band: usize| {
+    /// The image whose texels are the ramp, if it is one.
+    pub fn ramp_image(&self) -> Option<&Path> {
+        self.image.as_deref().filter(|_| self.ramp == Ramp::Image)
+    }
+
+    /// Whether another toon has the same ramp.
+    pub fn has_ramp_of(&self, other: &Self) -> bool {
+        let ramp = |toon: &Self| (toon.ramp, toon.bands, toon.shadow, toon.mid, toon.light);
+        ramp(self) == ramp(other) && self.image == other.image
+    }
+
+    /// The colours of the ramp where they do not come from an image, from shadow to light: those of a built-in one, or
+    /// even steps from `shadow` over `mid` to `light`, as displayed.
+    pub fn colors(&self) -> Vec<Color> {
+        let count = self.bands.clamp(2, MAX_BANDS);
+        let color = |band: u32| {
             let place = 2.0 * band as f32 / (count - 1) as f32;
             if place <= 1.0 {
                 self.shadow.mixed(self.mid, place)
@@ -97,23 +122,26 @@ impl Toon {
                 self.mid.mixed(self.light, place - 1.0)
             }
         };
-        (0..count).map(color).collect()
+        self.ramp.colors().unwrap_or_else(|| (0..count).map(color).collect())
     }
 
     pub(super) fn params<'a>(&'a mut self, list: &mut Params<'a>) {
-        list.number(
-            "bands",
-            "Bands",
-            "",
-            2.0..=MAX_BANDS as f32,
-            2.0..=MAX_BANDS as f32,
-            "Number of flat shades; rounded to a whole one.",
-            &mut self.bands,
-        );
+        list.choice("ramp", "Ramp", "Where the shades come from, from shadow to light.", &mut self.ramp);
+        list.when("toon.ramp", Ramp::Bands, |list| {
+            list.integer("bands", "Bands", "", 2..=MAX_BANDS, "Number of flat shades.", &mut self.bands);
+            list.color("shadow", "Shadow", "Colour of the darkest band.", &mut self.shadow);
+            list.color("mid", "Middle", "Colour halfway; two bands do without.", &mut self.mid);
+            list.color("light", "Light", "Colour of the lightest band.", &mut self.light);
+        });
+        list.when("toon.ramp", Ramp::Image, |list| {
+            list.file(
+                "image",
+                "Image",
+                "Each texel along its longer side is a band, from shadow (left or top) to light; at most 256.",
+                &mut self.image,
+            );
+        });
         list.choice("border", "Borders", "How borders between bands are smoothed.", &mut self.border);
-        list.color("shadow", "Shadow", "Colour of the darkest band.", &mut self.shadow);
-        list.color("mid", "Middle", "Colour halfway; two bands do without.", &mut self.mid);
-        list.color("light", "Light", "Colour of the lightest band.", &mut self.light);
         list.number(
             "tint",
             "Own colour",
@@ -194,10 +222,12 @@ mod tests {
             light: Color([200, 240, 100]),
             ..Toon::default()
         };
-        assert_eq!(toon(2.0).ramp(), [Color([0, 0, 0]), Color([200, 240, 100])]);
-        assert_eq!(toon(3.2).ramp(), [Color([0, 0, 0]), Color([100, 40, 0]), Color([200, 240, 100])]);
-        assert_eq!(toon(5.0).ramp()[1], Color([50, 20, 0]));
-        assert_eq!(toon(5.0).ramp()[3], Color([150, 140, 50]));
-        assert_eq!([toon(0.0).ramp().len(), toon(8.0).ramp().len(), toon(99.0).ramp().len()], [2, 8, 8]);
+        assert_eq!(toon(2).colors(), [Color([0, 0, 0]), Color([200, 240, 100])]);
+        assert_eq!(toon(3).colors(), [Color([0, 0, 0]), Color([100, 40, 0]), Color([200, 240, 100])]);
+        assert_eq!(toon(5).colors()[1], Color([50, 20, 0]));
+        assert_eq!(toon(5).colors()[3], Color([150, 140, 50]));
+        assert_eq!([toon(0).colors().len(), toon(8).colors().len(), toon(99).colors().len()], [2, 8, 8]);
+        let image = Toon { ramp: Ramp::Image, ..toon(4) };
+        assert_eq!(image.colors(), toon(4).colors(), "without its image it has bands");
     }
 }

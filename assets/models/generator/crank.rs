@@ -38,7 +38,8 @@ enum Finish {
 
 /// The colours of the finishes.
 fn materials() -> Vec<Material> {
-    let finish = |name, srgb, metallic, roughness| Material { name, srgb, metallic, roughness };
+    let finish =
+        |name, srgb, metallic, roughness| Material { name, srgb, metallic, roughness, ..Material::default() };
     vec![
         finish("forged steel", 0xa3_abb3, 0.0, 0.6),
         finish("ground steel", 0xd6_dbdf, 0.0, 0.3),

@@ -3,7 +3,18 @@
 use glam::DQuat;
 use serde_json::{Value, json};
 
+/// An image that materials use.
+pub(crate) struct Image {
+    /// Name in the file.
+    pub(crate) name: &'static str,
+    /// Its PNG.
+    pub(crate) png: Vec<u8>,
+    /// Whether it repeats beyond its borders.
+    pub(crate) tiles: bool,
+}
+
 /// A surface finish that parts share.
+#[derive(Default)]
 pub(crate) struct Material {
     /// Name in the file.
     pub(crate) name: &'static str,
@@ -13,6 +24,12 @@ pub(crate) struct Material {
     pub(crate) metallic: f32,
     /// 0 = mirror, 1 = chalk.
     pub(crate) roughness: f32,
+    /// Index into [`Scene::images`] of a colour image that is multiplied with the base colour.
+    pub(crate) color_image: Option<usize>,
+    /// Index into [`Scene::images`] of a tangent-space normal map, green upwards.
+    pub(crate) normal_image: Option<usize>,
+    /// Whether the colour image's alpha cuts the shape out of a sheet that is seen from both sides.
+    pub(crate) cut_out: bool,
 }
 
 /// Indexed triangles with one material.
@@ -86,6 +103,8 @@ impl Node {
 /// What one file holds.
 #[derive(Default)]
 pub(crate) struct Scene {
+    /// Images.
+    pub(crate) images: Vec<Image>,
     /// Finishes.
     pub(crate) materials: Vec<Material>,
     /// Geometry, which several nodes may show.
@@ -112,7 +131,8 @@ impl Scene {
         let meshes: Vec<Value> = self.meshes.iter().map(|mesh| buffer.mesh(mesh)).collect();
         let mut nodes = Vec::new();
         let roots: Vec<usize> = self.roots.iter().map(|root| flatten(root, &mut nodes)).collect();
-        let document = json!({
+        let images: Vec<Value> = self.images.iter().map(|image| buffer.image(image)).collect();
+        let mut document = json!({
             "asset": { "version": "2.0", "generator": "hachure models" },
             "scene": 0,
             "scenes": [{ "nodes": roots }],
@@ -123,6 +143,13 @@ impl Scene {
             "bufferViews": buffer.views,
             "buffers": [{ "byteLength": buffer.bytes.len() }],
         });
+        if !images.is_empty() {
+            let texture =
+                |(i, image): (usize, &Image)| json!({ "source": i, "sampler": usize::from(image.tiles) });
+            document["textures"] = self.images.iter().enumerate().map(texture).collect();
+            document["samplers"] = [Buffer::CLAMP, Buffer::REPEAT].into_iter().map(Buffer::sampler).collect();
+            document["images"] = json!(images);
+        }
         let mut text = document.to_string().into_bytes();
         text.resize(text.len().next_multiple_of(4), b' ');
         let total = 12 + 8 + text.len() + 8 + buffer.bytes.len();
@@ -153,6 +180,10 @@ impl Buffer {
     const U32: u32 = 5125;
     const VERTICES: u32 = 34962;
     const INDICES: u32 = 34963;
+    const LINEAR: u32 = 9729;
+    const MIPMAPS: u32 = 9987;
+    const CLAMP: u32 = 33071;
+    const REPEAT: u32 = 10497;
 
     /// Stores a mesh and returns its JSON.
     fn mesh(&mut self, mesh: &Mesh) -> Value {
@@ -194,17 +225,34 @@ impl Buffer {
         self.accessor(&bytes, Self::VERTICES, Self::F32, shape, values.len())
     }
 
+    /// The JSON of a smooth sampler.
+    fn sampler(wrap: u32) -> Value {
+        json!({ "magFilter": Self::LINEAR, "minFilter": Self::MIPMAPS, "wrapS": wrap, "wrapT": wrap })
+    }
+
+    /// Stores an image and returns its JSON.
+    fn image(&mut self, image: &Image) -> Value {
+        json!({ "name": image.name, "mimeType": "image/png", "bufferView": self.view(&image.png) })
+    }
+
     /// Stores bytes behind an accessor of their own.
     fn accessor(&mut self, bytes: &[u8], target: u32, kind: u32, shape: &str, count: usize) -> usize {
+        let view = self.view(bytes);
+        self.views[view]["target"] = json!(target);
+        self.accessors.push(json!({
+            "bufferView": view, "componentType": kind, "type": shape, "count": count,
+        }));
+        self.accessors.len() - 1
+    }
+
+    /// Stores bytes behind a view of their own.
+    fn view(&mut self, bytes: &[u8]) -> usize {
         self.views.push(json!({
-            "buffer": 0, "byteOffset": self.bytes.len(), "byteLength": bytes.len(), "target": target,
+            "buffer": 0, "byteOffset": self.bytes.len(), "byteLength": bytes.len(),
         }));
         self.bytes.extend(bytes);
         self.bytes.resize(self.bytes.len().next_multiple_of(4), 0);
-        self.accessors.push(json!({
-            "bufferView": self.views.len() - 1, "componentType": kind, "type": shape, "count": count,
-        }));
-        self.accessors.len() - 1
+        self.views.len() - 1
     }
 }
 
@@ -235,12 +283,24 @@ fn material_json(material: &Material) -> Value {
         let linear = if c <= 0.040_45 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) };
         (linear * 1e5).round() / 1e5
     };
-    json!({
+    let mut json = json!({
         "name": material.name,
         "pbrMetallicRoughness": {
             "baseColorFactor": [channel(16), channel(8), channel(0), 1.0],
             "metallicFactor": material.metallic,
             "roughnessFactor": material.roughness,
         },
-    })
+    });
+    if let Some(image) = material.color_image {
+        json["pbrMetallicRoughness"]["baseColorTexture"] = json!({ "index": image });
+    }
+    if let Some(image) = material.normal_image {
+        json["normalTexture"] = json!({ "index": image });
+    }
+    if material.cut_out {
+        json["alphaMode"] = json!("MASK");
+        json["alphaCutoff"] = json!(0.5);
+        json["doubleSided"] = json!(true);
+    }
+    json
 }

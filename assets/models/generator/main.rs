@@ -7,15 +7,20 @@
 
 mod crank;
 mod crankshaft;
+mod curve;
 mod delaunay;
 mod flywheel;
 mod glb;
+mod leaf;
+mod lettering;
+mod noise;
 mod ogre;
 mod ogre_body;
 mod ogre_charts;
 mod ogre_gear;
 mod ogre_head;
 mod outline;
+mod picture;
 mod piston;
 mod plate;
 mod remesh;
@@ -24,13 +29,24 @@ mod sdf;
 mod sets;
 mod soften;
 mod solid;
+mod still_life;
+mod still_life_bottle;
+mod still_life_fruit;
+mod still_life_mirror;
+mod still_life_plant;
+mod still_life_table;
+mod still_life_toys;
+mod still_life_vase;
+mod still_life_whisk;
 mod untangle;
 mod unwrap;
+mod wood;
 
 /// Writes each model, or only those named on the command line, and reports their sizes.
 fn main() {
     let wanted: Vec<String> = std::env::args().skip(1).collect();
-    let models: [(&str, fn() -> glb::Scene); 2] = [("crank", crank::scene), ("ogre", ogre::scene)];
+    let models: [(&str, fn() -> glb::Scene); 3] =
+        [("crank", crank::scene), ("ogre", ogre::scene), ("still_life", still_life::scene)];
     for (name, make) in models {
         if !wanted.is_empty() && !wanted.iter().any(|w| w == name) {
             continue;

@@ -14,7 +14,7 @@ use crate::{ogre_gear, ogre_head};
 
 /// The file's contents.
 pub(crate) fn scene() -> Scene {
-    let finish = |name, srgb| Material { name, srgb, metallic: 0.0, roughness: 0.8 };
+    let finish = |name, srgb| Material { name, srgb, roughness: 0.8, ..Material::default() };
     let mut scene = Scene {
         materials: vec![
             finish("skin", 0x9d_b873),

@@ -2,17 +2,22 @@
 
 use std::collections::BTreeMap;
 
-use glam::{DMat3, DVec3, Vec3, dvec3};
+use glam::{DMat3, DVec2, DVec3, Vec3, dvec3};
 
 use crate::glb::Mesh;
 use crate::sets::{root, unite};
 
-/// A closed surface as loose triangles, counter-clockwise from outside, in millimetres.
+/// A surface, closed unless it is a leaf or a pane, as loose triangles, counter-clockwise from outside, in millimetres.
 #[derive(Default, Clone)]
 pub(crate) struct Solid {
     /// Corner positions.
     pub(crate) triangles: Vec<[DVec3; 3]>,
+    /// Texture coordinates of the same corners, (0, 0) = upper left of the image, or none at all.
+    pub(crate) uvs: Vec<[DVec2; 3]>,
 }
+
+/// A point of a textured surface and its texture coordinates.
+pub(crate) type Corner = (DVec3, DVec2);
 
 /// Which way a part's own `w` axis points in the model; its `v` axis stays in the plane of the drawing.
 #[derive(Clone, Copy)]
@@ -45,13 +50,8 @@ impl Solid {
 
     /// Adds a quadrilateral, cut along its shorter diagonal.
     pub(crate) fn quad(&mut self, a: DVec3, b: DVec3, c: DVec3, d: DVec3) {
-        if a.distance_squared(c) <= b.distance_squared(d) * 1.000_001 {
-            self.triangle(a, b, c);
-            self.triangle(a, c, d);
-        } else {
-            self.triangle(a, b, d);
-            self.triangle(b, c, d);
-        }
+        let corners = [a, b, c, d];
+        self.triangles.extend(halves(corners).map(|half| half.map(|i| corners[i])));
     }
 
     /// Adds the band between two closed rings of equally many points; the second lies above the first when the rings
@@ -62,6 +62,38 @@ impl Solid {
             let j = (i + 1) % n;
             self.quad(low[i], low[j], high[j], high[i]);
         }
+    }
+
+    /// Adds the sheet between rows of equally many corners. A row that runs counter-clockwise from above lies below
+    /// the next one, so that the sheet faces outwards and an image that follows it is not mirrored.
+    pub(crate) fn sheet(&mut self, rows: &[Vec<Corner>]) {
+        for pair in rows.windows(2) {
+            for (low, high) in pair[0].windows(2).zip(pair[1].windows(2)) {
+                let corners = [low[0], low[1], high[1], high[0]];
+                for half in halves(corners.map(|corner| corner.0)) {
+                    self.triangles.push(half.map(|i| corners[i].0));
+                    self.uvs.push(half.map(|i| corners[i].1));
+                }
+            }
+        }
+    }
+
+    /// The same surface, textured: `uv` gives the coordinates for a point and its triangle's unit normal.
+    pub(crate) fn mapped(mut self, uv: impl Fn(DVec3, DVec3) -> DVec2) -> Self {
+        let corners = self.triangles.iter().map(|&[a, b, c]| {
+            let normal = (b - a).cross(c - a).normalize();
+            [a, b, c].map(|p| uv(p, normal))
+        });
+        self.uvs = corners.collect();
+        self
+    }
+
+    /// The same surface with each point where `to` puts it.
+    pub(crate) fn bent(mut self, to: impl Fn(DVec3) -> DVec3) -> Self {
+        for corner in self.triangles.iter_mut().flatten() {
+            *corner = to(*corner);
+        }
+        self
     }
 
     /// The same surface with its `w` axis along `axis`.
@@ -83,7 +115,7 @@ impl Solid {
 
     /// Welds the triangles into a mesh in metres. Edges that turn by more than `crease` degrees stay hard.
     pub(crate) fn into_mesh(self, name: &str, material: usize, crease: f64) -> Mesh {
-        let (points, faces) = self.welded();
+        let (points, faces, uvs) = self.welded();
         let normals: Vec<DVec3> = faces
             .iter()
             .map(|f| {
@@ -100,33 +132,40 @@ impl Solid {
             indices: Vec::new(),
             material,
         };
-        // Large faces weigh most, so that planes beside a rounded rim stay flat in shading.
-        let mut vertices: BTreeMap<usize, (usize, DVec3)> = BTreeMap::new();
+        // Large faces weigh most, so that planes beside a rounded rim stay flat in shading. A seam of the texture
+        // parts vertices, not the normal.
+        let mut sums: BTreeMap<usize, DVec3> = BTreeMap::new();
+        let mut vertices: BTreeMap<(usize, [u32; 2]), usize> = BTreeMap::new();
         for (corner, &fan) in fans.iter().enumerate() {
             let (face, k) = (corner / 3, corner % 3);
             let [p, q, r] = [0, 1, 2].map(|d| points[faces[face][(k + d) % 3]].as_dvec3());
             let angle = (q - p).angle_between(r - p);
+            *sums.entry(fan).or_default() += normals[face] * angle;
+            let uv = uvs.get(face).map(|uvs| uvs[k].as_vec2());
             let next = vertices.len();
-            let entry = vertices.entry(fan).or_insert_with(|| {
+            let vertex =
+                *vertices.entry((fan, uv.unwrap_or_default().to_array().map(f32::to_bits))).or_insert(next);
+            if vertex == next {
                 mesh.positions.push(p.as_vec3().to_array());
-                (next, DVec3::ZERO)
-            });
-            entry.1 += normals[face] * angle;
-            mesh.indices.push(entry.0 as u32);
+                mesh.uvs.extend(uv.map(|uv| uv.to_array()));
+            }
+            mesh.indices.push(vertex as u32);
         }
         mesh.normals = vec![[0.0; 3]; vertices.len()];
-        for (index, sum) in vertices.values() {
-            mesh.normals[*index] = sum.normalize().as_vec3().to_array();
+        for (&(fan, _), &vertex) in &vertices {
+            mesh.normals[vertex] = sums[&fan].normalize().as_vec3().to_array();
         }
         mesh
     }
 
-    /// Points in metres with triangles between them; triangles that vanish in the weld are left out.
-    fn welded(&self) -> (Vec<Vec3>, Vec<[usize; 3]>) {
+    /// Points in metres, triangles between them and those triangles' texture coordinates, if there are any; triangles
+    /// that vanish in the weld are left out.
+    fn welded(&self) -> (Vec<Vec3>, Vec<[usize; 3]>, Vec<[DVec2; 3]>) {
         let mut index_of: BTreeMap<[i64; 3], usize> = BTreeMap::new();
         let mut points = Vec::new();
         let mut faces = Vec::new();
-        for triangle in &self.triangles {
+        let mut uvs = Vec::new();
+        for (t, triangle) in self.triangles.iter().enumerate() {
             let face = triangle.map(|p| {
                 // A hundred-thousandth of a millimetre.
                 let key = (p * 1e5).round().to_array().map(|v| v as i64);
@@ -137,9 +176,19 @@ impl Solid {
             });
             if face[0] != face[1] && face[1] != face[2] && face[2] != face[0] {
                 faces.push(face);
+                uvs.extend(self.uvs.get(t));
             }
         }
-        (points, faces)
+        (points, faces, uvs)
+    }
+}
+
+/// The triangles of a quadrilateral that is cut along its shorter diagonal.
+fn halves([a, b, c, d]: [DVec3; 4]) -> [[usize; 3]; 2] {
+    if a.distance_squared(c) <= b.distance_squared(d) * 1.000_001 {
+        [[0, 1, 2], [0, 2, 3]]
+    } else {
+        [[0, 1, 3], [1, 2, 3]]
     }
 }
 

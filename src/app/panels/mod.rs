@@ -32,6 +32,17 @@ pub struct Editing<'a> {
     pub presets: &'a [Preset],
     /// What the window is asked to do.
     pub commands: &'a mut Vec<Command>,
+    /// The image that the window is asked to let the person choose.
+    pub choosing: &'a mut Option<Choosing>,
+}
+
+/// An image that is to be chosen in a dialog.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Choosing {
+    /// The parameter that names it.
+    pub key: String,
+    /// Paths of the nodes whose parameter it is; none: of everything that has no style of its own.
+    pub nodes: Vec<String>,
 }
 
 /// A button that asks for a command.

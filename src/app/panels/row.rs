@@ -1,6 +1,8 @@
 //! One row per declared parameter: the only place where a slider is written.
 
 use eframe::egui;
+use std::path::PathBuf;
+
 use eframe::egui::{Color32, RichText, Ui};
 
 use super::icons;
@@ -19,8 +21,14 @@ pub const RESET_WIDTH: f32 = 14.0;
 /// How clearly a value is seen that is inherited.
 const INHERITED_OPACITY: f32 = 0.55;
 
-/// A parameter that was changed, and its new value.
-pub type Change = (String, Value);
+/// What a row asks for.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Change {
+    /// The parameter of this key was changed to this value.
+    Set(String, Value),
+    /// A file is to be chosen for the parameter of this key.
+    ChooseFile(String),
+}
 
 /// `face_normals` → `Face normals`.
 pub fn label_of(name: &str) -> String {
@@ -62,7 +70,7 @@ impl Row<'_, '_> {
 
     fn set(&mut self, value: &Value) -> Option<Change> {
         // A default always fits its own parameter, and only what inherits is asked to.
-        self.param.set(value).ok().map(|()| (self.param.key.clone(), value.clone()))
+        self.param.set(value).ok().map(|()| Change::Set(self.param.key.clone(), value.clone()))
     }
 
     /// What the pointer is told.
@@ -85,7 +93,7 @@ impl Row<'_, '_> {
         if self.differs() {
             help.push_str("; double-click the name to go back");
         }
-        let mut reset = None;
+        let mut asked = None;
         ui.horizontal(|ui| {
             let inherited = self.param.slot.is_inherited();
             let color = match (self.differs(), inherited) {
@@ -95,24 +103,26 @@ impl Row<'_, '_> {
             };
             let label = label_ui(ui, self.param.label, color).on_hover_text(&help);
             if label.double_clicked() {
-                reset = self.reset();
+                asked = self.reset();
             }
-            label.context_menu(|ui| reset = self.menu_ui(ui));
+            label.context_menu(|ui| asked = self.menu_ui(ui));
             if self.differs() {
                 let at =
                     egui::Rect::from_min_size(label.rect.min, egui::vec2(RESET_WIDTH, label.rect.height()));
                 let name = format!("Reset {}", self.param.label);
                 if icons::reset(ui, at, label.id.with("reset"), &name).on_hover_text(&name).clicked() {
-                    reset = self.reset();
+                    asked = self.reset();
                 }
             }
             if inherited {
                 ui.multiply_opacity(INHERITED_OPACITY);
             }
-            slot_ui(ui, self.param, label.id, &help);
+            if slot_ui(ui, self.param, label.id, &help) {
+                asked = Some(Change::ChooseFile(self.param.key.clone()));
+            }
         });
         let after = self.param.own();
-        reset.or_else(|| (after != before).then(|| (self.param.key.clone(), after)))
+        asked.or_else(|| (after != before).then(|| Change::Set(self.param.key.clone(), after)))
     }
 
     /// What can be done with the parameter beside changing it. Returns the change.
@@ -150,7 +160,7 @@ impl Row<'_, '_> {
             switch_ui(ui, place)
         });
         let response = response.inner.accessible_name(self.param.label).on_hover_text(help);
-        response.changed().then(|| (self.param.key.clone(), self.param.own()))
+        response.changed().then(|| Change::Set(self.param.key.clone(), self.param.own()))
     }
 }
 
@@ -188,33 +198,86 @@ fn switch_ui(ui: &mut Ui, place: &mut Place<'_, bool>) -> egui::Response {
     response
 }
 
-fn slot_ui(ui: &mut Ui, param: &mut Param<'_>, label: egui::Id, help: &str) {
+/// A slider with its number beside it.
+struct Number<'a> {
+    soft: std::ops::RangeInclusive<f64>,
+    hard: std::ops::RangeInclusive<f64>,
+    is_whole: bool,
+    unit: &'a str,
+}
+
+impl Number<'_> {
+    fn ui(self, ui: &mut Ui, value: &mut f64, label: egui::Id, help: &str) {
+        let gap = ui.spacing().item_spacing.x;
+        ui.spacing_mut().slider_width = (ui.available_width() - NUMBER_WIDTH - gap).max(40.0);
+        let mut slider = egui::Slider::new(value, self.soft.clone())
+            .show_value(false)
+            .trailing_fill(true)
+            .clamping(egui::SliderClamping::Edits);
+        let speed = (self.soft.end() - self.soft.start()) / 200.0;
+        if self.is_whole {
+            slider = slider.integer();
+        }
+        ui.add(slider).labelled_by(label).on_hover_text(help);
+        let mut number = egui::DragValue::new(value)
+            .range(self.hard)
+            .speed(speed)
+            .custom_formatter(|n, _| short(n))
+            .suffix(if self.unit.is_empty() { String::new() } else { format!(" {}", self.unit) });
+        if self.is_whole {
+            number = number.fixed_decimals(0);
+        }
+        ui.add_sized([NUMBER_WIDTH, ui.spacing().interact_size.y], number)
+            .labelled_by(label)
+            .on_hover_text(help);
+    }
+}
+
+/// The name of a file, behind which a dialog opens, and a button that lets go of it. Returns whether another file is
+/// asked for.
+fn file_ui(ui: &mut Ui, file: &mut Option<PathBuf>, label: egui::Id, help: &str) -> bool {
+    let height = ui.spacing().interact_size.y;
+    let gap = ui.spacing().item_spacing.x;
+    let name = file.as_deref().map(|path| path.file_name().unwrap_or(path.as_os_str()).to_string_lossy());
+    let width = ui.available_width() - if name.is_some() { height + gap } else { 0.0 };
+    let text = name.map_or_else(|| RichText::new("Choose…").weak(), RichText::new);
+    let button = egui::Button::new(text).truncate();
+    let hint =
+        file.as_deref().map_or_else(|| help.to_owned(), |path| format!("{}\n\n{help}", path.display()));
+    let asked = ui.add_sized([width, height], button).labelled_by(label).on_hover_text(hint).clicked();
+    if file.is_some() {
+        let clear = egui::Button::new("×").min_size(egui::vec2(height, height));
+        if ui.add(clear).accessible_name("No image").on_hover_text("No image").clicked() {
+            *file = None;
+        }
+    }
+    asked
+}
+
+/// Returns whether a file is asked for.
+fn slot_ui(ui: &mut Ui, param: &mut Param<'_>, label: egui::Id, help: &str) -> bool {
     match &mut param.slot {
         Slot::Bool(place) => {
             switch_ui(ui, place).labelled_by(label).on_hover_text(help);
         }
         Slot::Number { value: place, soft, hard } => {
-            let mut value = place.get();
-            let gap = ui.spacing().item_spacing.x;
-            ui.spacing_mut().slider_width = (ui.available_width() - NUMBER_WIDTH - gap).max(40.0);
-            let slider = egui::Slider::new(&mut value, soft.clone())
-                .show_value(false)
-                .trailing_fill(true)
-                .clamping(egui::SliderClamping::Edits);
-            ui.add(slider).labelled_by(label).on_hover_text(help);
-            let speed = f64::from(soft.end() - soft.start()) / 200.0;
-            let number = egui::DragValue::new(&mut value)
-                .range(hard.clone())
-                .speed(speed)
-                .custom_formatter(|n, _| short(n))
-                .suffix(if param.unit.is_empty() { String::new() } else { format!(" {}", param.unit) });
-            ui.add_sized([NUMBER_WIDTH, ui.spacing().interact_size.y], number)
-                .labelled_by(label)
-                .on_hover_text(help);
-            if value != place.get() {
-                place.set(value);
+            let wide = |r: &std::ops::RangeInclusive<f32>| f64::from(*r.start())..=f64::from(*r.end());
+            let before = f64::from(place.get());
+            let mut value = before;
+            let number = Number { soft: wide(soft), hard: wide(hard), is_whole: false, unit: param.unit };
+            number.ui(ui, &mut value, label, help);
+            if value != before {
+                place.set(value as f32);
             }
         }
+        Slot::Integer { value: place, range } => {
+            let range = f64::from(*range.start())..=f64::from(*range.end());
+            let mut value = f64::from(**place);
+            let number = Number { soft: range.clone(), hard: range, is_whole: true, unit: param.unit };
+            number.ui(ui, &mut value, label, help);
+            **place = value.round() as u32;
+        }
+        Slot::File(file) => return file_ui(ui, file, label, help),
         Slot::Color(place) => {
             let mut color = place.get();
             let button = ui.color_edit_button_srgb(&mut color.0);
@@ -240,6 +303,7 @@ fn slot_ui(ui: &mut Ui, param: &mut Param<'_>, label: egui::Id, help: &str) {
             }
         }
     }
+    false
 }
 
 /// At most three decimals and no trailing zeros.

@@ -12,6 +12,8 @@ use crate::document::Document;
 pub struct Status<'a> {
     /// The loaded scene.
     pub model: &'a Model,
+    /// How many warnings there are.
+    pub warnings: usize,
     /// The document.
     pub document: &'a Document,
     /// The selected nodes.
@@ -56,9 +58,9 @@ pub fn status_ui(ui: &mut Ui, status: &Status<'_>, commands: &mut Vec<Command>) 
             let text = if more > 0 { format!("{} and {more} more", lead.path) } else { lead.path.clone() };
             ui.add(egui::Label::new(text).truncate());
         }
-        if !scene.warnings.is_empty() {
+        let count = status.warnings;
+        if count > 0 {
             ui.separator();
-            let count = scene.warnings.len();
             let text = format!("{count} warning{}", if count == 1 { "" } else { "s" });
             if ui.link(text).on_hover_text(Command::Warnings.tooltip()).clicked() {
                 commands.push(Command::Warnings);

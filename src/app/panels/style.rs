@@ -3,11 +3,16 @@
 use eframe::egui;
 use eframe::egui::{RichText, Ui};
 
-use super::Editing;
 use super::outliner::{inherit, style_name};
 use super::params::params_ui;
 use super::row::{Change, label_of, named_row};
-use crate::style::{Style, param};
+use super::{Choosing, Editing};
+use crate::document::Document;
+use crate::scene::{Node, NodeId, Scene};
+use crate::style::{Style, StyleError, Value, param};
+
+/// The most that the list of presets is high, in points: all of them are seen at once.
+const PRESETS_HEIGHT: f32 = 480.0;
 
 /// The page.
 pub fn style_ui(ui: &mut Ui, editing: &mut Editing<'_>) {
@@ -45,7 +50,7 @@ pub fn style_ui(ui: &mut Ui, editing: &mut Editing<'_>) {
         params.retain(|param| !param.key.starts_with("mirror."));
     }
     let changes = params_ui(ui, "style", &mut params, &defaults);
-    apply(editing, &targets, &changes);
+    apply(editing, &targets, changes);
 }
 
 fn title_ui(ui: &mut Ui, editing: &Editing<'_>, has_own: bool) {
@@ -83,6 +88,7 @@ fn preset_ui(ui: &mut Ui, editing: &Editing<'_>, style: &Style) -> Option<Style>
         let text = if current == "own" { "Own".to_owned() } else { label_of(current) };
         let combo = egui::ComboBox::from_id_salt("preset")
             .width(ui.available_width())
+            .height(PRESETS_HEIGHT)
             .selected_text(text)
             .show_ui(ui, |ui| {
                 for preset in editing.presets {
@@ -101,16 +107,39 @@ fn preset_ui(ui: &mut Ui, editing: &Editing<'_>, style: &Style) -> Option<Style>
     chosen
 }
 
-fn apply(editing: &mut Editing<'_>, targets: &[usize], changes: &[Change]) {
-    for (key, value) in changes {
-        // The value comes out of the parameter itself, so that it fits.
-        let done = if targets.is_empty() {
-            param::set(&mut editing.document.style.params(), key, value)
-        } else {
-            editing.document.set_for(&editing.model.scene, targets, key, value)
-        };
-        if let Err(error) = done {
-            log::warn!("{error}");
+fn apply(editing: &mut Editing<'_>, targets: &[NodeId], changes: Vec<Change>) {
+    let scene = &editing.model.scene;
+    for change in changes {
+        match change {
+            Change::Set(key, value) => {
+                // The value comes out of the parameter itself, so that it fits.
+                if let Err(error) = set(editing.document, scene, targets, &key, &value) {
+                    log::warn!("{error}");
+                }
+            }
+            Change::ChooseFile(key) => {
+                let path = |&node| scene.nodes.get(node).map(|n: &Node| n.path.clone());
+                let nodes = targets.iter().filter_map(path).collect();
+                *editing.choosing = Some(Choosing { key, nodes });
+            }
         }
+    }
+}
+
+/// Sets one parameter of some nodes, or of everything that has no style of its own if there are none.
+///
+/// # Errors
+/// See [`param::set`].
+pub fn set(
+    document: &mut Document,
+    scene: &Scene,
+    nodes: &[NodeId],
+    key: &str,
+    value: &Value,
+) -> Result<(), StyleError> {
+    if nodes.is_empty() {
+        param::set(&mut document.style.params(), key, value)
+    } else {
+        document.set_for(scene, nodes, key, value)
     }
 }

@@ -128,7 +128,7 @@ fn at_t_junctions_the_surface_goes_on() {
                 stretches.map(|s| s.world_length).sum::<f64>()
             })
         };
-        assert_eq!(inner(0.0), [0.0; 7], "flat");
+        assert_eq!(inner(0.0), [0.0; EdgeClass::ALL.len()], "flat");
         for (angle, class) in [(1.0, Valley), (-1.0, Ridge), (2.0, Silhouette), (-2.0, Silhouette)] {
             let found = inner(angle);
             for other in EdgeClass::ALL {

@@ -40,8 +40,9 @@ impl Geometry for Corners<'_> {
     }
 
     fn tex_coord(&self, face: usize, corner: usize) -> [f32; 2] {
-        let uv = self.block.uvs.get(self.vertex(face, corner));
-        uv.copied().unwrap_or_default().to_array()
+        // The library's v runs upwards like a normal map's green, glTF's downwards.
+        let uv = self.block.uvs.get(self.vertex(face, corner)).copied().unwrap_or_default();
+        [uv.x, 1.0 - uv.y]
     }
 
     fn set_tangent(&mut self, space: Option<TangentSpace>, face: usize, corner: usize) {

@@ -2,40 +2,22 @@
 //! traversed once, where the edge-enhancement paper's pipeline traverses it twice.
 
 use encase::ShaderType;
-use glam::Vec3;
+use glam::DMat4;
 
-use super::toon::{self, ToonUniform};
+use super::gooch::GoochUniform;
+use super::toon::{self, ToonBuffers, Toons};
 use crate::gpu::recorder::Input;
 use crate::gpu::{Program, Recorder, Target};
 use crate::render::RenderError;
 use crate::render::passes::gbuffer::GBuffer;
 use crate::style::{Style, Technique};
 
-/// Twin of `SurfaceStyle` in `shaders/effects/surface.wgsl`.
-#[derive(Debug, Clone, Copy, PartialEq, ShaderType)]
+/// Twin of `SurfaceStyle` in `shaders/effects/surface.wgsl`; by default paper only.
+#[derive(Debug, Clone, Copy, PartialEq, ShaderType, Default)]
 pub struct SurfaceUniform {
-    cool: Vec3,
-    alpha: f32,
-    warm: Vec3,
-    beta: f32,
-    highlight: f32,
-    shininess: f32,
+    gooch: GoochUniform,
     ambient: f32,
     technique: u32,
-}
-
-impl SurfaceUniform {
-    /// Paper only.
-    pub const BLANK: Self = Self {
-        cool: Vec3::ZERO,
-        alpha: 0.0,
-        warm: Vec3::ZERO,
-        beta: 0.0,
-        highlight: 0.0,
-        shininess: 1.0,
-        ambient: 0.0,
-        technique: BLANK,
-    };
 }
 
 // As in `shaders/effects/surface.wgsl`.
@@ -45,16 +27,14 @@ const UNLIT: u32 = 2;
 const GOOCH: u32 = 3;
 const TOON: u32 = 4;
 
-impl From<&Style> for SurfaceUniform {
-    fn from(style: &Style) -> Self {
-        let gooch = &style.gooch;
+impl SurfaceUniform {
+    /// Of an object that lies at `world_from_local`.
+    pub fn new(style: &Style, world_from_local: &DMat4) -> Self {
         Self {
-            cool: gooch.cool.to_linear(),
-            alpha: gooch.alpha.clamp(0.0, 1.0),
-            warm: gooch.warm.to_linear(),
-            beta: gooch.beta.clamp(0.0, 1.0),
-            highlight: gooch.highlight.clamp(0.0, 1.0),
-            shininess: gooch.shininess.clamp(1.0, 256.0),
+            gooch: match style.technique {
+                Technique::Gooch => GoochUniform::new(&style.gooch, world_from_local),
+                _ => GoochUniform::default(),
+            },
             ambient: style.plain.ambient.clamp(0.0, 1.0),
             technique: match style.technique {
                 Technique::Blank => BLANK,
@@ -74,10 +54,10 @@ pub struct Shading<'a> {
     pub surfaces: &'a [SurfaceUniform],
     /// `surfaces` on the device.
     pub surface_styles: &'a wgpu::Buffer,
-    /// By object id; empty when no object is a toon.
-    pub toons: &'a [ToonUniform],
+    /// Those that are toons.
+    pub toons: &'a Toons,
     /// `toons` on the device.
-    pub toon_styles: &'a wgpu::Buffer,
+    pub toon_buffers: ToonBuffers<'a>,
     /// See `shaders/common/light.wgsl`; `None` when no light throws shadows.
     pub shadow_mask: Option<&'a Target>,
     /// See [`toon::cartoon_map`]; `None` when no object asks for it.
@@ -95,21 +75,26 @@ pub fn surface(
 ) -> Result<Target, RenderError> {
     let color = rec.target("color", wgpu::TextureFormat::Rgba16Float)?;
     let uses = |technique| shading.surfaces.iter().any(|s| s.technique == technique);
-    let mut switches = vec![("WITH_PLAIN", uses(PLAIN)), ("WITH_GOOCH", uses(GOOCH))];
-    switches.push(("WITH_SHADOWS", shading.shadow_mask.is_some()));
-    switches.extend(toon::switches(shading.toons));
+    let mut switches = vec![
+        ("WITH_PLAIN", uses(PLAIN)),
+        ("WITH_GOOCH", uses(GOOCH)),
+        ("WITH_METAL", shading.surfaces.iter().any(|s| s.gooch.has_metal())),
+        ("WITH_SHADOWS", shading.shadow_mask.is_some()),
+    ];
+    switches.extend(toon::switches(&shading.toons.styles));
     rec.fullscreen(
         "surface",
         Program { file: "effects/surface.wgsl", entry_point: "fs_main", switches },
         &[
             Input::Texture(&gbuffer.geometry),
-            Input::Storage(shading.toon_styles),
+            Input::Storage(shading.toon_buffers.styles),
             // A shader that does not read one of these is given any texture of its kind.
             Input::Texture(shading.shadow_mask.unwrap_or(&gbuffer.base_color)),
             Input::Texture(shading.cartoon_map.unwrap_or(&gbuffer.region)),
             Input::Texture(&gbuffer.region),
             Input::Texture(&gbuffer.base_color),
             Input::Storage(shading.surface_styles),
+            Input::Storage(shading.toon_buffers.bands),
         ],
         &[&color],
         Some(&gbuffer.depth),

@@ -2,12 +2,12 @@
 //!
 //! Exact mode is a hybrid. Silhouettes, borders, creases and material boundaries come from topology, as segments that
 //! are tested against the G-buffer; what topology does not know (intersections, outlines of holes) is found where
-//! neighbouring pixels show different surfaces. Paper mode is the papers' operators. See `common/edge_map.wgsl`.
+//! neighbouring pixels show different surfaces; details are found within surfaces. Paper mode is the papers' operators. See `common/edge_map.wgsl`.
 
 use super::edge_style::EdgeUniform;
 use super::gbuffer::GBuffer;
 use super::operators::paper_edges;
-use crate::geometry::LineSegment;
+use crate::geometry::{EdgeClass, LineSegment};
 use crate::gpu::recorder::{Draw, Input, Onto};
 use crate::gpu::{DepthRule, Gpu, Program, RecordBuffer, Recorder, Target};
 use crate::render::RenderError;
@@ -123,6 +123,28 @@ impl EdgeMapPass {
             entry_point,
             switches: switches.clone(),
         };
+        let [texture, relief] = [EdgeClass::Texture, EdgeClass::Relief]
+            .map(|class| styles.iter().any(|s| s.is_exact() && s.draws(class)));
+        if texture || relief {
+            let mut switches = vec![("WITH_TEXTURE", texture), ("WITH_RELIEF", relief)];
+            switches.extend(variation);
+            rec.draw(Draw {
+                label: "details",
+                program: Program { file: "passes/details.wgsl", entry_point: "fs_main", switches },
+                inputs: &[
+                    Input::Texture(&gbuffer.geometry),
+                    Input::Texture(&gbuffer.region),
+                    Input::Storage(edge_styles),
+                    Input::Texture(&marks),
+                    Input::Texture(&gbuffer.base_color),
+                ],
+                outputs: &[edge_map, &spines],
+                onto: Onto::Old,
+                depth: Some((&gbuffer.depth, DepthRule::Covered)),
+                lines: None,
+            })?;
+        }
+
         let borders = rec.target("surface borders", DEPTH)?;
         rec.copy(&gbuffer.depth, &borders);
         rec.draw(Draw {

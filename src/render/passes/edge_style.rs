@@ -14,7 +14,7 @@ pub struct LineUniform {
     pub strength: f32,
     /// px of the picture.
     pub width: f32,
-    /// A step in depth (px of the picture) for profile edges, an angle (radians) for the others.
+    /// A step in depth (px of the picture) for profile edges, a contrast for textures, an angle (radians) for the others.
     pub threshold: f32,
     /// 1: dashed.
     pub dashed: u32,
@@ -24,7 +24,7 @@ pub struct LineUniform {
 #[derive(Debug, Clone, Copy, PartialEq, ShaderType, Default)]
 pub struct EdgeUniform {
     /// By class.
-    pub lines: [LineUniform; 7],
+    pub lines: [LineUniform; EdgeClass::ALL.len()],
     /// 0: none.
     pub mode: u32,
     /// 0: both sides of the spine.
@@ -75,6 +75,7 @@ impl EdgeUniform {
                 width: line.width.clamp(0.25, 64.0) * scale,
                 threshold: match class {
                     EdgeClass::Silhouette | EdgeClass::Border | EdgeClass::Object => line.threshold * scale,
+                    EdgeClass::Texture => line.threshold,
                     _ => line.threshold.to_radians(),
                 },
                 dashed: u32::from(line.dashed),
@@ -130,6 +131,11 @@ impl EdgeUniform {
     pub fn drawn(&self) -> impl Iterator<Item = (EdgeClass, &LineUniform)> {
         let is_exact = self.mode == EXACT;
         EdgeClass::ALL.into_iter().zip(&self.lines).filter(move |(_, l)| is_exact && l.strength > 0.0)
+    }
+
+    /// Whether lines of a class are drawn.
+    pub fn draws(&self, class: EdgeClass) -> bool {
+        self.drawn().any(|(drawn, _)| drawn == class)
     }
 
     /// Greatest distance from the spine at which a line of this object has ink, px.

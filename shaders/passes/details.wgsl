@@ -1,0 +1,193 @@
+// The lines within a surface that have nothing to do with its shape: where its colour, its relief (the shading normal)
+// or the shadow on it changes suddenly.
+#import common/frame.wgsl
+#import common/fullscreen.wgsl
+#import common/gbuffer.wgsl
+#import common/edge_map.wgsl
+#import common/edge_style.wgsl
+#import common/line_width.wgsl
+
+// Which classes any object draws.
+override WITH_TEXTURE: bool = true;
+override WITH_RELIEF: bool = true;
+
+@group(1) @binding(1) var region_tex: texture_2d<u32>;
+// 1 where a segment is, 0.5 where it is a crease that is not drawn.
+@group(1) @binding(3) var mark_tex: texture_2d<f32>;
+@group(1) @binding(4) var base_color_tex: texture_2d<f32>;
+
+fn region_at(px: vec2<i32>) -> u32 {
+    return textureLoad(region_tex, clamp(px, vec2(0), vec2<i32>(frame.size) - 1), 0).x;
+}
+
+// What changes: the colour, in steps that look even; or the normal, of length 1.
+fn detail_at(class_of: u32, px: vec2<i32>) -> vec3<f32> {
+    let q = clamp(px, vec2(0), vec2<i32>(frame.size) - 1);
+    if class_of == RELIEF {
+        return unpack_surfel(geometry_at(q)).normal;
+    }
+    return sqrt(max(textureLoad(base_color_tex, q, 0).rgb, vec3(0.0)));
+}
+
+// From a pixel to itself and its eight neighbours, row by row.
+fn neighbour_offset(n: i32) -> vec2<i32> {
+    return vec2(n % 3, n / 3) - 1;
+}
+
+struct Step {
+    // From the pixel's centre to where the middle between both sides is, px.
+    offset: vec2<f32>,
+    // Difference of the two sides; negative: it is a slope.
+    contrast: f32,
+    // Towards the greater side.
+    normal: vec2<f32>,
+}
+
+// The farthest value towards a side that is reached without turning back, and whether it levels off there. A step that
+// goes on for longer than this many strides is a slope.
+const REACH: i32 = 4;
+
+struct Side {
+    value: f32,
+    is_level: bool,
+}
+
+fn side_of(class_of: u32, px: vec2<i32>, own: u32, start: vec3<f32>, along: vec3<f32>, step: vec2<f32>) -> Side {
+    var value = 0.0;
+    var rise = 0.0;
+    for (var k = 1; k <= REACH; k++) {
+        let q = px + vec2<i32>(round(step * f32(k)));
+        if region_at(q) != own {
+            return Side(value, true);
+        }
+        let next = dot(detail_at(class_of, q) - start, along);
+        rise = next - value;
+        if rise <= 0.0 {
+            return Side(value, true);
+        }
+        value = next;
+    }
+    return Side(value, rise < 0.1 * value);
+}
+
+// The step of a value near the centre of a pixel, if there is one: across the direction of greatest change (Di Zenzo
+// 1986), the place half way between the two sides; seen in strides of so many pixels.
+fn step_in(class_of: u32, px: vec2<i32>, own: u32, stride: i32) -> Step {
+    let none = Step(vec2(0.0), 0.0, vec2(0.0));
+    let center = detail_at(class_of, px);
+    var dx = vec3(0.0);
+    var dy = vec3(0.0);
+    for (var n = 0; n < 9; n++) {
+        let o = neighbour_offset(n);
+        var value = center;
+        if region_at(px + o * stride) == own {
+            value = detail_at(class_of, px + o * stride);
+        }
+        // Sobel.
+        dx += f32(o.x * (2 - abs(o.y))) / 8.0 * value;
+        dy += f32(o.y * (2 - abs(o.x))) / 8.0 * value;
+    }
+    let a = dot(dx, dx);
+    let b = dot(dx, dy);
+    let c = dot(dy, dy);
+    let angle = 0.5 * atan2(2.0 * b, a - c);
+    let normal = vec2(cos(angle), sin(angle));
+    let change = dx * normal.x + dy * normal.y;
+    let slope = length(change);
+    if slope < 1e-3 {
+        return none;
+    }
+    let along = change / slope;
+    let high = side_of(class_of, px, own, center, along, normal * f32(stride));
+    let low = side_of(class_of, px, own, center, -along, -normal * f32(stride));
+    if !high.is_level || !low.is_level {
+        return Step(vec2(0.0), -1.0, normal);
+    }
+    // The centre's own value, as smooth as the slope is.
+    var smoothed = 0.0;
+    for (var n = 0; n < 9; n++) {
+        let o = neighbour_offset(n);
+        if region_at(px + o * stride) == own {
+            let weight = f32((2 - abs(o.x)) * (2 - abs(o.y))) / 16.0;
+            smoothed += weight * dot(detail_at(class_of, px + o * stride) - center, along);
+        }
+    }
+    let middle = 0.5 * (high.value - low.value);
+    return Step(normal * (middle - smoothed) / slope * f32(stride), high.value + low.value, normal);
+}
+
+// A wider look at what is no step: between the texels of an enlarged image colours change over many pixels.
+const WIDE_STRIDE: i32 = 4;
+
+fn step_near(class_of: u32, px: vec2<i32>, own: u32) -> Step {
+    let near = step_in(class_of, px, own, 1);
+    if near.contrast >= 0.0 {
+        return near;
+    }
+    return step_in(class_of, px, own, WIDE_STRIDE);
+}
+
+struct Out {
+    @location(0) edge: vec4<u32>,
+    @location(1) spine: u32,
+}
+
+fn is_drawn(object: u32, class_of: u32) -> bool {
+    return edge_styles[object].lines[class_of - 1u].strength > 0.0;
+}
+
+@fragment
+fn fs_main(@builtin(position) position: vec4<f32>) -> Out {
+    let px = vec2<i32>(position.xy);
+    let x = unpack_surfel(geometry_at(px));
+    let own = region_at(px);
+    let has_texture = WITH_TEXTURE && is_drawn(x.object, TEXTURE);
+    let has_relief = WITH_RELIEF && is_drawn(x.object, RELIEF);
+    if !x.enhanced || edge_styles[x.object].mode != EXACT_MODE || !(has_texture || has_relief) {
+        discard;
+    }
+    // Where a surface ends or folds, there is a line already.
+    for (var n = 0; n < 9; n++) {
+        let q = clamp(px + neighbour_offset(n), vec2(0), vec2<i32>(frame.size) - 1);
+        if region_at(q) != own || textureLoad(mark_tex, q, 0).x > 0.0 {
+            discard;
+        }
+    }
+    var class_of = NO_EDGE;
+    var found = Step(vec2(0.0), 0.0, vec2(0.0));
+    if has_texture {
+        let step = step_near(TEXTURE, px, own);
+        if step.contrast >= edge_styles[x.object].lines[TEXTURE - 1u].threshold && all(abs(step.offset) <= vec2(0.75)) {
+            class_of = TEXTURE;
+            found = step;
+        }
+    }
+    if has_relief && class_of == NO_EDGE {
+        let step = step_near(RELIEF, px, own);
+        // The chord between two normals.
+        let angle = 2.0 * asin(min(0.5 * step.contrast, 1.0));
+        if angle >= edge_styles[x.object].lines[RELIEF - 1u].threshold && all(abs(step.offset) <= vec2(0.75)) {
+            class_of = RELIEF;
+            found = step;
+        }
+    }
+    if class_of == NO_EDGE || found.contrast <= 0.0 {
+        discard;
+    }
+    let pos_view = pos_view_of(px, x.depth);
+    let tangent = vec2(found.normal.y, -found.normal.x);
+    let arc = dot(vec2<f32>(px) + 0.5 + found.offset, tangent);
+    let texel = pack_edge(Edge(
+        class_of,
+        x.object,
+        found.offset,
+        pack_tangent(tangent),
+        1.0,
+        0.5,
+        x.depth,
+        half_width(x.object, class_of, pos_view, x.normal),
+        arc / edge_styles[x.object].dash_period,
+        1.0,
+    ));
+    return Out(texel, spine_of(texel, 0.0, 1.0 - range_share(x.depth)));
+}

@@ -1,0 +1,86 @@
+//! Gooch shading: what the surface pass needs for it.
+
+use encase::ShaderType;
+use glam::{DMat4, DVec3, Vec3};
+
+use crate::style::gooch::{Gooch, MetalAxis};
+
+/// Twin of `GoochStyle` in `shaders/effects/gooch.wgsl`.
+#[derive(Debug, Clone, Copy, PartialEq, ShaderType, Default)]
+pub struct GoochUniform {
+    cool: Vec3,
+    alpha: f32,
+    warm: Vec3,
+    beta: f32,
+    across: Vec3,
+    highlight: f32,
+    around: Vec3,
+    shininess: f32,
+    metal: f32,
+    stripes: f32,
+    is_of_view: u32,
+}
+
+impl GoochUniform {
+    /// Of an object that lies at `world_from_local`.
+    pub fn new(gooch: &Gooch, world_from_local: &DMat4) -> Self {
+        let [across, around] = directions(gooch.metal_axis, world_from_local);
+        Self {
+            cool: gooch.cool.to_linear(),
+            alpha: gooch.alpha.clamp(0.0, 1.0),
+            warm: gooch.warm.to_linear(),
+            beta: gooch.beta.clamp(0.0, 1.0),
+            across,
+            highlight: gooch.highlight.clamp(0.0, 1.0),
+            around,
+            shininess: gooch.shininess.clamp(1.0, 256.0),
+            metal: gooch.metal.clamp(0.0, 1.0),
+            stripes: gooch.stripes.clamp(2, 64) as f32,
+            is_of_view: u32::from(gooch.metal_axis == MetalAxis::View),
+        }
+    }
+
+    /// Whether it has stripes.
+    pub fn has_metal(&self) -> bool {
+        self.metal > 0.0
+    }
+}
+
+/// Unit vectors across an axis and across each other: in world space, for the view's axis in view space.
+fn directions(axis: MetalAxis, world_from_local: &DMat4) -> [Vec3; 2] {
+    let m = world_from_local;
+    let [x, y, z] = [m.x_axis, m.y_axis, m.z_axis].map(|column| column.truncate());
+    let (axis, side, default) = match axis {
+        MetalAxis::X => (x, y, DVec3::X),
+        MetalAxis::Y => (y, z, DVec3::Y),
+        MetalAxis::Z => (z, x, DVec3::Z),
+        MetalAxis::View => (DVec3::Y, DVec3::Z, DVec3::Y),
+    };
+    let axis = axis.normalize_or(default);
+    let across = side.reject_from_normalized(axis).normalize_or(axis.any_orthonormal_vector());
+    [across, axis.cross(across)].map(|v| v.as_vec3())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn stripes_turn_with_their_object_and_not_with_its_shape() {
+        let quarter = DMat4::from_rotation_z(std::f64::consts::FRAC_PI_2);
+        let [across, around] = directions(MetalAxis::X, &quarter);
+        assert!(across.abs_diff_eq(Vec3::NEG_X, 1e-6) && around.abs_diff_eq(Vec3::Z, 1e-6));
+        let skewed = DMat4::from_cols(
+            DVec3::new(3.0, 0.0, 0.0).extend(0.0),
+            DVec3::new(5.0, 0.5, 0.0).extend(0.0),
+            DVec3::ZERO.extend(0.0),
+            glam::DVec4::W,
+        );
+        for axis in [MetalAxis::X, MetalAxis::Y, MetalAxis::Z, MetalAxis::View] {
+            let [a, b] = directions(axis, &skewed);
+            assert!(
+                (a.length() - 1.0).abs() < 1e-6 && (b.length() - 1.0).abs() < 1e-6 && a.dot(b).abs() < 1e-6
+            );
+        }
+    }
+}

@@ -1,0 +1,63 @@
+//! The images that styles name, and what was made of them.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, OnceLock};
+
+use glam::Vec4;
+
+use crate::scene::{Images, Texture};
+use crate::style::toon::MAX_RAMP;
+
+/// Decoded images by path, with the ramps that they are. Clones share the images.
+#[derive(Debug, Clone, Default)]
+pub struct StyleImages {
+    images: Images,
+    ramps: BTreeMap<PathBuf, OnceLock<Arc<[Vec4]>>>,
+}
+
+impl StyleImages {
+    /// Takes images over; ramps are made when they are asked for.
+    pub fn new(images: Images) -> Self {
+        let ramps = images.keys().map(|path| (path.clone(), OnceLock::new())).collect();
+        Self { images, ramps }
+    }
+
+    /// All of them.
+    pub fn all(&self) -> &Images {
+        &self.images
+    }
+
+    /// One of them, if it could be loaded.
+    pub fn get(&self, path: &Path) -> Option<&Arc<Texture>> {
+        self.images.get(path)
+    }
+
+    /// One of them as a ramp: linear colours along its longer side, from the left or the top, each the mean across the
+    /// other side; at most [`MAX_RAMP`].
+    pub fn ramp(&self, path: &Path) -> Option<Arc<[Vec4]>> {
+        let image = self.images.get(path)?;
+        let size = if image.width >= image.height { [MAX_RAMP, 1] } else { [1, MAX_RAMP] };
+        Some(self.ramps.get(path)?.get_or_init(|| image.averaged(size).into()).clone())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_ramp_runs_along_the_longer_side_and_is_averaged_across() {
+        let rgba: Vec<u8> = [0_u8, 255, 0, 255, 255, 255].iter().flat_map(|v| [*v, *v, *v, 255]).collect();
+        let image = |width, height| Texture { name: String::new(), width, height, rgba: rgba.clone().into() };
+        let ramp = |width, height| {
+            let images = StyleImages::new([(PathBuf::from("a"), Arc::new(image(width, height)))].into());
+            let ramp = images.ramp(Path::new("a")).unwrap();
+            ramp.iter().map(|c| c.x).collect::<Vec<_>>()
+        };
+        assert_eq!(ramp(6, 1), [0.0, 1.0, 0.0, 1.0, 1.0, 1.0]);
+        assert_eq!(ramp(3, 2), [0.5, 1.0, 0.5]);
+        assert_eq!(ramp(2, 3), [0.5, 0.5, 1.0]);
+        assert_eq!(StyleImages::default().ramp(Path::new("a")), None);
+    }
+}
