@@ -6,7 +6,7 @@ HACHURE := cargo run --quiet --release --
 # Silences a complaint of the Wayland client library on machines without a session.
 export XDG_RUNTIME_DIR ?= /tmp
 
-.PHONY: run test check bench quality gallery bless models
+.PHONY: run test check bench quality gallery bless models strokes
 
 # Opens the viewer on the sample model; without a display draws it to a file.
 run:
@@ -44,6 +44,11 @@ quality:
 models:
 	@sh .ci/packages build
 	cargo run --release --example models
+
+# The built-in halftone textures, from their generator.
+strokes:
+	@sh .ci/packages build
+	cargo run --release --example strokes
 
 # Every picture under screenshots/, each by one command.
 gallery:

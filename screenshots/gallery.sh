@@ -5,6 +5,9 @@ cd "$(dirname "$0")/.."
 cargo build --quiet --release
 crank=assets/models/crank.glb
 ogre=assets/models/ogre.glb
+still_life=assets/models/still_life.glb
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
 
 draw() { # draw NAME MODEL ARGUMENTS...
 	name=$1
@@ -54,16 +57,58 @@ draw pressure "$ogre" --style lines --set edges.profile.width=7 --set edges.inne
 draw surface_color "$ogre" --style statue --set edges.surface_color=1 --set edges.darken=0.65 \
 	--set edges.profile.width=5 --set edges.inner.width=3
 
-# Every object in a style of its own.
-draw mixed "$crank" --style statue --object-style 'piston*=gooch' --object-style 'flywheel=lines' \
-	--set 'rod*:edges.profile.color=#d02020' --no-enhance pulley
+# Every object in a style of its own: Gooch before toon before halftone before plain paper.
+draw mixed "$crank" --style newspaper --object-style 'piston*=gooch' --object-style 'rod*=comic' \
+	--object-style 'flywheel=lines' --object-style 'crankshaft*=engraving' --set 'pulley:technique=plain'
+
+# Each preset.
+for preset in assets/styles/*.toml; do
+	name=$(basename "$preset" .toml)
+	draw "preset_$name" "$ogre" --style "$name"
+done
+
+# A statue in strokes before a mirror, with edges in both (Fig. 8).
+cat >"$work/mirror.obj" <<OBJ
+o glass
+v -1.9 0 -1.5
+v 1.7 0 -1.5
+v 1.7 2.7 -1.5
+v -1.9 2.7 -1.5
+f 1 2 3 4
+OBJ
+target/release/hachure render "$ogre" "$work/mirror.obj" --output screenshots/mirror.png --resolution 1000,1000 \
+	--samples 64 --style engraving --mirror glass --object-style 'mirror=lines' \
+	--camera-azimuth-angle -35 --camera-elevation-angle 12
+echo screenshots/mirror.png
+
+# Borders of a toon's bands, nearest beside the cartoon map, enlarged (Fig. 9).
+for border in nearest cartoon_map; do
+	target/release/hachure render "$ogre" --output "$work/$border.png" --resolution 640,640 --style comic \
+		--set "toon.border=$border"
+	convert "$work/$border.png" -crop 125x125+225+150 +repage -scale 400% "$work/$border.png"
+done
+convert "$work/nearest.png" "$work/cartoon_map.png" +append screenshots/toon_borders.png
+echo screenshots/toon_borders.png
+
+# Shadows in each technique.
+for style in plain gooch comic engraving newspaper; do
+	draw "shadows_$style" "$ogre" --style "$style" --set light.shadows=true --set light.key.azimuth=-55 \
+		--set light.key.elevation=40 --set light.shadow_softness=0.5
+done
+
+# Images, relief, leaves cut out of sheets, and a mirror, with edges of textures.
+draw still_life "$still_life" --style technical-illustration --mirror glass --set edges.texture.show=true \
+	--set edges.texture.width=1.2 --set light.shadows=true --set 'label:edges.texture.color=#303040' \
+	--set 'leaf*:edges.texture.color=#203010'
+draw still_life_engraving "$still_life" --style engraving --mirror glass --set light.shadows=true \
+	--set light.shadow_softness=1
 
 # The window itself, on a virtual display.
 home=$(mktemp -d)
 display=:$((90 + $$ % 900))
 Xvfb "$display" -screen 0 1280x820x24 >/dev/null 2>&1 &
 screen=$!
-trap 'kill $viewer $screen 2>/dev/null; rm -rf "$home"' EXIT
+trap 'kill $viewer $screen 2>/dev/null; rm -rf "$home" "$work"' EXIT
 sleep 2
 DISPLAY=$display WAYLAND_DISPLAY='' XDG_DATA_HOME=$home target/release/hachure "$crank" >/dev/null 2>&1 &
 viewer=$!

@@ -56,7 +56,7 @@ impl Workplace {
     }
 }
 
-fn png(image: DynamicImage) -> Vec<u8> {
+fn png(image: &DynamicImage) -> Vec<u8> {
     let mut bytes = std::io::Cursor::new(Vec::new());
     image.write_to(&mut bytes, ImageFormat::Png).unwrap();
     bytes.into_inner()
@@ -64,7 +64,7 @@ fn png(image: DynamicImage) -> Vec<u8> {
 
 fn ramp(width: u32, height: u32) -> Vec<u8> {
     let shade = |x: u32| [60, 40, (40 + 215 * x / width) as u8];
-    png(RgbImage::from_fn(width, height, |x, _| Rgb(shade(x))).into())
+    png(&RgbImage::from_fn(width, height, |x, _| Rgb(shade(x))).into())
 }
 
 const TOON: [&str; 6] = ["--set", "technique=toon", "--set", "toon.ramp=image", "--set", "toon.tint=0"];

@@ -13,8 +13,8 @@ use glam::{DMat4, DVec2, DVec3};
 use hachure::export::Session;
 use hachure::export::session::Opened;
 use hachure::geometry::{EdgeClass, primitives};
-use hachure::scene::material::{Texture, TextureRef, UvTransform, Wrap};
-use hachure::scene::{Camera, Scene};
+use hachure::scene::material::{TextureRef, UvTransform, Wrap};
+use hachure::scene::{Camera, Scene, Texture};
 
 const SIDE: u32 = 200;
 const TEXELS: u32 = 256;
@@ -177,4 +177,45 @@ fn a_relief_that_folds_has_lines_only_when_asked_for() {
     assert!(spines(&mut session, &steeper, EdgeClass::Relief).is_empty());
     let default = line_drawing(&scene, opened.document.camera.unwrap());
     assert!(spines(&mut session, &default, EdgeClass::Relief).is_empty());
+}
+
+#[test]
+fn the_border_of_a_cast_shadow_is_one_smooth_line_and_the_terminator_has_none() {
+    let mut session = session();
+    let lying = DMat4::from_rotation_x(-std::f64::consts::FRAC_PI_2);
+    // The light stands straight above: the ball's shadow is a circle of its own radius below it.
+    let scene = scene(vec![
+        ("floor", primitives::plane(4.0), lying, [0.8; 3]),
+        ("ball", primitives::sphere(0.6, 64, 96), DMat4::from_translation(DVec3::Y * 1.5), [0.8; 3]),
+    ]);
+    let camera = Camera { position: DVec3::new(0.0, 2.0, 7.0), ..Camera::default() };
+    let mut opened = line_drawing(&scene, camera);
+    only(&mut opened, &[EdgeClass::Shadow]);
+    for (key, value) in [
+        ("light.key.attached", "world"),
+        ("light.key.azimuth", "0"),
+        ("light.key.elevation", "90"),
+        ("light.shadow_softness", "0"),
+    ] {
+        common::set(&mut opened, key, value);
+    }
+    assert!(spines(&mut session, &opened, EdgeClass::Shadow).is_empty());
+    common::set(&mut opened, "light.shadows", "true");
+    let found = spines(&mut session, &opened, EdgeClass::Shadow);
+    let view =
+        hachure::render::frame_uniform::View::new(&camera, &opened.scene.bounds(), glam::UVec2::splat(SIDE));
+    let (mut worst, mut sum) = (0.0_f64, 0.0);
+    for spine in &found {
+        let through = view.unproject(spine.as_vec2(), 1.0) - camera.position;
+        let hit = camera.position - through * (camera.position.y / through.y);
+        let radius = hit.length();
+        // From the distance on the floor to pixels of the picture.
+        let project = |p: DVec3| view.projector().pixel(view.view_from_world.transform_point3(p));
+        let miss = project(hit).distance(project(hit * (0.6 / radius)));
+        worst = worst.max(miss);
+        sum += miss;
+    }
+    let mean = sum / found.len() as f64;
+    println!("border of a shadow: {} px, error {mean:.3}, worst {worst:.3}", found.len());
+    assert!(found.len() > 60 && mean < 0.4 && worst < 1.2);
 }

@@ -23,7 +23,7 @@ const SIDE: i32 = 160;
 /// Gooch shading without lines.
 fn gooch(scene: &Arc<Scene>, towards_viewer: DVec3, settings: &[(&str, &str)]) -> Opened {
     let mut opened = opened(scene, towards_viewer);
-    opened.document.lights.truncate(1);
+    set(&mut opened, "light.fill.show", "false");
     for (key, value) in
         [("technique", "gooch"), ("edges.profile.show", "false"), ("edges.inner.show", "false")]
             .iter()

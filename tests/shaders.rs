@@ -7,6 +7,7 @@ use encase::internal::SizeValue;
 use hachure::gpu::Shaders;
 use hachure::gpu::material::MaterialUniform;
 use hachure::render::effects::gooch::GoochUniform;
+use hachure::render::effects::halftone::HalftoneUniform;
 use hachure::render::effects::mirror::MirrorUniform;
 use hachure::render::effects::surface::SurfaceUniform;
 use hachure::render::effects::toon::ToonUniform;
@@ -49,4 +50,6 @@ fn rust_and_wgsl_agree_on_every_uniform() {
     same_layout!(ShadowLightUniform, 3, "passes/shadow.wgsl", "ShadowLight");
     same_layout!(LightViewUniform, 8, "passes/shadow.wgsl", "LightView");
     same_layout!(ToonUniform, 11, "effects/toon.wgsl", "ToonStyle");
+    same_layout!(HalftoneUniform, 15, "effects/halftone.wgsl", "HalftoneStyle");
+    same_layout!(DrawUniform, 5, "passes/coordinates.wgsl", "Draw");
 }

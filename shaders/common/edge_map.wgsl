@@ -12,6 +12,7 @@ const MATERIAL: u32 = 6u;
 const INTERSECTION: u32 = 7u;
 const TEXTURE: u32 = 8u;
 const RELIEF: u32 = 9u;
+const SHADOW: u32 = 10u;
 // Ink of the papers' operators at this very pixel.
 const PAPER: u32 = 15u;
 

@@ -4,8 +4,8 @@
 // Whether any light throws shadows.
 override WITH_SHADOWS: bool = true;
 
-// Of passes/shadow.wgsl. Always the third input of a pass that imports this.
-@group(1) @binding(2) var shadow_mask_tex: texture_2d<f32>;
+// Of passes/shadow.wgsl. Always the second input of a pass that imports this.
+@group(1) @binding(1) var shadow_mask_tex: texture_2d<f32>;
 
 // 1: lit, 0: nothing of the light is left.
 fn visibility(px: vec2<i32>, light: u32) -> f32 {
@@ -15,4 +15,14 @@ fn visibility(px: vec2<i32>, light: u32) -> f32 {
     }
     let mask = textureLoad(shadow_mask_tex, px, 0);
     return 1.0 - frame.shadow_density * (1.0 - mask[channel - 1u]);
+}
+
+// What reaches a surface from all lights together, as a factor of its colour.
+fn light_at(px: vec2<i32>, normal: vec3<f32>, pos_view: vec3<f32>) -> vec3<f32> {
+    var light = vec3(0.0);
+    for (var i = 0u; i < frame.light_count; i++) {
+        let l = towards_light(frame.lights[i], pos_view);
+        light += frame.lights[i].color * max(dot(normal, l), 0.0) * visibility(px, i);
+    }
+    return light;
 }

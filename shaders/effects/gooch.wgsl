@@ -4,6 +4,10 @@
 #import common/light.wgsl
 #import common/same_surface.wgsl
 
+// How far shadows go to the cool end, and up to which N·L the form's own shadow reaches.
+const SHADE: f32 = 0.7;
+const TERMINATOR: f32 = 0.25;
+
 // Whether any object has stripes.
 override WITH_METAL: bool = true;
 
@@ -26,9 +30,6 @@ struct GoochStyle {
     is_of_view: u32,
 }
 
-// How far shadows go to the cool end, and up to which N·L the form's own shadow reaches.
-const SHADE: f32 = 0.7;
-const TERMINATOR: f32 = 0.25;
 const TAU: f32 = 6.28318530718;
 
 // A number from 0 to 1 that looks like chance (the PCG hash; Jarzynski and Olano 2020).
@@ -123,11 +124,11 @@ fn gooch(px: vec2<i32>, s: Surfel, style: GoochStyle, base: vec3<f32>, pos_view:
     let n_l = dot(s.normal, l);
     let lit = visibility(px, 0u);
     var warmth = 0.5 + 0.5 * n_l;
-    if WITH_SHADOWS && frame.lights[0].shadow != 0u {
+    if WITH_SHADOWS {
         // Towards the terminator the form's own shadow begins, softly where the surface is smooth: so that shadows
         // neither end there nor show the facets of the mesh.
         let own = frame.shadow_density * (1.0 - smoothstep(0.0, TERMINATOR, n_l));
-        warmth *= 1.0 - SHADE * max(1.0 - lit, own);
+        warmth *= 1.0 - SHADE * max(1.0 - lit, own * f32(frame.lights[0].shadow != 0u));
     }
     var shade = mix(cool, warm, warmth);
     if WITH_METAL && style.metal > 0.0 {

@@ -4,6 +4,7 @@
 #import common/gbuffer.wgsl
 #import common/light.wgsl
 #import effects/gooch.wgsl
+#import effects/halftone.wgsl
 #import effects/toon.wgsl
 
 const BLANK: u32 = 0u;
@@ -11,6 +12,7 @@ const PLAIN: u32 = 1u;
 const UNLIT: u32 = 2u;
 const GOOCH: u32 = 3u;
 const TOON: u32 = 4u;
+const HALFTONE: u32 = 5u;
 
 // Which techniques any object uses.
 override WITH_PLAIN: bool = true;
@@ -23,17 +25,8 @@ struct SurfaceStyle {
     technique: u32,
 }
 
-@group(1) @binding(5) var base_color_tex: texture_2d<f32>;
-@group(1) @binding(6) var<storage, read> surface_styles: array<SurfaceStyle>;
-
-fn plain(px: vec2<i32>, style: SurfaceStyle, base: vec3<f32>, normal: vec3<f32>, pos_view: vec3<f32>) -> vec3<f32> {
-    var light = vec3(style.ambient);
-    for (var i = 0u; i < frame.light_count; i++) {
-        let l = towards_light(frame.lights[i], pos_view);
-        light += frame.lights[i].color * max(dot(normal, l), 0.0) * visibility(px, i);
-    }
-    return base * light;
-}
+@group(1) @binding(6) var base_color_tex: texture_2d<f32>;
+@group(1) @binding(7) var<storage, read> surface_styles: array<SurfaceStyle>;
 
 // Linear colour times opacity, and opacity.
 @fragment
@@ -51,9 +44,11 @@ fn fs_main(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
             if WITH_GOOCH && style.technique == GOOCH {
                 shade = gooch(px, s, style.gooch, base, pos_view);
             } else if WITH_PLAIN && style.technique == PLAIN {
-                shade = plain(px, style, base, s.normal, pos_view);
+                shade = base * (style.ambient + light_at(px, s.normal, pos_view));
             } else if WITH_TOON && style.technique == TOON {
                 shade = toon(px, s, base);
+            } else if WITH_HALFTONE && style.technique == HALFTONE {
+                shade = halftone(px, s, base, pos_view);
             }
             color = vec4(shade, 1.0);
         }

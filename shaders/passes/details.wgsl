@@ -10,23 +10,48 @@
 // Which classes any object draws.
 override WITH_TEXTURE: bool = true;
 override WITH_RELIEF: bool = true;
+override WITH_SHADOW: bool = true;
 
 @group(1) @binding(1) var region_tex: texture_2d<u32>;
 // 1 where a segment is, 0.5 where it is a crease that is not drawn.
 @group(1) @binding(3) var mark_tex: texture_2d<f32>;
 @group(1) @binding(4) var base_color_tex: texture_2d<f32>;
+// Of passes/shadow.wgsl.
+@group(1) @binding(5) var shadow_mask_tex: texture_2d<f32>;
 
 fn region_at(px: vec2<i32>) -> u32 {
     return textureLoad(region_tex, clamp(px, vec2(0), vec2<i32>(frame.size) - 1), 0).x;
 }
 
-// What changes: the colour, in steps that look even; or the normal, of length 1.
-fn detail_at(class_of: u32, px: vec2<i32>) -> vec3<f32> {
+// What changes: the colour, in steps that look even; the normal, of length 1; or which lights reach the pixel.
+fn detail_at(class_of: u32, px: vec2<i32>) -> vec4<f32> {
     let q = clamp(px, vec2(0), vec2<i32>(frame.size) - 1);
-    if class_of == RELIEF {
-        return unpack_surfel(geometry_at(q)).normal;
+    if WITH_RELIEF && class_of == RELIEF {
+        return vec4(unpack_surfel(geometry_at(q)).normal, 0.0);
     }
-    return sqrt(max(textureLoad(base_color_tex, q, 0).rgb, vec3(0.0)));
+    if WITH_SHADOW && class_of == SHADOW {
+        return textureLoad(shadow_mask_tex, q, 0);
+    }
+    return vec4(sqrt(max(textureLoad(base_color_tex, q, 0).rgb, vec3(0.0))), 0.0);
+}
+
+// A light that grazes a surface at less than this cosine throws no shadow that has a border: there the surface itself
+// turns away.
+const GRAZING: f32 = 0.1;
+
+// Which parts of a detail count at a pixel.
+fn counted(class_of: u32, x: Surfel, pos_view: vec3<f32>) -> vec4<f32> {
+    if !WITH_SHADOW || class_of != SHADOW {
+        return vec4(1.0);
+    }
+    var counts = vec4(0.0);
+    for (var i = 0u; i < frame.light_count; i++) {
+        let channel = frame.lights[i].shadow;
+        if channel > 0u && dot(x.normal, towards_light(frame.lights[i], pos_view)) > GRAZING {
+            counts[channel - 1u] = 1.0;
+        }
+    }
+    return counts;
 }
 
 // From a pixel to itself and its eight neighbours, row by row.
@@ -52,7 +77,7 @@ struct Side {
     is_level: bool,
 }
 
-fn side_of(class_of: u32, px: vec2<i32>, own: u32, start: vec3<f32>, along: vec3<f32>, step: vec2<f32>) -> Side {
+fn side_of(class_of: u32, px: vec2<i32>, own: u32, start: vec4<f32>, along: vec4<f32>, step: vec2<f32>) -> Side {
     var value = 0.0;
     var rise = 0.0;
     for (var k = 1; k <= REACH; k++) {
@@ -72,11 +97,11 @@ fn side_of(class_of: u32, px: vec2<i32>, own: u32, start: vec3<f32>, along: vec3
 
 // The step of a value near the centre of a pixel, if there is one: across the direction of greatest change (Di Zenzo
 // 1986), the place half way between the two sides; seen in strides of so many pixels.
-fn step_in(class_of: u32, px: vec2<i32>, own: u32, stride: i32) -> Step {
+fn step_in(class_of: u32, counts: vec4<f32>, px: vec2<i32>, own: u32, stride: i32) -> Step {
     let none = Step(vec2(0.0), 0.0, vec2(0.0));
     let center = detail_at(class_of, px);
-    var dx = vec3(0.0);
-    var dy = vec3(0.0);
+    var dx = vec4(0.0);
+    var dy = vec4(0.0);
     for (var n = 0; n < 9; n++) {
         let o = neighbour_offset(n);
         var value = center;
@@ -84,8 +109,8 @@ fn step_in(class_of: u32, px: vec2<i32>, own: u32, stride: i32) -> Step {
             value = detail_at(class_of, px + o * stride);
         }
         // Sobel.
-        dx += f32(o.x * (2 - abs(o.y))) / 8.0 * value;
-        dy += f32(o.y * (2 - abs(o.x))) / 8.0 * value;
+        dx += f32(o.x * (2 - abs(o.y))) / 8.0 * value * counts;
+        dy += f32(o.y * (2 - abs(o.x))) / 8.0 * value * counts;
     }
     let a = dot(dx, dx);
     let b = dot(dx, dy);
@@ -119,12 +144,13 @@ fn step_in(class_of: u32, px: vec2<i32>, own: u32, stride: i32) -> Step {
 // A wider look at what is no step: between the texels of an enlarged image colours change over many pixels.
 const WIDE_STRIDE: i32 = 4;
 
-fn step_near(class_of: u32, px: vec2<i32>, own: u32) -> Step {
-    let near = step_in(class_of, px, own, 1);
+fn step_near(class_of: u32, x: Surfel, px: vec2<i32>, own: u32) -> Step {
+    let counts = counted(class_of, x, pos_view_of(px, x.depth));
+    let near = step_in(class_of, counts, px, own, 1);
     if near.contrast >= 0.0 {
         return near;
     }
-    return step_in(class_of, px, own, WIDE_STRIDE);
+    return step_in(class_of, counts, px, own, WIDE_STRIDE);
 }
 
 struct Out {
@@ -136,6 +162,14 @@ fn is_drawn(object: u32, class_of: u32) -> bool {
     return edge_styles[object].lines[class_of - 1u].strength > 0.0;
 }
 
+// Whether a step is so near to the centre that the pixel holds it.
+fn is_at(step: Step) -> bool {
+    return all(abs(step.offset) <= vec2(0.75));
+}
+
+// Less is not the border of a shadow, but its inside.
+const SHADOW_CONTRAST: f32 = 0.6;
+
 @fragment
 fn fs_main(@builtin(position) position: vec4<f32>) -> Out {
     let px = vec2<i32>(position.xy);
@@ -143,7 +177,9 @@ fn fs_main(@builtin(position) position: vec4<f32>) -> Out {
     let own = region_at(px);
     let has_texture = WITH_TEXTURE && is_drawn(x.object, TEXTURE);
     let has_relief = WITH_RELIEF && is_drawn(x.object, RELIEF);
-    if !x.enhanced || edge_styles[x.object].mode != EXACT_MODE || !(has_texture || has_relief) {
+    let has_shadow = WITH_SHADOW && is_drawn(x.object, SHADOW);
+    let has_details = has_texture || has_relief || has_shadow;
+    if !x.enhanced || edge_styles[x.object].mode != EXACT_MODE || !has_details {
         discard;
     }
     // Where a surface ends or folds, there is a line already.
@@ -155,18 +191,25 @@ fn fs_main(@builtin(position) position: vec4<f32>) -> Out {
     }
     var class_of = NO_EDGE;
     var found = Step(vec2(0.0), 0.0, vec2(0.0));
-    if has_texture {
-        let step = step_near(TEXTURE, px, own);
-        if step.contrast >= edge_styles[x.object].lines[TEXTURE - 1u].threshold && all(abs(step.offset) <= vec2(0.75)) {
+    if has_shadow {
+        let step = step_near(SHADOW, x, px, own);
+        if step.contrast >= SHADOW_CONTRAST && is_at(step) {
+            class_of = SHADOW;
+            found = step;
+        }
+    }
+    if has_texture && class_of == NO_EDGE {
+        let step = step_near(TEXTURE, x, px, own);
+        if step.contrast >= edge_styles[x.object].lines[TEXTURE - 1u].threshold && is_at(step) {
             class_of = TEXTURE;
             found = step;
         }
     }
     if has_relief && class_of == NO_EDGE {
-        let step = step_near(RELIEF, px, own);
+        let step = step_near(RELIEF, x, px, own);
         // The chord between two normals.
         let angle = 2.0 * asin(min(0.5 * step.contrast, 1.0));
-        if angle >= edge_styles[x.object].lines[RELIEF - 1u].threshold && all(abs(step.offset) <= vec2(0.75)) {
+        if angle >= edge_styles[x.object].lines[RELIEF - 1u].threshold && is_at(step) {
             class_of = RELIEF;
             found = step;
         }

@@ -5,11 +5,12 @@
 #import common/color.wgsl
 #import common/edge_map.wgsl
 
-// Silhouette, border, object boundary, ridge, valley, material boundary, intersection, texture, relief.
-const CLASS_COLORS = array<vec3<f32>, 9>(
+// Silhouette, border, object boundary, ridge, valley, material boundary, intersection, texture, relief,
+// shadow.
+const CLASS_COLORS = array<vec3<f32>, 10>(
     vec3(0.0), vec3(0.0, 0.35, 0.8), vec3(0.45, 0.0, 0.6), vec3(0.85, 0.25, 0.0), vec3(0.0, 0.5, 0.15),
     vec3(0.5, 0.4, 0.0), vec3(0.9, 0.0, 0.35), vec3(0.0, 0.6, 0.6),
-    vec3(0.6, 0.3, 0.5),
+    vec3(0.6, 0.3, 0.5), vec3(0.35, 0.35, 0.45),
 );
 
 @group(1) @binding(1) var region_tex: texture_2d<u32>;

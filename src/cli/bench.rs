@@ -13,6 +13,7 @@ use crate::gpu::Gpu;
 use crate::import::Progress;
 use crate::render::Request;
 use crate::scene::Camera;
+use crate::style::halftone::{Mapping, Space};
 use crate::style::toon::Border;
 use crate::style::{DepthOperator, EdgeMode, Style, Technique, preset};
 
@@ -135,6 +136,12 @@ fn looks() -> Result<Vec<Look>, CliError> {
         style.toon.border = border;
         style
     };
+    let halftone = |space, mapping| {
+        let mut style = no_edges.clone();
+        style.technique = Technique::Halftone;
+        (style.halftone.space, style.halftone.mapping) = (space, mapping);
+        style
+    };
     let exact = |width: f32| {
         let mut style = gooch.clone();
         (style.edges.profile.width, style.edges.inner.width) = (width, width);
@@ -149,6 +156,9 @@ fn looks() -> Result<Vec<Look>, CliError> {
         ("toon, nearest", toon(Border::Nearest)),
         ("toon, cartoon map", toon(Border::CartoonMap)),
         ("toon, analytic", toon(Border::Analytic)),
+        ("halftone, screen", halftone(Space::Screen, Mapping::Triplanar)),
+        ("halftone, triplanar", halftone(Space::Surface, Mapping::Triplanar)),
+        ("halftone, uv", halftone(Space::Surface, Mapping::Uv)),
         ("gooch, no edges", no_edges),
         ("gooch, metal", metal),
         ("gooch + edges, diagonal", diagonal),

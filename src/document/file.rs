@@ -292,20 +292,6 @@ mod tests {
     }
 
     #[test]
-    fn listed_lights_shine_unless_the_rig_is_asked_for() {
-        let lights = "[[lights]]\nkind = { directional = { direction = [0.0, -1.0, 0.0] } }\n\
-                      color = [1.0, 1.0, 1.0]\nintensity = 1.0\nattached_to_camera = false\n";
-        for (text, source) in
-            [(lights.to_owned(), Source::File), (format!("{lights}[light]\nsource = \"rig\""), Source::Rig)]
-        {
-            let document = Document::from_text(&text, Path::new("a.hachure")).unwrap();
-            assert_eq!((document.lights.len(), document.lighting.source), (1, source));
-            let again = document.to_text(Path::new("a.hachure")).unwrap();
-            assert_eq!(Document::from_text(&again, Path::new("a.hachure")).unwrap(), document);
-        }
-    }
-
-    #[test]
     fn a_document_that_is_saved_elsewhere_finds_its_images() {
         let folder = tempfile::tempdir().unwrap();
         std::fs::create_dir(folder.path().join("drawings")).unwrap();
@@ -321,6 +307,20 @@ mod tests {
         let styles = [Some(&again.style), again.nodes["/m"].style.as_ref()];
         assert!(styles.iter().all(|s| s.unwrap().toon.image.as_ref().unwrap().exists()), "{again:?}");
         assert!(std::fs::read_to_string(&second).unwrap().contains("\"../ramp.png\""));
+    }
+
+    #[test]
+    fn listed_lights_shine_unless_the_rig_is_asked_for() {
+        let lights = "[[lights]]\nkind = { directional = { direction = [0.0, -1.0, 0.0] } }\n\
+                      color = [1.0, 1.0, 1.0]\nintensity = 1.0\nattached_to_camera = false\n";
+        for (text, source) in
+            [(lights.to_owned(), Source::File), (format!("{lights}[light]\nsource = \"rig\""), Source::Rig)]
+        {
+            let document = Document::from_text(&text, Path::new("a.hachure")).unwrap();
+            assert_eq!((document.lights.len(), document.lighting.source), (1, source));
+            let again = document.to_text(Path::new("a.hachure")).unwrap();
+            assert_eq!(Document::from_text(&again, Path::new("a.hachure")).unwrap(), document);
+        }
     }
 
     #[test]

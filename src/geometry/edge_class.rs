@@ -23,11 +23,13 @@ pub enum EdgeClass {
     Texture,
     /// The relief of a surface changes, which only its normal map knows.
     Relief,
+    /// The shadow of something ends on a surface.
+    Shadow,
 }
 
 impl EdgeClass {
     /// All classes, in order.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::Silhouette,
         Self::Border,
         Self::Object,
@@ -37,6 +39,7 @@ impl EdgeClass {
         Self::Intersection,
         Self::Texture,
         Self::Relief,
+        Self::Shadow,
     ];
 
     /// Whether it belongs to the profile edges; the others are inner edges.

@@ -38,6 +38,10 @@ pub enum Binding {
     Scratch(wgpu::TextureFormat),
     /// A read-only storage buffer.
     Storage,
+    /// An array of images of one size, read through a sampler.
+    Layers,
+    /// A sampler that filters.
+    Sampler,
 }
 
 /// How a pass uses its depth buffer (reversed, 0 where nothing is). What covers the picture lies at 1e-30: behind
@@ -276,6 +280,12 @@ fn layout_of(
                     has_dynamic_offset: false,
                     min_binding_size: None,
                 },
+                Binding::Layers => wgpu::BindingType::Texture {
+                    sample_type: wgpu::TextureSampleType::Float { filterable: true },
+                    view_dimension: wgpu::TextureViewDimension::D2Array,
+                    multisampled: false,
+                },
+                Binding::Sampler => wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering),
             },
             count: None,
         })

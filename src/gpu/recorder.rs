@@ -16,6 +16,10 @@ pub enum Input<'a> {
     Scratch(&'a Target),
     /// A read-only storage buffer.
     Storage(&'a wgpu::Buffer),
+    /// Images of one size above each other, read through a sampler.
+    Layers(&'a wgpu::TextureView),
+    /// How they are read.
+    Sampler(&'a wgpu::Sampler),
 }
 
 impl Input<'_> {
@@ -25,6 +29,8 @@ impl Input<'_> {
             Self::Image(target) => Binding::Image(target.format()),
             Self::Scratch(target) => Binding::Scratch(target.format()),
             Self::Storage(_) => Binding::Storage,
+            Self::Layers(_) => Binding::Layers,
+            Self::Sampler(_) => Binding::Sampler,
         }
     }
 
@@ -34,6 +40,8 @@ impl Input<'_> {
                 wgpu::BindingResource::TextureView(target.view())
             }
             Self::Storage(buffer) => buffer.as_entire_binding(),
+            Self::Layers(view) => wgpu::BindingResource::TextureView(view),
+            Self::Sampler(sampler) => wgpu::BindingResource::Sampler(sampler),
         }
     }
 }

@@ -11,6 +11,7 @@ use std::sync::Arc;
 use glam::{Vec2, Vec4};
 
 use super::RenderError;
+use super::effects::halftone::{HalftoneInputs, HalftoneUniform, ThresholdMaps};
 use super::effects::mirror::{MirrorUniform, mirror};
 use super::effects::surface::{Shading, SurfaceUniform, surface};
 use super::effects::toon::{ToonBuffers, Toons, cartoon_map};
@@ -27,7 +28,7 @@ use super::sample::Sample;
 use super::segments::segments;
 use super::shadows::{ShadowMap, ShadowMask};
 use super::stage::{Output, Stage};
-use crate::geometry::LineSegment;
+use crate::geometry::{EdgeClass, LineSegment};
 use crate::gpu::{ArrayBuffer, DynamicBuffer, Gpu, Recorder, Target, UniformBuffer};
 
 /// What is to be drawn, and from where.
@@ -65,6 +66,8 @@ pub struct Begun {
     pub gbuffer: Output<GBuffer>,
     /// See [`ShadowMask`]; `None` when no light throws shadows.
     pub shadow_mask: Option<Output<Target>>,
+    /// The draws of those objects whose style asks for coordinates on their surface.
+    with_coordinates: Vec<DrawCall>,
 }
 
 /// Surfaces with their lines.
@@ -74,6 +77,8 @@ pub struct Shaded {
     pub color: Output<Target>,
     /// See `shaders/effects/toon.wgsl`; `None` when no object asks for it.
     pub cartoon_map: Option<Target>,
+    /// See `shaders/passes/coordinates.wgsl`; `None` when no object asks for it.
+    pub coordinates: Option<Target>,
 }
 
 /// What of a drawing lives across frames.
@@ -82,19 +87,31 @@ pub struct Drawing {
     frame_group: wgpu::BindGroup,
     draws: DynamicBuffer,
     edge_map_pass: EdgeMapPass,
+    threshold_maps: ThresholdMaps,
     greatest_radius: ArrayBuffer,
     edge_styles: ArrayBuffer,
     surface_styles: ArrayBuffer,
     toon_styles: ArrayBuffer,
     toon_bands: ArrayBuffer,
+    halftone_styles: ArrayBuffer,
     gbuffer: Stage<(u64, u64, View, Vec<DrawUniform>, Vec<DrawCall>), GBuffer>,
     segments: Stage<(u64, View, Vec<EdgeUniform>, f32), Arc<Vec<LineSegment>>>,
-    edge_map: Stage<(u64, Vec<EdgeUniform>, Vec2, Option<FrameUniform>), EdgeMap>,
+    edge_map: Stage<([u64; 2], Vec<EdgeUniform>, Vec2, Option<FrameUniform>), EdgeMap>,
     reach: Stage<u64, Reach>,
     shadow_mask: ShadowMask,
-    cartoon_map: Stage<([u64; 2], Toons, FrameUniform), Target>,
+    cartoon_map: Stage<(u64, u64, Toons, FrameUniform), Target>,
+    coordinates: Stage<(u64, Vec<DrawCall>), Target>,
     surface: Stage<
-        ([u64; 2], Option<[u64; 2]>, Vec<SurfaceUniform>, Toons, Vec<EdgeUniform>, FrameUniform, Seen),
+        (
+            [u64; 2],
+            Option<[u64; 2]>,
+            Vec<SurfaceUniform>,
+            Toons,
+            Vec<HalftoneUniform>,
+            Vec<EdgeUniform>,
+            FrameUniform,
+            Seen,
+        ),
         Target,
     >,
     reflections: Vec<Reflection>,
@@ -135,17 +152,20 @@ impl Drawing {
             frame_group,
             draws: GBufferPass::draw_buffer(gpu),
             edge_map_pass: EdgeMapPass::new(gpu),
+            threshold_maps: ThresholdMaps::new(gpu),
             greatest_radius: ArrayBuffer::new(gpu, "greatest radius"),
             edge_styles: ArrayBuffer::new(gpu, "edge styles"),
             surface_styles: ArrayBuffer::new(gpu, "surface styles"),
             toon_styles: ArrayBuffer::new(gpu, "toon styles"),
             toon_bands: ArrayBuffer::new(gpu, "toon bands"),
+            halftone_styles: ArrayBuffer::new(gpu, "halftone styles"),
             gbuffer: Stage::default(),
             segments: Stage::default(),
             edge_map: Stage::default(),
             reach: Stage::default(),
             shadow_mask: ShadowMask::new(gpu),
             cartoon_map: Stage::default(),
+            coordinates: Stage::default(),
             surface: Stage::default(),
             reflections: Vec::new(),
             reflected: 0,
@@ -193,12 +213,21 @@ impl Drawing {
         self.edge_styles.write(rec.gpu, &objects.edge_styles);
 
         let (draws, calls) = objects.draws(scene, view);
+        let with_coordinates = calls
+            .iter()
+            .filter(|call| {
+                draws
+                    .get(call.draw as usize)
+                    .is_some_and(|draw| objects.halftones.need_coordinates(draw.object))
+            })
+            .copied()
+            .collect();
         let geometry = (rec.pipelines.generation(), inputs.scene_revision, *view, draws, calls);
         let gbuffer = self.gbuffer.run(geometry, |(.., draws, calls)| {
             gbuffer_pass.run(rec, scene, &mut self.draws, (draws, calls), view.cut.is_some())
         })?;
         let shadow_mask = self.shadow_mask.run(rec, &gbuffer, inputs)?;
-        Ok(Begun { uniform, depth_range, gbuffer, shadow_mask })
+        Ok(Begun { uniform, depth_range, gbuffer, shadow_mask, with_coordinates })
     }
 
     fn look_through(&self, rec: &mut Recorder<'_>, view: &View) {
@@ -226,7 +255,10 @@ impl Drawing {
             let found = segments(inputs.scene, inputs.objects, &view, inputs.crease_angle);
             Ok::<_, RenderError>(Arc::new(found))
         })?;
-        let edges = (begun.gbuffer.revision, styles, begun.depth_range, light);
+        let has_borders = styles.iter().any(|s| s.draws(EdgeClass::Shadow));
+        let shadow_mask = begun.shadow_mask.as_ref().filter(|_| has_borders);
+        let revisions = [begun.gbuffer.revision, shadow_mask.map_or(0, |mask| mask.revision)];
+        let edges = (revisions, styles, begun.depth_range, light);
         self.edge_map.run(edges, |(_, styles, ..)| {
             self.edge_map_pass.run(
                 rec,
@@ -237,6 +269,7 @@ impl Drawing {
                     segments: &segments.value,
                     has_holes: inputs.objects.has_holes,
                     is_cut: view.cut.is_some(),
+                    shadow_mask: shadow_mask.map(|mask| &mask.value),
                 },
             )
         })
@@ -251,6 +284,7 @@ impl Drawing {
     pub fn forget_surfaces(&mut self) {
         self.surface.clear();
         self.cartoon_map.clear();
+        self.coordinates.clear();
     }
 
     /// Shades what was begun and draws the lines over it.
@@ -267,6 +301,8 @@ impl Drawing {
     ) -> Result<Shaded, RenderError> {
         let reflected = self.reflect(rec, gbuffer_pass, inputs)?;
         let cartoon_map = self.find_bands(rec, inputs, begun)?;
+        let coordinates = self.find_coordinates(rec, gbuffer_pass, inputs, begun)?;
+        self.threshold_maps.prepare(rec.gpu, &inputs.objects.halftones)?;
         let gbuffer = &begun.gbuffer;
         let styles = &inputs.objects.edge_styles;
         let spines = edge_map.and_then(|e| Some((e.revision, e.value.spines.as_ref()?)));
@@ -286,6 +322,7 @@ impl Drawing {
             revisions,
             inputs.objects.surface_styles.clone(),
             inputs.objects.toons.clone(),
+            inputs.objects.halftones.placed(inputs.scene, inputs.view),
             styles.clone(),
             begun.uniform.without_background(),
             (!reflected.is_empty()).then(|| {
@@ -293,8 +330,11 @@ impl Drawing {
                 (seen, inputs.background)
             }),
         );
-        let color = self.surface.run(shading, |(_, _, surfaces, toons, styles, ..)| {
+        let color = self.surface.run(shading, |(_, _, surfaces, toons, halftones, styles, ..)| {
             self.surface_styles.write(rec.gpu, surfaces);
+            if !halftones.is_empty() {
+                self.halftone_styles.write(rec.gpu, halftones);
+            }
             let shading = Shading {
                 surfaces,
                 surface_styles: self.surface_styles.buffer(),
@@ -305,6 +345,12 @@ impl Drawing {
                 },
                 shadow_mask: begun.shadow_mask.as_ref().map(|mask| &mask.value),
                 cartoon_map: cartoon_map.as_ref(),
+                halftones: HalftoneInputs {
+                    styles: halftones,
+                    style_buffer: self.halftone_styles.buffer(),
+                    maps: &self.threshold_maps,
+                    coordinates: coordinates.as_ref(),
+                },
             };
             let color = surface(rec, &gbuffer.value, &shading)?;
             for seen in &reflected {
@@ -325,7 +371,26 @@ impl Drawing {
             }
             Ok::<_, RenderError>(color)
         })?;
-        Ok(Shaded { color, cartoon_map })
+        Ok(Shaded { color, cartoon_map, coordinates })
+    }
+
+    fn find_coordinates(
+        &mut self,
+        rec: &mut Recorder<'_>,
+        gbuffer_pass: &mut GBufferPass,
+        inputs: &DrawingInputs<'_>,
+        begun: &Begun,
+    ) -> Result<Option<Target>, RenderError> {
+        if begun.with_coordinates.is_empty() {
+            self.coordinates.clear();
+            return Ok(None);
+        }
+        let asked = (begun.gbuffer.revision, begun.with_coordinates.clone());
+        let coordinates = self.coordinates.run(asked, |(_, calls)| {
+            let draws = (&gbuffer_pass.draw_layout, &self.draws);
+            gbuffer_pass.coordinates.run(rec, inputs.scene, &begun.gbuffer.value, draws, calls)
+        })?;
+        Ok(Some(coordinates.value))
     }
 
     /// Draws what is seen in the mirrors.
@@ -405,8 +470,8 @@ impl Drawing {
         }
         let gbuffer = &begun.gbuffer;
         let mask = begun.shadow_mask.as_ref();
-        let revisions = [gbuffer.revision, mask.map_or(0, |mask| mask.revision)];
-        let bands = (revisions, toons.clone(), begun.uniform.without_background());
+        let shadows = mask.map_or(0, |mask| mask.revision);
+        let bands = (gbuffer.revision, shadows, toons.clone(), begun.uniform.without_background());
         let toon_styles = self.toon_styles.buffer();
         let map = self
             .cartoon_map

@@ -54,6 +54,8 @@ pub struct Picture {
     pub shadow_mask: Option<Target>,
     /// See `shaders/effects/toon.wgsl`; `None` when no object asks for it.
     pub cartoon_map: Option<Target>,
+    /// See `shaders/passes/coordinates.wgsl`; `None` when no object asks for it.
+    pub coordinates: Option<Target>,
 }
 
 /// What lives across frames.
@@ -142,10 +144,10 @@ impl FrameState {
         };
         let operators = self.operators(rec, *what, &begun)?;
 
-        let mut cartoon_map = None;
+        let (mut cartoon_map, mut coordinates) = (None, None);
         let image = if *what == Show::Picture {
             let shaded = self.drawing.shade(rec, &mut self.gbuffer_pass, eye, &begun, edge_map.as_ref())?;
-            cartoon_map = shaded.cartoon_map;
+            (cartoon_map, coordinates) = (shaded.cartoon_map, shaded.coordinates);
             let color = self.accumulation.add(rec, eye.sample, shaded.color)?;
             let final_inputs = (shaders, *what, [color.revision, 0, 0], eye.background);
             self.image.run(final_inputs, |_| resolve(rec, &color.value))?
@@ -174,6 +176,7 @@ impl FrameState {
             edge_map: edge_map.map(|e| e.value.edges),
             shadow_mask: begun.shadow_mask.map(|mask| mask.value),
             cartoon_map,
+            coordinates,
         })
     }
 

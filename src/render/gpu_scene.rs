@@ -86,6 +86,12 @@ impl GpuScene {
         })
     }
 
+    /// Whether a node's mesh has texture coordinates.
+    pub fn has_uvs(&self, node: NodeId) -> bool {
+        let mesh = self.scene.nodes[node].mesh.and_then(|m| self.scene.meshes.get(m));
+        mesh.is_some_and(|mesh| !mesh.uvs.is_empty())
+    }
+
     /// The plane of a node's own mesh, world space.
     ///
     /// # Errors

@@ -2,6 +2,7 @@
 
 use glam::{DMat4, Mat3, Mat4};
 
+use super::effects::halftone::Halftones;
 use super::effects::mirror::Mirror;
 use super::effects::surface::SurfaceUniform;
 use super::effects::toon::{ToonUniform, Toons};
@@ -68,6 +69,8 @@ pub struct Objects {
     pub surface_styles: Vec<SurfaceUniform>,
     /// Parameters of toon shading.
     pub toons: Toons,
+    /// The objects that are halftones.
+    pub halftones: Halftones,
     /// Whether any object with lines has holes by alpha.
     pub has_holes: bool,
     /// The mirrors among them.
@@ -92,6 +95,10 @@ impl Objects {
                 SurfaceUniform::new(r.style, &scene.scene.nodes[node].world_from_local);
             if r.style.technique == Technique::Toon {
                 objects.toons.set(id, count, &r.style.toon, images);
+            }
+            if r.style.technique == Technique::Halftone {
+                let has_uvs = scene.has_uvs(node);
+                objects.halftones.add((count, id), &r.style.halftone, images, scale, has_uvs);
             }
             if r.enhanced {
                 objects.edge_styles[id] = EdgeUniform::new(&r.style.edges, scale);

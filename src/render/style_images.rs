@@ -6,21 +6,24 @@ use std::sync::{Arc, OnceLock};
 
 use glam::Vec4;
 
+use super::effects::halftone::threshold_map::ThresholdMap;
 use crate::scene::{Images, Texture};
 use crate::style::toon::MAX_RAMP;
 
-/// Decoded images by path, with the ramps that they are. Clones share the images.
+/// Decoded images by path, with the ramps and halftone textures that they are. Clones share the images.
 #[derive(Debug, Clone, Default)]
 pub struct StyleImages {
     images: Images,
     ramps: BTreeMap<PathBuf, OnceLock<Arc<[Vec4]>>>,
+    threshold_maps: BTreeMap<PathBuf, OnceLock<Arc<ThresholdMap>>>,
 }
 
 impl StyleImages {
-    /// Takes images over; ramps are made when they are asked for.
+    /// Takes images over; what is made of them is made when it is asked for.
     pub fn new(images: Images) -> Self {
         let ramps = images.keys().map(|path| (path.clone(), OnceLock::new())).collect();
-        Self { images, ramps }
+        let threshold_maps = images.keys().map(|path| (path.clone(), OnceLock::new())).collect();
+        Self { images, ramps, threshold_maps }
     }
 
     /// All of them.
@@ -39,6 +42,12 @@ impl StyleImages {
         let image = self.images.get(path)?;
         let size = if image.width >= image.height { [MAX_RAMP, 1] } else { [1, MAX_RAMP] };
         Some(self.ramps.get(path)?.get_or_init(|| image.averaged(size).into()).clone())
+    }
+
+    /// One of them as a halftone texture.
+    pub fn threshold_map(&self, path: &Path) -> Option<Arc<ThresholdMap>> {
+        let image = self.images.get(path)?;
+        Some(self.threshold_maps.get(path)?.get_or_init(|| Arc::new(ThresholdMap::of_image(image))).clone())
     }
 }
 

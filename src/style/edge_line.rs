@@ -45,7 +45,11 @@ impl ClassStyle {
     /// What a class has at first.
     pub(super) fn new(class: EdgeClass) -> Self {
         let threshold = match class {
-            EdgeClass::Silhouette | EdgeClass::Border | EdgeClass::Object | EdgeClass::Material => 0.0,
+            EdgeClass::Silhouette
+            | EdgeClass::Border
+            | EdgeClass::Object
+            | EdgeClass::Material
+            | EdgeClass::Shadow => 0.0,
             EdgeClass::Ridge | EdgeClass::Valley => 30.0,
             EdgeClass::Intersection => 2.0,
             EdgeClass::Texture => 0.15,
@@ -143,7 +147,7 @@ impl ClassStyle {
                         "Flatter steps of the relief draw nothing.",
                         threshold,
                     ),
-                    EdgeClass::Material => {}
+                    EdgeClass::Material | EdgeClass::Shadow => {}
                 }
             });
         });
@@ -161,6 +165,9 @@ fn words(class: EdgeClass) -> (&'static str, &'static str) {
         EdgeClass::Material => ("Material borders", "Draw lines where two materials of one object meet."),
         EdgeClass::Intersection => ("Intersections", "Draw lines where two surfaces run through each other."),
         EdgeClass::Texture => ("Texture edges", "Draw lines where the colour of a surface changes suddenly."),
+        EdgeClass::Shadow => {
+            ("Shadow borders", "Draw lines where cast shadows end, in drawings with shadows.")
+        }
         EdgeClass::Relief => ("Relief edges", "Draw lines where a normal map folds the surface."),
     }
 }

@@ -9,6 +9,7 @@ pub mod edge_group;
 pub mod edge_line;
 pub mod edges;
 pub mod gooch;
+pub mod halftone;
 pub mod mirror;
 pub mod param;
 #[cfg(test)]
@@ -27,6 +28,7 @@ pub use color::Color;
 pub use edge_line::Line;
 pub use edges::{Alignment, DepthOperator, EdgeMode, Edges};
 pub use gooch::Gooch;
+pub use halftone::Halftone;
 pub use mirror::Mirror;
 pub use param::{Param, Slot, Value};
 pub use plain::Plain;
@@ -61,6 +63,8 @@ pub enum Technique {
     Gooch,
     /// Flat shades from a ramp, as in a comic.
     Toon,
+    /// Tones by the density of ink.
+    Halftone,
 }
 
 /// The complete look of one object.
@@ -74,6 +78,8 @@ pub struct Style {
     pub gooch: Gooch,
     /// Parameters of [`Technique::Toon`].
     pub toon: Toon,
+    /// Parameters of [`Technique::Halftone`].
+    pub halftone: Halftone,
     /// Lines.
     pub edges: Edges,
     /// What a mirror shows.
@@ -93,6 +99,9 @@ impl Style {
         });
         list.when("technique", Technique::Toon, |list| {
             list.section("toon", |list| self.toon.params(list));
+        });
+        list.when("technique", Technique::Halftone, |list| {
+            list.section("halftone", |list| self.halftone.params(list));
         });
         list.section("edges", |list| self.edges.params(list));
         list.section("mirror", |list| self.mirror.params(list));

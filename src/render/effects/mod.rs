@@ -1,6 +1,7 @@
 //! What an object looks like: one file per effect, named as its style and its shader.
 
 pub mod gooch;
+pub mod halftone;
 pub mod mirror;
 pub mod surface;
 pub mod toon;

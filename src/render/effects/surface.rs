@@ -1,10 +1,11 @@
-//! The surface techniques (blank, plain, unlit, Gooch, toon), shaded from the G-buffer in one full-screen pass: the scene is
-//! traversed once, where the edge-enhancement paper's pipeline traverses it twice.
+//! The surface techniques (blank, plain, unlit, Gooch, toon, halftone), shaded from the G-buffer in one full-screen pass:
+//! the scene is traversed once, where the edge-enhancement paper's pipeline traverses it twice.
 
 use encase::ShaderType;
 use glam::DMat4;
 
 use super::gooch::GoochUniform;
+use super::halftone::{self, HalftoneInputs};
 use super::toon::{self, ToonBuffers, Toons};
 use crate::gpu::recorder::Input;
 use crate::gpu::{Program, Recorder, Target};
@@ -26,6 +27,7 @@ const PLAIN: u32 = 1;
 const UNLIT: u32 = 2;
 const GOOCH: u32 = 3;
 const TOON: u32 = 4;
+const HALFTONE: u32 = 5;
 
 impl SurfaceUniform {
     /// Of an object that lies at `world_from_local`.
@@ -42,6 +44,7 @@ impl SurfaceUniform {
                 Technique::Unlit => UNLIT,
                 Technique::Gooch => GOOCH,
                 Technique::Toon => TOON,
+                Technique::Halftone => HALFTONE,
             },
         }
     }
@@ -62,6 +65,8 @@ pub struct Shading<'a> {
     pub shadow_mask: Option<&'a Target>,
     /// See [`toon::cartoon_map`]; `None` when no object asks for it.
     pub cartoon_map: Option<&'a Target>,
+    /// What halftones need.
+    pub halftones: HalftoneInputs<'a>,
 }
 
 /// Linear colour times opacity, and opacity. Nothing where there is no object.
@@ -76,25 +81,31 @@ pub fn surface(
     let color = rec.target("color", wgpu::TextureFormat::Rgba16Float)?;
     let uses = |technique| shading.surfaces.iter().any(|s| s.technique == technique);
     let mut switches = vec![
+        ("WITH_SHADOWS", shading.shadow_mask.is_some()),
         ("WITH_PLAIN", uses(PLAIN)),
         ("WITH_GOOCH", uses(GOOCH)),
         ("WITH_METAL", shading.surfaces.iter().any(|s| s.gooch.has_metal())),
-        ("WITH_SHADOWS", shading.shadow_mask.is_some()),
     ];
     switches.extend(toon::switches(&shading.toons.styles));
+    switches.extend(halftone::switches(shading.halftones.styles));
     rec.fullscreen(
         "surface",
         Program { file: "effects/surface.wgsl", entry_point: "fs_main", switches },
         &[
             Input::Texture(&gbuffer.geometry),
-            Input::Storage(shading.toon_buffers.styles),
             // A shader that does not read one of these is given any texture of its kind.
             Input::Texture(shading.shadow_mask.unwrap_or(&gbuffer.base_color)),
+            Input::Storage(shading.toon_buffers.styles),
+            Input::Storage(shading.toon_buffers.bands),
             Input::Texture(shading.cartoon_map.unwrap_or(&gbuffer.region)),
             Input::Texture(&gbuffer.region),
             Input::Texture(&gbuffer.base_color),
             Input::Storage(shading.surface_styles),
-            Input::Storage(shading.toon_buffers.bands),
+            Input::Storage(shading.halftones.style_buffer),
+            Input::Layers(shading.halftones.maps.thresholds()),
+            Input::Sampler(shading.halftones.maps.sampler()),
+            Input::Storage(shading.halftones.maps.calibration()),
+            Input::Texture(shading.halftones.coordinates.unwrap_or(&gbuffer.geometry)),
         ],
         &[&color],
         Some(&gbuffer.depth),

@@ -159,9 +159,9 @@ pub fn cartoon_map(
         },
         &[
             Input::Texture(&gbuffer.geometry),
-            Input::Storage(toon_styles),
             // Unread without shadows.
             Input::Texture(shadow_mask.unwrap_or(&gbuffer.base_color)),
+            Input::Storage(toon_styles),
         ],
         &[&map],
         Some(&gbuffer.depth),

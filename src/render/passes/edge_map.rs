@@ -47,6 +47,8 @@ pub struct EdgeInputs<'a> {
     pub has_holes: bool,
     /// Whether what lies behind a plane is left out.
     pub is_cut: bool,
+    /// Which lights reach each pixel; `None` when no light throws shadows.
+    pub shadow_mask: Option<&'a Target>,
 }
 
 impl EdgeMapPass {
@@ -80,7 +82,7 @@ impl EdgeMapPass {
         inputs: &EdgeInputs<'_>,
         edge_map: &Target,
     ) -> Result<Target, RenderError> {
-        let EdgeInputs { gbuffer, styles, edge_styles, segments, has_holes, is_cut } = *inputs;
+        let EdgeInputs { gbuffer, styles, edge_styles, segments, has_holes, is_cut, shadow_mask } = *inputs;
         let any = |has: fn(&EdgeUniform) -> bool| styles.iter().any(|s| s.is_exact() && has(s));
         let variation =
             [("WITH_VARIATION", any(EdgeUniform::varies)), ("WITH_PRESSURE", any(|s| s.pressure > 0.0))];
@@ -123,10 +125,12 @@ impl EdgeMapPass {
             entry_point,
             switches: switches.clone(),
         };
-        let [texture, relief] = [EdgeClass::Texture, EdgeClass::Relief]
+        let [texture, relief, shadow] = [EdgeClass::Texture, EdgeClass::Relief, EdgeClass::Shadow]
             .map(|class| styles.iter().any(|s| s.is_exact() && s.draws(class)));
-        if texture || relief {
-            let mut switches = vec![("WITH_TEXTURE", texture), ("WITH_RELIEF", relief)];
+        let shadow = shadow && shadow_mask.is_some();
+        if texture || relief || shadow {
+            let mut switches =
+                vec![("WITH_TEXTURE", texture), ("WITH_RELIEF", relief), ("WITH_SHADOW", shadow)];
             switches.extend(variation);
             rec.draw(Draw {
                 label: "details",
@@ -137,6 +141,8 @@ impl EdgeMapPass {
                     Input::Storage(edge_styles),
                     Input::Texture(&marks),
                     Input::Texture(&gbuffer.base_color),
+                    // Unread without shadows.
+                    Input::Texture(shadow_mask.unwrap_or(&gbuffer.base_color)),
                 ],
                 outputs: &[edge_map, &spines],
                 onto: Onto::Old,

@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use encase::ShaderType;
 use glam::{Mat3, Mat4};
 
+use super::coordinates::CoordinatesPass;
 use crate::gpu::geometry::Attributes;
 use crate::gpu::material::MaterialUniform;
 use crate::gpu::recorder::color_attachment;
@@ -19,7 +20,7 @@ const BASE_COLOR: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
 /// Which surface of which object.
 const REGION: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;
 /// Reversed: 1 at the near plane.
-const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
+pub(super) const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 
 /// Per-pixel geometry of everything visible.
 #[derive(Debug, Clone)]
@@ -83,9 +84,12 @@ pub struct DrawCall {
 pub struct GBufferPass {
     pipelines: HashMap<Variant, wgpu::RenderPipeline>,
     generation: u64,
-    draw_layout: wgpu::BindGroupLayout,
+    /// Layout of bind group 2.
+    pub draw_layout: wgpu::BindGroupLayout,
     /// Layout of bind group 1.
     pub material_layout: wgpu::BindGroupLayout,
+    /// Draws what has been drawn once more, for coordinates on surfaces.
+    pub coordinates: CoordinatesPass,
 }
 
 /// What tells the pipelines apart.
@@ -118,6 +122,7 @@ impl GBufferPass {
             generation: 0,
             draw_layout,
             material_layout: MaterialBindings::layout(gpu),
+            coordinates: CoordinatesPass::default(),
         }
     }
 
@@ -165,11 +170,7 @@ impl GBufferPass {
             self.prepare(gpu, rec.pipelines, variant(call))?;
         }
         buffer.write(gpu, draws)?;
-        let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("draws"),
-            layout: &self.draw_layout,
-            entries: &[wgpu::BindGroupEntry { binding: 0, resource: buffer.binding::<DrawUniform>() }],
-        });
+        let group = draw_group(gpu, &self.draw_layout, buffer);
         let clear = || wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT);
         let color = [&gbuffer.geometry, &gbuffer.base_color, &gbuffer.region]
             .map(|target| Some(color_attachment(target, clear())));
@@ -204,6 +205,19 @@ impl GBufferPass {
         drop(pass);
         Ok(gbuffer)
     }
+}
+
+/// The uniforms of all draws, of which each sees its own by a dynamic offset.
+pub(super) fn draw_group(
+    gpu: &Gpu,
+    layout: &wgpu::BindGroupLayout,
+    draws: &DynamicBuffer,
+) -> wgpu::BindGroup {
+    gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: Some("draws"),
+        layout,
+        entries: &[wgpu::BindGroupEntry { binding: 0, resource: draws.binding::<DrawUniform>() }],
+    })
 }
 
 fn build(

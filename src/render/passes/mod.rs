@@ -1,6 +1,7 @@
 //! What effects are made of: plain functions from textures to textures.
 
 pub mod accumulate;
+pub mod coordinates;
 pub mod edge_map;
 pub mod edge_style;
 pub mod gbuffer;

@@ -1,0 +1,304 @@
+//! Halftone: what the surface pass needs for it (Freudenberg et al. 2002; edge-enhancement paper, section 5).
+
+pub mod calibration;
+mod own_image;
+pub mod threshold_map;
+
+use std::sync::{Arc, OnceLock};
+
+use encase::ShaderType;
+use glam::{DMat4, DVec3, Mat4, Vec2, Vec3};
+
+use crate::gpu::{ArrayBuffer, Gpu, GpuError, Target};
+use crate::render::frame_uniform::View;
+use crate::render::gpu_scene::GpuScene;
+use crate::render::groups::node_of;
+use crate::render::style_images::StyleImages;
+use crate::style::Halftone;
+use crate::style::halftone::{Mapping, Space, Texture};
+use threshold_map::{LAYERS, LEVELS, PERIODS, SIDE, ThresholdMap};
+
+/// Twin of `HalftoneStyle` in `shaders/effects/halftone.wgsl`.
+#[derive(Debug, Clone, Copy, PartialEq, ShaderType, Default)]
+pub struct HalftoneUniform {
+    pattern_from_view: Mat4,
+    ink: Vec3,
+    ink_tint: f32,
+    paper: Vec3,
+    paper_tint: f32,
+    turn: Vec2,
+    tile: f32,
+    footprint: f32,
+    ambient: f32,
+    own_tone: f32,
+    black: f32,
+    range: f32,
+    gamma: f32,
+    map: u32,
+    space: u32,
+}
+
+// As in `shaders/effects/halftone.wgsl`.
+const SCREEN: u32 = 1;
+const TRIPLANAR: u32 = 2;
+const UV: u32 = 3;
+
+/// A threshold map.
+#[derive(Debug, Clone)]
+enum Map {
+    BuiltIn(Texture),
+    Own(Arc<ThresholdMap>),
+}
+
+impl PartialEq for Map {
+    fn eq(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::BuiltIn(a), Self::BuiltIn(b)) => a == b,
+            // Each image has one map.
+            (Self::Own(a), Self::Own(b)) => Arc::ptr_eq(a, b),
+            _ => false,
+        }
+    }
+}
+
+/// All visible objects that are halftones.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Halftones {
+    /// By object id; empty when there are none.
+    styles: Vec<HalftoneUniform>,
+    /// Their threshold maps, by number.
+    maps: Vec<Map>,
+}
+
+impl Halftones {
+    /// Adds the object `id` of `count`. `scale`: pixels per reference pixel.
+    pub fn add(
+        &mut self,
+        (count, id): (usize, usize),
+        style: &Halftone,
+        images: &StyleImages,
+        scale: f32,
+        has_uvs: bool,
+    ) {
+        let own = style.texture_image().and_then(|path| images.threshold_map(path));
+        let map = own.map_or(Map::BuiltIn(style.texture), Map::Own);
+        let map = self.maps.iter().position(|known| *known == map).unwrap_or_else(|| {
+            self.maps.push(map);
+            self.maps.len() - 1
+        });
+        self.styles.resize(count, HalftoneUniform::default());
+        let black = style.black.clamp(0.0, 1.0);
+        if let Some(slot) = self.styles.get_mut(id) {
+            *slot = HalftoneUniform {
+                // Where it lies on the surface depends on the camera: see `placed`.
+                pattern_from_view: Mat4::IDENTITY,
+                ink: style.ink.to_linear(),
+                ink_tint: style.ink_tint.clamp(0.0, 1.0),
+                paper: style.paper.to_linear(),
+                paper_tint: style.paper_tint.clamp(0.0, 1.0),
+                turn: Vec2::from_angle(style.angle.to_radians()),
+                tile: style.scale.clamp(1.0, 200.0) * scale * PERIODS as f32,
+                footprint: style.smoothness.clamp(0.25, 8.0),
+                ambient: style.ambient.clamp(0.0, 1.0),
+                own_tone: style.own_tone.clamp(0.0, 1.0),
+                black,
+                // Points that meet make a step.
+                range: (style.white - black).max(1e-3),
+                gamma: style.gamma.clamp(0.2, 5.0),
+                map: map as u32,
+                space: match (style.space, style.mapping) {
+                    (Space::Screen, _) => SCREEN,
+                    (Space::Surface, Mapping::Uv) if has_uvs => UV,
+                    (Space::Surface, _) => TRIPLANAR,
+                },
+            };
+        }
+    }
+
+    /// Whether an object (by id, with or without flag) needs coordinates on its surface.
+    pub fn need_coordinates(&self, object: u32) -> bool {
+        let style = node_of(object).and_then(|node| self.styles.get(node + 1));
+        style.is_some_and(|s| s.space == UV)
+    }
+
+    /// The styles by object id, with the place of their patterns for a camera.
+    pub fn placed(&self, scene: &GpuScene, view: &View) -> Vec<HalftoneUniform> {
+        let placed = |(id, style): (usize, &HalftoneUniform)| {
+            let place = (style.space == TRIPLANAR).then(|| pattern_from_view(scene, id, view)).flatten();
+            HalftoneUniform { pattern_from_view: place.unwrap_or(Mat4::IDENTITY), ..*style }
+        };
+        self.styles.iter().enumerate().map(placed).collect()
+    }
+}
+
+/// From view space to the axes of an object, about the middle of its box, of which the diagonal becomes 1. In double
+/// precision up to there, so that patterns keep their digits wherever the object is.
+fn pattern_from_view(scene: &GpuScene, id: usize, view: &View) -> Option<Mat4> {
+    let node = scene.scene.nodes.get(id.checked_sub(1)?)?;
+    let bounds = scene.mesh_bounds.get(node.mesh?)?;
+    let linear = [node.world_from_local.x_axis, node.world_from_local.y_axis, node.world_from_local.z_axis];
+    // As large as in the world, so that a stretched object has no stretched pattern.
+    let size = DVec3::from_array(linear.map(|axis| axis.truncate().length()));
+    let diagonal = (size * (bounds.max - bounds.min)).length();
+    let scale = (diagonal > 0.0 && diagonal.is_finite()).then(|| size / diagonal)?;
+    let local_from_view = (view.view_from_world * node.world_from_local).inverse();
+    let pattern = DMat4::from_scale(scale) * DMat4::from_translation(-bounds.center()) * local_from_view;
+    pattern.is_finite().then(|| pattern.as_mat4())
+}
+
+/// Which features of the shader any object uses; `styles` are those of all visible objects, or none.
+pub fn switches(styles: &[HalftoneUniform]) -> [(&'static str, bool); 4] {
+    let any = |space| styles.iter().any(|s| s.space == space);
+    [
+        ("WITH_HALFTONE", !styles.is_empty()),
+        ("WITH_SCREEN", any(SCREEN)),
+        ("WITH_TRIPLANAR", any(TRIPLANAR)),
+        ("WITH_UV", any(UV)),
+    ]
+}
+
+/// What the surface pass is given for halftones.
+#[derive(Clone, Copy)]
+pub struct HalftoneInputs<'a> {
+    /// By object id; empty when there are none.
+    pub styles: &'a [HalftoneUniform],
+    /// `styles` on the device.
+    pub style_buffer: &'a wgpu::Buffer,
+    /// The textures of all objects.
+    pub maps: &'a ThresholdMaps,
+    /// See `shaders/passes/coordinates.wgsl`; `None` when no object asks for it.
+    pub coordinates: Option<&'a Target>,
+}
+
+/// A built-in texture, read when first asked for; strokes, where an image is missing. They are made by
+/// `assets/strokes/generator`.
+pub fn built_in(texture: Texture) -> &'static ThresholdMap {
+    static MAPS: [OnceLock<ThresholdMap>; 4] = [const { OnceLock::new() }; 4];
+    macro_rules! images {
+        ($name:literal) => {
+            (
+                include_bytes!(concat!("../../../assets/strokes/", $name, ".png")).as_slice(),
+                include_bytes!(concat!("../../../assets/strokes/", $name, "_calibration.png")).as_slice(),
+            )
+        };
+    }
+    let (number, (steps, calibration)) = match texture {
+        Texture::Strokes | Texture::Image => (0, images!("strokes")),
+        Texture::Dots => (1, images!("dots")),
+        Texture::Lines => (2, images!("lines")),
+        Texture::Stipple => (3, images!("stipple")),
+    };
+    MAPS[number].get_or_init(|| {
+        // A test reads them all.
+        ThresholdMap::from_images(steps, calibration).unwrap_or_default()
+    })
+}
+
+/// Threshold maps on the device: those that the visible objects use.
+pub struct ThresholdMaps {
+    uploaded: Vec<Map>,
+    thresholds: wgpu::TextureView,
+    calibration: ArrayBuffer,
+    sampler: wgpu::Sampler,
+}
+
+impl ThresholdMaps {
+    /// None yet; a shader that reads none is given an empty texture.
+    pub fn new(gpu: &Gpu) -> Self {
+        let sampler = gpu.device.create_sampler(&wgpu::SamplerDescriptor {
+            label: Some("thresholds"),
+            address_mode_u: wgpu::AddressMode::Repeat,
+            address_mode_v: wgpu::AddressMode::Repeat,
+            mag_filter: wgpu::FilterMode::Linear,
+            min_filter: wgpu::FilterMode::Linear,
+            mipmap_filter: wgpu::MipmapFilterMode::Linear,
+            ..Default::default()
+        });
+        Self {
+            uploaded: Vec::new(),
+            thresholds: view(&texture(gpu, 1, 1, 1)),
+            calibration: ArrayBuffer::new(gpu, "calibration"),
+            sampler,
+        }
+    }
+
+    /// Uploads what is not there yet.
+    ///
+    /// # Errors
+    /// [`GpuError::TooLarge`].
+    pub fn prepare(&mut self, gpu: &Gpu, halftones: &Halftones) -> Result<(), GpuError> {
+        if halftones.maps.is_empty() || self.uploaded == halftones.maps {
+            return Ok(());
+        }
+        gpu.check_texture_size("a halftone texture", [SIDE as u32; 2])?;
+        let maps: Vec<&ThresholdMap> = halftones
+            .maps
+            .iter()
+            .map(|map| match map {
+                Map::BuiltIn(texture) => built_in(*texture),
+                Map::Own(map) => map.as_ref(),
+            })
+            .collect();
+        let uploaded = texture(gpu, SIDE as u32, (maps.len() * LAYERS) as u32, LEVELS as u32);
+        for (layer, levels) in maps.iter().flat_map(|map| &map.layers).enumerate() {
+            for (level, texels) in levels.iter().enumerate() {
+                write(gpu, &uploaded, layer as u32, level as u32, texels);
+            }
+        }
+        self.thresholds = view(&uploaded);
+        let calibration: Vec<f32> = maps.iter().flat_map(|map| &map.calibration).copied().collect();
+        self.calibration.write(gpu, &calibration);
+        self.uploaded.clone_from(&halftones.maps);
+        Ok(())
+    }
+
+    /// All layers of all maps.
+    pub fn thresholds(&self) -> &wgpu::TextureView {
+        &self.thresholds
+    }
+
+    /// Reads them.
+    pub fn sampler(&self) -> &wgpu::Sampler {
+        &self.sampler
+    }
+
+    /// Thresholds for tones, one map after the other: see [`ThresholdMap::calibration`].
+    pub fn calibration(&self) -> &wgpu::Buffer {
+        self.calibration.buffer()
+    }
+}
+
+fn texture(gpu: &Gpu, side: u32, layers: u32, levels: u32) -> wgpu::Texture {
+    gpu.device.create_texture(&wgpu::TextureDescriptor {
+        label: Some("thresholds"),
+        size: wgpu::Extent3d { width: side, height: side, depth_or_array_layers: layers },
+        mip_level_count: levels,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: wgpu::TextureFormat::Rg8Unorm,
+        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+        view_formats: &[],
+    })
+}
+
+fn view(texture: &wgpu::Texture) -> wgpu::TextureView {
+    texture.create_view(&wgpu::TextureViewDescriptor {
+        dimension: Some(wgpu::TextureViewDimension::D2Array),
+        ..Default::default()
+    })
+}
+
+fn write(gpu: &Gpu, texture: &wgpu::Texture, layer: u32, level: u32, texels: &[[u8; 2]]) {
+    let side = (SIDE as u32) >> level;
+    gpu.queue.write_texture(
+        wgpu::TexelCopyTextureInfo {
+            texture,
+            mip_level: level,
+            origin: wgpu::Origin3d { x: 0, y: 0, z: layer },
+            aspect: wgpu::TextureAspect::All,
+        },
+        bytemuck::cast_slice(texels),
+        wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(side * 2), rows_per_image: Some(side) },
+        wgpu::Extent3d { width: side, height: side, depth_or_array_layers: 1 },
+    );
+}
