@@ -6,6 +6,7 @@ use encase::ShaderType;
 use encase::internal::SizeValue;
 use hachure::gpu::Shaders;
 use hachure::gpu::material::MaterialUniform;
+use hachure::render::effects::blueprint::BlueprintUniform;
 use hachure::render::effects::gooch::GoochUniform;
 use hachure::render::effects::halftone::HalftoneUniform;
 use hachure::render::effects::mirror::MirrorUniform;
@@ -14,6 +15,7 @@ use hachure::render::effects::toon::ToonUniform;
 use hachure::render::frame_uniform::{FrameUniform, LightUniform};
 use hachure::render::passes::edge_style::{EdgeUniform, LineUniform};
 use hachure::render::passes::gbuffer::DrawUniform;
+use hachure::render::passes::peel::Peeled;
 use hachure::render::passes::shadow::{LightViewUniform, ShadowLightUniform};
 use hachure::render::passes::shadow_map::ShadowDraw;
 use wgpu::naga::{TypeInner, front::wgsl};
@@ -39,7 +41,10 @@ macro_rules! same_layout {
 fn rust_and_wgsl_agree_on_every_uniform() {
     same_layout!(FrameUniform, 16, "passes/resolve.wgsl", "Frame");
     same_layout!(LightUniform, 3, "passes/resolve.wgsl", "Light");
-    same_layout!(DrawUniform, 5, "passes/gbuffer.wgsl", "Draw");
+    same_layout!(DrawUniform, 6, "passes/gbuffer.wgsl", "Draw");
+    same_layout!(BlueprintUniform, 6, "effects/blueprint.wgsl", "Blueprint");
+    same_layout!(Peeled, 5, "effects/blueprint.wgsl", "Peeled");
+    same_layout!(Peeled, 5, "passes/count.wgsl", "Counted");
     same_layout!(MaterialUniform, 6, "passes/gbuffer.wgsl", "Material");
     same_layout!(LineUniform, 5, "passes/lines.wgsl", "LineStyle");
     same_layout!(EdgeUniform, 22, "passes/lines.wgsl", "EdgeStyle");
@@ -51,5 +56,5 @@ fn rust_and_wgsl_agree_on_every_uniform() {
     same_layout!(LightViewUniform, 8, "passes/shadow.wgsl", "LightView");
     same_layout!(ToonUniform, 11, "effects/toon.wgsl", "ToonStyle");
     same_layout!(HalftoneUniform, 15, "effects/halftone.wgsl", "HalftoneStyle");
-    same_layout!(DrawUniform, 5, "passes/coordinates.wgsl", "Draw");
+    same_layout!(DrawUniform, 6, "passes/coordinates.wgsl", "Draw");
 }

@@ -9,6 +9,7 @@ struct Draw {
     material: Material,
     object: u32,
     is_flat: u32,
+    first_surface: u32,
 }
 
 @group(2) @binding(0) var<uniform> draw: Draw;

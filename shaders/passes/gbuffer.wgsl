@@ -14,6 +14,8 @@ struct Draw {
     object: u32,
     // 1: the mesh has no normals, faces are flat.
     is_flat: u32,
+    // Number of its first surface among those of all draws, in the order of drawing.
+    first_surface: u32,
 }
 
 // Whether what lies behind a plane is left out.
@@ -146,8 +148,7 @@ fn region(surface: u32) -> u32 {
     return max((draw.object & 0x7fffffffu) * 2654435769u + surface, 1u);
 }
 
-@fragment
-fn fs_lean(v: Lean) -> GBuffer {
+fn lean(v: Lean) -> GBuffer {
     let face = face_normal(v.pos_oriented);
     if is_cut_off(v.pos_oriented) {
         discard;
@@ -162,7 +163,11 @@ fn turned_to(face: vec3<f32>, normal: vec3<f32>) -> vec3<f32> {
 }
 
 @fragment
-fn fs_smooth(v: Smooth) -> GBuffer {
+fn fs_lean(v: Lean) -> GBuffer {
+    return lean(v);
+}
+
+fn smooth_surface(v: Smooth) -> GBuffer {
     let face = face_normal(v.pos_oriented);
     if is_cut_off(v.pos_oriented) {
         discard;
@@ -173,7 +178,11 @@ fn fs_smooth(v: Smooth) -> GBuffer {
 }
 
 @fragment
-fn fs_full(v: Full) -> GBuffer {
+fn fs_smooth(v: Smooth) -> GBuffer {
+    return smooth_surface(v);
+}
+
+fn full(v: Full) -> GBuffer {
     let face = face_normal(v.pos_oriented);
     // Derivatives of the varying itself: loads from buffers are undefined in the helper lanes of a pixel quad.
     let uv = Footprint(v.uv, dpdx(v.uv), dpdy(v.uv));
@@ -196,4 +205,9 @@ fn fs_full(v: Full) -> GBuffer {
         normal = turned_to(face, normal);
     }
     return GBuffer(pack(normal, face, v.depth, draw.object), vec4(color.rgb, 1.0), region(v.surface));
+}
+
+@fragment
+fn fs_full(v: Full) -> GBuffer {
+    return full(v);
 }

@@ -63,13 +63,20 @@ fn is_hidden(g: Surfel, px: vec2<i32>, edge: Edge, spine: vec2<f32>) -> bool {
 struct Line {
     // Linear colour times coverage, and coverage.
     ink: vec4<f32>,
+    // Linear depth of its spine.
+    depth: f32,
     // Whether it would be here, were it not for a surface before it.
     is_hidden: bool,
 }
 
+fn no_line() -> Line {
+    return Line(vec4(0.0), 0.0, false);
+}
+
+// The line of the pixel of the edge map that was found, as far as surface `g` does not hide it.
 fn line_at(px: vec2<i32>, g: Surfel, found: u32) -> Line {
     if found == 0u {
-        return Line(vec4(0.0), false);
+        return no_line();
     }
     let from_px = vec2<i32>(vec2((found - 1u) & 0xffffu, (found - 1u) >> 16u));
     let edge = unpack_edge(textureLoad(edge_map_tex, from_px, 0));
@@ -105,7 +112,7 @@ fn line_at(px: vec2<i32>, g: Surfel, found: u32) -> Line {
     }
     coverage *= edge_styles[edge.object].lines[index].strength * edge.weight;
     if coverage <= 0.0 || is_hidden(g, px, edge, spine) {
-        return Line(vec4(0.0), coverage > 0.0);
+        return Line(vec4(0.0), edge.depth, coverage > 0.0);
     }
     var color = edge_styles[edge.object].lines[index].color;
     if WITH_SURFACE_COLOR {
@@ -115,21 +122,23 @@ fn line_at(px: vec2<i32>, g: Surfel, found: u32) -> Line {
         let base = textureLoad(base_color_tex, inside, 0).rgb;
         color = mix(color, base * (1.0 - edge_styles[edge.object].darken), edge_styles[edge.object].surface_color);
     }
-    return Line(vec4(color, 1.0) * coverage, false);
+    return Line(vec4(color, 1.0) * coverage, edge.depth, false);
 }
 
 // A hidden line may have won against one that is not: of the lines of the pixels around, the one that covers most.
-fn line_around(px: vec2<i32>, g: Surfel, hidden: u32) -> vec4<f32> {
+fn line_around(px: vec2<i32>, g: Surfel, hidden: u32) -> Line {
     let last = vec2<i32>(frame.size) - 1;
-    var best = vec4(0.0);
+    var best = no_line();
     var tried = hidden;
     for (var reach = 2; reach <= 16; reach *= 2) {
         for (var i = 0; i < 9; i++) {
             let q = clamp(px + reach * (vec2(i % 3, i / 3) - 1), vec2(0), last);
             let found = textureLoad(farthest_tex, q, 0).x;
             if found != tried && found != hidden {
-                let line = line_at(px, g, found).ink;
-                best = select(best, line, line.a > best.a);
+                let line = line_at(px, g, found);
+                if line.ink.a > best.ink.a {
+                    best = line;
+                }
             }
             tried = found;
         }
@@ -221,37 +230,44 @@ fn fs_reached(@builtin(position) position: vec4<f32>) {
     }
 }
 
-@fragment
-fn fs_main(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
-    let px = vec2<i32>(position.xy);
-    var lines = vec4(0.0);
+// What a pixel has of lines, as far as surface `g` does not hide them.
+fn lines_at(px: vec2<i32>, g: Surfel) -> Line {
+    var lines = no_line();
     if WITH_EXACT {
-        let g = unpack_surfel(geometry_at(px));
         let farthest = farthest_at(px);
-        let line = line_at(px, g, farthest);
-        lines = line.ink;
-        if !NARROW && line.is_hidden {
+        lines = line_at(px, g, farthest);
+        if !NARROW && lines.is_hidden {
             lines = line_around(px, g, farthest);
         }
         if WITH_WIDTHS {
             // A thin line inside a wide one is the nearer one.
             let nearest = textureLoad(nearest_tex, px, 0).x;
             if nearest != farthest {
-                lines = over(line_at(px, g, nearest).ink * apart(nearest, farthest), lines);
+                let thin = line_at(px, g, nearest);
+                let ink = thin.ink * apart(nearest, farthest);
+                lines = Line(over(ink, lines.ink), select(lines.depth, thin.depth, ink.a > 0.0), false);
             }
         }
     }
     if WITH_PAPER {
         let texel = textureLoad(edge_map_tex, px, 0);
-        if class_of(texel) == PAPER {
+        let depth = bitcast<f32>(texel.z);
+        let is_hidden = g.object != 0u && step_px(nearness_of(g.depth) - nearness_of(depth), depth) > SLACK;
+        if class_of(texel) == PAPER && !is_hidden {
             // Edge-enhancement paper, section 5: inner edges first, then profile edges over them.
             let object = texel.y;
             let ink = paper_ink(texel)
                 * vec2(edge_styles[object].inner_strength, edge_styles[object].profile_strength);
             let inner = vec4(edge_styles[object].inner_color, 1.0) * ink.x;
             let profile = vec4(edge_styles[object].profile_color, 1.0) * ink.y;
-            lines = over(over(profile, inner), lines);
+            lines = Line(over(over(profile, inner), lines.ink), depth, false);
         }
     }
     return lines;
+}
+
+@fragment
+fn fs_main(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
+    let px = vec2<i32>(position.xy);
+    return lines_at(px, unpack_surfel(geometry_at(px))).ink;
 }

@@ -9,6 +9,8 @@
 
 // Whether any object has holes by alpha: there a line needs one of its own surfaces beside it.
 override WITH_HOLES: bool = true;
+// Whether the G-buffer is a depth layer: only what its own surfaces carry is a line of it.
+override IN_LAYER: bool = false;
 
 @group(1) @binding(1) var region_tex: texture_2d<u32>;
 // Records of `LineSegment` in src/geometry/line_segments.rs.
@@ -85,6 +87,24 @@ fn is_beside(px: vec2<i32>, regions: vec2<u32>) -> bool {
     return found;
 }
 
+// Whether a pixel or one of its neighbours shows one of these surfaces at this depth, as exactly as its slope allows.
+fn is_carried(px: vec2<i32>, regions: vec2<u32>, spine: vec2<f32>, nearness: f32, depth: f32) -> bool {
+    let last = vec2<i32>(frame.size) - 1;
+    var found = false;
+    for (var i = 0; i < 9; i++) {
+        let q = clamp(px + vec2(i % 3, i / 3) - 1, vec2(0), last);
+        if any(regions == vec2(textureLoad(region_tex, q, 0).x)) {
+            let s = unpack_surfel(geometry_at(q));
+            let plane = plane_of(q, s.depth, s.face_normal);
+            let miss = abs(nearness_at(plane, spine - vec2<f32>(q) - 0.5) - nearness);
+            // Curved surfaces bend away from their plane the more, the steeper it is.
+            let slack = length(plane.slope);
+            found = found || step_px(miss - slack, depth) <= 1.0;
+        }
+    }
+    return found;
+}
+
 fn beside(at: vec2<f32>, spine: vec2<f32>, nearness: f32, depth: f32) -> Beside {
     let px = clamp(vec2<i32>(floor(at)), vec2(0), vec2<i32>(frame.size) - 1);
     let s = unpack_surfel(geometry_at(px));
@@ -113,6 +133,9 @@ fn fs_main(v: Segment) -> Out {
     var is_visible = min(left.lead, right.lead) <= SLACK;
     if WITH_HOLES {
         is_visible = is_visible && is_beside(vec2<i32>(px), v.ids.zw);
+    }
+    if IN_LAYER {
+        is_visible = is_visible && is_carried(vec2<i32>(px), v.ids.zw, spine, nearness, depth);
     }
     if !is_visible {
         discard;

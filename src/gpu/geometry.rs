@@ -1,5 +1,7 @@
 //! Meshes on the device.
 
+use std::borrow::Cow;
+
 use bytemuck::{Pod, Zeroable};
 use glam::{Vec2, Vec3};
 
@@ -132,7 +134,8 @@ impl GeometryBuffers {
                     .collect();
                 write(buffer, vertex * size_of::<Attributes>(), bytemuck::cast_slice(&all));
             }
-            let source_indices = source.surfaces.map_or(&mesh.indices, |s| &s.indices);
+            let ordered = source.surfaces.map(|surfaces| by_surface(mesh, surfaces));
+            let source_indices = ordered.as_deref().unwrap_or(&mesh.indices);
             write(&mut index_view, index * 4, bytemuck::cast_slice(source_indices));
             vertex += own + duplicated.len();
             index += mesh.indices.len();
@@ -150,6 +153,25 @@ impl GeometryBuffers {
             meshes,
         })
     }
+}
+
+/// The indices of a mesh with the triangles of each part ordered by surface, so that of coplanar surfaces the one with the
+/// least id is drawn first: peeling tells them apart by that.
+fn by_surface<'a>(mesh: &Mesh, surfaces: &'a Provoking) -> Cow<'a, [u32]> {
+    let surface = |triangle: &[u32; 3]| surfaces.surface_of_vertex.get(triangle[0] as usize).copied();
+    let is_ordered = |triangles: &[[u32; 3]]| triangles.is_sorted_by_key(surface);
+    let mut ordered = Cow::Borrowed(surfaces.indices.as_slice());
+    for part in &mesh.parts {
+        let range = part.first_index as usize..(part.first_index + part.index_count) as usize;
+        let triangles = ordered.get(range.clone()).map(|indices| indices.as_chunks().0);
+        if triangles.is_none_or(is_ordered) {
+            continue;
+        }
+        if let Some(indices) = ordered.to_mut().get_mut(range) {
+            indices.as_chunks_mut().0.sort_by_key(surface);
+        }
+    }
+    ordered
 }
 
 fn mapped(gpu: &Gpu, label: &str, bytes: usize, usage: wgpu::BufferUsages) -> Result<wgpu::Buffer, GpuError> {

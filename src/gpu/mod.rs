@@ -3,6 +3,7 @@
 
 pub mod buffer;
 pub mod device;
+pub mod gate;
 pub mod geometry;
 pub mod material;
 pub mod pipelines;
@@ -14,6 +15,7 @@ pub mod timer;
 
 pub use buffer::{ArrayBuffer, DynamicBuffer, RecordBuffer, UniformBuffer};
 pub use device::{Gpu, GpuError};
+pub use gate::Gate;
 pub use geometry::GeometryBuffers;
 pub use material::MaterialBindings;
 pub use pipelines::{DepthRule, Pipelines, Program};

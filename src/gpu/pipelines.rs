@@ -38,6 +38,8 @@ pub enum Binding {
     Scratch(wgpu::TextureFormat),
     /// A read-only storage buffer.
     Storage,
+    /// A storage buffer that a compute shader reads and writes.
+    Written,
     /// An array of images of one size, read through a sampler.
     Layers,
     /// A sampler that filters.
@@ -98,8 +100,8 @@ pub struct RasterKey {
     pub inputs: Vec<Binding>,
     /// Formats of its outputs.
     pub outputs: Vec<wgpu::TextureFormat>,
-    /// Whether outputs are laid over what is there (premultiplied alpha).
-    pub blend: bool,
+    /// How outputs are laid over what is there.
+    pub blend: Option<wgpu::BlendState>,
     /// Its depth buffer.
     pub depth: Option<(wgpu::TextureFormat, DepthRule)>,
     /// Whether lines are drawn, whose ends the vertex shader `vs_main` makes; otherwise the whole picture.
@@ -275,8 +277,8 @@ fn layout_of(
                 },
                 Binding::Image(format) => image(*format, wgpu::StorageTextureAccess::WriteOnly),
                 Binding::Scratch(format) => image(*format, wgpu::StorageTextureAccess::ReadWrite),
-                Binding::Storage => wgpu::BindingType::Buffer {
-                    ty: wgpu::BufferBindingType::Storage { read_only: true },
+                Binding::Storage | Binding::Written => wgpu::BindingType::Buffer {
+                    ty: wgpu::BufferBindingType::Storage { read_only: *kind == Binding::Storage },
                     has_dynamic_offset: false,
                     min_binding_size: None,
                 },
@@ -317,11 +319,12 @@ fn build_raster(
     let stages = if key.lines { wgpu::ShaderStages::VERTEX_FRAGMENT } else { wgpu::ShaderStages::FRAGMENT };
     let inputs = layout_of(gpu, label, &key.inputs, stages);
     let constants = key.program.constants();
-    let blend = key.blend.then_some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING);
     let targets: Vec<_> = key
         .outputs
         .iter()
-        .map(|&format| Some(wgpu::ColorTargetState { format, blend, write_mask: wgpu::ColorWrites::ALL }))
+        .map(|&format| {
+            Some(wgpu::ColorTargetState { format, blend: key.blend, write_mask: wgpu::ColorWrites::ALL })
+        })
         .collect();
     let pipeline = gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some(label),

@@ -3,7 +3,7 @@
 //! Bind group 0 is the frame's uniform, group 1 the inputs of a pass in the order in which they are given.
 
 use super::pipelines::{Binding, ComputeKey, DepthRule, Pipelines, Program, RasterKey};
-use super::{Gpu, GpuError, ShaderError, Target, TargetPool, Timers};
+use super::{Gate, Gpu, GpuError, ShaderError, Target, TargetPool, Timers};
 
 /// What a pass reads (or a compute pass writes), in the order of its bindings in group 1.
 #[derive(Clone, Copy)]
@@ -16,6 +16,8 @@ pub enum Input<'a> {
     Scratch(&'a Target),
     /// A read-only storage buffer.
     Storage(&'a wgpu::Buffer),
+    /// A storage buffer that a compute shader reads and writes.
+    Written(&'a wgpu::Buffer),
     /// Images of one size above each other, read through a sampler.
     Layers(&'a wgpu::TextureView),
     /// How they are read.
@@ -29,6 +31,7 @@ impl Input<'_> {
             Self::Image(target) => Binding::Image(target.format()),
             Self::Scratch(target) => Binding::Scratch(target.format()),
             Self::Storage(_) => Binding::Storage,
+            Self::Written(_) => Binding::Written,
             Self::Layers(_) => Binding::Layers,
             Self::Sampler(_) => Binding::Sampler,
         }
@@ -39,7 +42,7 @@ impl Input<'_> {
             Self::Texture(target) | Self::Image(target) | Self::Scratch(target) => {
                 wgpu::BindingResource::TextureView(target.view())
             }
-            Self::Storage(buffer) => buffer.as_entire_binding(),
+            Self::Storage(buffer) | Self::Written(buffer) => buffer.as_entire_binding(),
             Self::Layers(view) => wgpu::BindingResource::TextureView(view),
             Self::Sampler(sampler) => wgpu::BindingResource::Sampler(sampler),
         }
@@ -55,6 +58,23 @@ pub enum Onto {
     Old,
     /// Drawn over it with premultiplied alpha.
     Blended,
+    /// Drawn beneath it with premultiplied alpha: what is there hides it.
+    Beneath,
+}
+
+impl Onto {
+    fn blend(self) -> Option<wgpu::BlendState> {
+        let under = wgpu::BlendComponent {
+            src_factor: wgpu::BlendFactor::OneMinusDstAlpha,
+            dst_factor: wgpu::BlendFactor::One,
+            operation: wgpu::BlendOperation::Add,
+        };
+        match self {
+            Self::Nothing | Self::Old => None,
+            Self::Blended => Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING),
+            Self::Beneath => Some(wgpu::BlendState { color: under, alpha: under }),
+        }
+    }
 }
 
 /// One render pass with one draw.
@@ -88,6 +108,8 @@ pub struct Recorder<'a> {
     /// The part of the picture into which render passes draw from here on, though all of it is cleared: left, top, right and
     /// bottom edge; `None`: all of it.
     pub part: Option<[u32; 4]>,
+    /// Passes from here on draw and compute only while it is open.
+    pub gate: Option<Gate>,
     pool: &'a mut TargetPool,
     timers: Option<&'a mut Timers>,
     size: [u32; 2],
@@ -105,7 +127,7 @@ impl<'a> Recorder<'a> {
     ) -> Self {
         let encoder =
             gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("frame") });
-        Self { gpu, pipelines, encoder, frame, part: None, pool, timers, size }
+        Self { gpu, pipelines, encoder, frame, part: None, gate: None, pool, timers, size }
     }
 
     /// Width and height of the picture in pixels.
@@ -187,7 +209,7 @@ impl<'a> Recorder<'a> {
             program: draw.program,
             inputs: draw.inputs.iter().map(Input::binding).collect(),
             outputs: draw.outputs.iter().map(|o| o.format()).collect(),
-            blend: draw.onto == Onto::Blended,
+            blend: draw.onto.blend(),
             depth: draw.depth.map(|(target, rule)| (target.format(), rule)),
             lines: draw.lines.is_some(),
         };
@@ -196,7 +218,7 @@ impl<'a> Recorder<'a> {
         let group = inputs_group(self.gpu, draw.label, &made.inputs, draw.inputs);
         let load = match draw.onto {
             Onto::Nothing => wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
-            Onto::Old | Onto::Blended => wgpu::LoadOp::Load,
+            Onto::Old | Onto::Blended | Onto::Beneath => wgpu::LoadOp::Load,
         };
         let color: Vec<_> = draw.outputs.iter().map(|o| Some(color_attachment(o, load))).collect();
         let depth = draw.depth.map(|(target, rule)| wgpu::RenderPassDepthStencilAttachment {
@@ -204,15 +226,33 @@ impl<'a> Recorder<'a> {
             depth_ops: rule.operations(),
             stencil_ops: None,
         });
+        // Not one instance per line: software devices set up every instance anew.
+        let vertices = draw.lines.map_or(3, |count| 2 * count);
+        let gated = self.gated([vertices, 1, 0, 0, 0]);
         let mut pass = self.pass(draw.label, &color, depth);
         pass.set_pipeline(&pipeline);
         pass.set_bind_group(1, &group, &[]);
-        match draw.lines {
-            // Not one instance per line: software devices set up every instance anew.
-            Some(count) => pass.draw(0..2 * count, 0..1),
-            None => pass.draw(0..3, 0..1),
+        match &gated {
+            Some((buffer, offset)) => pass.draw_indirect(buffer, *offset),
+            None => pass.draw(0..vertices, 0..1),
         }
         Ok(())
+    }
+
+    /// Where the arguments of a draw or dispatch lie that the gate may stop; `None`: it is not to be stopped.
+    pub fn gated(&mut self, args: [u32; 5]) -> Option<(wgpu::Buffer, u64)> {
+        let gate = self.gate.as_mut()?;
+        let offset = gate.offset(args)?;
+        Some((gate.buffer().clone(), offset))
+    }
+
+    /// Clears a target.
+    pub fn clear(&mut self, label: &'static str, target: &Target) {
+        self.pass(
+            label,
+            &[Some(color_attachment(target, wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT)))],
+            None,
+        );
     }
 
     /// Copies a target into another one of the same size and format.
@@ -239,6 +279,7 @@ impl<'a> Recorder<'a> {
         let made = self.pipelines.compute(self.gpu, &key)?;
         let pipeline = made.pipeline.clone();
         let group = inputs_group(self.gpu, label, &made.inputs, inputs);
+        let gated = self.gated([workgroups[0], workgroups[1], 1, 0, 0]);
         let timestamp_writes = self.timers.as_mut().and_then(|t| t.pass(label));
         let mut pass = self.encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
             label: Some(label),
@@ -251,7 +292,10 @@ impl<'a> Recorder<'a> {
         pass.set_pipeline(&pipeline);
         pass.set_bind_group(0, &self.frame, &[]);
         pass.set_bind_group(1, &group, &[]);
-        pass.dispatch_workgroups(workgroups[0], workgroups[1], 1);
+        match &gated {
+            Some((buffer, offset)) => pass.dispatch_workgroups_indirect(buffer, *offset),
+            None => pass.dispatch_workgroups(workgroups[0], workgroups[1], 1),
+        }
         Ok(())
     }
 

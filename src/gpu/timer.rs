@@ -3,7 +3,7 @@
 use super::{Gpu, GpuError};
 
 /// More passes in a frame than this are not timed.
-const MAX_PASSES: u32 = 64;
+const MAX_PASSES: u32 = 1024;
 
 /// Timestamps around the passes of a frame.
 pub struct Timers {

@@ -1,7 +1,7 @@
 //! The scene drawn once, from one camera; and what its mirrors show, each by a drawing of its own.
 //!
 //! ```text
-//! objects ─► G-buffer ─┬─► (shadow mask ─► cartoon map ─►) surfaces ┬─► + mirrors (drawings) ─► + lines ─► colour
+//! objects ─► G-buffer ─┬─► (shadow mask ─► cartoon map ─►) surfaces ┬─► + mirrors (drawings) ─► + lines ─► + blueprints ─► colour
 //!                      └─► edge map ─► reach of the lines ──────────┘
 //! segments (topology) ─────┘
 //! ```
@@ -11,6 +11,7 @@ use std::sync::Arc;
 use glam::{Vec2, Vec4};
 
 use super::RenderError;
+use super::effects::blueprint::Blueprints;
 use super::effects::halftone::{HalftoneInputs, HalftoneUniform, Halftones, ThresholdMaps};
 use super::effects::mirror::{MirrorUniform, mirror};
 use super::effects::surface::{Shading, SurfaceUniform, surface};
@@ -23,7 +24,8 @@ use super::passes::edge_map::{EdgeInputs, EdgeMap, EdgeMapPass};
 use super::passes::edge_style::EdgeUniform;
 use super::passes::gbuffer::{DrawCall, DrawUniform, GBuffer, GBufferPass};
 use super::passes::line_distance::{Reach, line_distance};
-use super::passes::lines::lines;
+use super::passes::lines::{Lines, Pen, lines};
+use super::passes::overlay::overlay;
 use super::sample::Sample;
 use super::segments::segments;
 use super::shadows::{ShadowMap, ShadowMask};
@@ -111,9 +113,13 @@ pub struct Drawing {
             Vec<EdgeUniform>,
             FrameUniform,
             Seen,
+            Vec<u64>,
         ),
         Target,
     >,
+    blueprints: Vec<Blueprints>,
+    /// How often a blueprint was drawn.
+    blueprinted: u64,
     reflections: Vec<Reflection>,
     /// How often a reflection was drawn.
     reflected: u64,
@@ -167,6 +173,8 @@ impl Drawing {
             cartoon_map: Stage::default(),
             coordinates: Stage::default(),
             surface: Stage::default(),
+            blueprints: Vec::new(),
+            blueprinted: 0,
             reflections: Vec::new(),
             reflected: 0,
         }
@@ -183,7 +191,7 @@ impl Drawing {
     }
 
     /// How often each stage has run, by name.
-    pub fn runs(&self) -> [(&'static str, u64); 7] {
+    pub fn runs(&self) -> [(&'static str, u64); 8] {
         [
             ("g-buffer", self.gbuffer.runs()),
             ("edge map", self.edge_map.runs()),
@@ -191,6 +199,7 @@ impl Drawing {
             ("shadow", self.shadow_mask.runs()),
             ("cartoon map", self.cartoon_map.runs()),
             ("surface", self.surface.runs()),
+            ("blueprint", self.blueprinted),
             ("mirror", self.reflected),
         ]
     }
@@ -210,9 +219,9 @@ impl Drawing {
         let uniform = FrameUniform::new(view, sample, depth_range, lights, background);
         self.uniform.write(rec.gpu, &uniform);
         self.look_through(rec, view);
-        self.edge_styles.write(rec.gpu, &objects.edge_styles);
+        self.edge_styles.write(rec.gpu, &objects.surfaces.edge_styles);
 
-        let (draws, calls) = objects.draws(scene, view);
+        let (draws, calls) = objects.surfaces.draws(scene, view);
         let with_coordinates = calls
             .iter()
             .filter(|call| {
@@ -224,7 +233,7 @@ impl Drawing {
             .collect();
         let geometry = (rec.pipelines.generation(), inputs.scene_revision, *view, draws, calls);
         let gbuffer = self.gbuffer.run(geometry, |(.., draws, calls)| {
-            gbuffer_pass.run(rec, scene, &mut self.draws, (draws, calls), view.cut.is_some())
+            gbuffer_pass.run(rec, scene, &mut self.draws, (draws, calls), view.cut.is_some(), None)
         })?;
         let shadow_mask = self.shadow_mask.run(rec, &gbuffer, inputs)?;
         Ok(Begun { uniform, depth_range, gbuffer, shadow_mask, with_coordinates })
@@ -245,14 +254,15 @@ impl Drawing {
         inputs: &DrawingInputs<'_>,
         begun: &Begun,
     ) -> Result<Output<EdgeMap>, RenderError> {
-        let styles: Vec<_> = inputs.objects.edge_styles.iter().map(EdgeUniform::for_finding).collect();
+        let styles: Vec<_> =
+            inputs.objects.surfaces.edge_styles.iter().map(EdgeUniform::for_finding).collect();
         // Only widths that follow the light depend on more than the geometry.
         let light = styles.iter().any(|s| s.by_light > 0.0).then(|| begun.uniform.without_background());
         // Which edges are lines does not change from sample to sample.
         let view = inputs.view.moved(Vec2::ZERO);
         let found = (inputs.scene_revision, view, styles.clone(), inputs.crease_angle);
         let segments = self.segments.run(found, |_| {
-            let found = segments(inputs.scene, inputs.objects, &view, inputs.crease_angle);
+            let found = segments(inputs.scene, &inputs.objects.surfaces, &view, inputs.crease_angle);
             Ok::<_, RenderError>(Arc::new(found))
         })?;
         let has_borders = styles.iter().any(|s| s.draws(EdgeClass::Shadow));
@@ -267,8 +277,9 @@ impl Drawing {
                     styles,
                     edge_styles: self.edge_styles.buffer(),
                     segments: &segments.value,
-                    has_holes: inputs.objects.has_holes,
+                    has_holes: inputs.objects.surfaces.has_holes,
                     is_cut: view.cut.is_some(),
+                    is_layer: false,
                     shadow_mask: shadow_mask.map(|mask| &mask.value),
                 },
             )
@@ -300,11 +311,12 @@ impl Drawing {
         edge_map: Option<&Output<EdgeMap>>,
     ) -> Result<Shaded, RenderError> {
         let reflected = self.reflect(rec, gbuffer_pass, inputs)?;
+        let blueprints = self.peel(rec, gbuffer_pass, inputs, begun)?;
         let cartoon_map = self.find_bands(rec, inputs, begun)?;
         let coordinates = self.find_coordinates(rec, gbuffer_pass, inputs, begun)?;
         self.threshold_maps.prepare(rec.gpu, &inputs.objects.halftones)?;
         let gbuffer = &begun.gbuffer;
-        let styles = &inputs.objects.edge_styles;
+        let styles = &inputs.objects.surfaces.edge_styles;
         let spines = edge_map.and_then(|e| Some((e.revision, e.value.spines.as_ref()?)));
         let reach = match spines {
             Some((revision, spines)) => Some(
@@ -329,6 +341,7 @@ impl Drawing {
                 let seen = reflected.iter().map(|r| (r.color.revision, r.uniform)).collect();
                 (seen, inputs.background)
             }),
+            blueprints.iter().map(|b| b.revision).collect(),
         );
         let color = self.surface.run(shading, |(_, _, surfaces, toons, (halftones, _), styles, ..)| {
             self.surface_styles.write(rec.gpu, surfaces);
@@ -359,19 +372,45 @@ impl Drawing {
                 mirror(rec, &gbuffer.value, &seen.color.value, reflection.uniform.buffer(), &color)?;
             }
             if let Some(edge_map) = edge_map {
-                lines(
-                    rec,
-                    &gbuffer.value,
-                    &edge_map.value,
-                    reach.as_ref().map(|reach| &reach.value),
+                let drawn = Lines {
+                    gbuffer: &gbuffer.value,
+                    edge_map: &edge_map.value,
+                    reach: reach.as_ref().map(|reach| &reach.value),
                     styles,
-                    self.edge_styles.buffer(),
-                    &color,
-                )?;
+                    edge_styles: self.edge_styles.buffer(),
+                };
+                lines(rec, &drawn, &Pen::PLAIN, &color)?;
+            }
+            for blueprint in &blueprints {
+                overlay(rec, &blueprint.value, &color)?;
             }
             Ok::<_, RenderError>(color)
         })?;
         Ok(Shaded { color, cartoon_map, coordinates })
+    }
+
+    /// Draws the blueprints, the farthest first. Blended groups that reach into each other have no right order: that of
+    /// their middles is the nearest to it.
+    fn peel(
+        &mut self,
+        rec: &mut Recorder<'_>,
+        gbuffer_pass: &mut GBufferPass,
+        inputs: &DrawingInputs<'_>,
+        begun: &Begun,
+    ) -> Result<Vec<Output<Target>>, RenderError> {
+        let groups = &inputs.objects.blueprints;
+        self.blueprints.truncate(groups.len());
+        self.blueprints.resize_with(groups.len(), || Blueprints::new(rec.gpu));
+        let mut pictures = Vec::new();
+        for (blueprint, state) in groups.iter().zip(&mut self.blueprints) {
+            let before = state.runs();
+            let drawn = (&begun.uniform, &begun.gbuffer);
+            let picture = state.run(rec, gbuffer_pass, inputs, drawn, blueprint)?;
+            self.blueprinted += state.runs() - before;
+            pictures.push((blueprint.group.mean_depth(inputs.scene, inputs.view), picture));
+        }
+        pictures.sort_by(|(a, _), (b, _)| b.total_cmp(a));
+        Ok(pictures.into_iter().map(|(_, picture)| picture).collect())
     }
 
     fn find_coordinates(
@@ -402,7 +441,7 @@ impl Drawing {
     ) -> Result<Vec<Reflected>, RenderError> {
         let objects = inputs.objects;
         let mirrors = if inputs.reflections > 0 { objects.mirrors.as_slice() } else { &[] };
-        let margin = objects.edge_styles.iter().map(EdgeUniform::greatest_radius).fold(0.0, f32::max);
+        let margin = objects.greatest_radius();
         let seen: Vec<_> = mirrors
             .iter()
             .filter_map(|m| Some((m, m.seen_from(inputs.view, &objects.visible_bounds, margin)?)))
@@ -448,8 +487,8 @@ impl Drawing {
         inputs: &DrawingInputs<'_>,
     ) -> Result<Output<Target>, RenderError> {
         let begun = self.begin(rec, gbuffer_pass, inputs)?;
-        let edge_map =
-            if inputs.objects.have_lines() { Some(self.find_edges(rec, inputs, &begun)?) } else { None };
+        let has_lines = inputs.objects.surfaces.have_lines();
+        let edge_map = if has_lines { Some(self.find_edges(rec, inputs, &begun)?) } else { None };
         Ok(self.shade(rec, gbuffer_pass, inputs, &begun, edge_map.as_ref())?.color)
     }
 

@@ -136,7 +136,7 @@ impl FrameState {
         let shadow_maps = self.shadow_maps.run(rec, eye, &self.gbuffer_pass.material_layout)?;
         let eye = &DrawingInputs { shadow_maps: &shadow_maps, ..*eye };
         let begun = self.drawing.begin(rec, &mut self.gbuffer_pass, eye)?;
-        let edge_map = if *what != Show::Picture || eye.objects.have_lines() {
+        let edge_map = if *what != Show::Picture || eye.objects.surfaces.have_lines() {
             Some(self.drawing.find_edges(rec, eye, &begun)?)
         } else {
             self.drawing.forget_edges();

@@ -2,6 +2,7 @@
 
 use glam::{DMat4, Mat3, Mat4};
 
+use super::effects::blueprint::Blueprint;
 use super::effects::halftone::Halftones;
 use super::effects::mirror::Mirror;
 use super::effects::surface::SurfaceUniform;
@@ -11,7 +12,7 @@ use super::gpu_scene::GpuScene;
 use super::passes::edge_style::EdgeUniform;
 use super::passes::gbuffer::{Detail, DrawCall, DrawUniform};
 use super::style_images::StyleImages;
-use crate::document::Document;
+use crate::document::{Document, Show};
 use crate::geometry::Bounds;
 use crate::scene::{AlphaMode, NodeId};
 use crate::style::Technique;
@@ -57,22 +58,33 @@ pub struct VisiblePart {
     pub base_vertex: i32,
 }
 
+/// Objects that are drawn together.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Group {
+    visible: Vec<(NodeId, bool)>,
+    /// Edge parameters by object id; those of other objects draw nothing.
+    pub edge_styles: Vec<EdgeUniform>,
+    /// Whether any object with lines has holes by alpha.
+    pub has_holes: bool,
+    /// Whether what faces away from the eye or lies behind a solid's front is drawn too.
+    pub shows_hidden: bool,
+}
+
 /// Everything that is visible, resolved for one frame.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Objects {
-    visible: Vec<(NodeId, bool)>,
+    /// The objects that hide what lies behind them: those of all surface techniques.
+    pub surfaces: Group,
+    /// The others, together where their style is equal.
+    pub blueprints: Vec<Blueprint>,
     /// The box around everything visible, world space.
     pub visible_bounds: Bounds,
-    /// Edge parameters by object id.
-    pub edge_styles: Vec<EdgeUniform>,
     /// Shading parameters by object id.
     pub surface_styles: Vec<SurfaceUniform>,
     /// Parameters of toon shading.
     pub toons: Toons,
     /// The objects that are halftones.
     pub halftones: Halftones,
-    /// Whether any object with lines has holes by alpha.
-    pub has_holes: bool,
     /// The mirrors among them.
     pub mirrors: Vec<Mirror>,
 }
@@ -84,7 +96,7 @@ impl Objects {
         let mut objects = Self::default();
         // What is not drawn, entry 0 (the background) included, has neither shading nor lines.
         let count = resolved.len() + 1;
-        objects.edge_styles = vec![EdgeUniform::default(); count];
+        objects.surfaces.edge_styles = vec![EdgeUniform::default(); count];
         objects.surface_styles = vec![SurfaceUniform::default(); count];
         for (node, r) in resolved.iter().enumerate() {
             if !r.visible || scene.scene.nodes[node].mesh.is_none() {
@@ -100,29 +112,74 @@ impl Objects {
                 let has_uvs = scene.has_uvs(node);
                 objects.halftones.add((count, id), &r.style.halftone, images, scale, has_uvs);
             }
+            // A look at a buffer is one at that of surfaces, which every object then is.
+            let is_blueprint =
+                r.style.technique == Technique::Blueprint && document.view.show == Show::Picture;
+            let group = if is_blueprint {
+                Blueprint::group_of(&mut objects.blueprints, r.style, count)
+            } else {
+                &mut objects.surfaces
+            };
+            group.visible.push((node, r.enhanced));
             if r.enhanced {
-                objects.edge_styles[id] = EdgeUniform::new(&r.style.edges, scale);
-                objects.has_holes |= scene.has_holes(node);
+                group.edge_styles[id] = EdgeUniform::new(&r.style.edges, scale);
+                group.has_holes |= scene.has_holes(node);
             }
             if r.mirror
+                && !is_blueprint
                 && let Ok(plane) = scene.plane_of(node)
             {
                 objects.mirrors.push(Mirror::new(id as u32, plane, scene.corners_of(node), &r.style.mirror));
             }
-            objects.visible.push((node, r.enhanced));
             objects.visible_bounds = objects.visible_bounds.union(&scene.bounds_of(node));
         }
         objects
     }
 
-    /// Whether any visible object has lines.
+    /// Whether any visible object needs the cartoon map.
+    pub fn have_cartoon_map(&self) -> bool {
+        self.toons.styles.iter().any(ToonUniform::has_cartoon_map)
+    }
+
+    /// All visible objects.
+    fn groups(&self) -> impl Iterator<Item = &Group> {
+        std::iter::once(&self.surfaces).chain(self.blueprints.iter().map(|b| &b.group))
+    }
+
+    /// Greatest distance from its spine at which a line has ink, px.
+    pub fn greatest_radius(&self) -> f32 {
+        self.groups().map(Group::greatest_radius).fold(0.0, f32::max)
+    }
+
+    /// The boxes of the enhanced objects, each in its own space, and where that lies.
+    pub fn enhanced_boxes<'a>(&'a self, scene: &'a GpuScene) -> impl Iterator<Item = (Bounds, DMat4)> + 'a {
+        let enhanced = self.groups().flat_map(|group| &group.visible).filter(|(_, enhanced)| *enhanced);
+        enhanced.filter_map(|(id, _)| box_of(*id, scene))
+    }
+}
+
+impl Group {
+    /// Nothing of a scene with so many object ids; what is hidden is drawn too.
+    pub fn with_hidden(count: usize) -> Self {
+        Self { edge_styles: vec![EdgeUniform::default(); count], shows_hidden: true, ..Self::default() }
+    }
+
+    /// Whether any of them has lines.
     pub fn have_lines(&self) -> bool {
         self.edge_styles.iter().any(|s| s.is_exact() || s.is_paper())
     }
 
-    /// Whether any visible object needs the cartoon map.
-    pub fn have_cartoon_map(&self) -> bool {
-        self.toons.styles.iter().any(ToonUniform::has_cartoon_map)
+    /// Greatest distance from its spine at which a line has ink, px.
+    pub fn greatest_radius(&self) -> f32 {
+        self.edge_styles.iter().map(EdgeUniform::greatest_radius).fold(0.0, f32::max)
+    }
+
+    /// Mean depth of the middles of the objects' boxes.
+    pub fn mean_depth(&self, scene: &GpuScene, view: &View) -> f64 {
+        let middle = |(bounds, place): (Bounds, DMat4)| {
+            -(view.view_from_world * place).transform_point3(bounds.center()).z
+        };
+        self.boxes(scene).map(middle).sum::<f64>() / self.visible.len().max(1) as f64
     }
 
     /// The visible objects, and whether each is enhanced.
@@ -157,14 +214,9 @@ impl Objects {
         })
     }
 
-    /// The boxes of the enhanced objects, each in its own space, and where that lies.
-    pub fn enhanced_boxes<'a>(&'a self, scene: &'a GpuScene) -> impl Iterator<Item = (Bounds, DMat4)> + 'a {
-        self.visible.iter().filter(|(_, enhanced)| *enhanced).filter_map(|(id, _)| box_of(*id, scene))
-    }
-
     /// What the G-buffer depends on: for each visible part its matrices, object and material, ordered by pipeline.
     pub fn draws(&self, scene: &GpuScene, view: &View) -> (Vec<DrawUniform>, Vec<DrawCall>) {
-        let mut draws = Vec::new();
+        let mut draws: Vec<(DrawUniform, u32)> = Vec::new();
         let mut calls = Vec::new();
         for part in self.parts(scene) {
             // Combined in double precision, so that models far from the origin do not jitter.
@@ -194,25 +246,36 @@ impl Objects {
                 } else {
                     Detail::Smooth
                 },
-                hidden_side: if alpha == AlphaMode::Opaque {
+                hidden_side: if alpha == AlphaMode::Opaque && !self.shows_hidden {
                     scene.hidden_side(part.mesh, &view_from_local, view.orthographic)
                 } else {
                     None
                 },
             };
             calls.push((depth, call));
-            draws.push(DrawUniform {
+            let triangles = scene.scene.meshes.get(part.mesh).map_or(0, |mesh| mesh.indices.len() as u32 / 3);
+            let draw = DrawUniform {
                 view_from_local: view_from_local.as_mat4(),
                 normal_from_local: normal_matrix(&view_from_local),
                 object: object_id(part.node) | if part.enhanced { ENHANCED } else { 0 },
                 material: scene.materials.uniform(part.material),
                 is_flat: u32::from(part.is_flat),
-            });
+                first_surface: 0,
+            };
+            draws.push((draw, triangles));
         }
         // Near ones first: what lies behind them is then never shaded.
         calls.sort_by(|(a, _), (b, _)| a.total_cmp(b));
         calls.sort_by_key(|(_, c)| (c.detail, c.hidden_side.map(|s| s as u32)));
-        (draws, calls.into_iter().map(|(_, call)| call).collect())
+        // A part has at most as many surfaces as its mesh has triangles; 0 is left for nothing.
+        let mut first_surface = 1_u32;
+        for (_, call) in &calls {
+            if let Some((draw, triangles)) = draws.get_mut(call.draw as usize) {
+                draw.first_surface = first_surface;
+                first_surface = first_surface.saturating_add(*triangles);
+            }
+        }
+        (draws.into_iter().map(|(draw, _)| draw).collect(), calls.into_iter().map(|(_, call)| call).collect())
     }
 }
 

@@ -2,20 +2,15 @@
 
 use super::frame_uniform::View;
 use super::gpu_scene::GpuScene;
-use super::groups::{Objects, object_id, region};
+use super::groups::{Group, object_id, region};
 use super::passes::edge_style::EdgeUniform;
 use crate::geometry::line_segments::{Dashes, LineView, PlacedEdges, Wanted};
 use crate::geometry::{ClassSet, EdgeClass, LineSegment, line_segments};
 
-/// Silhouettes, borders, creases and material boundaries of all objects with exact lines, hidden ones included. Empty
+/// Silhouettes, borders, creases and material boundaries of all objects of a group with exact lines, hidden ones included. Empty
 /// while topology is not known. `crease_angle` (radians): above it edges separate surfaces.
-pub(super) fn segments(
-    scene: &GpuScene,
-    objects: &Objects,
-    view: &View,
-    crease_angle: f32,
-) -> Vec<LineSegment> {
-    let margin = objects.edge_styles.iter().map(EdgeUniform::greatest_radius).fold(0.0, f32::max) + 2.0;
+pub(super) fn segments(scene: &GpuScene, group: &Group, view: &View, crease_angle: f32) -> Vec<LineSegment> {
+    let margin = group.greatest_radius() + 2.0;
     // The vertex shader adds the jitter.
     let view = LineView {
         projector: view.projector(),
@@ -24,9 +19,9 @@ pub(super) fn segments(
         cut: view.cut,
     };
     let mut all = Vec::new();
-    for &(node, enhanced) in objects.visible() {
+    for &(node, enhanced) in group.visible() {
         let id = object_id(node);
-        let Some(style) = objects.edge_styles.get(id as usize).filter(|s| enhanced && s.is_exact()) else {
+        let Some(style) = group.edge_styles.get(id as usize).filter(|s| enhanced && s.is_exact()) else {
             continue;
         };
         let found = &scene.scene.nodes[node];
@@ -39,7 +34,8 @@ pub(super) fn segments(
             mesh,
             world_from_local: found.world_from_local,
             object: id,
-            is_solid: scene.is_solid(index),
+            // What a solid hides is left out.
+            is_solid: scene.is_solid(index) && !group.shows_hidden,
         };
         let first = all.len();
         line_segments(&placed, &view, &wanted(style, crease_angle), &mut all);

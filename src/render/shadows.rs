@@ -55,7 +55,7 @@ impl ShadowMaps {
         let limit = rec.gpu.device.limits().max_texture_dimension_2d.min(MOST_TEXELS);
         // Mirrors show what the eye does not see.
         let points = if objects.mirrors.is_empty() {
-            let depths = inputs.view.fitted_depth_range(objects.boxes(scene));
+            let depths = inputs.view.fitted_depth_range(objects.surfaces.boxes(scene));
             inputs.view.moved(Vec2::ZERO).corners(depths).to_vec()
         } else {
             Vec::new()
@@ -92,7 +92,7 @@ fn seen_by(
     looked_at: &LookedAt,
     side: u32,
 ) -> ShadowScene {
-    let boxes: Vec<_> = objects.boxes(scene).collect();
+    let boxes: Vec<_> = objects.surfaces.boxes(scene).collect();
     let mut seen = ShadowScene {
         views: light_views(&light.kind, &boxes, looked_at, side),
         draws: Vec::new(),
@@ -101,7 +101,7 @@ fn seen_by(
     };
     for (number, view) in seen.views.iter().enumerate() {
         let clip_from_world = view.clip_from_light() * view.light_from_world;
-        for part in objects.parts(scene) {
+        for part in objects.surfaces.parts(scene) {
             let alpha = scene.scene.materials.get(part.material).map_or(AlphaMode::Opaque, |m| m.alpha);
             let has_holes = alpha != AlphaMode::Opaque && scene.geometry.attributes.is_some();
             let light_from_local = view.light_from_world * part.world_from_local;

@@ -3,6 +3,7 @@
 //! Every parameter is declared once, in the `params` function of its effect; panels, style files, `--set` and the
 //! reference of `hachure styles` all read that list (see [`param`]).
 
+pub mod blueprint;
 pub mod color;
 mod declare;
 pub mod edge_group;
@@ -24,6 +25,7 @@ mod value;
 
 use std::path::PathBuf;
 
+pub use blueprint::Blueprint;
 pub use color::Color;
 pub use edge_line::Line;
 pub use edges::{Alignment, DepthOperator, EdgeMode, Edges};
@@ -65,6 +67,8 @@ pub enum Technique {
     Toon,
     /// Tones by the density of ink.
     Halftone,
+    /// The lines of hidden layers too.
+    Blueprint,
 }
 
 /// The complete look of one object.
@@ -80,6 +84,8 @@ pub struct Style {
     pub toon: Toon,
     /// Parameters of [`Technique::Halftone`].
     pub halftone: Halftone,
+    /// Parameters of [`Technique::Blueprint`].
+    pub blueprint: Blueprint,
     /// Lines.
     pub edges: Edges,
     /// What a mirror shows.
@@ -102,6 +108,9 @@ impl Style {
         });
         list.when("technique", Technique::Halftone, |list| {
             list.section("halftone", |list| self.halftone.params(list));
+        });
+        list.when("technique", Technique::Blueprint, |list| {
+            list.section("blueprint", |list| self.blueprint.params(list));
         });
         list.section("mirror", |list| self.mirror.params(list));
         list.section("edges", |list| self.edges.params(list));

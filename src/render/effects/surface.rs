@@ -39,7 +39,8 @@ impl SurfaceUniform {
             },
             ambient: style.plain.ambient.clamp(0.0, 1.0),
             technique: match style.technique {
-                Technique::Blank => BLANK,
+                // Blueprints are no surfaces.
+                Technique::Blank | Technique::Blueprint => BLANK,
                 Technique::Plain => PLAIN,
                 Technique::Unlit => UNLIT,
                 Technique::Gooch => GOOCH,

@@ -14,7 +14,7 @@ use crate::render::RenderError;
 
 const EDGE_MAP: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Uint;
 /// What the distance transform reads of it.
-const SPINES: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;
+pub(super) const SPINES: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;
 const MARKS: wgpu::TextureFormat = wgpu::TextureFormat::R8Unorm;
 const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 
@@ -47,6 +47,8 @@ pub struct EdgeInputs<'a> {
     pub has_holes: bool,
     /// Whether what lies behind a plane is left out.
     pub is_cut: bool,
+    /// Whether the G-buffer is a depth layer, which may lie behind a segment that belongs to a nearer one.
+    pub is_layer: bool,
     /// Which lights reach each pixel; `None` when no light throws shadows.
     pub shadow_mask: Option<&'a Target>,
 }
@@ -82,7 +84,8 @@ impl EdgeMapPass {
         inputs: &EdgeInputs<'_>,
         edge_map: &Target,
     ) -> Result<Target, RenderError> {
-        let EdgeInputs { gbuffer, styles, edge_styles, segments, has_holes, is_cut, shadow_mask } = *inputs;
+        let EdgeInputs { gbuffer, styles, edge_styles, segments, has_holes, is_cut, is_layer, shadow_mask } =
+            *inputs;
         let any = |has: fn(&EdgeUniform) -> bool| styles.iter().any(|s| s.is_exact() && has(s));
         let variation =
             [("WITH_VARIATION", any(EdgeUniform::varies)), ("WITH_PRESSURE", any(|s| s.pressure > 0.0))];
@@ -96,7 +99,7 @@ impl EdgeMapPass {
             program: Program {
                 file: "passes/segments.wgsl",
                 entry_point: "fs_main",
-                switches: [("WITH_HOLES", has_holes), ("WITH_ANGLES", with_angles)]
+                switches: [("WITH_HOLES", has_holes), ("IN_LAYER", is_layer), ("WITH_ANGLES", with_angles)]
                     .into_iter()
                     .chain(variation)
                     .collect(),

@@ -6,6 +6,7 @@ use encase::ShaderType;
 use glam::{Mat3, Mat4};
 
 use super::coordinates::CoordinatesPass;
+use super::peel::Peel;
 use crate::gpu::geometry::Attributes;
 use crate::gpu::material::MaterialUniform;
 use crate::gpu::recorder::color_attachment;
@@ -19,6 +20,8 @@ const GEOMETRY: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Uint;
 const BASE_COLOR: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
 /// Which surface of which object.
 const REGION: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;
+/// Of a layer: which draw and surface each pixel is of, see [`DrawUniform::first_surface`].
+pub(super) const ORDER: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;
 /// Reversed: 1 at the near plane.
 pub(super) const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 
@@ -48,6 +51,8 @@ pub struct DrawUniform {
     pub object: u32,
     /// 1: no normals, faces are flat.
     pub is_flat: u32,
+    /// Number of its first surface among those of all draws, in the order of drawing; at least 1.
+    pub first_surface: u32,
 }
 
 /// How much the shaders of a draw have to read; less is faster.
@@ -88,6 +93,8 @@ pub struct GBufferPass {
     pub draw_layout: wgpu::BindGroupLayout,
     /// Layout of bind group 1.
     pub material_layout: wgpu::BindGroupLayout,
+    /// Layout of bind group 3: the layer before the one that is peeled.
+    pub layer_layout: wgpu::BindGroupLayout,
     /// Draws what has been drawn once more, for coordinates on surfaces.
     pub coordinates: CoordinatesPass,
 }
@@ -99,6 +106,8 @@ struct Variant {
     hidden_side: Option<wgpu::Face>,
     /// Whether what lies behind a plane is left out.
     is_cut: bool,
+    /// Whether only what lies behind another layer is drawn.
+    is_peeled: bool,
 }
 
 impl GBufferPass {
@@ -122,6 +131,7 @@ impl GBufferPass {
             generation: 0,
             draw_layout,
             material_layout: MaterialBindings::layout(gpu),
+            layer_layout: Peel::layout(gpu),
             coordinates: CoordinatesPass::default(),
         }
     }
@@ -134,8 +144,10 @@ impl GBufferPass {
         if self.pipelines.contains_key(&key) {
             return Ok(());
         }
-        let module = pipelines.module(gpu, "passes/gbuffer.wgsl")?;
-        let layouts = [pipelines.frame_layout(), &self.material_layout, &self.draw_layout];
+        let file = if key.is_peeled { "passes/peel.wgsl" } else { "passes/gbuffer.wgsl" };
+        let module = pipelines.module(gpu, file)?;
+        let mut layouts = vec![pipelines.frame_layout(), &self.material_layout, &self.draw_layout];
+        layouts.extend(key.is_peeled.then_some(&self.layer_layout));
         self.pipelines.insert(key, build(gpu, &module, &layouts, key));
         Ok(())
     }
@@ -145,7 +157,7 @@ impl GBufferPass {
         DynamicBuffer::new::<DrawUniform>(gpu, "draws")
     }
 
-    /// Draws the given parts of a scene, whose uniforms go to `buffer`.
+    /// Draws the given parts of a scene, whose uniforms go to `buffer`; of a layer only what lies behind the last one.
     ///
     /// # Errors
     /// [`RenderError`].
@@ -156,6 +168,7 @@ impl GBufferPass {
         buffer: &mut DynamicBuffer,
         (draws, calls): (&[DrawUniform], &[DrawCall]),
         is_cut: bool,
+        peel: Option<&Peel<'_>>,
     ) -> Result<GBuffer, RenderError> {
         let gbuffer = GBuffer {
             geometry: rec.target("geometry", GEOMETRY)?,
@@ -164,22 +177,38 @@ impl GBufferPass {
             depth: rec.target("depth", DEPTH)?,
         };
         let gpu = rec.gpu;
-        let variant =
-            |call: &DrawCall| Variant { detail: call.detail, hidden_side: call.hidden_side, is_cut };
+        let is_peeled = peel.is_some();
+        let variant = |call: &DrawCall| Variant {
+            detail: call.detail,
+            hidden_side: call.hidden_side,
+            is_cut,
+            is_peeled,
+        };
         for call in calls {
             self.prepare(gpu, rec.pipelines, variant(call))?;
         }
         buffer.write(gpu, draws)?;
         let group = draw_group(gpu, &self.draw_layout, buffer);
         let clear = || wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT);
-        let color = [&gbuffer.geometry, &gbuffer.base_color, &gbuffer.region]
-            .map(|target| Some(color_attachment(target, clear())));
+        let color: Vec<_> = [&gbuffer.geometry, &gbuffer.base_color, &gbuffer.region]
+            .into_iter()
+            .chain(peel.map(|p| p.order))
+            .map(|target| Some(color_attachment(target, clear())))
+            .collect();
+        let layer = peel.map(|peel| peel.group(gpu, &self.layer_layout));
+        let gated: Vec<_> = calls
+            .iter()
+            .map(|c| rec.gated([c.index_count, 1, c.first_index, c.base_vertex as u32, 0]))
+            .collect();
         let depth = wgpu::RenderPassDepthStencilAttachment {
             view: gbuffer.depth.view(),
             depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Store }),
             stencil_ops: None,
         };
-        let mut pass = rec.pass("g-buffer", &color, Some(depth));
+        let mut pass = rec.pass(if is_peeled { "peel" } else { "g-buffer" }, &color, Some(depth));
+        if let Some(layer) = &layer {
+            pass.set_bind_group(3, layer, &[]);
+        }
         pass.set_vertex_buffer(0, scene.geometry.positions.slice(..));
         pass.set_vertex_buffer(1, scene.geometry.surfaces.slice(..));
         if let Some(attributes) = &scene.geometry.attributes {
@@ -187,7 +216,7 @@ impl GBufferPass {
         }
         pass.set_index_buffer(scene.geometry.indices.slice(..), wgpu::IndexFormat::Uint32);
         let (mut bound, mut material) = (None, None);
-        for call in calls {
+        for (call, gated) in calls.iter().zip(&gated) {
             let key = variant(call);
             if bound != Some(key) {
                 let Some(pipeline) = self.pipelines.get(&key) else { continue };
@@ -200,7 +229,10 @@ impl GBufferPass {
             }
             let indices = call.first_index..call.first_index + call.index_count;
             pass.set_bind_group(2, &group, &[buffer.offset(call.draw)]);
-            pass.draw_indexed(indices, call.base_vertex, 0..1);
+            match gated {
+                Some((buffer, offset)) => pass.draw_indexed_indirect(buffer, *offset),
+                None => pass.draw_indexed(indices, call.base_vertex, 0..1),
+            }
         }
         drop(pass);
         Ok(gbuffer)
@@ -223,12 +255,12 @@ pub(super) fn draw_group(
 fn build(
     gpu: &Gpu,
     module: &wgpu::ShaderModule,
-    layouts: &[&wgpu::BindGroupLayout; 3],
+    layouts: &[&wgpu::BindGroupLayout],
     variant: Variant,
 ) -> wgpu::RenderPipeline {
     let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
         label: Some("g-buffer"),
-        bind_group_layouts: &layouts.map(Some),
+        bind_group_layouts: &layouts.iter().copied().map(Some).collect::<Vec<_>>(),
         immediate_size: 0,
     });
     let position = wgpu::VertexBufferLayout {
@@ -242,11 +274,13 @@ fn build(
         attributes: &wgpu::vertex_attr_array![1 => Uint32],
     };
     let buffers = [Some(position), Some(surface), Some(Attributes::LAYOUT)];
-    let (vertex, fragment) = match variant.detail {
-        Detail::Lean => ("vs_lean", "fs_lean"),
-        Detail::Smooth => ("vs_smooth", "fs_smooth"),
-        Detail::Full => ("vs_full", "fs_full"),
+    let (vertex, fragment, peeled) = match variant.detail {
+        Detail::Lean => ("vs_lean", "fs_lean", "fs_lean_layer"),
+        Detail::Smooth => ("vs_smooth", "fs_smooth", "fs_smooth_layer"),
+        Detail::Full => ("vs_full", "fs_full", "fs_full_layer"),
     };
+    let mut targets = vec![Some(GEOMETRY.into()), Some(BASE_COLOR.into()), Some(REGION.into())];
+    targets.extend(variant.is_peeled.then_some(Some(ORDER.into())));
     gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some("g-buffer"),
         layout: Some(&layout),
@@ -268,12 +302,12 @@ fn build(
         multisample: wgpu::MultisampleState::default(),
         fragment: Some(wgpu::FragmentState {
             module,
-            entry_point: Some(fragment),
+            entry_point: Some(if variant.is_peeled { peeled } else { fragment }),
             compilation_options: wgpu::PipelineCompilationOptions {
                 constants: &[("WITH_CUT", f64::from(u8::from(variant.is_cut)))],
                 ..Default::default()
             },
-            targets: &[Some(GEOMETRY.into()), Some(BASE_COLOR.into()), Some(REGION.into())],
+            targets: &targets,
         }),
         multiview_mask: None,
         cache: None,

@@ -8,20 +8,58 @@ use crate::gpu::recorder::{Draw, Input, Onto};
 use crate::gpu::{DepthRule, Program, Recorder, Target};
 use crate::render::RenderError;
 
-/// Draws the lines of an edge map over `color` (linear, premultiplied). `reach` is needed where any object is
-/// drawn in exact mode.
+/// The lines of an edge map.
+#[derive(Clone, Copy)]
+pub struct Lines<'a> {
+    /// What the edge map was made of.
+    pub gbuffer: &'a GBuffer,
+    /// Where lines run.
+    pub edge_map: &'a EdgeMap,
+    /// Which line reaches each pixel; needed where any object is drawn in exact mode.
+    pub reach: Option<&'a Reach>,
+    /// Edge styles by object id.
+    pub styles: &'a [EdgeUniform],
+    /// The same on the device.
+    pub edge_styles: &'a wgpu::Buffer,
+}
+
+/// What draws lines: a shader that imports `passes/lines.wgsl`.
+#[derive(Clone, Copy)]
+pub struct Pen<'a> {
+    /// File below `shaders/`.
+    pub file: &'static str,
+    /// Its entry point.
+    pub entry_point: &'static str,
+    /// What it reads more than `passes/lines.wgsl`, from binding 6 on.
+    pub inputs: &'a [Input<'a>],
+    /// Switches of its own.
+    pub switches: &'a [(&'static str, bool)],
+    /// Where ink goes.
+    pub onto: Onto,
+}
+
+impl Pen<'_> {
+    /// Lines in the colours of their styles, over everything.
+    pub const PLAIN: Self = Self {
+        file: "passes/lines.wgsl",
+        entry_point: "fs_main",
+        inputs: &[],
+        switches: &[],
+        onto: Onto::Blended,
+    };
+}
+
+/// Draws lines onto `color` (linear, premultiplied).
 ///
 /// # Errors
 /// [`RenderError`].
 pub fn lines(
     rec: &mut Recorder<'_>,
-    gbuffer: &GBuffer,
-    edge_map: &EdgeMap,
-    reach: Option<&Reach>,
-    styles: &[EdgeUniform],
-    edge_styles: &wgpu::Buffer,
+    lines: &Lines<'_>,
+    pen: &Pen<'_>,
     color: &Target,
 ) -> Result<(), RenderError> {
+    let Lines { gbuffer, edge_map, reach, styles, edge_styles } = *lines;
     let (farthest, nearest) = match reach {
         Some(Reach::Narrow(spines)) => (spines, spines),
         Some(Reach::Wide { farthest, nearest }) => (farthest, nearest.as_ref().unwrap_or(farthest)),
@@ -29,19 +67,15 @@ pub fn lines(
         None => (&edge_map.edges, &edge_map.edges),
     };
     let any = |has: fn(&EdgeUniform) -> bool| styles.iter().any(has);
-    let program = |entry_point| Program {
-        file: "passes/lines.wgsl",
-        entry_point,
-        switches: vec![
-            ("WITH_PAPER", any(EdgeUniform::is_paper)),
-            ("WITH_EXACT", reach.is_some()),
-            ("WITH_WIDTHS", matches!(reach, Some(Reach::Wide { nearest: Some(_), .. }))),
-            ("NARROW", matches!(reach, Some(Reach::Narrow(_)))),
-            ("WITH_DASHES", any(|s| s.drawn().any(|(_, l)| l.dashed == 1))),
-            ("WITH_SURFACE_COLOR", any(|s| s.is_exact() && s.surface_color > 0.0)),
-        ],
-    };
-    let inputs = [
+    let mut switches = vec![
+        ("WITH_PAPER", any(EdgeUniform::is_paper)),
+        ("WITH_EXACT", reach.is_some()),
+        ("WITH_WIDTHS", matches!(reach, Some(Reach::Wide { nearest: Some(_), .. }))),
+        ("NARROW", matches!(reach, Some(Reach::Narrow(_)))),
+        ("WITH_DASHES", any(|s| s.drawn().any(|(_, l)| l.dashed == 1))),
+        ("WITH_SURFACE_COLOR", any(|s| s.is_exact() && s.surface_color > 0.0)),
+    ];
+    let mut inputs = vec![
         Input::Texture(&gbuffer.geometry),
         Input::Texture(&edge_map.edges),
         Input::Texture(&gbuffer.base_color),
@@ -52,19 +86,21 @@ pub fn lines(
     let reached = rec.target("reached by lines", wgpu::TextureFormat::Depth32Float)?;
     rec.draw(Draw {
         label: "reached by lines",
-        program: program("fs_reached"),
+        program: Program { file: "passes/lines.wgsl", entry_point: "fs_reached", switches: switches.clone() },
         inputs: &inputs,
         outputs: &[],
         onto: Onto::Nothing,
         depth: Some((&reached, DepthRule::Mark)),
         lines: None,
     })?;
+    inputs.extend(pen.inputs);
+    switches.extend(pen.switches);
     rec.draw(Draw {
         label: "lines",
-        program: program("fs_main"),
+        program: Program { file: pen.file, entry_point: pen.entry_point, switches },
         inputs: &inputs,
         outputs: &[color],
-        onto: Onto::Blended,
+        onto: pen.onto,
         depth: Some((&reached, DepthRule::Marked)),
         lines: None,
     })?;

@@ -1,0 +1,60 @@
+// A depth layer of a blueprint as a depth sprite: lines over a fill, tested against the surfaces that are opaque (blueprints
+// paper, section 4.2).
+#import passes/lines.wgsl
+#import common/peeled.wgsl
+
+// Twin: `BlueprintUniform` in src/render/effects/blueprint.rs.
+struct Blueprint {
+    // Linear colours.
+    near: vec3<f32>,
+    by_layer: f32,
+    far: vec3<f32>,
+    by_distance: f32,
+    fill: vec3<f32>,
+    opacity: f32,
+}
+
+// The opaque surfaces, as `geometry_tex` has those of the layer.
+@group(1) @binding(6) var surface_tex: texture_2d<u32>;
+@group(1) @binding(7) var<storage, read> blueprints: array<Blueprint>;
+@group(1) @binding(8) var<storage, read> peeled: Peeled;
+// Where nearer layers have lines; see passes/repeated.wgsl.
+@group(1) @binding(9) var seen_tex: texture_2d<u32>;
+
+// Whether ink of the papers' operators is left out where nearer layers have some.
+override WITHOUT_REPEATED: bool = false;
+
+// The share of the far colour.
+fn faded(depth: f32) -> f32 {
+    let range = frame.depth_range;
+    let distance = clamp((depth - range.x) / max(range.y - range.x, 1e-20), 0.0, 1.0);
+    let before = f32(peeled.layers) - 1.0;
+    let left = pow(1.0 - blueprints[0].by_layer, before) * (1.0 - blueprints[0].by_distance * distance);
+    return 1.0 - left;
+}
+
+fn surface_at(px: vec2<i32>) -> Surfel {
+    return unpack_surfel(textureLoad(surface_tex, px, 0));
+}
+
+// Lines reach over the interior of their layer and beyond it: their depth is that of their spine.
+@fragment
+fn fs_lines(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
+    let px = vec2<i32>(position.xy);
+    let line = lines_at(px, surface_at(px));
+    if WITH_PAPER && WITHOUT_REPEATED && textureLoad(seen_tex, px, 0).x != 0u {
+        return vec4(0.0);
+    }
+    let color = mix(blueprints[0].near, blueprints[0].far, faded(line.depth));
+    return vec4(color, 1.0) * line.ink.a;
+}
+
+@fragment
+fn fs_fill(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
+    let px = vec2<i32>(position.xy);
+    let surface = surface_at(px);
+    if surface.object != 0u && surface.depth < unpack_surfel(geometry_at(px)).depth {
+        discard;
+    }
+    return vec4(blueprints[0].fill, 1.0) * blueprints[0].opacity;
+}

@@ -1,0 +1,44 @@
+// One depth layer into a G-buffer: fragments that do not lie behind the last layer are rejected, of the others the ordinary
+// depth test leaves the nearest (blueprints paper, section 3, Fig. 2).
+#import passes/gbuffer.wgsl
+
+// The last layer; for the first one, depth 1 and order 0 everywhere.
+@group(3) @binding(0) var last_depth_tex: texture_depth_2d;
+@group(3) @binding(1) var last_order_tex: texture_2d<u32>;
+
+struct Layer {
+    @location(0) geometry: vec4<u32>,
+    @location(1) base_color: vec4<f32>,
+    @location(2) region: u32,
+    // Of which draw and surface it is; 0: nothing.
+    @location(3) order: u32,
+}
+
+// What lies equally deep is ordered as it is drawn: by its draw, then by its surface, of which the triangles are drawn in
+// order (`by_surface` in src/gpu/geometry.rs). So coplanar objects are neither lost nor repeated.
+fn layer(position: vec4<f32>, surface: u32, drawn: GBuffer) -> Layer {
+    let px = vec2<i32>(position.xy);
+    let depth = textureLoad(last_depth_tex, px, 0);
+    let order = draw.first_surface + surface;
+    let is_behind = position.z < depth
+        || (position.z == depth && order > textureLoad(last_order_tex, px, 0).x);
+    if !is_behind {
+        discard;
+    }
+    return Layer(drawn.geometry, drawn.base_color, drawn.region, order);
+}
+
+@fragment
+fn fs_lean_layer(v: Lean) -> Layer {
+    return layer(v.position, v.surface, lean(v));
+}
+
+@fragment
+fn fs_smooth_layer(v: Smooth) -> Layer {
+    return layer(v.position, v.surface, smooth_surface(v));
+}
+
+@fragment
+fn fs_full_layer(v: Full) -> Layer {
+    return layer(v.position, v.surface, full(v));
+}

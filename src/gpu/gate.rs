@@ -1,0 +1,71 @@
+//! Passes that the device itself may leave out: the numbers of their draws and dispatches lie in a buffer, which a compute
+//! shader sets to 0. The processor never waits for that decision.
+
+use std::collections::HashMap;
+
+use super::{Gpu, GpuError};
+
+/// Words of a draw or dispatch in the buffer; not all use the last ones.
+const WORDS: usize = 5;
+
+/// The arguments of all draws and dispatches that stop together. Once shut, it stays so until it is opened again.
+pub struct Gate {
+    buffer: wgpu::Buffer,
+    args: Vec<[u32; WORDS]>,
+    offsets: HashMap<[u32; WORDS], u64>,
+}
+
+impl Gate {
+    /// Without room for anything.
+    pub fn new(gpu: &Gpu) -> Self {
+        Self { buffer: create(gpu, 4), args: Vec::new(), offsets: HashMap::new() }
+    }
+
+    /// Forgets what has been recorded and makes room for so many different draws and dispatches.
+    ///
+    /// # Errors
+    /// [`GpuError::TooLarge`].
+    pub fn clear(&mut self, gpu: &Gpu, room: usize) -> Result<(), GpuError> {
+        let bytes = (room * WORDS * 4) as u64;
+        gpu.check_buffer_size("arguments of draws", bytes)?;
+        if self.buffer.size() < bytes {
+            self.buffer = create(gpu, bytes.next_power_of_two());
+        }
+        self.args.clear();
+        self.offsets.clear();
+        Ok(())
+    }
+
+    /// Where these arguments lie; `None` if there is no room: then they cannot be stopped.
+    pub(super) fn offset(&mut self, args: [u32; WORDS]) -> Option<u64> {
+        if let Some(offset) = self.offsets.get(&args) {
+            return Some(*offset);
+        }
+        let offset = (self.args.len() * WORDS * 4) as u64;
+        if offset + (WORDS * 4) as u64 > self.buffer.size() {
+            return None;
+        }
+        self.args.push(args);
+        self.offsets.insert(args, offset);
+        Some(offset)
+    }
+
+    /// Opens it for everything that was recorded, which is submitted next.
+    pub fn open(&self, gpu: &Gpu) {
+        gpu.queue.write_buffer(&self.buffer, 0, bytemuck::cast_slice(&self.args));
+    }
+
+    /// Words that a compute shader sets to 0 to shut it.
+    pub fn buffer(&self) -> &wgpu::Buffer {
+        &self.buffer
+    }
+}
+
+fn create(gpu: &Gpu, size: u64) -> wgpu::Buffer {
+    gpu.device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some("gate"),
+        size,
+        usage: wgpu::BufferUsages::INDIRECT | wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST,
+        mapped_at_creation: false,
+    })
+}

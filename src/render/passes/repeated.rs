@@ -1,0 +1,47 @@
+//! Leaves out lines that a nearer layer has at the same place (blueprints paper, section 4.1, Fig. 5).
+
+use super::edge_map::{EdgeMap, SPINES};
+use crate::gpu::recorder::Input;
+use crate::gpu::{Program, Recorder, Target};
+use crate::render::RenderError;
+
+/// No line seen yet.
+///
+/// # Errors
+/// [`RenderError`].
+pub fn none_seen(rec: &mut Recorder<'_>) -> Result<Target, RenderError> {
+    let seen = rec.target("seen lines", SPINES)?;
+    rec.clear("no line seen", &seen);
+    Ok(seen)
+}
+
+/// What the lines of a layer leave: those of all layers so far, and its edge map without those in `seen`. The papers'
+/// operators have no spines: whoever draws their ink looks at `seen` itself.
+///
+/// # Errors
+/// [`RenderError`].
+pub fn without_repeated(
+    rec: &mut Recorder<'_>,
+    edge_map: &EdgeMap,
+    seen: &Target,
+) -> Result<(Target, EdgeMap), RenderError> {
+    let (now_seen, own) = (rec.target("seen lines", SPINES)?, rec.target("own spines", SPINES)?);
+    rec.fullscreen(
+        "repeated lines",
+        Program {
+            file: "passes/repeated.wgsl",
+            entry_point: "fs_main",
+            switches: vec![("WITH_PAPER", edge_map.spines.is_none())],
+        },
+        &[
+            Input::Texture(&edge_map.edges),
+            // Without spines any texture of their kind.
+            Input::Texture(edge_map.spines.as_ref().unwrap_or(seen)),
+            Input::Texture(seen),
+        ],
+        &[&now_seen, &own],
+        None,
+    )?;
+    let spines = edge_map.spines.is_some().then_some(own);
+    Ok((now_seen, EdgeMap { edges: edge_map.edges.clone(), spines }))
+}

@@ -1,0 +1,114 @@
+//! Blueprints: the outlines of what is visible and of what is hidden, in depth order (Nienhaus and Döllner, "Blueprints –
+//! Illustrating Architecture and Technical Parts using Hardware-Accelerated Non-Photorealistic Rendering", 2004).
+
+use super::Color;
+use super::param::Params;
+
+/// Parameters of the technique `blueprint`.
+///
+/// Objects of equal style are peeled together into depth layers, each with its own lines over a fill. Which lines, and
+/// how wide they are, is up to `edges`; their colour runs from `near` to `far` by the share
+/// `1 − (1 − by_layer)ⁿ · (1 − by_distance · d)`, n the number of layers before, d the depth, 0 (nearest) to 1.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Blueprint {
+    /// Colour of the nearest lines.
+    pub near: Color,
+    /// Colour of the farthest lines.
+    pub far: Color,
+    /// How far lines fade with each layer before them, 0 (not at all) to 1.
+    pub by_layer: f32,
+    /// How far lines fade with the distance, 0 (not at all) to 1.
+    pub by_distance: f32,
+    /// Whether lines are drawn again where a nearer layer has one at the same place (section 4.1, Fig. 5).
+    pub repeated: bool,
+    /// Colour of the surfaces.
+    pub fill: Color,
+    /// Opacity of the fill of each layer, 0 to 1.
+    pub opacity: f32,
+    /// The first layer that is drawn, 1 to 64.
+    pub from: u32,
+    /// The last layer that is drawn, 1 to 64.
+    pub to: u32,
+    /// Most layers that are peeled, 1 to 64.
+    pub layers: u32,
+    /// Peeling ends before a layer with fewer pixels; percent of the picture's, 0 to 100.
+    pub least: f32,
+}
+
+impl Default for Blueprint {
+    fn default() -> Self {
+        Self {
+            near: Color([12, 52, 140]),
+            far: Color([170, 194, 232]),
+            by_layer: 0.35,
+            by_distance: 0.3,
+            repeated: false,
+            fill: Color([70, 120, 200]),
+            opacity: 0.05,
+            from: 1,
+            to: 64,
+            layers: 8,
+            least: 0.1,
+        }
+    }
+}
+
+impl Blueprint {
+    pub(super) fn params<'a>(&'a mut self, list: &mut Params<'a>) {
+        list.color("near", "Near", "Colour of the nearest lines.", &mut self.near);
+        list.color("far", "Far", "Colour of the farthest lines.", &mut self.far);
+        list.number(
+            "by_layer",
+            "Fade by layer",
+            "",
+            0.0..=1.0,
+            0.0..=1.0,
+            "How far lines go over to the far colour with each layer before them.",
+            &mut self.by_layer,
+        );
+        list.number(
+            "by_distance",
+            "Fade by distance",
+            "",
+            0.0..=1.0,
+            0.0..=1.0,
+            "How far lines go over to the far colour with the distance.",
+            &mut self.by_distance,
+        );
+        list.switch(
+            "repeated",
+            "Repeat lines",
+            "Draws lines again where a nearer layer has one at the same place.",
+            &mut self.repeated,
+        );
+        list.color("fill", "Fill", "Colour of the surfaces between the lines.", &mut self.fill);
+        list.number(
+            "opacity",
+            "Fill opacity",
+            "",
+            0.0..=0.5,
+            0.0..=1.0,
+            "Opacity of the fill of each layer; 0 draws lines only.",
+            &mut self.opacity,
+        );
+        list.integer("from", "From layer", "", 1..=64, "The first layer that is drawn.", &mut self.from);
+        list.integer("to", "To layer", "", 1..=64, "The last layer that is drawn.", &mut self.to);
+        list.integer(
+            "layers",
+            "Most layers",
+            "",
+            1..=64,
+            "Peeling ends after so many layers.",
+            &mut self.layers,
+        );
+        list.number(
+            "least",
+            "Least pixels",
+            "%",
+            0.0..=1.0,
+            0.0..=100.0,
+            "Peeling ends before a layer that covers a smaller share of the picture.",
+            &mut self.least,
+        );
+    }
+}
