@@ -29,7 +29,8 @@ fn faded(depth: f32) -> f32 {
     let range = frame.depth_range;
     let distance = clamp((depth - range.x) / max(range.y - range.x, 1e-20), 0.0, 1.0);
     let before = f32(peeled.layers) - 1.0;
-    let left = pow(1.0 - blueprints[0].by_layer, before) * (1.0 - blueprints[0].by_distance * distance);
+    // A power of 0 is undefined.
+    let left = pow(max(1.0 - blueprints[0].by_layer, 1e-6), before) * (1.0 - blueprints[0].by_distance * distance);
     return 1.0 - left;
 }
 

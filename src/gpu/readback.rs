@@ -83,6 +83,26 @@ impl Readback {
     }
 }
 
+/// Copies a whole buffer and waits for it.
+///
+/// # Errors
+/// [`GpuError`].
+pub fn read_buffer(gpu: &Gpu, buffer: &wgpu::Buffer) -> Result<Vec<u8>, GpuError> {
+    let copy = gpu.device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some("read-back"),
+        size: buffer.size(),
+        usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+        mapped_at_creation: false,
+    });
+    let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+    encoder.copy_buffer_to_buffer(buffer, 0, &copy, 0, buffer.size());
+    gpu.queue.submit([encoder.finish()]);
+    copy.map_async(wgpu::MapMode::Read, .., |_| {});
+    gpu.wait()?;
+    let view = copy.get_mapped_range(..).map_err(|e| GpuError::Lost(e.to_string()))?;
+    Ok(view.to_vec())
+}
+
 /// Copies a whole target and waits for it.
 ///
 /// # Errors

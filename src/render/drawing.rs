@@ -11,7 +11,7 @@ use std::sync::Arc;
 use glam::{Vec2, Vec4};
 
 use super::RenderError;
-use super::effects::blueprint::Blueprints;
+use super::effects::blueprint::{Blueprints, Peels};
 use super::effects::halftone::{HalftoneInputs, HalftoneUniform, Halftones, ThresholdMaps};
 use super::effects::mirror::{MirrorUniform, mirror};
 use super::effects::surface::{Shading, SurfaceUniform, surface};
@@ -26,6 +26,7 @@ use super::passes::gbuffer::{DrawCall, DrawUniform, GBuffer, GBufferPass};
 use super::passes::line_distance::{Reach, line_distance};
 use super::passes::lines::{Lines, Pen, lines};
 use super::passes::overlay::overlay;
+use super::passes::peel::{Layer, Peeled};
 use super::sample::Sample;
 use super::segments::segments;
 use super::shadows::{ShadowMap, ShadowMask};
@@ -56,6 +57,8 @@ pub struct DrawingInputs<'a> {
     pub background: Vec4,
     /// How many mirrors in a row are followed from here.
     pub reflections: u32,
+    /// Whether the layers of blueprints are kept.
+    pub keeps_layers: bool,
 }
 
 /// A drawing while it is being made: what all of its passes read.
@@ -81,6 +84,8 @@ pub struct Shaded {
     pub cartoon_map: Option<Target>,
     /// See `shaders/passes/coordinates.wgsl`; `None` when no object asks for it.
     pub coordinates: Option<Target>,
+    /// The layers of each blueprint, the farthest first; empty unless they are kept.
+    pub layers: Vec<Vec<Layer>>,
 }
 
 /// What of a drawing lives across frames.
@@ -202,6 +207,14 @@ impl Drawing {
             ("blueprint", self.blueprinted),
             ("mirror", self.reflected),
         ]
+    }
+
+    /// How far peeling came in each blueprint. Waits for the device.
+    ///
+    /// # Errors
+    /// [`RenderError`].
+    pub fn peeled(&self, gpu: &Gpu) -> Result<Vec<Peeled>, RenderError> {
+        self.blueprints.iter().map(|b| b.count().read(gpu)).collect()
     }
 
     /// Begins a drawing with its G-buffer and the shadows on it; all later passes see through its camera.
@@ -382,11 +395,12 @@ impl Drawing {
                 lines(rec, &drawn, &Pen::PLAIN, &color)?;
             }
             for blueprint in &blueprints {
-                overlay(rec, &blueprint.value, &color)?;
+                overlay(rec, &blueprint.value.color, &color)?;
             }
             Ok::<_, RenderError>(color)
         })?;
-        Ok(Shaded { color, cartoon_map, coordinates })
+        let layers = blueprints.into_iter().map(|b| b.value.layers).filter(|l| !l.is_empty()).collect();
+        Ok(Shaded { color, cartoon_map, coordinates, layers })
     }
 
     /// Draws the blueprints, the farthest first. Blended groups that reach into each other have no right order: that of
@@ -397,7 +411,7 @@ impl Drawing {
         gbuffer_pass: &mut GBufferPass,
         inputs: &DrawingInputs<'_>,
         begun: &Begun,
-    ) -> Result<Vec<Output<Target>>, RenderError> {
+    ) -> Result<Vec<Output<Peels>>, RenderError> {
         let groups = &inputs.objects.blueprints;
         self.blueprints.truncate(groups.len());
         self.blueprints.resize_with(groups.len(), || Blueprints::new(rec.gpu));
@@ -464,7 +478,8 @@ impl Drawing {
                 }
             };
             let Some(reflection) = self.reflections.get_mut(index) else { continue };
-            let inner = DrawingInputs { view, reflections: inputs.reflections - 1, ..*inputs };
+            let inner =
+                DrawingInputs { view, reflections: inputs.reflections - 1, keeps_layers: false, ..*inputs };
             let before = reflection.drawing.drawn();
             let color = reflection.drawing.record(rec, gbuffer_pass, &inner)?;
             self.reflected += reflection.drawing.drawn() - before;

@@ -11,6 +11,7 @@ use super::drawing::{Begun, Drawing, DrawingInputs};
 use super::passes::accumulate::{Accumulation, Subject};
 use super::passes::gbuffer::{GBuffer, GBufferPass};
 use super::passes::operators::operators;
+use super::passes::peel::Layer;
 use super::passes::resolve::resolve;
 use super::passes::selection::{self, selection};
 use super::passes::show::show;
@@ -56,6 +57,8 @@ pub struct Picture {
     pub cartoon_map: Option<Target>,
     /// See `shaders/passes/coordinates.wgsl`; `None` when no object asks for it.
     pub coordinates: Option<Target>,
+    /// The layers of each blueprint, the farthest first; empty unless [`super::Renderer::keep_layers`] was called.
+    pub layers: Vec<Vec<Layer>>,
 }
 
 /// What lives across frames.
@@ -144,10 +147,10 @@ impl FrameState {
         };
         let operators = self.operators(rec, *what, &begun)?;
 
-        let (mut cartoon_map, mut coordinates) = (None, None);
+        let (mut cartoon_map, mut coordinates, mut layers) = (None, None, Vec::new());
         let image = if *what == Show::Picture {
             let shaded = self.drawing.shade(rec, &mut self.gbuffer_pass, eye, &begun, edge_map.as_ref())?;
-            (cartoon_map, coordinates) = (shaded.cartoon_map, shaded.coordinates);
+            (cartoon_map, coordinates, layers) = (shaded.cartoon_map, shaded.coordinates, shaded.layers);
             let color = self.accumulation.add(rec, eye.sample, shaded.color)?;
             let final_inputs = (shaders, *what, [color.revision, 0, 0], eye.background);
             self.image.run(final_inputs, |_| resolve(rec, &color.value))?
@@ -177,6 +180,7 @@ impl FrameState {
             shadow_mask: begun.shadow_mask.map(|mask| mask.value),
             cartoon_map,
             coordinates,
+            layers,
         })
     }
 

@@ -11,6 +11,7 @@ use super::gpu_scene::{GpuScene, UploadedTopology, Uploader};
 use super::groups::{Objects, node_of};
 use super::lights::Lights;
 use super::passes::accumulate::Subject;
+use super::passes::peel::Peeled;
 use super::style_images::StyleImages;
 use crate::document::Document;
 use crate::geometry::Topology;
@@ -77,6 +78,7 @@ pub struct Renderer {
     last: Option<(Picture, View)>,
     pick: Option<PendingPick>,
     shader_error: Option<ShaderError>,
+    keeps_layers: bool,
 }
 
 impl Renderer {
@@ -95,6 +97,7 @@ impl Renderer {
             last: None,
             pick: None,
             shader_error,
+            keeps_layers: false,
         }
     }
 
@@ -159,6 +162,19 @@ impl Renderer {
         self.timers = Timers::new(&self.gpu);
     }
 
+    /// Keeps the layers of blueprints from now on, for a look at them; each takes memory.
+    pub fn keep_layers(&mut self) {
+        self.keeps_layers = true;
+    }
+
+    /// How far peeling came in each blueprint of the last picture. Waits for it.
+    ///
+    /// # Errors
+    /// [`RenderError`].
+    pub fn peeled(&self) -> Result<Vec<Peeled>, RenderError> {
+        self.state.drawing().peeled(&self.gpu)
+    }
+
     /// Milliseconds of each pass of the last frame, in order; empty without timers. Waits for the frame.
     ///
     /// # Errors
@@ -213,6 +229,7 @@ impl Renderer {
                 sample,
                 view: &view,
                 background,
+                keeps_layers: self.keeps_layers,
                 reflections: request.document.view.reflections.round().clamp(0.0, 8.0) as u32,
             },
             show: request.document.view.show,

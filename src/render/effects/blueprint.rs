@@ -101,6 +101,15 @@ impl Blueprint {
     }
 }
 
+/// A group, drawn.
+#[derive(Debug, Clone)]
+pub struct Peels {
+    /// Linear colour times opacity, and opacity.
+    pub color: Target,
+    /// The layers, where they are kept: as many as may be peeled, of which those after the last one are empty.
+    pub layers: Vec<Layer>,
+}
+
 /// What a group's picture depends on.
 #[derive(PartialEq)]
 struct Inputs {
@@ -113,6 +122,7 @@ struct Inputs {
     uniform: FrameUniform,
     part: Option<[u32; 4]>,
     crease_angle: f32,
+    keeps_layers: bool,
 }
 
 /// What of the drawing of a group lives across frames.
@@ -124,7 +134,7 @@ pub struct Blueprints {
     style: ArrayBuffer,
     gate: Option<Gate>,
     count: PeelCount,
-    stage: Stage<Inputs, Target>,
+    stage: Stage<Inputs, Peels>,
 }
 
 impl Blueprints {
@@ -152,7 +162,7 @@ impl Blueprints {
         &self.count
     }
 
-    /// The picture of a group: linear colour times opacity, and opacity, where the opaque surfaces of `gbuffer` do not hide it.
+    /// The picture of a group, as far as opaque surfaces do not hide it.
     ///
     /// # Errors
     /// [`RenderError`].
@@ -163,7 +173,7 @@ impl Blueprints {
         inputs: &DrawingInputs<'_>,
         (uniform, surfaces): (&FrameUniform, &Output<GBuffer>),
         blueprint: &Blueprint,
-    ) -> Result<Output<Target>, RenderError> {
+    ) -> Result<Output<Peels>, RenderError> {
         let (draws, calls) = blueprint.group.draws(inputs.scene, inputs.view);
         let asked = Inputs {
             shaders: rec.pipelines.generation(),
@@ -175,6 +185,7 @@ impl Blueprints {
             uniform: uniform.without_background(),
             part: inputs.view.part,
             crease_angle: inputs.crease_angle,
+            keeps_layers: inputs.keeps_layers,
         };
         let Self { draws, edge_map_pass, edge_styles, greatest_radius, style, gate, count, stage } = self;
         stage.run(asked, |asked| {
@@ -197,6 +208,7 @@ impl Blueprints {
                 greatest_radius,
                 style,
                 count,
+                kept: Vec::new(),
             };
             let color = rec.target("blueprint", wgpu::TextureFormat::Rgba16Float)?;
             rec.clear("blueprint", &color);
@@ -207,7 +219,8 @@ impl Blueprints {
             if let Some(gate) = gate {
                 gate.open(rec.gpu);
             }
-            peeled.map(|()| color)
+            let layers = peeling.kept;
+            peeled.map(|()| Peels { color, layers })
         })
     }
 }
@@ -225,6 +238,7 @@ struct Peeling<'a> {
     greatest_radius: &'a mut ArrayBuffer,
     style: &'a ArrayBuffer,
     count: &'a PeelCount,
+    kept: Vec<Layer>,
 }
 
 impl Peeling<'_> {
@@ -250,6 +264,9 @@ impl Peeling<'_> {
                     self.lines(rec, &layer, &mut seen, color)?;
                 }
                 self.fill(rec, &layer, color)?;
+            }
+            if self.asked.keeps_layers {
+                self.kept.push(layer.clone());
             }
             (last_depth, last_order) = (layer.gbuffer.depth, layer.order);
         }

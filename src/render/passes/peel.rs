@@ -5,7 +5,7 @@ use encase::{ShaderType, StorageBuffer};
 
 use super::gbuffer::{DEPTH, GBuffer, ORDER};
 use crate::gpu::recorder::{Input, color_attachment};
-use crate::gpu::{Gpu, Program, Recorder, Target};
+use crate::gpu::{Gpu, Program, Recorder, Target, readback};
 use crate::render::RenderError;
 
 /// No object has more layers than this that are drawn.
@@ -129,6 +129,18 @@ impl PeelCount {
         if bytes.write(&begun).is_ok() {
             gpu.queue.write_buffer(&self.buffer, 0, bytes.as_ref());
         }
+    }
+
+    /// Reads it back.
+    ///
+    /// # Errors
+    /// [`RenderError`].
+    pub fn read(&self, gpu: &Gpu) -> Result<Peeled, RenderError> {
+        let bytes = readback::read_buffer(gpu, &self.buffer)?;
+        let mut words = bytes.chunks_exact(4).filter_map(|w| w.try_into().ok()).map(u32::from_le_bytes);
+        let mut next = || words.next().unwrap_or(0);
+        let (least, has_ended, layers, covered) = (next(), next(), next(), next());
+        Ok(Peeled { least, has_ended, layers, covered, pixels: std::array::from_fn(|_| next()) })
     }
 
     /// Counts the pixels of a layer and shuts the recorder's gate if they are too few.

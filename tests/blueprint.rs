@@ -1,0 +1,473 @@
+//! Blueprints: layers are what rays from the eye meet, peeling ends where it is told to, and the layers lie correctly
+//! among opaque objects.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+mod common;
+
+use std::path::Path;
+use std::sync::Arc;
+
+use common::{opened, scene, session, set, texels};
+use glam::{DMat4, DQuat, DVec3, UVec2, Vec2};
+use hachure::export::Session;
+use hachure::export::session::{Opened, initial_camera, open};
+use hachure::geometry::bvh::Bvh;
+use hachure::geometry::{Mesh, primitives};
+use hachure::import::Progress;
+use hachure::render::frame_uniform::View;
+use hachure::render::groups::object_id;
+use hachure::scene::Scene;
+use hachure::style::Value;
+
+type Object = (&'static str, Mesh, DMat4, [f32; 3]);
+
+fn object(name: &'static str, mesh: Mesh, place: DMat4) -> Object {
+    (name, mesh, place, [1.0; 3])
+}
+
+fn at(z: f64) -> DMat4 {
+    DMat4::from_translation(DVec3::Z * z)
+}
+
+/// Everything as a blueprint, of which all layers are drawn.
+fn blueprint(mut opened: Opened) -> Opened {
+    set(&mut opened, "technique", "blueprint");
+    set(&mut opened, "blueprint.layers", "64");
+    set(&mut opened, "blueprint.least", "0");
+    opened
+}
+
+/// A surface that a ray meets.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Hit {
+    object: u32,
+    /// Linear.
+    depth: f64,
+}
+
+/// All triangles of a scene, world space, and whose they are.
+struct World {
+    bvh: Bvh,
+    objects: Vec<u32>,
+}
+
+impl World {
+    fn new(scene: &Scene) -> Self {
+        let (mut triangles, mut objects) = (Vec::new(), Vec::new());
+        for (id, node) in scene.nodes.iter().enumerate() {
+            let Some(mesh) = node.mesh.map(|m| &scene.meshes[m]) else { continue };
+            for corners in mesh.indices.chunks_exact(3) {
+                let corner =
+                    |v: u32| node.world_from_local.transform_point3(mesh.positions[v as usize].as_dvec3());
+                triangles.push([corner(corners[0]), corner(corners[1]), corner(corners[2])]);
+                objects.push(object_id(id));
+            }
+        }
+        Self { bvh: Bvh::new(&triangles), objects }
+    }
+
+    /// All that the ray through a point of the picture meets, in order of depth.
+    fn hits(&self, view: &View, px: Vec2) -> Vec<Hit> {
+        let origin = view.unproject(px, 0.0);
+        let direction = view.unproject(px, 1.0) - origin;
+        let found = std::cell::RefCell::new(Vec::new());
+        self.bvh.any_hit(origin, direction, view.clip_range[0], f64::INFINITY, |hit| {
+            found.borrow_mut().push(Hit { object: self.objects[hit.triangle], depth: hit.t });
+            true
+        });
+        let mut hits = found.into_inner();
+        hits.sort_by(|a, b| a.depth.total_cmp(&b.depth).then(a.object.cmp(&b.object)));
+        // Two triangles that share an edge, on it.
+        hits.dedup_by(|a, b| a.object == b.object && (a.depth - b.depth).abs() < 1e-9 * b.depth);
+        hits
+    }
+}
+
+/// Whether two lists are equal; surfaces closer than 1e-5 of the depth compare as a set. `around`: what rays close by meet,
+/// as corners are snapped to fractions of a pixel.
+fn agree(drawn: &[Hit], cast: &[Hit], around: &[Vec<Hit>]) -> bool {
+    let is_deep = |i: usize, hit: &Hit| {
+        let depths = around.iter().filter_map(|hits| hits.get(i)).map(|h| h.depth);
+        let (low, high) = depths
+            .fold((cast[i].depth, cast[i].depth), |(low, high), depth| (low.min(depth), high.max(depth)));
+        let slack = 1e-5 * hit.depth.abs();
+        low - slack <= hit.depth && hit.depth <= high + slack
+    };
+    let mut start = 0;
+    let mut same = drawn.len() == cast.len() && drawn.iter().enumerate().all(|(i, hit)| is_deep(i, hit));
+    while same && start < cast.len() {
+        let run = cast[start..].windows(2).take_while(|w| w[1].depth - w[0].depth < 1e-5 * w[0].depth.abs());
+        let end = start + run.count() + 1;
+        let set = |hits: &[Hit]| {
+            let mut objects: Vec<_> = hits[start..end].iter().map(|h| h.object).collect();
+            objects.sort_unstable();
+            objects
+        };
+        same = set(drawn) == set(cast);
+        start = end;
+    }
+    same
+}
+
+/// Per pixel what the layers hold, nearest first.
+fn layers(session: &mut Session, opened: &Opened, side: u32) -> Vec<Vec<Hit>> {
+    session.renderer().keep_layers();
+    session.set_scene(opened).unwrap();
+    let picture = session.draw(opened, [side; 2], false).unwrap();
+    assert_eq!(picture.layers.len(), 1, "one group");
+    let mut of_pixel = vec![Vec::new(); (side * side) as usize];
+    for layer in &picture.layers[0] {
+        let surfels = texels::<[u32; 4]>(session, &layer.gbuffer.geometry);
+        for (hits, [_, _, depth, object]) in of_pixel.iter_mut().zip(surfels) {
+            if object != 0 {
+                hits.push(Hit { object: object & 0x7fff_ffff, depth: f64::from(f32::from_bits(depth)) });
+            }
+        }
+    }
+    of_pixel
+}
+
+fn check_layers(name: &str, opened: &Opened, side: u32, least_depth: usize) {
+    let mut session = session();
+    let opened = blueprint(opened.clone());
+    let world = World::new(&opened.scene);
+    let camera =
+        opened.document.camera.unwrap_or_else(|| initial_camera(&opened.document, &opened.scene, 1.0));
+    for camera in [camera, camera.with_orthographic(true)] {
+        let opened = Opened {
+            document: hachure::document::Document { camera: Some(camera), ..opened.document.clone() },
+            scene: Arc::clone(&opened.scene),
+        };
+        let drawn = layers(&mut session, &opened, side);
+        let view = View::new(&camera, &opened.scene.bounds(), UVec2::splat(side));
+        let (mut compared, mut deepest, mut wrong) = (0_u32, 0, Vec::new());
+        for (i, drawn) in drawn.iter().enumerate() {
+            let px = Vec2::new((i as u32 % side) as f32 + 0.5, (i as u32 / side) as f32 + 0.5);
+            let cast = world.hits(&view, px);
+            let objects = |hits: &[Hit]| hits.iter().map(|h| h.object).collect::<Vec<_>>();
+            let here = objects(&cast);
+            // Within a pixel of an edge, another surface is met there.
+            let is_inside = (0..16).all(|k| {
+                let offset = Vec2::from_angle(k as f32 * std::f32::consts::TAU / 8.0) * [0.5, 1.0][k / 8];
+                objects(&world.hits(&view, px + offset)) == here
+            });
+            if is_inside && !cast.is_empty() {
+                compared += 1;
+                deepest = deepest.max(cast.len());
+                let around =
+                    [Vec2::X, Vec2::NEG_X, Vec2::Y, Vec2::NEG_Y].map(|d| world.hits(&view, px + d / 64.0));
+                if !agree(drawn, &cast, &around) {
+                    wrong.push((px, drawn.clone(), cast));
+                }
+            }
+        }
+        assert!(compared > side * side / 12, "{name}: only {compared} pixels");
+        assert!(deepest >= least_depth, "{name}: at most {deepest} layers");
+        let share = wrong.len() as f64 / f64::from(compared);
+        assert!(share <= 1e-4, "{name}: {} of {compared} pixels differ: {:#?}", wrong.len(), wrong[0]);
+    }
+}
+
+fn sample(name: &str) -> Opened {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("assets/models/{name}.glb"));
+    open(&[path], None, &Progress::default()).unwrap()
+}
+
+#[test]
+fn the_layers_of_the_samples_are_what_rays_meet() {
+    check_layers("crank", &sample("crank"), 144, 8);
+    check_layers("ogre", &sample("ogre"), 144, 4);
+}
+
+#[test]
+fn coplanar_duplicate_and_interpenetrating_objects_lose_and_repeat_nothing() {
+    let turn = DMat4::from_quat(DQuat::from_euler(glam::EulerRot::XYZ, 0.4, 0.3, 0.1));
+    let eye = DVec3::new(0.3, 0.2, 1.0);
+    let duplicates: Vec<Object> =
+        ["a", "b", "c"].map(|name| object(name, primitives::sphere(1.0, 12, 20), turn)).into();
+    check_layers("duplicates", &opened(&scene(duplicates), eye), 96, 6);
+    let coplanar = vec![
+        object("wide", primitives::plane(2.0), turn),
+        object("narrow", primitives::plane(1.0), turn),
+        object("cube", primitives::cube(1.0), turn * at(0.5)),
+        object("tall", primitives::cube(1.0), turn * DMat4::from_translation(DVec3::new(0.3, 0.2, 0.5))),
+    ];
+    check_layers("coplanar", &opened(&scene(coplanar), eye), 96, 6);
+    let crossing = vec![
+        object("cube", primitives::cube(1.4), turn),
+        object("ball", primitives::sphere(0.9, 16, 24), DMat4::IDENTITY),
+        object("ring", primitives::torus(0.8, 0.3, 24, 12), turn),
+        object("wall", primitives::plane(2.4), DMat4::from_rotation_y(0.5)),
+    ];
+    check_layers("crossing", &opened(&scene(crossing), eye), 96, 6);
+}
+
+/// Squares behind each other, as large as given.
+fn stack(sides: &[f32]) -> Opened {
+    let planes = sides.iter().enumerate().map(|(i, side)| {
+        (["plane", "other"][i % 2], primitives::plane(*side), at(-0.05 * i as f64), [1.0; 3])
+    });
+    blueprint(opened(&scene(planes.collect()), DVec3::Z))
+}
+
+/// How far peeling came: the number of layers, and the pixels of each.
+fn peeled(session: &mut Session, opened: &Opened) -> (u32, Vec<u32>) {
+    session.set_scene(opened).unwrap();
+    session.draw(opened, [64; 2], false).unwrap();
+    let peeled = session.renderer().peeled().unwrap();
+    assert_eq!(peeled.len(), 1);
+    (peeled[0].layers, peeled[0].pixels.to_vec())
+}
+
+#[test]
+fn peeling_ends_with_the_last_surface_the_most_layers_or_the_least_pixels() {
+    let mut session = session();
+    let few = stack(&[2.0, 1.5, 1.0, 0.5]);
+    let (count, pixels) = peeled(&mut session, &few);
+    assert_eq!(count, 4);
+    assert!(pixels[..4].windows(2).all(|w| w[0] > w[1]), "{pixels:?}");
+    assert!(pixels[4..].iter().all(|p| *p == 0), "{pixels:?}");
+
+    for most in [1, 3] {
+        for key in ["blueprint.layers", "blueprint.to"] {
+            let mut fewer = few.clone();
+            set(&mut fewer, key, &most.to_string());
+            let (count, of_fewer) = peeled(&mut session, &fewer);
+            assert_eq!(count, most, "{key}");
+            assert_eq!(of_fewer[..most as usize], pixels[..most as usize]);
+        }
+    }
+    // The third layer has exactly so many pixels; one more ends it before.
+    for (least, expected) in [(pixels[2], 3), (pixels[2] + 1, 2), (pixels[0] + 1, 0)] {
+        let mut ended = few.clone();
+        let percent = (f64::from(least) - 0.5) * 100.0 / 4096.0;
+        set(&mut ended, "blueprint.least", &percent.to_string());
+        let (count, of_ended) = peeled(&mut session, &ended);
+        assert_eq!(count, expected, "at least {least} of {pixels:?}");
+        // That which ended it has been counted, and nothing after it.
+        assert_eq!(of_ended[expected as usize], pixels[expected as usize]);
+        assert!(of_ended[expected as usize + 1..].iter().all(|p| *p == 0), "{of_ended:?}");
+    }
+
+    let many = stack(&[1.0; 70]);
+    let (count, pixels) = peeled(&mut session, &many);
+    assert_eq!(count, 64);
+    assert!(pixels.iter().all(|p| *p > 300), "{pixels:?}");
+}
+
+#[test]
+fn a_group_beyond_the_picture_or_without_a_triangle_is_empty_paper() {
+    let mut session = session();
+    let ball = scene(vec![object("ball", primitives::sphere(1.0, 12, 20), DMat4::IDENTITY)]);
+    let mut away = blueprint(opened(&ball, DVec3::Z));
+    if let Some(camera) = &mut away.document.camera {
+        camera.focal_point = camera.position + DVec3::Y;
+        camera.view_up = DVec3::Z;
+    }
+    let nothing = blueprint(opened(&scene(vec![object("none", Mesh::default(), DMat4::IDENTITY)]), DVec3::Z));
+    for opened in [away, nothing] {
+        assert_eq!(peeled(&mut session, &opened).0, 0);
+        let image = common::image(&mut session, &opened, 32);
+        assert!(image.pixels().all(|p| p == image.get_pixel(0, 0)));
+    }
+}
+
+fn set_for(opened: &mut Opened, node: usize, key: &str, value: &str) {
+    let scene = Arc::clone(&opened.scene);
+    opened.document.set_for(&scene, &[node], key, &Value::parse(value)).unwrap();
+}
+
+/// A white cube at a depth and around the origin a ball whose layers are black glass, half transparent, without lines.
+fn cube_and_ball(z: f64) -> Opened {
+    let objects = vec![
+        object("cube", primitives::cube(0.5), at(z)),
+        object("ball", primitives::sphere(1.0, 24, 48), DMat4::IDENTITY),
+        // So that the camera is the same for all.
+        object("around", primitives::cube(3.6), DMat4::IDENTITY),
+    ];
+    let mut opened = opened(&scene(objects), DVec3::Z);
+    opened.document.camera = opened.document.camera.map(|c| c.with_orthographic(true));
+    opened.document.node_mut("/around").visible = Some(false);
+    for (key, value) in [
+        ("technique", "unlit"),
+        ("edges.profile.show", "false"),
+        ("edges.inner.show", "false"),
+        ("view.background", "#ffffff"),
+        ("blueprint.fill", "#000000"),
+        ("blueprint.opacity", "0.5"),
+    ] {
+        set(&mut opened, key, value);
+    }
+    set_for(&mut opened, 1, "technique", "blueprint");
+    opened
+}
+
+/// How many layers of black glass leave so much of white.
+fn layers_before_white(value: u8) -> u32 {
+    (0..6)
+        .min_by_key(|n| {
+            let linear = 0.5_f64.powi(*n);
+            let srgb = 1.055 * linear.powf(1.0 / 2.4) - 0.055;
+            ((srgb * 255.0).round() as i32).abs_diff(i32::from(value))
+        })
+        .unwrap() as u32
+}
+
+#[test]
+fn an_opaque_cube_hides_the_layers_behind_it_and_no_others() {
+    let mut session = session();
+    for (z, before_cube) in [(1.4, 0), (0.0, 1), (-1.4, 2)] {
+        let image = common::image(&mut session, &cube_and_ball(z), 96);
+        let seen = |x, y| layers_before_white(image.get_pixel(x, y).0[0]);
+        assert_eq!(seen(48, 48), before_cube, "before the cube at {z}");
+        // Beside the cube, within the ball; beyond the ball.
+        assert_eq!(seen(48 + 17, 48), 2, "beside the cube at {z}");
+        assert_eq!(seen(2, 2), 0);
+    }
+}
+
+#[test]
+fn layers_are_drawn_from_and_to_where_they_are_told() {
+    let mut session = session();
+    let objects = (0..5).map(|i| object("plane", primitives::plane(1.0), at(-0.1 * f64::from(i))));
+    let mut opened = blueprint(opened(&scene(objects.collect()), DVec3::Z));
+    for (key, value) in [
+        ("edges.profile.show", "false"),
+        ("edges.inner.show", "false"),
+        ("view.background", "#ffffff"),
+        ("blueprint.fill", "#000000"),
+        ("blueprint.opacity", "0.5"),
+    ] {
+        set(&mut opened, key, value);
+    }
+    for (from, to, expected) in [(1, 64, 5), (1, 2, 2), (3, 64, 3), (2, 4, 3), (5, 5, 1), (4, 3, 0)] {
+        set(&mut opened, "blueprint.from", &from.to_string());
+        set(&mut opened, "blueprint.to", &to.to_string());
+        let image = common::image(&mut session, &opened, 32);
+        let seen = layers_before_white(image.get_pixel(16, 16).0[0]);
+        assert_eq!(seen, expected, "from {from} to {to}");
+    }
+}
+
+/// Pixels with the colour of a line.
+fn inked(image: &image::RgbaImage) -> usize {
+    image.pixels().filter(|p| p.0[0] < 200).count()
+}
+
+#[test]
+fn hidden_lines_are_drawn_in_the_colour_of_their_layer() {
+    let mut session = session();
+    // A cube in a cube: the inner one is hidden from all sides.
+    let objects = vec![
+        object("outer", primitives::cube(2.0), DMat4::IDENTITY),
+        object("inner", primitives::cube(0.8), DMat4::IDENTITY),
+    ];
+    let mut opened = blueprint(opened(&scene(objects), DVec3::new(0.5, 0.4, 1.0)));
+    for (key, value) in [
+        ("view.background", "#ffffff"),
+        ("blueprint.opacity", "0"),
+        ("blueprint.by_layer", "1"),
+        ("blueprint.by_distance", "0"),
+        ("blueprint.near", "#000000"),
+        ("blueprint.far", "#ff0000"),
+        ("edges.profile.width", "16"),
+        ("edges.inner.width", "16"),
+    ] {
+        set(&mut opened, key, value);
+    }
+    let image = common::image(&mut session, &opened, 128);
+    let red = image.pixels().filter(|p| p.0[0] > 200 && p.0[1] < 60).count();
+    let black = inked(&image);
+    assert!(red > 150 && black > 300, "{red} red, {black} black");
+    // Only what a nearer layer does not hide adds ink: the first layer alone has all the black.
+    set(&mut opened, "blueprint.to", "1");
+    let first = common::image(&mut session, &opened, 128);
+    assert_eq!(inked(&first), black);
+    assert!(first.pixels().all(|p| p.0[0].abs_diff(p.0[1]) < 8), "the first layer has no red");
+}
+
+#[test]
+fn repeated_lines_are_drawn_only_on_demand() {
+    let mut session = session();
+    // The outline of the near square is where the far one's second layer ends too (paper, Fig. 5).
+    let objects = vec![
+        object("near", primitives::plane(1.0), at(0.2)),
+        object("far", primitives::plane(2.0), at(-0.2)),
+    ];
+    let mut opened = blueprint(opened(&scene(objects), DVec3::Z));
+    for (key, value) in [
+        ("view.background", "#ffffff"),
+        ("blueprint.opacity", "0"),
+        ("blueprint.to", "2"),
+        ("blueprint.near", "#000000"),
+        ("blueprint.by_layer", "0"),
+        ("blueprint.by_distance", "0"),
+        ("edges.profile.width", "16"),
+    ] {
+        set(&mut opened, key, value);
+    }
+    for mode in ["exact", "paper"] {
+        set(&mut opened, "edges.mode", mode);
+        let mut ink = [true, false].map(|repeated| {
+            set(&mut opened, "blueprint.repeated", &repeated.to_string());
+            // The first layer is peeled, not drawn: its lines are then not repeated.
+            set(&mut opened, "blueprint.from", "2");
+            let hidden = inked(&common::image(&mut session, &opened, 96));
+            set(&mut opened, "blueprint.from", "1");
+            set(&mut opened, "edges.profile.strength", "0.4");
+            let image = common::image(&mut session, &opened, 96);
+            set(&mut opened, "edges.profile.strength", "1");
+            (hidden, image.pixels().map(|p| u64::from(255 - p.0[0])).sum::<u64>())
+        });
+        ink.reverse();
+        let [(hidden, once), (hidden_too, twice)] = ink;
+        assert!(hidden > 60 && hidden == hidden_too, "{mode}: {hidden} {hidden_too}");
+        assert!(twice > once + once / 20, "{mode}: {once} without and {twice} with repeated lines");
+    }
+}
+
+#[test]
+fn without_a_blueprint_nothing_is_peeled_and_without_a_change_nothing_again() {
+    let mut session = session();
+    let runs = |session: &mut Session| {
+        session
+            .renderer()
+            .runs()
+            .iter()
+            .find(|(name, _)| *name == "blueprint")
+            .map(|(_, runs)| *runs)
+            .unwrap()
+    };
+    let ball = scene(vec![object("ball", primitives::sphere(1.0, 12, 20), DMat4::IDENTITY)]);
+    let surface = opened(&ball, DVec3::Z);
+    common::draw(&mut session, &surface, 32);
+    assert_eq!(runs(&mut session), 0);
+    assert!(session.renderer().peeled().unwrap().is_empty());
+    let mut peeled = blueprint(surface);
+    session.draw(&peeled, [32; 2], false).unwrap();
+    session.draw(&peeled, [32; 2], false).unwrap();
+    assert_eq!(runs(&mut session), 1);
+    set(&mut peeled, "blueprint.opacity", "0.3");
+    session.draw(&peeled, [32; 2], false).unwrap();
+    assert_eq!(runs(&mut session), 2);
+}
+
+#[test]
+fn the_order_of_objects_changes_no_layer() {
+    let mut session = session();
+    let shapes =
+        [primitives::cube(1.2), primitives::torus(0.7, 0.25, 20, 10), primitives::sphere(0.8, 12, 18)];
+    let place = DMat4::from_quat(DQuat::from_rotation_x(0.5));
+    let mut pictures = Vec::new();
+    for order in [[0, 1, 2], [2, 0, 1]] {
+        let objects = order.map(|i: usize| object(["cube", "ring", "ball"][i], shapes[i].clone(), place));
+        let opened = blueprint(opened(&scene(objects.into()), DVec3::new(0.2, 0.4, 1.0)));
+        let depths = layers(&mut session, &opened, 64)
+            .iter()
+            .map(|hits| hits.iter().map(|h| h.depth).collect::<Vec<_>>())
+            .collect::<Vec<_>>();
+        pictures.push(depths);
+    }
+    assert!(pictures[0] == pictures[1]);
+}
