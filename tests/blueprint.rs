@@ -394,6 +394,8 @@ fn repeated_lines_are_drawn_only_on_demand() {
     let objects = vec![
         object("near", primitives::plane(1.0), at(0.2)),
         object("far", primitives::plane(2.0), at(-0.2)),
+        // The papers' operators see steps in depth only within the range of the objects.
+        object("behind", primitives::plane(0.1), at(-2.0)),
     ];
     let mut opened = blueprint(opened(&scene(objects), DVec3::Z));
     for (key, value) in [
