@@ -16,6 +16,8 @@ override WITH_WIDTHS: bool = true;
 override NARROW: bool = false;
 override WITH_DASHES: bool = true;
 override WITH_SURFACE_COLOR: bool = true;
+// Whether lines are tested against other surfaces than those that they were found among.
+override AMONG_OTHERS: bool = false;
 
 @group(1) @binding(1) var edge_map_tex: texture_2d<u32>;
 @group(1) @binding(2) var base_color_tex: texture_2d<f32>;
@@ -25,7 +27,9 @@ override WITH_SURFACE_COLOR: bool = true;
 @group(1) @binding(5) var<storage, read> edge_styles: array<EdgeStyle>;
 
 // A surface so far before a line, in pixels, hides it.
-const SLACK: f32 = 2.0;
+fn slack() -> f32 {
+    return select(2.0, 0.25, AMONG_OTHERS);
+}
 
 // The share of a unit square on the near side of a straight edge at this signed distance from its centre (positive:
 // the centre is inside); `normal` is the edge's.
@@ -57,7 +61,7 @@ fn is_hidden(g: Surfel, px: vec2<i32>, edge: Edge, spine: vec2<f32>) -> bool {
     // Neither here nor where it is continued to the spine may the surface lie before the line: what an object stands
     // on does not hide the line at its foot.
     let lead = min(plane.center, nearness_at(plane, spine - vec2<f32>(px) - 0.5)) - line;
-    return step_px(lead, edge.depth) > SLACK;
+    return step_px(lead, edge.depth) > slack();
 }
 
 struct Line {
@@ -252,7 +256,7 @@ fn lines_at(px: vec2<i32>, g: Surfel) -> Line {
     if WITH_PAPER {
         let texel = textureLoad(edge_map_tex, px, 0);
         let depth = bitcast<f32>(texel.z);
-        let is_hidden = g.object != 0u && step_px(nearness_of(g.depth) - nearness_of(depth), depth) > SLACK;
+        let is_hidden = g.object != 0u && step_px(nearness_of(g.depth) - nearness_of(depth), depth) > slack();
         if class_of(texel) == PAPER && !is_hidden {
             // Edge-enhancement paper, section 5: inner edges first, then profile edges over them.
             let object = texel.y;

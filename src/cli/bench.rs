@@ -18,7 +18,7 @@ use crate::render::Request;
 use crate::scene::{Camera, Material, Node, Scene};
 use crate::style::halftone::{Mapping, Space};
 use crate::style::toon::Border;
-use crate::style::{DepthOperator, EdgeMode, Style, Technique, preset};
+use crate::style::{DepthOperator, EdgeMode, Style, StyleError, Technique, preset};
 
 /// What is measured: a style in some light, and what stands behind the model.
 struct Look {
@@ -204,6 +204,11 @@ fn looks() -> Result<Vec<Look>, CliError> {
         (style.edges.profile.width, style.edges.inner.width) = (width, width);
         style
     };
+    let blueprint = |layers| {
+        let mut style = preset::load("blueprint")?.style;
+        (style.blueprint.layers, style.blueprint.least) = (layers, 0.0);
+        Ok::<_, StyleError>(style)
+    };
     let plain = preset::load("plain")?.style;
     let unshadowed = Lighting::default();
     let hard = Lighting { shadows: true, ..Lighting::default() };
@@ -223,6 +228,8 @@ fn looks() -> Result<Vec<Look>, CliError> {
         ("gooch + edges, 2 px", exact(2.0)),
         ("gooch + edges, 32 px", exact(32.0)),
         ("lines", preset::load("lines")?.style),
+        ("blueprint, 1 layer", blueprint(1)?),
+        ("blueprint, 5 layers", blueprint(5)?),
     ];
     let look = |name, style, lighting: &Lighting| Look {
         name,

@@ -320,7 +320,7 @@ impl Peeling<'_> {
             file: "effects/blueprint.wgsl",
             entry_point: "fs_lines",
             inputs: &self.sprite(seen_before.as_ref().unwrap_or(&layer.order)),
-            switches: &[("WITHOUT_REPEATED", seen_before.is_some())],
+            switches: &[("WITHOUT_REPEATED", seen_before.is_some()), ("AMONG_OTHERS", true)],
             onto: Onto::Beneath,
         };
         lines(rec, &drawn, &pen, color)
