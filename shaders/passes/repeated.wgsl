@@ -16,30 +16,32 @@ const SAME: f32 = 1.0;
 // Stands for the ink of an operator: no radius, the middle of the pixel.
 const INKED: u32 = 0x7f7fu;
 
-struct Out {
-    // With those of this layer.
-    @location(0) seen: u32,
-    // Those of this layer that no nearer one has.
-    @location(1) spine: u32,
-}
-
 fn offset_in(spine: u32) -> vec2<f32> {
     return vec2(f32((spine >> 8u) & 255u), f32(spine & 255u)) / 127.0 - 1.0;
 }
 
-@fragment
-fn fs_main(@builtin(position) position: vec4<f32>) -> Out {
-    let px = vec2<i32>(position.xy);
-    let seen = textureLoad(seen_tex, px, 0).x;
-    var own = 0u;
+fn own_at(px: vec2<i32>) -> u32 {
     if WITH_PAPER {
-        own = select(0u, INKED, class_of(textureLoad(edge_map_tex, px, 0)) == PAPER);
-    } else {
-        own = textureLoad(spine_tex, px, 0).x;
+        return select(0u, INKED, class_of(textureLoad(edge_map_tex, px, 0)) == PAPER);
     }
+    return textureLoad(spine_tex, px, 0).x;
+}
+
+// Adds the lines of this layer to those that have been seen, and marks where they are.
+@fragment
+fn fs_seen(@builtin(position) position: vec4<f32>) -> @location(0) u32 {
+    let own = own_at(vec2<i32>(position.xy));
     if own == 0u {
-        return Out(seen, 0u);
+        discard;
     }
+    return own;
+}
+
+// The spines of this layer that no nearer one has.
+@fragment
+fn fs_own(@builtin(position) position: vec4<f32>) -> @location(0) u32 {
+    let px = vec2<i32>(position.xy);
+    let own = own_at(px);
     let last = vec2<i32>(frame.size) - 1;
     var nearest = 1e9;
     for (var i = 0; i < 9; i++) {
@@ -48,5 +50,5 @@ fn fs_main(@builtin(position) position: vec4<f32>) -> Out {
         let apart = vec2<f32>(q - px) + offset_in(other) - offset_in(own);
         nearest = select(nearest, min(nearest, dot(apart, apart)), other != 0u);
     }
-    return Out(select(seen, own, seen == 0u), select(own, 0u, nearest < SAME * SAME));
+    return select(own, 0u, nearest < SAME * SAME);
 }

@@ -87,22 +87,14 @@ fn is_beside(px: vec2<i32>, regions: vec2<u32>) -> bool {
     return found;
 }
 
-// Whether a pixel or one of its neighbours shows one of these surfaces at this depth, as exactly as its slope allows.
-fn is_carried(px: vec2<i32>, regions: vec2<u32>, spine: vec2<f32>, nearness: f32, depth: f32) -> bool {
-    let last = vec2<i32>(frame.size) - 1;
-    var found = false;
-    for (var i = 0; i < 9; i++) {
-        let q = clamp(px + vec2(i % 3, i / 3) - 1, vec2(0), last);
-        if any(regions == vec2(textureLoad(region_tex, q, 0).x)) {
-            let s = unpack_surfel(geometry_at(q));
-            let plane = plane_of(q, s.depth, s.face_normal);
-            let miss = abs(nearness_at(plane, spine - vec2<f32>(q) - 0.5) - nearness);
-            // Curved surfaces bend away from their plane the more, the steeper it is.
-            let slack = length(plane.slope);
-            found = found || step_px(miss - slack, depth) <= 1.0;
-        }
-    }
-    return found;
+// Whether a layer's surface at a pixel is one of these and runs through the spine, as exactly as its slope allows: curved
+// surfaces bend away from their plane the more, the steeper it is.
+fn carries(px: vec2<i32>, regions: vec2<u32>, spine: vec2<f32>, nearness: f32, depth: f32) -> bool {
+    let q = clamp(px, vec2(0), vec2<i32>(frame.size) - 1);
+    let s = unpack_surfel(geometry_at(q));
+    let plane = plane_of(q, s.depth, s.face_normal);
+    let miss = abs(nearness_at(plane, spine - vec2<f32>(q) - 0.5) - nearness) - length(plane.slope);
+    return any(regions == vec2(textureLoad(region_tex, q, 0).x)) && step_px(miss, depth) <= 1.0;
 }
 
 fn beside(at: vec2<f32>, spine: vec2<f32>, nearness: f32, depth: f32) -> Beside {
@@ -135,7 +127,10 @@ fn fs_main(v: Segment) -> Out {
         is_visible = is_visible && is_beside(vec2<i32>(px), v.ids.zw);
     }
     if IN_LAYER {
-        is_visible = is_visible && is_carried(vec2<i32>(px), v.ids.zw, spine, nearness, depth);
+        let is_carried = carries(vec2<i32>(px), v.ids.zw, spine, nearness, depth)
+            || carries(vec2<i32>(floor(spine + BESIDE * normal)), v.ids.zw, spine, nearness, depth)
+            || carries(vec2<i32>(floor(spine - BESIDE * normal)), v.ids.zw, spine, nearness, depth);
+        is_visible = is_visible && is_carried;
     }
     if !is_visible {
         discard;

@@ -88,7 +88,9 @@ fn usage(format: wgpu::TextureFormat) -> wgpu::TextureUsages {
         | wgpu::TextureUsages::TEXTURE_BINDING
         | wgpu::TextureUsages::COPY_SRC;
     match format {
-        wgpu::TextureFormat::R32Uint => usage | wgpu::TextureUsages::STORAGE_BINDING,
+        wgpu::TextureFormat::R32Uint => {
+            usage | wgpu::TextureUsages::STORAGE_BINDING | wgpu::TextureUsages::COPY_DST
+        }
         wgpu::TextureFormat::Depth32Float => usage | wgpu::TextureUsages::COPY_DST,
         _ => usage,
     }

@@ -1,8 +1,8 @@
 //! Leaves out lines that a nearer layer has at the same place (blueprints paper, section 4.1, Fig. 5).
 
 use super::edge_map::{EdgeMap, SPINES};
-use crate::gpu::recorder::Input;
-use crate::gpu::{Program, Recorder, Target};
+use crate::gpu::recorder::{Draw, Input, Onto};
+use crate::gpu::{DepthRule, Program, Recorder, Target};
 use crate::render::RenderError;
 
 /// No line seen yet.
@@ -25,23 +25,38 @@ pub fn without_repeated(
     edge_map: &EdgeMap,
     seen: &Target,
 ) -> Result<(Target, EdgeMap), RenderError> {
+    let program = |entry_point| Program {
+        file: "passes/repeated.wgsl",
+        entry_point,
+        switches: vec![("WITH_PAPER", edge_map.spines.is_none())],
+    };
+    let inputs = [
+        Input::Texture(&edge_map.edges),
+        // Without spines any texture of their kind.
+        Input::Texture(edge_map.spines.as_ref().unwrap_or(seen)),
+        Input::Texture(seen),
+    ];
     let (now_seen, own) = (rec.target("seen lines", SPINES)?, rec.target("own spines", SPINES)?);
-    rec.fullscreen(
-        "repeated lines",
-        Program {
-            file: "passes/repeated.wgsl",
-            entry_point: "fs_main",
-            switches: vec![("WITH_PAPER", edge_map.spines.is_none())],
-        },
-        &[
-            Input::Texture(&edge_map.edges),
-            // Without spines any texture of their kind.
-            Input::Texture(edge_map.spines.as_ref().unwrap_or(seen)),
-            Input::Texture(seen),
-        ],
-        &[&now_seen, &own],
-        None,
-    )?;
+    let marks = rec.target("lines of layer", wgpu::TextureFormat::Depth32Float)?;
+    rec.copy(seen, &now_seen);
+    rec.draw(Draw {
+        label: "seen lines",
+        program: program("fs_seen"),
+        inputs: &inputs,
+        outputs: &[&now_seen],
+        onto: Onto::Old,
+        depth: Some((&marks, DepthRule::Mark)),
+        lines: None,
+    })?;
+    rec.draw(Draw {
+        label: "repeated lines",
+        program: program("fs_own"),
+        inputs: &inputs,
+        outputs: &[&own],
+        onto: Onto::Nothing,
+        depth: Some((&marks, DepthRule::Marked)),
+        lines: None,
+    })?;
     let spines = edge_map.spines.is_some().then_some(own);
     Ok((now_seen, EdgeMap { edges: edge_map.edges.clone(), spines }))
 }
