@@ -19,7 +19,7 @@ use hachure::render::effects::halftone::calibration::{PLACES, SIZES, TONES, ink,
 use hachure::render::effects::halftone::threshold_map::{
     LAYERS, LEVELS, PERIODS, SIDE as TILE, STEPS, ThresholdMap,
 };
-use hachure::scene::{Projection, Scene};
+use hachure::scene::{Projection, Scene, Texture as ImageTexture};
 use hachure::style::Value;
 use hachure::style::halftone::Texture;
 
@@ -386,6 +386,43 @@ fn one_halftones_parameters_change_no_pixel_of_another() {
         let pairs = first.pixels().zip(second.pixels()).zip(&objects);
         let changed: HashSet<u32> = pairs.filter(|((a, b), _)| a != b).map(|(_, object)| *object).collect();
         assert_eq!(changed, HashSet::from([1]), "{key}");
+    }
+}
+
+#[test]
+fn an_image_is_inked_first_where_it_is_dark_and_keeps_the_tone() {
+    // A dark cross on an even ground; a single texel has no order but keeps the tone too.
+    let cross = |x: u32, y: u32| if x < 8 || y < 8 { 30_u8 } else { 200 };
+    for (width, picture) in [(48, &cross as &dyn Fn(u32, u32) -> u8), (1, &|_, _| 90_u8)] {
+        let texels = (0..width * width).map(|i| picture(i % width, i / width));
+        let rgba: Vec<u8> = texels.flat_map(|v| [v, v, v, 255]).collect();
+        let image = Arc::new(ImageTexture { name: "tile".into(), width, height: width, rgba: rgba.into() });
+        let mut session = session();
+        session.renderer().set_images([("tile.png".into(), image)].into());
+        let scene = tilted_plane(0.0);
+        session.set_scene(&opened(&scene, DVec3::Z)).unwrap();
+        let mut opened = halftone(&scene, DVec3::Z, Texture::Image);
+        fix(&mut opened, Fixed::Screen);
+        zoomed(&mut opened, 1.0);
+        set(&mut opened, "halftone.image", "tile.png");
+        // One tile is as large as the picture.
+        set(&mut opened, "halftone.scale", &(1080.0 / PERIODS as f32).to_string());
+        for tone in [0.2, 0.7, 0.9] {
+            set(&mut opened, "halftone.ambient", &tone.to_string());
+            let inks = inks(&mut session, &opened, SIDE);
+            assert!((mean(&inks) - (1.0 - tone)).abs() < 0.02, "{width}, {tone}: {}", mean(&inks));
+            let of_cross = |dark: bool| {
+                let in_cross = |i: usize| {
+                    let texel = |c: usize| c as u32 * width / SIDE;
+                    picture(texel(i % SIDE as usize), texel(i / SIDE as usize)) < 50
+                };
+                let of: Vec<f32> =
+                    inks.iter().enumerate().filter(|(i, _)| in_cross(*i) == dark).map(|(_, ink)| *ink).collect();
+                mean(&of)
+            };
+            // The cross covers 0.31 of the tile.
+            assert!(width == 1 || tone < 0.69 || of_cross(false) < 0.03, "{tone}: {}", of_cross(false));
+        }
     }
 }
 
