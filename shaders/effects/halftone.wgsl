@@ -53,7 +53,7 @@ struct HalftoneStyle {
 const SIDE: f32 = 512.0;
 const STEPS: f32 = 8.0;
 const PLACES: u32 = 17u;
-const SIZES: u32 = 17u;
+const SIZES: u32 = 33u;
 const TONES: u32 = 33u;
 
 // A point of a pattern, and a pixel's sides there.
@@ -97,7 +97,7 @@ fn between(place: f32, count: u32) -> Between {
 // two.
 fn calibrated(map: u32, step: f32, level: f32, tone: f32) -> f32 {
     let place = between(step / STEPS * f32(PLACES - 1u), PLACES);
-    let size = between((level + 2.0) * 2.0, SIZES);
+    let size = between((level + 2.0) * 4.0, SIZES);
     let column = between(tone * f32(TONES - 1u), TONES);
     var thresholds: vec4<f32>;
     for (var corner = 0u; corner < 4u; corner++) {
