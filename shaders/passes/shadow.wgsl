@@ -50,8 +50,9 @@ struct ShadowLight {
 // texel of distance in the map, so that the far side of a valley does not shadow this one.
 const LEAST: f32 = 0.5;
 const PER_TEXEL: f32 = 1.5;
-// More where light grazes: what is known of the plane is inexact.
+// More where light grazes, up to a tangent: what is known of the plane is inexact.
 const PER_SLOPE: f32 = 0.2;
+const STEEPEST: f32 = 10.0;
 // Light that grazes a surface at less than this cosine lights nothing.
 const GRAZING: f32 = 1e-3;
 const TAPS: u32 = 16u;
@@ -72,7 +73,7 @@ struct Receiver {
     width: f32,
     // Texels per unit of length here.
     texels_per_unit: vec2<f32>,
-    // Tangent of the angle between the light and the plane's normal.
+    // Tangent of the angle between the light and the plane's normal, or `STEEPEST`.
     tilt: f32,
     // Greatest height above the plane at which anything may be.
     room: f32,
@@ -113,7 +114,7 @@ fn receiver(view: u32, pos_view: vec3<f32>, normal_view: vec3<f32>) -> Receiver 
     }
     r.room = distance - range.x;
     r.faces_light = facing > GRAZING;
-    r.tilt = sqrt(max(1.0 - facing * facing, 0.0)) / max(facing, GRAZING);
+    r.tilt = min(sqrt(max(1.0 - facing * facing, 0.0)) / max(facing, GRAZING), STEEPEST);
     return r;
 }
 

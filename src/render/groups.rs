@@ -37,6 +37,12 @@ pub fn region(object: u32, surface: u32) -> u32 {
 /// A part of a visible object: what has one material.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct VisiblePart {
+    /// The object.
+    pub node: NodeId,
+    /// Whether its edges are drawn.
+    pub enhanced: bool,
+    /// Whether its mesh has no normals, so that faces are flat.
+    pub is_flat: bool,
     /// Number of its mesh.
     pub mesh: usize,
     /// Where the object lies.
@@ -126,21 +132,21 @@ impl Objects {
 
     /// The boxes of all visible objects, each in its own space, and where that lies.
     pub fn boxes<'a>(&'a self, scene: &'a GpuScene) -> impl Iterator<Item = (Bounds, DMat4)> + 'a {
-        self.visible.iter().filter_map(|(id, _)| {
-            let node = &scene.scene.nodes[*id];
-            Some((*scene.mesh_bounds.get(node.mesh?)?, node.world_from_local))
-        })
+        self.visible.iter().filter_map(|(id, _)| box_of(*id, scene))
     }
 
     /// The parts of all visible objects.
     pub fn parts<'a>(&'a self, scene: &'a GpuScene) -> impl Iterator<Item = VisiblePart> + 'a {
-        self.visible.iter().flat_map(move |(id, _)| {
-            let node = &scene.scene.nodes[*id];
+        self.visible.iter().flat_map(move |&(id, enhanced)| {
+            let node = &scene.scene.nodes[id];
             let found =
                 node.mesh.and_then(|m| Some((m, scene.scene.meshes.get(m)?, scene.geometry.meshes.get(m)?)));
             found.into_iter().flat_map(move |(mesh, source, range)| {
                 source.parts.iter().map(move |part| VisiblePart {
+                    node: id,
+                    enhanced,
                     mesh,
+                    is_flat: source.normals.is_empty(),
                     world_from_local: node.world_from_local,
                     material: part.material,
                     first_index: range.first_index + part.first_index,
@@ -153,73 +159,67 @@ impl Objects {
 
     /// The boxes of the enhanced objects, each in its own space, and where that lies.
     pub fn enhanced_boxes<'a>(&'a self, scene: &'a GpuScene) -> impl Iterator<Item = (Bounds, DMat4)> + 'a {
-        self.visible.iter().filter(|(_, enhanced)| *enhanced).filter_map(|(id, _)| {
-            let node = &scene.scene.nodes[*id];
-            Some((*scene.mesh_bounds.get(node.mesh?)?, node.world_from_local))
-        })
+        self.visible.iter().filter(|(_, enhanced)| *enhanced).filter_map(|(id, _)| box_of(*id, scene))
     }
 
     /// What the G-buffer depends on: for each visible part its matrices, object and material, ordered by pipeline.
     pub fn draws(&self, scene: &GpuScene, view: &View) -> (Vec<DrawUniform>, Vec<DrawCall>) {
         let mut draws = Vec::new();
         let mut calls = Vec::new();
-        for &(id, enhanced) in &self.visible {
-            let node = &scene.scene.nodes[id];
-            let Some((mesh_index, mesh)) = node.mesh.and_then(|m| Some((m, scene.scene.meshes.get(m)?)))
-            else {
-                continue;
-            };
-            let Some(range) = scene.geometry.meshes.get(mesh_index) else { continue };
+        for part in self.parts(scene) {
             // Combined in double precision, so that models far from the origin do not jitter.
-            let view_from_local = view.view_from_world * node.world_from_local;
-            let local_bounds = scene.mesh_bounds.get(mesh_index).copied().unwrap_or(Bounds::EMPTY);
+            let view_from_local = view.view_from_world * part.world_from_local;
+            let local_bounds = scene.mesh_bounds.get(part.mesh).copied().unwrap_or(Bounds::EMPTY);
             if view.cut.is_some()
                 && view
                     .cuts_off(&local_bounds.corners().map(|corner| view_from_local.transform_point3(corner)))
             {
                 continue;
             }
-            let hidden_side = scene.hidden_side(mesh_index, &view_from_local, view.orthographic);
-            let has_images = |material: usize| {
-                scene.scene.materials.get(material).is_some_and(|m| {
-                    m.base_color_texture.is_some()
-                        || m.normal_texture.is_some()
-                        || m.alpha != AlphaMode::Opaque
-                })
+            let material = scene.scene.materials.get(part.material);
+            let alpha = material.map_or(AlphaMode::Opaque, |m| m.alpha);
+            let has_images =
+                material.is_some_and(|m| m.base_color_texture.is_some() || m.normal_texture.is_some());
+            let depth = -local_bounds.transformed(&view_from_local).max.z;
+            let call = DrawCall {
+                draw: draws.len() as u32,
+                first_index: part.first_index,
+                index_count: part.index_count,
+                base_vertex: part.base_vertex,
+                material_group: scene.materials.group_index(part.material),
+                detail: if scene.geometry.attributes.is_none() {
+                    Detail::Lean
+                } else if has_images || alpha != AlphaMode::Opaque {
+                    Detail::Full
+                } else {
+                    Detail::Smooth
+                },
+                hidden_side: if alpha == AlphaMode::Opaque {
+                    scene.hidden_side(part.mesh, &view_from_local, view.orthographic)
+                } else {
+                    None
+                },
             };
-            for part in &mesh.parts {
-                let alpha = scene.scene.materials.get(part.material).map_or(AlphaMode::Opaque, |m| m.alpha);
-                let depth = -local_bounds.transformed(&view_from_local).max.z;
-                let call = DrawCall {
-                    draw: draws.len() as u32,
-                    first_index: range.first_index + part.first_index,
-                    index_count: part.index_count,
-                    base_vertex: range.base_vertex,
-                    material_group: scene.materials.group_index(part.material),
-                    detail: if scene.geometry.attributes.is_none() {
-                        Detail::Lean
-                    } else if has_images(part.material) {
-                        Detail::Full
-                    } else {
-                        Detail::Smooth
-                    },
-                    hidden_side: if alpha == AlphaMode::Opaque { hidden_side } else { None },
-                };
-                calls.push((depth, call));
-                draws.push(DrawUniform {
-                    view_from_local: view_from_local.as_mat4(),
-                    normal_from_local: normal_matrix(&view_from_local),
-                    object: object_id(id) | if enhanced { ENHANCED } else { 0 },
-                    material: scene.materials.uniform(part.material),
-                    is_flat: u32::from(mesh.normals.is_empty()),
-                });
-            }
+            calls.push((depth, call));
+            draws.push(DrawUniform {
+                view_from_local: view_from_local.as_mat4(),
+                normal_from_local: normal_matrix(&view_from_local),
+                object: object_id(part.node) | if part.enhanced { ENHANCED } else { 0 },
+                material: scene.materials.uniform(part.material),
+                is_flat: u32::from(part.is_flat),
+            });
         }
         // Near ones first: what lies behind them is then never shaded.
         calls.sort_by(|(a, _), (b, _)| a.total_cmp(b));
         calls.sort_by_key(|(_, c)| (c.detail, c.hidden_side.map(|s| s as u32)));
         (draws, calls.into_iter().map(|(_, call)| call).collect())
     }
+}
+
+/// The box of an object in its own space, and where that lies.
+fn box_of(node: NodeId, scene: &GpuScene) -> Option<(Bounds, DMat4)> {
+    let node = &scene.scene.nodes[node];
+    Some((*scene.mesh_bounds.get(node.mesh?)?, node.world_from_local))
 }
 
 /// The cofactor matrix of the linear part: the inverse transpose up to a factor, which exists for flattening
