@@ -178,10 +178,12 @@ const SHADOW_CONTRAST: f32 = 0.6;
 @fragment
 fn fs_main(@builtin(position) position: vec4<f32>) -> Out {
     let px = vec2<i32>(position.xy);
-    let x = unpack_surfel(geometry_at(px));
+    let geometry = geometry_at(px);
+    let x = unpack_surfel(geometry);
     let own = region_at(px);
     let has_texture = WITH_TEXTURE && is_drawn(x.object, TEXTURE);
-    let has_relief = WITH_RELIEF && is_drawn(x.object, RELIEF);
+    // A face that is shaded flat has no relief.
+    let has_relief = WITH_RELIEF && is_drawn(x.object, RELIEF) && geometry.x != geometry.y;
     let has_shadow = WITH_SHADOW && is_drawn(x.object, SHADOW);
     let has_details = has_texture || has_relief || has_shadow;
     if !x.enhanced || edge_styles[x.object].mode != EXACT_MODE || !has_details {
