@@ -34,7 +34,7 @@ const PICTURES: &[(&str, &str, &[&str])] = &[
     ("clay_with_ink_ogre", "ogre", &["--style", "clay-with-ink"]),
     ("milled_metal_crank", "crank", &["--style", "milled-metal"]),
     ("engraving_ogre", "ogre", &["--style", "engraving"]),
-    ("newspaper_ogre", "ogre", &["--style", "newspaper"]),
+    ("newspaper_ogre", "ogre", &["--style", "newspaper", "--set", "halftone.scale=30"]),
     (
         "shadows_ogre",
         "ogre",
