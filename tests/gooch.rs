@@ -9,7 +9,7 @@ use std::f32::consts::TAU;
 use std::sync::Arc;
 
 use common::{Surfel, draw, image, opened, scene, session, set, surfels, texels};
-use glam::{DMat4, DVec3, EulerRot, Mat3, UVec2, Vec2, Vec3, vec2, vec3};
+use glam::{DMat4, DVec3, EulerRot, Mat3, UVec2, Vec2, Vec3, vec2};
 use hachure::export::Session;
 use hachure::export::session::Opened;
 use hachure::geometry::{Bounds, primitives};
