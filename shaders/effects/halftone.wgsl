@@ -52,7 +52,7 @@ struct HalftoneStyle {
 // As in src/render/effects/halftone/, threshold_map.rs and calibration.rs.
 const SIDE: f32 = 512.0;
 const STEPS: f32 = 8.0;
-const PLACES: u32 = 17u;
+const PLACES: u32 = 33u;
 const SIZES: u32 = 33u;
 const TONES: u32 = 33u;
 

@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use super::threshold_map::{LEVELS, Level, STEPS};
 
 /// Places in the octave, evenly from 0 to 1.
-pub const PLACES: usize = 2 * STEPS + 1;
+pub const PLACES: usize = 4 * STEPS + 1;
 /// Sizes of a pixel, evenly from 2⁻² to 2⁶ texels in powers of two.
 pub const SIZES: usize = 33;
 /// Tones, evenly from 0 to 1.
