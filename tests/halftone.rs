@@ -408,7 +408,7 @@ fn an_image_is_inked_first_where_it_is_dark_and_keeps_the_tone() {
         let rgba: Vec<u8> = texels.flat_map(|v| [v, v, v, 255]).collect();
         let image = Arc::new(ImageTexture { name: "tile".into(), width, height: width, rgba: rgba.into() });
         let mut session = session();
-        session.renderer().set_images([("tile.png".into(), image)].into());
+        session.renderer().set_images(hachure::render::StyleImages::new([("tile.png".into(), image)].into()));
         let scene = tilted_plane(0.0);
         session.set_scene(&opened(&scene, DVec3::Z)).unwrap();
         let mut opened = halftone(&scene, DVec3::Z, Texture::Image);

@@ -314,7 +314,7 @@ fn an_image_is_a_ramp_of_its_texels() {
         ("one.png".into(), Arc::new(ramp_image(&[[9, 90, 200]]))),
     ]
     .into();
-    session.renderer().set_images(images);
+    session.renderer().set_images(hachure::render::StyleImages::new(images));
     let ball = ball();
     let mut with = |border: &str, image: &str| {
         let mut opened = toon(&ball, DVec3::Z, border);
@@ -351,7 +351,9 @@ fn the_bands_that_a_pixel_touches_have_their_shares_in_it() {
     let mut session = session();
     let texels: Vec<[u8; 3]> =
         (0..256_u32).map(|k| [(k * 83 % 256) as u8, (k * 151 % 256) as u8, k as u8]).collect();
-    session.renderer().set_images([("ramp.png".into(), Arc::new(ramp_image(&texels)))].into());
+    session.renderer().set_images(hachure::render::StyleImages::new(
+        [("ramp.png".into(), Arc::new(ramp_image(&texels)))].into(),
+    ));
     let mut opened = toon(&ball(), DVec3::Z, "analytic");
     for (key, value) in
         [("toon.ramp", "image"), ("toon.image", "ramp.png"), ("toon.tint", "0"), ("toon.start", "-1")]
