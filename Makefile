@@ -38,7 +38,8 @@ bench:
 # Heavy measurements, in release.
 quality:
 	@sh .ci/packages test
-	cargo test --release --test quality --test many_objects --test line_table --test line_width --test shadows -- --ignored --nocapture --test-threads 1
+	cargo test --release --test quality --test many_objects --test line_table --test line_width --test shadows \
+		--test halftone -- --ignored --nocapture --test-threads 1
 
 # The sample models, from their generator.
 models:

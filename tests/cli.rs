@@ -138,11 +138,13 @@ fn info_styles_and_bench_print_what_they_promise() {
     let all = [
         "clay-with-ink",
         "comic",
+        "engraving",
         "gooch",
         "instruction-manual",
         "line-drawing",
         "lines",
         "milled-metal",
+        "newspaper",
         "patent-drawing",
         "plain",
         "statue",

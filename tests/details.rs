@@ -155,7 +155,8 @@ fn a_checkerboard_is_drawn_in_perspective() {
         off += u32::from(miss > 1.0);
     }
     println!("checkerboard: {} px, {off} off, worst {worst:.2}", spines.len());
-    assert!(spines.len() > 1500 && f64::from(off) < 0.02 * spines.len() as f64);
+    // Where four squares meet, the directions of two lines mix.
+    assert!(spines.len() > 1500 && f64::from(off) < 0.03 * spines.len() as f64 && worst < 3.0);
 }
 
 #[test]

@@ -9,7 +9,7 @@ use std::f32::consts::TAU;
 use std::sync::Arc;
 
 use common::{Surfel, draw, image, opened, scene, session, set, surfels, texels};
-use glam::{DMat4, DVec3, EulerRot, Mat3, UVec2, Vec2, Vec3, vec2, vec3};
+use glam::{DMat4, DVec3, EulerRot, Mat3, UVec2, Vec2, Vec3, vec2};
 use hachure::export::Session;
 use hachure::export::session::Opened;
 use hachure::geometry::{Bounds, primitives};
@@ -167,7 +167,7 @@ fn gooch_with_highlight_and_metal_equals_its_twin() {
     let axes = |m: DMat4| (m.z_axis.truncate().as_vec3(), m.x_axis.truncate().as_vec3());
     let object = |c, m| (linear(c), axes(m).0, axes(m).1);
     let twin = Twin {
-        light: vec3(-0.5, 0.7, 0.75).normalize(),
+        light: opened.document.lighting.key.direction().as_vec3(),
         world_from_view: Mat3::from_mat4(view.view_from_world.inverse().as_mat4()),
         objects: [object(base[0], DMat4::IDENTITY), object(base[1], turned_cone)],
         view,

@@ -27,6 +27,37 @@ const PICTURES: &[(&str, &str, &[&str])] = &[
     ("comic_ogre", "ogre", &["--style", "comic"]),
     ("two_tone_crank", "crank", &["--style", "two-tone"]),
     ("plain_crank", "crank", &["--style", "plain"]),
+    ("technical_illustration_crank", "crank", &["--style", "technical-illustration"]),
+    ("instruction_manual_crank", "crank", &["--style", "instruction-manual"]),
+    ("patent_drawing_crank", "crank", &["--style", "patent-drawing"]),
+    ("line_drawing_ogre", "ogre", &["--style", "line-drawing"]),
+    ("clay_with_ink_ogre", "ogre", &["--style", "clay-with-ink"]),
+    ("milled_metal_crank", "crank", &["--style", "milled-metal"]),
+    ("engraving_ogre", "ogre", &["--style", "engraving"]),
+    ("newspaper_ogre", "ogre", &["--style", "newspaper", "--set", "halftone.scale=30"]),
+    (
+        "shadows_ogre",
+        "ogre",
+        &["--style", "gooch", "--set", "light.shadows=true", "--set", "light.key.azimuth=-55"],
+    ),
+    (
+        "still_life",
+        "still_life",
+        &[
+            "--style",
+            "comic",
+            "--mirror",
+            "glass",
+            "--set",
+            "edges.texture.show=true",
+            "--set",
+            "edges.relief.show=true",
+            "--set",
+            "light.shadows=true",
+            "--set",
+            "edges.shadow.show=true",
+        ],
+    ),
     ("lines_crank", "crank", &["--style", "lines"]),
     ("lines_paper_crank", "crank", &["--style", "lines", "--set", "edges.mode=paper"]),
     ("width_1_crank", "crank", &["--style", "lines", "--set", PROFILE_1, "--set", INNER_1]),
@@ -147,6 +178,14 @@ fn pictures_look_as_they_did() {
         changed.push(format!("{name}: similarity {score:.4}, see {}", new.display()));
     }
     assert!(changed.is_empty(), "pictures changed; look at them, then `make bless`:\n{}", changed.join("\n"));
+}
+
+#[test]
+fn there_is_a_picture_of_every_preset() {
+    for preset in hachure::style::preset::all() {
+        let is_it = |args: &[&str]| args.windows(2).any(|pair| pair == ["--style", preset.name.as_str()]);
+        assert!(PICTURES.iter().any(|(.., args)| is_it(args)), "{}", preset.name);
+    }
 }
 
 #[test]

@@ -135,7 +135,7 @@ fn ramp_and_cartoon_map_equal_their_twins() {
     let unit = Bounds { min: DVec3::NEG_ONE, max: DVec3::ONE };
     let twin = Twin {
         view: View::new(&opened.document.camera.unwrap(), &unit, UVec2::splat(SIDE as u32)),
-        light: vec3(-0.5, 0.7, 0.75).normalize(),
+        light: opened.document.lighting.key.direction().as_vec3(),
         // As 8-bit colours, which is what the G-buffer holds.
         base: base.map(|c| Color(c.map(to_srgb)).to_linear()),
     };
@@ -314,7 +314,7 @@ fn an_image_is_a_ramp_of_its_texels() {
         ("one.png".into(), Arc::new(ramp_image(&[[9, 90, 200]]))),
     ]
     .into();
-    session.renderer().set_images(images);
+    session.renderer().set_images(hachure::render::StyleImages::new(images));
     let ball = ball();
     let mut with = |border: &str, image: &str| {
         let mut opened = toon(&ball, DVec3::Z, border);
@@ -351,7 +351,9 @@ fn the_bands_that_a_pixel_touches_have_their_shares_in_it() {
     let mut session = session();
     let texels: Vec<[u8; 3]> =
         (0..256_u32).map(|k| [(k * 83 % 256) as u8, (k * 151 % 256) as u8, k as u8]).collect();
-    session.renderer().set_images([("ramp.png".into(), Arc::new(ramp_image(&texels)))].into());
+    session.renderer().set_images(hachure::render::StyleImages::new(
+        [("ramp.png".into(), Arc::new(ramp_image(&texels)))].into(),
+    ));
     let mut opened = toon(&ball(), DVec3::Z, "analytic");
     for (key, value) in
         [("toon.ramp", "image"), ("toon.image", "ramp.png"), ("toon.tint", "0"), ("toon.start", "-1")]
@@ -359,7 +361,7 @@ fn the_bands_that_a_pixel_touches_have_their_shares_in_it() {
         set(&mut opened, key, value);
     }
     let drawn = drawn(&mut session, &opened);
-    let light = vec3(-0.5, 0.7, 0.75).normalize();
+    let light = opened.document.lighting.key.direction().as_vec3();
     let place =
         |x: i32, y: i32| (drawn.surfels[(y * SIDE + x) as usize].normal.dot(light) + 1.0) * 0.5 * 256.0;
     let (mut compared, mut most) = (0, 0.0_f32);

@@ -52,8 +52,8 @@ struct HalftoneStyle {
 // As in src/render/effects/halftone/, threshold_map.rs and calibration.rs.
 const SIDE: f32 = 512.0;
 const STEPS: f32 = 8.0;
-const PLACES: u32 = 17u;
-const SIZES: u32 = 17u;
+const PLACES: u32 = 33u;
+const SIZES: u32 = 33u;
 const TONES: u32 = 33u;
 
 // A point of a pattern, and a pixel's sides there.
@@ -97,7 +97,7 @@ fn between(place: f32, count: u32) -> Between {
 // two.
 fn calibrated(map: u32, step: f32, level: f32, tone: f32) -> f32 {
     let place = between(step / STEPS * f32(PLACES - 1u), PLACES);
-    let size = between((level + 2.0) * 2.0, SIZES);
+    let size = between((level + 2.0) * 4.0, SIZES);
     let column = between(tone * f32(TONES - 1u), TONES);
     var thresholds: vec4<f32>;
     for (var corner = 0u; corner < 4u; corner++) {
@@ -130,8 +130,12 @@ fn ink_share(map: u32, tile: Patch, step: f32, tone: f32) -> f32 {
     for (var i = 0.0; i < taps; i += 1.0) {
         let q = tile.center + ((i + 0.5) / taps - 0.5) * e.major;
         let here = textureSampleLevel(thresholds, threshold_sampler, q, layer, level).xy;
-        let there = textureSampleLevel(thresholds, threshold_sampler, q, layer + 1u, level).xy;
-        let mixed = mix(here, there, next);
+        var mixed = here;
+        // On the screen it never is.
+        if next > 0.0 {
+            let there = textureSampleLevel(thresholds, threshold_sampler, q, layer + 1u, level).xy;
+            mixed = mix(here, there, next);
+        }
         // An even spread over a width w has the deviation w / √12.
         let width = min(sqrt(3.0) * mixed.y * sharpness, 2.0 * min(mixed.x, 1.0 - mixed.x));
         ink += clamp((mixed.x - threshold) / max(width, 1e-4) + 0.5, 0.0, 1.0);
@@ -189,7 +193,7 @@ fn pos_change(pos_view: vec3<f32>, normal: vec3<f32>, per_px: vec3<f32>) -> vec3
 }
 
 // Projections along the axes count as much as the surface faces them.
-const FACING_POWER: f32 = 6.0;
+const FACING_POWER: f32 = 8.0;
 
 // Three projections; where two meet, each draws so much of the tone that both together draw all of it, as ink upon ink
 // leaves the product of what each of them leaves.
@@ -202,7 +206,7 @@ fn triplanar_ink(object: u32, s: Surfel, pos_view: vec3<f32>, tone: f32) -> f32 
     let dy = linear * pos_change(pos_view, s.normal, vec3(0.0, -per_px.y, 0.0));
     let facing = pow(abs(normalize(linear * s.normal)), vec3(FACING_POWER));
     // Without the least ones, which would cost as much as the others.
-    let kept = max(facing / (facing.x + facing.y + facing.z) - 0.03, vec3(0.0));
+    let kept = max(facing / (facing.x + facing.y + facing.z) - 0.05, vec3(0.0));
     let shares = kept / (kept.x + kept.y + kept.z);
     var left = 1.0;
     if shares.x > 0.0 {

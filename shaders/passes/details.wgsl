@@ -62,7 +62,7 @@ fn neighbour_offset(n: i32) -> vec2<i32> {
 struct Step {
     // From the pixel's centre to where the middle between both sides is, px.
     offset: vec2<f32>,
-    // Difference of the two sides; negative: it is a slope.
+    // Difference of the two sides; negative: of a slope, how steep it is, per px.
     contrast: f32,
     // Towards the greater side.
     normal: vec2<f32>,
@@ -126,7 +126,7 @@ fn step_in(class_of: u32, counts: vec4<f32>, px: vec2<i32>, own: u32, stride: i3
     let high = side_of(class_of, px, own, center, along, normal * f32(stride));
     let low = side_of(class_of, px, own, center, -along, -normal * f32(stride));
     if !high.is_level || !low.is_level {
-        return Step(vec2(0.0), -1.0, normal);
+        return Step(vec2(0.0), -slope / f32(stride), normal);
     }
     // The centre's own value, as smooth as the slope is.
     var smoothed = 0.0;
@@ -150,7 +150,12 @@ fn step_near(class_of: u32, x: Surfel, px: vec2<i32>, own: u32) -> Step {
     if near.contrast >= 0.0 {
         return near;
     }
-    return step_in(class_of, counts, px, own, WIDE_STRIDE);
+    let wide = step_in(class_of, counts, px, own, WIDE_STRIDE);
+    // What is steep was near enough to be a step.
+    if wide.contrast < -f32(REACH - 1) * near.contrast {
+        return Step(vec2(0.0), 0.0, vec2(0.0));
+    }
+    return wide;
 }
 
 struct Out {
@@ -173,10 +178,12 @@ const SHADOW_CONTRAST: f32 = 0.6;
 @fragment
 fn fs_main(@builtin(position) position: vec4<f32>) -> Out {
     let px = vec2<i32>(position.xy);
-    let x = unpack_surfel(geometry_at(px));
+    let geometry = geometry_at(px);
+    let x = unpack_surfel(geometry);
     let own = region_at(px);
     let has_texture = WITH_TEXTURE && is_drawn(x.object, TEXTURE);
-    let has_relief = WITH_RELIEF && is_drawn(x.object, RELIEF);
+    // A face that is shaded flat has no relief.
+    let has_relief = WITH_RELIEF && is_drawn(x.object, RELIEF) && geometry.x != geometry.y;
     let has_shadow = WITH_SHADOW && is_drawn(x.object, SHADOW);
     let has_details = has_texture || has_relief || has_shadow;
     if !x.enhanced || edge_styles[x.object].mode != EXACT_MODE || !has_details {

@@ -10,6 +10,7 @@ use super::panels::{Choosing, style};
 use super::viewer::Viewer;
 use crate::document::{Document, ImageUse, NodeSettings};
 use crate::import::{ImageCache, Progress};
+use crate::render;
 use crate::scene::{Scene, Warning};
 use crate::style::{Style, Value};
 
@@ -55,7 +56,7 @@ impl Viewer {
         if let Some(result) = self.jobs.images.as_ref().and_then(Job::poll) {
             self.jobs.images = None;
             match result {
-                Ok(Ok(cache)) => self.show_images(cache),
+                Ok(Ok((cache, images))) => self.show_images(cache, images),
                 Ok(Err(error)) => self.notices.error(error.to_string()),
                 Err(error) => self.notices.error(error.to_string()),
             }
@@ -67,12 +68,18 @@ impl Viewer {
         if self.images.is_outdated && self.jobs.images.is_none() {
             self.images.is_outdated = false;
             let (cache, uses) = (self.images.cache.clone(), self.images.uses.clone());
-            let work = move |progress: &Progress| cache.read(&uses, progress);
+            let known = self.viewport.images().clone();
+            let work = move |progress: &Progress| {
+                let cache = cache.read(&uses, progress)?;
+                let images = render::StyleImages::new(cache.images()).knowing(&known);
+                images.prepare(&uses);
+                Ok((cache, images))
+            };
             self.jobs.images = Some(Job::start("reading images", context, work));
         }
     }
 
-    fn show_images(&mut self, cache: ImageCache) {
+    fn show_images(&mut self, cache: ImageCache, images: render::StyleImages) {
         let warnings = cache.warnings(&self.images.uses);
         let is_new = |w: &&Warning| !self.images.warnings.contains(w);
         // Where none is named yet, one is about to be chosen.
@@ -81,7 +88,7 @@ impl Viewer {
             self.notices.warning(warning.to_string());
         }
         self.images.warnings = warnings;
-        self.viewport.show_images(cache.images());
+        self.viewport.show_images(images);
         self.images.cache = cache;
     }
 

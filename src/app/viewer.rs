@@ -70,7 +70,7 @@ pub(super) struct Jobs {
     pub(super) dialog: Option<(DialogFor, Job<Vec<PathBuf>>)>,
     pub(super) topology: Option<Job<Result<UploadedTopology, GpuError>>>,
     pub(super) save: Option<Job<Result<(PathBuf, Document), DocumentError>>>,
-    pub(super) images: Option<Job<Result<ImageCache, ImportError>>>,
+    pub(super) images: Option<Job<Result<(ImageCache, crate::render::StyleImages), ImportError>>>,
     pub(super) picture: Option<Job<Result<PathBuf, ScreenshotError>>>,
     /// Pictures that are taken after that one, so that no two of them get the same number.
     pub(super) waiting: VecDeque<(Shot, Destination)>,

@@ -15,8 +15,10 @@ use super::refining::Refining;
 use super::screenshot::Shot;
 use crate::document::Document;
 use crate::gpu::{Gpu, Target};
-use crate::render::{GpuScene, Pick, RenderError, Renderer, Request, UploadedTopology, Uploader};
-use crate::scene::{Camera, Images, NodeId, Up};
+use crate::render::{
+    GpuScene, Pick, RenderError, Renderer, Request, StyleImages, UploadedTopology, Uploader,
+};
+use crate::scene::{Camera, NodeId, Up};
 
 /// How long to wait between two looks for an answer of the device.
 const POLL: Duration = Duration::from_millis(8);
@@ -198,8 +200,13 @@ impl Viewport {
         self.draw_again();
     }
 
+    /// The images that styles name, as far as the renderer has them.
+    pub fn images(&self) -> &StyleImages {
+        self.renderer.images()
+    }
+
     /// Takes over the images that styles name.
-    pub fn show_images(&mut self, images: Images) {
+    pub fn show_images(&mut self, images: StyleImages) {
         self.renderer.set_images(images);
         self.draw_again();
     }

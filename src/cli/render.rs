@@ -11,7 +11,7 @@ use crate::export::session::{OpenError, Opened, initial_camera, open};
 use crate::export::{Session, save_png};
 use crate::gpu::{Gpu, GpuError};
 use crate::import::{ImageCache, Progress};
-use crate::render::RenderError;
+use crate::render::{RenderError, StyleImages};
 use crate::scene::{Camera, NodeId, Projection, Scene};
 use crate::style::{Value, preset};
 
@@ -34,7 +34,7 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
     }
     session.set_samples(args.samples);
     session.set_scene(&opened)?;
-    session.renderer().set_images(images.images());
+    session.renderer().set_images(StyleImages::new(images.images()));
     let image = session.image(&opened, size, args.no_background)?;
     save_png(&args.output, image)?;
 

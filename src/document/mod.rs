@@ -60,6 +60,8 @@ pub struct NodeSettings {
 pub struct ImageUse {
     /// The parameter that names it, and the node whose style it is in: `toon.image`, `/crank/rod, toon.image`.
     pub place: String,
+    /// The parameter alone.
+    pub key: String,
     /// The file; `None` where a choice asks for an image and none is named.
     pub path: Option<PathBuf>,
 }
@@ -154,8 +156,8 @@ impl Document {
             }
             for (key, path) in style.images() {
                 if seen.insert((key.clone(), path.clone())) {
-                    let place = if node.is_empty() { key } else { format!("{node}, {key}") };
-                    uses.push(ImageUse { place, path });
+                    let place = if node.is_empty() { key.clone() } else { format!("{node}, {key}") };
+                    uses.push(ImageUse { place, key, path });
                 }
             }
         }
@@ -323,8 +325,11 @@ mod tests {
         document.set_for(&scene, &[1], "toon.image", &text("b.png")).unwrap();
         document.set_for(&scene, &[3], "gooch.alpha", &Value::Number(0.9)).unwrap();
         let expected = [("toon.image", "a.png"), ("/m/rod.1, toon.image", "b.png")];
-        let expected =
-            expected.map(|(place, path)| ImageUse { place: place.into(), path: Some(path.into()) });
+        let expected = expected.map(|(place, path)| ImageUse {
+            place: place.into(),
+            key: "toon.image".into(),
+            path: Some(path.into()),
+        });
         assert_eq!(document.images(), expected);
         document.set("technique", &text("gooch")).unwrap();
         assert_eq!(document.images(), []);

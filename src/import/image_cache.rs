@@ -91,7 +91,8 @@ mod tests {
     fn a_file_is_read_again_only_when_it_changed() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.png");
-        let uses = [ImageUse { place: "toon.image".into(), path: Some(path.clone()) }];
+        let uses =
+            [ImageUse { place: "toon.image".into(), key: "toon.image".into(), path: Some(path.clone()) }];
         let progress = Progress::default();
         write(&path, 7, 1000);
         let first = ImageCache::default().read(&uses, &progress).unwrap();
@@ -113,7 +114,7 @@ mod tests {
 
     #[test]
     fn an_image_that_is_asked_for_and_not_named_is_a_warning() {
-        let uses = [ImageUse { place: "/crank, toon.image".into(), path: None }];
+        let uses = [ImageUse { place: "/crank, toon.image".into(), key: "toon.image".into(), path: None }];
         let said = ImageCache::default().warnings(&uses)[0].to_string();
         assert!(said.starts_with("/crank, toon.image: names no image"), "{said}");
     }

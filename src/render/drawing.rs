@@ -88,13 +88,27 @@ pub struct Shaded {
     pub layers: Vec<Vec<Layer>>,
 }
 
+/// What all drawings have in common across frames.
+pub struct Shared {
+    /// Pipelines of the geometry.
+    pub gbuffer: GBufferPass,
+    /// Textures of halftones.
+    pub thresholds: ThresholdMaps,
+}
+
+impl Shared {
+    /// Compiles and uploads nothing yet.
+    pub fn new(gpu: &Gpu) -> Self {
+        Self { gbuffer: GBufferPass::new(gpu), thresholds: ThresholdMaps::new(gpu) }
+    }
+}
+
 /// What of a drawing lives across frames.
 pub struct Drawing {
     uniform: UniformBuffer<FrameUniform>,
     frame_group: wgpu::BindGroup,
     draws: DynamicBuffer,
     edge_map_pass: EdgeMapPass,
-    threshold_maps: ThresholdMaps,
     greatest_radius: ArrayBuffer,
     edge_styles: ArrayBuffer,
     surface_styles: ArrayBuffer,
@@ -163,7 +177,6 @@ impl Drawing {
             frame_group,
             draws: GBufferPass::draw_buffer(gpu),
             edge_map_pass: EdgeMapPass::new(gpu),
-            threshold_maps: ThresholdMaps::new(gpu),
             greatest_radius: ArrayBuffer::new(gpu, "greatest radius"),
             edge_styles: ArrayBuffer::new(gpu, "edge styles"),
             surface_styles: ArrayBuffer::new(gpu, "surface styles"),
@@ -224,7 +237,7 @@ impl Drawing {
     pub fn begin(
         &mut self,
         rec: &mut Recorder<'_>,
-        gbuffer_pass: &mut GBufferPass,
+        shared: &mut Shared,
         inputs: &DrawingInputs<'_>,
     ) -> Result<Begun, RenderError> {
         let DrawingInputs { scene, objects, view, sample, lights, background, .. } = *inputs;
@@ -246,7 +259,7 @@ impl Drawing {
             .collect();
         let geometry = (rec.pipelines.generation(), inputs.scene_revision, *view, draws, calls);
         let gbuffer = self.gbuffer.run(geometry, |(.., draws, calls)| {
-            gbuffer_pass.run(rec, scene, &mut self.draws, (draws, calls), view.cut.is_some(), None)
+            shared.gbuffer.run(rec, scene, &mut self.draws, (draws, calls), view.cut.is_some(), None)
         })?;
         let shadow_mask = self.shadow_mask.run(rec, &gbuffer, inputs)?;
         Ok(Begun { uniform, depth_range, gbuffer, shadow_mask, with_coordinates })
@@ -318,16 +331,16 @@ impl Drawing {
     pub fn shade(
         &mut self,
         rec: &mut Recorder<'_>,
-        gbuffer_pass: &mut GBufferPass,
+        shared: &mut Shared,
         inputs: &DrawingInputs<'_>,
         begun: &Begun,
         edge_map: Option<&Output<EdgeMap>>,
     ) -> Result<Shaded, RenderError> {
-        let reflected = self.reflect(rec, gbuffer_pass, inputs)?;
-        let blueprints = self.peel(rec, gbuffer_pass, inputs, begun)?;
+        let reflected = self.reflect(rec, shared, inputs)?;
+        let blueprints = self.peel(rec, &mut shared.gbuffer, inputs, begun)?;
         let cartoon_map = self.find_bands(rec, inputs, begun)?;
-        let coordinates = self.find_coordinates(rec, gbuffer_pass, inputs, begun)?;
-        self.threshold_maps.prepare(rec.gpu, &inputs.objects.halftones)?;
+        let coordinates = self.find_coordinates(rec, shared, inputs, begun)?;
+        shared.thresholds.prepare(rec.gpu, &inputs.objects.halftones)?;
         let gbuffer = &begun.gbuffer;
         let styles = &inputs.objects.surfaces.edge_styles;
         let spines = edge_map.and_then(|e| Some((e.revision, e.value.spines.as_ref()?)));
@@ -374,7 +387,7 @@ impl Drawing {
                 halftones: HalftoneInputs {
                     styles: halftones,
                     style_buffer: self.halftone_styles.buffer(),
-                    maps: &self.threshold_maps,
+                    maps: &shared.thresholds,
                     coordinates: coordinates.as_ref(),
                 },
             };
@@ -430,7 +443,7 @@ impl Drawing {
     fn find_coordinates(
         &mut self,
         rec: &mut Recorder<'_>,
-        gbuffer_pass: &mut GBufferPass,
+        shared: &mut Shared,
         inputs: &DrawingInputs<'_>,
         begun: &Begun,
     ) -> Result<Option<Target>, RenderError> {
@@ -440,8 +453,8 @@ impl Drawing {
         }
         let asked = (begun.gbuffer.revision, begun.with_coordinates.clone());
         let coordinates = self.coordinates.run(asked, |(_, calls)| {
-            let draws = (&gbuffer_pass.draw_layout, &self.draws);
-            gbuffer_pass.coordinates.run(rec, inputs.scene, &begun.gbuffer.value, draws, calls)
+            let draws = (&shared.gbuffer.draw_layout, &self.draws);
+            shared.gbuffer.coordinates.run(rec, inputs.scene, &begun.gbuffer.value, draws, calls)
         })?;
         Ok(Some(coordinates.value))
     }
@@ -450,7 +463,7 @@ impl Drawing {
     fn reflect(
         &mut self,
         rec: &mut Recorder<'_>,
-        gbuffer_pass: &mut GBufferPass,
+        shared: &mut Shared,
         inputs: &DrawingInputs<'_>,
     ) -> Result<Vec<Reflected>, RenderError> {
         let objects = inputs.objects;
@@ -481,7 +494,7 @@ impl Drawing {
             let inner =
                 DrawingInputs { view, reflections: inputs.reflections - 1, keeps_layers: false, ..*inputs };
             let before = reflection.drawing.drawn();
-            let color = reflection.drawing.record(rec, gbuffer_pass, &inner)?;
+            let color = reflection.drawing.record(rec, shared, &inner)?;
             self.reflected += reflection.drawing.drawn() - before;
             reflected.push(Reflected { color, uniform: mirror.uniform(), index });
         }
@@ -498,13 +511,13 @@ impl Drawing {
     fn record(
         &mut self,
         rec: &mut Recorder<'_>,
-        gbuffer_pass: &mut GBufferPass,
+        shared: &mut Shared,
         inputs: &DrawingInputs<'_>,
     ) -> Result<Output<Target>, RenderError> {
-        let begun = self.begin(rec, gbuffer_pass, inputs)?;
+        let begun = self.begin(rec, shared, inputs)?;
         let has_lines = inputs.objects.surfaces.have_lines();
         let edge_map = if has_lines { Some(self.find_edges(rec, inputs, &begun)?) } else { None };
-        Ok(self.shade(rec, gbuffer_pass, inputs, &begun, edge_map.as_ref())?.color)
+        Ok(self.shade(rec, shared, inputs, &begun, edge_map.as_ref())?.color)
     }
 
     fn find_bands(

@@ -7,9 +7,9 @@
 use glam::{Vec2, Vec4};
 
 use super::RenderError;
-use super::drawing::{Begun, Drawing, DrawingInputs};
+use super::drawing::{Begun, Drawing, DrawingInputs, Shared};
 use super::passes::accumulate::{Accumulation, Subject};
-use super::passes::gbuffer::{GBuffer, GBufferPass};
+use super::passes::gbuffer::GBuffer;
 use super::passes::operators::operators;
 use super::passes::peel::Layer;
 use super::passes::resolve::resolve;
@@ -63,7 +63,7 @@ pub struct Picture {
 
 /// What lives across frames.
 pub struct FrameState {
-    gbuffer_pass: GBufferPass,
+    shared: Shared,
     shadow_maps: ShadowMaps,
     drawing: Drawing,
     operators: Stage<(u64, Vec2), Target>,
@@ -82,7 +82,7 @@ impl FrameState {
     /// Nothing drawn yet.
     pub fn new(gpu: &Gpu, frame_layout: &wgpu::BindGroupLayout) -> Self {
         Self {
-            gbuffer_pass: GBufferPass::new(gpu),
+            shared: Shared::new(gpu),
             shadow_maps: ShadowMaps::new(gpu),
             drawing: Drawing::new(gpu, frame_layout),
             operators: Stage::default(),
@@ -97,7 +97,7 @@ impl FrameState {
 
     /// Layout of the materials' bind group.
     pub fn material_layout(&self) -> &wgpu::BindGroupLayout {
-        &self.gbuffer_pass.material_layout
+        &self.shared.gbuffer.material_layout
     }
 
     /// What the eye sees.
@@ -136,9 +136,9 @@ impl FrameState {
     ) -> Result<Picture, RenderError> {
         let FrameInputs { drawing: eye, show: what, .. } = inputs;
         let shaders = rec.pipelines.generation();
-        let shadow_maps = self.shadow_maps.run(rec, eye, &self.gbuffer_pass.material_layout)?;
+        let shadow_maps = self.shadow_maps.run(rec, eye, &self.shared.gbuffer.material_layout)?;
         let eye = &DrawingInputs { shadow_maps: &shadow_maps, ..*eye };
-        let begun = self.drawing.begin(rec, &mut self.gbuffer_pass, eye)?;
+        let begun = self.drawing.begin(rec, &mut self.shared, eye)?;
         let edge_map = if *what != Show::Picture || eye.objects.surfaces.have_lines() {
             Some(self.drawing.find_edges(rec, eye, &begun)?)
         } else {
@@ -149,7 +149,7 @@ impl FrameState {
 
         let (mut cartoon_map, mut coordinates, mut layers) = (None, None, Vec::new());
         let image = if *what == Show::Picture {
-            let shaded = self.drawing.shade(rec, &mut self.gbuffer_pass, eye, &begun, edge_map.as_ref())?;
+            let shaded = self.drawing.shade(rec, &mut self.shared, eye, &begun, edge_map.as_ref())?;
             (cartoon_map, coordinates, layers) = (shaded.cartoon_map, shaded.coordinates, shaded.layers);
             let color = self.accumulation.add(rec, eye.sample, shaded.color)?;
             let final_inputs = (shaders, *what, [color.revision, 0, 0], eye.background);

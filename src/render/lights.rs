@@ -3,6 +3,7 @@
 use glam::{DMat4, Vec3};
 
 use crate::document::Document;
+use crate::document::lighting::Source;
 use crate::scene::{LightKind, Scene};
 
 /// More lights are left out.
@@ -42,9 +43,7 @@ impl Lights {
         let mut sources = document.light_sources(document.up(scene));
         sources.truncate(MAX_LIGHTS);
         // Files do not say which of their lights is to throw shadows.
-        if !sources.iter().any(|l| l.casts_shadow)
-            && settings.source == crate::document::lighting::Source::File
-        {
+        if !sources.iter().any(|l| l.casts_shadow) && settings.source == Source::File {
             sources.iter_mut().take(1).for_each(|key| key.casts_shadow = true);
         }
         let density = if settings.shadows { settings.shadow_density.clamp(0.0, 1.0) } else { 0.0 };

@@ -20,3 +20,4 @@ pub use frame::Picture;
 pub use gpu_scene::{GpuScene, UploadedTopology, Uploader};
 pub use renderer::{Pick, RenderError, Renderer, Request};
 pub use sample::Sample;
+pub use style_images::StyleImages;

@@ -17,7 +17,7 @@ use crate::document::Document;
 use crate::geometry::Topology;
 use crate::gpu::readback::Readback;
 use crate::gpu::{Gpu, GpuError, Pipelines, Recorder, ShaderError, Shaders, TargetPool, Timers};
-use crate::scene::{Camera, Images, NodeId, Scene};
+use crate::scene::{Camera, NodeId, Scene};
 
 /// Height of the picture in reference pixels, in which widths and scales are given.
 const REFERENCE_HEIGHT: f32 = 1080.0;
@@ -150,11 +150,16 @@ impl Renderer {
     }
 
     /// Takes over the images that styles name; those that are missing are drawn without.
-    pub fn set_images(&mut self, images: Images) {
-        if *self.images.all() != images {
-            self.images = StyleImages::new(images);
+    pub fn set_images(&mut self, images: StyleImages) {
+        if self.images.all() != images.all() {
             self.scene_revision += 1;
         }
+        self.images = images;
+    }
+
+    /// The images that it has.
+    pub fn images(&self) -> &StyleImages {
+        &self.images
     }
 
     /// Measures each pass from now on, if the device can; ask [`Self::timings`] after each frame.

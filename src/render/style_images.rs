@@ -7,6 +7,7 @@ use std::sync::{Arc, OnceLock};
 use glam::Vec4;
 
 use super::effects::halftone::threshold_map::ThresholdMap;
+use crate::document::ImageUse;
 use crate::scene::{Images, Texture};
 use crate::style::toon::MAX_RAMP;
 
@@ -19,11 +20,33 @@ pub struct StyleImages {
 }
 
 impl StyleImages {
-    /// Takes images over; what is made of them is made when it is asked for.
+    /// Takes images over; what is made of them is made when it is asked for, or by [`Self::prepare`].
     pub fn new(images: Images) -> Self {
         let ramps = images.keys().map(|path| (path.clone(), OnceLock::new())).collect();
         let threshold_maps = images.keys().map(|path| (path.clone(), OnceLock::new())).collect();
         Self { images, ramps, threshold_maps }
+    }
+
+    /// The same with what was made before of those images that are the same.
+    #[must_use]
+    pub fn knowing(mut self, before: &Self) -> Self {
+        for (path, image) in &self.images {
+            if before.images.get(path) != Some(image) {
+                continue;
+            }
+            if let Some(known) = before.threshold_maps.get(path) {
+                self.threshold_maps.insert(path.clone(), known.clone());
+            }
+        }
+        self
+    }
+
+    /// Makes what takes long: the threshold map of each halftone texture, about a second on two cores. Later calls find
+    /// it ready.
+    pub fn prepare(&self, uses: &[ImageUse]) {
+        for path in uses.iter().filter(|u| u.key == "halftone.image").filter_map(|u| u.path.as_deref()) {
+            self.threshold_map(path);
+        }
     }
 
     /// All of them.

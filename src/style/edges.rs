@@ -299,7 +299,7 @@ mod tests {
                 if class.is_profile() { (edges.profile.line(), 2.5) } else { (edges.inner.line(), 2.2) };
             let line = edges.line(class);
             assert_eq!((line.color, line.strength, line.width), (group.color, 1.0, width), "{class:?}");
-            assert_eq!(line.show, class != EdgeClass::Material);
+            assert_eq!(line.show, class != EdgeClass::Material && !class.is_detail());
         }
         edges.inner.color = Color::WHITE;
         edges.inner.width = 1.0;

@@ -10,9 +10,9 @@ fn other_values() -> Vec<(String, Value)> {
     let other = |p: &Param<'_>| match &p.slot {
         Slot::Bool(b) => Value::Bool(!b.get()),
         Slot::Number { value, hard, .. } if value.get() == *hard.start() => {
-            Value::Number((*hard.end()).into())
+            Value::parse(&hard.end().to_string())
         }
-        Slot::Number { hard, .. } => Value::Number((*hard.start()).into()),
+        Slot::Number { hard, .. } => Value::parse(&hard.start().to_string()),
         Slot::Integer { value, range } if **value == *range.start() => Value::Number((*range.end()).into()),
         Slot::Integer { range, .. } => Value::Number((*range.start()).into()),
         Slot::Color(_) => Value::Text("#123456".to_owned()),

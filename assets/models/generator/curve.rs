@@ -74,7 +74,7 @@ pub(crate) fn wire(path: &[DVec3], radius: impl Fn(f64) -> f64) -> Solid {
         };
         rings.push((0..SIDES).map(point).collect());
     };
-    for i in 0..=last {
+    for (i, &at) in path.iter().enumerate() {
         let along = direction(i);
         // As little twist as the curve allows.
         across = across.reject_from(along).normalize();
@@ -82,13 +82,13 @@ pub(crate) fn wire(path: &[DVec3], radius: impl Fn(f64) -> f64) -> Solid {
         let cap = |k: f64| (r * (k * FRAC_PI_8).cos(), r * (k * FRAC_PI_8).sin());
         if i == 0 {
             for k in [3.0, 2.0, 1.0] {
-                ring(path[i] - along * cap(k).1, across, along, cap(k).0);
+                ring(at - along * cap(k).1, across, along, cap(k).0);
             }
         }
-        ring(path[i], across, along, r);
+        ring(at, across, along, r);
         if i == last {
             for k in [1.0, 2.0, 3.0] {
-                ring(path[i] + along * cap(k).1, across, along, cap(k).0);
+                ring(at + along * cap(k).1, across, along, cap(k).0);
             }
         }
     }

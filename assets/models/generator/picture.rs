@@ -73,7 +73,7 @@ pub(crate) fn encoded<P: PixelWithColorType<Subpixel = u8>>(
 ) -> Image {
     let mut png = Vec::new();
     PngEncoder::new_with_quality(&mut png, CompressionType::Best, FilterType::Adaptive)
-        .write_image(picture, picture.width(), picture.height(), P::COLOR_TYPE.into())
+        .write_image(picture, picture.width(), picture.height(), P::COLOR_TYPE)
         .expect("memory takes any image");
     Image { name, png, tiles: false }
 }

@@ -2,6 +2,7 @@
 //! for it, over the G-buffer's own depth.
 
 use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 
 use super::gbuffer::{DEPTH, DrawCall, GBuffer, draw_group};
 use crate::gpu::geometry::Attributes;
@@ -40,10 +41,10 @@ impl CoordinatesPass {
             self.generation = rec.pipelines.generation();
         }
         for call in calls {
-            if !self.pipelines.contains_key(&call.hidden_side) {
+            if let Entry::Vacant(place) = self.pipelines.entry(call.hidden_side) {
                 let module = rec.pipelines.module(rec.gpu, "passes/coordinates.wgsl")?;
                 let layouts = [Some(rec.pipelines.frame_layout()), None, Some(draw_layout)];
-                self.pipelines.insert(call.hidden_side, build(rec.gpu, &module, &layouts, call.hidden_side));
+                place.insert(build(rec.gpu, &module, &layouts, call.hidden_side));
             }
         }
         let group = draw_group(rec.gpu, draw_layout, draws);

@@ -9,15 +9,15 @@ use rayon::prelude::*;
 use super::threshold_map::{LEVELS, Level, STEPS};
 
 /// Places in the octave, evenly from 0 to 1.
-pub const PLACES: usize = 2 * STEPS + 1;
+pub const PLACES: usize = 4 * STEPS + 1;
 /// Sizes of a pixel, evenly from 2⁻² to 2⁶ texels in powers of two.
-pub const SIZES: usize = 17;
+pub const SIZES: usize = 33;
 /// Tones, evenly from 0 to 1.
 pub const TONES: usize = 33;
 
 /// The size of a pixel of that number, as a power of two of texels.
 fn size(number: usize) -> f32 {
-    0.5 * number as f32 - 2.0
+    0.25 * number as f32 - 2.0
 }
 
 /// The thresholds of all places, in each of all sizes, in each of all tones.

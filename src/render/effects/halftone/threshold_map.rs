@@ -66,7 +66,7 @@ fn layers(steps: &[Vec<u8>]) -> Vec<Vec<Level>> {
 }
 
 /// Thresholds in 256ths from priorities, of which only the order matters: ink comes earlier where they are greater.
-/// Afterwards all thresholds are equally frequent, as far as priorities differ.
+/// Afterwards all thresholds are equally frequent; equal priorities are told apart by their place.
 pub fn ranked(values: &[f32]) -> Vec<u8> {
     let mut order: Vec<u64> = values
         .iter()
@@ -80,15 +80,10 @@ pub fn ranked(values: &[f32]) -> Vec<u8> {
         .collect();
     order.sort_unstable();
     let mut ranked = vec![0; values.len()];
-    let mut rank = 0;
-    for equal in order.chunk_by(|a, b| a >> 32 == b >> 32) {
-        let middle = ((2 * rank + equal.len()) * 128 / values.len()) as u8;
-        for key in equal {
-            if let Some(slot) = ranked.get_mut(*key as u32 as usize) {
-                *slot = middle;
-            }
+    for (rank, key) in order.iter().enumerate() {
+        if let Some(slot) = ranked.get_mut(*key as u32 as usize) {
+            *slot = (rank * 256 / values.len()) as u8;
         }
-        rank += equal.len();
     }
     ranked
 }
