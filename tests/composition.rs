@@ -68,11 +68,6 @@ fn drawn(session: &mut Session, opened: &Opened) -> RgbaImage {
     session.image(opened, [SIDE; 2], false).unwrap()
 }
 
-/// All whose lines are found together.
-fn surface_techniques() -> Vec<&'static str> {
-    Technique::VARIANTS.iter().copied().filter(|technique| *technique != "blueprint").collect()
-}
-
 /// Where a parameter of a technique may show: lines are a blueprint's own, and reach over its boundary.
 fn reach_of(technique: &str, pixels: &[bool]) -> Vec<bool> {
     if technique == "blueprint" { widened(pixels, 3.0) } else { pixels.to_vec() }
@@ -230,7 +225,9 @@ fn the_technique_of_one_object_changes_no_pixel_of_another() {
 #[test]
 fn the_lines_of_one_object_change_no_pixel_beyond_their_reach() {
     let mut session = session();
-    let all = composed(&mut session, &surface_techniques());
+    // Surfaces, whose lines are found together; those of blueprints are beneath nobody's.
+    let surfaces: Vec<_> = Technique::VARIANTS.iter().copied().filter(|t| *t != "blueprint").collect();
+    let all = composed(&mut session, &surfaces);
     let of_a = pixels_of(&mut session, &all, A);
     // Reference pixels: the widest lines lie wholly outside.
     let px = |width: f32| width * SIDE as f32 / 1080.0;
@@ -269,7 +266,8 @@ fn in_a_mirror_a_parameter_changes_only_the_pixels_where_its_object_is_seen() {
     let scene = Arc::clone(&all.scene);
     all.document.set_mirror(&scene, &[WALL], true);
     // Blueprints of equal style leave out the lines that they have in common: this one is by itself.
-    set(&mut all, "blueprint.by_layer", "0.3");
+    let alone = B + Technique::VARIANTS.iter().position(|technique| *technique == "blueprint").unwrap();
+    set_for(&mut all, alone, "blueprint.by_layer", &Value::Number(0.3));
     let eye = DVec3::new(1.2, 0.5, 1.0);
     all.document.camera = all.document.camera.map(|_| common::opened(&scene, eye).document.camera.unwrap());
     let of_a = pixels_of(&mut session, &all, A);

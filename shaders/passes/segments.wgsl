@@ -94,7 +94,7 @@ fn carries(px: vec2<i32>, regions: vec2<u32>, spine: vec2<f32>, nearness: f32, d
     let s = unpack_surfel(geometry_at(q));
     let plane = plane_of(q, s.depth, s.face_normal);
     let miss = abs(nearness_at(plane, spine - vec2<f32>(q) - 0.5) - nearness) - length(plane.slope);
-    return any(regions == vec2(textureLoad(region_tex, q, 0).x)) && step_px(miss, depth) <= 1.0;
+    return any(regions == vec2(textureLoad(region_tex, q, 0).x)) && step_px(miss, depth) <= 2.0;
 }
 
 fn beside(at: vec2<f32>, spine: vec2<f32>, nearness: f32, depth: f32) -> Beside {
@@ -127,9 +127,11 @@ fn fs_main(v: Segment) -> Out {
         is_visible = is_visible && is_beside(vec2<i32>(px), v.ids.zw);
     }
     if IN_LAYER {
-        let is_carried = carries(vec2<i32>(px), v.ids.zw, spine, nearness, depth)
-            || carries(vec2<i32>(floor(spine + BESIDE * normal)), v.ids.zw, spine, nearness, depth)
-            || carries(vec2<i32>(floor(spine - BESIDE * normal)), v.ids.zw, spine, nearness, depth);
+        var is_carried = false;
+        for (var side = -2; side <= 2; side++) {
+            let at = vec2<i32>(floor(spine + f32(side) * BESIDE * normal));
+            is_carried = is_carried || carries(at, v.ids.zw, spine, nearness, depth);
+        }
         is_visible = is_visible && is_carried;
     }
     if !is_visible {
