@@ -136,6 +136,7 @@ fn info_styles_and_bench_print_what_they_promise() {
     let names: Vec<_> =
         styles["presets"].as_array().unwrap().iter().map(|p| p["name"].as_str().unwrap()).collect();
     let all = [
+        "blueprint",
         "clay-with-ink",
         "comic",
         "engraving",
