@@ -24,6 +24,7 @@ const INNER_16: &str = "edges.inner.width=16";
 const PICTURES: &[(&str, &str, &[&str])] = &[
     ("gooch_crank", "crank", &["--style", "gooch"]),
     ("gooch_ogre", "ogre", &["--style", "gooch"]),
+    ("blueprint_crank", "crank", &["--style", "blueprint"]),
     ("comic_ogre", "ogre", &["--style", "comic"]),
     ("two_tone_crank", "crank", &["--style", "two-tone"]),
     ("plain_crank", "crank", &["--style", "plain"]),
