@@ -68,6 +68,7 @@ fn ramp(width: u32, height: u32) -> Vec<u8> {
 }
 
 const TOON: [&str; 6] = ["--set", "technique=toon", "--set", "toon.ramp=image", "--set", "toon.tint=0"];
+const HALFTONE: [&str; 4] = ["--set", "technique=halftone", "--set", "halftone.texture=image"];
 
 #[test]
 fn an_image_that_cannot_be_had_is_a_warning_and_the_rest_is_drawn() {
@@ -82,6 +83,8 @@ fn an_image_that_cannot_be_had_is_a_warning_and_the_rest_is_drawn() {
     place.write("image.png", &gif);
     std::fs::create_dir(place.path("folder.png")).unwrap();
     let bands = place.drawn(&["model.obj", "--set", "technique=toon", "--set", "toon.tint=0"]).0;
+    let strokes = place.drawn(&["model.obj", "--set", "technique=halftone"]).0;
+    let uses = [("toon.image", &TOON[..], bands), ("halftone.image", &HALFTONE[..], strokes)];
     let rows: &[(&str, &str)] = &[
         ("missing.png", "cannot read missing.png"),
         ("text.png", "text.png: it is neither a PNG nor a JPEG image"),
@@ -91,15 +94,17 @@ fn an_image_that_cannot_be_had_is_a_warning_and_the_rest_is_drawn() {
         ("folder.png", "directory"),
         ("", "names no image"),
     ];
-    for (name, message) in rows {
-        let set = format!("toon.image={name}");
-        let (picture, said) = place.drawn(&[&["model.obj", "--set", &set], &TOON[..]].concat());
+    for ((name, message), (key, args, built_in)) in
+        rows.iter().flat_map(|row| uses.iter().map(move |u| (row, u)))
+    {
+        let set = format!("{key}={name}");
+        let (picture, said) = place.drawn(&[&["model.obj", "--set", &set], *args].concat());
         assert!(
-            said.starts_with("hachure: warning: toon.image: ") && said.contains(message),
+            said.starts_with(&format!("hachure: warning: {key}: ")) && said.contains(message),
             "{name}: {said}"
         );
         assert!(said.contains("name a"), "{name}: {said}");
-        assert!(picture == bands, "{name}: what is built in is drawn");
+        assert!(picture == *built_in, "{name}: what is built in is drawn");
     }
     let json =
         place.hachure(&[&["model.obj", "--json", "--set", "toon.image=missing.png"], &TOON[..]].concat());
@@ -110,12 +115,15 @@ fn an_image_that_cannot_be_had_is_a_warning_and_the_rest_is_drawn() {
 }
 
 #[test]
-fn images_of_any_size_are_ramps() {
+fn images_of_any_size_are_ramps_and_halftones() {
     let place = Workplace::new();
     for (name, [width, height]) in [("one.png", [1, 1]), ("wide.png", [16384, 3]), ("high.png", [2, 700])] {
         place.write(name, &ramp(width, height));
         let set = format!("toon.image={name}");
         let (picture, said) = place.drawn(&[&["model.obj", "--set", &set], &TOON[..]].concat());
+        assert_eq!(said, "", "{name}");
+        let set = format!("halftone.image={name}");
+        let (_, said) = place.drawn(&[&["model.obj", "--set", &set], &HALFTONE[..]].concat());
         assert_eq!(said, "", "{name}");
         let own = picture.pixels().filter(|p| p.0[0] == 60 && p.0[1] == 40).count();
         assert!(own > 200, "{name}: {own} pixels of the ramp");

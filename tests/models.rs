@@ -209,6 +209,11 @@ fn the_ogre_can_be_textured() {
     assert!(stretched * 100 < ogre.triangles() * 2, "{stretched} stretched faces");
 }
 
+#[test]
+fn the_temple_is_built_of_closed_parts() {
+    Model::open("temple.glb").check();
+}
+
 /// The still life as the program imports it.
 fn still_life() -> Scene {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/models/still_life.glb");

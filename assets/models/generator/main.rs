@@ -13,6 +13,7 @@ mod flywheel;
 mod glb;
 mod leaf;
 mod lettering;
+mod loft;
 mod noise;
 mod ogre;
 mod ogre_body;
@@ -38,6 +39,14 @@ mod still_life_table;
 mod still_life_toys;
 mod still_life_vase;
 mod still_life_whisk;
+mod temple;
+mod temple_chambers;
+mod temple_columns;
+mod temple_hall;
+mod temple_masonry;
+mod temple_pylon;
+mod temple_statue;
+mod temple_yard;
 mod untangle;
 mod unwrap;
 mod wood;
@@ -45,8 +54,12 @@ mod wood;
 /// Writes each model, or only those named on the command line, and reports their sizes.
 fn main() {
     let wanted: Vec<String> = std::env::args().skip(1).collect();
-    let models: [(&str, fn() -> glb::Scene); 3] =
-        [("crank", crank::scene), ("ogre", ogre::scene), ("still_life", still_life::scene)];
+    let models: [(&str, fn() -> glb::Scene); 4] = [
+        ("crank", crank::scene),
+        ("ogre", ogre::scene),
+        ("still_life", still_life::scene),
+        ("temple", temple::scene),
+    ];
     for (name, make) in models {
         if !wanted.is_empty() && !wanted.iter().any(|w| w == name) {
             continue;

@@ -1,0 +1,207 @@
+//! The sample model `temple.glb` is what drawings through walls need: named solids, no two faces in one place, and a
+//! chamber that nobody can see from outside.
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "a test may stop at the first surprise in files that the project itself made"
+)]
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::f64::consts::TAU;
+use std::path::Path;
+
+use glam::{DVec2, DVec3, dvec3};
+use hachure::geometry::{Bounds, Topology};
+use hachure::import::{ImportOptions, Progress, load};
+use hachure::scene::Scene;
+
+/// A triangle in the world, in metres.
+type Triangle = [DVec3; 3];
+
+/// The temple as the program imports it.
+fn temple() -> Scene {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/models/temple.glb");
+    load(&path, &ImportOptions::default(), &Progress::default()).unwrap()
+}
+
+/// The box around what a node and those below it show.
+fn bounds(scene: &Scene, path: &str) -> Bounds {
+    let top = format!("/temple/{path}");
+    let below = format!("{top}/");
+    let nodes = scene.nodes.iter().enumerate();
+    let bounds = scene.bounds_of(
+        nodes.filter(|(_, node)| node.path == top || node.path.starts_with(&below)).map(|(id, _)| id),
+    );
+    assert!(!bounds.is_empty(), "{path} shows nothing");
+    bounds
+}
+
+/// Each triangle with the path of its node.
+fn triangles(scene: &Scene) -> Vec<(&str, Triangle)> {
+    let shown = scene.nodes.iter().filter_map(|node| Some((node, &scene.meshes[node.mesh?])));
+    shown
+        .flat_map(|(node, mesh)| {
+            mesh.indices.chunks_exact(3).map(move |corners| {
+                let place = |k: usize| mesh.positions[corners[k] as usize].as_dvec3();
+                (node.path.as_str(), [0, 1, 2].map(|k| node.world_from_local.transform_point3(place(k))))
+            })
+        })
+        .collect()
+}
+
+#[test]
+fn the_temple_is_made_of_named_solids() {
+    let scene = temple();
+    assert_eq!(scene.warnings, []);
+    assert!((30_000..80_000).contains(&scene.triangle_count()), "{}", scene.triangle_count());
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/models/temple.glb");
+    assert!(file.metadata().unwrap().len() < 2 << 20, "larger than 2 MiB");
+    for path in [
+        "ground",
+        "forecourt/obelisk.2/needle",
+        "pylon/tower.1",
+        "pylon/tower.2",
+        "pylon/gate",
+        "pylon/mast.4",
+        "yard/wall.2",
+        "yard/column.14/capital",
+        "yard/architrave.3",
+        "yard/roof",
+        "hall/wall.4",
+        "hall/column.24/shaft",
+        "hall/clerestory.2",
+        "hall/roof.3",
+        "hall/portal/frame",
+        "statues/statue.1/king",
+        "statues/statue.2/throne",
+        "doorway/frame",
+        "chambers/enclosure",
+        "chambers/wall.10",
+        "chambers/stair",
+        "chambers/altar",
+        "chambers/roof.lower",
+        "chambers/roof.upper.3",
+        "hidden_chamber/floor",
+        "hidden_chamber/wall.4",
+        "hidden_chamber/roof",
+        "hidden_chamber/sarcophagus/lid",
+    ] {
+        let found = scene.find(&format!("/temple/{path}")).and_then(|id| scene.nodes[id].mesh);
+        assert!(found.is_some(), "{path}");
+    }
+    let names: BTreeSet<&str> = scene.nodes.iter().map(|node| node.path.as_str()).collect();
+    assert_eq!(names.len(), scene.nodes.len(), "two parts of one name");
+    for node in &scene.nodes {
+        let Some(mesh) = node.mesh.map(|mesh| &scene.meshes[mesh]) else { continue };
+        assert!(Topology::new(mesh, 0.6).is_solid, "{}", node.path);
+    }
+}
+
+#[test]
+fn two_statues_guard_the_doorway_to_the_chambers() {
+    let scene = temple();
+    let [left, right, door, hall, chambers] =
+        ["statues/statue.1", "statues/statue.2", "doorway", "hall", "chambers"].map(|p| bounds(&scene, p));
+    assert!(left.max.x < door.center().x && door.center().x < right.min.x);
+    for statue in [&left, &right] {
+        assert!(statue.min.z > door.min.z && statue.max.z < hall.max.z, "{statue:?}");
+        assert!(statue.max.y - statue.min.y > 2.0 * (statue.max.x - statue.min.x), "{statue:?}");
+    }
+    assert!(door.center().z > chambers.center().z && door.min.z < chambers.max.z);
+    // One can walk in a straight line from the forecourt to the altar.
+    let (eye, altar) = (dvec3(0.0, 1.0, 37.0), bounds(&scene, "chambers/altar").center());
+    let table = bounds(&scene, "chambers/offering_table");
+    let above = dvec3(altar.x, table.max.y + 0.1, altar.z);
+    let first = triangles(&scene)
+        .into_iter()
+        .filter_map(|(path, triangle)| Some((hit(eye, above - eye, triangle)?, path)))
+        .min_by(|a, b| a.0.total_cmp(&b.0));
+    assert_eq!(first.map(|hit| hit.1), Some("/temple/chambers/altar"));
+}
+
+#[test]
+fn no_line_of_sight_leaves_the_hidden_chamber() {
+    let scene = temple();
+    let [hidden, walls, roof] =
+        ["hidden_chamber", "chambers/enclosure", "chambers/roof.upper"].map(|path| match path {
+            "chambers/roof.upper" => (1..=3)
+                .map(|i| bounds(&scene, &format!("{path}.{i}")))
+                .fold(Bounds::EMPTY, |all, b| all.union(&b)),
+            _ => bounds(&scene, path),
+        });
+    assert!(hidden.min.x > walls.min.x + 1.0 && hidden.max.x < walls.max.x - 1.0);
+    assert!(hidden.min.z > walls.min.z + 1.0 && hidden.max.z < walls.max.z - 1.0);
+    assert!(hidden.max.y < roof.min.y && hidden.min.y > bounds(&scene, "chambers/altar").max.y);
+    let around: Vec<(&str, Triangle)> = triangles(&scene)
+        .into_iter()
+        .filter(|(path, _)| {
+            ["/temple/chambers", "/temple/hidden_chamber"].iter().any(|p| path.starts_with(p))
+        })
+        .collect();
+    let eye = dvec3(hidden.center().x, hidden.max.y - 0.6, hidden.center().z);
+    // The points of a Fibonacci lattice on the sphere.
+    const RAYS: usize = 400;
+    for i in 0..RAYS {
+        let y = 1.0 - (2 * i + 1) as f64 / RAYS as f64;
+        let angle = TAU * i as f64 * 0.618_033_988_749_895;
+        let way = dvec3(angle.cos(), 0.0, angle.sin()) * (1.0 - y * y).sqrt() + DVec3::Y * y;
+        assert!(around.iter().any(|(_, triangle)| hit(eye, way, *triangle).is_some()), "{way}");
+    }
+}
+
+#[test]
+fn no_two_faces_of_the_temple_lie_in_one_place() {
+    let scene = temple();
+    let mut planes: BTreeMap<[i64; 3], Vec<(f64, DVec3, &str, Triangle)>> = BTreeMap::new();
+    for (path, triangle) in triangles(&scene) {
+        let [a, b, c] = triangle;
+        let normal = (b - a).cross(c - a).normalize();
+        // Both sides of a plane are the same plane.
+        let sign = if normal.dot(dvec3(1.0, 1e-3, 1e-6)) < 0.0 { -1.0 } else { 1.0 };
+        let normal = normal * sign;
+        let key = (normal * 1e3).round().to_array().map(|v| v as i64);
+        planes.entry(key).or_default().push((normal.dot(a), normal, path, triangle));
+    }
+    let mut shared = BTreeSet::new();
+    for plane in planes.values_mut() {
+        plane.sort_by(|a, b| a.0.total_cmp(&b.0));
+        for (i, &(at, normal, path, triangle)) in plane.iter().enumerate() {
+            for &(_, _, other, beside) in plane[i + 1..].iter().take_while(|face| face.0 - at < 1e-3) {
+                if overlap(normal, triangle, beside) {
+                    shared.insert((path.min(other), path.max(other)));
+                }
+            }
+        }
+    }
+    assert!(shared.is_empty(), "{shared:#?}");
+}
+
+/// How far along a ray it meets a triangle, in lengths of `way`.
+fn hit(eye: DVec3, way: DVec3, [a, b, c]: Triangle) -> Option<f64> {
+    let (u, v) = (b - a, c - a);
+    let p = way.cross(v);
+    let scale = u.dot(p);
+    let from = eye - a;
+    let (s, q) = (from.dot(p) / scale, from.cross(u));
+    let (t, distance) = (way.dot(q) / scale, v.dot(q) / scale);
+    (s >= 0.0 && t >= 0.0 && s + t <= 1.0 && distance > 0.0).then_some(distance)
+}
+
+/// Do two triangles of one plane overlap by more than two millimetres in every direction? (No line parts them.)
+fn overlap(normal: DVec3, a: Triangle, b: Triangle) -> bool {
+    let u = normal.any_orthonormal_vector();
+    let v = normal.cross(u);
+    let flat = |triangle: Triangle| triangle.map(|p| DVec2::new(p.dot(u), p.dot(v)));
+    let (a, b) = (flat(a), flat(b));
+    let span = |points: [DVec2; 3], axis: DVec2| {
+        let along = points.map(|p| p.dot(axis));
+        (along.into_iter().fold(f64::INFINITY, f64::min), along.into_iter().fold(f64::NEG_INFINITY, f64::max))
+    };
+    [a, b].iter().all(|points| {
+        (0..3).all(|k| {
+            let axis = (points[(k + 1) % 3] - points[k]).normalize().perp();
+            let ((a0, a1), (b0, b1)) = (span(a, axis), span(b, axis));
+            a1.min(b1) - a0.max(b0) > 2e-3
+        })
+    })
+}
