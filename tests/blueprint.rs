@@ -473,3 +473,42 @@ fn the_order_of_objects_changes_no_layer() {
     }
     assert!(pictures[0] == pictures[1]);
 }
+
+#[test]
+fn a_click_means_the_nearest_of_blueprints_and_surfaces() {
+    let mut session = session();
+    // A cube inside of a ball; one of them is a blueprint.
+    let objects = vec![
+        object("cube", primitives::cube(0.6), at(0.0)),
+        object("ball", primitives::sphere(1.0, 24, 32), at(0.0)),
+    ];
+    let scene = scene(objects);
+    for (blueprint, expected) in [(0, 1), (1, 1)] {
+        let mut opened = opened(&scene, DVec3::Z);
+        set_for(&mut opened, blueprint, "technique", "blueprint");
+        session.set_scene(&opened).unwrap();
+        session.draw(&opened, [64; 2], false).unwrap();
+        session.renderer().start_pick([32, 32]).unwrap();
+        session.renderer().gpu().wait().unwrap();
+        assert_eq!(session.renderer().poll_pick().unwrap().node, Some(expected));
+    }
+    // Without its nearest layers what lies behind them is meant.
+    let mut opened = opened(&scene, DVec3::Z);
+    set_for(&mut opened, 1, "technique", "blueprint");
+    set_for(&mut opened, 1, "blueprint.from", "2");
+    session.set_scene(&opened).unwrap();
+    let camera = opened.document.camera.unwrap();
+    let request = hachure::render::Request {
+        document: &opened.document,
+        camera: &camera,
+        size: [64; 2],
+        transparent: false,
+        selected: &[1],
+        samples: 1,
+    };
+    let picture = session.renderer().render(&request).unwrap();
+    assert!(texels::<[u8; 4]>(&mut session, &picture.selection.unwrap()).iter().any(|t| t[3] > 0));
+    session.renderer().start_pick([32, 32]).unwrap();
+    session.renderer().gpu().wait().unwrap();
+    assert_eq!(session.renderer().poll_pick().unwrap().node, Some(0));
+}

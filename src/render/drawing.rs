@@ -84,6 +84,8 @@ pub struct Shaded {
     pub cartoon_map: Option<Target>,
     /// See `shaders/passes/coordinates.wgsl`; `None` when no object asks for it.
     pub coordinates: Option<Target>,
+    /// Geometry of the first drawn layer of each blueprint, and their revisions.
+    pub fronts: (Vec<u64>, Vec<Target>),
     /// The layers of each blueprint, the farthest first; empty unless they are kept.
     pub layers: Vec<Vec<Layer>>,
 }
@@ -412,8 +414,9 @@ impl Drawing {
             }
             Ok::<_, RenderError>(color)
         })?;
+        let fronts = blueprints.iter().filter_map(|b| Some((b.revision, b.value.front.clone()?))).unzip();
         let layers = blueprints.into_iter().map(|b| b.value.layers).filter(|l| !l.is_empty()).collect();
-        Ok(Shaded { color, cartoon_map, coordinates, layers })
+        Ok(Shaded { color, cartoon_map, coordinates, fronts, layers })
     }
 
     /// Draws the blueprints, the farthest first. Blended groups that reach into each other have no right order: that of

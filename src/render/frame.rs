@@ -9,6 +9,7 @@ use glam::{Vec2, Vec4};
 use super::RenderError;
 use super::drawing::{Begun, Drawing, DrawingInputs, Shared};
 use super::passes::accumulate::{Accumulation, Subject};
+use super::passes::front::front;
 use super::passes::gbuffer::GBuffer;
 use super::passes::operators::operators;
 use super::passes::peel::Layer;
@@ -17,7 +18,7 @@ use super::passes::selection::{self, selection};
 use super::passes::show::show;
 use super::sample::Sample;
 use super::shadows::ShadowMaps;
-use super::stage::Stage;
+use super::stage::{Output, Stage};
 use crate::document::Show;
 use crate::gpu::{ArrayBuffer, Gpu, Recorder, Target};
 use crate::scene::NodeId;
@@ -44,8 +45,10 @@ pub struct Picture {
     pub sample: Sample,
     /// Outline of the selection, if anything is selected.
     pub selection: Option<Target>,
-    /// Per-pixel geometry, for picking and for tests.
+    /// Per-pixel geometry of the surfaces, for tests.
     pub gbuffer: GBuffer,
+    /// Geometry of what is in front, blueprints among it: for picking.
+    pub front: Target,
     /// Operators' values, if they were shown.
     pub operators: Option<Target>,
     /// See `shaders/common/edge_map.wgsl`; `None` when no object has lines.
@@ -72,7 +75,8 @@ pub struct FrameState {
     /// been read.
     origin: Option<Accumulation>,
     image: Stage<(u64, Show, [u64; 3], Vec4), Target>,
-    /// The G-buffer of the picture's first sample: outlines do not follow the jitter.
+    front: Stage<(u64, Vec<u64>), Target>,
+    /// The geometry of the picture's first sample: outlines do not follow the jitter.
     unmoved: u64,
     selected: ArrayBuffer,
     selection: Stage<(u64, Vec<u32>), Target>,
@@ -89,6 +93,7 @@ impl FrameState {
             accumulation: Accumulation::default(),
             origin: None,
             image: Stage::default(),
+            front: Stage::default(),
             unmoved: 0,
             selected: ArrayBuffer::new(gpu, "selected"),
             selection: Stage::default(),
@@ -148,9 +153,11 @@ impl FrameState {
         let operators = self.operators(rec, *what, &begun)?;
 
         let (mut cartoon_map, mut coordinates, mut layers) = (None, None, Vec::new());
+        let mut fronts = (Vec::new(), Vec::new());
         let image = if *what == Show::Picture {
             let shaded = self.drawing.shade(rec, &mut self.shared, eye, &begun, edge_map.as_ref())?;
             (cartoon_map, coordinates, layers) = (shaded.cartoon_map, shaded.coordinates, shaded.layers);
+            fronts = shaded.fronts;
             let color = self.accumulation.add(rec, eye.sample, shaded.color)?;
             let final_inputs = (shaders, *what, [color.revision, 0, 0], eye.background);
             self.image.run(final_inputs, |_| resolve(rec, &color.value))?
@@ -169,8 +176,14 @@ impl FrameState {
                 .run((shaders, *what, revisions, Vec4::ZERO), |_| show(rec, *what, gbuffer, ink, values))?
         };
 
+        let (revisions, layers_before) = fronts;
+        let front = self.front.run((begun.gbuffer.revision, revisions), |_| {
+            front(rec, &begun.gbuffer.value.geometry, &layers_before)
+        })?;
+
         Ok(Picture {
-            selection: self.outline(rec, inputs, &begun)?,
+            selection: self.outline(rec, inputs, &front)?,
+            front: front.value,
             image: image.value,
             sample: eye.sample,
             revision: image.revision,
@@ -205,19 +218,19 @@ impl FrameState {
         &mut self,
         rec: &mut Recorder<'_>,
         inputs: &FrameInputs<'_>,
-        begun: &Begun,
+        front: &Output<Target>,
     ) -> Result<Option<Target>, RenderError> {
         if inputs.selected.is_empty() {
             self.selection.clear();
             return Ok(None);
         }
         if inputs.drawing.sample.index == 0 {
-            self.unmoved = begun.gbuffer.revision;
+            self.unmoved = front.revision;
         }
         let bits = selection::bits(inputs.selected, inputs.drawing.scene.scene.nodes.len());
         let outline = self.selection.run((self.unmoved, bits), |(_, bits)| {
             self.selected.write(rec.gpu, bits);
-            selection(rec, &begun.gbuffer.value, self.selected.buffer())
+            selection(rec, &front.value, self.selected.buffer())
         })?;
         Ok(Some(outline.value))
     }

@@ -260,9 +260,9 @@ impl Renderer {
     /// [`RenderError`].
     pub fn start_pick(&mut self, px: [u32; 2]) -> Result<(), RenderError> {
         let Some((picture, view)) = &self.last else { return Ok(()) };
-        let [w, h] = picture.gbuffer.geometry.size();
+        let [w, h] = picture.front.size();
         let px = [px[0].min(w - 1), px[1].min(h - 1)];
-        let readback = Readback::start(&self.gpu, &picture.gbuffer.geometry, px, [1, 1])?;
+        let readback = Readback::start(&self.gpu, &picture.front, px, [1, 1])?;
         let px = Vec2::new(px[0] as f32 + 0.5, px[1] as f32 + 0.5);
         self.pick = Some(PendingPick { readback, view: *view, px });
         Ok(())

@@ -106,6 +106,8 @@ impl Blueprint {
 pub struct Peels {
     /// Linear colour times opacity, and opacity.
     pub color: Target,
+    /// Geometry of the first layer that is drawn; `None` when none is.
+    pub front: Option<Target>,
     /// The layers, where they are kept: as many as may be peeled, of which those after the last one are empty.
     pub layers: Vec<Layer>,
 }
@@ -208,6 +210,7 @@ impl Blueprints {
                 greatest_radius,
                 style,
                 count,
+                front: None,
                 kept: Vec::new(),
             };
             let color = rec.target("blueprint", wgpu::TextureFormat::Rgba16Float)?;
@@ -219,8 +222,8 @@ impl Blueprints {
             if let Some(gate) = gate {
                 gate.open(rec.gpu);
             }
-            let layers = peeling.kept;
-            peeled.map(|()| Peels { color, layers })
+            let Peeling { front, kept: layers, .. } = peeling;
+            peeled.map(|()| Peels { color, front, layers })
         })
     }
 }
@@ -238,6 +241,7 @@ struct Peeling<'a> {
     greatest_radius: &'a mut ArrayBuffer,
     style: &'a ArrayBuffer,
     count: &'a PeelCount,
+    front: Option<Target>,
     kept: Vec<Layer>,
 }
 
@@ -260,6 +264,7 @@ impl Peeling<'_> {
             let layer = Layer { gbuffer, order };
             self.count.count(rec, &layer)?;
             if blueprint.shows(number) {
+                self.front.get_or_insert_with(|| layer.gbuffer.geometry.clone());
                 if blueprint.group.have_lines() {
                     self.lines(rec, &layer, &mut seen, color)?;
                 }

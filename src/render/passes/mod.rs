@@ -4,6 +4,7 @@ pub mod accumulate;
 pub mod coordinates;
 pub mod edge_map;
 pub mod edge_style;
+pub mod front;
 pub mod gbuffer;
 pub mod line_distance;
 pub mod lines;

@@ -1,6 +1,5 @@
 //! The outline around selected objects, as a picture of its own that the window lays over the drawing.
 
-use super::gbuffer::GBuffer;
 use super::resolve::FINAL;
 use crate::gpu::recorder::Input;
 use crate::gpu::{Program, Recorder, Target};
@@ -26,11 +25,11 @@ pub fn bits(selected: &[NodeId], node_count: usize) -> Vec<u32> {
 /// [`RenderError`].
 pub fn selection(
     rec: &mut Recorder<'_>,
-    gbuffer: &GBuffer,
+    geometry: &Target,
     selected: &wgpu::Buffer,
 ) -> Result<Target, RenderError> {
     let out = rec.target("selection", FINAL)?;
-    let inputs = [Input::Texture(&gbuffer.geometry), Input::Storage(selected)];
+    let inputs = [Input::Texture(geometry), Input::Storage(selected)];
     rec.fullscreen("selection", Program::new("passes/selection.wgsl", "fs_main"), &inputs, &[&out], None)?;
     Ok(out)
 }
