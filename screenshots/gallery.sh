@@ -90,6 +90,11 @@ done
 convert "$work/nearest.png" "$work/cartoon_map.png" +append screenshots/toon_borders.png
 echo screenshots/toon_borders.png
 
+# Blueprints: all layers of an assembly (Blueprints paper, Fig. 1) and of a building, before opaque statues.
+draw blueprint "$crank" --style blueprint
+draw blueprint_temple assets/models/temple.glb --style blueprint --object-style '/temple/statues*=technical-illustration' \
+	--set blueprint.layers=16 --set 'blueprint.opacity=0.03' --camera-azimuth-angle 35 --camera-elevation-angle 35
+
 # Shadows in each technique.
 for style in plain gooch comic engraving newspaper; do
 	draw "shadows_$style" "$ogre" --style "$style" --set light.shadows=true --set light.key.azimuth=-55 \

@@ -57,7 +57,7 @@ pub(super) fn run(args: &BenchArgs) -> Result<(), CliError> {
     let load_ms = started.elapsed().as_secs_f64() * 1e3;
     let mut bench = Bench::new(opened, args.resolution.0)?;
 
-    let looks = looks()?;
+    let looks = looks(bench.opened.scene.meshes.iter().any(|mesh| !mesh.uvs.is_empty()))?;
     let mut rows: Vec<Row> =
         looks.iter().map(|look| Row { name: look.name, frame_ms: Vec::new(), stages: Vec::new() }).collect();
     // The looks take turns, so that a slow moment of the machine hits all of them alike.
@@ -176,7 +176,7 @@ impl Bench {
     }
 }
 
-fn looks() -> Result<Vec<Look>, CliError> {
+fn looks(has_uvs: bool) -> Result<Vec<Look>, CliError> {
     let gooch = preset::load("gooch")?.style;
     let mut diagonal = gooch.clone();
     diagonal.edges.mode = EdgeMode::Paper;
@@ -213,6 +213,8 @@ fn looks() -> Result<Vec<Look>, CliError> {
     let unshadowed = Lighting::default();
     let hard = Lighting { shadows: true, ..Lighting::default() };
     let soft = Lighting { shadow_softness: 2.0, ..hard.clone() };
+    // Without texture coordinates it would be the triplanar one again.
+    let by_uv = has_uvs.then(|| ("halftone, uv", halftone(Space::Surface, Mapping::Uv)));
     let styles = [
         ("plain", plain.clone()),
         ("toon, nearest", toon(Border::Nearest)),
@@ -220,7 +222,6 @@ fn looks() -> Result<Vec<Look>, CliError> {
         ("toon, analytic", toon(Border::Analytic)),
         ("halftone, screen", halftone(Space::Screen, Mapping::Triplanar)),
         ("halftone, triplanar", halftone(Space::Surface, Mapping::Triplanar)),
-        ("halftone, uv", halftone(Space::Surface, Mapping::Uv)),
         ("gooch, no edges", no_edges),
         ("gooch, metal", metal),
         ("gooch + edges, diagonal", diagonal),
@@ -238,7 +239,7 @@ fn looks() -> Result<Vec<Look>, CliError> {
         behind: Behind::Nothing,
     };
     let mut looks: Vec<Look> =
-        styles.into_iter().map(|(name, style)| look(name, style, &unshadowed)).collect();
+        styles.into_iter().chain(by_uv).map(|(name, style)| look(name, style, &unshadowed)).collect();
     looks.push(look("plain, shadow", plain.clone(), &hard));
     looks.push(look("plain, soft shadow", plain, &soft));
     for (name, behind) in [("before a wall", Behind::Wall), ("before a mirror", Behind::Mirror)] {
