@@ -1,5 +1,6 @@
 //! What lights a drawing: a key, a fill and a rim light that a person sets, or the lights of the files; and shadows.
 
+use crate::style::choice;
 use glam::{DMat3, DVec3};
 
 use crate::scene::{Light, LightKind, Up};
@@ -46,48 +47,26 @@ pub struct Lamp {
     pub shadow: bool,
 }
 
-/// Which lights there are.
-#[derive(
-    Debug,
-    Clone,
-    Copy,
-    PartialEq,
-    Eq,
-    Hash,
-    Default,
-    strum::EnumString,
-    strum::IntoStaticStr,
-    strum::VariantNames,
-)]
-#[strum(serialize_all = "snake_case")]
-pub enum Source {
-    /// Key, fill and rim.
-    #[default]
-    Rig,
-    /// The lights of the model files.
-    File,
+choice! {
+    /// Which lights there are.
+    pub enum Source {
+        /// Key, fill and rim.
+        #[default]
+        Rig,
+        /// The lights of the model files.
+        File,
+    }
 }
 
-/// What a light's direction is fixed to.
-#[derive(
-    Debug,
-    Clone,
-    Copy,
-    PartialEq,
-    Eq,
-    Hash,
-    Default,
-    strum::EnumString,
-    strum::IntoStaticStr,
-    strum::VariantNames,
-)]
-#[strum(serialize_all = "snake_case")]
-pub enum Attached {
-    /// It moves with the eye: the front is where the eye is.
-    #[default]
-    Camera,
-    /// It stands still: the front is that of the model.
-    World,
+choice! {
+    /// What a light's direction is fixed to.
+    pub enum Attached {
+        /// It moves with the eye: the front is where the eye is.
+        #[default]
+        Camera,
+        /// It stands still: the front is that of the model.
+        World,
+    }
 }
 
 impl Attached {

@@ -1,6 +1,7 @@
 //! How the picture is shown, whatever the styles are.
 
 use crate::style::Color;
+use crate::style::choice;
 use crate::style::param::{Param, Params};
 
 /// View settings of a document.
@@ -16,44 +17,33 @@ pub struct View {
     pub reflections: f32,
 }
 
-/// What the picture shows: the drawing, or an intermediate result for a closer look.
-#[derive(
-    Debug,
-    Clone,
-    Copy,
-    PartialEq,
-    Eq,
-    Hash,
-    Default,
-    strum::EnumString,
-    strum::IntoStaticStr,
-    strum::VariantNames,
-)]
-#[strum(serialize_all = "snake_case")]
-pub enum Show {
-    /// The drawing.
-    #[default]
-    Picture,
-    /// Eye-space shading normals as colours, 0.5 + 0.5 n.
-    Normals,
-    /// Eye-space face normals as colours.
-    FaceNormals,
-    /// Linear depth over the range of the enhanced objects: black near, white far.
-    Depth,
-    /// A colour per object.
-    Objects,
-    /// A colour per connected smooth surface.
-    Surfaces,
-    /// Unlit base colour.
-    BaseColor,
-    /// Normal discontinuities `I_N` (1 = none).
-    NormalOperator,
-    /// Depth discontinuities `I_Z` by the diagonal operator (1 = none).
-    DepthOperator,
-    /// Depth discontinuities by the C1 operator, as 1 − C1.
-    C1Operator,
-    /// The edge map: profile and inner ink, black on white.
-    EdgeMap,
+choice! {
+    /// What the picture shows: the drawing, or an intermediate result for a closer look.
+    pub enum Show {
+        /// The drawing.
+        #[default]
+        Picture,
+        /// Eye-space shading normals as colours, 0.5 + 0.5 n.
+        Normals,
+        /// Eye-space face normals as colours.
+        FaceNormals,
+        /// Linear depth over the range of the enhanced objects: black near, white far.
+        Depth,
+        /// A colour per object.
+        Objects,
+        /// A colour per connected smooth surface.
+        Surfaces,
+        /// Unlit base colour.
+        BaseColor,
+        /// Normal discontinuities `I_N` (1 = none).
+        NormalOperator,
+        /// Depth discontinuities `I_Z` by the diagonal operator (1 = none).
+        DepthOperator,
+        /// Depth discontinuities by the C1 operator, as 1 − C1.
+        C1Operator,
+        /// The edge map: profile and inner ink, black on white.
+        EdgeMap,
+    }
 }
 
 impl Default for View {

@@ -2,6 +2,7 @@
 
 use super::Color;
 use super::param::Params;
+use super::slot::choice;
 
 /// Parameters of the technique `gooch`.
 ///
@@ -29,30 +30,19 @@ pub struct Gooch {
     pub stripes: u32,
 }
 
-/// The axis around which the stripes of milled metal lie.
-#[derive(
-    Debug,
-    Clone,
-    Copy,
-    PartialEq,
-    Eq,
-    Hash,
-    Default,
-    strum::EnumString,
-    strum::IntoStaticStr,
-    strum::VariantNames,
-)]
-#[strum(serialize_all = "snake_case")]
-pub enum MetalAxis {
-    /// The object's own first axis.
-    X,
-    /// Its second one.
-    #[default]
-    Y,
-    /// Its third one.
-    Z,
-    /// The vertical of the picture: stripes follow the eye.
-    View,
+choice! {
+    /// The axis around which the stripes of milled metal lie.
+    pub enum MetalAxis {
+        /// The object's own first axis.
+        X,
+        /// Its second one.
+        #[default]
+        Y,
+        /// Its third one.
+        Z,
+        /// The vertical of the picture: stripes follow the eye.
+        View,
+    }
 }
 
 impl Default for Gooch {

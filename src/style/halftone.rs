@@ -1,6 +1,7 @@
 //! Halftone: tones by the density of ink (Freudenberg et al. 2002; edge-enhancement paper, section 5, "Edge-Enhanced
 //! Real-Time Hatching").
 
+use super::slot::choice;
 use std::path::{Path, PathBuf};
 
 use super::Color;
@@ -46,76 +47,43 @@ pub struct Halftone {
     pub gamma: f32,
 }
 
-/// What the ink looks like: a built-in prioritised texture, or an image.
-#[derive(
-    Debug,
-    Clone,
-    Copy,
-    PartialEq,
-    Eq,
-    Hash,
-    Default,
-    strum::EnumString,
-    strum::IntoStaticStr,
-    strum::VariantNames,
-)]
-#[strum(serialize_all = "snake_case")]
-pub enum Texture {
-    /// Strokes of a pen, crossed where it gets darker.
-    #[default]
-    Strokes,
-    /// Dots of a printing screen.
-    Dots,
-    /// Ruled lines that get wider.
-    Lines,
-    /// Dots of a pen, strewn evenly.
-    Stipple,
-    /// An image, whose dark parts are inked first.
-    Image,
+choice! {
+    /// What the ink looks like: a built-in prioritised texture, or an image.
+    pub enum Texture {
+        /// Strokes of a pen, crossed where it gets darker.
+        #[default]
+        Strokes,
+        /// Dots of a printing screen.
+        Dots,
+        /// Ruled lines that get wider.
+        Lines,
+        /// Dots of a pen, strewn evenly.
+        Stipple,
+        /// An image, whose dark parts are inked first.
+        Image,
+    }
 }
 
-/// To what the texture is fixed.
-#[derive(
-    Debug,
-    Clone,
-    Copy,
-    PartialEq,
-    Eq,
-    Hash,
-    Default,
-    strum::EnumString,
-    strum::IntoStaticStr,
-    strum::VariantNames,
-)]
-#[strum(serialize_all = "snake_case")]
-pub enum Space {
-    /// It lies on the objects and turns with them.
-    #[default]
-    Surface,
-    /// It lies on the picture.
-    Screen,
+choice! {
+    /// To what the texture is fixed.
+    pub enum Space {
+        /// It lies on the objects and turns with them.
+        #[default]
+        Surface,
+        /// It lies on the picture.
+        Screen,
+    }
 }
 
-/// How the texture lies on a surface.
-#[derive(
-    Debug,
-    Clone,
-    Copy,
-    PartialEq,
-    Eq,
-    Hash,
-    Default,
-    strum::EnumString,
-    strum::IntoStaticStr,
-    strum::VariantNames,
-)]
-#[strum(serialize_all = "snake_case")]
-pub enum Mapping {
-    /// Projected along the object's own axes.
-    #[default]
-    Triplanar,
-    /// By texture coordinates; without any, triplanar.
-    Uv,
+choice! {
+    /// How the texture lies on a surface.
+    pub enum Mapping {
+        /// Projected along the object's own axes.
+        #[default]
+        Triplanar,
+        /// By texture coordinates; without any, triplanar.
+        Uv,
+    }
 }
 
 impl Default for Halftone {

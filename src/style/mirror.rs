@@ -2,6 +2,7 @@
 
 use super::Color;
 use super::param::Params;
+use super::slot::choice;
 
 /// Parameters of an object with the role mirror; without the role they do nothing.
 ///
@@ -20,28 +21,17 @@ pub struct Mirror {
     pub tint: Color,
 }
 
-/// A side of a flat object.
-#[derive(
-    Debug,
-    Clone,
-    Copy,
-    PartialEq,
-    Eq,
-    Hash,
-    Default,
-    strum::EnumString,
-    strum::IntoStaticStr,
-    strum::VariantNames,
-)]
-#[strum(serialize_all = "snake_case")]
-pub enum Side {
-    /// The front by the file's winding.
-    #[default]
-    Front,
-    /// The back.
-    Back,
-    /// Both.
-    Both,
+choice! {
+    /// A side of a flat object.
+    pub enum Side {
+        /// The front by the file's winding.
+        #[default]
+        Front,
+        /// The back.
+        Back,
+        /// Both.
+        Both,
+    }
 }
 
 impl Default for Mirror {

@@ -38,37 +38,27 @@ pub use toml_file::{diff_to_toml, set_from_toml};
 pub use toon::Toon;
 
 use param::Params;
+pub(crate) use slot::choice;
 
-/// How a surface is shaded. The literal ids stand in files and on the command line.
-#[derive(
-    Debug,
-    Clone,
-    Copy,
-    PartialEq,
-    Eq,
-    Hash,
-    Default,
-    strum::EnumString,
-    strum::IntoStaticStr,
-    strum::VariantNames,
-)]
-#[strum(serialize_all = "snake_case")]
-pub enum Technique {
-    /// Paper only, for pure line drawings.
-    Blank,
-    /// Lit by the scene's lights.
-    Plain,
-    /// The base colour, unlit.
-    Unlit,
-    /// Cool-to-warm technical illustration.
-    #[default]
-    Gooch,
-    /// Flat shades from a ramp, as in a comic.
-    Toon,
-    /// Tones by the density of ink.
-    Halftone,
-    /// The lines of hidden layers too.
-    Blueprint,
+choice! {
+    /// How a surface is shaded. The literal ids stand in files and on the command line.
+    pub enum Technique {
+        /// Paper only, for pure line drawings.
+        Blank,
+        /// Lit by the scene's lights.
+        Plain,
+        /// The base colour, unlit.
+        Unlit,
+        /// Cool-to-warm technical illustration.
+        #[default]
+        Gooch,
+        /// Flat shades from a ramp, as in a comic.
+        Toon,
+        /// Tones by the density of ink.
+        Halftone,
+        /// The lines of hidden layers too.
+        Blueprint,
+    }
 }
 
 /// The complete look of one object.

@@ -1,35 +1,25 @@
 //! The built-in ramps of toon shading.
 
 use super::Color;
+use super::slot::choice;
 
-/// Where the shades of a toon come from.
-#[derive(
-    Debug,
-    Clone,
-    Copy,
-    PartialEq,
-    Eq,
-    Hash,
-    Default,
-    strum::EnumString,
-    strum::IntoStaticStr,
-    strum::VariantNames,
-)]
-#[strum(serialize_all = "snake_case")]
-pub enum Ramp {
-    /// A few flat bands, in colours of one's own.
-    #[default]
-    Bands,
-    /// From lavender shadows to white without a step.
-    Soft,
-    /// Shadow and light, with a narrow soft border.
-    TwoStep,
-    /// Flat bands from blue shadows to warm light.
-    WarmCool,
-    /// Washes of grey ink, darker where each of them ends.
-    InkWash,
-    /// The texels of an image.
-    Image,
+choice! {
+    /// Where the shades of a toon come from.
+    pub enum Ramp {
+        /// A few flat bands, in colours of one's own.
+        #[default]
+        Bands,
+        /// From lavender shadows to white without a step.
+        Soft,
+        /// Shadow and light, with a narrow soft border.
+        TwoStep,
+        /// Flat bands from blue shadows to warm light.
+        WarmCool,
+        /// Washes of grey ink, darker where each of them ends.
+        InkWash,
+        /// The texels of an image.
+        Image,
+    }
 }
 
 /// A ramp in so many even bands; the colour of each lies between the stops around it, which have places from 0

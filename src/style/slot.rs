@@ -125,6 +125,27 @@ impl<T: Copy> Place<'_, T> {
     }
 }
 
+/// Declares an enumeration whose variants have names in snake case: a [`Choice`].
+macro_rules! choice {
+    ($($item:tt)*) => {
+        #[derive(
+            Debug,
+            Clone,
+            Copy,
+            PartialEq,
+            Eq,
+            Hash,
+            Default,
+            strum::EnumString,
+            strum::IntoStaticStr,
+            strum::VariantNames,
+        )]
+        #[strum(serialize_all = "snake_case")]
+        $($item)*
+    };
+}
+pub(crate) use choice;
+
 /// An enumeration whose variants have names.
 pub trait Choice {
     /// All names.

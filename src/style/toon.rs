@@ -1,6 +1,7 @@
 //! Toon shading: a few flat shades from a ramp (Lake et al. 2000; edge-enhancement paper, section 5, "Edge-Enhanced
 //! Cartoon-Style Rendering").
 
+use super::slot::choice;
 use std::path::{Path, PathBuf};
 
 use super::Color;
@@ -52,28 +53,17 @@ pub struct Toon {
     pub rim_color: Color,
 }
 
-/// How borders between bands are drawn (paper, Fig. 9).
-#[derive(
-    Debug,
-    Clone,
-    Copy,
-    PartialEq,
-    Eq,
-    Hash,
-    Default,
-    strum::EnumString,
-    strum::IntoStaticStr,
-    strum::VariantNames,
-)]
-#[strum(serialize_all = "snake_case")]
-pub enum Border {
-    /// Each pixel has the shade of one band: edged, and jagged.
-    Nearest,
-    /// The bands are kept as a texture, the cartoon map, and a pixel's shade is a mean of its neighbours' there.
-    #[default]
-    CartoonMap,
-    /// The share of each band in a pixel, from the slope of N·L.
-    Analytic,
+choice! {
+    /// How borders between bands are drawn (paper, Fig. 9).
+    pub enum Border {
+        /// Each pixel has the shade of one band: edged, and jagged.
+        Nearest,
+        /// The bands are kept as a texture, the cartoon map, and a pixel's shade is a mean of its neighbours' there.
+        #[default]
+        CartoonMap,
+        /// The share of each band in a pixel, from the slope of N·L.
+        Analytic,
+    }
 }
 
 impl Default for Toon {
