@@ -6,10 +6,13 @@
 //! segments (topology) ─────┘
 //! ```
 
+mod reflections;
+
 use std::sync::Arc;
 
 use glam::{Vec2, Vec4};
 
+use self::reflections::Reflection;
 use super::RenderError;
 use super::effects::blueprint::{Blueprints, Peels};
 use super::effects::halftone::{HalftoneInputs, HalftoneUniform, Halftones, ThresholdMaps};
@@ -149,21 +152,6 @@ pub struct Drawing {
 /// What is seen in mirrors: the revision of each drawing and how it is laid over its mirror; and the paper, which they
 /// show too.
 type Seen = Option<(Vec<(u64, MirrorUniform)>, Vec4)>;
-
-/// What a mirror shows.
-struct Reflection {
-    object: u32,
-    drawing: Drawing,
-    uniform: ArrayBuffer,
-}
-
-/// A reflection that is drawn.
-struct Reflected {
-    color: Output<Target>,
-    uniform: MirrorUniform,
-    /// Index of [`Drawing::reflections`].
-    index: usize,
-}
 
 impl Drawing {
     /// Nothing drawn yet.
@@ -460,67 +448,6 @@ impl Drawing {
             shared.gbuffer.coordinates.run(rec, inputs.scene, &begun.gbuffer.value, draws, calls)
         })?;
         Ok(Some(coordinates.value))
-    }
-
-    /// Draws what is seen in the mirrors.
-    fn reflect(
-        &mut self,
-        rec: &mut Recorder<'_>,
-        shared: &mut Shared,
-        inputs: &DrawingInputs<'_>,
-    ) -> Result<Vec<Reflected>, RenderError> {
-        let objects = inputs.objects;
-        let mirrors = if inputs.reflections > 0 { objects.mirrors.as_slice() } else { &[] };
-        let margin = objects.greatest_radius();
-        let seen: Vec<_> = mirrors
-            .iter()
-            .filter_map(|m| Some((m, m.seen_from(inputs.view, &objects.visible_bounds, margin)?)))
-            .collect();
-        self.reflections.retain(|r| seen.iter().any(|(mirror, _)| mirror.object == r.object));
-        if seen.is_empty() {
-            return Ok(Vec::new());
-        }
-        let mut reflected = Vec::new();
-        for (mirror, view) in &seen {
-            let index = match self.reflections.iter().position(|r| r.object == mirror.object) {
-                Some(index) => index,
-                None => {
-                    self.reflections.push(Reflection {
-                        object: mirror.object,
-                        drawing: Self::new(rec.gpu, rec.pipelines.frame_layout()),
-                        uniform: ArrayBuffer::new(rec.gpu, "mirror"),
-                    });
-                    self.reflections.len() - 1
-                }
-            };
-            let Some(reflection) = self.reflections.get_mut(index) else { continue };
-            let inner =
-                DrawingInputs { view, reflections: inputs.reflections - 1, keeps_layers: false, ..*inputs };
-            let before = reflection.drawing.drawn();
-            let color = reflection.drawing.record(rec, shared, &inner)?;
-            self.reflected += reflection.drawing.drawn() - before;
-            reflected.push(Reflected { color, uniform: mirror.uniform(), index });
-        }
-        self.look_through(rec, inputs.view);
-        Ok(reflected)
-    }
-
-    /// How often it was drawn, with what is seen in its mirrors.
-    fn drawn(&self) -> u64 {
-        self.surface.runs() + self.reflected
-    }
-
-    /// All of a drawing.
-    fn record(
-        &mut self,
-        rec: &mut Recorder<'_>,
-        shared: &mut Shared,
-        inputs: &DrawingInputs<'_>,
-    ) -> Result<Output<Target>, RenderError> {
-        let begun = self.begin(rec, shared, inputs)?;
-        let has_lines = inputs.objects.surfaces.have_lines();
-        let edge_map = if has_lines { Some(self.find_edges(rec, inputs, &begun)?) } else { None };
-        Ok(self.shade(rec, shared, inputs, &begun, edge_map.as_ref())?.color)
     }
 
     fn find_bands(

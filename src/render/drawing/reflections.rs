@@ -1,0 +1,85 @@
+//! What the mirrors of a drawing show: drawings of the same kind, one for each.
+
+use super::{Drawing, DrawingInputs, Shared};
+use crate::gpu::{ArrayBuffer, Recorder, Target};
+use crate::render::RenderError;
+use crate::render::effects::mirror::MirrorUniform;
+use crate::render::stage::Output;
+
+/// What a mirror shows.
+pub(super) struct Reflection {
+    object: u32,
+    drawing: Drawing,
+    pub(super) uniform: ArrayBuffer,
+}
+
+/// A reflection that is drawn.
+pub(super) struct Reflected {
+    pub(super) color: Output<Target>,
+    pub(super) uniform: MirrorUniform,
+    /// Index of [`Drawing::reflections`].
+    pub(super) index: usize,
+}
+
+impl Drawing {
+    /// Draws what is seen in the mirrors.
+    pub(super) fn reflect(
+        &mut self,
+        rec: &mut Recorder<'_>,
+        shared: &mut Shared,
+        inputs: &DrawingInputs<'_>,
+    ) -> Result<Vec<Reflected>, RenderError> {
+        let objects = inputs.objects;
+        let mirrors = if inputs.reflections > 0 { objects.mirrors.as_slice() } else { &[] };
+        let margin = objects.greatest_radius();
+        let seen: Vec<_> = mirrors
+            .iter()
+            .filter_map(|m| Some((m, m.seen_from(inputs.view, &objects.visible_bounds, margin)?)))
+            .collect();
+        self.reflections.retain(|r| seen.iter().any(|(mirror, _)| mirror.object == r.object));
+        if seen.is_empty() {
+            return Ok(Vec::new());
+        }
+        let mut reflected = Vec::new();
+        for (mirror, view) in &seen {
+            let index = match self.reflections.iter().position(|r| r.object == mirror.object) {
+                Some(index) => index,
+                None => {
+                    self.reflections.push(Reflection {
+                        object: mirror.object,
+                        drawing: Self::new(rec.gpu, rec.pipelines.frame_layout()),
+                        uniform: ArrayBuffer::new(rec.gpu, "mirror"),
+                    });
+                    self.reflections.len() - 1
+                }
+            };
+            let Some(reflection) = self.reflections.get_mut(index) else { continue };
+            let inner =
+                DrawingInputs { view, reflections: inputs.reflections - 1, keeps_layers: false, ..*inputs };
+            let before = reflection.drawing.drawn();
+            let color = reflection.drawing.record(rec, shared, &inner)?;
+            self.reflected += reflection.drawing.drawn() - before;
+            reflected.push(Reflected { color, uniform: mirror.uniform(), index });
+        }
+        self.look_through(rec, inputs.view);
+        Ok(reflected)
+    }
+
+    /// How often it was drawn, with what is seen in its mirrors.
+    fn drawn(&self) -> u64 {
+        self.surface.runs() + self.reflected
+    }
+
+    /// All of a drawing.
+    fn record(
+        &mut self,
+        rec: &mut Recorder<'_>,
+        shared: &mut Shared,
+        inputs: &DrawingInputs<'_>,
+    ) -> Result<Output<Target>, RenderError> {
+        let begun = self.begin(rec, shared, inputs)?;
+        let has_lines = inputs.objects.surfaces.have_lines();
+        let edge_map = if has_lines { Some(self.find_edges(rec, inputs, &begun)?) } else { None };
+        Ok(self.shade(rec, shared, inputs, &begun, edge_map.as_ref())?.color)
+    }
+}
