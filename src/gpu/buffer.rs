@@ -50,6 +50,23 @@ pub struct DynamicBuffer {
 }
 
 impl DynamicBuffer {
+    /// The layout of a bind group that holds nothing but one element at a dynamic offset.
+    pub fn layout<T: ShaderType>(gpu: &Gpu, label: &str) -> wgpu::BindGroupLayout {
+        gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some(label),
+            entries: &[wgpu::BindGroupLayoutEntry {
+                binding: 0,
+                visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
+                ty: wgpu::BindingType::Buffer {
+                    ty: wgpu::BufferBindingType::Uniform,
+                    has_dynamic_offset: true,
+                    min_binding_size: Some(T::min_size()),
+                },
+                count: None,
+            }],
+        })
+    }
+
     /// An empty one for elements of type `T`.
     pub fn new<T: ShaderType>(gpu: &Gpu, label: &'static str) -> Self {
         let alignment = u64::from(gpu.device.limits().min_uniform_buffer_offset_alignment);

@@ -113,19 +113,7 @@ struct Variant {
 impl GBufferPass {
     /// Compiles nothing yet.
     pub fn new(gpu: &Gpu) -> Self {
-        let draw_layout = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-            label: Some("draw"),
-            entries: &[wgpu::BindGroupLayoutEntry {
-                binding: 0,
-                visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
-                ty: wgpu::BindingType::Buffer {
-                    ty: wgpu::BufferBindingType::Uniform,
-                    has_dynamic_offset: true,
-                    min_binding_size: Some(DrawUniform::min_size()),
-                },
-                count: None,
-            }],
-        });
+        let draw_layout = DynamicBuffer::layout::<DrawUniform>(gpu, "draw");
         Self {
             pipelines: HashMap::new(),
             generation: 0,

@@ -72,19 +72,7 @@ pub struct ShadowMapPass {
 impl ShadowMapPass {
     /// Compiles nothing yet.
     pub fn new(gpu: &Gpu) -> Self {
-        let draw_layout = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-            label: Some("shadow draw"),
-            entries: &[wgpu::BindGroupLayoutEntry {
-                binding: 0,
-                visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
-                ty: wgpu::BindingType::Buffer {
-                    ty: wgpu::BufferBindingType::Uniform,
-                    has_dynamic_offset: true,
-                    min_binding_size: Some(ShadowDraw::min_size()),
-                },
-                count: None,
-            }],
-        });
+        let draw_layout = DynamicBuffer::layout::<ShadowDraw>(gpu, "shadow draw");
         Self {
             pipelines: HashMap::new(),
             generation: 0,
