@@ -39,12 +39,15 @@ fn many() -> Arc<Scene> {
     scene(objects.collect())
 }
 
-/// Twenty looks of surfaces, of every technique; with `lines` also of as many colours and widths.
+/// Twenty looks of surfaces, of every technique that shades them; with `lines` also of as many colours and widths.
 fn styles(lines: bool) -> Vec<Style> {
+    // Blueprints are not shaded, but peeled, each group by itself.
+    let techniques: Vec<_> =
+        Technique::VARIANTS.iter().filter(|name| **name != <&str>::from(Technique::Blueprint)).collect();
     let style = |i: usize| {
         let shade = |by: usize| Color([(60 + 9 * i) as u8, (40 * by) as u8, (200 - 7 * i) as u8]);
         let mut style = Style::default();
-        let technique = Technique::VARIANTS[i % Technique::VARIANTS.len()];
+        let technique = *techniques[i % techniques.len()];
         param::set(&mut style.params(), "technique", &Value::from(technique)).unwrap();
         style.plain.ambient = 0.1 + 0.02 * i as f32;
         (style.gooch.cool, style.gooch.alpha) = (shade(1), 0.2 + 0.02 * i as f32);
