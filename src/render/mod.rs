@@ -6,6 +6,7 @@ pub mod frame;
 pub mod frame_uniform;
 pub mod gpu_scene;
 pub mod groups;
+pub mod layers;
 pub mod light_view;
 pub mod lights;
 pub mod passes;
