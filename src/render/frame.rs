@@ -60,6 +60,8 @@ pub struct Picture {
     pub cartoon_map: Option<Target>,
     /// See `shaders/passes/coordinates.wgsl`; `None` when no object asks for it.
     pub coordinates: Option<Target>,
+    /// Reversed depth of the designated objects alone; `None` when no blueprint is peeled for them.
+    pub depth_mask: Option<Target>,
     /// The layers of each blueprint, the farthest first; empty unless [`super::Renderer::keep_layers`] was called.
     pub layers: Vec<Vec<Layer>>,
 }
@@ -152,12 +154,12 @@ impl FrameState {
         };
         let operators = self.operators(rec, *what, &begun)?;
 
-        let (mut cartoon_map, mut coordinates, mut layers) = (None, None, Vec::new());
+        let (mut cartoon_map, mut coordinates, mut depth_mask, mut layers) = (None, None, None, Vec::new());
         let mut fronts = (Vec::new(), Vec::new());
         let image = if *what == Show::Picture {
             let shaded = self.drawing.shade(rec, &mut self.shared, eye, &begun, edge_map.as_ref())?;
-            (cartoon_map, coordinates, layers) = (shaded.cartoon_map, shaded.coordinates, shaded.layers);
-            fronts = shaded.fronts;
+            (cartoon_map, coordinates) = (shaded.cartoon_map, shaded.coordinates);
+            (depth_mask, layers, fronts) = (shaded.depth_mask, shaded.layers, shaded.fronts);
             let color = self.accumulation.add(rec, eye.sample, shaded.color)?;
             let final_inputs = (shaders, *what, [color.revision, 0, 0], eye.background);
             self.image.run(final_inputs, |_| resolve(rec, &color.value))?
@@ -193,6 +195,7 @@ impl FrameState {
             shadow_mask: begun.shadow_mask.map(|mask| mask.value),
             cartoon_map,
             coordinates,
+            depth_mask,
             layers,
         })
     }

@@ -4,13 +4,14 @@
 //!            ┌──────────────────────────────────────────────┐
 //!            ▼                                              │
 //! draws ─► layer i ─► count ─► what the caller makes of it ─┘
-//!                       └─► gate: too few pixels shut it, and nothing after that runs
+//!                       └─► gate: too few pixels shut it, or enough of the depth mask, and nothing after that runs
 //! ```
 
 use crate::geometry::LineSegment;
 use crate::gpu::{ArrayBuffer, DynamicBuffer, Gate, Gpu, Recorder, Target};
 use crate::render::RenderError;
 use crate::render::gpu_scene::GpuScene;
+use crate::render::passes::depth_mask::DepthMask;
 use crate::render::passes::edge_map::{EdgeInputs, EdgeMap, EdgeMapPass};
 use crate::render::passes::edge_style::EdgeUniform;
 use crate::render::passes::gbuffer::{DrawCall, DrawUniform, GBufferPass};
@@ -37,6 +38,10 @@ pub struct LayerInputs<'a> {
     pub most: u32,
     /// It ends before a layer of fewer pixels, at the latest before an empty one.
     pub least: u32,
+    /// The designated objects: it ends with the layer that leaves `fraction` (0 to 1) of them uncovered.
+    pub mask: Option<&'a DepthMask>,
+    /// See `mask`.
+    pub fraction: f32,
 }
 
 /// What of the layers of a group lives across frames.
@@ -69,7 +74,7 @@ impl Layers {
         inputs: &LayerInputs<'_>,
         draw: impl FnMut(&mut Recorder<'_>, u32, &Layer, &PeelCount) -> Result<(), RenderError>,
     ) -> Result<(), RenderError> {
-        self.count.begin(rec.gpu, inputs.least.max(1));
+        self.count.begin(rec.gpu, inputs.least.max(1), inputs.fraction);
         let mut gate = self.gate.take().unwrap_or_else(|| Gate::new(rec.gpu));
         gate.clear(rec.gpu, inputs.calls.len() + PASSES)?;
         let first = before_all(rec)?;
@@ -90,15 +95,18 @@ impl Layers {
         [mut last_depth, mut last_order]: [Target; 2],
         mut draw: impl FnMut(&mut Recorder<'_>, u32, &Layer, &PeelCount) -> Result<(), RenderError>,
     ) -> Result<(), RenderError> {
-        let LayerInputs { scene, draws, calls, is_cut, .. } = *inputs;
+        let LayerInputs { scene, draws, calls, is_cut, mask, .. } = *inputs;
         for number in 0..inputs.most.min(MOST_LAYERS) {
             let order = rec.target("order", last_order.format())?;
             let peel = Peel { last_depth: &last_depth, last_order: &last_order, order: &order };
             let gbuffer =
                 gbuffer_pass.run(rec, scene, &mut self.draws, (draws, calls), is_cut, Some(&peel))?;
             let layer = Layer { gbuffer, order };
-            self.count.count(rec, &layer)?;
+            self.count.count(rec, &layer, mask)?;
             draw(rec, number, &layer, &self.count)?;
+            if let Some(mask) = mask {
+                self.count.end_where_uncovered(rec, &layer, mask)?;
+            }
             (last_depth, last_order) = (layer.gbuffer.depth, layer.order);
         }
         Ok(())
