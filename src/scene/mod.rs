@@ -1,11 +1,13 @@
 //! What a file becomes: nodes, materials, cameras, lights. Plain data in the file's own coordinates.
 
+pub mod additions;
 pub mod camera;
 pub mod graph;
 pub mod light;
 pub mod material;
 pub mod texture;
 
+pub use additions::Addition;
 pub use camera::{Camera, Projection};
 pub use graph::{Node, NodeId, Scene, Up, Warning};
 pub use light::{Light, LightKind};
