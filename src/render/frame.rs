@@ -227,7 +227,7 @@ impl FrameState {
         if inputs.drawing.sample.index == 0 {
             self.unmoved = front.revision;
         }
-        let bits = selection::bits(inputs.selected, inputs.drawing.scene.scene.nodes.len());
+        let bits = selection::bits(inputs.selected, &inputs.drawing.scene.scene);
         let outline = self.selection.run((self.unmoved, bits), |(_, bits)| {
             self.selected.write(rec.gpu, bits);
             selection(rec, &front.value, self.selected.buffer())

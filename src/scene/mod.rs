@@ -1,5 +1,6 @@
 //! What a file becomes: nodes, materials, cameras, lights. Plain data in the file's own coordinates.
 
+pub mod additions;
 pub mod camera;
 pub mod graph;
 pub mod light;
@@ -8,6 +9,7 @@ pub mod standard;
 pub mod texture;
 pub mod unit;
 
+pub use additions::Addition;
 pub use camera::{Camera, Projection};
 pub use graph::{Node, NodeId, Scene, Up, Warning};
 pub use light::{Light, LightKind};
