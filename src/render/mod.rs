@@ -12,13 +12,14 @@ pub mod lights;
 pub mod passes;
 mod renderer;
 pub mod sample;
+pub mod scale_bar;
 mod segments;
 pub mod shadows;
 pub mod stage;
 mod style_images;
 
 pub use frame::Picture;
-pub use gpu_scene::{GpuScene, UploadedTopology, Uploader};
+pub use gpu_scene::{GpuScene, Origin, UploadedTopology, Uploader};
 pub use renderer::{Pick, RenderError, Renderer, Request};
 pub use sample::Sample;
 pub use style_images::StyleImages;
