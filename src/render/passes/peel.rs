@@ -97,6 +97,16 @@ pub struct Peeled {
     pub pixels: [u32; MOST_LAYERS as usize],
 }
 
+impl Peeled {
+    /// As it comes back from the device.
+    pub fn from_bytes(bytes: &[u8]) -> Self {
+        let mut words = bytes.chunks_exact(4).filter_map(|w| w.try_into().ok()).map(u32::from_le_bytes);
+        let mut next = || words.next().unwrap_or(0);
+        let (least, has_ended, layers, covered) = (next(), next(), next(), next());
+        Self { least, has_ended, layers, covered, pixels: std::array::from_fn(|_| next()) }
+    }
+}
+
 /// How far peeling has come, on the device.
 pub struct PeelCount {
     buffer: wgpu::Buffer,
@@ -136,11 +146,7 @@ impl PeelCount {
     /// # Errors
     /// [`RenderError`].
     pub fn read(&self, gpu: &Gpu) -> Result<Peeled, RenderError> {
-        let bytes = readback::read_buffer(gpu, &self.buffer)?;
-        let mut words = bytes.chunks_exact(4).filter_map(|w| w.try_into().ok()).map(u32::from_le_bytes);
-        let mut next = || words.next().unwrap_or(0);
-        let (least, has_ended, layers, covered) = (next(), next(), next(), next());
-        Ok(Peeled { least, has_ended, layers, covered, pixels: std::array::from_fn(|_| next()) })
+        Ok(Peeled::from_bytes(&readback::read_buffer(gpu, &self.buffer)?))
     }
 
     /// Counts the pixels of a layer and shuts the recorder's gate if they are too few.
