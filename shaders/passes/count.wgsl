@@ -1,22 +1,8 @@
 // How many pixels a layer covers, how much of the depth mask it leaves uncovered, and whether peeling goes on (blueprints
 // paper, sections 4.2 and 4.3): occlusion queries would count overdraw, and only the processor could act on them.
 #import common/frame.wgsl
+#import common/counted.wgsl
 #import common/depth_mask.wgsl
-#import common/peeled.wgsl
-
-// As in common/peeled.wgsl, but for the counts.
-struct Counted {
-    least: u32,
-    fraction: f32,
-    end: u32,
-    layers: u32,
-    masked: u32,
-    hidden: u32,
-    covered: atomic<u32>,
-    uncovered: atomic<u32>,
-    pixels: array<u32, 64>,
-    passed: array<u32, 64>,
-}
 
 // Whether there is a depth mask.
 override WITH_MASK: bool = false;
@@ -72,7 +58,7 @@ fn shut_gate(index: u32) {
 // Before a layer is drawn: too few pixels end peeling before it.
 @compute @workgroup_size(64)
 fn cs_decide(@builtin(local_invocation_index) index: u32) {
-    let had_ended = peeled.end != GOES_ON;
+    let had_ended = peeled.has_ended == 1u;
     let ends = had_ended || atomicLoad(&peeled.covered) < peeled.least;
     // All have read before one of them writes.
     storageBarrier();
@@ -85,7 +71,7 @@ fn cs_decide(@builtin(local_invocation_index) index: u32) {
     peeled.pixels[peeled.layers] = atomicExchange(&peeled.covered, 0u);
     peeled.passed[peeled.layers] = atomicExchange(&peeled.uncovered, 0u);
     if ends {
-        peeled.end = TOO_FEW_PIXELS;
+        peeled.has_ended = 1u;
     } else {
         peeled.layers += 1u;
     }
@@ -95,7 +81,7 @@ fn cs_decide(@builtin(local_invocation_index) index: u32) {
 // ends nothing.
 @compute @workgroup_size(64)
 fn cs_uncovered(@builtin(local_invocation_index) index: u32) {
-    let went_on = peeled.end == GOES_ON && peeled.layers != 0u;
+    let went_on = peeled.has_ended == 0u && peeled.layers != 0u;
     let passed = f32(peeled.passed[max(peeled.layers, 1u) - 1u]);
     let ends = went_on && mask.pixels != 0u && passed >= peeled.fraction * f32(mask.pixels);
     storageBarrier();
@@ -106,7 +92,8 @@ fn cs_uncovered(@builtin(local_invocation_index) index: u32) {
         peeled.masked = mask.pixels;
         peeled.hidden = mask.hidden;
         if ends {
-            peeled.end = MASK_UNCOVERED;
+            peeled.has_ended = 1u;
+            peeled.has_uncovered = 1u;
         }
     }
 }

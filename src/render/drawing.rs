@@ -22,6 +22,7 @@ use super::effects::toon::{ToonBuffers, Toons, cartoon_map};
 use super::frame_uniform::{FrameUniform, View};
 use super::gpu_scene::GpuScene;
 use super::groups::Objects;
+use super::layers::Reported;
 use super::lights::Lights;
 use super::passes::depth_mask::{DepthMask, DepthMaskPass};
 use super::passes::edge_map::{EdgeInputs, EdgeMap, EdgeMapPass};
@@ -223,6 +224,20 @@ impl Drawing {
     /// [`RenderError`].
     pub fn peeled(&self, gpu: &Gpu) -> Result<Vec<Peeled>, RenderError> {
         self.blueprints.iter().map(|b| b.count().read(gpu)).collect()
+    }
+
+    /// What has been reported about the layers of its pictures and of what mirrors show; it draws incomplete ones again.
+    /// Never waits.
+    pub fn take_reports(&mut self) -> Reported {
+        let own = self.blueprints.iter_mut().map(Blueprints::take_reports);
+        let reflected = self.reflections.iter_mut().map(|r| r.drawing.take_reports());
+        own.chain(reflected).max().unwrap_or(Reported::Complete)
+    }
+
+    /// How far the layers of each blueprint came in the last picture whose report has arrived; in the order of
+    /// [`Objects::blueprints`].
+    pub fn last_peeled(&self) -> Vec<Option<Peeled>> {
+        self.blueprints.iter().map(|b| b.last().cloned()).collect()
     }
 
     /// Begins a drawing with its G-buffer and the shadows on it; all later passes see through its camera.

@@ -8,6 +8,7 @@ use glam::{Vec2, Vec4};
 
 use super::RenderError;
 use super::drawing::{Begun, Drawing, DrawingInputs, Shared};
+use super::layers::Reported;
 use super::passes::accumulate::{Accumulation, Subject};
 use super::passes::front::front;
 use super::passes::gbuffer::GBuffer;
@@ -115,6 +116,11 @@ impl FrameState {
     /// What the eye sees.
     pub fn drawing(&self) -> &Drawing {
         &self.drawing
+    }
+
+    /// What has been reported about the pictures so far; incomplete ones are drawn again. Never waits.
+    pub fn take_reports(&mut self) -> Reported {
+        self.drawing.take_reports()
     }
 
     /// How often each stage has run, by name.

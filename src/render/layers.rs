@@ -8,7 +8,7 @@
 //! ```
 
 use crate::geometry::LineSegment;
-use crate::gpu::{ArrayBuffer, DynamicBuffer, Gate, Gpu, Recorder, Target};
+use crate::gpu::{ArrayBuffer, DynamicBuffer, Gate, Gpu, Recorder, Reports, Target};
 use crate::render::RenderError;
 use crate::render::gpu_scene::GpuScene;
 use crate::render::passes::depth_mask::DepthMask;
@@ -17,7 +17,7 @@ use crate::render::passes::edge_style::EdgeUniform;
 use crate::render::passes::gbuffer::{DrawCall, DrawUniform, GBufferPass};
 use crate::render::passes::line_distance::{Reach, line_distance};
 use crate::render::passes::lines::Lines;
-use crate::render::passes::peel::{Layer, MOST_LAYERS, Peel, PeelCount, before_all};
+use crate::render::passes::peel::{Layer, MOST_LAYERS, Peel, PeelCount, Peeled, before_all};
 use crate::render::passes::repeated::{none_seen, without_repeated};
 
 /// Kinds of passes that a layer has beside the draws of its objects: room in the gate.
@@ -44,17 +44,71 @@ pub struct LayerInputs<'a> {
     pub fraction: f32,
 }
 
+/// More layers are recorded than the last report names, as there may be more by now.
+const MORE_LAYERS: u32 = 1;
+
+/// What is known of pictures that were drawn, from reports that come back some time after them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Reported {
+    /// All of them are complete.
+    Complete,
+    /// Not yet all about the last one.
+    Waiting,
+    /// One was incomplete, as there was not room enough. Whoever wants it asks for it again: there is now.
+    Incomplete,
+}
+
+/// What the processor has to know of a frame to understand its report.
+#[derive(Debug, Clone, Copy)]
+struct Recorded {
+    /// So many layers were recorded, of so many that were asked for.
+    layers: u32,
+    most: u32,
+}
+
 /// What of the layers of a group lives across frames.
 pub struct Layers {
     draws: DynamicBuffer,
     gate: Option<Gate>,
     count: PeelCount,
+    reports: Reports<Recorded>,
+    /// The latest report.
+    last: Option<Peeled>,
+    /// How many layers there were then: how many to record is guessed from it; `None`: all.
+    guess: Option<u32>,
 }
 
 impl Layers {
     /// Nothing drawn yet.
     pub fn new(gpu: &Gpu) -> Self {
-        Self { draws: GBufferPass::draw_buffer(gpu), gate: None, count: PeelCount::new(gpu) }
+        Self {
+            draws: GBufferPass::draw_buffer(gpu),
+            gate: None,
+            count: PeelCount::new(gpu),
+            reports: Reports::default(),
+            last: None,
+            guess: None,
+        }
+    }
+
+    /// What has been reported since the last call. Never waits.
+    pub fn take_reports(&mut self) -> Reported {
+        let mut reported = Reported::Complete;
+        if let Some((recorded, bytes)) = self.reports.take() {
+            let peeled = Peeled::from_bytes(&bytes);
+            let is_complete = peeled.has_ended == 1 || recorded.layers >= recorded.most;
+            self.guess = is_complete.then_some(peeled.layers + 1);
+            if !is_complete {
+                reported = Reported::Incomplete;
+            }
+            self.last = Some(peeled);
+        }
+        if reported == Reported::Complete && self.reports.is_waiting() { Reported::Waiting } else { reported }
+    }
+
+    /// How far the last picture came whose report has arrived.
+    pub fn last(&self) -> Option<&Peeled> {
+        self.last.as_ref()
     }
 
     /// How far the last ones came.
@@ -81,10 +135,17 @@ impl Layers {
         rec.gate = Some(gate);
         let peeled = self.peel(rec, gbuffer_pass, inputs, first, draw);
         self.gate = rec.gate.take();
+        let most = inputs.most.min(MOST_LAYERS);
+        self.reports.send(rec, self.count.buffer(), Recorded { layers: self.recorded(most), most });
         if let Some(gate) = &self.gate {
             gate.open(rec.gpu);
         }
         peeled
+    }
+
+    /// How many of so many layers are recorded. The guess decides nothing: when it is wrong, the report says so.
+    fn recorded(&self, most: u32) -> u32 {
+        self.guess.map_or(most, |guess| (guess + MORE_LAYERS).min(most))
     }
 
     fn peel(
@@ -96,7 +157,7 @@ impl Layers {
         mut draw: impl FnMut(&mut Recorder<'_>, u32, &Layer, &PeelCount) -> Result<(), RenderError>,
     ) -> Result<(), RenderError> {
         let LayerInputs { scene, draws, calls, is_cut, mask, .. } = *inputs;
-        for number in 0..inputs.most.min(MOST_LAYERS) {
+        for number in 0..self.recorded(inputs.most.min(MOST_LAYERS)) {
             let order = rec.target("order", last_order.format())?;
             let peel = Peel { last_depth: &last_depth, last_order: &last_order, order: &order };
             let gbuffer =

@@ -17,11 +17,11 @@ use crate::render::RenderError;
 use crate::render::drawing::{Begun, DrawingInputs};
 use crate::render::frame_uniform::FrameUniform;
 use crate::render::groups::Group;
-use crate::render::layers::{LayerInputs, LayerLines, LayerLinesInputs, Layers};
+use crate::render::layers::{LayerInputs, LayerLines, LayerLinesInputs, Layers, Reported};
 use crate::render::passes::depth_mask::DepthMask;
 use crate::render::passes::gbuffer::{DrawCall, DrawUniform, GBuffer, GBufferPass};
 use crate::render::passes::lines::{Pen, lines};
-use crate::render::passes::peel::{Layer, MOST_LAYERS, PeelCount};
+use crate::render::passes::peel::{Layer, MOST_LAYERS, PeelCount, Peeled};
 use crate::render::segments::segments;
 use crate::render::stage::{Output, Stage};
 use crate::style::{self, Edges, Style};
@@ -137,6 +137,20 @@ impl Blueprints {
     /// How often a picture was drawn.
     pub fn runs(&self) -> u64 {
         self.stage.runs()
+    }
+
+    /// What has been reported about its pictures; it draws an incomplete one again. Never waits.
+    pub fn take_reports(&mut self) -> Reported {
+        let reported = self.layers.take_reports();
+        if reported == Reported::Incomplete {
+            self.stage.clear();
+        }
+        reported
+    }
+
+    /// How far the last picture came whose report has arrived.
+    pub fn last(&self) -> Option<&Peeled> {
+        self.layers.last()
     }
 
     /// How far peeling came in the last picture.

@@ -88,20 +88,22 @@ pub fn before_all(rec: &mut Recorder<'_>) -> Result<[Target; 2], RenderError> {
 pub struct Peeled {
     /// A layer with fewer pixels ends it, before it is drawn.
     pub least: u32,
-    /// So does a layer that leaves this share of the depth mask uncovered, 0 to 1, once it has been drawn.
-    pub fraction: f32,
-    /// What ended it: see [`Self::ended`].
-    pub end: u32,
+    /// 1: it has ended.
+    pub has_ended: u32,
     /// Layers so far.
     pub layers: u32,
+    /// Pixels of the layer that is counted.
+    pub covered: u32,
+    /// Pixels of the depth mask that pass the depth test against it.
+    pub uncovered: u32,
+    /// A layer that leaves this share of the depth mask uncovered, 0 to 1, ends it once it has been drawn.
+    pub fraction: f32,
+    /// 1: such a layer has ended it.
+    pub has_uncovered: u32,
     /// Pixels of the depth mask, the paper's Q; 0: nothing designated is in the picture.
     pub masked: u32,
     /// Those of them that opaque surfaces hide, which no peeling uncovers.
     pub hidden: u32,
-    /// Pixels of the layer that is counted.
-    pub covered: u32,
-    /// Pixels of the mask that pass the depth test against it.
-    pub uncovered: u32,
     /// Pixels of each layer, that which ended it included.
     pub pixels: [u32; MOST_LAYERS as usize],
     /// Pixels of the mask that pass the depth test against each layer, the paper's R.
@@ -125,23 +127,43 @@ impl Peeled {
         let none = [0; MOST_LAYERS as usize];
         Self {
             least,
-            fraction: fraction.clamp(0.0, 1.0),
-            end: 0,
+            has_ended: 0,
             layers: 0,
-            masked: 0,
-            hidden: 0,
             covered: 0,
             uncovered: 0,
+            fraction: fraction.clamp(0.0, 1.0),
+            has_uncovered: 0,
+            masked: 0,
+            hidden: 0,
             pixels: none,
             passed: none,
         }
     }
 
+    /// As it comes back from the device.
+    pub fn from_bytes(bytes: &[u8]) -> Self {
+        let mut words = bytes.chunks_exact(4).filter_map(|w| w.try_into().ok()).map(u32::from_le_bytes);
+        let mut next = || words.next().unwrap_or(0);
+        Self {
+            least: next(),
+            has_ended: next(),
+            layers: next(),
+            covered: next(),
+            uncovered: next(),
+            fraction: f32::from_bits(next()),
+            has_uncovered: next(),
+            masked: next(),
+            hidden: next(),
+            pixels: std::array::from_fn(|_| next()),
+            passed: std::array::from_fn(|_| next()),
+        }
+    }
+
     /// What ended it.
     pub fn ended(&self) -> PeelingEnd {
-        match self.end {
-            0 => PeelingEnd::MostLayers,
-            1 => PeelingEnd::TooFewPixels,
+        match (self.has_ended, self.has_uncovered) {
+            (0, _) => PeelingEnd::MostLayers,
+            (_, 0) => PeelingEnd::TooFewPixels,
             _ => PeelingEnd::MaskUncovered,
         }
     }
@@ -234,21 +256,7 @@ impl PeelCount {
     /// # Errors
     /// [`RenderError`].
     pub fn read(&self, gpu: &Gpu) -> Result<Peeled, RenderError> {
-        let bytes = readback::read_buffer(gpu, &self.buffer)?;
-        let mut words = bytes.chunks_exact(4).filter_map(|w| w.try_into().ok()).map(u32::from_le_bytes);
-        let mut next = || words.next().unwrap_or(0);
-        Ok(Peeled {
-            least: next(),
-            fraction: f32::from_bits(next()),
-            end: next(),
-            layers: next(),
-            masked: next(),
-            hidden: next(),
-            covered: next(),
-            uncovered: next(),
-            pixels: std::array::from_fn(|_| next()),
-            passed: std::array::from_fn(|_| next()),
-        })
+        Ok(Peeled::from_bytes(&readback::read_buffer(gpu, &self.buffer)?))
     }
 
     /// Counts the pixels of a layer, and those of the depth mask that it leaves uncovered, and shuts the recorder's gate if
