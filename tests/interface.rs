@@ -157,6 +157,23 @@ fn the_outliner_hides_objects_and_their_edges_and_undo_brings_them_back() {
 }
 
 #[test]
+fn an_object_is_designated_in_its_row_and_what_masks_need_is_then_among_the_parameters() {
+    let mut window = window();
+    choose(&mut window, "Preset", "Blueprint");
+    let has_slider = |window: &Window| window.query_by_role_and_label(Role::Slider, "Uncover").is_some();
+    assert!(!has_slider(&window));
+    let at = window.get_by_role_and_label(Role::TreeItem, "rod").rect().center();
+    window.hover_at(at);
+    settle(&mut window);
+    click(&mut window, Role::CheckBox, "Uncover rod");
+    assert_eq!(own(&window, "/engine/rod").unwrap().mask, Some(true));
+    assert!(has_slider(&window));
+    assert!(window.query_by_role_and_label(Role::Slider, "Layers").is_some(), "one slider for both ends");
+    ask(&mut window, Command::Undo);
+    assert!(own(&window, "/engine/rod").is_none() && !has_slider(&window));
+}
+
+#[test]
 fn a_flat_object_is_made_a_mirror_in_its_row_and_undo_takes_that_back() {
     let mut window = window_with("/models/engine.glb", |paths| {
         let mut scene = engine(paths);

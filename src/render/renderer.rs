@@ -253,7 +253,7 @@ impl Renderer {
         let sample = self.state.next_sample(subject, request.samples);
         let view = View::new(request.camera, &objects.visible_bounds, UVec2::from_array(size));
         let view = view.moved(sample.jitter());
-        let paper = request.document.view.background.to_linear();
+        let paper = request.document.paper().to_linear();
         let background = paper.extend(if request.transparent { 0.0 } else { 1.0 });
         let timers = self.timers.as_mut();
         let frame = self.state.drawing().frame_group().clone();
@@ -277,6 +277,7 @@ impl Renderer {
                 reflections: request.document.view.reflections.round().clamp(0.0, 8.0) as u32,
             },
             show: request.document.view.show,
+            layer: request.document.view.layer,
             scale_bar: bar.as_ref(),
             selected: request.selected,
         };

@@ -8,7 +8,7 @@ use super::params::params_ui;
 use super::row::named_row;
 use crate::app::navigation::with_view_angle;
 use crate::app::state::Samples;
-use crate::document::View;
+use crate::document::{Show, View};
 use crate::scene::unit::UNITS;
 use crate::scene::{Projection, Unit, Up};
 
@@ -105,8 +105,13 @@ pub fn view_ui(ui: &mut Ui, editing: &mut Editing<'_>, samples: &mut Samples) ->
 
     ui.add_space(4.0);
     let mut default = View::default();
-    let defaults = default.params();
-    params_ui(ui, "view", &mut document.view.params(), &defaults);
+    let paper = document.style.paper.color;
+    let defaults = default.params(paper);
+    let is_picture = document.view.show == Show::Picture;
+    let mut params = document.view.params(paper);
+    // The picture is made of all layers.
+    params.retain(|param| !is_picture || param.key != "view.layer");
+    params_ui(ui, "view", &mut params, &defaults);
     for (name, help, value) in samples.settings() {
         named_row(ui, name, help, |ui, label| {
             let combo = egui::ComboBox::from_id_salt(name)

@@ -43,6 +43,7 @@ pub struct BlueprintUniform {
     fill: Vec3,
     opacity: f32,
     by_distance: f32,
+    threshold: f32,
 }
 
 impl From<&style::Blueprint> for BlueprintUniform {
@@ -53,6 +54,7 @@ impl From<&style::Blueprint> for BlueprintUniform {
             fill: style.fill.to_linear(),
             opacity: style.opacity.clamp(0.0, 1.0),
             by_distance: style.by_distance.clamp(0.0, 1.0),
+            threshold: style.threshold.clamp(0.0, 1.0),
         }
     }
 }
