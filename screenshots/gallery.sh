@@ -95,6 +95,26 @@ draw blueprint "$crank" --style blueprint
 draw blueprint_temple assets/models/temple.glb --style blueprint --object-style '/temple/statues*=technical-illustration' \
 	--set blueprint.layers=16 --set 'blueprint.opacity=0.03' --camera-azimuth-angle 35 --camera-elevation-angle 35
 
+# What each depth layer is drawn from: depth, normals and edge map (Blueprints paper, Fig. 4).
+for buffer in depth normals edge_map; do
+	for layer in 1 2 3 4 5; do
+		target/release/hachure render "$crank" --output "$work/$buffer.$layer.png" --resolution 400,400 \
+			--set edges.mode=paper --set "view.show=$buffer" --set "view.layer=$layer"
+	done
+	convert "$work/$buffer".[1-5].png +append "$work/$buffer.png"
+done
+convert "$work/depth.png" "$work/normals.png" "$work/edge_map.png" -append screenshots/blueprint_layers.png
+echo screenshots/blueprint_layers.png
+
+# Depth masking: everything before the statues, and nothing behind them (Fig. 7).
+draw blueprint_mask assets/models/temple.glb --style blueprint --mask '/temple/statues/*' \
+	--set blueprint.layers=24 --set blueprint.beyond=false --camera-azimuth-angle -20 --camera-elevation-angle 25
+
+# Blueprints on other papers, and as a wire frame.
+draw blueprint_white_on_blue "$crank" --style blueprint-white-on-blue
+draw blueprint_vellum "$crank" --style blueprint-vellum
+draw wireframe "$crank" --style wireframe
+
 # Shadows in each technique.
 for style in plain gooch comic engraving newspaper; do
 	draw "shadows_$style" "$ogre" --style "$style" --set light.shadows=true --set light.key.azimuth=-55 \

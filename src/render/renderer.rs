@@ -20,6 +20,7 @@ use crate::geometry::Topology;
 use crate::gpu::readback::Readback;
 use crate::gpu::{Gpu, GpuError, Pipelines, Recorder, ShaderError, Shaders, TargetPool, Timers};
 use crate::scene::{Addition, Camera, NodeId, Scene};
+use crate::style::Style;
 
 /// Height of the picture in reference pixels, in which widths and scales are given.
 const REFERENCE_HEIGHT: f32 = 1080.0;
@@ -311,6 +312,11 @@ impl Renderer {
     /// [`Objects::blueprints`].
     pub fn last_peeled(&self) -> Vec<Option<Peeled>> {
         self.state.drawing().last_peeled()
+    }
+
+    /// The same of the blueprint that objects of this style are in; `None` if there is none, or if nothing is known yet.
+    pub fn last_peeled_of(&self, style: &Style) -> Option<&Peeled> {
+        self.state.drawing().last_peeled_of(style)
     }
 
     /// How often each stage has run so far.

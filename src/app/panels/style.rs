@@ -5,6 +5,7 @@ use eframe::egui::{RichText, Ui};
 
 use super::outliner::{inherit, style_name};
 use super::params::params_ui;
+use super::peeling::peeling_ui;
 use super::row::{Change, label_of, named_row};
 use super::{Choosing, Editing};
 use crate::document::Document;
@@ -43,6 +44,10 @@ pub fn style_ui(ui: &mut Ui, editing: &mut Editing<'_>) {
             editing.document.set_style(&scene, &targets, &preset);
         }
         return;
+    }
+
+    if let Some(peeled) = editing.viewport.last_peeled(&style) {
+        peeling_ui(ui, peeled);
     }
 
     let mut default = Style::default();
