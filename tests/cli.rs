@@ -40,6 +40,8 @@ fn mistakes_end_with_the_right_code_and_a_message_that_helps() {
         (&["--set", "gooch.alpha"], 2, "write a parameter"),
         (&["--object-style", "rodd=gooch"], 1, "no object matches `rodd`"),
         (&["--hide", "["], 1, "is no pattern"),
+        (&["--mask", "statue*"], 1, "no object matches `statue*`"),
+        (&["--set", "blueprint.fraction=1.5"], 1, "out of range: 0 to 1"),
         (&["--resolution", "0,5"], 2, "is no size"),
         (&["--resolution", "60000,60000"], 1, "allows at most"),
         (&["--camera-position", "1,2"], 2, "is no vector"),
@@ -316,4 +318,47 @@ fn the_crease_angle_smooths_files_without_normals() {
     };
     assert_eq!(picture("10"), picture("30"));
     assert!(picture("30") != picture("80"));
+}
+
+#[test]
+fn how_far_blueprints_were_peeled_and_what_that_uncovered_is_printed() {
+    let folder = tempfile::tempdir().unwrap();
+    let crank = crank();
+    let blueprints = |args: &[&str]| -> (serde_json::Value, serde_json::Value) {
+        let (result, _) = render(folder.path(), "x.png", &crank, &[args, &["--json"]].concat());
+        let printed: serde_json::Value = serde_json::from_str(&stdout(&result)).unwrap();
+        (printed["blueprints"].clone(), printed["warnings"].clone())
+    };
+    assert_eq!(blueprints(&["--style", "gooch"]).0, serde_json::json!([]));
+    let designated = ["--style", "blueprint", "--mask", "rod*", "--set"];
+    let masked = |setting: &str| {
+        blueprints(
+            &[&designated[..], &[setting, "--set", "blueprint.least=0", "--set", "blueprint.layers=64"]]
+                .concat(),
+        )
+    };
+    let (all, warnings) = masked("blueprint.fraction=1");
+    let mask = &all[0]["mask"];
+    assert_eq!(warnings, serde_json::json!([]));
+    assert_eq!(all[0]["ended_by"], "mask uncovered");
+    assert!(mask["pixels"].as_u64() > Some(50) && mask["uncovered"] == mask["pixels"], "{all}");
+    assert_eq!(mask["reached"], 1.0);
+    let layers = all[0]["layers"].as_u64().unwrap() as usize;
+    assert!(layers > 1);
+    for counts in [&all[0]["pixels"], &mask["uncovered_by_layer"]] {
+        assert_eq!(counts.as_array().unwrap().len(), layers);
+    }
+    let (fewer, _) = masked("blueprint.fraction=0");
+    assert_eq!(fewer[0]["layers"], 1);
+    let (result, _) = render(
+        folder.path(),
+        "x.png",
+        &crank,
+        &[&designated[..], &["blueprint.fraction=1", "--set", "blueprint.layers=1"]].concat(),
+    );
+    let text = String::from_utf8_lossy(&result.stderr);
+    assert!(
+        result.status.success() && text.contains("of what is designated is uncovered after 1 layer"),
+        "{text}"
+    );
 }

@@ -10,6 +10,7 @@ use std::sync::Arc;
 
 use common::{opened, scene, session, set, surfels};
 use glam::{DMat4, DQuat, DVec3};
+use hachure::document::Role;
 use hachure::export::Session;
 use hachure::export::session::Opened;
 use hachure::geometry::{Mesh, primitives};
@@ -264,7 +265,7 @@ fn in_a_mirror_a_parameter_changes_only_the_pixels_where_its_object_is_seen() {
     let mut session = session();
     let mut all = composed(&mut session, Technique::VARIANTS);
     let scene = Arc::clone(&all.scene);
-    all.document.set_mirror(&scene, &[WALL], true);
+    all.document.set_role(&scene, &[WALL], Role::Mirror, true);
     // Blueprints of equal style leave out the lines that they have in common: this one is by itself.
     let alone = B + Technique::VARIANTS.iter().position(|technique| *technique == "blueprint").unwrap();
     set_for(&mut all, alone, "blueprint.by_layer", &Value::Number(0.3));

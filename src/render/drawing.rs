@@ -22,7 +22,9 @@ use super::effects::toon::{ToonBuffers, Toons, cartoon_map};
 use super::frame_uniform::{FrameUniform, View};
 use super::gpu_scene::GpuScene;
 use super::groups::Objects;
+use super::layers::Reported;
 use super::lights::Lights;
+use super::passes::depth_mask::{DepthMask, DepthMaskPass};
 use super::passes::edge_map::{EdgeInputs, EdgeMap, EdgeMapPass};
 use super::passes::edge_style::EdgeUniform;
 use super::passes::gbuffer::{DrawCall, DrawUniform, GBuffer, GBufferPass};
@@ -87,6 +89,8 @@ pub struct Shaded {
     pub cartoon_map: Option<Target>,
     /// See `shaders/passes/coordinates.wgsl`; `None` when no object asks for it.
     pub coordinates: Option<Target>,
+    /// Reversed depth of the designated objects alone; `None` when no blueprint is peeled for them.
+    pub depth_mask: Option<Target>,
     /// Geometry of the first drawn layer of each blueprint, and their revisions.
     pub fronts: (Vec<u64>, Vec<Target>),
     /// The layers of each blueprint, the farthest first; empty unless they are kept.
@@ -141,6 +145,7 @@ pub struct Drawing {
         ),
         Target,
     >,
+    depth_mask: DepthMaskPass,
     blueprints: Vec<Blueprints>,
     /// How often a blueprint was drawn.
     blueprinted: u64,
@@ -181,6 +186,7 @@ impl Drawing {
             cartoon_map: Stage::default(),
             coordinates: Stage::default(),
             surface: Stage::default(),
+            depth_mask: DepthMaskPass::new(gpu),
             blueprints: Vec::new(),
             blueprinted: 0,
             reflections: Vec::new(),
@@ -218,6 +224,20 @@ impl Drawing {
     /// [`RenderError`].
     pub fn peeled(&self, gpu: &Gpu) -> Result<Vec<Peeled>, RenderError> {
         self.blueprints.iter().map(|b| b.count().read(gpu)).collect()
+    }
+
+    /// What has been reported about the layers of its pictures and of what mirrors show; it draws incomplete ones again.
+    /// Never waits.
+    pub fn take_reports(&mut self) -> Reported {
+        let own = self.blueprints.iter_mut().map(Blueprints::take_reports);
+        let reflected = self.reflections.iter_mut().map(|r| r.drawing.take_reports());
+        own.chain(reflected).max().unwrap_or(Reported::Complete)
+    }
+
+    /// How far the layers of each blueprint came in the last picture whose report has arrived; in the order of
+    /// [`Objects::blueprints`].
+    pub fn last_peeled(&self) -> Vec<Option<Peeled>> {
+        self.blueprints.iter().map(|b| b.last().cloned()).collect()
     }
 
     /// Begins a drawing with its G-buffer and the shadows on it; all later passes see through its camera.
@@ -327,7 +347,8 @@ impl Drawing {
         edge_map: Option<&Output<EdgeMap>>,
     ) -> Result<Shaded, RenderError> {
         let reflected = self.reflect(rec, shared, inputs)?;
-        let blueprints = self.peel(rec, &mut shared.gbuffer, inputs, begun)?;
+        let mask = self.depth_mask.run(rec, &mut shared.gbuffer, inputs, &begun.gbuffer)?;
+        let blueprints = self.peel(rec, &mut shared.gbuffer, inputs, (begun, mask.as_ref()))?;
         let cartoon_map = self.find_bands(rec, inputs, begun)?;
         let coordinates = self.find_coordinates(rec, shared, inputs, begun)?;
         shared.thresholds.prepare(rec.gpu, &inputs.objects.halftones)?;
@@ -404,7 +425,8 @@ impl Drawing {
         })?;
         let fronts = blueprints.iter().filter_map(|b| Some((b.revision, b.value.front.clone()?))).unzip();
         let layers = blueprints.into_iter().map(|b| b.value.layers).filter(|l| !l.is_empty()).collect();
-        Ok(Shaded { color, cartoon_map, coordinates, fronts, layers })
+        let depth_mask = mask.map(|mask| mask.value.depth);
+        Ok(Shaded { color, cartoon_map, coordinates, depth_mask, fronts, layers })
     }
 
     /// Draws the blueprints, the farthest first. Blended groups that reach into each other have no right order: that of
@@ -414,7 +436,7 @@ impl Drawing {
         rec: &mut Recorder<'_>,
         gbuffer_pass: &mut GBufferPass,
         inputs: &DrawingInputs<'_>,
-        begun: &Begun,
+        drawn: (&Begun, Option<&Output<DepthMask>>),
     ) -> Result<Vec<Output<Peels>>, RenderError> {
         let groups = &inputs.objects.blueprints;
         self.blueprints.truncate(groups.len());
@@ -422,7 +444,6 @@ impl Drawing {
         let mut pictures = Vec::new();
         for (blueprint, state) in groups.iter().zip(&mut self.blueprints) {
             let before = state.runs();
-            let drawn = (&begun.uniform, &begun.gbuffer);
             let picture = state.run(rec, gbuffer_pass, inputs, drawn, blueprint)?;
             self.blueprinted += state.runs() - before;
             pictures.push((blueprint.group.mean_depth(inputs.scene, inputs.view), picture));

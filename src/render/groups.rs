@@ -77,6 +77,8 @@ pub struct Group {
 pub struct Objects {
     /// The objects that hide what lies behind them: those of all surface techniques.
     pub surfaces: Group,
+    /// Those of them that blueprints are peeled to uncover; they have no lines of their own here.
+    pub masks: Group,
     /// The others, together where their style is equal.
     pub blueprints: Vec<Blueprint>,
     /// The box around everything visible, world space.
@@ -115,16 +117,21 @@ impl Objects {
                 objects.halftones.add((count, id), &r.style.halftone, images, scale, has_uvs);
             }
             // A look at a buffer is one at that of surfaces, which every object then is.
-            let is_blueprint =
-                r.style.technique == Technique::Blueprint && document.view.show == Show::Picture;
+            let has_layers = r.style.technique == Technique::Blueprint && document.view.show == Show::Picture;
+            let is_blueprint = has_layers && !r.mask;
             let group = if is_blueprint {
                 Blueprint::group_of(&mut objects.blueprints, r.style, count)
             } else {
                 &mut objects.surfaces
             };
             group.visible.push((node, r.enhanced));
+            if r.mask {
+                objects.masks.visible.push((node, r.enhanced));
+            }
             if r.enhanced {
-                group.edge_styles[id] = EdgeUniform::new(&r.style.edges, scale);
+                let edges = EdgeUniform::new(&r.style.edges, scale);
+                group.edge_styles[id] =
+                    if has_layers { edges.inked(&r.style.edges, r.style.blueprint.near) } else { edges };
                 group.has_holes |= scene.has_holes(node);
             }
             if r.mirror

@@ -4,7 +4,7 @@ use encase::ShaderType;
 use glam::Vec3;
 
 use crate::geometry::EdgeClass;
-use crate::style::{DepthOperator, EdgeMode, Edges};
+use crate::style::{Color, DepthOperator, EdgeMode, Edges};
 
 /// Twin of `LineStyle` in `shaders/common/edge_style.wgsl`.
 #[derive(Debug, Clone, Copy, PartialEq, ShaderType, Default)]
@@ -108,6 +108,16 @@ impl EdgeUniform {
             inner_threshold: inner.threshold.clamp(0.0, 0.99),
             use_c1: u32::from(edges.operator == DepthOperator::C1),
         }
+    }
+
+    /// The same in one colour, but for the classes that have a colour of their own.
+    #[must_use]
+    pub fn inked(mut self, edges: &Edges, color: Color) -> Self {
+        for (class, line) in EdgeClass::ALL.into_iter().zip(&mut self.lines) {
+            line.color = edges.class(class).color.unwrap_or(color).to_linear();
+        }
+        (self.profile_color, self.inner_color) = (color.to_linear(), color.to_linear());
+        self
     }
 
     /// Whether exact lines are drawn.
