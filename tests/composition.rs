@@ -155,7 +155,7 @@ fn changes() -> Vec<Change> {
 fn changes_with(technique: &str) -> Vec<Change> {
     let mut all = changes();
     all.retain(|change| {
-        let of_it = |c: &Condition| c.key != "technique" || c.value == technique;
+        let of_it = |c: &Condition| c.key != "technique" || c.values.contains(&technique);
         change.key != "technique" && !change.key.starts_with("edges.") && change.conditions.iter().all(of_it)
     });
     all
@@ -165,7 +165,7 @@ fn changes_with(technique: &str) -> Vec<Change> {
 fn with_conditions(opened: &Opened, node: NodeId, conditions: &[Condition]) -> Opened {
     let mut opened = opened.clone();
     for condition in conditions {
-        set_for(&mut opened, node, condition.key, &Value::from(condition.value));
+        set_for(&mut opened, node, condition.key, &Value::from(condition.values[0]));
     }
     opened
 }

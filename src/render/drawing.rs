@@ -1,7 +1,7 @@
 //! The scene drawn once, from one camera; and what its mirrors show, each by a drawing of its own.
 //!
 //! ```text
-//! objects ─► G-buffer ─┬─► (shadow mask ─► cartoon map ─►) surfaces ┬─► + mirrors (drawings) ─► + lines ─► + blueprints ─► colour
+//! objects ─► G-buffer ─┬─► (shadow mask ─► cartoon map ─►) surfaces ┬─► + mirrors (drawings) ─► + hidden lines ─► + lines ─► + blueprints ─► colour
 //!                      └─► edge map ─► reach of the lines ──────────┘
 //! segments (topology) ─────┘
 //! ```
@@ -16,6 +16,7 @@ use self::reflections::Reflection;
 use super::RenderError;
 use super::effects::blueprint::{Blueprints, Peels};
 use super::effects::halftone::{HalftoneInputs, HalftoneUniform, Halftones, ThresholdMaps};
+use super::effects::hidden::HiddenLines;
 use super::effects::mirror::{MirrorUniform, mirror};
 use super::effects::surface::{Shading, SurfaceUniform, surface};
 use super::effects::toon::{ToonBuffers, Toons, cartoon_map};
@@ -137,10 +138,13 @@ pub struct Drawing {
             Vec<EdgeUniform>,
             FrameUniform,
             Seen,
+            Option<u64>,
             Vec<u64>,
         ),
         Target,
     >,
+    /// `None` while no object has any.
+    hidden: Option<HiddenLines>,
     blueprints: Vec<Blueprints>,
     /// How often a blueprint was drawn.
     blueprinted: u64,
@@ -181,6 +185,7 @@ impl Drawing {
             cartoon_map: Stage::default(),
             coordinates: Stage::default(),
             surface: Stage::default(),
+            hidden: None,
             blueprints: Vec::new(),
             blueprinted: 0,
             reflections: Vec::new(),
@@ -199,7 +204,7 @@ impl Drawing {
     }
 
     /// How often each stage has run, by name.
-    pub fn runs(&self) -> [(&'static str, u64); 8] {
+    pub fn runs(&self) -> [(&'static str, u64); 9] {
         [
             ("g-buffer", self.gbuffer.runs()),
             ("edge map", self.edge_map.runs()),
@@ -207,6 +212,7 @@ impl Drawing {
             ("shadow", self.shadow_mask.runs()),
             ("cartoon map", self.cartoon_map.runs()),
             ("surface", self.surface.runs()),
+            ("hidden lines", self.hidden.as_ref().map_or(0, HiddenLines::runs)),
             ("blueprint", self.blueprinted),
             ("mirror", self.reflected),
         ]
@@ -328,6 +334,7 @@ impl Drawing {
     ) -> Result<Shaded, RenderError> {
         let reflected = self.reflect(rec, shared, inputs)?;
         let blueprints = self.peel(rec, &mut shared.gbuffer, inputs, begun)?;
+        let hidden = self.draw_hidden(rec, &mut shared.gbuffer, inputs, begun, edge_map)?;
         let cartoon_map = self.find_bands(rec, inputs, begun)?;
         let coordinates = self.find_coordinates(rec, shared, inputs, begun)?;
         shared.thresholds.prepare(rec.gpu, &inputs.objects.halftones)?;
@@ -357,6 +364,7 @@ impl Drawing {
                 let seen = reflected.iter().map(|r| (r.color.revision, r.uniform)).collect();
                 (seen, inputs.background)
             }),
+            hidden.as_ref().map(|hidden| hidden.revision),
             blueprints.iter().map(|b| b.revision).collect(),
         );
         let color = self.surface.run(shading, |(_, _, surfaces, toons, (halftones, _), styles, ..)| {
@@ -387,6 +395,9 @@ impl Drawing {
                 reflection.uniform.write(rec.gpu, &vec![seen.uniform]);
                 mirror(rec, &gbuffer.value, &seen.color.value, reflection.uniform.buffer(), &color)?;
             }
+            if let Some(hidden) = &hidden {
+                overlay(rec, &hidden.value, &color)?;
+            }
             if let Some(edge_map) = edge_map {
                 let drawn = Lines {
                     gbuffer: &gbuffer.value,
@@ -405,6 +416,22 @@ impl Drawing {
         let fronts = blueprints.iter().filter_map(|b| Some((b.revision, b.value.front.clone()?))).unzip();
         let layers = blueprints.into_iter().map(|b| b.value.layers).filter(|l| !l.is_empty()).collect();
         Ok(Shaded { color, cartoon_map, coordinates, fronts, layers })
+    }
+
+    fn draw_hidden(
+        &mut self,
+        rec: &mut Recorder<'_>,
+        gbuffer_pass: &mut GBufferPass,
+        inputs: &DrawingInputs<'_>,
+        begun: &Begun,
+        edge_map: Option<&Output<EdgeMap>>,
+    ) -> Result<Option<Output<Target>>, RenderError> {
+        if inputs.objects.hidden.is_empty() {
+            self.hidden = None;
+            return Ok(None);
+        }
+        let hidden = self.hidden.get_or_insert_with(|| HiddenLines::new(rec.gpu));
+        hidden.run(rec, gbuffer_pass, inputs, &begun.uniform, edge_map).map(Some)
     }
 
     /// Draws the blueprints, the farthest first. Blended groups that reach into each other have no right order: that of

@@ -25,6 +25,8 @@ pub struct EdgeMap {
     pub edges: Target,
     /// Where spines of exact lines run and how wide they are; `None` without any.
     pub spines: Option<Target>,
+    /// Whether ink of the papers' operators may be in it.
+    pub has_paper: bool,
 }
 
 /// What makes the edge map.
@@ -71,11 +73,12 @@ impl EdgeMapPass {
             spines = Some(self.exact_edges(rec, inputs, &edge_map)?);
             onto = Onto::Old;
         }
+        let has_paper = inputs.styles.iter().any(EdgeUniform::is_paper);
         // Without exact edges it is this that clears the map.
-        if onto == Onto::Nothing || inputs.styles.iter().any(EdgeUniform::is_paper) {
+        if onto == Onto::Nothing || has_paper {
             paper_edges(rec, inputs.gbuffer, inputs.styles, inputs.edge_styles, &edge_map, onto)?;
         }
-        Ok(EdgeMap { edges: edge_map, spines })
+        Ok(EdgeMap { edges: edge_map, spines, has_paper })
     }
 
     fn exact_edges(
