@@ -11,8 +11,8 @@ fn is_repeated(px: vec2<i32>) -> bool {
     }
     let last = vec2<i32>(frame.size) - 1;
     var seen = 0u;
-    for (var i = 0; i < 9; i++) {
-        seen |= textureLoad(seen_tex, clamp(px + vec2(i % 3, i / 3) - 1, vec2(0), last), 0).x;
+    for (var i = 0; i < 25; i++) {
+        seen |= textureLoad(seen_tex, clamp(px + vec2(i % 5, i / 5) - 2, vec2(0), last), 0).x;
     }
     return seen != 0u;
 }

@@ -302,6 +302,7 @@ impl Drawing {
                     has_holes: inputs.objects.surfaces.has_holes,
                     is_cut: view.cut.is_some(),
                     is_layer: false,
+                    before: None,
                     shadow_mask: shadow_mask.map(|mask| &mask.value),
                 },
             )

@@ -115,6 +115,8 @@ impl Param<'_> {
                 true
             }
             (Slot::Choice(c), Value::Text(new)) => c.choose(new),
+            // What stands without quotes on the command line is read as a switch.
+            (Slot::Choice(c), Value::Bool(false)) => c.choose("off"),
             _ => false,
         };
         if done {

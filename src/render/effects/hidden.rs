@@ -175,7 +175,11 @@ impl HiddenLines {
                 most: bands.last().map_or(0, |band| band.last) + 1,
                 least: hidden.least(rec.size()),
             };
+            let mut before: Option<[Target; 2]> = None;
             layers.each(rec, gbuffer_pass, &cut, |rec, number, layer, _| {
+                let regions = before.take();
+                let last = regions.as_ref().map_or(&layer.gbuffer.region, |[last, _]| last);
+                before = Some([layer.gbuffer.region.clone(), last.clone()]);
                 let band = bands.iter().zip(band_lines.iter_mut()).find(|(band, _)| band.last >= number);
                 // The nearest layer is in sight.
                 let Some((band, band_lines)) = band.filter(|_| number > 0) else { return Ok(()) };
@@ -184,6 +188,7 @@ impl HiddenLines {
                     segments: &segments,
                     has_holes: group.has_holes,
                     is_cut,
+                    before: regions.as_ref().map(|[last, before_that]| [last, before_that]),
                     repeated: false,
                 };
                 let found = band_lines.edges(rec, &edges, layer, &mut seen)?;
