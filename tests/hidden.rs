@@ -324,7 +324,7 @@ fn the_order_of_objects_changes_no_pixel() {
     let turn = DMat4::from_quat(DQuat::from_rotation_x(0.5));
     let [first, second] = [[0, 1, 2], [2, 0, 1]].map(|order| {
         // Intersections are of either object, as its number has it: none here.
-        let place = |i: usize| at(0.2 * i as f64, 0.1, -1.4 * i as f64) * turn;
+        let place = |i: usize| at(0.2 * i as f64, 0.1, -2.0 * i as f64) * turn;
         let objects = order.map(|i: usize| object(["cube", "ring", "ball"][i], shapes[i].clone(), place(i)));
         image(&mut session, &red_hidden(&scene(objects.into()), DVec3::new(0.2, 0.4, 1.0)), 128)
     });

@@ -80,13 +80,13 @@ fn between(px: vec2<i32>, x: Surfel, own: u32, plane: Plane, towards: vec2<i32>)
     if WITH_CUT && is_cut_off(q, plane, towards) {
         return none;
     }
-    if WITH_LAYERS_BEFORE && goes_on_nearer(q, own) {
-        return none;
-    }
     let half = 0.5 * vec2<f32>(towards);
     let across = vec2(half.y, -half.x) * 2.0;
     let n = unpack_surfel(geometry_at(q));
     if n.object == 0u {
+        if WITH_LAYERS_BEFORE && goes_on_nearer(q, own) {
+            return none;
+        }
         return Spine(SILHOUETTE, half, across, true);
     }
     let other = plane_of(q, n.depth, n.face_normal);
@@ -96,6 +96,9 @@ fn between(px: vec2<i32>, x: Surfel, own: u32, plane: Plane, towards: vec2<i32>)
     let jump = step_px(abs(nearness_at(plane, vec2<f32>(towards)) - other.center), depth);
     let back = step_px(abs(nearness_at(other, -vec2<f32>(towards)) - plane.center), depth);
     if min(jump, back) > STEP {
+        if WITH_LAYERS_BEFORE && goes_on_nearer(q, own) {
+            return none;
+        }
         // The nearer surface draws.
         let class_of = select(OBJECT, SILHOUETTE, n.object == x.object);
         if gap > 0.0 && gap >= edge_styles[x.object].lines[class_of - 1u].threshold {
