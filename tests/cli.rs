@@ -165,7 +165,7 @@ fn info_styles_and_bench_print_what_they_promise() {
     let parameter = |key: &str| parameters.iter().find(|p| p["key"] == key).unwrap();
     let threshold = parameter("edges.profile.threshold");
     assert!(threshold["range"]["hard"].is_array() && !threshold["help"].as_str().unwrap().is_empty());
-    assert_eq!(threshold["when"]["edges.mode"], "paper");
+    assert_eq!(threshold["when"]["edges.mode"][0], "paper");
     let width = parameter("edges.silhouette.width");
     assert_eq!((&width["default"], &width["unit"]), (&"inherit".into(), &"px".into()));
     assert_eq!(width["inherits"], "edges.profile.width");
