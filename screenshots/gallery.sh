@@ -9,11 +9,13 @@ still_life=assets/models/still_life.glb
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
+size=1000,1000
+
 draw() { # draw NAME MODEL ARGUMENTS...
 	name=$1
 	model=$2
 	shift 2
-	target/release/hachure render "$model" --output "screenshots/$name.png" --resolution 1000,1000 --samples 64 "$@"
+	target/release/hachure render "$model" --output "screenshots/$name.png" --resolution "$size" --samples 64 "$@"
 	echo "screenshots/$name.png"
 }
 
@@ -114,6 +116,13 @@ draw blueprint_mask assets/models/temple.glb --style blueprint --mask '/temple/s
 draw blueprint_white_on_blue "$crank" --style blueprint-white-on-blue
 draw blueprint_vellum "$crank" --style blueprint-vellum
 draw wireframe "$crank" --style wireframe
+# A building in plan and from the side, at the same scale on paper (Blueprints paper, Fig. 8).
+for side in top right; do
+	[ "$side" = top ] && size=760,1340 || size=1340,760
+	draw "temple_$side" assets/models/temple.glb --style blueprint --look-from "$side" --camera-orthographic \
+		--scale 1:400 --dpi 160 --set blueprint.layers=32 --set blueprint.opacity=0.02 --set view.scale_bar=true
+done
+size=1000,1000
 
 # Shadows in each technique.
 for style in plain gooch comic engraving newspaper; do

@@ -54,6 +54,12 @@ fn mistakes_end_with_the_right_code_and_a_message_that_helps() {
         (&["--samples", "many"], 2, "`many` is no number of samples"),
         (&["--samples=-4"], 2, "is no number of samples"),
         (&["--background", "red"], 2, "is no colour"),
+        (&["--look-from", "side"], 2, "use one of front, back"),
+        (&["--scale", "1:50"], 2, "--camera-orthographic"),
+        (&["--camera-orthographic", "--scale", "50"], 2, "such as 1:50"),
+        (&["--camera-orthographic", "--scale", "1:0"], 2, "such as 1:50"),
+        (&["--unit", "parsec"], 2, "use one of mm, cm"),
+        (&["--dpi", "0"], 2, "number above 0"),
     ];
     for (args, code, message) in cases {
         // A later --resolution would clash with the one that `render` gives.
@@ -159,7 +165,7 @@ fn info_styles_and_bench_print_what_they_promise() {
     let parameter = |key: &str| parameters.iter().find(|p| p["key"] == key).unwrap();
     let threshold = parameter("edges.profile.threshold");
     assert!(threshold["range"]["hard"].is_array() && !threshold["help"].as_str().unwrap().is_empty());
-    assert_eq!(threshold["when"]["edges.mode"], "paper");
+    assert_eq!(threshold["when"]["edges.mode"][0], "paper");
     let width = parameter("edges.silhouette.width");
     assert_eq!((&width["default"], &width["unit"]), (&"inherit".into(), &"px".into()));
     assert_eq!(width["inherits"], "edges.profile.width");
@@ -214,6 +220,61 @@ fn camera_flags_mean_what_they_say() {
     let narrow = share(&[&from[..], &["--camera-view-angle", "20"]].concat());
     let wide = share(&[&from[..], &["--camera-view-angle", "60"]].concat());
     assert!(narrow > 4 * wide && wide > 0, "{narrow} {wide}");
+}
+
+#[test]
+fn a_scale_is_true_on_paper_and_seen_from_straight_above() {
+    let folder = tempfile::tempdir().unwrap();
+    // 2 units wide and 1 deep, on a post that must not be seen past it.
+    let model = folder.path().join("table.obj");
+    std::fs::write(
+        &model,
+        "v -1 0 -.5\nv -1 0 .5\nv 1 0 .5\nv 1 0 -.5\nv -1 -9 -.5\nv 1 -9 -.5\nf 1 2 3 4\nf 1 4 6 5\n",
+    )
+    .unwrap();
+    let model = model.to_str().unwrap();
+    let plan = ["--look-from", "top", "--camera-orthographic", "--style", "plain", "--no-background"];
+    let scaled = [&plan[..], &["--scale", "1:10", "--dpi", "50.8"]].concat();
+    let (without_unit, _) = render(folder.path(), "x.png", model, &scaled);
+    assert!(String::from_utf8_lossy(&without_unit.stderr).contains("add --unit mm"));
+
+    // A centimetre is 20 px at 50.8 pixels per inch.
+    for (unit, factor) in [("cm", 0.1), ("mm", 0.01)] {
+        let scale = format!("1:{}", 10.0 * factor);
+        let args = [&plan[..], &["--scale", &scale, "--dpi", "50.8", "--unit", unit]].concat();
+        let (result, output) = render(folder.path(), "plan.png", model, &args);
+        assert!(result.status.success(), "{}", String::from_utf8_lossy(&result.stderr));
+        let image = image::open(&output).unwrap().into_rgba8();
+        let drawn: Vec<_> = image.enumerate_pixels().filter(|(.., p)| p.0[3] > 127).collect();
+        let side = |of: fn(u32, u32) -> u32| {
+            let at = || drawn.iter().map(|(x, y, _)| of(*x, *y));
+            at().max().unwrap() + 1 - at().min().unwrap()
+        };
+        assert_eq!((side(|x, _| x), side(|_, y| y)), (40, 20), "{unit}");
+        let reader = png::Decoder::new(std::io::BufReader::new(std::fs::File::open(&output).unwrap()));
+        let dims = reader.read_info().unwrap().info().pixel_dims.unwrap();
+        assert_eq!((dims.xppu, dims.yppu, dims.unit), (2000, 2000, png::Unit::Meter));
+    }
+
+    // Whoever asks for no scale gets no resolution written.
+    let (_, output) = render(folder.path(), "free.png", model, &plan);
+    let reader = png::Decoder::new(std::io::BufReader::new(std::fs::File::open(&output).unwrap()));
+    assert!(reader.read_info().unwrap().info().pixel_dims.is_none());
+}
+
+#[test]
+fn a_scale_bar_is_shown_in_parallel_views_only() {
+    let folder = tempfile::tempdir().unwrap();
+    let crank = crank();
+    let drawn = |name: &str, args: &[&str]| {
+        let (result, output) = render(folder.path(), name, &crank, args);
+        assert!(result.status.success(), "{}", String::from_utf8_lossy(&result.stderr));
+        std::fs::read(output).unwrap()
+    };
+    let bar = ["--set", "view.scale_bar=true"];
+    let parallel = ["--camera-orthographic"];
+    assert_eq!(drawn("a.png", &bar), drawn("b.png", &[]));
+    assert_ne!(drawn("c.png", &[&parallel[..], &bar].concat()), drawn("d.png", &parallel));
 }
 
 #[test]

@@ -50,6 +50,20 @@ choice! {
     }
 }
 
+/// What the picture may show beside the drawing.
+const BUFFERS: [Show; 10] = [
+    Show::Normals,
+    Show::FaceNormals,
+    Show::Depth,
+    Show::Objects,
+    Show::Surfaces,
+    Show::BaseColor,
+    Show::NormalOperator,
+    Show::DepthOperator,
+    Show::C1Operator,
+    Show::EdgeMap,
+];
+
 impl Default for View {
     fn default() -> Self {
         Self {
@@ -103,14 +117,16 @@ impl View {
                 &mut self.scale_bar,
             );
             list.choice("show", "Show", "The picture, or a buffer that it is made from.", &mut self.show);
-            list.integer(
-                "layer",
-                "Layer",
-                "",
-                1..=64,
-                "Which depth layer a buffer is shown of: 1 is what is visible, 2 what lies behind it, and so on.",
-                &mut self.layer,
-            );
+            list.when_any("view.show", BUFFERS, |list| {
+                list.integer(
+                    "layer",
+                    "Layer",
+                    "",
+                    1..=64,
+                    "Which depth layer the buffer is of: 1 is what is visible, 2 what lies behind it, and so on.",
+                    &mut self.layer,
+                );
+            });
         });
         list.finish()
     }

@@ -192,6 +192,8 @@ pub struct LayerLinesInputs<'a> {
     pub has_holes: bool,
     /// Whether what lies behind a plane is left out.
     pub is_cut: bool,
+    /// See [`EdgeInputs::before`].
+    pub before: Option<[&'a Target; 2]>,
     /// Whether a line is drawn again where a nearer layer has one at the same place (Fig. 5).
     pub repeated: bool,
 }
@@ -265,6 +267,7 @@ impl LayerLines {
                 has_holes: inputs.has_holes,
                 is_cut: inputs.is_cut,
                 is_layer: true,
+                before: inputs.before,
                 shadow_mask: None,
             },
         )?;

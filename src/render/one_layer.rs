@@ -97,6 +97,7 @@ impl OneLayer {
                 has_holes: group.has_holes,
                 is_cut,
                 repeated: true,
+                before: None,
             };
             let edges = lines.edges(rec, &edges, &layer, &mut None)?;
             Ok((layer.gbuffer, edges.edge_map.edges))

@@ -8,9 +8,10 @@ use super::params::params_ui;
 use super::row::named_row;
 use crate::app::navigation::with_view_angle;
 use crate::app::state::Samples;
-use crate::document::{Show, View};
+use crate::document::View;
 use crate::scene::unit::UNITS;
 use crate::scene::{Projection, Unit, Up};
+use crate::style::param;
 
 /// Samples per pixel to choose from.
 const SAMPLES: [u32; 4] = [1, 16, 64, 256];
@@ -107,10 +108,8 @@ pub fn view_ui(ui: &mut Ui, editing: &mut Editing<'_>, samples: &mut Samples) ->
     let mut default = View::default();
     let paper = document.style.paper.color;
     let defaults = default.params(paper);
-    let is_picture = document.view.show == Show::Picture;
     let mut params = document.view.params(paper);
-    // The picture is made of all layers.
-    params.retain(|param| !is_picture || param.key != "view.layer");
+    param::retain_relevant(&mut params);
     params_ui(ui, "view", &mut params, &defaults);
     for (name, help, value) in samples.settings() {
         named_row(ui, name, help, |ui, label| {

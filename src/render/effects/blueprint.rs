@@ -210,6 +210,7 @@ impl Blueprints {
                 segments: &segments,
                 has_holes: group.has_holes,
                 is_cut,
+                before: None,
                 repeated: params.repeated,
             };
             let color = rec.target("blueprint", wgpu::TextureFormat::Rgba16Float)?;
