@@ -43,8 +43,8 @@ fn rust_and_wgsl_agree_on_every_uniform() {
     same_layout!(LightUniform, 3, "passes/resolve.wgsl", "Light");
     same_layout!(DrawUniform, 6, "passes/gbuffer.wgsl", "Draw");
     same_layout!(BlueprintUniform, 6, "effects/blueprint.wgsl", "Blueprint");
-    same_layout!(Peeled, 5, "effects/blueprint.wgsl", "Peeled");
-    same_layout!(Peeled, 5, "passes/count.wgsl", "Counted");
+    same_layout!(Peeled, 6, "effects/blueprint.wgsl", "Peeled");
+    same_layout!(Peeled, 6, "passes/count.wgsl", "Counted");
     same_layout!(MaterialUniform, 6, "passes/gbuffer.wgsl", "Material");
     same_layout!(LineUniform, 5, "passes/lines.wgsl", "LineStyle");
     same_layout!(EdgeUniform, 22, "passes/lines.wgsl", "EdgeStyle");

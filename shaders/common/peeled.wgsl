@@ -9,6 +9,8 @@ struct Peeled {
     layers: u32,
     // Pixels of the layer that is counted.
     covered: u32,
+    // Fragments of all lists, those for which there was no room included; 0 without lists.
+    fragments: u32,
     // Pixels of each layer.
     pixels: array<u32, 64>,
 }

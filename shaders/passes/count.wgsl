@@ -1,15 +1,7 @@
 // How many pixels a layer covers, and whether peeling goes on (blueprints paper, section 4.2): occlusion queries would count
 // overdraw, and only the processor could act on them.
 #import common/frame.wgsl
-
-// As in common/peeled.wgsl, but for the count.
-struct Counted {
-    least: u32,
-    has_ended: u32,
-    layers: u32,
-    covered: atomic<u32>,
-    pixels: array<u32, 64>,
-}
+#import common/counted.wgsl
 
 // 0 where the layer has nothing.
 @group(1) @binding(0) var order_tex: texture_2d<u32>;

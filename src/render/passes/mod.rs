@@ -4,6 +4,7 @@ pub mod accumulate;
 pub mod coordinates;
 pub mod edge_map;
 pub mod edge_style;
+pub mod fragment_lists;
 pub mod front;
 pub mod gbuffer;
 pub mod line_distance;

@@ -93,6 +93,8 @@ pub struct Peeled {
     pub layers: u32,
     /// Pixels of the layer that is counted.
     pub covered: u32,
+    /// Fragments of all lists, those for which there was no room included; 0 without lists.
+    pub fragments: u32,
     /// Pixels of each layer, that which ended it included.
     pub pixels: [u32; MOST_LAYERS as usize],
 }
@@ -103,7 +105,7 @@ impl Peeled {
         let mut words = bytes.chunks_exact(4).filter_map(|w| w.try_into().ok()).map(u32::from_le_bytes);
         let mut next = || words.next().unwrap_or(0);
         let (least, has_ended, layers, covered) = (next(), next(), next(), next());
-        Self { least, has_ended, layers, covered, pixels: std::array::from_fn(|_| next()) }
+        Self { least, has_ended, layers, covered, fragments: next(), pixels: std::array::from_fn(|_| next()) }
     }
 }
 
@@ -133,7 +135,8 @@ impl PeelCount {
 
     /// Begins anew, for what is submitted next; it ends with a layer of fewer than `least` pixels.
     pub fn begin(&self, gpu: &Gpu, least: u32) {
-        let begun = Peeled { least, has_ended: 0, layers: 0, covered: 0, pixels: [0; MOST_LAYERS as usize] };
+        let pixels = [0; MOST_LAYERS as usize];
+        let begun = Peeled { least, has_ended: 0, layers: 0, covered: 0, fragments: 0, pixels };
         let mut bytes = StorageBuffer::new(Vec::new());
         // Writing into a growing vector cannot fail.
         if bytes.write(&begun).is_ok() {
