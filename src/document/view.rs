@@ -63,7 +63,13 @@ choice! {
 
 impl Default for View {
     fn default() -> Self {
-        Self { background: Color([250, 248, 242]), show: Show::Picture, crease_angle: 30.0, reflections: 2.0, layers: LayersBy::Auto }
+        Self {
+            background: Color([250, 248, 242]),
+            show: Show::Picture,
+            crease_angle: 30.0,
+            reflections: 2.0,
+            layers: LayersBy::Auto,
+        }
     }
 }
 

@@ -22,7 +22,7 @@ use super::effects::toon::{ToonBuffers, Toons, cartoon_map};
 use super::frame_uniform::{FrameUniform, View};
 use super::gpu_scene::GpuScene;
 use super::groups::Objects;
-use super::layers::Reported;
+use super::layers::{LayersBy, Reported};
 use super::lights::Lights;
 use super::passes::edge_map::{EdgeInputs, EdgeMap, EdgeMapPass};
 use super::passes::edge_style::EdgeUniform;
@@ -35,6 +35,7 @@ use super::sample::Sample;
 use super::segments::segments;
 use super::shadows::{ShadowMap, ShadowMask};
 use super::stage::{Output, Stage};
+use crate::document;
 use crate::geometry::{EdgeClass, LineSegment};
 use crate::gpu::{ArrayBuffer, DynamicBuffer, Gpu, Recorder, Target, UniformBuffer};
 
@@ -63,6 +64,8 @@ pub struct DrawingInputs<'a> {
     pub reflections: u32,
     /// Whether the layers of blueprints are kept.
     pub keeps_layers: bool,
+    /// How depth layers are to be made.
+    pub layers_by: document::LayersBy,
 }
 
 /// A drawing while it is being made: what all of its passes read.
@@ -231,7 +234,7 @@ impl Drawing {
 
     /// How far the layers of each blueprint came in the last picture whose report has arrived; in the order of
     /// [`Objects::blueprints`].
-    pub fn last_peeled(&self) -> Vec<Option<Peeled>> {
+    pub fn last_peeled(&self) -> Vec<Option<(Peeled, LayersBy)>> {
         self.blueprints.iter().map(|b| b.last().cloned()).collect()
     }
 

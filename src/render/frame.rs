@@ -116,6 +116,11 @@ impl FrameState {
         self.drawing.take_reports()
     }
 
+    /// Gives memory back that the last frame did not need.
+    pub fn shrink(&mut self, gpu: &Gpu) {
+        self.shared.gbuffer.lists.shrink(gpu);
+    }
+
     /// How often each stage has run, by name.
     pub fn runs(&self) -> Vec<(&'static str, u64)> {
         let mut runs = self.drawing.runs().to_vec();
@@ -233,7 +238,7 @@ impl FrameState {
         if inputs.drawing.sample.index == 0 {
             self.unmoved = front.revision;
         }
-        let bits = selection::bits(inputs.selected, inputs.drawing.scene.scene.nodes.len());
+        let bits = selection::bits(inputs.selected, &inputs.drawing.scene.scene);
         let outline = self.selection.run((self.unmoved, bits), |(_, bits)| {
             self.selected.write(rec.gpu, bits);
             selection(rec, &front.value, self.selected.buffer())

@@ -8,7 +8,7 @@ use super::effects::mirror::Mirror;
 use super::effects::surface::SurfaceUniform;
 use super::effects::toon::{ToonUniform, Toons};
 use super::frame_uniform::View;
-use super::gpu_scene::GpuScene;
+use super::gpu_scene::{GpuScene, Origin};
 use super::passes::edge_style::EdgeUniform;
 use super::passes::gbuffer::{Detail, DrawCall, DrawUniform};
 use super::style_images::StyleImages;
@@ -50,6 +50,8 @@ pub struct VisiblePart {
     pub world_from_local: DMat4,
     /// Number of its material.
     pub material: usize,
+    /// The buffers that hold it.
+    pub origin: Origin,
     /// Range of the index buffer.
     pub first_index: u32,
     /// Number of indices.
@@ -127,6 +129,7 @@ impl Objects {
             }
             if r.mirror
                 && !is_blueprint
+                && !scene.scene.is_added(node)
                 && let Ok(plane) = scene.plane_of(node)
             {
                 objects.mirrors.push(Mirror::new(id as u32, plane, scene.corners_of(node), &r.style.mirror));
@@ -196,9 +199,8 @@ impl Group {
     pub fn parts<'a>(&'a self, scene: &'a GpuScene) -> impl Iterator<Item = VisiblePart> + 'a {
         self.visible.iter().flat_map(move |&(id, enhanced)| {
             let node = &scene.scene.nodes[id];
-            let found =
-                node.mesh.and_then(|m| Some((m, scene.scene.meshes.get(m)?, scene.geometry.meshes.get(m)?)));
-            found.into_iter().flat_map(move |(mesh, source, range)| {
+            let found = node.mesh.and_then(|m| Some((m, scene.scene.meshes.get(m)?, scene.range_of(m)?)));
+            found.into_iter().flat_map(move |(mesh, source, (origin, range))| {
                 source.parts.iter().map(move |part| VisiblePart {
                     node: id,
                     enhanced,
@@ -206,6 +208,7 @@ impl Group {
                     is_flat: source.normals.is_empty(),
                     world_from_local: node.world_from_local,
                     material: part.material,
+                    origin,
                     first_index: range.first_index + part.first_index,
                     index_count: part.index_count,
                     base_vertex: range.base_vertex,
@@ -221,7 +224,7 @@ impl Group {
         for part in self.parts(scene) {
             // Combined in double precision, so that models far from the origin do not jitter.
             let view_from_local = view.view_from_world * part.world_from_local;
-            let local_bounds = scene.mesh_bounds.get(part.mesh).copied().unwrap_or(Bounds::EMPTY);
+            let local_bounds = scene.mesh_bounds(part.mesh);
             if view.cut.is_some()
                 && view
                     .cuts_off(&local_bounds.corners().map(|corner| view_from_local.transform_point3(corner)))
@@ -235,11 +238,12 @@ impl Group {
             let depth = -local_bounds.transformed(&view_from_local).max.z;
             let call = DrawCall {
                 draw: draws.len() as u32,
+                origin: part.origin,
                 first_index: part.first_index,
                 index_count: part.index_count,
                 base_vertex: part.base_vertex,
                 material_group: scene.materials.group_index(part.material),
-                detail: if scene.geometry.attributes.is_none() {
+                detail: if scene.geometry(part.origin).attributes.is_none() {
                     Detail::Lean
                 } else if has_images || alpha != AlphaMode::Opaque {
                     Detail::Full
@@ -266,7 +270,7 @@ impl Group {
         }
         // Near ones first: what lies behind them is then never shaded.
         calls.sort_by(|(a, _), (b, _)| a.total_cmp(b));
-        calls.sort_by_key(|(_, c)| (c.detail, c.hidden_side.map(|s| s as u32)));
+        calls.sort_by_key(|(_, c)| (c.origin, c.detail, c.hidden_side.map(|s| s as u32)));
         // A part has at most as many surfaces as its mesh has triangles; 0 is left for nothing.
         let mut first_surface = 1_u32;
         for (_, call) in &calls {
@@ -282,7 +286,7 @@ impl Group {
 /// The box of an object in its own space, and where that lies.
 fn box_of(node: NodeId, scene: &GpuScene) -> Option<(Bounds, DMat4)> {
     let node = &scene.scene.nodes[node];
-    Some((*scene.mesh_bounds.get(node.mesh?)?, node.world_from_local))
+    Some((scene.mesh_bounds(node.mesh?), node.world_from_local))
 }
 
 /// The cofactor matrix of the linear part: the inverse transpose up to a factor, which exists for flattening

@@ -9,7 +9,7 @@ use super::frame::{FrameInputs, FrameState, Picture};
 use super::frame_uniform::View;
 use super::gpu_scene::{GpuScene, UploadedTopology, Uploader};
 use super::groups::{Objects, node_of};
-use super::layers::Reported;
+use super::layers::{LayersBy, Reported};
 use super::lights::Lights;
 use super::passes::accumulate::Subject;
 use super::passes::peel::Peeled;
@@ -18,7 +18,7 @@ use crate::document::Document;
 use crate::geometry::Topology;
 use crate::gpu::readback::Readback;
 use crate::gpu::{Gpu, GpuError, Pipelines, Recorder, ShaderError, Shaders, TargetPool, Timers};
-use crate::scene::{Camera, NodeId, Scene};
+use crate::scene::{Addition, Camera, NodeId, Scene};
 
 /// Height of the picture in reference pixels, in which widths and scales are given.
 const REFERENCE_HEIGHT: f32 = 1080.0;
@@ -75,6 +75,7 @@ pub struct Renderer {
     state: FrameState,
     scene: Option<GpuScene>,
     scene_revision: u64,
+    additions: Vec<Addition>,
     images: StyleImages,
     last: Option<(Picture, View)>,
     pick: Option<PendingPick>,
@@ -98,6 +99,7 @@ impl Renderer {
             timers: None,
             scene: None,
             scene_revision: 0,
+            additions: Vec::new(),
             images: StyleImages::default(),
             last: None,
             pick: None,
@@ -117,6 +119,7 @@ impl Renderer {
         twin.scene = self.scene.clone();
         twin.scene_revision = self.scene_revision;
         twin.incomplete = self.incomplete;
+        twin.additions = self.additions.clone();
         twin.images = self.images.clone();
         twin.state.go_on_from(&self.state);
         twin
@@ -135,6 +138,7 @@ impl Renderer {
     /// Shows a scene, which the renderer's own [`Self::uploader`] uploaded, in place of the last one.
     pub fn show(&mut self, scene: GpuScene) {
         self.scene = Some(scene);
+        self.additions.clear();
         self.scene_revision += 1;
     }
 
@@ -155,6 +159,27 @@ impl Renderer {
         let scene = self.uploader().scene(scene, topology)?;
         self.show(scene);
         Ok(())
+    }
+
+    /// Puts objects beside the scene that is shown, in place of the last ones; the scene itself stays as it is. Another
+    /// scene comes without them.
+    ///
+    /// # Errors
+    /// [`GpuError::TooLarge`]; the last ones then stay.
+    pub fn show_additions(&mut self, additions: Vec<Addition>) -> Result<(), RenderError> {
+        if let Some(scene) = &mut self.scene
+            && self.additions != additions
+        {
+            scene.set_additions(&self.gpu, additions.iter().cloned())?;
+            self.additions = additions;
+            self.scene_revision += 1;
+        }
+        Ok(())
+    }
+
+    /// The scene that is shown, on the device.
+    pub fn scene(&self) -> Option<&GpuScene> {
+        self.scene.as_ref()
     }
 
     /// Takes over the images that styles name; those that are missing are drawn without.
@@ -245,6 +270,7 @@ impl Renderer {
                 view: &view,
                 background,
                 keeps_layers: self.keeps_layers,
+                layers_by: request.document.view.layers,
                 reflections: request.document.view.reflections.round().clamp(0.0, 8.0) as u32,
             },
             show: request.document.view.show,
@@ -255,6 +281,7 @@ impl Renderer {
         let picture = self.state.record(&mut recorder, &inputs)?;
         recorder.submit();
         self.pool.shrink_to(size);
+        self.state.shrink(&self.gpu);
         self.last = Some((picture.clone(), view));
         Ok(picture)
     }
@@ -276,9 +303,9 @@ impl Renderer {
         reported
     }
 
-    /// How far the layers of each blueprint came in the last picture whose report has arrived, in the order of
-    /// [`Objects::blueprints`].
-    pub fn last_peeled(&self) -> Vec<Option<Peeled>> {
+    /// How far the layers of each blueprint came in the last picture whose report has arrived, and how they were made; in
+    /// the order of [`Objects::blueprints`].
+    pub fn last_peeled(&self) -> Vec<Option<(Peeled, LayersBy)>> {
         self.state.drawing().last_peeled()
     }
 
@@ -306,7 +333,7 @@ impl Renderer {
         let pending = self.pick.as_ref()?;
         let texel: Vec<u32> = bytemuck::pod_collect_to_vec(&pending.readback.poll(&self.gpu)?);
         let (depth, object) = (f32::from_bits(*texel.get(2)?), *texel.get(3)?);
-        let node = node_of(object);
+        let node = node_of(object).map(|node| self.scene.as_ref().map_or(node, |s| s.scene.meant_by(node)));
         let point = node.map(|_| pending.view.unproject(pending.px, depth));
         self.pick = None;
         Some(Pick { node, point })

@@ -103,11 +103,12 @@ fn seen_by(
         let clip_from_world = view.clip_from_light() * view.light_from_world;
         for part in objects.surfaces.parts(scene) {
             let alpha = scene.scene.materials.get(part.material).map_or(AlphaMode::Opaque, |m| m.alpha);
-            let has_holes = alpha != AlphaMode::Opaque && scene.geometry.attributes.is_some();
+            let has_holes = alpha != AlphaMode::Opaque && scene.geometry(part.origin).attributes.is_some();
             let light_from_local = view.light_from_world * part.world_from_local;
             seen.calls.push(ShadowCall {
                 draw: seen.draws.len() as u32,
                 view: number,
+                origin: part.origin,
                 first_index: part.first_index,
                 index_count: part.index_count,
                 base_vertex: part.base_vertex,
@@ -125,7 +126,7 @@ fn seen_by(
             });
         }
     }
-    seen.calls.sort_by_key(|c| (c.view, c.has_holes, c.hidden_side.map(|s| s as u32)));
+    seen.calls.sort_by_key(|c| (c.view, c.origin, c.has_holes, c.hidden_side.map(|s| s as u32)));
     seen
 }
 

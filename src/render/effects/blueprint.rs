@@ -11,13 +11,14 @@
 use encase::ShaderType;
 use glam::Vec3;
 
+use crate::document;
 use crate::gpu::recorder::{Draw, Input, Onto};
 use crate::gpu::{ArrayBuffer, DepthRule, Gpu, Program, Recorder, Target};
 use crate::render::RenderError;
 use crate::render::drawing::DrawingInputs;
 use crate::render::frame_uniform::FrameUniform;
 use crate::render::groups::Group;
-use crate::render::layers::{LayerInputs, LayerLines, LayerLinesInputs, Layers, Reported};
+use crate::render::layers::{LayerInputs, LayerLines, LayerLinesInputs, Layers, LayersBy, Reported};
 use crate::render::passes::gbuffer::{DrawCall, DrawUniform, GBuffer, GBufferPass};
 use crate::render::passes::lines::{Pen, lines};
 use crate::render::passes::peel::{Layer, MOST_LAYERS, PeelCount, Peeled};
@@ -113,6 +114,7 @@ struct Inputs {
     part: Option<[u32; 4]>,
     crease_angle: f32,
     keeps_layers: bool,
+    layers_by: document::LayersBy,
 }
 
 /// What of the drawing of a group lives across frames.
@@ -149,7 +151,7 @@ impl Blueprints {
     }
 
     /// How far the last picture came whose report has arrived.
-    pub fn last(&self) -> Option<&Peeled> {
+    pub fn last(&self) -> Option<&(Peeled, LayersBy)> {
         self.layers.last()
     }
 
@@ -182,6 +184,7 @@ impl Blueprints {
             part: inputs.view.part,
             crease_angle: inputs.crease_angle,
             keeps_layers: inputs.keeps_layers,
+            layers_by: inputs.layers_by,
         };
         let Self { layers, lines: layer_lines, style, stage } = self;
         stage.run(asked, |asked| {
@@ -208,6 +211,7 @@ impl Blueprints {
                 is_cut,
                 most: blueprint.layers(),
                 least: blueprint.least(rec.size()),
+                by: inputs.layers_by,
             };
             layers.each(rec, gbuffer_pass, &cut, |rec, number, layer, count| {
                 if asked.keeps_layers {

@@ -13,7 +13,7 @@ use crate::gpu::material::MaterialUniform;
 use crate::gpu::recorder::color_attachment;
 use crate::gpu::{DynamicBuffer, Gpu, MaterialBindings, Pipelines, Recorder, Target};
 use crate::render::RenderError;
-use crate::render::gpu_scene::GpuScene;
+use crate::render::gpu_scene::{GpuScene, Origin};
 
 /// Shading and face normal, linear depth, object id: see `shaders/common/gbuffer.wgsl`.
 const GEOMETRY: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Uint;
@@ -84,6 +84,8 @@ pub enum Detail {
 pub struct DrawCall {
     /// Index of its uniform.
     pub draw: u32,
+    /// The buffers that hold it.
+    pub origin: Origin,
     /// Range of the index buffer.
     pub first_index: u32,
     /// Number of indices.
@@ -293,14 +295,15 @@ impl GBufferPass {
         if let Some(own) = &own {
             pass.set_bind_group(3, own, &[]);
         }
-        pass.set_vertex_buffer(0, scene.geometry.positions.slice(..));
-        pass.set_vertex_buffer(1, scene.geometry.surfaces.slice(..));
-        if let Some(attributes) = &scene.geometry.attributes {
-            pass.set_vertex_buffer(2, attributes.slice(..));
-        }
-        pass.set_index_buffer(scene.geometry.indices.slice(..), wgpu::IndexFormat::Uint32);
-        let (mut bound, mut material) = (None, None);
+        let (mut bound, mut material, mut origin) = (None, None, None);
         for (call, gated) in calls.iter().zip(&gated) {
+            if origin != Some(call.origin) {
+                let geometry = scene.geometry(call.origin);
+                let buffers =
+                    [Some(&geometry.positions), Some(&geometry.surfaces), geometry.attributes.as_ref()];
+                geometry.bind(&mut pass, &buffers);
+                origin = Some(call.origin);
+            }
             let key = variant(call);
             if bound != Some(key) {
                 let Some(pipeline) = self.pipelines.get(&key) else { continue };

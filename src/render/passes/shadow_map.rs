@@ -10,7 +10,7 @@ use crate::gpu::geometry::Attributes;
 use crate::gpu::material::MaterialUniform;
 use crate::gpu::{DynamicBuffer, Gpu, Pipelines, Recorder, Target};
 use crate::render::RenderError;
-use crate::render::gpu_scene::GpuScene;
+use crate::render::gpu_scene::{GpuScene, Origin};
 use crate::render::light_view::LightView;
 
 /// Reversed: 1 nearest to the light, 0 where it meets nothing.
@@ -32,6 +32,8 @@ pub struct ShadowCall {
     pub draw: u32,
     /// Number of the light's picture in which it is seen.
     pub view: usize,
+    /// The buffers that hold it.
+    pub origin: Origin,
     /// Range of the index buffer.
     pub first_index: u32,
     /// Number of indices.
@@ -128,13 +130,13 @@ impl ShadowMapPass {
             stencil_ops: None,
         };
         let mut pass = rec.pass("shadow map", &[], Some(depth));
-        pass.set_vertex_buffer(0, scene.geometry.positions.slice(..));
-        if let Some(attributes) = &scene.geometry.attributes {
-            pass.set_vertex_buffer(1, attributes.slice(..));
-        }
-        pass.set_index_buffer(scene.geometry.indices.slice(..), wgpu::IndexFormat::Uint32);
-        let (mut bound, mut material, mut view) = (None, None, None);
+        let (mut bound, mut material, mut view, mut origin) = (None, None, None, None);
         for call in &seen.calls {
+            if origin != Some(call.origin) {
+                let geometry = scene.geometry(call.origin);
+                geometry.bind(&mut pass, &[Some(&geometry.positions), geometry.attributes.as_ref()]);
+                origin = Some(call.origin);
+            }
             let key = (call.has_holes, call.hidden_side);
             if bound != Some(key) {
                 let Some(pipeline) = self.pipelines.get(&key) else { continue };
