@@ -4,7 +4,7 @@
 
 // How fragments lie behind each other: what the order of their layers depends on.
 struct Link {
-    // The next one of the pixel.
+    // The one that was drawn before it.
     next: u32,
     // Bits of the reversed depth: what is nearer is greater, as a number too.
     depth: u32,

@@ -1,10 +1,10 @@
 //! A group cut into depth layers, one behind the other, and the lines of each (blueprints paper, sections 3 and 4.1).
 //!
 //! ```text
-//! draws ─► fragment lists ─► sort ─┐ where the device can
-//!            ┌─────────────────────┴─────────────────────┐
-//!            ▼                                           │
-//! (draws ─►) layer i ─► count ─► what the caller makes of it
+//! draws ─► fragment lists, where the device can
+//!            │┌──────────────────────────────────────────────┐
+//!            ▼▼                                              │
+//! (draws ─►) layer i ─► count ─► what the caller makes of it ─┘
 //!                       └─► gate: too few pixels shut it, and nothing after that runs
 //! ```
 //!
@@ -117,17 +117,13 @@ impl Layers {
         let mut recorded = self.room.plan(rec.gpu, rec.size(), inputs.most.min(MOST_LAYERS), inputs.by);
         let mut gate = self.gate.take().unwrap_or_else(|| Gate::new(rec.gpu));
         gate.clear(rec.gpu, calls.len() + PASSES)?;
-        let source = match &mut recorded.fragments {
-            Some(room) => {
-                *room = gbuffer_pass.lists.begin(rec, *room)?;
-                gbuffer_pass.collect(rec, scene, &mut self.draws, (draws, calls), is_cut, &self.count)?;
-                gbuffer_pass.lists.sort(rec, recorded.layers)?;
-                Source::Lists
-            }
-            None => Source::Draws(before_all(rec)?),
-        };
+        if let Some(room) = &mut recorded.fragments {
+            *room = gbuffer_pass.lists.begin(rec, *room)?;
+            gbuffer_pass.collect(rec, scene, &mut self.draws, (draws, calls), is_cut, &self.count)?;
+        }
+        let first = before_all(rec)?;
         rec.gate = Some(gate);
-        let drawn = self.draw_each(rec, gbuffer_pass, inputs, source, recorded.layers, draw);
+        let drawn = self.draw_each(rec, gbuffer_pass, inputs, recorded, first, draw);
         self.gate = rec.gate.take();
         self.reports.send(rec, self.count.buffer(), recorded);
         if let Some(gate) = &self.gate {
@@ -141,36 +137,28 @@ impl Layers {
         rec: &mut Recorder<'_>,
         gbuffer_pass: &mut GBufferPass,
         inputs: &LayerInputs<'_>,
-        mut source: Source,
-        layers: u32,
+        recorded: Recorded,
+        mut last: [Target; 2],
         mut draw: impl FnMut(&mut Recorder<'_>, u32, &Layer, &PeelCount) -> Result<(), RenderError>,
     ) -> Result<(), RenderError> {
         let LayerInputs { scene, draws, calls, is_cut, .. } = *inputs;
-        for number in 0..layers {
-            let layer = match &mut source {
-                Source::Lists => gbuffer_pass.lists.cut(rec)?,
-                Source::Draws([last_depth, last_order]) => {
-                    let order = rec.target("order", last_order.format())?;
-                    let peel = Peel { last_depth, last_order, order: &order };
+        for number in 0..recorded.layers {
+            let layer = match recorded.by() {
+                LayersBy::Lists => gbuffer_pass.lists.cut(rec, number, &last)?,
+                LayersBy::Peeling => {
+                    let order = rec.target("order", last[1].format())?;
+                    let peel = Peel { last_depth: &last[0], last_order: &last[1], order: &order };
                     let gbuffer =
                         gbuffer_pass.run(rec, scene, &mut self.draws, (draws, calls), is_cut, Some(&peel))?;
-                    (*last_depth, *last_order) = (gbuffer.depth.clone(), order.clone());
                     Layer { gbuffer, order }
                 }
             };
             self.count.count(rec, &layer)?;
             draw(rec, number, &layer, &self.count)?;
+            last = [layer.gbuffer.depth, layer.order];
         }
         Ok(())
     }
-}
-
-/// Where layers come from.
-enum Source {
-    /// Lists that have been sorted.
-    Lists,
-    /// The objects, drawn once more for each layer; depth and order of the last one.
-    Draws([Target; 2]),
 }
 
 /// What of the lines of layers lives across frames.

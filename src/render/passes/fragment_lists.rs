@@ -1,5 +1,5 @@
-//! Fragment lists: all that a group covers, collected per pixel in one traversal of the scene, sorted once, and cut into the
-//! same depth layers as peeling gives (Yang et al. 2010, "Real-Time Concurrent Linked List Construction on the GPU").
+//! Fragment lists: all that a group covers, collected per pixel in one traversal of the scene and cut into the same depth
+//! layers as peeling gives (Yang et al. 2010, "Real-Time Concurrent Linked List Construction on the GPU").
 //!
 //! A list holds as many fragments as there is room for, and all are counted: who finds out later that there were more
 //! makes room and draws again. See `shaders/common/fragments.wgsl`.
@@ -7,25 +7,25 @@
 use super::gbuffer::{GBuffer, ORDER};
 use super::peel::{Layer, PeelCount};
 use crate::gpu::recorder::{Draw, Input, Onto};
-use crate::gpu::{ArrayBuffer, DepthRule, Gpu, GpuError, Program, Recorder};
+use crate::gpu::{DepthRule, Gpu, GpuError, Program, Recorder, Target};
 use crate::render::RenderError;
 
-/// Bytes of a fragment in each of the buffers: how it is linked, what it is, its base colour.
-const BYTES: [u64; 3] = [16, 16, 4];
+/// Bytes of a fragment in each of the buffers: how it is linked, what it is, its base colour, and what lies behind it.
+const BYTES: [u64; 4] = [16, 16, 4, 4];
 
-/// More fragments are never kept: a quarter of a gibibyte and a little.
+/// As many layers are sorted at a time, as in `passes/cut.wgsl`.
+const SORTED: u32 = 8;
+
+/// More fragments are never kept: they take 320 MiB.
 const MOST_FRAGMENTS: u64 = 1 << 23;
-
-/// Pixels per side of a workgroup, as in `passes/sort.wgsl`.
-const GROUP: u32 = 8;
 
 /// Room for the fragments of one group after the other.
 pub struct FragmentLists {
     layout: wgpu::BindGroupLayout,
     heads: wgpu::Buffer,
+    cursors: wgpu::Buffer,
     /// In the order of [`BYTES`].
-    fragments: [wgpu::Buffer; 3],
-    most: ArrayBuffer,
+    fragments: [wgpu::Buffer; BYTES.len()],
     /// The most room that was asked for since the last [`Self::shrink`].
     asked: u64,
 }
@@ -49,8 +49,8 @@ impl FragmentLists {
                 entries: &[0, 1, 2, 3, 4].map(written),
             }),
             heads: create(gpu, "heads of lists", 4),
+            cursors: create(gpu, "next layer of lists", 4),
             fragments: BYTES.map(|bytes| create(gpu, "fragments", bytes)),
-            most: ArrayBuffer::new(gpu, "most fragments"),
             asked: 0,
         }
     }
@@ -58,7 +58,7 @@ impl FragmentLists {
     /// The most fragments that a device can keep; 0 where shaders of fragments cannot write.
     pub fn most(gpu: &Gpu) -> u64 {
         let limits = gpu.device.limits();
-        if !gpu.writes_in_fragments || limits.max_storage_buffers_per_shader_stage < 5 {
+        if !gpu.writes_in_fragments || limits.max_storage_buffers_per_shader_stage < 6 {
             return 0;
         }
         let bytes = limits.max_buffer_size.min(limits.max_storage_buffer_binding_size);
@@ -72,7 +72,7 @@ impl FragmentLists {
 
     /// The bind group that fragments are written through; `count` counts them.
     pub(super) fn group(&self, gpu: &Gpu, count: &PeelCount) -> wgpu::BindGroup {
-        let [links, payloads, colors] = &self.fragments;
+        let [links, payloads, colors, _] = &self.fragments;
         let buffers = [count.buffer(), &self.heads, links, payloads, colors];
         let entries: Vec<_> = (0..)
             .zip(buffers)
@@ -95,6 +95,7 @@ impl FragmentLists {
         gpu.check_buffer_size("the lists of a picture", heads)?;
         if self.heads.size() != heads {
             self.heads = create(gpu, "heads of lists", heads);
+            self.cursors = create(gpu, "next layer of lists", heads);
         }
         rec.encoder.clear_buffer(&self.heads, 0, None);
         self.asked = self.asked.max(fragments);
@@ -116,35 +117,34 @@ impl FragmentLists {
         }
     }
 
-    /// Sorts the lists, of which up to `most` layers are cut after it.
+    /// The layer of this number, from 0 on, which lies behind the last one: its depth and order. Layers are cut one after
+    /// the other.
     ///
     /// # Errors
     /// [`RenderError`].
-    pub fn sort(&mut self, rec: &mut Recorder<'_>, most: u32) -> Result<(), RenderError> {
-        self.most.write(rec.gpu, &vec![most.max(1)]);
-        let [width, height] = rec.size();
-        let program = Program::new("passes/sort.wgsl", "cs_sort");
-        let [links, ..] = &self.fragments;
-        let inputs = [Input::Written(&self.heads), Input::Written(links), Input::Storage(self.most.buffer())];
-        Ok(rec.compute("sort", program, &inputs, [width.div_ceil(GROUP), height.div_ceil(GROUP)])?)
-    }
-
-    /// The nearest layer that has not been cut.
-    ///
-    /// # Errors
-    /// [`RenderError`].
-    pub fn cut(&self, rec: &mut Recorder<'_>) -> Result<Layer, RenderError> {
+    pub fn cut(
+        &self,
+        rec: &mut Recorder<'_>,
+        number: u32,
+        [last_depth, last_order]: &[Target; 2],
+    ) -> Result<Layer, RenderError> {
         let layer = Layer { gbuffer: GBuffer::new(rec)?, order: rec.target("order", ORDER)? };
-        let [links, payloads, colors] = &self.fragments;
+        let [links, payloads, colors, behind] = &self.fragments;
+        let inputs = [
+            Input::Storage(&self.heads),
+            Input::Storage(links),
+            Input::Storage(payloads),
+            Input::Storage(colors),
+            Input::Written(&self.cursors),
+            Input::Written(behind),
+            Input::Texture(last_depth),
+            Input::Texture(last_order),
+        ];
+        let is_first = number % SORTED == 0;
         rec.draw(Draw {
-            label: "cut",
-            program: Program::new("passes/cut.wgsl", "fs_main"),
-            inputs: &[
-                Input::Written(&self.heads),
-                Input::Storage(links),
-                Input::Storage(payloads),
-                Input::Storage(colors),
-            ],
+            label: if is_first { "sort and cut" } else { "cut" },
+            program: Program::new("passes/cut.wgsl", if is_first { "fs_first" } else { "fs_next" }),
+            inputs: &inputs,
             outputs: &[
                 &layer.gbuffer.geometry,
                 &layer.gbuffer.base_color,
