@@ -6,6 +6,12 @@ struct Counted {
     has_ended: u32,
     layers: u32,
     covered: atomic<u32>,
+    uncovered: atomic<u32>,
+    fraction: f32,
+    has_uncovered: u32,
+    masked: u32,
+    hidden: u32,
     fragments: atomic<u32>,
     pixels: array<u32, 64>,
+    passed: array<u32, 64>,
 }

@@ -7,10 +7,18 @@ struct Peeled {
     has_ended: u32,
     // Layers so far.
     layers: u32,
-    // Pixels of the layer that is counted.
+    // Pixels of the layer that is counted, and of the depth mask that pass the depth test against it.
     covered: u32,
+    uncovered: u32,
+    // A layer that leaves this share of the depth mask uncovered, 0 to 1, ends it too; 1: one has.
+    fraction: f32,
+    has_uncovered: u32,
+    // Pixels of the depth mask, and those of them behind opaque surfaces.
+    masked: u32,
+    hidden: u32,
     // Fragments of all lists, those for which there was no room included; 0 without lists.
     fragments: u32,
-    // Pixels of each layer.
+    // Of each layer: its pixels, and those of the mask that pass.
     pixels: array<u32, 64>,
+    passed: array<u32, 64>,
 }

@@ -89,6 +89,9 @@ pub(super) struct LookArgs {
     /// Make the flat objects that match mirrors
     #[arg(long, value_name = "GLOB")]
     pub mirror: Vec<String>,
+    /// Peel blueprints until the objects that match are uncovered (`blueprint.fraction`); they are drawn as surfaces
+    #[arg(long, value_name = "GLOB")]
+    pub mask: Vec<String>,
     /// The axis that is up: +X, -X, +Y, -Y, +Z or -Z
     #[arg(long, value_name = "AXIS", allow_hyphen_values = true)]
     pub up: Option<Up>,

@@ -13,6 +13,8 @@ pub struct View {
     pub show: Show,
     /// Dihedral angle above which an edge separates two surfaces; degrees, 0 to 180.
     pub crease_angle: f32,
+    /// Whether parallel views show how long things are.
+    pub scale_bar: bool,
     /// How many mirrors in a row a line of sight follows, 0 to 8; the nearest whole number counts.
     pub reflections: f32,
     /// How depth layers are made; the picture is the same.
@@ -67,6 +69,7 @@ impl Default for View {
             background: Color([250, 248, 242]),
             show: Show::Picture,
             crease_angle: 30.0,
+            scale_bar: false,
             reflections: 2.0,
             layers: LayersBy::Auto,
         }
@@ -107,6 +110,12 @@ impl View {
                 "Layers by",
                 "How the depth layers of blueprints are made: from lists of fragments, which is faster but takes memory, or by peeling.",
                 &mut self.layers,
+            );
+            list.switch(
+                "scale_bar",
+                "Scale bar",
+                "Shows how long things are; in parallel projection only.",
+                &mut self.scale_bar,
             );
             list.choice("show", "Show", "The picture, or a buffer that it is made from.", &mut self.show);
         });

@@ -5,7 +5,7 @@
 //!            │┌──────────────────────────────────────────────┐
 //!            ▼▼                                              │
 //! (draws ─►) layer i ─► count ─► what the caller makes of it ─┘
-//!                       └─► gate: too few pixels shut it, and nothing after that runs
+//!                       └─► gate: too few pixels shut it, or enough of the depth mask, and nothing after that runs
 //! ```
 //!
 //! How many layers are recorded, and how much room there is for fragments, is guessed from reports about earlier pictures;
@@ -21,6 +21,7 @@ use crate::geometry::LineSegment;
 use crate::gpu::{ArrayBuffer, DynamicBuffer, Gate, Gpu, Recorder, Reports, Target};
 use crate::render::RenderError;
 use crate::render::gpu_scene::GpuScene;
+use crate::render::passes::depth_mask::DepthMask;
 use crate::render::passes::edge_map::{EdgeInputs, EdgeMap, EdgeMapPass};
 use crate::render::passes::edge_style::EdgeUniform;
 use crate::render::passes::gbuffer::{DrawCall, DrawUniform, GBufferPass};
@@ -47,6 +48,10 @@ pub struct LayerInputs<'a> {
     pub most: u32,
     /// It ends before a layer of fewer pixels, at the latest before an empty one.
     pub least: u32,
+    /// The designated objects: it ends with the layer that leaves `fraction` (0 to 1) of them uncovered.
+    pub mask: Option<&'a DepthMask>,
+    /// See `mask`.
+    pub fraction: f32,
     /// How layers are to be made.
     pub by: document::LayersBy,
 }
@@ -113,7 +118,7 @@ impl Layers {
         draw: impl FnMut(&mut Recorder<'_>, u32, &Layer, &PeelCount) -> Result<(), RenderError>,
     ) -> Result<(), RenderError> {
         let LayerInputs { scene, draws, calls, is_cut, .. } = *inputs;
-        self.count.begin(rec.gpu, inputs.least.max(1));
+        self.count.begin(rec.gpu, inputs.least.max(1), inputs.fraction);
         let mut recorded = self.room.plan(rec.gpu, rec.size(), inputs.most.min(MOST_LAYERS), inputs.by);
         let mut gate = self.gate.take().unwrap_or_else(|| Gate::new(rec.gpu));
         gate.clear(rec.gpu, calls.len() + PASSES)?;
@@ -141,7 +146,7 @@ impl Layers {
         mut last: [Target; 2],
         mut draw: impl FnMut(&mut Recorder<'_>, u32, &Layer, &PeelCount) -> Result<(), RenderError>,
     ) -> Result<(), RenderError> {
-        let LayerInputs { scene, draws, calls, is_cut, .. } = *inputs;
+        let LayerInputs { scene, draws, calls, is_cut, mask, .. } = *inputs;
         for number in 0..recorded.layers {
             let layer = match recorded.by() {
                 LayersBy::Lists => gbuffer_pass.lists.cut(rec, number, &last)?,
@@ -153,8 +158,11 @@ impl Layers {
                     Layer { gbuffer, order }
                 }
             };
-            self.count.count(rec, &layer)?;
+            self.count.count(rec, &layer, mask)?;
             draw(rec, number, &layer, &self.count)?;
+            if let Some(mask) = mask {
+                self.count.end_where_uncovered(rec, &layer, mask)?;
+            }
             last = [layer.gbuffer.depth, layer.order];
         }
         Ok(())
@@ -179,6 +187,8 @@ pub struct LayerLinesInputs<'a> {
     pub has_holes: bool,
     /// Whether what lies behind a plane is left out.
     pub is_cut: bool,
+    /// See [`EdgeInputs::before`].
+    pub before: Option<[&'a Target; 2]>,
     /// Whether a line is drawn again where a nearer layer has one at the same place (Fig. 5).
     pub repeated: bool,
 }
@@ -252,6 +262,7 @@ impl LayerLines {
                 has_holes: inputs.has_holes,
                 is_cut: inputs.is_cut,
                 is_layer: true,
+                before: inputs.before,
                 shadow_mask: None,
             },
         )?;

@@ -12,6 +12,7 @@ pub mod lights;
 pub mod passes;
 mod renderer;
 pub mod sample;
+pub mod scale_bar;
 mod segments;
 pub mod shadows;
 pub mod stage;

@@ -13,6 +13,7 @@ use super::layers::{LayersBy, Reported};
 use super::lights::Lights;
 use super::passes::accumulate::Subject;
 use super::passes::peel::Peeled;
+use super::scale_bar::ScaleBar;
 use super::style_images::StyleImages;
 use crate::document::Document;
 use crate::geometry::Topology;
@@ -258,6 +259,9 @@ impl Renderer {
         let frame = self.state.drawing().frame_group().clone();
         let mut recorder = Recorder::new(&self.gpu, &mut self.pipelines, &mut self.pool, timers, frame, size);
         let lights = Lights::new(request.document, &scene.scene, &view.view_from_world);
+        let metres = request.document.metres_per_unit(&scene.scene);
+        let shows_bar = request.document.view.scale_bar;
+        let bar = shows_bar.then(|| ScaleBar::new(request.camera, metres, size, scale, paper)).flatten();
         let inputs = FrameInputs {
             drawing: DrawingInputs {
                 scene,
@@ -274,6 +278,7 @@ impl Renderer {
                 reflections: request.document.view.reflections.round().clamp(0.0, 8.0) as u32,
             },
             show: request.document.view.show,
+            scale_bar: bar.as_ref(),
             selected: request.selected,
         };
         // The old picture's textures may be drawn into again.

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use glam::{DMat4, DQuat, DVec3, Vec3};
+use hachure::document::Role;
 use hachure::export::session::{Opened, open};
 use hachure::geometry::{Mesh, primitives};
 use hachure::import::Progress;
@@ -173,13 +174,13 @@ fn a_mirror_cuts_off_the_same() {
     let mut opened = blueprint(opened(&scene, DVec3::new(0.6, 0.4, 1.0)));
     let technique = hachure::style::Value::parse("plain");
     opened.document.set_for(&scene, &[0], "technique", &technique).unwrap();
-    opened.document.set_mirror(&scene, &[0], true);
+    opened.document.set_role(&scene, &[0], Role::Mirror, true);
     let mut session = session();
     let images = ["peeling", "lists"].map(|by| {
         set(&mut opened, "view.layers", by);
         common::image(&mut session, &opened, 96)
     });
     assert!(images[0] == images[1]);
-    opened.document.set_mirror(&scene, &[0], false);
+    opened.document.set_role(&scene, &[0], Role::Mirror, false);
     assert!(common::image(&mut session, &opened, 96) != images[0], "the mirror shows something");
 }

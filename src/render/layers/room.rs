@@ -106,7 +106,7 @@ mod tests {
     fn peeled(layers: u32, has_ended: bool, fragments: u32) -> Peeled {
         let mut pixels = [0; 64];
         pixels[..layers as usize].fill(100);
-        Peeled { least: 1, has_ended: u32::from(has_ended), layers, covered: 0, fragments, pixels }
+        Peeled { has_ended: u32::from(has_ended), layers, fragments, pixels, ..Peeled::begun(1, 1.0) }
     }
 
     #[test]
