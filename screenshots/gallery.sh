@@ -95,6 +95,10 @@ draw blueprint "$crank" --style blueprint
 draw blueprint_temple assets/models/temple.glb --style blueprint --object-style '/temple/statues*=technical-illustration' \
 	--set blueprint.layers=16 --set 'blueprint.opacity=0.03' --camera-azimuth-angle 35 --camera-elevation-angle 35
 
+# Hidden lines of surfaces.
+draw hidden_lines "$crank" --style hidden-lines --set edges.hidden.layers=next
+draw x_ray assets/models/temple.glb --style x-ray --camera-azimuth-angle 35 --camera-elevation-angle 30
+
 # Shadows in each technique.
 for style in plain gooch comic engraving newspaper; do
 	draw "shadows_$style" "$ogre" --style "$style" --set light.shadows=true --set light.key.azimuth=-55 \

@@ -25,6 +25,8 @@ const PICTURES: &[(&str, &str, &[&str])] = &[
     ("gooch_crank", "crank", &["--style", "gooch"]),
     ("gooch_ogre", "ogre", &["--style", "gooch"]),
     ("blueprint_crank", "crank", &["--style", "blueprint"]),
+    ("hidden_lines_crank", "crank", &["--style", "hidden-lines", "--set", "edges.hidden.layers=next"]),
+    ("x_ray_ogre", "ogre", &["--style", "x-ray"]),
     ("comic_ogre", "ogre", &["--style", "comic"]),
     ("two_tone_crank", "crank", &["--style", "two-tone"]),
     ("plain_crank", "crank", &["--style", "plain"]),
