@@ -2,6 +2,7 @@
 // paper, section 4.2).
 #import passes/lines.wgsl
 #import common/peeled.wgsl
+#import common/cap.wgsl
 
 // Twin: `BlueprintUniform` in src/render/effects/blueprint.rs.
 struct Blueprint {
@@ -21,6 +22,12 @@ struct Blueprint {
 // Where nearer layers have lines; see passes/repeated.wgsl.
 @group(1) @binding(9) var seen_tex: texture_2d<u32>;
 
+// What tells caps of a section, and those by object id.
+@group(1) @binding(10) var region_tex: texture_2d<u32>;
+@group(1) @binding(11) var<storage, read> caps: array<Cap>;
+
+// Whether any object has a cap.
+override WITH_CAPS: bool = false;
 // Whether ink of the papers' operators is left out where nearer layers have some.
 override WITHOUT_REPEATED: bool = false;
 
@@ -54,8 +61,17 @@ fn fs_lines(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
 fn fs_fill(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     let px = vec2<i32>(position.xy);
     let surface = surface_at(px);
-    if surface.object != 0u && surface.depth < unpack_surfel(geometry_at(px)).depth {
+    let layer = unpack_surfel(geometry_at(px));
+    if surface.object != 0u && surface.depth < layer.depth {
         discard;
     }
-    return vec4(blueprints[0].fill, 1.0) * blueprints[0].opacity;
+    let fill = vec4(blueprints[0].fill, 1.0) * blueprints[0].opacity;
+    if !WITH_CAPS || caps[layer.object].region == 0u
+        || textureLoad(region_tex, px, 0).x != caps[layer.object].region {
+        return fill;
+    }
+    let cap = caps[layer.object];
+    let ink = select(hatched_share(cap, px), 1.0, cap.width <= 0.0);
+    let pen = vec4(mix(blueprints[0].near, blueprints[0].far, faded(layer.depth)), 1.0);
+    return over(pen * ink, fill);
 }

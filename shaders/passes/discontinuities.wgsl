@@ -12,7 +12,7 @@
 // 1 where a segment is, 0.5 where it is a crease that is not drawn.
 @group(1) @binding(3) var mark_tex: texture_2d<f32>;
 
-// Whether what lies behind a plane is left out.
+// Whether what lies behind a mirror's plane is left out. Where the section plane cuts, there are segments.
 override WITH_CUT: bool = false;
 
 // A step in depth, in pixels, from which two surfaces do not touch.

@@ -4,9 +4,9 @@ use std::thread::JoinHandle;
 
 use serde_json::json;
 
-use super::args::{CameraArgs, LookArgs, RenderArgs};
+use super::args::{CameraArgs, LookArgs, RenderArgs, SectionAt};
 use super::{CliError, print_json};
-use crate::document::{Document, Pattern};
+use crate::document::{Document, Pattern, Section};
 use crate::export::session::{OpenError, Opened, initial_camera, open};
 use crate::export::{Session, save_png};
 use crate::gpu::{Gpu, GpuError};
@@ -107,6 +107,9 @@ pub(super) fn apply_look(opened: &mut Opened, look: &LookArgs) -> Result<(), Cli
     for assignment in &look.object_style {
         let style = preset::load(&assignment.style)?.style;
         document.set_style(scene, &matching(scene, &assignment.pattern)?, &style);
+    }
+    if let Some(SectionAt { axis, position }) = look.section {
+        document.section = Section { show: true, axis, position, ..document.section.clone() };
     }
     for setting in &look.set {
         match &setting.pattern {

@@ -4,7 +4,10 @@ use std::sync::{Arc, OnceLock};
 
 use glam::{DMat4, DVec3};
 
-use crate::geometry::{Bounds, FeatureEdges, NotFlat, Plane, Topology};
+use super::groups::Source;
+use super::section::{Part, Section};
+use crate::document::Document;
+use crate::geometry::{Bounds, FeatureEdges, NotFlat, Plane, Topology, Weld};
 use crate::gpu::geometry::MeshSource;
 use crate::gpu::{GeometryBuffers, Gpu, GpuError, MaterialBindings};
 use crate::scene::{AlphaMode, NodeId, Scene};
@@ -22,8 +25,12 @@ pub struct GpuScene {
     pub mesh_bounds: Vec<Bounds>,
     /// The edges of each mesh that may become lines; empty until topology is known.
     pub edges: Vec<Arc<FeatureEdges>>,
+    /// Which vertices of each mesh are one point; empty until topology is known.
+    pub welds: Vec<Arc<Weld>>,
     /// Per mesh, whether it is solid; empty until topology is known.
     is_solid: Vec<bool>,
+    /// Where it is cut open, if it is.
+    pub section: Option<Section>,
     /// The plane of each mesh, once somebody asked for it.
     planes: Arc<[OnceLock<Result<Plane, NotFlat>>]>,
 }
@@ -44,7 +51,9 @@ impl GpuScene {
             materials: MaterialBindings::new(gpu, material_layout, scene)?,
             mesh_bounds: scene.meshes.iter().map(|m| m.bounds()).collect(),
             edges: edges(topology),
+            welds: welds(topology),
             is_solid: topology.iter().map(|t| t.is_solid).collect(),
+            section: None,
             planes: scene.meshes.iter().map(|_| OnceLock::new()).collect(),
             scene: Arc::clone(scene),
         })
@@ -54,7 +63,17 @@ impl GpuScene {
     pub fn set_topology(&mut self, uploaded: UploadedTopology) {
         self.geometry = uploaded.geometry;
         self.edges = uploaded.edges;
+        self.welds = uploaded.welds;
+        self.section = None;
         self.is_solid = uploaded.is_solid;
+    }
+
+    /// The vertices of a kind; `None` when there are none.
+    pub fn geometry_of(&self, source: Source) -> Option<&GeometryBuffers> {
+        match source {
+            Source::Model => Some(&self.geometry),
+            Source::Caps => self.section.as_ref()?.geometry.as_ref(),
+        }
     }
 
     /// Whether a mesh is known to enclose a volume.
@@ -62,14 +81,47 @@ impl GpuScene {
         self.is_solid.get(mesh).copied().unwrap_or(false)
     }
 
-    /// Which side of a node's triangles nobody can see: solid meshes wholly before the eye show no back face.
+    /// Cuts it open as a document asks for. Returns whether that changed anything.
+    ///
+    /// # Errors
+    /// [`GpuError::TooLarge`].
+    pub fn cut(&mut self, gpu: &Gpu, document: &Document) -> Result<bool, GpuError> {
+        let section = Section::new(gpu, document, self, self.section.as_ref())?;
+        let is_same = match (&section, &self.section) {
+            (Some(new), Some(old)) => new.is_same_cut(old),
+            (new, old) => new.is_none() && old.is_none(),
+        };
+        self.section = section;
+        Ok(!is_same)
+    }
+
+    /// Whether a section leaves nothing of a node's mesh.
+    pub fn is_cut_away(&self, node: NodeId) -> bool {
+        self.section.as_ref().is_some_and(|section| *section.part(node) == Part::Gone)
+    }
+
+    /// Whether a node shows no inside: its mesh encloses a volume, and where it is cut open it has a cap.
+    pub fn shows_no_inside(&self, node: NodeId) -> bool {
+        let opened = self.section.as_ref().and_then(|section| section.opened(node));
+        self.scene.nodes[node].mesh.is_some_and(|mesh| self.is_solid(mesh))
+            && opened.is_none_or(|opened| opened.cap.is_some())
+    }
+
+    /// Number of triangles of a node's mesh.
+    pub fn triangle_count(&self, node: NodeId) -> u32 {
+        let mesh = self.scene.nodes[node].mesh.and_then(|m| self.scene.meshes.get(m));
+        mesh.map_or(0, |mesh| mesh.triangle_count() as u32)
+    }
+
+    /// Which side of a node's triangles nobody can see: solids wholly before the eye show no back face.
     pub fn hidden_side(
         &self,
-        mesh: usize,
+        node: NodeId,
         view_from_local: &DMat4,
         orthographic: bool,
     ) -> Option<wgpu::Face> {
-        let is_solid = self.is_solid(mesh);
+        let is_solid = self.shows_no_inside(node);
+        let mesh = self.scene.nodes[node].mesh.unwrap_or(usize::MAX);
         let is_before_the_eye = orthographic
             || self.mesh_bounds.get(mesh).is_some_and(|b| b.transformed(view_from_local).max.z < 0.0);
         let mirrored = view_from_local.determinant() < 0.0;
@@ -124,11 +176,16 @@ impl GpuScene {
 pub struct UploadedTopology {
     geometry: GeometryBuffers,
     edges: Vec<Arc<FeatureEdges>>,
+    welds: Vec<Arc<Weld>>,
     is_solid: Vec<bool>,
 }
 
 fn edges(topology: &[Topology]) -> Vec<Arc<FeatureEdges>> {
     topology.iter().map(|t| Arc::clone(&t.edges)).collect()
+}
+
+fn welds(topology: &[Topology]) -> Vec<Arc<Weld>> {
+    topology.iter().map(|t| Arc::clone(&t.weld)).collect()
 }
 
 /// Uploads scenes, from any thread: large ones take longer than a window may wait. Clones share the device.
@@ -160,6 +217,7 @@ impl Uploader {
         Ok(UploadedTopology {
             geometry: upload(&self.gpu, scene, topology)?,
             edges: edges(topology),
+            welds: welds(topology),
             is_solid: topology.iter().map(|t| t.is_solid).collect(),
         })
     }

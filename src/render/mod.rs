@@ -11,6 +11,7 @@ pub mod lights;
 pub mod passes;
 mod renderer;
 pub mod sample;
+pub mod section;
 mod segments;
 pub mod shadows;
 pub mod stage;

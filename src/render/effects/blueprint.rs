@@ -21,6 +21,7 @@ use crate::gpu::recorder::{Draw, Input, Onto};
 use crate::gpu::{ArrayBuffer, DepthRule, DynamicBuffer, Gate, Gpu, Program, Recorder, Target};
 use crate::render::RenderError;
 use crate::render::drawing::DrawingInputs;
+use crate::render::effects::section::{CapUniform, caps};
 use crate::render::frame_uniform::FrameUniform;
 use crate::render::groups::Group;
 use crate::render::passes::edge_map::{EdgeInputs, EdgeMapPass};
@@ -124,6 +125,7 @@ struct Inputs {
     uniform: FrameUniform,
     part: Option<[u32; 4]>,
     crease_angle: f32,
+    caps: Vec<CapUniform>,
     keeps_layers: bool,
 }
 
@@ -134,6 +136,7 @@ pub struct Blueprints {
     edge_styles: ArrayBuffer,
     greatest_radius: ArrayBuffer,
     style: ArrayBuffer,
+    caps: ArrayBuffer,
     gate: Option<Gate>,
     count: PeelCount,
     stage: Stage<Inputs, Peels>,
@@ -148,6 +151,7 @@ impl Blueprints {
             edge_styles: ArrayBuffer::new(gpu, "edge styles of a blueprint"),
             greatest_radius: ArrayBuffer::new(gpu, "greatest radius"),
             style: ArrayBuffer::new(gpu, "blueprint"),
+            caps: ArrayBuffer::new(gpu, "caps"),
             gate: None,
             count: PeelCount::new(gpu),
             stage: Stage::default(),
@@ -187,12 +191,16 @@ impl Blueprints {
             uniform: uniform.without_background(),
             part: inputs.view.part,
             crease_angle: inputs.crease_angle,
+            caps: caps(inputs.scene, inputs.view, inputs.objects.scale),
             keeps_layers: inputs.keeps_layers,
         };
-        let Self { draws, edge_map_pass, edge_styles, greatest_radius, style, gate, count, stage } = self;
+        let Self { draws, edge_map_pass, edge_styles, greatest_radius, style, caps, gate, count, stage } = self;
         stage.run(asked, |asked| {
             edge_styles.write(rec.gpu, &blueprint.group.edge_styles);
             style.write(rec.gpu, &vec![BlueprintUniform::from(&blueprint.style)]);
+            if !asked.caps.is_empty() {
+                caps.write(rec.gpu, &asked.caps);
+            }
             count.begin(rec.gpu, blueprint.least(rec.size()));
             let mut own = gate.take().unwrap_or_else(|| Gate::new(rec.gpu));
             own.clear(rec.gpu, asked.calls.len() + PASSES)?;
@@ -209,6 +217,7 @@ impl Blueprints {
                 edge_styles,
                 greatest_radius,
                 style,
+                caps,
                 count,
                 front: None,
                 kept: Vec::new(),
@@ -240,6 +249,7 @@ struct Peeling<'a> {
     edge_styles: &'a ArrayBuffer,
     greatest_radius: &'a mut ArrayBuffer,
     style: &'a ArrayBuffer,
+    caps: &'a ArrayBuffer,
     count: &'a PeelCount,
     front: Option<Target>,
     kept: Vec<Layer>,
@@ -258,7 +268,7 @@ impl Peeling<'_> {
             let order = rec.target("order", last_order.format())?;
             let peel = Peel { last_depth: &last_depth, last_order: &last_order, order: &order };
             let drawn = (self.asked.draws.as_slice(), self.asked.calls.as_slice());
-            let is_cut = self.inputs.view.cut.is_some();
+            let is_cut = self.inputs.view.has_cuts();
             let gbuffer =
                 self.gbuffer_pass.run(rec, self.inputs.scene, self.draws, drawn, is_cut, Some(&peel))?;
             let layer = Layer { gbuffer, order };
@@ -341,9 +351,10 @@ impl Peeling<'_> {
         ]
     }
 
-    /// Draws the surfaces of a layer beneath what is there.
+    /// Draws the surfaces of a layer beneath what is there, caps with the pen of its lines.
     fn fill(&self, rec: &mut Recorder<'_>, layer: &Layer, color: &Target) -> Result<(), RenderError> {
-        if self.asked.blueprint.style.opacity <= 0.0 {
+        let has_caps = !self.asked.caps.is_empty();
+        if self.asked.blueprint.style.opacity <= 0.0 && !has_caps {
             return Ok(());
         }
         // Of the lines' bindings only the first is read: any texture of their kind.
@@ -356,9 +367,14 @@ impl Peeling<'_> {
             Input::Storage(self.edge_styles.buffer()),
         ];
         inputs.extend(self.sprite(&layer.order));
+        inputs.extend([Input::Texture(&layer.gbuffer.region), Input::Storage(self.caps.buffer())]);
         rec.draw(Draw {
             label: "fill",
-            program: Program::new("effects/blueprint.wgsl", "fs_fill"),
+            program: Program {
+                file: "effects/blueprint.wgsl",
+                entry_point: "fs_fill",
+                switches: vec![("WITH_CAPS", has_caps)],
+            },
             inputs: &inputs,
             outputs: &[color],
             onto: Onto::Beneath,

@@ -4,5 +4,6 @@ pub mod blueprint;
 pub mod gooch;
 pub mod halftone;
 pub mod mirror;
+pub mod section;
 pub mod surface;
 pub mod toon;

@@ -13,6 +13,7 @@ use crate::gpu::recorder::color_attachment;
 use crate::gpu::{DynamicBuffer, Gpu, MaterialBindings, Pipelines, Recorder, Target};
 use crate::render::RenderError;
 use crate::render::gpu_scene::GpuScene;
+use crate::render::groups::Source;
 
 /// Shading and face normal, linear depth, object id: see `shaders/common/gbuffer.wgsl`.
 const GEOMETRY: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Uint;
@@ -69,6 +70,8 @@ pub enum Detail {
 /// One draw call.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DrawCall {
+    /// Where its vertices are.
+    pub source: Source,
     /// Index of its uniform.
     pub draw: u32,
     /// Range of the index buffer.
@@ -197,14 +200,18 @@ impl GBufferPass {
         if let Some(layer) = &layer {
             pass.set_bind_group(3, layer, &[]);
         }
-        pass.set_vertex_buffer(0, scene.geometry.positions.slice(..));
-        pass.set_vertex_buffer(1, scene.geometry.surfaces.slice(..));
-        if let Some(attributes) = &scene.geometry.attributes {
-            pass.set_vertex_buffer(2, attributes.slice(..));
-        }
-        pass.set_index_buffer(scene.geometry.indices.slice(..), wgpu::IndexFormat::Uint32);
-        let (mut bound, mut material) = (None, None);
+        let (mut source, mut bound, mut material) = (None, None, None);
         for (call, gated) in calls.iter().zip(&gated) {
+            if source != Some(call.source) {
+                let Some(geometry) = scene.geometry_of(call.source) else { continue };
+                pass.set_vertex_buffer(0, geometry.positions.slice(..));
+                pass.set_vertex_buffer(1, geometry.surfaces.slice(..));
+                if let Some(attributes) = &geometry.attributes {
+                    pass.set_vertex_buffer(2, attributes.slice(..));
+                }
+                pass.set_index_buffer(geometry.indices.slice(..), wgpu::IndexFormat::Uint32);
+                source = Some(call.source);
+            }
             let key = variant(call);
             if bound != Some(key) {
                 let Some(pipeline) = self.pipelines.get(&key) else { continue };

@@ -4,13 +4,14 @@
 use std::collections::HashMap;
 
 use encase::ShaderType;
-use glam::Mat4;
+use glam::{Mat4, Vec4};
 
 use crate::gpu::geometry::Attributes;
 use crate::gpu::material::MaterialUniform;
 use crate::gpu::{DynamicBuffer, Gpu, Pipelines, Recorder, Target};
 use crate::render::RenderError;
 use crate::render::gpu_scene::GpuScene;
+use crate::render::groups::Source;
 use crate::render::light_view::LightView;
 
 /// Reversed: 1 nearest to the light, 0 where it meets nothing.
@@ -23,11 +24,15 @@ pub struct ShadowDraw {
     pub clip_from_local: Mat4,
     /// What it is made of, for its holes.
     pub material: MaterialUniform,
+    /// What lies behind the section plane is left out: local space, its product with (point, 1) is the distance before it.
+    pub section: Vec4,
 }
 
 /// One draw call.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ShadowCall {
+    /// Where its vertices are.
+    pub source: Source,
     /// Index of its uniform.
     pub draw: u32,
     /// Number of the light's picture in which it is seen.
@@ -42,6 +47,8 @@ pub struct ShadowCall {
     pub material_group: usize,
     /// Whether light falls through holes.
     pub has_holes: bool,
+    /// Whether the section plane cuts it open.
+    pub is_cut: bool,
     /// The side of its triangles that is left out.
     pub hidden_side: Option<wgpu::Face>,
 }
@@ -59,7 +66,19 @@ pub struct ShadowScene {
     pub side: u32,
 }
 
-type Key = (bool, Option<wgpu::Face>);
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+struct Key {
+    has_holes: bool,
+    is_cut: bool,
+    hidden_side: Option<wgpu::Face>,
+}
+
+impl From<&ShadowCall> for Key {
+    fn from(call: &ShadowCall) -> Self {
+        let ShadowCall { has_holes, is_cut, hidden_side, .. } = *call;
+        Self { has_holes, is_cut, hidden_side }
+    }
+}
 
 /// The pipelines of the pass, made when first needed, and room for the draws of one map.
 pub struct ShadowMapPass {
@@ -114,7 +133,7 @@ impl ShadowMapPass {
         let map = rec.target_of("shadow map", DEPTH, [seen.side, seen.side])?;
         let gpu = rec.gpu;
         for call in &seen.calls {
-            self.prepare(gpu, rec.pipelines, material_layout, (call.has_holes, call.hidden_side))?;
+            self.prepare(gpu, rec.pipelines, material_layout, call.into())?;
         }
         self.draws.write(gpu, &seen.draws)?;
         let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
@@ -128,14 +147,18 @@ impl ShadowMapPass {
             stencil_ops: None,
         };
         let mut pass = rec.pass("shadow map", &[], Some(depth));
-        pass.set_vertex_buffer(0, scene.geometry.positions.slice(..));
-        if let Some(attributes) = &scene.geometry.attributes {
-            pass.set_vertex_buffer(1, attributes.slice(..));
-        }
-        pass.set_index_buffer(scene.geometry.indices.slice(..), wgpu::IndexFormat::Uint32);
-        let (mut bound, mut material, mut view) = (None, None, None);
+        let (mut source, mut bound, mut material, mut view) = (None, None, None, None);
         for call in &seen.calls {
-            let key = (call.has_holes, call.hidden_side);
+            if source != Some(call.source) {
+                let Some(geometry) = scene.geometry_of(call.source) else { continue };
+                pass.set_vertex_buffer(0, geometry.positions.slice(..));
+                if let Some(attributes) = &geometry.attributes {
+                    pass.set_vertex_buffer(1, attributes.slice(..));
+                }
+                pass.set_index_buffer(geometry.indices.slice(..), wgpu::IndexFormat::Uint32);
+                source = Some(call.source);
+            }
+            let key = Key::from(call);
             if bound != Some(key) {
                 let Some(pipeline) = self.pipelines.get(&key) else { continue };
                 pass.set_pipeline(pipeline);
@@ -164,7 +187,7 @@ fn build(
     gpu: &Gpu,
     module: &wgpu::ShaderModule,
     layouts: &[&wgpu::BindGroupLayout; 3],
-    (has_holes, hidden_side): Key,
+    Key { has_holes, is_cut, hidden_side }: Key,
 ) -> wgpu::RenderPipeline {
     let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
         label: Some("shadow map"),
@@ -182,7 +205,11 @@ fn build(
         layout: Some(&layout),
         vertex: wgpu::VertexState {
             module,
-            entry_point: Some(if has_holes { "vs_holes" } else { "vs_main" }),
+            entry_point: Some(match (has_holes, is_cut) {
+                (true, _) => "vs_holes",
+                (false, true) => "vs_cut",
+                (false, false) => "vs_main",
+            }),
             compilation_options: wgpu::PipelineCompilationOptions::default(),
             buffers: if has_holes { &buffers } else { &buffers[..1] },
         },
@@ -195,9 +222,9 @@ fn build(
             bias: wgpu::DepthBiasState::default(),
         }),
         multisample: wgpu::MultisampleState::default(),
-        fragment: has_holes.then(|| wgpu::FragmentState {
+        fragment: (has_holes || is_cut).then(|| wgpu::FragmentState {
             module,
-            entry_point: Some("fs_holes"),
+            entry_point: Some(if has_holes { "fs_holes" } else { "fs_cut" }),
             compilation_options: wgpu::PipelineCompilationOptions::default(),
             targets: &[],
         }),

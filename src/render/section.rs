@@ -1,0 +1,220 @@
+//! The section of a scene: which objects a plane cuts, where, and the caps of the solids among them, on the device.
+
+use std::sync::Arc;
+
+use glam::{DMat4, DVec3, DVec4};
+use rayon::prelude::*;
+
+use super::gpu_scene::GpuScene;
+use crate::document::Document;
+use crate::document::section::{Fill, Section as Style};
+use crate::geometry::section::{Cap, Contour, cap, contours};
+use crate::geometry::{Bounds, Mesh, MeshPart, Plane, Provoking};
+use crate::gpu::geometry::{MeshRange, MeshSource};
+use crate::gpu::{GeometryBuffers, Gpu, GpuError};
+use crate::scene::NodeId;
+
+/// So far before the plane caps lie; share of the diagonal of everything. What lies less than half of that before the
+/// plane is cut away, so that caps are not, and faces in the plane are.
+const MARGIN: f64 = 1e-5;
+
+/// What becomes of an object.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Part {
+    /// The plane leaves all of it.
+    Whole,
+    /// The plane leaves nothing of it.
+    Gone,
+    /// The plane cuts it open.
+    Open(Opened),
+}
+
+/// An object that is cut open.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Opened {
+    /// Where; empty while topology is not known.
+    pub contours: Vec<Contour>,
+    /// Its cap, if it has one.
+    pub cap: Option<PlacedCap>,
+}
+
+/// A cap on the device.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PlacedCap {
+    /// Where its vertices lie.
+    pub range: MeshRange,
+    /// Number of its indices.
+    pub index_count: u32,
+    /// Its surface, which no triangle of the object has.
+    pub surface: u32,
+    /// The box around it, in the plane's coordinates.
+    pub bounds: Bounds,
+    /// A small number; objects that may touch each other have different ones.
+    pub pattern: u32,
+}
+
+/// What the cuts depend on.
+#[derive(Debug, Clone, PartialEq)]
+struct Key {
+    plane: Plane,
+    right: DVec3,
+    has_caps: bool,
+    visible: Vec<NodeId>,
+}
+
+/// A section of a scene. Clones share it.
+#[derive(Clone)]
+pub struct Section {
+    /// How it looks.
+    pub style: Style,
+    /// What lies behind this plane is cut away: world space, its product with (point, 1) is the distance before it.
+    pub plane: DVec4,
+    /// Where caps and contours lie: x and y run in their plane, z points to what is cut away.
+    pub world_from_plane: DMat4,
+    /// Vertices of the caps; `None` when there are none.
+    pub geometry: Option<GeometryBuffers>,
+    parts: Arc<Vec<Part>>,
+    key: Key,
+}
+
+impl Section {
+    /// The section that a document asks for, if it does. `last` is given back where it is still right.
+    ///
+    /// # Errors
+    /// [`GpuError::TooLarge`].
+    pub fn new(
+        gpu: &Gpu,
+        document: &Document,
+        scene: &GpuScene,
+        last: Option<&Self>,
+    ) -> Result<Option<Self>, GpuError> {
+        let style = &document.section;
+        let up = document.up(&scene.scene);
+        // Of all objects: hiding one does not move the plane.
+        let nodes = 0..scene.scene.nodes.len();
+        let bounds = nodes.fold(Bounds::EMPTY, |all, node| all.union(&scene.bounds_of(node)));
+        let Some(plane) = style.plane(up, &bounds) else { return Ok(None) };
+        let resolved = document.resolve(&scene.scene);
+        let is_object = |node: &NodeId| scene.scene.nodes[*node].mesh.is_some();
+        let key = Key {
+            plane,
+            right: up.vector().cross(plane.normal).try_normalize().unwrap_or(up.vector().cross(up.front())),
+            has_caps: style.cap != Fill::None,
+            visible: (0..resolved.len()).filter(|&n| resolved[n].visible).filter(is_object).collect(),
+        };
+        if let Some(last) = last.filter(|last| last.key == key) {
+            return Ok(Some(Self { style: style.clone(), ..last.clone() }));
+        }
+        Self::cut(gpu, scene, style, bounds.diagonal() * MARGIN, key).map(Some)
+    }
+
+    fn cut(gpu: &Gpu, scene: &GpuScene, style: &Style, margin: f64, key: Key) -> Result<Self, GpuError> {
+        let caps_at = Plane { point: key.plane.point - key.plane.normal * margin, ..key.plane };
+        let world_from_plane = caps_at.world_from_plane(key.right);
+        let plane_from_world = world_from_plane.inverse();
+        let found: Vec<_> = key
+            .visible
+            .par_iter()
+            .with_max_len(1)
+            .map(|&node| open(scene, node, &plane_from_world, key.has_caps))
+            .collect();
+        let mut parts = vec![Part::Whole; scene.scene.nodes.len()];
+        let (mut meshes, mut capped) = (Vec::new(), Vec::new());
+        for (&node, (part, cap)) in key.visible.iter().zip(found) {
+            if let Some(cap) = cap {
+                let surface = scene.triangle_count(node);
+                meshes.push(mesh_of(&cap, surface));
+                capped.push((node, surface));
+            }
+            parts[node] = part;
+        }
+        let sources: Vec<_> = meshes.iter().map(|(mesh, surfaces)| MeshSource { mesh, surfaces: Some(surfaces) }).collect();
+        let geometry = if sources.is_empty() { None } else { Some(GeometryBuffers::new(gpu, &sources)?) };
+        let patterns = patterns(scene, &key.visible, margin);
+        let ranges = geometry.iter().flat_map(|g| &g.meshes);
+        for (((node, surface), (mesh, _)), &range) in capped.into_iter().zip(&meshes).zip(ranges) {
+            if let Part::Open(opened) = &mut parts[node] {
+                let index_count = mesh.indices.len() as u32;
+                let pattern = patterns.get(node).copied().unwrap_or(0);
+                opened.cap = Some(PlacedCap { range, index_count, surface, bounds: mesh.bounds(), pattern });
+            }
+        }
+        let plane = -(key.plane.equation() + DVec4::W * (0.5 * margin));
+        Ok(Self { style: style.clone(), plane, world_from_plane, geometry, parts: Arc::new(parts), key })
+    }
+
+    /// What becomes of an object.
+    pub fn part(&self, node: NodeId) -> &Part {
+        self.parts.get(node).unwrap_or(&Part::Whole)
+    }
+
+    /// An object, if it is cut open.
+    pub fn opened(&self, node: NodeId) -> Option<&Opened> {
+        match self.part(node) {
+            Part::Open(opened) => Some(opened),
+            Part::Whole | Part::Gone => None,
+        }
+    }
+
+    /// The plane itself, and a direction in it that is as horizontal as it allows.
+    pub fn place(&self) -> (Plane, DVec3) {
+        (self.key.plane, self.key.right)
+    }
+
+    /// Whether both cut the same objects at the same place.
+    pub fn is_same_cut(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.parts, &other.parts)
+    }
+}
+
+/// What becomes of an object, and the cap of a solid that is cut open.
+fn open(scene: &GpuScene, node: NodeId, plane_from_world: &DMat4, has_caps: bool) -> (Part, Option<Cap>) {
+    let place = &scene.scene.nodes[node];
+    let Some(number) = place.mesh else { return (Part::Whole, None) };
+    let plane_from_local = *plane_from_world * place.world_from_local;
+    let bounds = scene.mesh_bounds.get(number).copied().unwrap_or(Bounds::EMPTY);
+    let heights = bounds.corners().map(|corner| plane_from_local.transform_point3(corner).z);
+    if bounds.is_empty() || heights.iter().all(|&z| z < 0.0) {
+        return (Part::Whole, None);
+    }
+    if heights.iter().all(|&z| z >= 0.0) {
+        return (Part::Gone, None);
+    }
+    let (Some(mesh), Some(weld)) = (scene.scene.meshes.get(number), scene.welds.get(number)) else {
+        return (Part::Open(Opened { contours: Vec::new(), cap: None }), None);
+    };
+    let contours = contours(mesh, weld, &plane_from_local);
+    let cap = if has_caps && scene.is_solid(number) { cap(&contours) } else { None };
+    (Part::Open(Opened { contours, cap: None }), cap)
+}
+
+/// A cap as a mesh, all of one surface.
+fn mesh_of(cap: &Cap, surface: u32) -> (Mesh, Provoking) {
+    let indices = cap.triangles.as_flattened().to_vec();
+    let parts = vec![MeshPart { first_index: 0, index_count: indices.len() as u32, material: 0 }];
+    let positions: Vec<_> = cap.points.iter().map(|p| p.as_vec2().extend(0.0)).collect();
+    let surface_of_vertex = vec![surface; positions.len()];
+    let surfaces = Provoking { indices: indices.clone(), duplicates: Vec::new(), surface_of_vertex };
+    (Mesh { positions, indices, parts, ..Mesh::default() }, surfaces)
+}
+
+/// By node, numbers that tell objects apart whose boxes meet: each has the least that none before it has. They depend on
+/// all visible objects and not on the plane, so that hatching stays as it is while that moves.
+fn patterns(scene: &GpuScene, visible: &[NodeId], margin: f64) -> Vec<u32> {
+    let mut numbers = vec![0; scene.scene.nodes.len()];
+    let reach = DVec3::splat(margin);
+    let boxes = visible.iter().map(|&node| (node, scene.bounds_of(node))).filter(|(_, bounds)| !bounds.is_empty());
+    let mut boxes: Vec<_> = boxes.collect();
+    boxes.sort_by(|(_, a), (_, b)| a.min.x.total_cmp(&b.min.x));
+    let mut before: Vec<(NodeId, Bounds)> = Vec::new();
+    for (node, bounds) in boxes {
+        before.retain(|(_, other)| other.max.x + margin >= bounds.min.x);
+        let touches = |other: &Bounds| {
+            other.min.cmple(bounds.max + reach).all() && other.max.cmpge(bounds.min - reach).all()
+        };
+        let taken: Vec<u32> = before.iter().filter(|(_, other)| touches(other)).map(|(other, _)| numbers[*other]).collect();
+        numbers[node] = (0..).find(|number| !taken.contains(number)).unwrap_or(0);
+        before.push((node, bounds));
+    }
+    numbers
+}
