@@ -18,6 +18,7 @@ use hachure::render::passes::gbuffer::DrawUniform;
 use hachure::render::passes::peel::Peeled;
 use hachure::render::passes::shadow::{LightViewUniform, ShadowLightUniform};
 use hachure::render::passes::shadow_map::ShadowDraw;
+use hachure::render::scale_bar::ScaleBarUniform;
 use wgpu::naga::{TypeInner, front::wgsl};
 
 /// Byte offsets of a WGSL struct's members and its size.
@@ -40,6 +41,7 @@ macro_rules! same_layout {
 #[test]
 fn rust_and_wgsl_agree_on_every_uniform() {
     same_layout!(FrameUniform, 16, "passes/resolve.wgsl", "Frame");
+    same_layout!(ScaleBarUniform, 3, "passes/resolve.wgsl", "ScaleBar");
     same_layout!(LightUniform, 3, "passes/resolve.wgsl", "Light");
     same_layout!(DrawUniform, 6, "passes/gbuffer.wgsl", "Draw");
     same_layout!(BlueprintUniform, 6, "effects/blueprint.wgsl", "Blueprint");

@@ -6,11 +6,11 @@ use eframe::egui;
 
 use super::command::Command;
 use super::loading::Intent;
-use super::navigation::{STEP, Standard};
+use super::navigation::STEP;
 use super::screenshot::{self, Destination};
 use super::theme;
 use super::viewer::{DialogFor, Open, Viewer};
-use crate::scene::{NodeId, Projection};
+use crate::scene::{NodeId, Projection, Standard};
 use glam::DVec3;
 
 impl Viewer {

@@ -137,7 +137,7 @@ fn pictures_of_user_dirs() -> Option<PathBuf> {
 pub fn save(image: &RgbaImage, destination: &Destination) -> Result<PathBuf, ScreenshotError> {
     let (model, folders) = match destination {
         Destination::File(path) => {
-            save_png(path, image.clone())?;
+            save_png(path, image.clone(), None)?;
             return Ok(path.clone());
         }
         Destination::Numbered { model, folders } => (model, folders),
@@ -161,7 +161,7 @@ fn save_numbered(folder: &Path, model: &str, image: &RgbaImage) -> Result<PathBu
         number += 1;
         path = folder.join(format!("{model}_{number}.png"));
     }
-    save_png(&path, image.clone())?;
+    save_png(&path, image.clone(), None)?;
     Ok(path)
 }
 

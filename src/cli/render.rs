@@ -15,6 +15,11 @@ use crate::render::{RenderError, StyleImages};
 use crate::scene::{Camera, NodeId, Projection, Scene};
 use crate::style::{Value, preset};
 
+/// Pixels per inch of paper, as printers expect them.
+const DPI: f64 = 300.0;
+
+const METRES_PER_INCH: f64 = 0.0254;
+
 pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
     let device = StartingDevice::new()?;
     let mut opened = open(&args.files, crease_angle(&args.look), &Progress::default())?;
@@ -26,7 +31,14 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
     let images = ImageCache::default().read(&uses, &Progress::default()).map_err(OpenError::from)?;
     let size = args.resolution.0;
     let aspect = f64::from(size[0]) / f64::from(size[1]);
-    opened.document.camera = Some(camera(&opened, &args.camera, aspect));
+    let mut camera = camera(&opened, &args.camera, aspect);
+    let dpi = args.dpi.or(args.camera.scale.map(|_| DPI));
+    if let (Some(scale), Some(dpi)) = (args.camera.scale, dpi) {
+        let metres = opened.document.metres_per_unit(&opened.scene).ok_or(CliError::NoUnit)?;
+        let paper_height = f64::from(size[1]) / dpi * METRES_PER_INCH;
+        camera.projection = Projection::Orthographic { view_height: paper_height * scale.0 / metres };
+    }
+    opened.document.camera = Some(camera);
 
     let mut session = Session::new(device.wait()?);
     if let Some(mistake) = session.renderer().take_shader_error() {
@@ -36,7 +48,7 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
     session.set_scene(&opened)?;
     session.renderer().set_images(StyleImages::new(images.images()));
     let image = session.image(&opened, size, args.no_background)?;
-    save_png(&args.output, image)?;
+    save_png(&args.output, image, dpi)?;
 
     let scene = &opened.scene;
     let faults = opened.document.mirror_faults(scene);
@@ -133,6 +145,7 @@ pub(super) fn apply_look(opened: &mut Opened, look: &LookArgs) -> Result<(), Cli
         document.set_mirror(scene, &matching(scene, pattern)?, true);
     }
     document.up = look.up.or(document.up);
+    document.metres_per_unit = look.unit.map(|unit| unit.metres).or(document.metres_per_unit);
     document.tidy();
     Ok(())
 }
@@ -144,12 +157,13 @@ fn camera(opened: &Opened, args: &CameraArgs, aspect: f64) -> Camera {
     let up = document.up(scene);
     let bounds = scene.bounds();
     let is_placed = args.camera_position.is_some();
-    let mut camera = match document.camera {
-        Some(camera) => camera,
-        None if args.camera_azimuth_angle.or(args.camera_elevation_angle).is_some() || is_placed => {
+    let mut camera = match (args.look_from, document.camera) {
+        (Some(side), like) => side.camera(up, &scene.extent(), aspect, like.as_ref()),
+        (None, Some(camera)) => camera,
+        (None, None) if args.camera_azimuth_angle.or(args.camera_elevation_angle).is_some() || is_placed => {
             Camera::looking_from(up.front(), up.vector(), &scene.extent(), aspect)
         }
-        None => initial_camera(document, scene, aspect),
+        (None, None) => initial_camera(document, scene, aspect),
     };
     if let Some(position) = args.camera_position {
         camera.position = position.0;
@@ -177,7 +191,8 @@ fn camera(opened: &Opened, args: &CameraArgs, aspect: f64) -> Camera {
     if args.camera_orthographic {
         camera = camera.with_orthographic(true);
     }
-    let frames_all = !is_placed && args.camera_focal_point.is_none() && document.camera.is_none();
+    let is_free = document.camera.is_none() || args.look_from.is_some();
+    let frames_all = !is_placed && args.camera_focal_point.is_none() && is_free;
     if frames_all {
         camera = camera.framing(&scene.extent(), aspect);
     }

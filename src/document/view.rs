@@ -13,6 +13,8 @@ pub struct View {
     pub show: Show,
     /// Dihedral angle above which an edge separates two surfaces; degrees, 0 to 180.
     pub crease_angle: f32,
+    /// Whether parallel views show how long things are.
+    pub scale_bar: bool,
     /// How many mirrors in a row a line of sight follows, 0 to 8; the nearest whole number counts.
     pub reflections: f32,
 }
@@ -48,7 +50,13 @@ choice! {
 
 impl Default for View {
     fn default() -> Self {
-        Self { background: Color([250, 248, 242]), show: Show::Picture, crease_angle: 30.0, reflections: 2.0 }
+        Self {
+            background: Color([250, 248, 242]),
+            show: Show::Picture,
+            crease_angle: 30.0,
+            scale_bar: false,
+            reflections: 2.0,
+        }
     }
 }
 
@@ -80,6 +88,12 @@ impl View {
                 0.0..=8.0,
                 "How many mirrors in a row are followed: 1 shows no mirror in a mirror, 0 switches mirrors off.",
                 &mut self.reflections,
+            );
+            list.switch(
+                "scale_bar",
+                "Scale bar",
+                "Shows how long things are; in parallel projection only.",
+                &mut self.scale_bar,
             );
             list.choice("show", "Show", "The picture, or a buffer that it is made from.", &mut self.show);
         });

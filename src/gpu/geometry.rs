@@ -88,6 +88,16 @@ fn octahedral(v: Vec3) -> [i16; 2] {
 }
 
 impl GeometryBuffers {
+    /// Binds its indices, and those of its vertex buffers that a pass reads, each in its slot.
+    pub fn bind(&self, pass: &mut wgpu::RenderPass<'_>, vertices: &[Option<&wgpu::Buffer>]) {
+        for (slot, buffer) in (0..).zip(vertices) {
+            if let Some(buffer) = buffer {
+                pass.set_vertex_buffer(slot, buffer.slice(..));
+            }
+        }
+        pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint32);
+    }
+
     /// Uploads all meshes.
     ///
     /// # Errors

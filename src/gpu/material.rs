@@ -51,6 +51,8 @@ pub struct MaterialBindings {
     uniforms: Vec<MaterialUniform>,
     groups: Vec<wgpu::BindGroup>,
     group_of_material: Vec<usize>,
+    /// Uniform and group of a part that names no existing material.
+    default: (MaterialUniform, usize),
 }
 
 impl MaterialBindings {
@@ -79,10 +81,7 @@ impl MaterialBindings {
     /// # Errors
     /// [`GpuError`].
     pub fn new(gpu: &Gpu, layout: &wgpu::BindGroupLayout, scene: &Scene) -> Result<Self, GpuError> {
-        let mut uniforms: Vec<MaterialUniform> = scene.materials.iter().map(MaterialUniform::from).collect();
-        // A part may name no existing material.
-        uniforms.push(MaterialUniform::from(&Material::default()));
-
+        let uniforms = scene.materials.iter().map(MaterialUniform::from).collect();
         let white = upload(gpu, &[(1, 1, vec![255; 4])], true);
         let mut views = Views { gpu, scene, made: Vec::new() };
         let mut groups = Vec::new();
@@ -112,17 +111,30 @@ impl MaterialBindings {
             keys.push(key);
             group_of_material.push(keys.len() - 1);
         }
-        Ok(Self { uniforms, groups, group_of_material })
+        let group = group_of_material.pop().unwrap_or(0);
+        let default = (MaterialUniform::from(&default_material), group);
+        Ok(Self { uniforms, groups, group_of_material, default })
+    }
+
+    /// The same without the materials from the `kept`th on, followed by others, whose images are not shown.
+    #[must_use]
+    pub fn with_others(&self, kept: usize, others: &[Material]) -> Self {
+        let mut bindings = self.clone();
+        bindings.uniforms.truncate(kept);
+        bindings.group_of_material.truncate(kept);
+        bindings.uniforms.extend(others.iter().map(MaterialUniform::from));
+        bindings.group_of_material.resize(bindings.uniforms.len(), self.default.1);
+        bindings
     }
 
     /// The numbers of a material; the default's if there is none of that index.
     pub fn uniform(&self, material: usize) -> MaterialUniform {
-        self.uniforms[material.min(self.uniforms.len() - 1)]
+        self.uniforms.get(material).copied().unwrap_or(self.default.0)
     }
 
     /// Number of the bind group of a material.
     pub fn group_index(&self, material: usize) -> usize {
-        self.group_of_material[material.min(self.group_of_material.len() - 1)]
+        self.group_of_material.get(material).copied().unwrap_or(self.default.1)
     }
 
     /// A bind group by its number.

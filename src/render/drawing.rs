@@ -21,8 +21,8 @@ use super::effects::section::{CapUniform, caps, section};
 use super::effects::surface::{Shading, SurfaceUniform, surface};
 use super::effects::toon::{ToonBuffers, Toons, cartoon_map};
 use super::frame_uniform::{FrameUniform, View};
-use super::gpu_scene::GpuScene;
-use super::groups::{Objects, Source};
+use super::gpu_scene::{GpuScene, Origin};
+use super::groups::Objects;
 use super::lights::Lights;
 use super::passes::edge_map::{EdgeInputs, EdgeMap, EdgeMapPass};
 use super::passes::edge_style::EdgeUniform;
@@ -246,7 +246,7 @@ impl Drawing {
             .iter()
             .filter(|call| {
                 let draw = draws.get(call.draw as usize);
-                call.source == Source::Model
+                call.origin != Origin::Caps
                     && draw.is_some_and(|draw| objects.halftones.need_coordinates(draw.object))
             })
             .copied()

@@ -17,6 +17,7 @@ use super::passes::resolve::resolve;
 use super::passes::selection::{self, selection};
 use super::passes::show::show;
 use super::sample::Sample;
+use super::scale_bar::ScaleBar;
 use super::shadows::ShadowMaps;
 use super::stage::{Output, Stage};
 use crate::document::Show;
@@ -30,6 +31,8 @@ pub struct FrameInputs<'a> {
     pub drawing: DrawingInputs<'a>,
     /// The picture, or a buffer that it is made from.
     pub show: Show,
+    /// Shown with the picture; `None`: none.
+    pub scale_bar: Option<&'a ScaleBar>,
     /// Selected nodes; empty without a window.
     pub selected: &'a [NodeId],
 }
@@ -74,7 +77,8 @@ pub struct FrameState {
     /// What this one went on from: held, so that the other one's pool does not hand out its textures before they have
     /// been read.
     origin: Option<Accumulation>,
-    image: Stage<(u64, Show, [u64; 3], Vec4), Target>,
+    image: Stage<(u64, Show, [u64; 3], Vec4, Option<ScaleBar>), Target>,
+    scale_bar: ArrayBuffer,
     front: Stage<(u64, Vec<u64>), Target>,
     /// The geometry of the picture's first sample: outlines do not follow the jitter.
     unmoved: u64,
@@ -93,6 +97,7 @@ impl FrameState {
             accumulation: Accumulation::default(),
             origin: None,
             image: Stage::default(),
+            scale_bar: ArrayBuffer::new(gpu, "scale bar"),
             front: Stage::default(),
             unmoved: 0,
             selected: ArrayBuffer::new(gpu, "selected"),
@@ -159,8 +164,14 @@ impl FrameState {
             (cartoon_map, coordinates, layers) = (shaded.cartoon_map, shaded.coordinates, shaded.layers);
             fronts = shaded.fronts;
             let color = self.accumulation.add(rec, eye.sample, shaded.color)?;
-            let final_inputs = (shaders, *what, [color.revision, 0, 0], eye.background);
-            self.image.run(final_inputs, |_| resolve(rec, &color.value))?
+            let asked = (shaders, *what, [color.revision, 0, 0], eye.background, inputs.scale_bar.cloned());
+            self.image.run(asked, |(.., bar)| {
+                let bar = bar.as_ref().and_then(ScaleBar::uniform);
+                if let Some(bar) = &bar {
+                    self.scale_bar.write(rec.gpu, bar);
+                }
+                resolve(rec, &color.value, (self.scale_bar.buffer(), bar.is_some()))
+            })?
         } else {
             self.drawing.forget_surfaces();
             let revisions = [
@@ -172,8 +183,9 @@ impl FrameState {
             let gbuffer = &begun.gbuffer.value;
             let ink = edge_map.as_ref().map_or(&gbuffer.geometry, |e| &e.value.edges);
             let values = operators.as_ref().map_or(&gbuffer.base_color, |(_, values)| values);
-            self.image
-                .run((shaders, *what, revisions, Vec4::ZERO), |_| show(rec, *what, gbuffer, ink, values))?
+            self.image.run((shaders, *what, revisions, Vec4::ZERO, None), |_| {
+                show(rec, *what, gbuffer, ink, values)
+            })?
         };
 
         let (revisions, layers_before) = fronts;
@@ -227,7 +239,7 @@ impl FrameState {
         if inputs.drawing.sample.index == 0 {
             self.unmoved = front.revision;
         }
-        let bits = selection::bits(inputs.selected, inputs.drawing.scene.scene.nodes.len());
+        let bits = selection::bits(inputs.selected, &inputs.drawing.scene.scene);
         let outline = self.selection.run((self.unmoved, bits), |(_, bits)| {
             self.selected.write(rec.gpu, bits);
             selection(rec, &front.value, self.selected.buffer())

@@ -3,36 +3,72 @@
 use std::sync::{Arc, OnceLock};
 
 use glam::{DMat4, DVec3};
+use rayon::prelude::*;
 
-use super::groups::Source;
 use super::section::{Part, Section};
 use crate::document::Document;
-use crate::geometry::{Bounds, FeatureEdges, NotFlat, Plane, Topology, Weld};
-use crate::gpu::geometry::MeshSource;
+use crate::geometry::{Bounds, FeatureEdges, Mesh, NotFlat, Plane, Topology, Weld};
+use crate::gpu::geometry::{MeshRange, MeshSource};
 use crate::gpu::{GeometryBuffers, Gpu, GpuError, MaterialBindings};
-use crate::scene::{AlphaMode, NodeId, Scene};
+use crate::scene::{Addition, AlphaMode, NodeId, Scene};
 
-/// A scene on the device. Clones share it.
+/// Folds of additions that are sharper separate surfaces; radians.
+const ADDED_CREASE_ANGLE: f32 = 0.5;
+
+/// A scene on the device, and beside it what the program added to it. Clones share it.
 #[derive(Clone)]
 pub struct GpuScene {
-    /// The scene itself.
+    /// The scene itself, additions included.
     pub scene: Arc<Scene>,
-    /// Its vertices.
-    pub geometry: GeometryBuffers,
+    /// The same without them.
+    model: Arc<Scene>,
     /// Its materials.
     pub materials: MaterialBindings,
-    /// The box of each mesh, local space.
-    pub mesh_bounds: Vec<Bounds>,
-    /// The edges of each mesh that may become lines; empty until topology is known.
-    pub edges: Vec<Arc<FeatureEdges>>,
-    /// Which vertices of each mesh are one point; empty until topology is known.
-    pub welds: Vec<Arc<Weld>>,
-    /// Per mesh, whether it is solid; empty until topology is known.
-    is_solid: Vec<bool>,
+    /// The meshes of the model, and those that were added: changing these touches nothing of the model.
+    meshes: [MeshSet; 2],
     /// Where it is cut open, if it is.
     pub section: Option<Section>,
+}
+
+/// Which buffers hold a mesh.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Origin {
+    /// Those of the model.
+    Model,
+    /// Those of the additions.
+    Added,
+    /// [`Section::caps`].
+    Caps,
+}
+
+/// Meshes in one set of buffers.
+#[derive(Clone)]
+struct MeshSet {
+    geometry: GeometryBuffers,
+    /// The box of each mesh, local space.
+    bounds: Vec<Bounds>,
+    /// The edges of each mesh that may become lines; empty until topology is known.
+    edges: Vec<Arc<FeatureEdges>>,
+    /// Which vertices of each mesh are one point; empty until topology is known.
+    welds: Vec<Arc<Weld>>,
+    /// Per mesh, whether it is solid; empty until topology is known.
+    is_solid: Vec<bool>,
     /// The plane of each mesh, once somebody asked for it.
     planes: Arc<[OnceLock<Result<Plane, NotFlat>>]>,
+}
+
+impl MeshSet {
+    /// Uploads meshes. `topology` has one entry per mesh, or is empty: then all surface ids are 0.
+    fn new(gpu: &Gpu, meshes: &[Arc<Mesh>], topology: &[Topology]) -> Result<Self, GpuError> {
+        Ok(Self {
+            geometry: upload(gpu, meshes, topology)?,
+            bounds: meshes.iter().map(|m| m.bounds()).collect(),
+            edges: edges(topology),
+            welds: welds(topology),
+            is_solid: topology.iter().map(|t| t.is_solid).collect(),
+            planes: meshes.iter().map(|_| OnceLock::new()).collect(),
+        })
+    }
 }
 
 impl GpuScene {
@@ -47,38 +83,101 @@ impl GpuScene {
         topology: &[Topology],
     ) -> Result<Self, GpuError> {
         Ok(Self {
-            geometry: upload(gpu, scene, topology)?,
             materials: MaterialBindings::new(gpu, material_layout, scene)?,
-            mesh_bounds: scene.meshes.iter().map(|m| m.bounds()).collect(),
-            edges: edges(topology),
-            welds: welds(topology),
-            is_solid: topology.iter().map(|t| t.is_solid).collect(),
+            meshes: [MeshSet::new(gpu, &scene.meshes, topology)?, MeshSet::new(gpu, &[], &[])?],
+            model: Arc::clone(scene),
             section: None,
-            planes: scene.meshes.iter().map(|_| OnceLock::new()).collect(),
             scene: Arc::clone(scene),
         })
     }
 
     /// Takes over what topology found out meanwhile.
     pub fn set_topology(&mut self, uploaded: UploadedTopology) {
-        self.geometry = uploaded.geometry;
-        self.edges = uploaded.edges;
-        self.welds = uploaded.welds;
+        let [model, _] = &mut self.meshes;
+        model.geometry = uploaded.geometry;
+        model.edges = uploaded.edges;
+        model.welds = uploaded.welds;
+        model.is_solid = uploaded.is_solid;
         self.section = None;
-        self.is_solid = uploaded.is_solid;
     }
 
-    /// The vertices of a kind; `None` when there are none.
-    pub fn geometry_of(&self, source: Source) -> Option<&GeometryBuffers> {
-        match source {
-            Source::Model => Some(&self.geometry),
-            Source::Caps => self.section.as_ref()?.geometry.as_ref(),
+    /// Puts these objects beside the model in place of those that were there; the model stays on the device as it is.
+    ///
+    /// # Errors
+    /// [`GpuError::TooLarge`]; the last ones then stay.
+    pub fn set_additions(
+        &mut self,
+        gpu: &Gpu,
+        additions: impl IntoIterator<Item = Addition>,
+    ) -> Result<(), GpuError> {
+        let scene = self.model.with_additions(additions);
+        let (_, meshes) = scene.meshes.split_at(self.model.meshes.len());
+        let topology: Vec<_> =
+            meshes.par_iter().map(|mesh| Topology::new(mesh, ADDED_CREASE_ANGLE)).collect();
+        self.meshes[1] = MeshSet::new(gpu, meshes, &topology)?;
+        let (own, others) = scene.materials.split_at(self.model.materials.len());
+        self.materials = self.materials.with_others(own.len(), others);
+        self.scene = Arc::new(scene);
+        self.section = None;
+        Ok(())
+    }
+
+    /// The scene without additions.
+    pub fn model(&self) -> &Arc<Scene> {
+        &self.model
+    }
+
+    /// Which buffers hold a mesh, and its number in them.
+    fn place(&self, mesh: usize) -> (Origin, usize) {
+        match mesh.checked_sub(self.model.meshes.len()) {
+            None => (Origin::Model, mesh),
+            Some(added) => (Origin::Added, added),
         }
+    }
+
+    fn set(&self, mesh: usize) -> (&MeshSet, usize) {
+        let (origin, number) = self.place(mesh);
+        (&self.meshes[origin as usize], number)
+    }
+
+    /// Some of the buffers. Without a section there are none of caps, nor is anything drawn that would be in them.
+    pub fn geometry(&self, origin: Origin) -> &GeometryBuffers {
+        let [model, added] = &self.meshes;
+        match (origin, &self.section) {
+            (Origin::Caps, Some(section)) => &section.caps,
+            (Origin::Added, _) => &added.geometry,
+            (Origin::Model | Origin::Caps, _) => &model.geometry,
+        }
+    }
+
+    /// Where a mesh lies in which buffers.
+    pub fn range_of(&self, mesh: usize) -> Option<(Origin, MeshRange)> {
+        let (origin, number) = self.place(mesh);
+        Some((origin, *self.geometry(origin).meshes.get(number)?))
+    }
+
+    /// The box of a mesh, local space; empty if there is none.
+    pub fn mesh_bounds(&self, mesh: usize) -> Bounds {
+        let (set, number) = self.set(mesh);
+        set.bounds.get(number).copied().unwrap_or(Bounds::EMPTY)
+    }
+
+    /// The edges of a mesh that may become lines, once topology is known.
+    pub fn edges(&self, mesh: usize) -> Option<&FeatureEdges> {
+        let (set, number) = self.set(mesh);
+        set.edges.get(number).map(Arc::as_ref)
+    }
+
+    /// Which vertices of a mesh are one point, once topology is known.
+    pub fn weld(&self, mesh: usize) -> Option<&Weld> {
+        let (set, number) = self.set(mesh);
+        set.welds.get(number).map(Arc::as_ref)
     }
 
     /// Whether a mesh is known to enclose a volume.
     pub fn is_solid(&self, mesh: usize) -> bool {
-        self.is_solid.get(mesh).copied().unwrap_or(false)
+        let (set, number) = self.set(mesh);
+        set.is_solid.get(number).copied().unwrap_or(false)
     }
 
     /// Cuts it open as a document asks for. Returns whether that changed anything.
@@ -107,12 +206,6 @@ impl GpuScene {
             && opened.is_none_or(|opened| opened.cap.is_some())
     }
 
-    /// Number of triangles of a node's mesh.
-    pub fn triangle_count(&self, node: NodeId) -> u32 {
-        let mesh = self.scene.nodes[node].mesh.and_then(|m| self.scene.meshes.get(m));
-        mesh.map_or(0, |mesh| mesh.triangle_count() as u32)
-    }
-
     /// Which side of a node's triangles nobody can see: solids wholly before the eye show no back face.
     pub fn hidden_side(
         &self,
@@ -121,9 +214,8 @@ impl GpuScene {
         orthographic: bool,
     ) -> Option<wgpu::Face> {
         let is_solid = self.shows_no_inside(node);
-        let mesh = self.scene.nodes[node].mesh.unwrap_or(usize::MAX);
-        let is_before_the_eye = orthographic
-            || self.mesh_bounds.get(mesh).is_some_and(|b| b.transformed(view_from_local).max.z < 0.0);
+        let bounds = self.scene.nodes[node].mesh.map_or(Bounds::EMPTY, |mesh| self.mesh_bounds(mesh));
+        let is_before_the_eye = orthographic || bounds.transformed(view_from_local).max.z < 0.0;
         let mirrored = view_from_local.determinant() < 0.0;
         (is_solid && is_before_the_eye).then_some(if mirrored { wgpu::Face::Front } else { wgpu::Face::Back })
     }
@@ -150,8 +242,11 @@ impl GpuScene {
     /// [`NotFlat`].
     pub fn plane_of(&self, node: NodeId) -> Result<Plane, NotFlat> {
         let node = &self.scene.nodes[node];
-        let mesh = node.mesh.and_then(|m| Some((self.planes.get(m)?, self.scene.meshes.get(m)?)));
-        let (plane, mesh) = mesh.ok_or(NotFlat::NoArea)?;
+        let plane = node.mesh.and_then(|m| {
+            let (set, number) = self.set(m);
+            Some((set.planes.get(number)?, self.scene.meshes.get(m)?))
+        });
+        let (plane, mesh) = plane.ok_or(NotFlat::NoArea)?;
         plane.get_or_init(|| Plane::of_mesh(mesh)).and_then(|p| p.transformed(&node.world_from_local))
     }
 
@@ -159,16 +254,14 @@ impl GpuScene {
     /// [`Bounds::corners`].
     pub fn corners_of(&self, node: NodeId) -> [DVec3; 8] {
         let node = &self.scene.nodes[node];
-        let bounds = node.mesh.and_then(|m| self.mesh_bounds.get(m)).copied().unwrap_or(Bounds::EMPTY);
+        let bounds = node.mesh.map_or(Bounds::EMPTY, |m| self.mesh_bounds(m));
         bounds.corners().map(|corner| node.world_from_local.transform_point3(corner))
     }
 
     /// The box of a node's own mesh, world space.
     pub fn bounds_of(&self, node: NodeId) -> Bounds {
         let node = &self.scene.nodes[node];
-        node.mesh
-            .and_then(|m| self.mesh_bounds.get(m))
-            .map_or(Bounds::EMPTY, |b| b.transformed(&node.world_from_local))
+        node.mesh.map_or(Bounds::EMPTY, |m| self.mesh_bounds(m).transformed(&node.world_from_local))
     }
 }
 
@@ -215,7 +308,7 @@ impl Uploader {
     /// [`GpuError::TooLarge`].
     pub fn topology(&self, scene: &Scene, topology: &[Topology]) -> Result<UploadedTopology, GpuError> {
         Ok(UploadedTopology {
-            geometry: upload(&self.gpu, scene, topology)?,
+            geometry: upload(&self.gpu, &scene.meshes, topology)?,
             edges: edges(topology),
             welds: welds(topology),
             is_solid: topology.iter().map(|t| t.is_solid).collect(),
@@ -223,9 +316,8 @@ impl Uploader {
     }
 }
 
-fn upload(gpu: &Gpu, scene: &Scene, topology: &[Topology]) -> Result<GeometryBuffers, GpuError> {
-    let sources: Vec<_> = scene
-        .meshes
+fn upload(gpu: &Gpu, meshes: &[Arc<Mesh>], topology: &[Topology]) -> Result<GeometryBuffers, GpuError> {
+    let sources: Vec<_> = meshes
         .iter()
         .enumerate()
         .map(|(i, mesh)| MeshSource { mesh, surfaces: topology.get(i).map(|t| &t.provoking) })

@@ -8,7 +8,7 @@ use super::effects::mirror::Mirror;
 use super::effects::surface::SurfaceUniform;
 use super::effects::toon::{ToonUniform, Toons};
 use super::frame_uniform::View;
-use super::gpu_scene::GpuScene;
+use super::gpu_scene::{GpuScene, Origin};
 use super::passes::edge_style::EdgeUniform;
 use super::passes::gbuffer::{Detail, DrawCall, DrawUniform};
 use super::style_images::StyleImages;
@@ -36,15 +36,6 @@ pub fn region(object: u32, surface: u32) -> u32 {
     object.wrapping_mul(2_654_435_769).wrapping_add(surface).max(1)
 }
 
-/// Which buffers hold vertices.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Source {
-    /// [`GpuScene::geometry`].
-    Model,
-    /// [`super::section::Section::geometry`].
-    Caps,
-}
-
 /// A part of a visible object: what has one material.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct VisiblePart {
@@ -54,8 +45,6 @@ pub struct VisiblePart {
     pub enhanced: bool,
     /// Whether its mesh has no normals, so that faces are flat.
     pub is_flat: bool,
-    /// Where its vertices are.
-    pub source: Source,
     /// The box around its mesh, local space.
     pub bounds: Bounds,
     /// Its surfaces have smaller numbers than this.
@@ -64,6 +53,8 @@ pub struct VisiblePart {
     pub world_from_local: DMat4,
     /// Number of its material; none has that of a cap.
     pub material: usize,
+    /// The buffers that hold it.
+    pub origin: Origin,
     /// Range of the index buffer.
     pub first_index: u32,
     /// Number of indices.
@@ -82,14 +73,14 @@ impl VisiblePart {
     ) -> Option<wgpu::Face> {
         // A cap closes what is cut open, whatever the side that it is seen from.
         let hidden = || scene.hidden_side(self.node, view_from_local, orthographic);
-        (self.source == Source::Model).then(hidden).flatten()
+        (self.origin != Origin::Caps).then(hidden).flatten()
     }
 
     /// What it is made of; a cap of the section's colour.
     pub fn material(&self, scene: &GpuScene) -> MaterialUniform {
         let own = scene.materials.uniform(self.material);
-        match (self.source, &scene.section) {
-            (Source::Caps, Some(section)) => own.with_color(section.style.color.to_linear()),
+        match (self.origin, &scene.section) {
+            (Origin::Caps, Some(section)) => own.with_color(section.style.color.to_linear()),
             _ => own,
         }
     }
@@ -166,6 +157,7 @@ impl Objects {
             }
             if r.mirror
                 && !is_blueprint
+                && !scene.scene.is_added(node)
                 && let Ok(plane) = scene.plane_of(node)
             {
                 objects.mirrors.push(Mirror::new(id as u32, plane, scene.corners_of(node), &r.style.mirror));
@@ -237,19 +229,18 @@ impl Group {
     }
 
     fn caps<'a>(&'a self, scene: &'a GpuScene) -> impl Iterator<Item = VisiblePart> + 'a {
-        let section = scene.section.iter();
-        section.flat_map(move |section| {
+        scene.section.iter().flat_map(move |section| {
             self.visible.iter().filter_map(move |&(node, enhanced)| {
                 let cap = section.opened(node)?.cap?;
                 Some(VisiblePart {
                     node,
                     enhanced,
-                    source: Source::Caps,
                     bounds: cap.bounds,
                     surfaces: cap.surface + 1,
                     is_flat: true,
                     world_from_local: section.world_from_plane,
                     material: usize::MAX,
+                    origin: Origin::Caps,
                     first_index: cap.range.first_index,
                     index_count: cap.index_count,
                     base_vertex: cap.range.base_vertex,
@@ -261,18 +252,17 @@ impl Group {
     fn parts_of_meshes<'a>(&'a self, scene: &'a GpuScene) -> impl Iterator<Item = VisiblePart> + 'a {
         self.visible.iter().flat_map(move |&(id, enhanced)| {
             let node = &scene.scene.nodes[id];
-            let found =
-                node.mesh.and_then(|m| Some((m, scene.scene.meshes.get(m)?, scene.geometry.meshes.get(m)?)));
-            found.into_iter().flat_map(move |(mesh, source, range)| {
+            let found = node.mesh.and_then(|m| Some((m, scene.scene.meshes.get(m)?, scene.range_of(m)?)));
+            found.into_iter().flat_map(move |(mesh, source, (origin, range))| {
                 source.parts.iter().map(move |part| VisiblePart {
                     node: id,
                     enhanced,
-                    source: Source::Model,
-                    bounds: scene.mesh_bounds.get(mesh).copied().unwrap_or(Bounds::EMPTY),
+                    bounds: scene.mesh_bounds(mesh),
                     surfaces: source.triangle_count() as u32,
                     is_flat: source.normals.is_empty(),
                     world_from_local: node.world_from_local,
                     material: part.material,
+                    origin,
                     first_index: range.first_index + part.first_index,
                     index_count: part.index_count,
                     base_vertex: range.base_vertex,
@@ -300,13 +290,13 @@ impl Group {
                 material.is_some_and(|m| m.base_color_texture.is_some() || m.normal_texture.is_some());
             let depth = -part.bounds.transformed(&view_from_local).max.z;
             let call = DrawCall {
-                source: part.source,
                 draw: draws.len() as u32,
+                origin: part.origin,
                 first_index: part.first_index,
                 index_count: part.index_count,
                 base_vertex: part.base_vertex,
                 material_group: scene.materials.group_index(part.material),
-                detail: if scene.geometry.attributes.is_none() || part.source == Source::Caps {
+                detail: if scene.geometry(part.origin).attributes.is_none() {
                     Detail::Lean
                 } else if has_images || alpha != AlphaMode::Opaque {
                     Detail::Full
@@ -332,7 +322,7 @@ impl Group {
         }
         // Near ones first: what lies behind them is then never shaded.
         calls.sort_by(|(a, _), (b, _)| a.total_cmp(b));
-        calls.sort_by_key(|(_, c)| (c.source, c.detail, c.hidden_side.map(|s| s as u32)));
+        calls.sort_by_key(|(_, c)| (c.origin, c.detail, c.hidden_side.map(|s| s as u32)));
         // 0 is left for nothing.
         let mut first_surface = 1_u32;
         for (_, call) in &calls {
@@ -348,7 +338,7 @@ impl Group {
 /// The box of an object in its own space, and where that lies.
 fn box_of(node: NodeId, scene: &GpuScene) -> Option<(Bounds, DMat4)> {
     let node = &scene.scene.nodes[node];
-    Some((*scene.mesh_bounds.get(node.mesh?)?, node.world_from_local))
+    Some((scene.mesh_bounds(node.mesh?), node.world_from_local))
 }
 
 /// The cofactor matrix of the linear part: the inverse transpose up to a factor, which exists for flattening

@@ -12,12 +12,13 @@ use super::groups::{Objects, node_of};
 use super::lights::Lights;
 use super::passes::accumulate::Subject;
 use super::passes::peel::Peeled;
+use super::scale_bar::ScaleBar;
 use super::style_images::StyleImages;
 use crate::document::Document;
 use crate::geometry::Topology;
 use crate::gpu::readback::Readback;
 use crate::gpu::{Gpu, GpuError, Pipelines, Recorder, ShaderError, Shaders, TargetPool, Timers};
-use crate::scene::{Camera, NodeId, Scene};
+use crate::scene::{Addition, Camera, NodeId, Scene};
 
 /// Height of the picture in reference pixels, in which widths and scales are given.
 const REFERENCE_HEIGHT: f32 = 1080.0;
@@ -74,6 +75,7 @@ pub struct Renderer {
     state: FrameState,
     scene: Option<GpuScene>,
     scene_revision: u64,
+    additions: Vec<Addition>,
     images: StyleImages,
     last: Option<(Picture, View)>,
     pick: Option<PendingPick>,
@@ -93,6 +95,7 @@ impl Renderer {
             timers: None,
             scene: None,
             scene_revision: 0,
+            additions: Vec::new(),
             images: StyleImages::default(),
             last: None,
             pick: None,
@@ -109,6 +112,7 @@ impl Renderer {
         twin.pipelines = self.pipelines.clone();
         twin.scene = self.scene.clone();
         twin.scene_revision = self.scene_revision;
+        twin.additions = self.additions.clone();
         twin.images = self.images.clone();
         twin.state.go_on_from(&self.state);
         twin
@@ -127,6 +131,7 @@ impl Renderer {
     /// Shows a scene, which the renderer's own [`Self::uploader`] uploaded, in place of the last one.
     pub fn show(&mut self, scene: GpuScene) {
         self.scene = Some(scene);
+        self.additions.clear();
         self.scene_revision += 1;
     }
 
@@ -147,6 +152,27 @@ impl Renderer {
         let scene = self.uploader().scene(scene, topology)?;
         self.show(scene);
         Ok(())
+    }
+
+    /// Puts objects beside the scene that is shown, in place of the last ones; the scene itself stays as it is. Another
+    /// scene comes without them.
+    ///
+    /// # Errors
+    /// [`GpuError::TooLarge`]; the last ones then stay.
+    pub fn show_additions(&mut self, additions: Vec<Addition>) -> Result<(), RenderError> {
+        if let Some(scene) = &mut self.scene
+            && self.additions != additions
+        {
+            scene.set_additions(&self.gpu, additions.iter().cloned())?;
+            self.additions = additions;
+            self.scene_revision += 1;
+        }
+        Ok(())
+    }
+
+    /// The scene that is shown, on the device.
+    pub fn scene(&self) -> Option<&GpuScene> {
+        self.scene.as_ref()
     }
 
     /// Takes over the images that styles name; those that are missing are drawn without.
@@ -227,6 +253,9 @@ impl Renderer {
         let frame = self.state.drawing().frame_group().clone();
         let mut recorder = Recorder::new(&self.gpu, &mut self.pipelines, &mut self.pool, timers, frame, size);
         let lights = Lights::new(request.document, &scene.scene, &view.view_from_world);
+        let metres = request.document.metres_per_unit(&scene.scene);
+        let shows_bar = request.document.view.scale_bar;
+        let bar = shows_bar.then(|| ScaleBar::new(request.camera, metres, size, scale, paper)).flatten();
         let inputs = FrameInputs {
             drawing: DrawingInputs {
                 scene,
@@ -242,6 +271,7 @@ impl Renderer {
                 reflections: request.document.view.reflections.round().clamp(0.0, 8.0) as u32,
             },
             show: request.document.view.show,
+            scale_bar: bar.as_ref(),
             selected: request.selected,
         };
         // The old picture's textures may be drawn into again.
@@ -277,7 +307,7 @@ impl Renderer {
         let pending = self.pick.as_ref()?;
         let texel: Vec<u32> = bytemuck::pod_collect_to_vec(&pending.readback.poll(&self.gpu)?);
         let (depth, object) = (f32::from_bits(*texel.get(2)?), *texel.get(3)?);
-        let node = node_of(object);
+        let node = node_of(object).map(|node| self.scene.as_ref().map_or(node, |s| s.scene.meant_by(node)));
         let point = node.map(|_| pending.view.unproject(pending.px, depth));
         self.pick = None;
         Some(Pick { node, point })

@@ -71,8 +71,8 @@ pub struct Section {
     pub plane: DVec4,
     /// Where caps and contours lie: x and y run in their plane, z points to what is cut away.
     pub world_from_plane: DMat4,
-    /// Vertices of the caps; `None` when there are none.
-    pub geometry: Option<GeometryBuffers>,
+    /// Vertices of the caps.
+    pub caps: GeometryBuffers,
     parts: Arc<Vec<Part>>,
     key: Key,
 }
@@ -122,17 +122,17 @@ impl Section {
         let (mut meshes, mut capped) = (Vec::new(), Vec::new());
         for (&node, (part, cap)) in key.visible.iter().zip(found) {
             if let Some(cap) = cap {
-                let surface = scene.triangle_count(node);
+                let mesh = scene.scene.nodes[node].mesh.and_then(|mesh| scene.scene.meshes.get(mesh));
+                let surface = mesh.map_or(0, |mesh| mesh.triangle_count() as u32);
                 meshes.push(mesh_of(&cap, surface));
                 capped.push((node, surface));
             }
             parts[node] = part;
         }
         let sources: Vec<_> = meshes.iter().map(|(mesh, surfaces)| MeshSource { mesh, surfaces: Some(surfaces) }).collect();
-        let geometry = if sources.is_empty() { None } else { Some(GeometryBuffers::new(gpu, &sources)?) };
+        let caps = GeometryBuffers::new(gpu, &sources)?;
         let patterns = patterns(scene, &key.visible, margin);
-        let ranges = geometry.iter().flat_map(|g| &g.meshes);
-        for (((node, surface), (mesh, _)), &range) in capped.into_iter().zip(&meshes).zip(ranges) {
+        for (((node, surface), (mesh, _)), &range) in capped.into_iter().zip(&meshes).zip(&caps.meshes) {
             if let Part::Open(opened) = &mut parts[node] {
                 let index_count = mesh.indices.len() as u32;
                 let pattern = patterns.get(node).copied().unwrap_or(0);
@@ -140,7 +140,7 @@ impl Section {
             }
         }
         let plane = -(key.plane.equation() + DVec4::W * (0.5 * margin));
-        Ok(Self { style: style.clone(), plane, world_from_plane, geometry, parts: Arc::new(parts), key })
+        Ok(Self { style: style.clone(), plane, world_from_plane, caps, parts: Arc::new(parts), key })
     }
 
     /// What becomes of an object.
@@ -161,6 +161,11 @@ impl Section {
         (self.key.plane, self.key.right)
     }
 
+    /// Whether anything has a cap.
+    pub fn has_caps(&self) -> bool {
+        !self.caps.meshes.is_empty()
+    }
+
     /// Whether both cut the same objects at the same place.
     pub fn is_same_cut(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.parts, &other.parts)
@@ -172,7 +177,7 @@ fn open(scene: &GpuScene, node: NodeId, plane_from_world: &DMat4, has_caps: bool
     let place = &scene.scene.nodes[node];
     let Some(number) = place.mesh else { return (Part::Whole, None) };
     let plane_from_local = *plane_from_world * place.world_from_local;
-    let bounds = scene.mesh_bounds.get(number).copied().unwrap_or(Bounds::EMPTY);
+    let bounds = scene.mesh_bounds(number);
     let heights = bounds.corners().map(|corner| plane_from_local.transform_point3(corner).z);
     if bounds.is_empty() || heights.iter().all(|&z| z < 0.0) {
         return (Part::Whole, None);
@@ -180,7 +185,7 @@ fn open(scene: &GpuScene, node: NodeId, plane_from_world: &DMat4, has_caps: bool
     if heights.iter().all(|&z| z >= 0.0) {
         return (Part::Gone, None);
     }
-    let (Some(mesh), Some(weld)) = (scene.scene.meshes.get(number), scene.welds.get(number)) else {
+    let (Some(mesh), Some(weld)) = (scene.scene.meshes.get(number), scene.weld(number)) else {
         return (Part::Open(Opened { contours: Vec::new(), cap: None }), None);
     };
     let contours = contours(mesh, weld, &plane_from_local);

@@ -30,7 +30,7 @@ pub(super) fn segments(scene: &GpuScene, group: &Group, view: &View, crease_angl
         let Some((index, mesh)) = found.mesh.and_then(|m| Some((m, scene.scene.meshes.get(m)?))) else {
             continue;
         };
-        let Some(edges) = scene.edges.get(index) else { continue };
+        let Some(edges) = scene.edges(index) else { continue };
         let placed = PlacedEdges {
             edges,
             mesh,

@@ -5,8 +5,8 @@ use glam::{DMat4, Vec2, Vec4};
 
 use super::RenderError;
 use super::drawing::DrawingInputs;
-use super::gpu_scene::GpuScene;
-use super::groups::{Objects, Source};
+use super::gpu_scene::{GpuScene, Origin};
+use super::groups::Objects;
 use super::light_view::{LightView, LookedAt, light_views};
 use super::lights::{MAX_SHADOWS, WorldLight};
 use super::passes::gbuffer::GBuffer;
@@ -103,14 +103,14 @@ fn seen_by(
         let clip_from_world = view.clip_from_light() * view.light_from_world;
         for part in objects.surfaces.parts(scene) {
             let alpha = scene.scene.materials.get(part.material).map_or(AlphaMode::Opaque, |m| m.alpha);
-            let has_holes = alpha != AlphaMode::Opaque && scene.geometry.attributes.is_some();
+            let has_holes = alpha != AlphaMode::Opaque && scene.geometry(part.origin).attributes.is_some();
             let light_from_local = view.light_from_world * part.world_from_local;
             let section = scene.section.as_ref().filter(|s| s.opened(part.node).is_some());
-            let section = section.filter(|_| part.source == Source::Model).map(|section| section.plane);
+            let section = section.filter(|_| part.origin != Origin::Caps).map(|section| section.plane);
             seen.calls.push(ShadowCall {
-                source: part.source,
                 draw: seen.draws.len() as u32,
                 view: number,
+                origin: part.origin,
                 first_index: part.first_index,
                 index_count: part.index_count,
                 base_vertex: part.base_vertex,
@@ -132,7 +132,7 @@ fn seen_by(
             });
         }
     }
-    seen.calls.sort_by_key(|c| (c.view, c.source, c.has_holes, c.is_cut, c.hidden_side.map(|s| s as u32)));
+    seen.calls.sort_by_key(|c| (c.view, c.origin, c.has_holes, c.is_cut, c.hidden_side.map(|s| s as u32)));
     seen
 }
 

@@ -13,8 +13,11 @@ pub type NodeId = usize;
 /// Everything loaded from one or more files.
 #[derive(Debug, Clone, Default)]
 pub struct Scene {
-    /// Nodes in depth-first order: a parent stands before its children, a subtree is contiguous.
+    /// Nodes in depth-first order: a parent stands before its children, a subtree is contiguous. Behind them those that
+    /// the program added, which belong to no subtree.
     pub nodes: Vec<Node>,
+    /// How many nodes the program added: the last ones.
+    pub added: usize,
     /// Meshes; several nodes may show the same one.
     pub meshes: Vec<Arc<Mesh>>,
     /// Materials that mesh parts refer to.

@@ -2,41 +2,29 @@
 //! section 4).
 //!
 //! ```text
-//!            ┌────────────────────────────────────────────────────────┐
-//!            ▼                                                        │
-//! draws ─► layer i ─► count ─► edge map ─► lines ─► beneath the layers before ─► picture of the group
-//!                       └─► gate: too few pixels shut it, and nothing after that runs
+//! draws ─► layers ─► edge map of each ─► lines ─► beneath the layers before ─► picture of the group
 //! ```
 //!
 //! The paper blends the layers back to front; front to back, each beneath those before it, gives the same picture with two
 //! layers in memory instead of all, and ends wherever peeling does.
 
-use std::sync::Arc;
-
 use encase::ShaderType;
 use glam::Vec3;
 
-use crate::geometry::LineSegment;
 use crate::gpu::recorder::{Draw, Input, Onto};
-use crate::gpu::{ArrayBuffer, DepthRule, DynamicBuffer, Gate, Gpu, Program, Recorder, Target};
+use crate::gpu::{ArrayBuffer, DepthRule, Gpu, Program, Recorder, Target};
 use crate::render::RenderError;
 use crate::render::drawing::DrawingInputs;
 use crate::render::effects::section::{CapUniform, caps};
 use crate::render::frame_uniform::FrameUniform;
 use crate::render::groups::Group;
-use crate::render::passes::edge_map::{EdgeInputs, EdgeMapPass};
-use crate::render::passes::edge_style::EdgeUniform;
+use crate::render::layers::{LayerInputs, LayerLines, LayerLinesInputs, Layers};
 use crate::render::passes::gbuffer::{DrawCall, DrawUniform, GBuffer, GBufferPass};
-use crate::render::passes::line_distance::line_distance;
-use crate::render::passes::lines::{Lines, Pen, lines};
-use crate::render::passes::peel::{Layer, MOST_LAYERS, Peel, PeelCount, before_all};
-use crate::render::passes::repeated::{none_seen, without_repeated};
+use crate::render::passes::lines::{Pen, lines};
+use crate::render::passes::peel::{Layer, MOST_LAYERS, PeelCount};
 use crate::render::segments::segments;
 use crate::render::stage::{Output, Stage};
 use crate::style::{self, Edges, Style};
-
-/// Kinds of passes that a layer has beside the draws of its objects: room in the gate.
-const PASSES: usize = 16;
 
 /// Objects whose style is equal, peeled together.
 #[derive(Debug, Clone, PartialEq)]
@@ -131,14 +119,10 @@ struct Inputs {
 
 /// What of the drawing of a group lives across frames.
 pub struct Blueprints {
-    draws: DynamicBuffer,
-    edge_map_pass: EdgeMapPass,
-    edge_styles: ArrayBuffer,
-    greatest_radius: ArrayBuffer,
+    layers: Layers,
+    lines: LayerLines,
     style: ArrayBuffer,
     caps: ArrayBuffer,
-    gate: Option<Gate>,
-    count: PeelCount,
     stage: Stage<Inputs, Peels>,
 }
 
@@ -146,14 +130,10 @@ impl Blueprints {
     /// Nothing drawn yet.
     pub fn new(gpu: &Gpu) -> Self {
         Self {
-            draws: GBufferPass::draw_buffer(gpu),
-            edge_map_pass: EdgeMapPass::new(gpu),
-            edge_styles: ArrayBuffer::new(gpu, "edge styles of a blueprint"),
-            greatest_radius: ArrayBuffer::new(gpu, "greatest radius"),
+            layers: Layers::new(gpu),
+            lines: LayerLines::new(gpu),
             style: ArrayBuffer::new(gpu, "blueprint"),
             caps: ArrayBuffer::new(gpu, "caps"),
-            gate: None,
-            count: PeelCount::new(gpu),
             stage: Stage::default(),
         }
     }
@@ -165,7 +145,7 @@ impl Blueprints {
 
     /// How far peeling came in the last picture.
     pub fn count(&self) -> &PeelCount {
-        &self.count
+        self.layers.count()
     }
 
     /// The picture of a group, as far as opaque surfaces do not hide it.
@@ -194,193 +174,118 @@ impl Blueprints {
             caps: caps(inputs.scene, inputs.view, inputs.objects.scale),
             keeps_layers: inputs.keeps_layers,
         };
-        let Self { draws, edge_map_pass, edge_styles, greatest_radius, style, caps, gate, count, stage } = self;
+        let Self { layers, lines: layer_lines, style, caps, stage } = self;
         stage.run(asked, |asked| {
-            edge_styles.write(rec.gpu, &blueprint.group.edge_styles);
-            style.write(rec.gpu, &vec![BlueprintUniform::from(&blueprint.style)]);
-            if !asked.caps.is_empty() {
+            let Blueprint { group, style: params, .. } = blueprint;
+            style.write(rec.gpu, &vec![BlueprintUniform::from(params)]);
+            let has_caps = !asked.caps.is_empty();
+            if has_caps {
                 caps.write(rec.gpu, &asked.caps);
             }
-            count.begin(rec.gpu, blueprint.least(rec.size()));
-            let mut own = gate.take().unwrap_or_else(|| Gate::new(rec.gpu));
-            own.clear(rec.gpu, asked.calls.len() + PASSES)?;
-            let view = inputs.view.moved(glam::Vec2::ZERO);
-            let segments = segments(inputs.scene, &blueprint.group, &view, inputs.crease_angle);
-            let mut peeling = Peeling {
-                inputs,
-                asked,
-                surfaces: &surfaces.value,
-                segments: Arc::new(segments),
-                gbuffer_pass,
-                draws,
-                edge_map_pass,
-                edge_styles,
-                greatest_radius,
-                style,
-                caps,
-                count,
-                front: None,
-                kept: Vec::new(),
+            layer_lines.begin(rec.gpu, &group.edge_styles);
+            let segments =
+                segments(inputs.scene, group, &inputs.view.moved(glam::Vec2::ZERO), inputs.crease_angle);
+            let edges = LayerLinesInputs {
+                styles: &group.edge_styles,
+                segments: &segments,
+                has_holes: group.has_holes,
+                is_cut: inputs.view.cut.is_some(),
+                repeated: params.repeated,
             };
             let color = rec.target("blueprint", wgpu::TextureFormat::Rgba16Float)?;
             rec.clear("blueprint", &color);
-            let first = before_all(rec)?;
-            rec.gate = Some(own);
-            let peeled = peeling.peel(rec, first, &color);
-            *gate = rec.gate.take();
-            if let Some(gate) = gate {
-                gate.open(rec.gpu);
-            }
-            let Peeling { front, kept: layers, .. } = peeling;
-            peeled.map(|()| Peels { color, front, layers })
+            let (mut seen, mut front, mut kept) = (None, None, Vec::new());
+            let cut = LayerInputs {
+                scene: inputs.scene,
+                draws: &asked.draws,
+                calls: &asked.calls,
+                is_cut: inputs.view.has_cuts(),
+                most: blueprint.layers(),
+                least: blueprint.least(rec.size()),
+            };
+            layers.each(rec, gbuffer_pass, &cut, |rec, number, layer, count| {
+                if asked.keeps_layers {
+                    kept.push(layer.clone());
+                }
+                if !blueprint.shows(number) {
+                    return Ok(());
+                }
+                front.get_or_insert_with(|| layer.gbuffer.geometry.clone());
+                let sprite = Sprite { surfaces: &surfaces.value, style: style.buffer(), count };
+                if group.have_lines() {
+                    let found = layer_lines.edges(rec, &edges, layer, &mut seen)?;
+                    let pen = Pen {
+                        file: "effects/blueprint.wgsl",
+                        entry_point: "fs_lines",
+                        inputs: &sprite.inputs(found.nearer.as_ref().unwrap_or(&layer.order)),
+                        switches: &[("WITHOUT_REPEATED", found.nearer.is_some()), ("AMONG_OTHERS", true)],
+                        onto: Onto::Beneath,
+                    };
+                    lines(rec, &found.lines(layer, layer_lines, edges.styles), &pen, &color)?;
+                }
+                if params.opacity > 0.0 || has_caps {
+                    let caps = has_caps.then_some(caps.buffer());
+                    fill(rec, layer, layer_lines.edge_styles(), sprite, caps, &color)?;
+                }
+                Ok(())
+            })?;
+            Ok(Peels { color, front, layers: kept })
         })
     }
 }
 
-/// A group while it is peeled.
-struct Peeling<'a> {
-    inputs: &'a DrawingInputs<'a>,
-    asked: &'a Inputs,
+/// What layers are drawn with and tested against.
+#[derive(Clone, Copy)]
+struct Sprite<'a> {
     surfaces: &'a GBuffer,
-    segments: Arc<Vec<LineSegment>>,
-    gbuffer_pass: &'a mut GBufferPass,
-    draws: &'a mut DynamicBuffer,
-    edge_map_pass: &'a mut EdgeMapPass,
-    edge_styles: &'a ArrayBuffer,
-    greatest_radius: &'a mut ArrayBuffer,
-    style: &'a ArrayBuffer,
-    caps: &'a ArrayBuffer,
+    style: &'a wgpu::Buffer,
     count: &'a PeelCount,
-    front: Option<Target>,
-    kept: Vec<Layer>,
 }
 
-impl Peeling<'_> {
-    fn peel(
-        &mut self,
-        rec: &mut Recorder<'_>,
-        [mut last_depth, mut last_order]: [Target; 2],
-        color: &Target,
-    ) -> Result<(), RenderError> {
-        let blueprint = &self.asked.blueprint;
-        let mut seen = None;
-        for number in 0..blueprint.layers() {
-            let order = rec.target("order", last_order.format())?;
-            let peel = Peel { last_depth: &last_depth, last_order: &last_order, order: &order };
-            let drawn = (self.asked.draws.as_slice(), self.asked.calls.as_slice());
-            let is_cut = self.inputs.view.has_cuts();
-            let gbuffer =
-                self.gbuffer_pass.run(rec, self.inputs.scene, self.draws, drawn, is_cut, Some(&peel))?;
-            let layer = Layer { gbuffer, order };
-            self.count.count(rec, &layer)?;
-            if blueprint.shows(number) {
-                self.front.get_or_insert_with(|| layer.gbuffer.geometry.clone());
-                if blueprint.group.have_lines() {
-                    self.lines(rec, &layer, &mut seen, color)?;
-                }
-                self.fill(rec, &layer, color)?;
-            }
-            if self.asked.keeps_layers {
-                self.kept.push(layer.clone());
-            }
-            (last_depth, last_order) = (layer.gbuffer.depth, layer.order);
-        }
-        Ok(())
-    }
-
-    /// Draws the lines of a layer beneath what is there. `seen`: those of the layers before.
-    fn lines(
-        &mut self,
-        rec: &mut Recorder<'_>,
-        layer: &Layer,
-        seen: &mut Option<Target>,
-        color: &Target,
-    ) -> Result<(), RenderError> {
-        let Blueprint { group, style, .. } = &self.asked.blueprint;
-        let styles: &[EdgeUniform] = &group.edge_styles;
-        let mut edge_map = self.edge_map_pass.run(
-            rec,
-            &EdgeInputs {
-                gbuffer: &layer.gbuffer,
-                styles,
-                edge_styles: self.edge_styles.buffer(),
-                segments: &self.segments,
-                has_holes: group.has_holes,
-                is_cut: self.inputs.view.cut.is_some(),
-                is_layer: true,
-                shadow_mask: None,
-            },
-        )?;
-        let mut seen_before = None;
-        if !style.repeated {
-            let before = match seen.take() {
-                Some(seen) => seen,
-                None => none_seen(rec)?,
-            };
-            let (now, own) = without_repeated(rec, &edge_map, &before)?;
-            (*seen, edge_map, seen_before) = (Some(now), own, Some(before));
-        }
-        let reach = match &edge_map.spines {
-            Some(spines) => Some(line_distance(rec, spines, styles, self.greatest_radius)?),
-            None => None,
-        };
-        let drawn = Lines {
-            gbuffer: &layer.gbuffer,
-            edge_map: &edge_map,
-            reach: reach.as_ref(),
-            styles,
-            edge_styles: self.edge_styles.buffer(),
-        };
-        let pen = Pen {
-            file: "effects/blueprint.wgsl",
-            entry_point: "fs_lines",
-            inputs: &self.sprite(seen_before.as_ref().unwrap_or(&layer.order)),
-            switches: &[("WITHOUT_REPEATED", seen_before.is_some()), ("AMONG_OTHERS", true)],
-            onto: Onto::Beneath,
-        };
-        lines(rec, &drawn, &pen, color)
-    }
-
+impl<'a> Sprite<'a> {
     /// What the shader of the effect reads from binding 6 on.
-    fn sprite<'b>(&'b self, seen: &'b Target) -> [Input<'b>; 4] {
+    fn inputs(&self, seen: &'a Target) -> [Input<'a>; 4] {
         [
             Input::Texture(&self.surfaces.geometry),
-            Input::Storage(self.style.buffer()),
+            Input::Storage(self.style),
             Input::Storage(self.count.buffer()),
             Input::Texture(seen),
         ]
     }
+}
 
-    /// Draws the surfaces of a layer beneath what is there, caps with the pen of its lines.
-    fn fill(&self, rec: &mut Recorder<'_>, layer: &Layer, color: &Target) -> Result<(), RenderError> {
-        let has_caps = !self.asked.caps.is_empty();
-        if self.asked.blueprint.style.opacity <= 0.0 && !has_caps {
-            return Ok(());
-        }
-        // Of the lines' bindings only the first is read: any texture of their kind.
-        let mut inputs = vec![
-            Input::Texture(&layer.gbuffer.geometry),
-            Input::Texture(&layer.order),
-            Input::Texture(&layer.gbuffer.base_color),
-            Input::Texture(&layer.order),
-            Input::Texture(&layer.order),
-            Input::Storage(self.edge_styles.buffer()),
-        ];
-        inputs.extend(self.sprite(&layer.order));
-        inputs.extend([Input::Texture(&layer.gbuffer.region), Input::Storage(self.caps.buffer())]);
-        rec.draw(Draw {
-            label: "fill",
-            program: Program {
-                file: "effects/blueprint.wgsl",
-                entry_point: "fs_fill",
-                switches: vec![("WITH_CAPS", has_caps)],
-            },
-            inputs: &inputs,
-            outputs: &[color],
-            onto: Onto::Beneath,
-            depth: Some((&layer.gbuffer.depth, DepthRule::Covered)),
-            lines: None,
-        })?;
-        Ok(())
-    }
+/// Draws the surfaces of a layer beneath what is there, `caps` (those by object id) with the pen of its lines.
+fn fill(
+    rec: &mut Recorder<'_>,
+    layer: &Layer,
+    edge_styles: &wgpu::Buffer,
+    sprite: Sprite<'_>,
+    caps: Option<&wgpu::Buffer>,
+    color: &Target,
+) -> Result<(), RenderError> {
+    // Of the lines' bindings only the first is read: any texture of their kind.
+    let mut inputs = vec![
+        Input::Texture(&layer.gbuffer.geometry),
+        Input::Texture(&layer.order),
+        Input::Texture(&layer.gbuffer.base_color),
+        Input::Texture(&layer.order),
+        Input::Texture(&layer.order),
+        Input::Storage(edge_styles),
+    ];
+    inputs.extend(sprite.inputs(&layer.order));
+    inputs.extend([Input::Texture(&layer.gbuffer.region), Input::Storage(caps.unwrap_or(edge_styles))]);
+    rec.draw(Draw {
+        label: "fill",
+        program: Program {
+            file: "effects/blueprint.wgsl",
+            entry_point: "fs_fill",
+            switches: vec![("WITH_CAPS", caps.is_some())],
+        },
+        inputs: &inputs,
+        outputs: &[color],
+        onto: Onto::Beneath,
+        depth: Some((&layer.gbuffer.depth, DepthRule::Covered)),
+        lines: None,
+    })?;
+    Ok(())
 }

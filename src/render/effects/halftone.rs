@@ -135,7 +135,7 @@ impl Halftones {
 /// precision up to there, so that patterns keep their digits wherever the object is.
 fn pattern_from_view(scene: &GpuScene, id: usize, view: &View) -> Option<Mat4> {
     let node = scene.scene.nodes.get(id.checked_sub(1)?)?;
-    let bounds = scene.mesh_bounds.get(node.mesh?)?;
+    let bounds = scene.mesh_bounds(node.mesh?);
     let linear = [node.world_from_local.x_axis, node.world_from_local.y_axis, node.world_from_local.z_axis];
     // As large as in the world, so that a stretched object has no stretched pattern.
     let size = DVec3::from_array(linear.map(|axis| axis.truncate().length()));

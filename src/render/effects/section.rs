@@ -32,7 +32,7 @@ pub struct CapUniform {
 
 /// The caps of a scene by object id, for a view with this many pixels per reference pixel; empty when there are none.
 pub fn caps(scene: &GpuScene, view: &View, scale: f32) -> Vec<CapUniform> {
-    let Some(section) = scene.section.as_ref().filter(|section| section.geometry.is_some()) else {
+    let Some(section) = scene.section.as_ref().filter(|section| section.has_caps()) else {
         return Vec::new();
     };
     let nodes = 0..scene.scene.nodes.len();

@@ -55,14 +55,16 @@ impl CoordinatesPass {
             stencil_ops: None,
         };
         let mut pass = rec.pass("coordinates", &color, Some(depth));
-        let Some(attributes) = &scene.geometry.attributes else {
-            drop(pass);
-            return Ok(target);
-        };
-        pass.set_vertex_buffer(0, scene.geometry.positions.slice(..));
-        pass.set_vertex_buffer(1, attributes.slice(..));
-        pass.set_index_buffer(scene.geometry.indices.slice(..), wgpu::IndexFormat::Uint32);
+        let mut origin = None;
         for call in calls {
+            let geometry = scene.geometry(call.origin);
+            if geometry.attributes.is_none() {
+                continue;
+            }
+            if origin != Some(call.origin) {
+                geometry.bind(&mut pass, &[Some(&geometry.positions), geometry.attributes.as_ref()]);
+                origin = Some(call.origin);
+            }
             let Some(pipeline) = self.pipelines.get(&call.hidden_side) else { continue };
             pass.set_pipeline(pipeline);
             pass.set_bind_group(2, &group, &[draws.offset(call.draw)]);

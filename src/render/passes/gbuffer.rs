@@ -12,8 +12,7 @@ use crate::gpu::material::MaterialUniform;
 use crate::gpu::recorder::color_attachment;
 use crate::gpu::{DynamicBuffer, Gpu, MaterialBindings, Pipelines, Recorder, Target};
 use crate::render::RenderError;
-use crate::render::gpu_scene::GpuScene;
-use crate::render::groups::Source;
+use crate::render::gpu_scene::{GpuScene, Origin};
 
 /// Shading and face normal, linear depth, object id: see `shaders/common/gbuffer.wgsl`.
 const GEOMETRY: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Uint;
@@ -70,10 +69,10 @@ pub enum Detail {
 /// One draw call.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DrawCall {
-    /// Where its vertices are.
-    pub source: Source,
     /// Index of its uniform.
     pub draw: u32,
+    /// The buffers that hold it.
+    pub origin: Origin,
     /// Range of the index buffer.
     pub first_index: u32,
     /// Number of indices.
@@ -200,17 +199,14 @@ impl GBufferPass {
         if let Some(layer) = &layer {
             pass.set_bind_group(3, layer, &[]);
         }
-        let (mut source, mut bound, mut material) = (None, None, None);
+        let (mut bound, mut material, mut origin) = (None, None, None);
         for (call, gated) in calls.iter().zip(&gated) {
-            if source != Some(call.source) {
-                let Some(geometry) = scene.geometry_of(call.source) else { continue };
-                pass.set_vertex_buffer(0, geometry.positions.slice(..));
-                pass.set_vertex_buffer(1, geometry.surfaces.slice(..));
-                if let Some(attributes) = &geometry.attributes {
-                    pass.set_vertex_buffer(2, attributes.slice(..));
-                }
-                pass.set_index_buffer(geometry.indices.slice(..), wgpu::IndexFormat::Uint32);
-                source = Some(call.source);
+            if origin != Some(call.origin) {
+                let geometry = scene.geometry(call.origin);
+                let buffers =
+                    [Some(&geometry.positions), Some(&geometry.surfaces), geometry.attributes.as_ref()];
+                geometry.bind(&mut pass, &buffers);
+                origin = Some(call.origin);
             }
             let key = variant(call);
             if bound != Some(key) {

@@ -5,12 +5,14 @@ use crate::gpu::recorder::Input;
 use crate::gpu::{Program, Recorder, Target};
 use crate::render::RenderError;
 use crate::render::groups::object_id;
-use crate::scene::NodeId;
+use crate::scene::{NodeId, Scene};
 
-/// One bit per object id, as the shader reads it.
-pub fn bits(selected: &[NodeId], node_count: usize) -> Vec<u32> {
-    let mut bits = vec![0u32; (node_count + 1).div_ceil(32)];
-    for &node in selected {
+/// One bit per object id, as the shader reads it; what belongs to a selected node is selected with it.
+pub fn bits(selected: &[NodeId], scene: &Scene) -> Vec<u32> {
+    let mut bits = vec![0u32; (scene.nodes.len() + 1).div_ceil(32)];
+    let added =
+        (scene.own_nodes().len()..scene.nodes.len()).filter(|n| selected.contains(&scene.meant_by(*n)));
+    for node in selected.iter().copied().chain(added) {
         let id = object_id(node);
         if let Some(word) = bits.get_mut(id as usize / 32) {
             *word |= 1 << (id % 32);

@@ -10,8 +10,7 @@ use crate::gpu::geometry::Attributes;
 use crate::gpu::material::MaterialUniform;
 use crate::gpu::{DynamicBuffer, Gpu, Pipelines, Recorder, Target};
 use crate::render::RenderError;
-use crate::render::gpu_scene::GpuScene;
-use crate::render::groups::Source;
+use crate::render::gpu_scene::{GpuScene, Origin};
 use crate::render::light_view::LightView;
 
 /// Reversed: 1 nearest to the light, 0 where it meets nothing.
@@ -31,12 +30,12 @@ pub struct ShadowDraw {
 /// One draw call.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ShadowCall {
-    /// Where its vertices are.
-    pub source: Source,
     /// Index of its uniform.
     pub draw: u32,
     /// Number of the light's picture in which it is seen.
     pub view: usize,
+    /// The buffers that hold it.
+    pub origin: Origin,
     /// Range of the index buffer.
     pub first_index: u32,
     /// Number of indices.
@@ -66,6 +65,7 @@ pub struct ShadowScene {
     pub side: u32,
 }
 
+/// What tells the pipelines apart.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 struct Key {
     has_holes: bool,
@@ -147,16 +147,12 @@ impl ShadowMapPass {
             stencil_ops: None,
         };
         let mut pass = rec.pass("shadow map", &[], Some(depth));
-        let (mut source, mut bound, mut material, mut view) = (None, None, None, None);
+        let (mut bound, mut material, mut view, mut origin) = (None, None, None, None);
         for call in &seen.calls {
-            if source != Some(call.source) {
-                let Some(geometry) = scene.geometry_of(call.source) else { continue };
-                pass.set_vertex_buffer(0, geometry.positions.slice(..));
-                if let Some(attributes) = &geometry.attributes {
-                    pass.set_vertex_buffer(1, attributes.slice(..));
-                }
-                pass.set_index_buffer(geometry.indices.slice(..), wgpu::IndexFormat::Uint32);
-                source = Some(call.source);
+            if origin != Some(call.origin) {
+                let geometry = scene.geometry(call.origin);
+                geometry.bind(&mut pass, &[Some(&geometry.positions), geometry.attributes.as_ref()]);
+                origin = Some(call.origin);
             }
             let key = Key::from(call);
             if bound != Some(key) {
