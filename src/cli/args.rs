@@ -257,7 +257,8 @@ impl FromStr for SectionAt {
         let wrong = || format!("`{s}` is no plane; write x, y or z and a position, such as y=1.5");
         let (axis, position) = s.split_once('=').map_or((s, None), |(axis, position)| (axis, Some(position)));
         let axis = axis.trim().to_ascii_lowercase().parse().ok().filter(|axis| *axis != Axis::Free);
-        let position = position.map(|p| p.trim().parse().ok().filter(|p: &f32| p.is_finite()).ok_or_else(wrong));
+        let position =
+            position.map(|p| p.trim().parse().ok().filter(|p: &f32| p.is_finite()).ok_or_else(wrong));
         Ok(Self { axis: axis.ok_or_else(wrong)?, position: position.transpose()? })
     }
 }

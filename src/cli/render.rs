@@ -51,7 +51,8 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
     save_png(&args.output, image, dpi)?;
 
     let scene = &opened.scene;
-    let faults = opened.document.mirror_faults(scene);
+    let section = opened.document.section_fault(opened.document.up(scene), &scene.bounds());
+    let faults = opened.document.mirror_faults(scene).into_iter().chain(section);
     let warnings = images.warnings(&uses).into_iter().chain(scene.warnings.iter().cloned()).chain(faults);
     if args.json {
         print_json(&json!({

@@ -4,8 +4,9 @@ use std::ops::RangeInclusive;
 
 use glam::DVec3;
 
+use super::Document;
 use crate::geometry::{Bounds, Plane};
-use crate::scene::Up;
+use crate::scene::{Up, Warning};
 use crate::style::param::{Param, Params, Place};
 use crate::style::{Color, choice};
 
@@ -112,7 +113,10 @@ impl Section {
     pub fn range(&self, up: Up, bounds: &Bounds) -> [f64; 2] {
         let direction = self.direction(up);
         let along = bounds.corners().map(|corner| corner.dot(direction));
-        let [low, high] = [along.iter().copied().fold(f64::INFINITY, f64::min), along.into_iter().fold(f64::NEG_INFINITY, f64::max)];
+        let [low, high] = [
+            along.iter().copied().fold(f64::INFINITY, f64::min),
+            along.into_iter().fold(f64::NEG_INFINITY, f64::max),
+        ];
         if !bounds.is_empty() && low.is_finite() && high.is_finite() { [low, high] } else { [0.0, 1.0] }
     }
 
@@ -138,7 +142,12 @@ impl Section {
         let mut list = Params::default();
         list.section("section", |list| {
             list.head("show", "Section plane", "Cut away what lies behind a plane.", &mut self.show);
-            list.choice("axis", "Axis", "The axis of the file that the plane is perpendicular to, or any direction.", &mut self.axis);
+            list.choice(
+                "axis",
+                "Axis",
+                "The axis of the file that the plane is perpendicular to, or any direction.",
+                &mut self.axis,
+            );
             list.when("section.axis", Axis::Free, |list| {
                 list.number(
                     "azimuth",
@@ -197,6 +206,32 @@ impl Section {
 /// The farthest position that is accepted.
 const MOST: f32 = 1e9;
 
+impl Document {
+    /// A warning where the section plane lies beyond a model with this box around it: it cuts nothing, or leaves nothing.
+    pub fn section_fault(&self, up: Up, bounds: &Bounds) -> Option<Warning> {
+        let section = &self.section;
+        let position = f64::from(section.position.filter(|_| section.show && !bounds.is_empty())?);
+        let [low, high] = section.range(up, bounds);
+        let is_beyond = if position >= high {
+            true
+        } else if position <= low {
+            false
+        } else {
+            return None;
+        };
+        let effect = if is_beyond == section.flip {
+            "nothing is left; move the plane or flip it"
+        } else {
+            "nothing is cut; move the plane"
+        };
+        let reach = format!("the model reaches from {low:.6} to {high:.6} along the plane's direction");
+        Some(Warning {
+            place: "section.position".to_owned(),
+            message: format!("{position}: {reach}, so {effect}"),
+        })
+    }
+}
+
 impl Hatch {
     fn params<'a>(&'a mut self, list: &mut Params<'a>) {
         list.color("color", "Colour", "Colour of the hatching.", &mut self.color);
@@ -247,13 +282,37 @@ mod tests {
     }
 
     #[test]
+    fn a_plane_beyond_the_model_is_told() {
+        let mut document = Document::default();
+        document.section = Section { show: true, position: Some(0.5), ..Section::default() };
+        let mut fault = |position, flip| {
+            (document.section.position, document.section.flip) = (Some(position), flip);
+            document.section_fault(Up::PosY, &BOX).map(|w| w.to_string())
+        };
+        assert_eq!(fault(0.5, false), None);
+        let told = [
+            (7.0, false, "nothing is cut"),
+            (7.0, true, "nothing is left"),
+            (-1.0, false, "nothing is left"),
+            (-1.0, true, "nothing is cut"),
+        ];
+        for (position, flip, effect) in told {
+            let message = fault(position, flip).unwrap();
+            assert!(message.contains("from 0.000000 to 1.000000") && message.contains(effect), "{message}");
+        }
+        document.section.show = false;
+        assert_eq!(document.section_fault(Up::PosY, &BOX), None);
+    }
+
+    #[test]
     fn a_free_plane_reaches_over_the_whole_box() {
         let mut section = Section { show: true, axis: Axis::Free, elevation: 35.0, ..Section::default() };
         for up in Up::ALL {
             let direction = section.direction(up);
             assert!((direction.length() - 1.0).abs() < 1e-12);
             let [low, high] = section.range(up, &BOX);
-            let outside = BOX.corners().map(|c| c.dot(direction)).map(|d| d - low >= -1e-9 && high - d >= -1e-9);
+            let outside =
+                BOX.corners().map(|c| c.dot(direction)).map(|d| d - low >= -1e-9 && high - d >= -1e-9);
             assert!(outside.iter().all(|inside| *inside));
         }
         (section.azimuth, section.elevation) = (0.0, 0.0);

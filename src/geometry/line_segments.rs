@@ -18,9 +18,9 @@ use rayon::prelude::*;
 
 use self::angles::Angles;
 use self::clip::PictureMap;
+pub use self::contours::{PlacedContours, contour_segments};
 use self::facing::Facings;
 use self::fan::Fans;
-pub use self::contours::{PlacedContours, contour_segments};
 use super::feature_edges::Traits;
 use super::{ClassSet, EdgeClass, FeatureEdges, Mesh, Projector};
 

@@ -174,7 +174,9 @@ fn nothing_and_broken_numbers_give_nothing() {
     assert!(cut(&cube, DVec3::new(0.0, -2.0, 0.0), DVec3::Y).0.is_empty());
     assert!(contours(&Mesh::default(), &Weld::near(&[]), &DMat4::IDENTITY).is_empty());
     let weld = Weld::near(&cube.positions);
-    for broken in [DMat4::ZERO, DMat4::from_scale(DVec3::splat(f64::NAN)), DMat4::from_scale(DVec3::splat(1e100))] {
+    for broken in
+        [DMat4::ZERO, DMat4::from_scale(DVec3::splat(f64::NAN)), DMat4::from_scale(DVec3::splat(1e100))]
+    {
         assert!(cap(&contours(&cube, &weld, &broken)).is_none_or(|cap| cap.area().is_finite()));
     }
     let point = |x: f64| DVec2::new(x, 0.0);

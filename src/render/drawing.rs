@@ -364,53 +364,54 @@ impl Drawing {
             blueprints.iter().map(|b| b.revision).collect(),
             caps(inputs.scene, inputs.view, inputs.objects.scale),
         );
-        let color = self.surface.run(shading, |(_, _, surfaces, toons, (halftones, _), styles, .., caps)| {
-            self.surface_styles.write(rec.gpu, surfaces);
-            if !halftones.is_empty() {
-                self.halftone_styles.write(rec.gpu, halftones);
-            }
-            let shading = Shading {
-                surfaces,
-                surface_styles: self.surface_styles.buffer(),
-                toons,
-                toon_buffers: ToonBuffers {
-                    styles: self.toon_styles.buffer(),
-                    bands: self.toon_bands.buffer(),
-                },
-                shadow_mask: begun.shadow_mask.as_ref().map(|mask| &mask.value),
-                cartoon_map: cartoon_map.as_ref(),
-                halftones: HalftoneInputs {
-                    styles: halftones,
-                    style_buffer: self.halftone_styles.buffer(),
-                    maps: &shared.thresholds,
-                    coordinates: coordinates.as_ref(),
-                },
-            };
-            let color = surface(rec, &gbuffer.value, &shading)?;
-            if !caps.is_empty() {
-                self.caps.write(rec.gpu, caps);
-                section(rec, &gbuffer.value, self.caps.buffer(), &color)?;
-            }
-            for seen in &reflected {
-                let Some(reflection) = self.reflections.get_mut(seen.index) else { continue };
-                reflection.uniform.write(rec.gpu, &vec![seen.uniform]);
-                mirror(rec, &gbuffer.value, &seen.color.value, reflection.uniform.buffer(), &color)?;
-            }
-            if let Some(edge_map) = edge_map {
-                let drawn = Lines {
-                    gbuffer: &gbuffer.value,
-                    edge_map: &edge_map.value,
-                    reach: reach.as_ref().map(|reach| &reach.value),
-                    styles,
-                    edge_styles: self.edge_styles.buffer(),
+        let color =
+            self.surface.run(shading, |(_, _, surfaces, toons, (halftones, _), styles, .., caps)| {
+                self.surface_styles.write(rec.gpu, surfaces);
+                if !halftones.is_empty() {
+                    self.halftone_styles.write(rec.gpu, halftones);
+                }
+                let shading = Shading {
+                    surfaces,
+                    surface_styles: self.surface_styles.buffer(),
+                    toons,
+                    toon_buffers: ToonBuffers {
+                        styles: self.toon_styles.buffer(),
+                        bands: self.toon_bands.buffer(),
+                    },
+                    shadow_mask: begun.shadow_mask.as_ref().map(|mask| &mask.value),
+                    cartoon_map: cartoon_map.as_ref(),
+                    halftones: HalftoneInputs {
+                        styles: halftones,
+                        style_buffer: self.halftone_styles.buffer(),
+                        maps: &shared.thresholds,
+                        coordinates: coordinates.as_ref(),
+                    },
                 };
-                lines(rec, &drawn, &Pen::PLAIN, &color)?;
-            }
-            for blueprint in &blueprints {
-                overlay(rec, &blueprint.value.color, &color)?;
-            }
-            Ok::<_, RenderError>(color)
-        })?;
+                let color = surface(rec, &gbuffer.value, &shading)?;
+                if !caps.is_empty() {
+                    self.caps.write(rec.gpu, caps);
+                    section(rec, &gbuffer.value, self.caps.buffer(), &color)?;
+                }
+                for seen in &reflected {
+                    let Some(reflection) = self.reflections.get_mut(seen.index) else { continue };
+                    reflection.uniform.write(rec.gpu, &vec![seen.uniform]);
+                    mirror(rec, &gbuffer.value, &seen.color.value, reflection.uniform.buffer(), &color)?;
+                }
+                if let Some(edge_map) = edge_map {
+                    let drawn = Lines {
+                        gbuffer: &gbuffer.value,
+                        edge_map: &edge_map.value,
+                        reach: reach.as_ref().map(|reach| &reach.value),
+                        styles,
+                        edge_styles: self.edge_styles.buffer(),
+                    };
+                    lines(rec, &drawn, &Pen::PLAIN, &color)?;
+                }
+                for blueprint in &blueprints {
+                    overlay(rec, &blueprint.value.color, &color)?;
+                }
+                Ok::<_, RenderError>(color)
+            })?;
         let fronts = blueprints.iter().filter_map(|b| Some((b.revision, b.value.front.clone()?))).unzip();
         let layers = blueprints.into_iter().map(|b| b.value.layers).filter(|l| !l.is_empty()).collect();
         Ok(Shaded { color, cartoon_map, coordinates, fronts, layers })

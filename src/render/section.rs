@@ -129,7 +129,8 @@ impl Section {
             }
             parts[node] = part;
         }
-        let sources: Vec<_> = meshes.iter().map(|(mesh, surfaces)| MeshSource { mesh, surfaces: Some(surfaces) }).collect();
+        let sources: Vec<_> =
+            meshes.iter().map(|(mesh, surfaces)| MeshSource { mesh, surfaces: Some(surfaces) }).collect();
         let caps = GeometryBuffers::new(gpu, &sources)?;
         let patterns = patterns(scene, &key.visible, margin);
         for (((node, surface), (mesh, _)), &range) in capped.into_iter().zip(&meshes).zip(&caps.meshes) {
@@ -208,7 +209,8 @@ fn mesh_of(cap: &Cap, surface: u32) -> (Mesh, Provoking) {
 fn patterns(scene: &GpuScene, visible: &[NodeId], margin: f64) -> Vec<u32> {
     let mut numbers = vec![0; scene.scene.nodes.len()];
     let reach = DVec3::splat(margin);
-    let boxes = visible.iter().map(|&node| (node, scene.bounds_of(node))).filter(|(_, bounds)| !bounds.is_empty());
+    let boxes =
+        visible.iter().map(|&node| (node, scene.bounds_of(node))).filter(|(_, bounds)| !bounds.is_empty());
     let mut boxes: Vec<_> = boxes.collect();
     boxes.sort_by(|(_, a), (_, b)| a.min.x.total_cmp(&b.min.x));
     let mut before: Vec<(NodeId, Bounds)> = Vec::new();
@@ -217,7 +219,8 @@ fn patterns(scene: &GpuScene, visible: &[NodeId], margin: f64) -> Vec<u32> {
         let touches = |other: &Bounds| {
             other.min.cmple(bounds.max + reach).all() && other.max.cmpge(bounds.min - reach).all()
         };
-        let taken: Vec<u32> = before.iter().filter(|(_, other)| touches(other)).map(|(other, _)| numbers[*other]).collect();
+        let taken: Vec<u32> =
+            before.iter().filter(|(_, other)| touches(other)).map(|(other, _)| numbers[*other]).collect();
         numbers[node] = (0..).find(|number| !taken.contains(number)).unwrap_or(0);
         before.push((node, bounds));
     }

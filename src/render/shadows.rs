@@ -126,9 +126,8 @@ fn seen_by(
             seen.draws.push(ShadowDraw {
                 clip_from_local: (clip_from_world * part.world_from_local).as_mat4(),
                 material: part.material(scene),
-                section: section.map_or(Vec4::ZERO, |plane| {
-                    (part.world_from_local.transpose() * plane).as_vec4()
-                }),
+                section: section
+                    .map_or(Vec4::ZERO, |plane| (part.world_from_local.transpose() * plane).as_vec4()),
             });
         }
     }

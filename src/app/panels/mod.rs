@@ -9,6 +9,7 @@ pub mod menu;
 pub mod outliner;
 pub mod params;
 pub mod row;
+pub mod section;
 pub mod status;
 pub mod style;
 pub mod view;

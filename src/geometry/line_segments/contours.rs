@@ -74,7 +74,8 @@ impl Lengths {
         let mut starts = Vec::with_capacity(contour.triangles.len());
         let mut length = 0.0;
         for (ends, _) in contour.stretches() {
-            let [from, to] = picture.before(ends.map(in_plane)).map_or([DVec2::ZERO; 2], |ends| ends.map(|e| e.0));
+            let [from, to] =
+                picture.before(ends.map(in_plane)).map_or([DVec2::ZERO; 2], |ends| ends.map(|e| e.0));
             starts.push((from, length));
             length += from.distance(to);
         }

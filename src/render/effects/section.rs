@@ -38,7 +38,9 @@ pub fn caps(scene: &GpuScene, view: &View, scale: f32) -> Vec<CapUniform> {
     let nodes = 0..scene.scene.nodes.len();
     let patterns = PATTERNS.map(|(turn, spacing)| hatching(section, view, scale, turn, spacing));
     let cap = |node| {
-        let Some(cap) = section.opened(node).and_then(|opened| opened.cap) else { return CapUniform::default() };
+        let Some(cap) = section.opened(node).and_then(|opened| opened.cap) else {
+            return CapUniform::default();
+        };
         let region = region(object_id(node), cap.surface);
         CapUniform { region, ..patterns[cap.pattern as usize % PATTERNS.len()] }
     };
