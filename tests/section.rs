@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 use common::{image, scene, session, set, surfels};
 use glam::{DMat4, DVec3, Vec3};
-use hachure::document::Document;
+use hachure::document::{Document, Role};
 use hachure::export::session::Opened;
 use hachure::geometry::{Bounds, Mesh, primitives};
 use hachure::scene::{Camera, Scene};
@@ -87,7 +87,7 @@ fn a_cut_cube_looks_like_half_a_cube() {
                     &[("technique", technique), ("light.shadows", shadows), ("mirror.reflectivity", "1")],
                 );
                 let scene = Arc::clone(&opened.scene);
-                opened.document.set_mirror(&scene, &[2], true);
+                opened.document.set_role(&scene, &[2], Role::Mirror, true);
                 opened
             });
             let mut cut = cut;

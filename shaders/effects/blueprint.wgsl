@@ -1,18 +1,19 @@
 // A depth layer of a blueprint as a depth sprite: lines over a fill, tested against the surfaces that are opaque (blueprints
 // paper, section 4.2).
 #import passes/lines.wgsl
+#import common/depth_mask.wgsl
+#import common/ordered.wgsl
 #import common/peeled.wgsl
 #import common/cap.wgsl
 
 // Twin: `BlueprintUniform` in src/render/effects/blueprint.rs.
 struct Blueprint {
     // Linear colours.
-    near: vec3<f32>,
-    by_layer: f32,
     far: vec3<f32>,
-    by_distance: f32,
+    by_layer: f32,
     fill: vec3<f32>,
     opacity: f32,
+    by_distance: f32,
 }
 
 // The opaque surfaces, as `geometry_tex` has those of the layer.
@@ -21,13 +22,16 @@ struct Blueprint {
 @group(1) @binding(8) var<storage, read> peeled: Peeled;
 // Where nearer layers have lines; see passes/repeated.wgsl.
 @group(1) @binding(9) var seen_tex: texture_2d<u32>;
+@group(1) @binding(10) var<storage, read> mask: Masked;
 
 // What tells caps of a section, and those by object id.
-@group(1) @binding(10) var region_tex: texture_2d<u32>;
-@group(1) @binding(11) var<storage, read> caps: array<Cap>;
+@group(1) @binding(11) var region_tex: texture_2d<u32>;
+@group(1) @binding(12) var<storage, read> caps: array<Cap>;
 
 // Whether any object has a cap.
 override WITH_CAPS: bool = false;
+// Whether what lies farther than the depth mask is left out.
+override WITHOUT_BEYOND: bool = false;
 // Whether ink of the papers' operators is left out where nearer layers have some.
 override WITHOUT_REPEATED: bool = false;
 
@@ -39,6 +43,12 @@ fn faded(depth: f32) -> f32 {
     // A power of 0 is undefined.
     let left = pow(max(1.0 - blueprints[0].by_layer, 1e-6), before) * (1.0 - blueprints[0].by_distance * distance);
     return 1.0 - left;
+}
+
+// Whether a depth is left out: the mask hides what lies behind it at its own pixels, and farther than all of it nothing is
+// drawn anywhere.
+fn is_beyond(depth: f32) -> bool {
+    return WITHOUT_BEYOND && mask.pixels != 0u && depth > unordered(mask.farthest);
 }
 
 fn surface_at(px: vec2<i32>) -> Surfel {
@@ -53,8 +63,10 @@ fn fs_lines(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     if WITH_PAPER && WITHOUT_REPEATED && textureLoad(seen_tex, px, 0).x != 0u {
         return vec4(0.0);
     }
-    let color = mix(blueprints[0].near, blueprints[0].far, faded(line.depth));
-    return vec4(color, 1.0) * line.ink.a;
+    if is_beyond(line.depth) {
+        return vec4(0.0);
+    }
+    return vec4(mix(line.ink.rgb, blueprints[0].far * line.ink.a, faded(line.depth)), line.ink.a);
 }
 
 @fragment
@@ -62,7 +74,7 @@ fn fs_fill(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     let px = vec2<i32>(position.xy);
     let surface = surface_at(px);
     let layer = unpack_surfel(geometry_at(px));
-    if surface.object != 0u && surface.depth < layer.depth {
+    if (surface.object != 0u && surface.depth < layer.depth) || is_beyond(layer.depth) {
         discard;
     }
     let fill = vec4(blueprints[0].fill, 1.0) * blueprints[0].opacity;

@@ -126,7 +126,7 @@ impl Viewer {
             Intent::Reload => self.notices.done("Read again"),
             Intent::Add | Intent::Restore => {}
         }
-        for fault in self.document.mirror_faults(&self.model.scene) {
+        for fault in self.document.role_faults(&self.model.scene) {
             self.notices.warning(fault.to_string());
         }
         let warnings = self.model.scene.warnings.len();

@@ -16,7 +16,7 @@ use super::screenshot::Shot;
 use crate::document::Document;
 use crate::gpu::{Gpu, Target};
 use crate::render::{
-    GpuScene, Pick, RenderError, Renderer, Request, StyleImages, UploadedTopology, Uploader,
+    GpuScene, Pick, RenderError, Renderer, Reported, Request, StyleImages, UploadedTopology, Uploader,
 };
 use crate::scene::{Camera, NodeId, Up};
 
@@ -89,6 +89,7 @@ pub struct Viewport {
     rect: Rect,
     size: [u32; 2],
     measuring: Option<Job<f64>>,
+    awaiting: Option<Job<()>>,
     is_paused: bool,
     milliseconds: f64,
     pictures: u64,
@@ -123,6 +124,7 @@ impl Viewport {
             rect: Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(16.0, 10.0)),
             size: [16, 10],
             measuring: None,
+            awaiting: None,
             is_paused: false,
             milliseconds: 0.0,
             pictures: 0,
@@ -186,6 +188,22 @@ impl Viewport {
             submitted.wait(|| progress.is_cancelled());
             began.elapsed().as_secs_f64() * 1000.0
         }));
+    }
+
+    /// Draws again what was incomplete, and wakes the window when the device has reported about the last picture.
+    fn heed_reports(&mut self, context: &egui::Context) {
+        let reported = self.renderer.take_reports();
+        if reported == Reported::Incomplete {
+            self.draw_again();
+            context.request_repaint();
+        }
+        self.awaiting.take_if(|job| job.poll().is_some());
+        if reported == Reported::Waiting && self.awaiting.is_none() {
+            let submitted = self.renderer.gpu().submitted();
+            self.awaiting = Some(Job::start("awaiting reports", context, move |progress| {
+                submitted.wait(|| progress.is_cancelled());
+            }));
+        }
     }
 
     /// Uploads scenes for the picture, from any thread.
@@ -310,6 +328,7 @@ impl Viewport {
         selected: Vec<NodeId>,
         samples_at_rest: u32,
     ) -> Result<(), RenderError> {
+        self.heed_reports(ui.ctx());
         let inputs = Inputs {
             document: document.clone(),
             size: self.size,
@@ -328,6 +347,7 @@ impl Viewport {
         if is_changed || is_refined || self.selected != selected {
             self.selected = selected;
             result = self.render(ui.ctx(), document);
+            self.heed_reports(ui.ctx());
         }
         let whole = Rect::from_min_max(egui::pos2(0.0, 0.0), egui::pos2(1.0, 1.0));
         let outline = self.outline.id.filter(|_| self.has_outline);

@@ -3,6 +3,7 @@
 mod args;
 mod bench;
 mod info;
+mod peeling;
 mod render;
 mod styles;
 

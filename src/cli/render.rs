@@ -5,8 +5,8 @@ use std::thread::JoinHandle;
 use serde_json::json;
 
 use super::args::{CameraArgs, LookArgs, RenderArgs, SectionAt};
-use super::{CliError, print_json};
-use crate::document::{Document, Pattern, Section};
+use super::{CliError, peeling, print_json};
+use crate::document::{Document, Pattern, Role, Section};
 use crate::export::session::{OpenError, Opened, initial_camera, open};
 use crate::export::{Session, save_png};
 use crate::gpu::{Gpu, GpuError};
@@ -52,8 +52,10 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
 
     let scene = &opened.scene;
     let section = opened.document.section_fault(opened.document.up(scene), &scene.bounds());
-    let faults = opened.document.mirror_faults(scene).into_iter().chain(section);
+    let faults = opened.document.role_faults(scene).into_iter().chain(section);
+    let peeled = session.renderer().peeled()?;
     let warnings = images.warnings(&uses).into_iter().chain(scene.warnings.iter().cloned()).chain(faults);
+    let warnings = warnings.map(|w| w.to_string()).chain(peeling::warnings(&peeled));
     if args.json {
         print_json(&json!({
             "output": args.output,
@@ -61,7 +63,8 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
             "samples": args.samples,
             "adapter": session.renderer().gpu().adapter_name,
             "triangles": scene.triangle_count(),
-            "warnings": warnings.map(|w| w.to_string()).collect::<Vec<_>>(),
+            "blueprints": peeling::as_json(&peeled),
+            "warnings": warnings.collect::<Vec<_>>(),
         }))
     } else {
         for warning in warnings {
@@ -143,7 +146,10 @@ pub(super) fn apply_look(opened: &mut Opened, look: &LookArgs) -> Result<(), Cli
         }
     }
     for pattern in &look.mirror {
-        document.set_mirror(scene, &matching(scene, pattern)?, true);
+        document.set_role(scene, &matching(scene, pattern)?, Role::Mirror, true);
+    }
+    for pattern in &look.mask {
+        document.set_role(scene, &matching(scene, pattern)?, Role::Mask, true);
     }
     document.up = look.up.or(document.up);
     document.metres_per_unit = look.unit.map(|unit| unit.metres).or(document.metres_per_unit);

@@ -58,7 +58,8 @@ fn conditions_of(param: &Param<'_>) -> String {
     if param.conditions.is_empty() {
         return String::new();
     }
-    let conditions: Vec<_> = param.conditions.iter().map(|c| format!("{}={}", c.key, c.value)).collect();
+    let conditions: Vec<_> =
+        param.conditions.iter().map(|c| format!("{}={}", c.key, c.values.join("|"))).collect();
     format!(" ({})", conditions.join(", "))
 }
 
@@ -79,7 +80,7 @@ fn parameter_json(param: &Param<'_>) -> serde_json::Value {
         "key": param.key,
         "label": param.label,
         "unit": param.unit,
-        "when": param.conditions.iter().map(|c| (c.key, c.value)).collect::<BTreeMap<_, _>>(),
+        "when": param.conditions.iter().map(|c| (c.key, &c.values)).collect::<BTreeMap<_, _>>(),
         "inherits": param.slot.inherits(),
         "default": match param.own() {
             Value::Bool(b) => json!(b),

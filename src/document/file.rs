@@ -89,6 +89,8 @@ struct NodeForm {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     mirror: Option<bool>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    mask: Option<bool>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     style: Option<toml::Table>,
 }
 
@@ -161,8 +163,8 @@ impl Document {
                     fill(&mut style.params(), &table, &node).map(|()| style)
                 })
                 .transpose()?;
-            let NodeForm { visible, enhanced, mirror, .. } = form;
-            let settings = NodeSettings { style, visible, enhanced, mirror };
+            let NodeForm { visible, enhanced, mirror, mask, .. } = form;
+            let settings = NodeSettings { style, visible, enhanced, mirror, mask };
             document.nodes.insert(node, settings);
         }
         let own = document.nodes.values_mut().filter_map(|n| n.style.as_mut());
@@ -216,6 +218,7 @@ impl Document {
                         visible: own.visible,
                         enhanced: own.enhanced,
                         mirror: own.mirror,
+                        mask: own.mask,
                         style: own.style.as_ref().map(style_table),
                     };
                     (node.clone(), form)

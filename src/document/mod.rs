@@ -3,9 +3,11 @@
 pub mod file;
 pub mod history;
 pub mod lighting;
+pub mod masks;
 pub mod mirrors;
 pub mod pattern;
 pub mod section;
+pub mod roles;
 pub mod view;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -19,6 +21,7 @@ pub use history::History;
 pub use lighting::Lighting;
 pub use pattern::{Pattern, PatternError};
 pub use section::Section;
+pub use roles::Role;
 pub use view::{Show, View};
 
 /// A drawing: everything about it that is not in the model files.
@@ -57,6 +60,8 @@ pub struct NodeSettings {
     pub enhanced: Option<bool>,
     /// Whether it is a mirror.
     pub mirror: Option<bool>,
+    /// Whether blueprints are peeled until it is uncovered.
+    pub mask: Option<bool>,
 }
 
 /// A use of an image by a style.
@@ -81,6 +86,8 @@ pub struct Resolved<'a> {
     pub enhanced: bool,
     /// Whether it is a mirror, if it can be one: see [`mirrors::mirror_fault`].
     pub mirror: bool,
+    /// Whether it is designated: it belongs to the depth mask, and no blueprint is made of it.
+    pub mask: bool,
 }
 
 impl Default for Document {
@@ -133,7 +140,7 @@ impl Document {
 
     /// Style and roles of every node, in the order of `scene.nodes`.
     pub fn resolve(&self, scene: &Scene) -> Vec<Resolved<'_>> {
-        let root = Resolved { style: &self.style, visible: true, enhanced: true, mirror: false };
+        let root = Resolved { style: &self.style, visible: true, enhanced: true, mirror: false, mask: false };
         let mut resolved: Vec<Resolved<'_>> = Vec::with_capacity(scene.nodes.len());
         for node in &scene.nodes {
             let above = node.parent.and_then(|p| resolved.get(p)).copied().unwrap_or(root);
@@ -143,6 +150,7 @@ impl Document {
                 visible: above.visible && own.and_then(|n| n.visible).unwrap_or(true),
                 enhanced: own.and_then(|n| n.enhanced).unwrap_or(above.enhanced),
                 mirror: own.and_then(|n| n.mirror).unwrap_or(above.mirror),
+                mask: own.and_then(|n| n.mask).unwrap_or(above.mask),
             });
         }
         resolved

@@ -1,7 +1,7 @@
 //! The scene drawn once, from one camera; and what its mirrors show, each by a drawing of its own.
 //!
 //! ```text
-//! objects ─► G-buffer ─┬─► (shadow mask ─► cartoon map ─►) surfaces ┬─► + mirrors (drawings) ─► + lines ─► + blueprints ─► colour
+//! objects ─► G-buffer ─┬─► (shadow mask ─► cartoon map ─►) surfaces ┬─► + mirrors (drawings) ─► + hidden lines ─► + lines ─► + blueprints ─► colour
 //!                      └─► edge map ─► reach of the lines ──────────┘
 //! segments (topology) ─────┘
 //! ```
@@ -16,6 +16,7 @@ use self::reflections::Reflection;
 use super::RenderError;
 use super::effects::blueprint::{Blueprints, Peels};
 use super::effects::halftone::{HalftoneInputs, HalftoneUniform, Halftones, ThresholdMaps};
+use super::effects::hidden::HiddenLines;
 use super::effects::mirror::{MirrorUniform, mirror};
 use super::effects::section::{CapUniform, caps, section};
 use super::effects::surface::{Shading, SurfaceUniform, surface};
@@ -23,7 +24,9 @@ use super::effects::toon::{ToonBuffers, Toons, cartoon_map};
 use super::frame_uniform::{FrameUniform, View};
 use super::gpu_scene::{GpuScene, Origin};
 use super::groups::Objects;
+use super::layers::Reported;
 use super::lights::Lights;
+use super::passes::depth_mask::{DepthMask, DepthMaskPass};
 use super::passes::edge_map::{EdgeInputs, EdgeMap, EdgeMapPass};
 use super::passes::edge_style::EdgeUniform;
 use super::passes::gbuffer::{DrawCall, DrawUniform, GBuffer, GBufferPass};
@@ -88,6 +91,8 @@ pub struct Shaded {
     pub cartoon_map: Option<Target>,
     /// See `shaders/passes/coordinates.wgsl`; `None` when no object asks for it.
     pub coordinates: Option<Target>,
+    /// Reversed depth of the designated objects alone; `None` when no blueprint is peeled for them.
+    pub depth_mask: Option<Target>,
     /// Geometry of the first drawn layer of each blueprint, and their revisions.
     pub fronts: (Vec<u64>, Vec<Target>),
     /// The layers of each blueprint, the farthest first; empty unless they are kept.
@@ -139,11 +144,15 @@ pub struct Drawing {
             Vec<EdgeUniform>,
             FrameUniform,
             Seen,
+            Option<u64>,
             Vec<u64>,
             Vec<CapUniform>,
         ),
         Target,
     >,
+    depth_mask: DepthMaskPass,
+    /// `None` while no object has any.
+    hidden: Option<HiddenLines>,
     blueprints: Vec<Blueprints>,
     /// How often a blueprint was drawn.
     blueprinted: u64,
@@ -185,6 +194,8 @@ impl Drawing {
             cartoon_map: Stage::default(),
             coordinates: Stage::default(),
             surface: Stage::default(),
+            depth_mask: DepthMaskPass::new(gpu),
+            hidden: None,
             blueprints: Vec::new(),
             blueprinted: 0,
             reflections: Vec::new(),
@@ -203,7 +214,7 @@ impl Drawing {
     }
 
     /// How often each stage has run, by name.
-    pub fn runs(&self) -> [(&'static str, u64); 8] {
+    pub fn runs(&self) -> [(&'static str, u64); 9] {
         [
             ("g-buffer", self.gbuffer.runs()),
             ("edge map", self.edge_map.runs()),
@@ -211,6 +222,7 @@ impl Drawing {
             ("shadow", self.shadow_mask.runs()),
             ("cartoon map", self.cartoon_map.runs()),
             ("surface", self.surface.runs()),
+            ("hidden lines", self.hidden.as_ref().map_or(0, HiddenLines::runs)),
             ("blueprint", self.blueprinted),
             ("mirror", self.reflected),
         ]
@@ -222,6 +234,21 @@ impl Drawing {
     /// [`RenderError`].
     pub fn peeled(&self, gpu: &Gpu) -> Result<Vec<Peeled>, RenderError> {
         self.blueprints.iter().map(|b| b.count().read(gpu)).collect()
+    }
+
+    /// What has been reported about the layers of its pictures and of what mirrors show; it draws incomplete ones again.
+    /// Never waits.
+    pub fn take_reports(&mut self) -> Reported {
+        let own = self.blueprints.iter_mut().map(Blueprints::take_reports);
+        let reflected = self.reflections.iter_mut().map(|r| r.drawing.take_reports());
+        let hidden = self.hidden.iter_mut().map(HiddenLines::take_reports);
+        own.chain(hidden).chain(reflected).max().unwrap_or(Reported::Complete)
+    }
+
+    /// How far the layers of each blueprint came in the last picture whose report has arrived; in the order of
+    /// [`Objects::blueprints`].
+    pub fn last_peeled(&self) -> Vec<Option<Peeled>> {
+        self.blueprints.iter().map(|b| b.last().cloned()).collect()
     }
 
     /// Begins a drawing with its G-buffer and the shadows on it; all later passes see through its camera.
@@ -300,6 +327,7 @@ impl Drawing {
                     has_holes: inputs.objects.surfaces.has_holes,
                     is_cut: view.cut.is_some(),
                     is_layer: false,
+                    before: None,
                     shadow_mask: shadow_mask.map(|mask| &mask.value),
                 },
             )
@@ -331,7 +359,9 @@ impl Drawing {
         edge_map: Option<&Output<EdgeMap>>,
     ) -> Result<Shaded, RenderError> {
         let reflected = self.reflect(rec, shared, inputs)?;
-        let blueprints = self.peel(rec, &mut shared.gbuffer, inputs, begun)?;
+        let mask = self.depth_mask.run(rec, &mut shared.gbuffer, inputs, &begun.gbuffer)?;
+        let blueprints = self.peel(rec, &mut shared.gbuffer, inputs, (begun, mask.as_ref()))?;
+        let hidden = self.draw_hidden(rec, &mut shared.gbuffer, inputs, begun, edge_map)?;
         let cartoon_map = self.find_bands(rec, inputs, begun)?;
         let coordinates = self.find_coordinates(rec, shared, inputs, begun)?;
         shared.thresholds.prepare(rec.gpu, &inputs.objects.halftones)?;
@@ -349,6 +379,7 @@ impl Drawing {
             }
         };
         let revisions = edge_map.map(|e| [e.revision, reach.as_ref().map_or(0, |reach| reach.revision)]);
+        let caps = caps(inputs.scene, inputs.view, inputs.objects.scale);
         let shading = (
             [gbuffer.revision, begun.shadow_mask.as_ref().map_or(0, |mask| mask.revision)],
             revisions,
@@ -361,60 +392,80 @@ impl Drawing {
                 let seen = reflected.iter().map(|r| (r.color.revision, r.uniform)).collect();
                 (seen, inputs.background)
             }),
+            hidden.as_ref().map(|hidden| hidden.revision),
             blueprints.iter().map(|b| b.revision).collect(),
-            caps(inputs.scene, inputs.view, inputs.objects.scale),
+            caps.clone(),
         );
-        let color =
-            self.surface.run(shading, |(_, _, surfaces, toons, (halftones, _), styles, .., caps)| {
-                self.surface_styles.write(rec.gpu, surfaces);
-                if !halftones.is_empty() {
-                    self.halftone_styles.write(rec.gpu, halftones);
-                }
-                let shading = Shading {
-                    surfaces,
-                    surface_styles: self.surface_styles.buffer(),
-                    toons,
-                    toon_buffers: ToonBuffers {
-                        styles: self.toon_styles.buffer(),
-                        bands: self.toon_bands.buffer(),
-                    },
-                    shadow_mask: begun.shadow_mask.as_ref().map(|mask| &mask.value),
-                    cartoon_map: cartoon_map.as_ref(),
-                    halftones: HalftoneInputs {
-                        styles: halftones,
-                        style_buffer: self.halftone_styles.buffer(),
-                        maps: &shared.thresholds,
-                        coordinates: coordinates.as_ref(),
-                    },
+        let color = self.surface.run(shading, |(_, _, surfaces, toons, (halftones, _), styles, ..)| {
+            self.surface_styles.write(rec.gpu, surfaces);
+            if !halftones.is_empty() {
+                self.halftone_styles.write(rec.gpu, halftones);
+            }
+            let shading = Shading {
+                surfaces,
+                surface_styles: self.surface_styles.buffer(),
+                toons,
+                toon_buffers: ToonBuffers {
+                    styles: self.toon_styles.buffer(),
+                    bands: self.toon_bands.buffer(),
+                },
+                shadow_mask: begun.shadow_mask.as_ref().map(|mask| &mask.value),
+                cartoon_map: cartoon_map.as_ref(),
+                halftones: HalftoneInputs {
+                    styles: halftones,
+                    style_buffer: self.halftone_styles.buffer(),
+                    maps: &shared.thresholds,
+                    coordinates: coordinates.as_ref(),
+                },
+            };
+            let color = surface(rec, &gbuffer.value, &shading)?;
+            if !caps.is_empty() {
+                self.caps.write(rec.gpu, &caps);
+                section(rec, &gbuffer.value, self.caps.buffer(), &color)?;
+            }
+            for seen in &reflected {
+                let Some(reflection) = self.reflections.get_mut(seen.index) else { continue };
+                reflection.uniform.write(rec.gpu, &vec![seen.uniform]);
+                mirror(rec, &gbuffer.value, &seen.color.value, reflection.uniform.buffer(), &color)?;
+            }
+            if let Some(hidden) = &hidden {
+                overlay(rec, &hidden.value, &color)?;
+            }
+            if let Some(edge_map) = edge_map {
+                let drawn = Lines {
+                    gbuffer: &gbuffer.value,
+                    edge_map: &edge_map.value,
+                    reach: reach.as_ref().map(|reach| &reach.value),
+                    styles,
+                    edge_styles: self.edge_styles.buffer(),
                 };
-                let color = surface(rec, &gbuffer.value, &shading)?;
-                if !caps.is_empty() {
-                    self.caps.write(rec.gpu, caps);
-                    section(rec, &gbuffer.value, self.caps.buffer(), &color)?;
-                }
-                for seen in &reflected {
-                    let Some(reflection) = self.reflections.get_mut(seen.index) else { continue };
-                    reflection.uniform.write(rec.gpu, &vec![seen.uniform]);
-                    mirror(rec, &gbuffer.value, &seen.color.value, reflection.uniform.buffer(), &color)?;
-                }
-                if let Some(edge_map) = edge_map {
-                    let drawn = Lines {
-                        gbuffer: &gbuffer.value,
-                        edge_map: &edge_map.value,
-                        reach: reach.as_ref().map(|reach| &reach.value),
-                        styles,
-                        edge_styles: self.edge_styles.buffer(),
-                    };
-                    lines(rec, &drawn, &Pen::PLAIN, &color)?;
-                }
-                for blueprint in &blueprints {
-                    overlay(rec, &blueprint.value.color, &color)?;
-                }
-                Ok::<_, RenderError>(color)
-            })?;
+                lines(rec, &drawn, &Pen::PLAIN, &color)?;
+            }
+            for blueprint in &blueprints {
+                overlay(rec, &blueprint.value.color, &color)?;
+            }
+            Ok::<_, RenderError>(color)
+        })?;
         let fronts = blueprints.iter().filter_map(|b| Some((b.revision, b.value.front.clone()?))).unzip();
         let layers = blueprints.into_iter().map(|b| b.value.layers).filter(|l| !l.is_empty()).collect();
-        Ok(Shaded { color, cartoon_map, coordinates, fronts, layers })
+        let depth_mask = mask.map(|mask| mask.value.depth);
+        Ok(Shaded { color, cartoon_map, coordinates, depth_mask, fronts, layers })
+    }
+
+    fn draw_hidden(
+        &mut self,
+        rec: &mut Recorder<'_>,
+        gbuffer_pass: &mut GBufferPass,
+        inputs: &DrawingInputs<'_>,
+        begun: &Begun,
+        edge_map: Option<&Output<EdgeMap>>,
+    ) -> Result<Option<Output<Target>>, RenderError> {
+        if inputs.objects.hidden.is_empty() {
+            self.hidden = None;
+            return Ok(None);
+        }
+        let hidden = self.hidden.get_or_insert_with(|| HiddenLines::new(rec.gpu));
+        hidden.run(rec, gbuffer_pass, inputs, &begun.uniform, edge_map).map(Some)
     }
 
     /// Draws the blueprints, the farthest first. Blended groups that reach into each other have no right order: that of
@@ -424,7 +475,7 @@ impl Drawing {
         rec: &mut Recorder<'_>,
         gbuffer_pass: &mut GBufferPass,
         inputs: &DrawingInputs<'_>,
-        begun: &Begun,
+        drawn: (&Begun, Option<&Output<DepthMask>>),
     ) -> Result<Vec<Output<Peels>>, RenderError> {
         let groups = &inputs.objects.blueprints;
         self.blueprints.truncate(groups.len());
@@ -432,7 +483,6 @@ impl Drawing {
         let mut pictures = Vec::new();
         for (blueprint, state) in groups.iter().zip(&mut self.blueprints) {
             let before = state.runs();
-            let drawn = (&begun.uniform, &begun.gbuffer);
             let picture = state.run(rec, gbuffer_pass, inputs, drawn, blueprint)?;
             self.blueprinted += state.runs() - before;
             pictures.push((blueprint.group.mean_depth(inputs.scene, inputs.view), picture));

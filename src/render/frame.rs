@@ -8,6 +8,7 @@ use glam::{Vec2, Vec4};
 
 use super::RenderError;
 use super::drawing::{Begun, Drawing, DrawingInputs, Shared};
+use super::layers::Reported;
 use super::passes::accumulate::{Accumulation, Subject};
 use super::passes::front::front;
 use super::passes::gbuffer::GBuffer;
@@ -63,6 +64,8 @@ pub struct Picture {
     pub cartoon_map: Option<Target>,
     /// See `shaders/passes/coordinates.wgsl`; `None` when no object asks for it.
     pub coordinates: Option<Target>,
+    /// Reversed depth of the designated objects alone; `None` when no blueprint is peeled for them.
+    pub depth_mask: Option<Target>,
     /// The layers of each blueprint, the farthest first; empty unless [`super::Renderer::keep_layers`] was called.
     pub layers: Vec<Vec<Layer>>,
 }
@@ -115,6 +118,11 @@ impl FrameState {
         &self.drawing
     }
 
+    /// What has been reported about the pictures so far; incomplete ones are drawn again. Never waits.
+    pub fn take_reports(&mut self) -> Reported {
+        self.drawing.take_reports()
+    }
+
     /// How often each stage has run, by name.
     pub fn runs(&self) -> Vec<(&'static str, u64)> {
         let mut runs = self.drawing.runs().to_vec();
@@ -157,12 +165,12 @@ impl FrameState {
         };
         let operators = self.operators(rec, *what, &begun)?;
 
-        let (mut cartoon_map, mut coordinates, mut layers) = (None, None, Vec::new());
+        let (mut cartoon_map, mut coordinates, mut depth_mask, mut layers) = (None, None, None, Vec::new());
         let mut fronts = (Vec::new(), Vec::new());
         let image = if *what == Show::Picture {
             let shaded = self.drawing.shade(rec, &mut self.shared, eye, &begun, edge_map.as_ref())?;
-            (cartoon_map, coordinates, layers) = (shaded.cartoon_map, shaded.coordinates, shaded.layers);
-            fronts = shaded.fronts;
+            (cartoon_map, coordinates) = (shaded.cartoon_map, shaded.coordinates);
+            (depth_mask, layers, fronts) = (shaded.depth_mask, shaded.layers, shaded.fronts);
             let color = self.accumulation.add(rec, eye.sample, shaded.color)?;
             let asked = (shaders, *what, [color.revision, 0, 0], eye.background, inputs.scale_bar.cloned());
             self.image.run(asked, |(.., bar)| {
@@ -205,6 +213,7 @@ impl FrameState {
             shadow_mask: begun.shadow_mask.map(|mask| mask.value),
             cartoon_map,
             coordinates,
+            depth_mask,
             layers,
         })
     }

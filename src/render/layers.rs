@@ -4,19 +4,20 @@
 //!            ┌──────────────────────────────────────────────┐
 //!            ▼                                              │
 //! draws ─► layer i ─► count ─► what the caller makes of it ─┘
-//!                       └─► gate: too few pixels shut it, and nothing after that runs
+//!                       └─► gate: too few pixels shut it, or enough of the depth mask, and nothing after that runs
 //! ```
 
 use crate::geometry::LineSegment;
-use crate::gpu::{ArrayBuffer, DynamicBuffer, Gate, Gpu, Recorder, Target};
+use crate::gpu::{ArrayBuffer, DynamicBuffer, Gate, Gpu, Recorder, Reports, Target};
 use crate::render::RenderError;
 use crate::render::gpu_scene::GpuScene;
+use crate::render::passes::depth_mask::DepthMask;
 use crate::render::passes::edge_map::{EdgeInputs, EdgeMap, EdgeMapPass};
 use crate::render::passes::edge_style::EdgeUniform;
 use crate::render::passes::gbuffer::{DrawCall, DrawUniform, GBufferPass};
 use crate::render::passes::line_distance::{Reach, line_distance};
 use crate::render::passes::lines::Lines;
-use crate::render::passes::peel::{Layer, MOST_LAYERS, Peel, PeelCount, before_all};
+use crate::render::passes::peel::{Layer, MOST_LAYERS, Peel, PeelCount, Peeled, before_all};
 use crate::render::passes::repeated::{none_seen, without_repeated};
 
 /// Kinds of passes that a layer has beside the draws of its objects: room in the gate.
@@ -37,6 +38,32 @@ pub struct LayerInputs<'a> {
     pub most: u32,
     /// It ends before a layer of fewer pixels, at the latest before an empty one.
     pub least: u32,
+    /// The designated objects: it ends with the layer that leaves `fraction` (0 to 1) of them uncovered.
+    pub mask: Option<&'a DepthMask>,
+    /// See `mask`.
+    pub fraction: f32,
+}
+
+/// More layers are recorded than the last report names, as there may be more by now.
+const MORE_LAYERS: u32 = 1;
+
+/// What is known of pictures that were drawn, from reports that come back some time after them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Reported {
+    /// All of them are complete.
+    Complete,
+    /// Not yet all about the last one.
+    Waiting,
+    /// One was incomplete, as there was not room enough. Whoever wants it asks for it again: there is now.
+    Incomplete,
+}
+
+/// What the processor has to know of a frame to understand its report.
+#[derive(Debug, Clone, Copy)]
+struct Recorded {
+    /// So many layers were recorded, of so many that were asked for.
+    layers: u32,
+    most: u32,
 }
 
 /// What of the layers of a group lives across frames.
@@ -44,12 +71,44 @@ pub struct Layers {
     draws: DynamicBuffer,
     gate: Option<Gate>,
     count: PeelCount,
+    reports: Reports<Recorded>,
+    /// The latest report.
+    last: Option<Peeled>,
+    /// How many layers there were then: how many to record is guessed from it; `None`: all.
+    guess: Option<u32>,
 }
 
 impl Layers {
     /// Nothing drawn yet.
     pub fn new(gpu: &Gpu) -> Self {
-        Self { draws: GBufferPass::draw_buffer(gpu), gate: None, count: PeelCount::new(gpu) }
+        Self {
+            draws: GBufferPass::draw_buffer(gpu),
+            gate: None,
+            count: PeelCount::new(gpu),
+            reports: Reports::default(),
+            last: None,
+            guess: None,
+        }
+    }
+
+    /// What has been reported since the last call. Never waits.
+    pub fn take_reports(&mut self) -> Reported {
+        let mut reported = Reported::Complete;
+        if let Some((recorded, bytes)) = self.reports.take() {
+            let peeled = Peeled::from_bytes(&bytes);
+            let is_complete = peeled.has_ended == 1 || recorded.layers >= recorded.most;
+            self.guess = is_complete.then_some(peeled.layers + 1);
+            if !is_complete {
+                reported = Reported::Incomplete;
+            }
+            self.last = Some(peeled);
+        }
+        if reported == Reported::Complete && self.reports.is_waiting() { Reported::Waiting } else { reported }
+    }
+
+    /// How far the last picture came whose report has arrived.
+    pub fn last(&self) -> Option<&Peeled> {
+        self.last.as_ref()
     }
 
     /// How far the last ones came.
@@ -69,17 +128,24 @@ impl Layers {
         inputs: &LayerInputs<'_>,
         draw: impl FnMut(&mut Recorder<'_>, u32, &Layer, &PeelCount) -> Result<(), RenderError>,
     ) -> Result<(), RenderError> {
-        self.count.begin(rec.gpu, inputs.least.max(1));
+        self.count.begin(rec.gpu, inputs.least.max(1), inputs.fraction);
         let mut gate = self.gate.take().unwrap_or_else(|| Gate::new(rec.gpu));
         gate.clear(rec.gpu, inputs.calls.len() + PASSES)?;
         let first = before_all(rec)?;
         rec.gate = Some(gate);
         let peeled = self.peel(rec, gbuffer_pass, inputs, first, draw);
         self.gate = rec.gate.take();
+        let most = inputs.most.min(MOST_LAYERS);
+        self.reports.send(rec, self.count.buffer(), Recorded { layers: self.recorded(most), most });
         if let Some(gate) = &self.gate {
             gate.open(rec.gpu);
         }
         peeled
+    }
+
+    /// How many of so many layers are recorded. The guess decides nothing: when it is wrong, the report says so.
+    fn recorded(&self, most: u32) -> u32 {
+        self.guess.map_or(most, |guess| (guess + MORE_LAYERS).min(most))
     }
 
     fn peel(
@@ -90,15 +156,18 @@ impl Layers {
         [mut last_depth, mut last_order]: [Target; 2],
         mut draw: impl FnMut(&mut Recorder<'_>, u32, &Layer, &PeelCount) -> Result<(), RenderError>,
     ) -> Result<(), RenderError> {
-        let LayerInputs { scene, draws, calls, is_cut, .. } = *inputs;
-        for number in 0..inputs.most.min(MOST_LAYERS) {
+        let LayerInputs { scene, draws, calls, is_cut, mask, .. } = *inputs;
+        for number in 0..self.recorded(inputs.most.min(MOST_LAYERS)) {
             let order = rec.target("order", last_order.format())?;
             let peel = Peel { last_depth: &last_depth, last_order: &last_order, order: &order };
             let gbuffer =
                 gbuffer_pass.run(rec, scene, &mut self.draws, (draws, calls), is_cut, Some(&peel))?;
             let layer = Layer { gbuffer, order };
-            self.count.count(rec, &layer)?;
+            self.count.count(rec, &layer, mask)?;
             draw(rec, number, &layer, &self.count)?;
+            if let Some(mask) = mask {
+                self.count.end_where_uncovered(rec, &layer, mask)?;
+            }
             (last_depth, last_order) = (layer.gbuffer.depth, layer.order);
         }
         Ok(())
@@ -123,6 +192,8 @@ pub struct LayerLinesInputs<'a> {
     pub has_holes: bool,
     /// Whether what lies behind a mirror's plane is left out.
     pub is_cut: bool,
+    /// See [`EdgeInputs::before`].
+    pub before: Option<[&'a Target; 2]>,
     /// Whether a line is drawn again where a nearer layer has one at the same place (Fig. 5).
     pub repeated: bool,
 }
@@ -196,6 +267,7 @@ impl LayerLines {
                 has_holes: inputs.has_holes,
                 is_cut: inputs.is_cut,
                 is_layer: true,
+                before: inputs.before,
                 shadow_mask: None,
             },
         )?;

@@ -9,6 +9,7 @@ use super::frame::{FrameInputs, FrameState, Picture};
 use super::frame_uniform::View;
 use super::gpu_scene::{GpuScene, UploadedTopology, Uploader};
 use super::groups::{Objects, node_of};
+use super::layers::Reported;
 use super::lights::Lights;
 use super::passes::accumulate::Subject;
 use super::passes::peel::Peeled;
@@ -81,6 +82,10 @@ pub struct Renderer {
     pick: Option<PendingPick>,
     shader_error: Option<ShaderError>,
     keeps_layers: bool,
+    /// How often a picture turned out to be incomplete.
+    incomplete: u64,
+    /// Whether one did that nobody has been told of.
+    was_incomplete: bool,
 }
 
 impl Renderer {
@@ -101,6 +106,8 @@ impl Renderer {
             pick: None,
             shader_error,
             keeps_layers: false,
+            incomplete: 0,
+            was_incomplete: false,
         }
     }
 
@@ -113,6 +120,7 @@ impl Renderer {
         twin.scene = self.scene.clone();
         twin.scene_revision = self.scene_revision;
         twin.additions = self.additions.clone();
+        twin.incomplete = self.incomplete;
         twin.images = self.images.clone();
         twin.state.go_on_from(&self.state);
         twin
@@ -227,6 +235,7 @@ impl Renderer {
         if self.scene.is_none() {
             self.set_scene(&Arc::new(Scene::default()), &[])?;
         }
+        self.note_reports();
         let Some(scene) = &mut self.scene else {
             return Err(GpuError::Lost("no scene".to_owned()).into());
         };
@@ -243,6 +252,7 @@ impl Renderer {
             document: request.document.clone(),
             camera: *request.camera,
             size,
+            incomplete: self.incomplete,
         };
         let sample = self.state.next_sample(subject, request.samples);
         let view = View::new(request.camera, &objects.visible_bounds, UVec2::from_array(size));
@@ -281,6 +291,29 @@ impl Renderer {
         self.pool.shrink_to(size);
         self.last = Some((picture.clone(), view));
         Ok(picture)
+    }
+
+    /// What the device has reported about the pictures so far. Never waits: a report is there at the latest when the device
+    /// is done with the picture. After [`Reported::Incomplete`] the same request begins anew, with room enough.
+    pub fn take_reports(&mut self) -> Reported {
+        let reported = self.note_reports();
+        if std::mem::take(&mut self.was_incomplete) { Reported::Incomplete } else { reported }
+    }
+
+    fn note_reports(&mut self) -> Reported {
+        self.gpu.poll();
+        let reported = self.state.take_reports();
+        if reported == Reported::Incomplete {
+            self.incomplete += 1;
+            self.was_incomplete = true;
+        }
+        reported
+    }
+
+    /// How far the layers of each blueprint came in the last picture whose report has arrived, in the order of
+    /// [`Objects::blueprints`].
+    pub fn last_peeled(&self) -> Vec<Option<Peeled>> {
+        self.state.drawing().last_peeled()
     }
 
     /// How often each stage has run so far.

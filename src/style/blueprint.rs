@@ -33,6 +33,12 @@ pub struct Blueprint {
     pub layers: u32,
     /// Peeling ends before a layer with fewer pixels; percent of the picture's, 0 to 100.
     pub least: f32,
+    /// Peeling ends with the layer that leaves this share of the depth mask uncovered, 0 to 1 (section 4.3).
+    pub fraction: f32,
+    /// Whether what lies farther than the depth mask is drawn.
+    pub beyond: bool,
+    /// Colour of designated objects of this style, which are no blueprints.
+    pub highlight: Color,
 }
 
 impl Default for Blueprint {
@@ -49,6 +55,9 @@ impl Default for Blueprint {
             to: 64,
             layers: 8,
             least: 0.1,
+            fraction: 0.9,
+            beyond: true,
+            highlight: Color([226, 110, 44]),
         }
     }
 }
@@ -109,6 +118,27 @@ impl Blueprint {
             0.0..=100.0,
             "Peeling ends before a layer that covers a smaller share of the picture.",
             &mut self.least,
+        );
+        list.number(
+            "fraction",
+            "Uncover",
+            "",
+            0.0..=1.0,
+            0.0..=1.0,
+            "Peeling ends with the layer that leaves this share of the designated objects uncovered.",
+            &mut self.fraction,
+        );
+        list.switch(
+            "beyond",
+            "Draw beyond",
+            "Draws what lies farther away than the designated objects.",
+            &mut self.beyond,
+        );
+        list.color(
+            "highlight",
+            "Highlight",
+            "Colour of designated objects of this style, which are drawn as surfaces.",
+            &mut self.highlight,
         );
     }
 }

@@ -40,7 +40,17 @@ impl<'a> Params<'a> {
         value: impl Into<&'static str>,
         declare: impl FnOnce(&mut Self),
     ) {
-        let condition = Condition { key, value: value.into() };
+        self.when_any(key, [value], declare);
+    }
+
+    /// Declares parameters that matter only while the choice `key` (a whole key) has one of these values.
+    pub fn when_any<const N: usize>(
+        &mut self,
+        key: &'static str,
+        values: [impl Into<&'static str>; N],
+        declare: impl FnOnce(&mut Self),
+    ) {
+        let condition = Condition { key, values: values.map(Into::into).to_vec() };
         let is_new = !self.conditions.contains(&condition);
         self.conditions.extend(is_new.then_some(condition));
         declare(self);

@@ -11,6 +11,7 @@ pub mod edge_line;
 pub mod edges;
 pub mod gooch;
 pub mod halftone;
+pub mod hidden;
 pub mod mirror;
 pub mod param;
 #[cfg(test)]
@@ -31,6 +32,7 @@ pub use edge_line::Line;
 pub use edges::{Alignment, DepthOperator, EdgeMode, Edges};
 pub use gooch::Gooch;
 pub use halftone::Halftone;
+pub use hidden::{Hidden, HiddenMode};
 pub use mirror::Mirror;
 pub use param::{Param, Slot, Value};
 pub use plain::Plain;

@@ -14,14 +14,15 @@ use glam::Vec3;
 use crate::gpu::recorder::{Draw, Input, Onto};
 use crate::gpu::{ArrayBuffer, DepthRule, Gpu, Program, Recorder, Target};
 use crate::render::RenderError;
-use crate::render::drawing::DrawingInputs;
+use crate::render::drawing::{Begun, DrawingInputs};
 use crate::render::effects::section::{CapUniform, caps};
 use crate::render::frame_uniform::FrameUniform;
 use crate::render::groups::Group;
-use crate::render::layers::{LayerInputs, LayerLines, LayerLinesInputs, Layers};
+use crate::render::layers::{LayerInputs, LayerLines, LayerLinesInputs, Layers, Reported};
+use crate::render::passes::depth_mask::DepthMask;
 use crate::render::passes::gbuffer::{DrawCall, DrawUniform, GBuffer, GBufferPass};
 use crate::render::passes::lines::{Pen, lines};
-use crate::render::passes::peel::{Layer, MOST_LAYERS, PeelCount};
+use crate::render::passes::peel::{Layer, MOST_LAYERS, PeelCount, Peeled};
 use crate::render::segments::segments;
 use crate::render::stage::{Output, Stage};
 use crate::style::{self, Edges, Style};
@@ -38,23 +39,21 @@ pub struct Blueprint {
 /// Twin of `Blueprint` in `shaders/effects/blueprint.wgsl`.
 #[derive(Debug, Clone, Copy, PartialEq, ShaderType)]
 pub struct BlueprintUniform {
-    near: Vec3,
-    by_layer: f32,
     far: Vec3,
-    by_distance: f32,
+    by_layer: f32,
     fill: Vec3,
     opacity: f32,
+    by_distance: f32,
 }
 
 impl From<&style::Blueprint> for BlueprintUniform {
     fn from(style: &style::Blueprint) -> Self {
         Self {
-            near: style.near.to_linear(),
-            by_layer: style.by_layer.clamp(0.0, 1.0),
             far: style.far.to_linear(),
-            by_distance: style.by_distance.clamp(0.0, 1.0),
+            by_layer: style.by_layer.clamp(0.0, 1.0),
             fill: style.fill.to_linear(),
             opacity: style.opacity.clamp(0.0, 1.0),
+            by_distance: style.by_distance.clamp(0.0, 1.0),
         }
     }
 }
@@ -107,6 +106,7 @@ struct Inputs {
     shaders: u64,
     scene_revision: u64,
     surfaces: u64,
+    mask: Option<u64>,
     blueprint: Blueprint,
     draws: Vec<DrawUniform>,
     calls: Vec<DrawCall>,
@@ -143,12 +143,26 @@ impl Blueprints {
         self.stage.runs()
     }
 
+    /// What has been reported about its pictures; it draws an incomplete one again. Never waits.
+    pub fn take_reports(&mut self) -> Reported {
+        let reported = self.layers.take_reports();
+        if reported == Reported::Incomplete {
+            self.stage.clear();
+        }
+        reported
+    }
+
+    /// How far the last picture came whose report has arrived.
+    pub fn last(&self) -> Option<&Peeled> {
+        self.layers.last()
+    }
+
     /// How far peeling came in the last picture.
     pub fn count(&self) -> &PeelCount {
         self.layers.count()
     }
 
-    /// The picture of a group, as far as opaque surfaces do not hide it.
+    /// The picture of a group, as far as opaque surfaces do not hide it, peeled until `mask` is uncovered.
     ///
     /// # Errors
     /// [`RenderError`].
@@ -157,14 +171,16 @@ impl Blueprints {
         rec: &mut Recorder<'_>,
         gbuffer_pass: &mut GBufferPass,
         inputs: &DrawingInputs<'_>,
-        (uniform, surfaces): (&FrameUniform, &Output<GBuffer>),
+        (begun, mask): (&Begun, Option<&Output<DepthMask>>),
         blueprint: &Blueprint,
     ) -> Result<Output<Peels>, RenderError> {
+        let Begun { uniform, gbuffer: surfaces, .. } = begun;
         let (draws, calls) = blueprint.group.draws(inputs.scene, inputs.view);
         let asked = Inputs {
             shaders: rec.pipelines.generation(),
             scene_revision: inputs.scene_revision,
             surfaces: surfaces.revision,
+            mask: mask.map(|mask| mask.revision),
             blueprint: blueprint.clone(),
             draws,
             calls,
@@ -190,6 +206,7 @@ impl Blueprints {
                 segments: &segments,
                 has_holes: group.has_holes,
                 is_cut: inputs.view.cut.is_some(),
+                before: None,
                 repeated: params.repeated,
             };
             let color = rec.target("blueprint", wgpu::TextureFormat::Rgba16Float)?;
@@ -202,6 +219,8 @@ impl Blueprints {
                 is_cut: inputs.view.has_cuts(),
                 most: blueprint.layers(),
                 least: blueprint.least(rec.size()),
+                mask: mask.map(|mask| &mask.value),
+                fraction: params.fraction,
             };
             layers.each(rec, gbuffer_pass, &cut, |rec, number, layer, count| {
                 if asked.keeps_layers {
@@ -211,14 +230,23 @@ impl Blueprints {
                     return Ok(());
                 }
                 front.get_or_insert_with(|| layer.gbuffer.geometry.clone());
-                let sprite = Sprite { surfaces: &surfaces.value, style: style.buffer(), count };
+                let sprite = Sprite {
+                    surfaces: &surfaces.value,
+                    style: style.buffer(),
+                    count,
+                    mask: mask.map(|mask| &mask.value).filter(|_| !params.beyond),
+                };
                 if group.have_lines() {
                     let found = layer_lines.edges(rec, &edges, layer, &mut seen)?;
                     let pen = Pen {
                         file: "effects/blueprint.wgsl",
                         entry_point: "fs_lines",
                         inputs: &sprite.inputs(found.nearer.as_ref().unwrap_or(&layer.order)),
-                        switches: &[("WITHOUT_REPEATED", found.nearer.is_some()), ("AMONG_OTHERS", true)],
+                        switches: &[
+                            ("WITHOUT_REPEATED", found.nearer.is_some()),
+                            ("AMONG_OTHERS", true),
+                            sprite.without_beyond(),
+                        ],
                         onto: Onto::Beneath,
                     };
                     lines(rec, &found.lines(layer, layer_lines, edges.styles), &pen, &color)?;
@@ -240,16 +268,25 @@ struct Sprite<'a> {
     surfaces: &'a GBuffer,
     style: &'a wgpu::Buffer,
     count: &'a PeelCount,
+    /// Nothing is drawn beyond it.
+    mask: Option<&'a DepthMask>,
 }
 
 impl<'a> Sprite<'a> {
+    /// Whether what lies beyond the depth mask is left out.
+    fn without_beyond(&self) -> (&'static str, bool) {
+        ("WITHOUT_BEYOND", self.mask.is_some())
+    }
+
     /// What the shader of the effect reads from binding 6 on.
-    fn inputs(&self, seen: &'a Target) -> [Input<'a>; 4] {
+    fn inputs(&self, seen: &'a Target) -> [Input<'a>; 5] {
         [
             Input::Texture(&self.surfaces.geometry),
             Input::Storage(self.style),
             Input::Storage(self.count.buffer()),
             Input::Texture(seen),
+            // Unread without a mask: any buffer.
+            Input::Storage(self.mask.map_or(self.style, |mask| &mask.count)),
         ]
     }
 }
@@ -279,7 +316,7 @@ fn fill(
         program: Program {
             file: "effects/blueprint.wgsl",
             entry_point: "fs_fill",
-            switches: vec![("WITH_CAPS", caps.is_some())],
+            switches: vec![("WITH_CAPS", caps.is_some()), sprite.without_beyond()],
         },
         inputs: &inputs,
         outputs: &[color],
