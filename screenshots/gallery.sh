@@ -95,6 +95,10 @@ draw blueprint "$crank" --style blueprint
 draw blueprint_temple assets/models/temple.glb --style blueprint --object-style '/temple/statues*=technical-illustration' \
 	--set blueprint.layers=16 --set 'blueprint.opacity=0.03' --camera-azimuth-angle 35 --camera-elevation-angle 35
 
+# A plan cut at a height, and an assembly cut open.
+draw section_temple assets/models/temple.glb --style lines --section y=2 --camera-orthographic --look-from top
+draw section_crank "$crank" --style technical-illustration --section z=0 --set section.color=#f4d9a8
+
 # Shadows in each technique.
 for style in plain gooch comic engraving newspaper; do
 	draw "shadows_$style" "$ogre" --style "$style" --set light.shadows=true --set light.key.azimuth=-55 \

@@ -84,7 +84,12 @@ fn a_cut_cube_looks_like_half_a_cube() {
                 set_all(&mut opened, &ALIKE);
                 set_all(
                     &mut opened,
-                    &[("technique", technique), ("light.shadows", shadows), ("mirror.reflectivity", "1")],
+                    &[
+                        ("technique", technique),
+                        ("halftone.space", "screen"),
+                        ("light.shadows", shadows),
+                        ("mirror.reflectivity", "1"),
+                    ],
                 );
                 let scene = Arc::clone(&opened.scene);
                 opened.document.set_role(&scene, &[2], Role::Mirror, true);

@@ -84,6 +84,6 @@ fn fs_fill(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     }
     let cap = caps[layer.object];
     let ink = select(hatched_share(cap, px), 1.0, cap.width <= 0.0);
-    let pen = vec4(mix(blueprints[0].near, blueprints[0].far, faded(layer.depth)), 1.0);
-    return over(pen * ink, fill);
+    let near = edge_styles[layer.object].lines[SECTION - 1u].color;
+    return over(vec4(mix(near, blueprints[0].far, faded(layer.depth)), 1.0) * ink, fill);
 }

@@ -6,8 +6,8 @@ pub mod lighting;
 pub mod masks;
 pub mod mirrors;
 pub mod pattern;
-pub mod section;
 pub mod roles;
+pub mod section;
 pub mod view;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -20,8 +20,8 @@ pub use file::DocumentError;
 pub use history::History;
 pub use lighting::Lighting;
 pub use pattern::{Pattern, PatternError};
-pub use section::Section;
 pub use roles::Role;
+pub use section::Section;
 pub use view::{Show, View};
 
 /// A drawing: everything about it that is not in the model files.

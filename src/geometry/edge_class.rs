@@ -1,6 +1,6 @@
 //! What kind of line an edge is.
 
-/// The classes of lines, profile edges first. Where several apply, the first one counts, but a section before all others.
+/// The classes of lines, profile edges first. Where several apply, the first one counts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, strum::IntoStaticStr)]
 #[strum(serialize_all = "snake_case")]
 #[repr(u8)]

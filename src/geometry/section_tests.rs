@@ -38,6 +38,36 @@ fn together(meshes: &[Mesh]) -> Mesh {
 }
 
 #[test]
+#[ignore = "a measurement: cargo test --release --lib section::tests::speed -- --ignored --nocapture"]
+#[expect(clippy::print_stdout, reason = "a measurement")]
+fn speed() {
+    let ball = primitives::sphere(1.0, 512, 1024);
+    let tube = primitives::torus(1.0, 0.3, 1100, 500);
+    for (name, mesh) in [("ball", ball), ("tube", tube)] {
+        let weld = Weld::near(&mesh.positions);
+        for normal in [DVec3::X, DVec3::Y, DVec3::new(0.3, 0.5, 0.8)] {
+            let plane = Plane { point: normal * 0.05, normal: normal.normalize() };
+            let plane_from_local = plane.world_from_plane(DVec3::ONE).inverse();
+            let mut times: Vec<[f64; 2]> = (0..15)
+                .map(|_| {
+                    let start = std::time::Instant::now();
+                    let found = contours(&mesh, &weld, &plane_from_local);
+                    let cut = start.elapsed();
+                    assert!(cap(&found).is_some());
+                    [cut, start.elapsed() - cut].map(|time| 1e3 * time.as_secs_f64())
+                })
+                .collect();
+            times.sort_by(|a, b| a[0].total_cmp(&b[0]));
+            let [contours, cap] = times[times.len() / 2];
+            println!(
+                "{name}, {} triangles: contours {contours:.2} ms, cap {cap:.2} ms",
+                mesh.triangle_count()
+            );
+        }
+    }
+}
+
+#[test]
 fn a_cube_is_cut_into_a_square_a_hexagon_and_a_triangle() {
     for mesh in [primitives::cube(2.0), primitives::cube_split(2.0)] {
         let (square, _) = cut(&mesh, DVec3::new(0.0, 0.3, 0.0), DVec3::Y);

@@ -199,11 +199,12 @@ impl GpuScene {
         self.section.as_ref().is_some_and(|section| *section.part(node) == Part::Gone)
     }
 
-    /// Whether a node shows no inside: its mesh encloses a volume, and where it is cut open it has a cap.
+    /// Whether a node shows no inside: its mesh, or what a section leaves of it with its cap, encloses a volume.
     pub fn shows_no_inside(&self, node: NodeId) -> bool {
-        let opened = self.section.as_ref().and_then(|section| section.opened(node));
-        self.scene.nodes[node].mesh.is_some_and(|mesh| self.is_solid(mesh))
-            && opened.is_none_or(|opened| opened.cap.is_some())
+        match self.section.as_ref().and_then(|section| section.opened(node)) {
+            Some(opened) => opened.is_solid,
+            None => self.scene.nodes[node].mesh.is_some_and(|mesh| self.is_solid(mesh)),
+        }
     }
 
     /// Which side of a node's triangles nobody can see: solids wholly before the eye show no back face.

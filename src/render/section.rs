@@ -36,6 +36,8 @@ pub struct Opened {
     pub contours: Vec<Contour>,
     /// Its cap, if it has one.
     pub cap: Option<PlacedCap>,
+    /// Whether what is left of it encloses a volume.
+    pub is_solid: bool,
 }
 
 /// A cap on the device.
@@ -89,6 +91,9 @@ impl Section {
         last: Option<&Self>,
     ) -> Result<Option<Self>, GpuError> {
         let style = &document.section;
+        if !style.show {
+            return Ok(None);
+        }
         let up = document.up(&scene.scene);
         // Of all objects: hiding one does not move the plane.
         let nodes = 0..scene.scene.nodes.len();
@@ -187,11 +192,13 @@ fn open(scene: &GpuScene, node: NodeId, plane_from_world: &DMat4, has_caps: bool
         return (Part::Gone, None);
     }
     let (Some(mesh), Some(weld)) = (scene.scene.meshes.get(number), scene.weld(number)) else {
-        return (Part::Open(Opened { contours: Vec::new(), cap: None }), None);
+        return (Part::Open(Opened { contours: Vec::new(), cap: None, is_solid: false }), None);
     };
     let contours = contours(mesh, weld, &plane_from_local);
     let cap = if has_caps && scene.is_solid(number) { cap(&contours) } else { None };
-    (Part::Open(Opened { contours, cap: None }), cap)
+    // Where no shell is cut, each is whole or gone.
+    let is_solid = scene.is_solid(number) && (contours.is_empty() || cap.is_some());
+    (Part::Open(Opened { contours, cap: None, is_solid }), cap)
 }
 
 /// A cap as a mesh, all of one surface.
