@@ -249,14 +249,15 @@ impl Group {
     fn caps<'a>(&'a self, scene: &'a GpuScene) -> impl Iterator<Item = VisiblePart> + 'a {
         scene.section.iter().flat_map(move |section| {
             self.visible.iter().filter_map(move |&(node, enhanced)| {
-                let cap = section.opened(node)?.cap?;
+                let opened = section.opened(node)?;
+                let cap = opened.cap?;
                 Some(VisiblePart {
                     node,
                     enhanced,
                     bounds: cap.bounds,
                     surfaces: cap.surface + 1,
                     is_flat: true,
-                    world_from_local: section.world_from_plane,
+                    world_from_local: section.world_from_cap(opened),
                     material: usize::MAX,
                     origin: Origin::Caps,
                     first_index: cap.range.first_index,

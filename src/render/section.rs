@@ -1,10 +1,13 @@
 //! The section of a scene: which objects a plane cuts, where, and the caps of the solids among them, on the device.
 
+mod neighbours;
+
 use std::sync::Arc;
 
 use glam::{DMat4, DVec3, DVec4};
 use rayon::prelude::*;
 
+use self::neighbours::{Number, numbers};
 use super::gpu_scene::GpuScene;
 use crate::document::Document;
 use crate::document::section::{Fill, Section as Style};
@@ -18,6 +21,13 @@ use crate::scene::NodeId;
 /// plane is cut away, so that caps are not, and faces in the plane are.
 const MARGIN: f64 = 1e-5;
 
+/// Where solids reach into each other, caps lie so far above each other that depth tells them apart: by this share of the
+/// margin, the smallest one topmost.
+const STEP: f64 = 0.5;
+
+/// No cap lies more steps below the topmost.
+const LOWEST: u32 = 24;
+
 /// What becomes of an object.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Part {
@@ -30,10 +40,12 @@ pub enum Part {
 }
 
 /// An object that is cut open.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Opened {
     /// Where; empty while topology is not known.
     pub contours: Vec<Contour>,
+    /// How far below the other caps' plane its cap and its contours lie, scene units.
+    pub depth: f64,
     /// Its cap, if it has one.
     pub cap: Option<PlacedCap>,
     /// Whether what is left of it encloses a volume.
@@ -71,11 +83,12 @@ pub struct Section {
     pub style: Style,
     /// What lies behind this plane is cut away: world space, its product with (point, 1) is the distance before it.
     pub plane: DVec4,
-    /// Where caps and contours lie: x and y run in their plane, z points to what is cut away.
-    pub world_from_plane: DMat4,
+    /// Where the topmost caps lie: x and y run in the plane, z points to what is cut away.
+    world_from_plane: DMat4,
     /// Vertices of the caps.
     pub caps: GeometryBuffers,
     parts: Arc<Vec<Part>>,
+    numbers: Arc<Vec<Number>>,
     key: Key,
 }
 
@@ -110,10 +123,22 @@ impl Section {
         if let Some(last) = last.filter(|last| last.key == key) {
             return Ok(Some(Self { style: style.clone(), ..last.clone() }));
         }
-        Self::cut(gpu, scene, style, bounds.diagonal() * MARGIN, key).map(Some)
+        let margin = bounds.diagonal() * MARGIN;
+        let numbers = match last.filter(|last| last.key.visible == key.visible) {
+            Some(last) => Arc::clone(&last.numbers),
+            None => Arc::new(numbers(scene, &key.visible, margin)),
+        };
+        Self::cut(gpu, scene, style, margin, numbers, key).map(Some)
     }
 
-    fn cut(gpu: &Gpu, scene: &GpuScene, style: &Style, margin: f64, key: Key) -> Result<Self, GpuError> {
+    fn cut(
+        gpu: &Gpu,
+        scene: &GpuScene,
+        style: &Style,
+        margin: f64,
+        numbers: Arc<Vec<Number>>,
+        key: Key,
+    ) -> Result<Self, GpuError> {
         let caps_at = Plane { point: key.plane.point - key.plane.normal * margin, ..key.plane };
         let world_from_plane = caps_at.world_from_plane(key.right);
         let plane_from_world = world_from_plane.inverse();
@@ -133,20 +158,24 @@ impl Section {
                 capped.push((node, surface));
             }
             parts[node] = part;
+            if let Part::Open(opened) = &mut parts[node] {
+                let level = numbers.get(node).copied().unwrap_or_default().level;
+                opened.depth = STEP * margin * f64::from(level.min(LOWEST));
+            }
         }
         let sources: Vec<_> =
             meshes.iter().map(|(mesh, surfaces)| MeshSource { mesh, surfaces: Some(surfaces) }).collect();
         let caps = GeometryBuffers::new(gpu, &sources)?;
-        let patterns = patterns(scene, &key.visible, margin);
         for (((node, surface), (mesh, _)), &range) in capped.into_iter().zip(&meshes).zip(&caps.meshes) {
             if let Part::Open(opened) = &mut parts[node] {
                 let index_count = mesh.indices.len() as u32;
-                let pattern = patterns.get(node).copied().unwrap_or(0);
+                let pattern = numbers.get(node).copied().unwrap_or_default().pattern;
                 opened.cap = Some(PlacedCap { range, index_count, surface, bounds: mesh.bounds(), pattern });
             }
         }
         let plane = -(key.plane.equation() + DVec4::W * (0.5 * margin));
-        Ok(Self { style: style.clone(), plane, world_from_plane, caps, parts: Arc::new(parts), key })
+        let parts = Arc::new(parts);
+        Ok(Self { style: style.clone(), plane, world_from_plane, caps, parts, numbers, key })
     }
 
     /// What becomes of an object.
@@ -160,6 +189,11 @@ impl Section {
             Part::Open(opened) => Some(opened),
             Part::Whole | Part::Gone => None,
         }
+    }
+
+    /// Where the contours of an object and its cap lie: x and y run in the plane, z is 0.
+    pub fn world_from_cap(&self, opened: &Opened) -> DMat4 {
+        self.world_from_plane * DMat4::from_translation(DVec3::new(0.0, 0.0, -opened.depth))
     }
 
     /// The plane itself, and a direction in it that is as horizontal as it allows.
@@ -192,13 +226,13 @@ fn open(scene: &GpuScene, node: NodeId, plane_from_world: &DMat4, has_caps: bool
         return (Part::Gone, None);
     }
     let (Some(mesh), Some(weld)) = (scene.scene.meshes.get(number), scene.weld(number)) else {
-        return (Part::Open(Opened { contours: Vec::new(), cap: None, is_solid: false }), None);
+        return (Part::Open(Opened { is_solid: false, ..Opened::default() }), None);
     };
     let contours = contours(mesh, weld, &plane_from_local);
     let cap = if has_caps && scene.is_solid(number) { cap(&contours) } else { None };
     // Where no shell is cut, each is whole or gone.
     let is_solid = scene.is_solid(number) && (contours.is_empty() || cap.is_some());
-    (Part::Open(Opened { contours, cap: None, is_solid }), cap)
+    (Part::Open(Opened { contours, is_solid, ..Opened::default() }), cap)
 }
 
 /// A cap as a mesh, all of one surface.
@@ -209,27 +243,4 @@ fn mesh_of(cap: &Cap, surface: u32) -> (Mesh, Provoking) {
     let surface_of_vertex = vec![surface; positions.len()];
     let surfaces = Provoking { indices: indices.clone(), duplicates: Vec::new(), surface_of_vertex };
     (Mesh { positions, indices, parts, ..Mesh::default() }, surfaces)
-}
-
-/// By node, numbers that tell objects apart whose boxes meet: each has the least that none before it has. They depend on
-/// all visible objects and not on the plane, so that hatching stays as it is while that moves.
-fn patterns(scene: &GpuScene, visible: &[NodeId], margin: f64) -> Vec<u32> {
-    let mut numbers = vec![0; scene.scene.nodes.len()];
-    let reach = DVec3::splat(margin);
-    let boxes =
-        visible.iter().map(|&node| (node, scene.bounds_of(node))).filter(|(_, bounds)| !bounds.is_empty());
-    let mut boxes: Vec<_> = boxes.collect();
-    boxes.sort_by(|(_, a), (_, b)| a.min.x.total_cmp(&b.min.x));
-    let mut before: Vec<(NodeId, Bounds)> = Vec::new();
-    for (node, bounds) in boxes {
-        before.retain(|(_, other)| other.max.x + margin >= bounds.min.x);
-        let touches = |other: &Bounds| {
-            other.min.cmple(bounds.max + reach).all() && other.max.cmpge(bounds.min - reach).all()
-        };
-        let taken: Vec<u32> =
-            before.iter().filter(|(_, other)| touches(other)).map(|(other, _)| numbers[*other]).collect();
-        numbers[node] = (0..).find(|number| !taken.contains(number)).unwrap_or(0);
-        before.push((node, bounds));
-    }
-    numbers
 }

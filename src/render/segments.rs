@@ -45,7 +45,7 @@ pub(super) fn segments(scene: &GpuScene, group: &Group, view: &View, crease_angl
         if let Some((section, opened)) = scene.section.as_ref().and_then(|s| Some((s, s.opened(node)?))) {
             let placed = PlacedContours {
                 contours: &opened.contours,
-                world_from_plane: section.world_from_plane,
+                world_from_plane: section.world_from_cap(opened),
                 edges,
                 object: id,
                 cap: opened.cap.map(|cap| cap.surface),
