@@ -284,7 +284,7 @@ impl Viewer {
             choosing: &mut choosing,
         };
         let outliner = &mut self.outliner;
-        egui::Panel::left("outliner").default_size(250.0).size_range(180.0..=480.0).show_collapsible(
+        egui::Panel::left("outliner").default_size(270.0).size_range(180.0..=480.0).show_collapsible(
             ui,
             &mut self.state.outliner,
             |ui| outliner.ui(ui, &mut editing),

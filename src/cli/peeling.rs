@@ -23,7 +23,8 @@ fn blueprint(peeled: &Peeled) -> Value {
             "uncovered": peeled.uncovered(),
             "uncovered_by_layer": of_layers(&peeled.passed),
             "behind_opaque": peeled.hidden,
-            "asked": f64::from(peeled.fraction),
+            // Through text, so that 0.9 is printed as 0.9.
+            "asked": peeled.fraction.to_string().parse::<f64>().unwrap_or_default(),
             "reached": peeled.share_uncovered(),
         });
     }

@@ -18,12 +18,13 @@ use super::effects::blueprint::{Blueprints, Peels};
 use super::effects::halftone::{HalftoneInputs, HalftoneUniform, Halftones, ThresholdMaps};
 use super::effects::hidden::HiddenLines;
 use super::effects::mirror::{MirrorUniform, mirror};
+use super::effects::section::{CapUniform, caps, section};
 use super::effects::surface::{Shading, SurfaceUniform, surface};
 use super::effects::toon::{ToonBuffers, Toons, cartoon_map};
 use super::frame_uniform::{FrameUniform, View};
-use super::gpu_scene::GpuScene;
+use super::gpu_scene::{GpuScene, Origin};
 use super::groups::Objects;
-use super::layers::Reported;
+use super::layers::{LayersBy, Reported};
 use super::lights::Lights;
 use super::passes::depth_mask::{DepthMask, DepthMaskPass};
 use super::passes::edge_map::{EdgeInputs, EdgeMap, EdgeMapPass};
@@ -37,6 +38,7 @@ use super::sample::Sample;
 use super::segments::segments;
 use super::shadows::{ShadowMap, ShadowMask};
 use super::stage::{Output, Stage};
+use crate::document;
 use crate::geometry::{EdgeClass, LineSegment};
 use crate::gpu::{ArrayBuffer, DynamicBuffer, Gpu, Recorder, Target, UniformBuffer};
 use crate::style::Style;
@@ -66,6 +68,8 @@ pub struct DrawingInputs<'a> {
     pub reflections: u32,
     /// Whether the layers of blueprints are kept.
     pub keeps_layers: bool,
+    /// How depth layers are to be made.
+    pub layers_by: document::LayersBy,
 }
 
 /// A drawing while it is being made: what all of its passes read.
@@ -126,6 +130,7 @@ pub struct Drawing {
     toon_styles: ArrayBuffer,
     toon_bands: ArrayBuffer,
     halftone_styles: ArrayBuffer,
+    caps: ArrayBuffer,
     gbuffer: Stage<(u64, u64, View, Vec<DrawUniform>, Vec<DrawCall>), GBuffer>,
     segments: Stage<(u64, View, Vec<EdgeUniform>, f32), Arc<Vec<LineSegment>>>,
     edge_map: Stage<([u64; 2], Vec<EdgeUniform>, Vec2, Option<FrameUniform>), EdgeMap>,
@@ -145,6 +150,7 @@ pub struct Drawing {
             Seen,
             Option<u64>,
             Vec<u64>,
+            Vec<CapUniform>,
         ),
         Target,
     >,
@@ -183,6 +189,7 @@ impl Drawing {
             toon_styles: ArrayBuffer::new(gpu, "toon styles"),
             toon_bands: ArrayBuffer::new(gpu, "toon bands"),
             halftone_styles: ArrayBuffer::new(gpu, "halftone styles"),
+            caps: ArrayBuffer::new(gpu, "caps"),
             gbuffer: Stage::default(),
             segments: Stage::default(),
             edge_map: Stage::default(),
@@ -244,12 +251,12 @@ impl Drawing {
 
     /// How far the layers of each blueprint came in the last picture whose report has arrived; in the order of
     /// [`Objects::blueprints`].
-    pub fn last_peeled(&self) -> Vec<Option<Peeled>> {
+    pub fn last_peeled(&self) -> Vec<Option<(Peeled, LayersBy)>> {
         self.blueprints.iter().map(|b| b.last().cloned()).collect()
     }
 
     /// The same of the blueprint that objects of this style are in.
-    pub fn last_peeled_of(&self, style: &Style) -> Option<&Peeled> {
+    pub fn last_peeled_of(&self, style: &Style) -> Option<&(Peeled, LayersBy)> {
         self.blueprints.iter().find(|b| b.is_of(style))?.last()
     }
 
@@ -274,15 +281,15 @@ impl Drawing {
         let with_coordinates = calls
             .iter()
             .filter(|call| {
-                draws
-                    .get(call.draw as usize)
-                    .is_some_and(|draw| objects.halftones.need_coordinates(draw.object))
+                let draw = draws.get(call.draw as usize);
+                call.origin != Origin::Caps
+                    && draw.is_some_and(|draw| objects.halftones.need_coordinates(draw.object))
             })
             .copied()
             .collect();
         let geometry = (rec.pipelines.generation(), inputs.scene_revision, *view, draws, calls);
         let gbuffer = self.gbuffer.run(geometry, |(.., draws, calls)| {
-            shared.gbuffer.run(rec, scene, &mut self.draws, (draws, calls), view.cut.is_some(), None)
+            shared.gbuffer.run(rec, scene, &mut self.draws, (draws, calls), view.has_cuts(), None)
         })?;
         let shadow_mask = self.shadow_mask.run(rec, &gbuffer, inputs)?;
         Ok(Begun { uniform, depth_range, gbuffer, shadow_mask, with_coordinates })
@@ -381,6 +388,7 @@ impl Drawing {
             }
         };
         let revisions = edge_map.map(|e| [e.revision, reach.as_ref().map_or(0, |reach| reach.revision)]);
+        let caps = caps(inputs.scene, inputs.view, inputs.objects.scale);
         let shading = (
             [gbuffer.revision, begun.shadow_mask.as_ref().map_or(0, |mask| mask.revision)],
             revisions,
@@ -395,6 +403,7 @@ impl Drawing {
             }),
             hidden.as_ref().map(|hidden| hidden.revision),
             blueprints.iter().map(|b| b.revision).collect(),
+            caps.clone(),
         );
         let color = self.surface.run(shading, |(_, _, surfaces, toons, (halftones, _), styles, ..)| {
             self.surface_styles.write(rec.gpu, surfaces);
@@ -419,6 +428,10 @@ impl Drawing {
                 },
             };
             let color = surface(rec, &gbuffer.value, &shading)?;
+            if !caps.is_empty() {
+                self.caps.write(rec.gpu, &caps);
+                section(rec, &gbuffer.value, self.caps.buffer(), &color)?;
+            }
             for seen in &reflected {
                 let Some(reflection) = self.reflections.get_mut(seen.index) else { continue };
                 reflection.uniform.write(rec.gpu, &vec![seen.uniform]);

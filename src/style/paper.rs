@@ -20,7 +20,7 @@ impl Paper {
     pub(super) fn params<'a>(&'a mut self, list: &mut Params<'a>) {
         list.color(
             "paper",
-            "Paper",
+            "Paper colour",
             "Colour of the paper, where this is the style of the whole drawing; `view.background` wins over it.",
             &mut self.color,
         );

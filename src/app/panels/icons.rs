@@ -17,7 +17,7 @@ pub enum Icon {
 }
 
 /// Side of a button.
-pub const SIZE: f32 = 18.0;
+pub const SIZE: f32 = 16.0;
 
 /// A switch that is a drawing. `dimmed`: on by itself, but without effect.
 pub fn toggle(

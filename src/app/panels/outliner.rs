@@ -15,7 +15,7 @@ use crate::style::Style;
 use crate::style::preset::Preset;
 
 /// Width of the column of styles.
-const STYLE_WIDTH: f32 = 62.0;
+const STYLE_WIDTH: f32 = 52.0;
 
 /// Scenes with at most this many nodes are shown unfolded.
 const UNFOLD_AT_MOST: usize = 60;

@@ -7,6 +7,7 @@
 //! visible edge map ──────────┘ no line twice
 //! ```
 
+use crate::document::LayersBy;
 use crate::gpu::recorder::{Input, Onto};
 use crate::gpu::{Gpu, Recorder, Target};
 use crate::render::RenderError;
@@ -99,6 +100,7 @@ struct Inputs {
     uniform: FrameUniform,
     part: Option<[u32; 4]>,
     crease_angle: f32,
+    layers_by: LayersBy,
 }
 
 /// What of the drawing of hidden lines lives across frames.
@@ -159,6 +161,7 @@ impl HiddenLines {
             uniform: uniform.without_background(),
             part: inputs.view.part,
             crease_angle: inputs.crease_angle,
+            layers_by: inputs.layers_by,
         };
         let Self { layers, lines: band_lines, stage } = self;
         stage.run(asked, |asked| {
@@ -169,7 +172,6 @@ impl HiddenLines {
             }
             let segments =
                 segments(inputs.scene, &group, &inputs.view.moved(glam::Vec2::ZERO), inputs.crease_angle);
-            let is_cut = inputs.view.cut.is_some();
             let color = rec.target("hidden lines", wgpu::TextureFormat::Rgba16Float)?;
             rec.clear("hidden lines", &color);
             let mut seen = match visible {
@@ -180,11 +182,12 @@ impl HiddenLines {
                 scene: inputs.scene,
                 draws: &asked.draws,
                 calls: &asked.calls,
-                is_cut,
+                is_cut: inputs.view.has_cuts(),
                 most: bands.last().map_or(0, |band| band.last) + 1,
                 least: hidden.least(rec.size()),
                 mask: None,
                 fraction: 1.0,
+                by: inputs.layers_by,
             };
             let mut before: Option<[Target; 2]> = None;
             layers.each(rec, gbuffer_pass, &cut, |rec, number, layer, _| {
@@ -198,7 +201,7 @@ impl HiddenLines {
                     styles: &band.styles,
                     segments: &segments,
                     has_holes: group.has_holes,
-                    is_cut,
+                    is_cut: inputs.view.cut.is_some(),
                     before: regions.as_ref().map(|[last, before_that]| [last, before_that]),
                     repeated: false,
                 };
