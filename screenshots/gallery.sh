@@ -100,22 +100,22 @@ draw blueprint_temple assets/models/temple.glb --style blueprint --object-style 
 # What each depth layer is drawn from: depth, normals and edge map (Blueprints paper, Fig. 4).
 for buffer in depth normals edge_map; do
 	for layer in 1 2 3 4 5; do
-		target/release/hachure render "$crank" --output "$work/$buffer.$layer.png" --resolution 400,400 \
+		target/release/hachure render "$crank" --output "$work/$buffer.$layer.png" --resolution 800,800 \
 			--set edges.mode=paper --set "view.show=$buffer" --set "view.layer=$layer"
 	done
-	convert "$work/$buffer".[1-5].png +append "$work/$buffer.png"
+	convert "$work/$buffer".[1-5].png +append -resize 50% "$work/$buffer.png"
 done
 convert "$work/depth.png" "$work/normals.png" "$work/edge_map.png" -append screenshots/blueprint_layers.png
 echo screenshots/blueprint_layers.png
 
 # Depth masking: everything before the statues, and nothing behind them (Fig. 7).
+size=1240,860
 draw blueprint_mask assets/models/temple.glb --style blueprint --mask '/temple/statues/*' \
 	--set blueprint.layers=24 --set blueprint.beyond=false --camera-azimuth-angle -20 --camera-elevation-angle 25
+size=1000,1000
 
-# Blueprints on other papers, and as a wire frame.
+# White on blue paper.
 draw blueprint_white_on_blue "$crank" --style blueprint-white-on-blue
-draw blueprint_vellum "$crank" --style blueprint-vellum
-draw wireframe "$crank" --style wireframe
 # A building in plan and from the side, at the same scale on paper (Blueprints paper, Fig. 8).
 for side in top right; do
 	[ "$side" = top ] && size=760,1340 || size=1340,760
