@@ -70,10 +70,10 @@ fn fs_lines(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     }
     var ink = line.ink;
     if blueprints[0].threshold > 0.0 {
-        if ink.a < blueprints[0].threshold {
-            discard;
+        if line.strength < blueprints[0].threshold {
+            return vec4(0.0);
         }
-        ink /= ink.a;
+        ink *= min(1.0 / line.strength, 1.0 / max(ink.a, 1e-6));
     }
     return vec4(mix(ink.rgb, blueprints[0].far * ink.a, faded(line.depth)), ink.a);
 }

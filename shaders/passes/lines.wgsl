@@ -51,10 +51,12 @@ struct Line {
     depth: f32,
     // Whether it would be here, were it not for a surface before it.
     is_hidden: bool,
+    // How strong its ink is where it covers all of a pixel, 0 to 1.
+    strength: f32,
 }
 
 fn no_line() -> Line {
-    return Line(vec4(0.0), 0.0, false);
+    return Line(vec4(0.0), 0.0, false, 0.0);
 }
 
 // The line of the pixel of the edge map that was found, as far as surface `g` does not hide it.
@@ -94,9 +96,10 @@ fn line_at(px: vec2<i32>, g: Surfel, found: u32) -> Line {
         let until_next = max(inside, arc - period);
         coverage *= clamp(until_next / frame.coverage_ramp + 0.5, 0.0, 1.0);
     }
-    coverage *= edge_styles[edge.object].lines[index].strength * edge.weight;
+    let strength = edge_styles[edge.object].lines[index].strength * edge.weight;
+    coverage *= strength;
     if coverage <= 0.0 || is_hidden(g, px, edge, spine) {
-        return Line(vec4(0.0), edge.depth, coverage > 0.0);
+        return Line(vec4(0.0), edge.depth, coverage > 0.0, 0.0);
     }
     var color = edge_styles[edge.object].lines[index].color;
     if WITH_SURFACE_COLOR {
@@ -106,7 +109,7 @@ fn line_at(px: vec2<i32>, g: Surfel, found: u32) -> Line {
         let base = textureLoad(base_color_tex, inside, 0).rgb;
         color = mix(color, base * (1.0 - edge_styles[edge.object].darken), edge_styles[edge.object].surface_color);
     }
-    return Line(vec4(color, 1.0) * coverage, edge.depth, false);
+    return Line(vec4(color, 1.0) * coverage, edge.depth, false, strength);
 }
 
 // A hidden line may have won against one that is not: of the lines of the pixels around, the one that covers most.
@@ -229,7 +232,8 @@ fn lines_at(px: vec2<i32>, g: Surfel) -> Line {
             if nearest != farthest {
                 let thin = line_at(px, g, nearest);
                 let ink = thin.ink * apart(nearest, farthest);
-                lines = Line(over(ink, lines.ink), select(lines.depth, thin.depth, ink.a > 0.0), false);
+                let strength = select(lines.strength, thin.strength, ink.a > 0.0);
+                lines = Line(over(ink, lines.ink), select(lines.depth, thin.depth, ink.a > 0.0), false, strength);
             }
         }
     }
@@ -244,7 +248,8 @@ fn lines_at(px: vec2<i32>, g: Surfel) -> Line {
                 * vec2(edge_styles[object].inner_strength, edge_styles[object].profile_strength);
             let inner = vec4(edge_styles[object].inner_color, 1.0) * ink.x;
             let profile = vec4(edge_styles[object].profile_color, 1.0) * ink.y;
-            lines = Line(over(over(profile, inner), lines.ink), depth, false);
+            let both = over(over(profile, inner), lines.ink);
+            lines = Line(both, depth, false, both.a);
         }
     }
     return lines;
