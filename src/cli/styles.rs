@@ -15,8 +15,9 @@ pub(super) fn run(args: &StylesArgs) -> Result<(), CliError> {
     let mut view = View::default();
     let mut lighting = Lighting::default();
     let mut section = Section::default();
+    let paper = style.paper.color;
     let mut params = style.params();
-    params.extend(view.params());
+    params.extend(view.params(paper));
     params.extend(lighting.params());
     params.extend(section.params());
     if args.json {

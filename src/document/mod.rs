@@ -14,7 +14,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
 use crate::scene::{Camera, Light, NodeId, Scene, Up};
-use crate::style::{Style, StyleError, Value, param};
+use crate::style::{Color, Style, StyleError, Value, param};
 
 pub use file::DocumentError;
 pub use history::History;
@@ -113,6 +113,11 @@ fn default_style() -> Style {
 }
 
 impl Document {
+    /// Colour of the paper behind everything.
+    pub fn paper(&self) -> Color {
+        self.view.background.unwrap_or(self.style.paper.color)
+    }
+
     /// The axis that is up for a scene.
     pub fn up(&self, scene: &Scene) -> Up {
         self.up.unwrap_or(scene.up)
@@ -223,7 +228,7 @@ impl Document {
     /// # Errors
     /// See [`param::set`].
     pub fn set(&mut self, key: &str, value: &Value) -> Result<(), StyleError> {
-        let mut params = self.view.params();
+        let mut params = self.view.params(self.style.paper.color);
         params.extend(self.lighting.params());
         params.extend(self.section.params());
         params.extend(self.style.params());

@@ -40,6 +40,7 @@ use super::shadows::{ShadowMap, ShadowMask};
 use super::stage::{Output, Stage};
 use crate::geometry::{EdgeClass, LineSegment};
 use crate::gpu::{ArrayBuffer, DynamicBuffer, Gpu, Recorder, Target, UniformBuffer};
+use crate::style::Style;
 
 /// What is to be drawn, and from where.
 #[derive(Clone, Copy)]
@@ -249,6 +250,11 @@ impl Drawing {
     /// [`Objects::blueprints`].
     pub fn last_peeled(&self) -> Vec<Option<Peeled>> {
         self.blueprints.iter().map(|b| b.last().cloned()).collect()
+    }
+
+    /// The same of the blueprint that objects of this style are in.
+    pub fn last_peeled_of(&self, style: &Style) -> Option<&Peeled> {
+        self.blueprints.iter().find(|b| b.is_of(style))?.last()
     }
 
     /// Begins a drawing with its G-buffer and the shadows on it; all later passes see through its camera.

@@ -9,6 +9,7 @@ pub mod groups;
 pub mod layers;
 pub mod light_view;
 pub mod lights;
+mod one_layer;
 pub mod passes;
 mod renderer;
 pub mod sample;

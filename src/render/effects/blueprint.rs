@@ -25,7 +25,7 @@ use crate::render::passes::lines::{Pen, lines};
 use crate::render::passes::peel::{Layer, MOST_LAYERS, PeelCount, Peeled};
 use crate::render::segments::segments;
 use crate::render::stage::{Output, Stage};
-use crate::style::{self, Edges, Style};
+use crate::style::{self, Edges, Style, Technique};
 
 /// Objects whose style is equal, peeled together.
 #[derive(Debug, Clone, PartialEq)]
@@ -44,6 +44,7 @@ pub struct BlueprintUniform {
     fill: Vec3,
     opacity: f32,
     by_distance: f32,
+    threshold: f32,
 }
 
 impl From<&style::Blueprint> for BlueprintUniform {
@@ -54,6 +55,7 @@ impl From<&style::Blueprint> for BlueprintUniform {
             fill: style.fill.to_linear(),
             opacity: style.opacity.clamp(0.0, 1.0),
             by_distance: style.by_distance.clamp(0.0, 1.0),
+            threshold: style.threshold.clamp(0.0, 1.0),
         }
     }
 }
@@ -61,7 +63,7 @@ impl From<&style::Blueprint> for BlueprintUniform {
 impl Blueprint {
     /// The group to which an object of this style belongs, in a scene with `count` object ids.
     pub fn group_of<'a>(all: &'a mut Vec<Self>, style: &Style, count: usize) -> &'a mut Group {
-        let found = all.iter().position(|b| b.style == style.blueprint && b.edges == style.edges);
+        let found = all.iter().position(|b| b.is_of(style));
         let index = found.unwrap_or(all.len());
         if found.is_none() {
             all.push(Self {
@@ -71,6 +73,11 @@ impl Blueprint {
             });
         }
         &mut all[index].group
+    }
+
+    /// Whether an object of this style belongs to it.
+    fn is_of(&self, style: &Style) -> bool {
+        style.technique == Technique::Blueprint && self.style == style.blueprint && self.edges == style.edges
     }
 
     /// Most layers that are peeled: no more than are drawn.
@@ -150,6 +157,11 @@ impl Blueprints {
             self.stage.clear();
         }
         reported
+    }
+
+    /// Whether objects of this style were drawn last.
+    pub fn is_of(&self, style: &Style) -> bool {
+        self.stage.inputs().is_some_and(|last| last.blueprint.is_of(style))
     }
 
     /// How far the last picture came whose report has arrived.
