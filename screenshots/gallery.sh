@@ -97,9 +97,6 @@ draw blueprint "$crank" --style blueprint
 draw blueprint_temple assets/models/temple.glb --style blueprint --object-style '/temple/statues*=technical-illustration' \
 	--set blueprint.layers=16 --set 'blueprint.opacity=0.03' --camera-azimuth-angle 35 --camera-elevation-angle 35
 
-# A plan cut at a height, and an assembly cut open.
-draw section_temple assets/models/temple.glb --style lines --section y=2 --camera-orthographic --look-from top
-draw section_crank "$crank" --style technical-illustration --section z=0 --set section.color=#f4d9a8
 # What each depth layer is drawn from: depth, normals and edge map (Blueprints paper, Fig. 4).
 for buffer in depth normals edge_map; do
 	for layer in 1 2 3 4 5; do
@@ -126,6 +123,12 @@ for side in top right; do
 		--scale 1:400 --dpi 160 --set blueprint.layers=32 --set blueprint.opacity=0.02 --set view.scale_bar=true
 done
 size=1000,1000
+# Hidden lines of surfaces.
+draw hidden_lines "$crank" --style hidden-lines --set edges.hidden.layers=next
+draw x_ray assets/models/temple.glb --style x-ray --camera-azimuth-angle 35 --camera-elevation-angle 30
+# A plan cut at a height, and an assembly cut open.
+draw section_temple assets/models/temple.glb --style lines --section y=2 --camera-orthographic --look-from top
+draw section_crank "$crank" --style technical-illustration --section z=0 --set section.color=#f4d9a8
 
 # Shadows in each technique.
 for style in plain gooch comic engraving newspaper; do

@@ -42,6 +42,8 @@ const PICTURES: &[(&str, &str, &[&str])] = &[
             "--camera-elevation-angle=25",
         ],
     ),
+    ("hidden_lines_crank", "crank", &["--style", "hidden-lines", "--set", "edges.hidden.layers=next"]),
+    ("x_ray_ogre", "ogre", &["--style", "x-ray"]),
     ("comic_ogre", "ogre", &["--style", "comic"]),
     ("two_tone_crank", "crank", &["--style", "two-tone"]),
     ("plain_crank", "crank", &["--style", "plain"]),

@@ -14,8 +14,8 @@ pub(super) fn run(args: &StylesArgs) -> Result<(), CliError> {
     let mut style = Style::default();
     let mut view = View::default();
     let mut lighting = Lighting::default();
-    let mut section = Section::default();
     let paper = style.paper.color;
+    let mut section = Section::default();
     let mut params = style.params();
     params.extend(view.params(paper));
     params.extend(lighting.params());

@@ -196,9 +196,9 @@ impl Document {
         let section = |name: &str, table: toml::Table| {
             table.get(name).and_then(|v| v.as_table()).cloned().unwrap_or_default()
         };
-        let cut = diff_to_toml(&mut self.section.clone().params(), &mut Section::default().params());
         let paper = self.style.paper.color;
         let view = diff_to_toml(&mut self.view.clone().params(paper), &mut View::default().params(paper));
+        let cut = diff_to_toml(&mut self.section.clone().params(), &mut Section::default().params());
         let light =
             diff_to_toml(&mut self.lighting.clone().params(), &mut default_lighting(has_lights).params());
         let form = Form {

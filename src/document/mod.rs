@@ -22,7 +22,7 @@ pub use lighting::Lighting;
 pub use pattern::{Pattern, PatternError};
 pub use roles::Role;
 pub use section::Section;
-pub use view::{Show, View};
+pub use view::{LayersBy, Show, View};
 
 /// A drawing: everything about it that is not in the model files.
 #[derive(Debug, Clone, PartialEq)]

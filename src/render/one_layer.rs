@@ -10,6 +10,7 @@ use super::passes::edge_style::EdgeUniform;
 use super::passes::gbuffer::{DrawCall, DrawUniform, GBuffer, GBufferPass};
 use super::segments::segments;
 use super::stage::{Output, Stage};
+use crate::document::LayersBy;
 use crate::gpu::{Gpu, GpuError, Recorder, Target};
 
 /// What of that look lives across frames.
@@ -82,6 +83,8 @@ impl OneLayer {
                 least: 1,
                 mask: None,
                 fraction: 1.0,
+                // It cannot run out of room, which nobody would hear of.
+                by: LayersBy::Peeling,
             };
             let mut found = None;
             // A layer that has ended is empty, and nobody waits for the report about it.

@@ -11,6 +11,7 @@
 use encase::ShaderType;
 use glam::Vec3;
 
+use crate::document;
 use crate::gpu::recorder::{Draw, Input, Onto};
 use crate::gpu::{ArrayBuffer, DepthRule, Gpu, Program, Recorder, Target};
 use crate::render::RenderError;
@@ -18,7 +19,7 @@ use crate::render::drawing::{Begun, DrawingInputs};
 use crate::render::effects::section::{CapUniform, caps};
 use crate::render::frame_uniform::FrameUniform;
 use crate::render::groups::Group;
-use crate::render::layers::{LayerInputs, LayerLines, LayerLinesInputs, Layers, Reported};
+use crate::render::layers::{LayerInputs, LayerLines, LayerLinesInputs, Layers, LayersBy, Reported};
 use crate::render::passes::depth_mask::DepthMask;
 use crate::render::passes::gbuffer::{DrawCall, DrawUniform, GBuffer, GBufferPass};
 use crate::render::passes::lines::{Pen, lines};
@@ -122,6 +123,7 @@ struct Inputs {
     crease_angle: f32,
     caps: Vec<CapUniform>,
     keeps_layers: bool,
+    layers_by: document::LayersBy,
 }
 
 /// What of the drawing of a group lives across frames.
@@ -165,7 +167,7 @@ impl Blueprints {
     }
 
     /// How far the last picture came whose report has arrived.
-    pub fn last(&self) -> Option<&Peeled> {
+    pub fn last(&self) -> Option<&(Peeled, LayersBy)> {
         self.layers.last()
     }
 
@@ -201,6 +203,7 @@ impl Blueprints {
             crease_angle: inputs.crease_angle,
             caps: caps(inputs.scene, inputs.view, inputs.objects.scale),
             keeps_layers: inputs.keeps_layers,
+            layers_by: inputs.layers_by,
         };
         let Self { layers, lines: layer_lines, style, caps, stage } = self;
         stage.run(asked, |asked| {
@@ -233,6 +236,7 @@ impl Blueprints {
                 least: blueprint.least(rec.size()),
                 mask: mask.map(|mask| &mask.value),
                 fraction: params.fraction,
+                by: inputs.layers_by,
             };
             layers.each(rec, gbuffer_pass, &cut, |rec, number, layer, count| {
                 if asked.keeps_layers {
