@@ -19,7 +19,8 @@ pub(super) fn segments(scene: &GpuScene, group: &Group, view: &View, crease_angl
         cut: view.cut,
     };
     let mut all = Vec::new();
-    for &(node, enhanced) in group.visible() {
+    for object in group.visible() {
+        let (node, enhanced) = (object.node, object.enhanced);
         let id = object_id(node);
         let Some(style) = group.edge_styles.get(id as usize).filter(|s| enhanced && s.is_exact()) else {
             continue;
@@ -35,7 +36,7 @@ pub(super) fn segments(scene: &GpuScene, group: &Group, view: &View, crease_angl
             world_from_local: found.world_from_local,
             object: id,
             // What a solid hides is left out.
-            is_solid: scene.is_solid(index) && !group.shows_hidden,
+            is_solid: scene.is_solid(index) && object.is_whole() && !group.shows_hidden,
         };
         let first = all.len();
         line_segments(&placed, &view, &wanted(style, crease_angle), &mut all);
