@@ -157,6 +157,32 @@ fn the_outliner_hides_objects_and_their_edges_and_undo_brings_them_back() {
 }
 
 #[test]
+fn an_object_is_designated_in_its_row_and_what_masks_need_is_then_among_the_parameters() {
+    let mut window = window();
+    choose(&mut window, "Preset", "Blueprint");
+    let has_slider = |window: &Window| window.query_by_role_and_label(Role::Slider, "Uncover").is_some();
+    assert!(!has_slider(&window));
+    let at = window.get_by_role_and_label(Role::TreeItem, "rod").rect().center();
+    window.hover_at(at);
+    settle(&mut window);
+    click(&mut window, Role::CheckBox, "Uncover rod");
+    assert_eq!(own(&window, "/engine/rod").unwrap().mask, Some(true));
+    assert!(has_slider(&window));
+    assert!(window.query_by_role_and_label(Role::Slider, "Layers").is_some(), "one slider for both ends");
+    // What became of it arrives a frame later, and nobody asked for it.
+    let style = window.state().document().style.clone();
+    until(&mut window, "the layers are counted", |v| {
+        v.viewport().last_peeled(&style).is_some_and(|(peeled, _)| peeled.masked > 0)
+    });
+    let (peeled, _) = window.state().viewport().last_peeled(&style).unwrap().clone();
+    let title = format!("Layers drawn: {}", peeled.layers);
+    assert!(window.query_by_role_and_label(Role::Button, &title).is_some(), "{title}");
+    assert!(window.query_by_label_contains("% uncovered,").is_some());
+    ask(&mut window, Command::Undo);
+    assert!(own(&window, "/engine/rod").is_none() && !has_slider(&window));
+}
+
+#[test]
 fn a_flat_object_is_made_a_mirror_in_its_row_and_undo_takes_that_back() {
     let mut window = window_with("/models/engine.glb", |paths| {
         let mut scene = engine(paths);

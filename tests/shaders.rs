@@ -45,9 +45,9 @@ fn rust_and_wgsl_agree_on_every_uniform() {
     same_layout!(ScaleBarUniform, 3, "passes/resolve.wgsl", "ScaleBar");
     same_layout!(LightUniform, 3, "passes/resolve.wgsl", "Light");
     same_layout!(DrawUniform, 6, "passes/gbuffer.wgsl", "Draw");
-    same_layout!(BlueprintUniform, 5, "effects/blueprint.wgsl", "Blueprint");
-    same_layout!(Peeled, 11, "effects/blueprint.wgsl", "Peeled");
-    same_layout!(Peeled, 11, "passes/count.wgsl", "Counted");
+    same_layout!(BlueprintUniform, 6, "effects/blueprint.wgsl", "Blueprint");
+    same_layout!(Peeled, 12, "effects/blueprint.wgsl", "Peeled");
+    same_layout!(Peeled, 12, "passes/count.wgsl", "Counted");
     same_layout!(Masked, 3, "effects/blueprint.wgsl", "Masked");
     same_layout!(Masked, 3, "passes/depth_mask.wgsl", "Counted");
     same_layout!(MaterialUniform, 6, "passes/gbuffer.wgsl", "Material");

@@ -13,6 +13,8 @@ struct Blueprint {
     fill: vec3<f32>,
     opacity: f32,
     by_distance: f32,
+    // Ink below it is left out, and all other is full; 0: ink stays as it is.
+    threshold: f32,
 }
 
 // The opaque surfaces, as `geometry_tex` has those of the layer.
@@ -59,7 +61,14 @@ fn fs_lines(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     if is_beyond(line.depth) {
         return vec4(0.0);
     }
-    return vec4(mix(line.ink.rgb, blueprints[0].far * line.ink.a, faded(line.depth)), line.ink.a);
+    var ink = line.ink;
+    if blueprints[0].threshold > 0.0 {
+        if ink.a < blueprints[0].threshold {
+            discard;
+        }
+        ink /= ink.a;
+    }
+    return vec4(mix(ink.rgb, blueprints[0].far * ink.a, faded(line.depth)), ink.a);
 }
 
 @fragment

@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use crate::render::passes::peel::{Peeled, PeelingEnd};
+use crate::render::passes::peel::Peeled;
 
 /// Exactly how far each blueprint was peeled.
 pub(super) fn as_json(peeled: &[Peeled]) -> Value {
@@ -15,11 +15,7 @@ fn blueprint(peeled: &Peeled) -> Value {
     let mut found = json!({
         "layers": drawn,
         "pixels": of_layers(&peeled.pixels),
-        "ended_by": match peeled.ended() {
-            PeelingEnd::MostLayers => "most layers",
-            PeelingEnd::TooFewPixels => "too few pixels",
-            PeelingEnd::MaskUncovered => "mask uncovered",
-        },
+        "ended_by": peeled.ended().to_string(),
     });
     if peeled.masked > 0 {
         found["mask"] = json!({

@@ -24,9 +24,7 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
     let device = StartingDevice::new()?;
     let mut opened = open(&args.files, crease_angle(&args.look), &Progress::default())?;
     apply_look(&mut opened, &args.look)?;
-    if let Some(background) = args.background {
-        opened.document.view.background = background;
-    }
+    opened.document.view.background = args.background.or(opened.document.view.background);
     let uses = opened.document.images();
     let images = ImageCache::default().read(&uses, &Progress::default()).map_err(OpenError::from)?;
     let size = args.resolution.0;

@@ -14,8 +14,9 @@ pub(super) fn run(args: &StylesArgs) -> Result<(), CliError> {
     let mut style = Style::default();
     let mut view = View::default();
     let mut lighting = Lighting::default();
+    let paper = style.paper.color;
     let mut params = style.params();
-    params.extend(view.params());
+    params.extend(view.params(paper));
     params.extend(lighting.params());
     if args.json {
         return print_json(&json!({

@@ -149,7 +149,7 @@ impl Document {
         // These tables hold the keys of one section; the list of parameters has them with their prefix.
         let section =
             |name: &str, table: toml::Table| toml::Table::from_iter([(name.to_owned(), table.into())]);
-        fill(&mut document.view.params(), &section("view", form.view), "view")?;
+        fill(&mut document.view.params(document.style.paper.color), &section("view", form.view), "view")?;
         fill(&mut document.lighting.params(), &section("light", form.light), "light")?;
         fill(&mut document.style.params(), &form.style, "style")?;
         for (node, form) in form.nodes {
@@ -193,7 +193,8 @@ impl Document {
         let section = |name: &str, table: toml::Table| {
             table.get(name).and_then(|v| v.as_table()).cloned().unwrap_or_default()
         };
-        let view = diff_to_toml(&mut self.view.clone().params(), &mut View::default().params());
+        let paper = self.style.paper.color;
+        let view = diff_to_toml(&mut self.view.clone().params(paper), &mut View::default().params(paper));
         let light =
             diff_to_toml(&mut self.lighting.clone().params(), &mut default_lighting(has_lights).params());
         let form = Form {
@@ -280,7 +281,7 @@ mod tests {
             camera: Some(Camera::default()),
             ..Document::default()
         };
-        document.view.background = "#102030".parse().unwrap();
+        document.view.background = Some("#102030".parse().unwrap());
         document.lighting.shadows = true;
         document.lighting.rim.azimuth = -12.5;
         document.node_mut("/crank/rod.3").style =

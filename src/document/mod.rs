@@ -13,14 +13,14 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
 use crate::scene::{Camera, Light, NodeId, Scene, Up};
-use crate::style::{Style, StyleError, Value, param};
+use crate::style::{Color, Style, StyleError, Value, param};
 
 pub use file::DocumentError;
 pub use history::History;
 pub use lighting::Lighting;
 pub use pattern::{Pattern, PatternError};
 pub use roles::Role;
-pub use view::{Show, View};
+pub use view::{LayersBy, Show, View};
 
 /// A drawing: everything about it that is not in the model files.
 #[derive(Debug, Clone, PartialEq)]
@@ -108,6 +108,11 @@ fn default_style() -> Style {
 }
 
 impl Document {
+    /// Colour of the paper behind everything.
+    pub fn paper(&self) -> Color {
+        self.view.background.unwrap_or(self.style.paper.color)
+    }
+
     /// The axis that is up for a scene.
     pub fn up(&self, scene: &Scene) -> Up {
         self.up.unwrap_or(scene.up)
@@ -218,7 +223,7 @@ impl Document {
     /// # Errors
     /// See [`param::set`].
     pub fn set(&mut self, key: &str, value: &Value) -> Result<(), StyleError> {
-        let mut params = self.view.params();
+        let mut params = self.view.params(self.style.paper.color);
         params.extend(self.lighting.params());
         params.extend(self.style.params());
         param::set(&mut params, key, value)?;

@@ -24,7 +24,7 @@ use super::effects::toon::{ToonBuffers, Toons, cartoon_map};
 use super::frame_uniform::{FrameUniform, View};
 use super::gpu_scene::GpuScene;
 use super::groups::Objects;
-use super::layers::Reported;
+use super::layers::{LayersBy, Reported};
 use super::lights::Lights;
 use super::passes::depth_mask::{DepthMask, DepthMaskPass};
 use super::passes::edge_map::{EdgeInputs, EdgeMap, EdgeMapPass};
@@ -38,8 +38,10 @@ use super::sample::Sample;
 use super::segments::segments;
 use super::shadows::{ShadowMap, ShadowMask};
 use super::stage::{Output, Stage};
+use crate::document;
 use crate::geometry::{EdgeClass, LineSegment};
 use crate::gpu::{ArrayBuffer, DynamicBuffer, Gpu, Recorder, Target, UniformBuffer};
+use crate::style::Style;
 
 /// What is to be drawn, and from where.
 #[derive(Clone, Copy)]
@@ -66,6 +68,8 @@ pub struct DrawingInputs<'a> {
     pub reflections: u32,
     /// Whether the layers of blueprints are kept.
     pub keeps_layers: bool,
+    /// How depth layers are to be made.
+    pub layers_by: document::LayersBy,
 }
 
 /// A drawing while it is being made: what all of its passes read.
@@ -252,8 +256,13 @@ impl Drawing {
 
     /// How far the layers of each blueprint came in the last picture whose report has arrived; in the order of
     /// [`Objects::blueprints`].
-    pub fn last_peeled(&self) -> Vec<Option<Peeled>> {
+    pub fn last_peeled(&self) -> Vec<Option<(Peeled, LayersBy)>> {
         self.blueprints.iter().map(|b| b.last().cloned()).collect()
+    }
+
+    /// The same of the blueprint that objects of this style are in.
+    pub fn last_peeled_of(&self, style: &Style) -> Option<&(Peeled, LayersBy)> {
+        self.blueprints.iter().find(|b| b.is_of(style))?.last()
     }
 
     /// Begins a drawing with its G-buffer and the shadows on it; all later passes see through its camera.

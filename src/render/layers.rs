@@ -1,12 +1,22 @@
 //! A group cut into depth layers, one behind the other, and the lines of each (blueprints paper, sections 3 and 4.1).
 //!
 //! ```text
-//!            ┌──────────────────────────────────────────────┐
-//!            ▼                                              │
-//! draws ─► layer i ─► count ─► what the caller makes of it ─┘
+//! draws ─► fragment lists, where the device can
+//!            │┌──────────────────────────────────────────────┐
+//!            ▼▼                                              │
+//! (draws ─►) layer i ─► count ─► what the caller makes of it ─┘
 //!                       └─► gate: too few pixels shut it, or enough of the depth mask, and nothing after that runs
 //! ```
+//!
+//! How many layers are recorded, and how much room there is for fragments, is guessed from reports about earlier pictures;
+//! a wrong guess is reported too, and the picture drawn again.
 
+mod room;
+
+pub use self::room::{LayersBy, Reported};
+
+use self::room::{Recorded, Room};
+use crate::document;
 use crate::geometry::LineSegment;
 use crate::gpu::{ArrayBuffer, DynamicBuffer, Gate, Gpu, Recorder, Reports, Target};
 use crate::render::RenderError;
@@ -42,28 +52,8 @@ pub struct LayerInputs<'a> {
     pub mask: Option<&'a DepthMask>,
     /// See `mask`.
     pub fraction: f32,
-}
-
-/// More layers are recorded than the last report names, as there may be more by now.
-const MORE_LAYERS: u32 = 1;
-
-/// What is known of pictures that were drawn, from reports that come back some time after them.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Reported {
-    /// All of them are complete.
-    Complete,
-    /// Not yet all about the last one.
-    Waiting,
-    /// One was incomplete, as there was not room enough. Whoever wants it asks for it again: there is now.
-    Incomplete,
-}
-
-/// What the processor has to know of a frame to understand its report.
-#[derive(Debug, Clone, Copy)]
-struct Recorded {
-    /// So many layers were recorded, of so many that were asked for.
-    layers: u32,
-    most: u32,
+    /// How layers are to be made.
+    pub by: document::LayersBy,
 }
 
 /// What of the layers of a group lives across frames.
@@ -72,10 +62,9 @@ pub struct Layers {
     gate: Option<Gate>,
     count: PeelCount,
     reports: Reports<Recorded>,
-    /// The latest report.
-    last: Option<Peeled>,
-    /// How many layers there were then: how many to record is guessed from it; `None`: all.
-    guess: Option<u32>,
+    /// The latest report, and how those layers were made.
+    last: Option<(Peeled, LayersBy)>,
+    room: Room,
 }
 
 impl Layers {
@@ -87,27 +76,27 @@ impl Layers {
             count: PeelCount::new(gpu),
             reports: Reports::default(),
             last: None,
-            guess: None,
+            room: Room::default(),
         }
     }
 
     /// What has been reported since the last call. Never waits.
     pub fn take_reports(&mut self) -> Reported {
-        let mut reported = Reported::Complete;
-        if let Some((recorded, bytes)) = self.reports.take() {
-            let peeled = Peeled::from_bytes(&bytes);
-            let is_complete = peeled.has_ended == 1 || recorded.layers >= recorded.most;
-            self.guess = is_complete.then_some(peeled.layers + 1);
-            if !is_complete {
-                reported = Reported::Incomplete;
-            }
-            self.last = Some(peeled);
+        let Some((recorded, bytes)) = self.reports.take() else {
+            return if self.reports.is_waiting() { Reported::Waiting } else { Reported::Complete };
+        };
+        let peeled = Peeled::from_bytes(&bytes);
+        let is_complete = self.room.learn(&recorded, &peeled);
+        self.last = Some((peeled, recorded.by()));
+        match is_complete {
+            false => Reported::Incomplete,
+            true if self.reports.is_waiting() => Reported::Waiting,
+            true => Reported::Complete,
         }
-        if reported == Reported::Complete && self.reports.is_waiting() { Reported::Waiting } else { reported }
     }
 
-    /// How far the last picture came whose report has arrived.
-    pub fn last(&self) -> Option<&Peeled> {
+    /// How far the last picture came whose report has arrived, and how its layers were made.
+    pub fn last(&self) -> Option<&(Peeled, LayersBy)> {
         self.last.as_ref()
     }
 
@@ -128,47 +117,53 @@ impl Layers {
         inputs: &LayerInputs<'_>,
         draw: impl FnMut(&mut Recorder<'_>, u32, &Layer, &PeelCount) -> Result<(), RenderError>,
     ) -> Result<(), RenderError> {
+        let LayerInputs { scene, draws, calls, is_cut, .. } = *inputs;
         self.count.begin(rec.gpu, inputs.least.max(1), inputs.fraction);
+        let mut recorded = self.room.plan(rec.gpu, rec.size(), inputs.most.min(MOST_LAYERS), inputs.by);
         let mut gate = self.gate.take().unwrap_or_else(|| Gate::new(rec.gpu));
-        gate.clear(rec.gpu, inputs.calls.len() + PASSES)?;
+        gate.clear(rec.gpu, calls.len() + PASSES)?;
+        if let Some(room) = &mut recorded.fragments {
+            *room = gbuffer_pass.lists.begin(rec, *room)?;
+            gbuffer_pass.collect(rec, scene, &mut self.draws, (draws, calls), is_cut, &self.count)?;
+        }
         let first = before_all(rec)?;
         rec.gate = Some(gate);
-        let peeled = self.peel(rec, gbuffer_pass, inputs, first, draw);
+        let drawn = self.draw_each(rec, gbuffer_pass, inputs, recorded, first, draw);
         self.gate = rec.gate.take();
-        let most = inputs.most.min(MOST_LAYERS);
-        self.reports.send(rec, self.count.buffer(), Recorded { layers: self.recorded(most), most });
+        self.reports.send(rec, self.count.buffer(), recorded);
         if let Some(gate) = &self.gate {
             gate.open(rec.gpu);
         }
-        peeled
+        drawn
     }
 
-    /// How many of so many layers are recorded. The guess decides nothing: when it is wrong, the report says so.
-    fn recorded(&self, most: u32) -> u32 {
-        self.guess.map_or(most, |guess| (guess + MORE_LAYERS).min(most))
-    }
-
-    fn peel(
+    fn draw_each(
         &mut self,
         rec: &mut Recorder<'_>,
         gbuffer_pass: &mut GBufferPass,
         inputs: &LayerInputs<'_>,
-        [mut last_depth, mut last_order]: [Target; 2],
+        recorded: Recorded,
+        mut last: [Target; 2],
         mut draw: impl FnMut(&mut Recorder<'_>, u32, &Layer, &PeelCount) -> Result<(), RenderError>,
     ) -> Result<(), RenderError> {
         let LayerInputs { scene, draws, calls, is_cut, mask, .. } = *inputs;
-        for number in 0..self.recorded(inputs.most.min(MOST_LAYERS)) {
-            let order = rec.target("order", last_order.format())?;
-            let peel = Peel { last_depth: &last_depth, last_order: &last_order, order: &order };
-            let gbuffer =
-                gbuffer_pass.run(rec, scene, &mut self.draws, (draws, calls), is_cut, Some(&peel))?;
-            let layer = Layer { gbuffer, order };
+        for number in 0..recorded.layers {
+            let layer = match recorded.by() {
+                LayersBy::Lists => gbuffer_pass.lists.cut(rec, number, &last)?,
+                LayersBy::Peeling => {
+                    let order = rec.target("order", last[1].format())?;
+                    let peel = Peel { last_depth: &last[0], last_order: &last[1], order: &order };
+                    let gbuffer =
+                        gbuffer_pass.run(rec, scene, &mut self.draws, (draws, calls), is_cut, Some(&peel))?;
+                    Layer { gbuffer, order }
+                }
+            };
             self.count.count(rec, &layer, mask)?;
             draw(rec, number, &layer, &self.count)?;
             if let Some(mask) = mask {
                 self.count.end_where_uncovered(rec, &layer, mask)?;
             }
-            (last_depth, last_order) = (layer.gbuffer.depth, layer.order);
+            last = [layer.gbuffer.depth, layer.order];
         }
         Ok(())
     }

@@ -9,6 +9,7 @@ pub mod groups;
 pub mod layers;
 pub mod light_view;
 pub mod lights;
+mod one_layer;
 pub mod passes;
 mod renderer;
 pub mod sample;
@@ -20,7 +21,7 @@ mod style_images;
 
 pub use frame::Picture;
 pub use gpu_scene::{GpuScene, Origin, UploadedTopology, Uploader};
-pub use layers::Reported;
+pub use layers::{LayersBy, Reported};
 pub use renderer::{Pick, RenderError, Renderer, Request};
 pub use sample::Sample;
 pub use style_images::StyleImages;

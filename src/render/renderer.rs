@@ -9,7 +9,7 @@ use super::frame::{FrameInputs, FrameState, Picture};
 use super::frame_uniform::View;
 use super::gpu_scene::{GpuScene, UploadedTopology, Uploader};
 use super::groups::{Objects, node_of};
-use super::layers::Reported;
+use super::layers::{LayersBy, Reported};
 use super::lights::Lights;
 use super::passes::accumulate::Subject;
 use super::passes::peel::Peeled;
@@ -20,6 +20,7 @@ use crate::geometry::Topology;
 use crate::gpu::readback::Readback;
 use crate::gpu::{Gpu, GpuError, Pipelines, Recorder, ShaderError, Shaders, TargetPool, Timers};
 use crate::scene::{Addition, Camera, NodeId, Scene};
+use crate::style::Style;
 
 /// Height of the picture in reference pixels, in which widths and scales are given.
 const REFERENCE_HEIGHT: f32 = 1080.0;
@@ -119,8 +120,8 @@ impl Renderer {
         twin.pipelines = self.pipelines.clone();
         twin.scene = self.scene.clone();
         twin.scene_revision = self.scene_revision;
-        twin.additions = self.additions.clone();
         twin.incomplete = self.incomplete;
+        twin.additions = self.additions.clone();
         twin.images = self.images.clone();
         twin.state.go_on_from(&self.state);
         twin
@@ -253,7 +254,7 @@ impl Renderer {
         let sample = self.state.next_sample(subject, request.samples);
         let view = View::new(request.camera, &objects.visible_bounds, UVec2::from_array(size));
         let view = view.moved(sample.jitter());
-        let paper = request.document.view.background.to_linear();
+        let paper = request.document.paper().to_linear();
         let background = paper.extend(if request.transparent { 0.0 } else { 1.0 });
         let timers = self.timers.as_mut();
         let frame = self.state.drawing().frame_group().clone();
@@ -274,9 +275,11 @@ impl Renderer {
                 view: &view,
                 background,
                 keeps_layers: self.keeps_layers,
+                layers_by: request.document.view.layers,
                 reflections: request.document.view.reflections.round().clamp(0.0, 8.0) as u32,
             },
             show: request.document.view.show,
+            layer: request.document.view.layer,
             scale_bar: bar.as_ref(),
             selected: request.selected,
         };
@@ -285,6 +288,7 @@ impl Renderer {
         let picture = self.state.record(&mut recorder, &inputs)?;
         recorder.submit();
         self.pool.shrink_to(size);
+        self.state.shrink(&self.gpu);
         self.last = Some((picture.clone(), view));
         Ok(picture)
     }
@@ -306,10 +310,15 @@ impl Renderer {
         reported
     }
 
-    /// How far the layers of each blueprint came in the last picture whose report has arrived, in the order of
-    /// [`Objects::blueprints`].
-    pub fn last_peeled(&self) -> Vec<Option<Peeled>> {
+    /// How far the layers of each blueprint came in the last picture whose report has arrived, and how they were made; in
+    /// the order of [`Objects::blueprints`].
+    pub fn last_peeled(&self) -> Vec<Option<(Peeled, LayersBy)>> {
         self.state.drawing().last_peeled()
+    }
+
+    /// The same of the blueprint that objects of this style are in; `None` if there is none, or if nothing is known yet.
+    pub fn last_peeled_of(&self, style: &Style) -> Option<&(Peeled, LayersBy)> {
+        self.state.drawing().last_peeled_of(style)
     }
 
     /// How often each stage has run so far.

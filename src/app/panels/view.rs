@@ -11,6 +11,7 @@ use crate::app::state::Samples;
 use crate::document::View;
 use crate::scene::unit::UNITS;
 use crate::scene::{Projection, Unit, Up};
+use crate::style::param;
 
 /// Samples per pixel to choose from.
 const SAMPLES: [u32; 4] = [1, 16, 64, 256];
@@ -105,8 +106,11 @@ pub fn view_ui(ui: &mut Ui, editing: &mut Editing<'_>, samples: &mut Samples) ->
 
     ui.add_space(4.0);
     let mut default = View::default();
-    let defaults = default.params();
-    params_ui(ui, "view", &mut document.view.params(), &defaults);
+    let paper = document.style.paper.color;
+    let defaults = default.params(paper);
+    let mut params = document.view.params(paper);
+    param::retain_relevant(&mut params);
+    params_ui(ui, "view", &mut params, &defaults);
     for (name, help, value) in samples.settings() {
         named_row(ui, name, help, |ui, label| {
             let combo = egui::ComboBox::from_id_salt(name)

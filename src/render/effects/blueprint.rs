@@ -11,20 +11,21 @@
 use encase::ShaderType;
 use glam::Vec3;
 
+use crate::document;
 use crate::gpu::recorder::{Draw, Input, Onto};
 use crate::gpu::{ArrayBuffer, DepthRule, Gpu, Program, Recorder, Target};
 use crate::render::RenderError;
 use crate::render::drawing::{Begun, DrawingInputs};
 use crate::render::frame_uniform::FrameUniform;
 use crate::render::groups::Group;
-use crate::render::layers::{LayerInputs, LayerLines, LayerLinesInputs, Layers, Reported};
+use crate::render::layers::{LayerInputs, LayerLines, LayerLinesInputs, Layers, LayersBy, Reported};
 use crate::render::passes::depth_mask::DepthMask;
 use crate::render::passes::gbuffer::{DrawCall, DrawUniform, GBuffer, GBufferPass};
 use crate::render::passes::lines::{Pen, lines};
 use crate::render::passes::peel::{Layer, MOST_LAYERS, PeelCount, Peeled};
 use crate::render::segments::segments;
 use crate::render::stage::{Output, Stage};
-use crate::style::{self, Edges, Style};
+use crate::style::{self, Edges, Style, Technique};
 
 /// Objects whose style is equal, peeled together.
 #[derive(Debug, Clone, PartialEq)]
@@ -43,6 +44,7 @@ pub struct BlueprintUniform {
     fill: Vec3,
     opacity: f32,
     by_distance: f32,
+    threshold: f32,
 }
 
 impl From<&style::Blueprint> for BlueprintUniform {
@@ -53,6 +55,7 @@ impl From<&style::Blueprint> for BlueprintUniform {
             fill: style.fill.to_linear(),
             opacity: style.opacity.clamp(0.0, 1.0),
             by_distance: style.by_distance.clamp(0.0, 1.0),
+            threshold: style.threshold.clamp(0.0, 1.0),
         }
     }
 }
@@ -60,7 +63,7 @@ impl From<&style::Blueprint> for BlueprintUniform {
 impl Blueprint {
     /// The group to which an object of this style belongs, in a scene with `count` object ids.
     pub fn group_of<'a>(all: &'a mut Vec<Self>, style: &Style, count: usize) -> &'a mut Group {
-        let found = all.iter().position(|b| b.style == style.blueprint && b.edges == style.edges);
+        let found = all.iter().position(|b| b.is_of(style));
         let index = found.unwrap_or(all.len());
         if found.is_none() {
             all.push(Self {
@@ -70,6 +73,11 @@ impl Blueprint {
             });
         }
         &mut all[index].group
+    }
+
+    /// Whether an object of this style belongs to it.
+    fn is_of(&self, style: &Style) -> bool {
+        style.technique == Technique::Blueprint && self.style == style.blueprint && self.edges == style.edges
     }
 
     /// Most layers that are peeled: no more than are drawn.
@@ -113,6 +121,7 @@ struct Inputs {
     part: Option<[u32; 4]>,
     crease_angle: f32,
     keeps_layers: bool,
+    layers_by: document::LayersBy,
 }
 
 /// What of the drawing of a group lives across frames.
@@ -148,8 +157,13 @@ impl Blueprints {
         reported
     }
 
+    /// Whether objects of this style were drawn last.
+    pub fn is_of(&self, style: &Style) -> bool {
+        self.stage.inputs().is_some_and(|last| last.blueprint.is_of(style))
+    }
+
     /// How far the last picture came whose report has arrived.
-    pub fn last(&self) -> Option<&Peeled> {
+    pub fn last(&self) -> Option<&(Peeled, LayersBy)> {
         self.layers.last()
     }
 
@@ -184,6 +198,7 @@ impl Blueprints {
             part: inputs.view.part,
             crease_angle: inputs.crease_angle,
             keeps_layers: inputs.keeps_layers,
+            layers_by: inputs.layers_by,
         };
         let Self { layers, lines: layer_lines, style, stage } = self;
         stage.run(asked, |asked| {
@@ -213,6 +228,7 @@ impl Blueprints {
                 least: blueprint.least(rec.size()),
                 mask: mask.map(|mask| &mask.value),
                 fraction: params.fraction,
+                by: inputs.layers_by,
             };
             layers.each(rec, gbuffer_pass, &cut, |rec, number, layer, count| {
                 if asked.keeps_layers {

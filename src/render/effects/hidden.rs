@@ -7,6 +7,7 @@
 //! visible edge map ──────────┘ no line twice
 //! ```
 
+use crate::document::LayersBy;
 use crate::gpu::recorder::{Input, Onto};
 use crate::gpu::{Gpu, Recorder, Target};
 use crate::render::RenderError;
@@ -99,6 +100,7 @@ struct Inputs {
     uniform: FrameUniform,
     part: Option<[u32; 4]>,
     crease_angle: f32,
+    layers_by: LayersBy,
 }
 
 /// What of the drawing of hidden lines lives across frames.
@@ -159,6 +161,7 @@ impl HiddenLines {
             uniform: uniform.without_background(),
             part: inputs.view.part,
             crease_angle: inputs.crease_angle,
+            layers_by: inputs.layers_by,
         };
         let Self { layers, lines: band_lines, stage } = self;
         stage.run(asked, |asked| {
@@ -185,6 +188,7 @@ impl HiddenLines {
                 least: hidden.least(rec.size()),
                 mask: None,
                 fraction: 1.0,
+                by: inputs.layers_by,
             };
             let mut before: Option<[Target; 2]> = None;
             layers.each(rec, gbuffer_pass, &cut, |rec, number, layer, _| {

@@ -5,6 +5,7 @@ pub mod coordinates;
 pub mod depth_mask;
 pub mod edge_map;
 pub mod edge_style;
+pub mod fragment_lists;
 pub mod front;
 pub mod gbuffer;
 pub mod line_distance;
