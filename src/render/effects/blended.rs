@@ -8,6 +8,7 @@
 //!
 //! What is opaque hides what lies behind it, its lines too, which are wider than it: see `effects/blended.wgsl`.
 
+use crate::document::LayersBy;
 use crate::gpu::recorder::{Draw, Input, Onto};
 use crate::gpu::{DepthRule, DynamicBuffer, Gpu, Program, Recorder, Target};
 use crate::render::RenderError;
@@ -36,6 +37,7 @@ pub struct Blend {
     draws: Vec<DrawUniform>,
     calls: Vec<DrawCall>,
     crease_angle: f32,
+    layers_by: LayersBy,
 }
 
 impl Blend {
@@ -52,6 +54,7 @@ impl Blend {
             draws,
             calls,
             crease_angle: inputs.crease_angle,
+            layers_by: inputs.layers_by,
         })
     }
 }
@@ -141,6 +144,7 @@ impl Blended {
             least: 1,
             mask: None,
             fraction: 1.0,
+            by: inputs.layers_by,
         };
         let drawn = layers.each(rec, gbuffer_pass, &cut, |rec, _, layer, _| {
             front.get_or_insert_with(|| layer.gbuffer.geometry.clone());
