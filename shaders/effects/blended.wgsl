@@ -3,8 +3,8 @@
 
 // The opaque surfaces, as `geometry_tex` has those of the layer.
 @group(1) @binding(6) var surface_tex: texture_2d<u32>;
-// Their lines: coverage and linear depth.
-@group(1) @binding(7) var cover_tex: texture_2d<f32>;
+// Their lines. x, y: linear colour times coverage, and coverage, as halves; z: linear depth (bits of a float).
+@group(1) @binding(7) var cover_tex: texture_2d<u32>;
 // Where nearer layers have lines; see passes/repeated.wgsl.
 @group(1) @binding(8) var seen_tex: texture_2d<u32>;
 // Linear colour times opacity, and opacity.
@@ -20,20 +20,25 @@ fn surface_at(px: vec2<i32>) -> Surfel {
     return unpack_surfel(textureLoad(surface_tex, px, 0));
 }
 
-// The share of a pixel that opaque lines leave of what lies at a depth: they reach beyond their objects.
-fn uncovered(px: vec2<i32>, depth: f32) -> f32 {
+// What lies at a depth, with the opaque lines over it that are nearer: they reach beyond their objects. They lie beneath
+// all of the layers too; what these leave of them there and what is drawn of them here adds up to all of them.
+fn beneath_lines(px: vec2<i32>, depth: f32, color: vec4<f32>) -> vec4<f32> {
     if !WITH_COVER {
-        return 1.0;
+        return color;
     }
     let cover = textureLoad(cover_tex, px, 0);
-    return select(1.0, 1.0 - cover.x, cover.y < depth);
+    if cover.z == 0u || bitcast<f32>(cover.z) >= depth {
+        return color;
+    }
+    let ink = vec4(unpack2x16float(cover.x), unpack2x16float(cover.y));
+    return vec4(ink.rgb * color.a + (1.0 - ink.a) * color.rgb, color.a);
 }
 
 @fragment
-fn fs_cover(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
+fn fs_cover(@builtin(position) position: vec4<f32>) -> @location(0) vec4<u32> {
     let px = vec2<i32>(position.xy);
     let line = lines_at(px, unpack_surfel(geometry_at(px)));
-    return vec4(line.ink.a, line.depth, 0.0, 0.0);
+    return vec4(pack2x16float(line.ink.rg), pack2x16float(line.ink.ba), bitcast<u32>(line.depth), 0u);
 }
 
 @fragment
@@ -43,7 +48,7 @@ fn fs_lines(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     if WITH_PAPER && textureLoad(seen_tex, px, 0).x != 0u {
         return vec4(0.0);
     }
-    return line.ink * uncovered(px, line.depth);
+    return beneath_lines(px, line.depth, line.ink);
 }
 
 @fragment
@@ -54,5 +59,5 @@ fn fs_surface(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> 
     if surface.object != 0u && step_px(nearness_of(surface.depth) - nearness_of(depth), depth) > ON {
         discard;
     }
-    return textureLoad(shaded_tex, px, 0) * uncovered(px, depth);
+    return beneath_lines(px, depth, textureLoad(shaded_tex, px, 0));
 }

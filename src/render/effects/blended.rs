@@ -26,8 +26,8 @@ use crate::render::shadows::ShadowMask;
 /// Most layers that are composited: beneath so many nothing can be told apart.
 const MOST_LAYERS: u32 = 16;
 
-/// The opaque lines at each pixel: coverage, and linear depth.
-const COVER: wgpu::TextureFormat = wgpu::TextureFormat::Rg32Float;
+/// The opaque lines at each pixel: see `cover_tex` in `effects/blended.wgsl`.
+const COVER: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Uint;
 
 /// What the picture depends on beyond what that of the surfaces does.
 #[derive(Debug, Clone, PartialEq)]
@@ -211,7 +211,7 @@ impl<'a> Pane<'a> {
         [
             Input::Texture(&self.opaque.geometry),
             // Unread without lines: any texture of its kind.
-            Input::Texture(self.cover.unwrap_or(self.shaded)),
+            Input::Texture(self.cover.unwrap_or(&self.opaque.geometry)),
             Input::Texture(seen),
             Input::Texture(self.shaded),
         ]
