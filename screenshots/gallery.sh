@@ -126,6 +126,9 @@ size=1000,1000
 # Hidden lines of surfaces.
 draw hidden_lines "$crank" --style hidden-lines --set edges.hidden.layers=next
 draw x_ray assets/models/temple.glb --style x-ray --camera-azimuth-angle 35 --camera-elevation-angle 30
+# A plan cut at a height, and an assembly cut open.
+draw section_temple assets/models/temple.glb --style lines --section y=2 --camera-orthographic --look-from top
+draw section_crank "$crank" --style technical-illustration --section z=0 --set section.color=#f4d9a8
 
 # Shadows in each technique.
 for style in plain gooch comic engraving newspaper; do

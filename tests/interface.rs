@@ -599,6 +599,32 @@ fn the_view_page_sets_the_axis_and_the_model_stands_upright() {
 }
 
 #[test]
+fn the_section_plane_moves_within_the_model_and_can_be_undone() {
+    let mut window = window();
+    let before = window.state().document().clone();
+    click(&mut window, Role::Tab, "View");
+    click(&mut window, Role::CheckBox, "Section plane");
+    assert!(window.state().document().section.show);
+    choose(&mut window, "Axis", "X");
+    // The engine reaches from -2.5 to 2.5: that is what the slider offers, beginning in the middle.
+    let slider = window.get_all_by_role_and_label(Role::Slider, "Position").next().unwrap();
+    let node = slider.accesskit_node();
+    let reach = (node.min_numeric_value(), node.max_numeric_value(), node.numeric_value());
+    assert_eq!(reach, (Some(-2.5), Some(2.5), Some(0.0)));
+    let pictures = window.state().viewport().pictures();
+    let at = slider.rect().center();
+    drag(&mut window, at, Vec2::new(30.0, 0.0), PointerButton::Primary);
+    settle(&mut window);
+    let position = window.state().document().section.position.unwrap();
+    assert!(position > 0.1 && position < 2.5, "{position}");
+    assert!(window.state().viewport().pictures() > pictures, "it was drawn while it moved");
+    for _ in 0..3 {
+        ask(&mut window, Command::Undo);
+    }
+    assert_eq!(window.state().document(), &before);
+}
+
+#[test]
 fn a_failed_load_says_so_and_keeps_what_was_there() {
     let mut window = window_with("/models/engine.glb", |paths| {
         if paths[0].ends_with("broken.glb") {

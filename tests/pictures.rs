@@ -139,6 +139,11 @@ const PICTURES: &[(&str, &str, &[&str])] = &[
         "crank",
         &["--camera-orthographic", "--camera-azimuth-angle", "0", "--camera-elevation-angle", "90"],
     ),
+    (
+        "section_temple",
+        "temple",
+        &["--style", "lines", "--section", "y=2", "--camera-orthographic", "--look-from", "top"],
+    ),
     ("transparent_ogre", "ogre", &["--no-background", "--camera-azimuth-angle=-40"]),
 ];
 

@@ -4,9 +4,9 @@ use std::thread::JoinHandle;
 
 use serde_json::json;
 
-use super::args::{CameraArgs, LookArgs, RenderArgs};
+use super::args::{CameraArgs, LookArgs, RenderArgs, SectionAt};
 use super::{CliError, peeling, print_json};
-use crate::document::{Document, Pattern, Role};
+use crate::document::{Document, Pattern, Role, Section};
 use crate::export::session::{OpenError, Opened, initial_camera, open};
 use crate::export::{Session, save_png};
 use crate::gpu::{Gpu, GpuError};
@@ -49,7 +49,8 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
     save_png(&args.output, image, dpi)?;
 
     let scene = &opened.scene;
-    let faults = opened.document.role_faults(scene);
+    let section = opened.document.section_fault(opened.document.up(scene), &scene.bounds());
+    let faults = opened.document.role_faults(scene).into_iter().chain(section);
     let peeled = session.renderer().peeled()?;
     let warnings = images.warnings(&uses).into_iter().chain(scene.warnings.iter().cloned()).chain(faults);
     let warnings = warnings.map(|w| w.to_string()).chain(peeling::warnings(&peeled));
@@ -120,6 +121,9 @@ pub(super) fn apply_look(opened: &mut Opened, look: &LookArgs) -> Result<(), Cli
     for assignment in &look.object_style {
         let style = preset::load(&assignment.style)?.style;
         document.set_style(scene, &matching(scene, &assignment.pattern)?, &style);
+    }
+    if let Some(SectionAt { axis, position }) = look.section {
+        document.section = Section { show: true, axis, position, ..document.section.clone() };
     }
     for setting in &look.set {
         match &setting.pattern {

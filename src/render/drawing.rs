@@ -19,10 +19,11 @@ use super::effects::blueprint::{Blueprints, Peels};
 use super::effects::halftone::{HalftoneInputs, HalftoneUniform, Halftones, ThresholdMaps};
 use super::effects::hidden::HiddenLines;
 use super::effects::mirror::{MirrorUniform, mirror};
+use super::effects::section::{CapUniform, caps, section};
 use super::effects::surface::{Shading, SurfaceUniform, surface};
 use super::effects::toon::{ToonBuffers, Toons, cartoon_map};
 use super::frame_uniform::{FrameUniform, View};
-use super::gpu_scene::GpuScene;
+use super::gpu_scene::{GpuScene, Origin};
 use super::groups::Objects;
 use super::layers::{LayersBy, Reported};
 use super::lights::Lights;
@@ -130,6 +131,7 @@ pub struct Drawing {
     toon_styles: ArrayBuffer,
     toon_bands: ArrayBuffer,
     halftone_styles: ArrayBuffer,
+    caps: ArrayBuffer,
     gbuffer: Stage<(u64, u64, View, Vec<DrawUniform>, Vec<DrawCall>), GBuffer>,
     segments: Stage<(u64, View, Vec<EdgeUniform>, f32), Arc<Vec<LineSegment>>>,
     edge_map: Stage<([u64; 2], Vec<EdgeUniform>, Vec2, Option<FrameUniform>), EdgeMap>,
@@ -150,6 +152,7 @@ pub struct Drawing {
             Option<u64>,
             Option<Blend>,
             Vec<u64>,
+            Vec<CapUniform>,
         ),
         (Target, Option<Target>),
     >,
@@ -190,6 +193,7 @@ impl Drawing {
             toon_styles: ArrayBuffer::new(gpu, "toon styles"),
             toon_bands: ArrayBuffer::new(gpu, "toon bands"),
             halftone_styles: ArrayBuffer::new(gpu, "halftone styles"),
+            caps: ArrayBuffer::new(gpu, "caps"),
             gbuffer: Stage::default(),
             segments: Stage::default(),
             edge_map: Stage::default(),
@@ -286,15 +290,15 @@ impl Drawing {
         let with_coordinates = calls
             .iter()
             .filter(|call| {
-                draws
-                    .get(call.draw as usize)
-                    .is_some_and(|draw| objects.halftones.need_coordinates(draw.object))
+                let draw = draws.get(call.draw as usize);
+                call.origin != Origin::Caps
+                    && draw.is_some_and(|draw| objects.halftones.need_coordinates(draw.object))
             })
             .copied()
             .collect();
         let geometry = (rec.pipelines.generation(), inputs.scene_revision, *view, draws, calls);
         let gbuffer = self.gbuffer.run(geometry, |(.., draws, calls)| {
-            shared.gbuffer.run(rec, scene, &mut self.draws, (draws, calls), view.cut.is_some(), None)
+            shared.gbuffer.run(rec, scene, &mut self.draws, (draws, calls), view.has_cuts(), None)
         })?;
         let shadow_mask = self.shadow_mask.run(rec, &gbuffer, inputs)?;
         Ok(Begun { uniform, depth_range, gbuffer, shadow_mask, with_coordinates })
@@ -393,6 +397,7 @@ impl Drawing {
             }
         };
         let revisions = edge_map.map(|e| [e.revision, reach.as_ref().map_or(0, |reach| reach.revision)]);
+        let caps = caps(inputs.scene, inputs.view, inputs.objects.scale);
         let shading = (
             [gbuffer.revision, begun.shadow_mask.as_ref().map_or(0, |mask| mask.revision)],
             revisions,
@@ -408,9 +413,10 @@ impl Drawing {
             hidden.as_ref().map(|hidden| hidden.revision),
             Blend::new(inputs),
             blueprints.iter().map(|(_, b)| b.revision).collect(),
+            caps.clone(),
         );
         let drawn = self.surface.run(shading, |shading| {
-            let (_, _, surfaces, toons, (halftones, _), styles, .., blend, _) = shading;
+            let (_, _, surfaces, toons, (halftones, _), styles, .., blend, _, _) = shading;
             self.surface_styles.write(rec.gpu, surfaces);
             if !halftones.is_empty() {
                 self.halftone_styles.write(rec.gpu, halftones);
@@ -434,6 +440,10 @@ impl Drawing {
                 blends: false,
             };
             let color = surface(rec, &gbuffer.value, &shading)?;
+            if !caps.is_empty() {
+                self.caps.write(rec.gpu, &caps);
+                section(rec, &gbuffer.value, self.caps.buffer(), &color)?;
+            }
             for seen in &reflected {
                 let Some(reflection) = self.reflections.get_mut(seen.index) else { continue };
                 reflection.uniform.write(rec.gpu, &vec![seen.uniform]);

@@ -185,7 +185,7 @@ pub struct LayerLinesInputs<'a> {
     pub segments: &'a [LineSegment],
     /// Whether any material of an object with lines has holes.
     pub has_holes: bool,
-    /// Whether what lies behind a plane is left out.
+    /// Whether what lies behind a mirror's plane is left out.
     pub is_cut: bool,
     /// See [`EdgeInputs::before`].
     pub before: Option<[&'a Target; 2]>,

@@ -14,6 +14,7 @@ pub mod passes;
 mod renderer;
 pub mod sample;
 pub mod scale_bar;
+pub mod section;
 mod segments;
 pub mod shadows;
 pub mod stage;

@@ -237,9 +237,13 @@ impl Renderer {
             self.set_scene(&Arc::new(Scene::default()), &[])?;
         }
         self.note_reports();
-        let Some(scene) = &self.scene else {
+        let Some(scene) = &mut self.scene else {
             return Err(GpuError::Lost("no scene".to_owned()).into());
         };
+        if scene.cut(&self.gpu, request.document)? {
+            self.scene_revision += 1;
+        }
+        let scene = &*scene;
         let size = request.size.map(|s| s.max(1));
         let scale = size[1] as f32 / REFERENCE_HEIGHT;
         let objects = Objects::new(request.document, scene, &self.images, scale);
@@ -253,7 +257,7 @@ impl Renderer {
         };
         let sample = self.state.next_sample(subject, request.samples);
         let view = View::new(request.camera, &objects.visible_bounds, UVec2::from_array(size));
-        let view = view.moved(sample.jitter());
+        let view = view.moved(sample.jitter()).cut_at(scene.section.as_ref().map(|section| section.plane));
         let paper = request.document.paper().to_linear();
         let background = paper.extend(if request.transparent { 0.0 } else { 1.0 });
         let timers = self.timers.as_mut();
