@@ -392,7 +392,7 @@ fn mirrors_show_what_is_peeled_for_their_own_view() {
     for (key, value) in parameters {
         scene.document.set_for(&nodes, &[2], key, &hachure::style::Value::parse(value)).unwrap();
     }
-    set(&mut scene, "blueprint.opacity", "0.5");
+    set(&mut scene, "blueprint.opacity", "0.1");
     set(&mut scene, "blueprint.highlight", "#ff0000");
     let mut pictures = ["0", "1"].map(|fraction| {
         set(&mut scene, "blueprint.fraction", fraction);

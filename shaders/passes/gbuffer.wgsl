@@ -18,7 +18,7 @@ struct Draw {
     first_surface: u32,
 }
 
-// Whether what lies behind a plane is left out.
+// Whether what lies behind a plane is left out: that of a mirror, that of the section, or either.
 override WITH_CUT: bool = false;
 
 @group(1) @binding(0) var base_tex: texture_2d<f32>;
@@ -139,8 +139,8 @@ fn pack(normal: vec3<f32>, face: vec3<f32>, depth: f32, object: u32) -> vec4<u32
 }
 
 fn is_cut_off(pos_oriented: vec3<f32>) -> bool {
-    let pos_view = pos_oriented + draw.view_from_local[3].xyz;
-    return WITH_CUT && dot(frame.cut, vec4(pos_view, 1.0)) < 0.0;
+    let pos_view = vec4(pos_oriented + draw.view_from_local[3].xyz, 1.0);
+    return WITH_CUT && min(dot(frame.cut, pos_view), dot(frame.section, pos_view)) < 0.0;
 }
 
 // Tells the surfaces of all objects apart; 0 is the background. Twin: `region` in src/render/groups.rs.

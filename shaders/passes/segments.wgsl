@@ -157,7 +157,7 @@ fn point_at(v: Segment, px: vec2<f32>) -> SegmentPoint {
             return NO_POINT;
         }
         weight = 1.0;
-    } else if class_of == MATERIAL {
+    } else if class_of == MATERIAL || class_of == SECTION {
         weight = 1.0;
     }
     let is_hidden = (v.ids.x & HIDDEN) != 0u || edge_styles[own].lines[index].strength <= 0.0 || weight <= 0.0;
@@ -179,13 +179,14 @@ fn point_at(v: Segment, px: vec2<f32>) -> SegmentPoint {
     );
     // Where segments share a pixel the widest wins, for it would hide the others; profile edges before inner ones; then
     // the nearest; last the object's number, so that the order of drawing does not decide.
-    let rank = f32(u32(min(edge.half_width * 4.0, 126.0))) + select(0.0, 0.5, class_of <= OBJECT);
+    let is_profile = class_of <= OBJECT || class_of == SECTION;
+    let rank = f32(u32(min(edge.half_width * 4.0, 126.0))) + select(0.0, 0.5, is_profile);
     let clip = frame.clip_from_view * vec4(0.0, 0.0, -depth, 1.0);
     let nearest = bitcast<f32>((bitcast<u32>(clip.z / clip.w) & ~63u) | (own & 63u));
     let order = select(rank + 1.0 + 0.499 * nearest, 0.5 * nearest, is_hidden) / 128.0;
     let texel = pack_edge(edge);
     let is_rim = class_of <= OBJECT;
-    let packed = spine_of(texel, halves_of(own), select(0.0, 1.0, is_rim), 1.0 - range_share(depth));
+    let packed = spine_of(texel, halves_of(own), select(0.0, 1.0, is_profile), 1.0 - range_share(depth));
     let mark = select(0.5, 1.0, is_rim || !is_hidden);
     return SegmentPoint(texel, packed, order, mark, u32(px.x) | (u32(px.y) << 16u));
 }

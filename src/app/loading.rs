@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use crate::document::{Document, DocumentError};
 use crate::export::session::is_document;
+use crate::geometry::Bounds;
 use crate::gpu::GpuError;
 use crate::import::{ImportError, ImportOptions, Progress};
 use crate::render::{GpuScene, Uploader};
@@ -44,7 +45,9 @@ pub struct Model {
     pub scene: Arc<Scene>,
     /// The outermost points of each node's own mesh, world space ([`Scene::extent_of`]).
     pub extents: Vec<Vec<DVec3>>,
-    /// Diagonal of the box around everything, in units of the scene.
+    /// The box around everything, in units of the scene.
+    pub bounds: Bounds,
+    /// Its diagonal.
     pub diagonal: f64,
     /// Triangles of each node's own mesh.
     pub triangles: Vec<usize>,
@@ -67,8 +70,8 @@ impl Model {
             .iter()
             .map(|n| n.mesh.and_then(|m| scene.meshes.get(m)).map_or(0, |m| m.triangle_count()))
             .collect();
-        let diagonal = scene.bounds().diagonal();
-        Self { scene: Arc::new(scene), extents, diagonal, triangles }
+        let bounds = scene.bounds();
+        Self { scene: Arc::new(scene), extents, bounds, diagonal: bounds.diagonal(), triangles }
     }
 
     /// Triangles of some nodes.

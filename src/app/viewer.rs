@@ -279,6 +279,7 @@ impl Viewer {
             document: &mut self.document,
             selection: &mut self.selection,
             presets: &self.presets,
+            viewport: &self.viewport,
             commands: &mut self.commands,
             choosing: &mut choosing,
         };

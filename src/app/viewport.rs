@@ -15,10 +15,13 @@ use super::refining::Refining;
 use super::screenshot::Shot;
 use crate::document::Document;
 use crate::gpu::{Gpu, Target};
+use crate::render::passes::peel::Peeled;
 use crate::render::{
-    GpuScene, Pick, RenderError, Renderer, Reported, Request, StyleImages, UploadedTopology, Uploader,
+    GpuScene, LayersBy, Pick, RenderError, Renderer, Reported, Request, StyleImages, UploadedTopology,
+    Uploader,
 };
 use crate::scene::{Camera, NodeId, Up};
+use crate::style::Style;
 
 /// How long to wait between two looks for an answer of the device.
 const POLL: Duration = Duration::from_millis(8);
@@ -216,6 +219,11 @@ impl Viewport {
         self.pick = None;
         self.renderer.show(scene);
         self.draw_again();
+    }
+
+    /// How far the blueprint of that style came in the last picture whose report has arrived.
+    pub fn last_peeled(&self, style: &Style) -> Option<&(Peeled, LayersBy)> {
+        self.renderer.last_peeled_of(style)
     }
 
     /// The images that styles name, as far as the renderer has them.

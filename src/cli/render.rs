@@ -4,9 +4,9 @@ use std::thread::JoinHandle;
 
 use serde_json::json;
 
-use super::args::{CameraArgs, LookArgs, RenderArgs};
+use super::args::{CameraArgs, LookArgs, RenderArgs, SectionAt};
 use super::{CliError, peeling, print_json};
-use crate::document::{Document, Pattern, Role};
+use crate::document::{Document, Pattern, Role, Section};
 use crate::export::session::{OpenError, Opened, initial_camera, open};
 use crate::export::{Session, save_png};
 use crate::gpu::{Gpu, GpuError};
@@ -24,9 +24,7 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
     let device = StartingDevice::new()?;
     let mut opened = open(&args.files, crease_angle(&args.look), &Progress::default())?;
     apply_look(&mut opened, &args.look)?;
-    if let Some(background) = args.background {
-        opened.document.view.background = background;
-    }
+    opened.document.view.background = args.background.or(opened.document.view.background);
     let uses = opened.document.images();
     let images = ImageCache::default().read(&uses, &Progress::default()).map_err(OpenError::from)?;
     let size = args.resolution.0;
@@ -51,10 +49,12 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
     save_png(&args.output, image, dpi)?;
 
     let scene = &opened.scene;
-    let faults = opened.document.role_faults(scene);
-    let peeled = session.renderer().peeled()?;
+    let section = opened.document.section_fault(opened.document.up(scene), &scene.bounds());
+    let faults = opened.document.role_faults(scene).into_iter().chain(section);
+    let peeled: Vec<_> = session.renderer().last_peeled().into_iter().flatten().collect();
     let warnings = images.warnings(&uses).into_iter().chain(scene.warnings.iter().cloned()).chain(faults);
-    let warnings = warnings.map(|w| w.to_string()).chain(peeling::warnings(&peeled));
+    let warnings =
+        warnings.map(|w| w.to_string()).chain(peeling::warnings(&peeled, opened.document.view.layers));
     if args.json {
         print_json(&json!({
             "output": args.output,
@@ -122,6 +122,9 @@ pub(super) fn apply_look(opened: &mut Opened, look: &LookArgs) -> Result<(), Cli
     for assignment in &look.object_style {
         let style = preset::load(&assignment.style)?.style;
         document.set_style(scene, &matching(scene, &assignment.pattern)?, &style);
+    }
+    if let Some(SectionAt { axis, position }) = look.section {
+        document.section = Section { show: true, axis, position, ..document.section.clone() };
     }
     for setting in &look.set {
         match &setting.pattern {

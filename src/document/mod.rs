@@ -1,4 +1,4 @@
-//! What a person can change, save and undo: models, styles and roles per object, camera, lights, view.
+//! What a person can change, save and undo: models, styles and roles per object, camera, lights, view, section plane.
 
 pub mod file;
 pub mod history;
@@ -7,19 +7,21 @@ pub mod masks;
 pub mod mirrors;
 pub mod pattern;
 pub mod roles;
+pub mod section;
 pub mod view;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
 use crate::scene::{Camera, Light, NodeId, Scene, Up};
-use crate::style::{Style, StyleError, Value, param};
+use crate::style::{Color, Style, StyleError, Value, param};
 
 pub use file::DocumentError;
 pub use history::History;
 pub use lighting::Lighting;
 pub use pattern::{Pattern, PatternError};
 pub use roles::Role;
+pub use section::Section;
 pub use view::{LayersBy, Show, View};
 
 /// A drawing: everything about it that is not in the model files.
@@ -39,6 +41,8 @@ pub struct Document {
     pub lights: Vec<Light>,
     /// How the picture is shown.
     pub view: View,
+    /// The plane at which the model is cut open.
+    pub section: Section,
     /// The style of every object that has none and inherits none.
     pub style: Style,
     /// What single nodes have of their own, by node path.
@@ -96,6 +100,7 @@ impl Default for Document {
             lighting: Lighting::default(),
             lights: Vec::new(),
             view: View::default(),
+            section: Section::default(),
             style: default_style(),
             nodes: BTreeMap::new(),
         }
@@ -108,6 +113,11 @@ fn default_style() -> Style {
 }
 
 impl Document {
+    /// Colour of the paper behind everything.
+    pub fn paper(&self) -> Color {
+        self.view.background.unwrap_or(self.style.paper.color)
+    }
+
     /// The axis that is up for a scene.
     pub fn up(&self, scene: &Scene) -> Up {
         self.up.unwrap_or(scene.up)
@@ -213,16 +223,17 @@ impl Document {
         self.tidy();
     }
 
-    /// Sets one parameter of the default style, of the view or of the light, and in all styles that single nodes have.
+    /// Sets one parameter of the default style, of the view, the light or the section plane, and in all styles that single nodes have.
     ///
     /// # Errors
     /// See [`param::set`].
     pub fn set(&mut self, key: &str, value: &Value) -> Result<(), StyleError> {
-        let mut params = self.view.params();
+        let mut params = self.view.params(self.style.paper.color);
         params.extend(self.lighting.params());
+        params.extend(self.section.params());
         params.extend(self.style.params());
         param::set(&mut params, key, value)?;
-        if !key.starts_with("view.") && !key.starts_with("light.") {
+        if !["view.", "light.", "section."].iter().any(|section| key.starts_with(section)) {
             for style in self.nodes.values_mut().filter_map(|n| n.style.as_mut()) {
                 param::set(&mut style.params(), key, value)?;
             }

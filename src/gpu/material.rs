@@ -1,7 +1,7 @@
 //! Materials and their images on the device.
 
 use encase::ShaderType;
-use glam::{Mat3, Vec4};
+use glam::{Mat3, Vec3, Vec4};
 use rayon::prelude::*;
 
 use super::{Gpu, GpuError};
@@ -34,6 +34,14 @@ impl From<&Material> for MaterialUniform {
             },
             has_normal_texture: u32::from(m.normal_texture.is_some()),
         }
+    }
+}
+
+impl MaterialUniform {
+    /// The same in another colour, linear.
+    #[must_use]
+    pub fn with_color(self, color: Vec3) -> Self {
+        Self { base_color: color.extend(1.0), ..self }
     }
 }
 

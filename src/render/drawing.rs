@@ -18,10 +18,11 @@ use super::effects::blueprint::{Blueprints, Peels};
 use super::effects::halftone::{HalftoneInputs, HalftoneUniform, Halftones, ThresholdMaps};
 use super::effects::hidden::HiddenLines;
 use super::effects::mirror::{MirrorUniform, mirror};
+use super::effects::section::{CapUniform, caps, section};
 use super::effects::surface::{Shading, SurfaceUniform, surface};
 use super::effects::toon::{ToonBuffers, Toons, cartoon_map};
 use super::frame_uniform::{FrameUniform, View};
-use super::gpu_scene::GpuScene;
+use super::gpu_scene::{GpuScene, Origin};
 use super::groups::Objects;
 use super::layers::{LayersBy, Reported};
 use super::lights::Lights;
@@ -41,6 +42,7 @@ use super::stage::{Output, Stage};
 use crate::document;
 use crate::geometry::{EdgeClass, LineSegment};
 use crate::gpu::{ArrayBuffer, DynamicBuffer, Gpu, Recorder, Target, UniformBuffer};
+use crate::style::Style;
 
 /// What is to be drawn, and from where.
 #[derive(Clone, Copy)]
@@ -129,6 +131,7 @@ pub struct Drawing {
     toon_styles: ArrayBuffer,
     toon_bands: ArrayBuffer,
     halftone_styles: ArrayBuffer,
+    caps: ArrayBuffer,
     gbuffer: Stage<(u64, u64, View, Vec<DrawUniform>, Vec<DrawCall>), GBuffer>,
     segments: Stage<(u64, View, Vec<EdgeUniform>, f32), Arc<Vec<LineSegment>>>,
     edge_map: Stage<([u64; 2], Vec<EdgeUniform>, Vec2, Option<FrameUniform>), EdgeMap>,
@@ -148,6 +151,7 @@ pub struct Drawing {
             Seen,
             Option<u64>,
             Vec<u64>,
+            Vec<CapUniform>,
         ),
         Target,
     >,
@@ -186,6 +190,7 @@ impl Drawing {
             toon_styles: ArrayBuffer::new(gpu, "toon styles"),
             toon_bands: ArrayBuffer::new(gpu, "toon bands"),
             halftone_styles: ArrayBuffer::new(gpu, "halftone styles"),
+            caps: ArrayBuffer::new(gpu, "caps"),
             gbuffer: Stage::default(),
             segments: Stage::default(),
             edge_map: Stage::default(),
@@ -251,6 +256,11 @@ impl Drawing {
         self.blueprints.iter().map(|b| b.last().cloned()).collect()
     }
 
+    /// The same of the blueprint that objects of this style are in.
+    pub fn last_peeled_of(&self, style: &Style) -> Option<&(Peeled, LayersBy)> {
+        self.blueprints.iter().find(|b| b.is_of(style))?.last()
+    }
+
     /// Begins a drawing with its G-buffer and the shadows on it; all later passes see through its camera.
     ///
     /// # Errors
@@ -272,15 +282,15 @@ impl Drawing {
         let with_coordinates = calls
             .iter()
             .filter(|call| {
-                draws
-                    .get(call.draw as usize)
-                    .is_some_and(|draw| objects.halftones.need_coordinates(draw.object))
+                let draw = draws.get(call.draw as usize);
+                call.origin != Origin::Caps
+                    && draw.is_some_and(|draw| objects.halftones.need_coordinates(draw.object))
             })
             .copied()
             .collect();
         let geometry = (rec.pipelines.generation(), inputs.scene_revision, *view, draws, calls);
         let gbuffer = self.gbuffer.run(geometry, |(.., draws, calls)| {
-            shared.gbuffer.run(rec, scene, &mut self.draws, (draws, calls), view.cut.is_some(), None)
+            shared.gbuffer.run(rec, scene, &mut self.draws, (draws, calls), view.has_cuts(), None)
         })?;
         let shadow_mask = self.shadow_mask.run(rec, &gbuffer, inputs)?;
         Ok(Begun { uniform, depth_range, gbuffer, shadow_mask, with_coordinates })
@@ -380,6 +390,7 @@ impl Drawing {
             }
         };
         let revisions = edge_map.map(|e| [e.revision, reach.as_ref().map_or(0, |reach| reach.revision)]);
+        let caps = caps(inputs.scene, inputs.view, inputs.objects.scale);
         let shading = (
             [gbuffer.revision, begun.shadow_mask.as_ref().map_or(0, |mask| mask.revision)],
             revisions,
@@ -394,6 +405,7 @@ impl Drawing {
             }),
             hidden.as_ref().map(|hidden| hidden.revision),
             blueprints.iter().map(|b| b.revision).collect(),
+            caps.clone(),
         );
         let color = self.surface.run(shading, |(_, _, surfaces, toons, (halftones, _), styles, ..)| {
             self.surface_styles.write(rec.gpu, surfaces);
@@ -418,6 +430,10 @@ impl Drawing {
                 },
             };
             let color = surface(rec, &gbuffer.value, &shading)?;
+            if !caps.is_empty() {
+                self.caps.write(rec.gpu, &caps);
+                section(rec, &gbuffer.value, self.caps.buffer(), &color)?;
+            }
             for seen in &reflected {
                 let Some(reflection) = self.reflections.get_mut(seen.index) else { continue };
                 reflection.uniform.write(rec.gpu, &vec![seen.uniform]);

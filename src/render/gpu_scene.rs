@@ -5,7 +5,9 @@ use std::sync::{Arc, OnceLock};
 use glam::{DMat4, DVec3};
 use rayon::prelude::*;
 
-use crate::geometry::{Bounds, FeatureEdges, Mesh, NotFlat, Plane, Topology};
+use super::section::{Part, Section};
+use crate::document::Document;
+use crate::geometry::{Bounds, FeatureEdges, Mesh, NotFlat, Plane, Topology, Weld};
 use crate::gpu::geometry::{MeshRange, MeshSource};
 use crate::gpu::{GeometryBuffers, Gpu, GpuError, MaterialBindings};
 use crate::scene::{Addition, AlphaMode, NodeId, Scene};
@@ -24,6 +26,8 @@ pub struct GpuScene {
     pub materials: MaterialBindings,
     /// The meshes of the model, and those that were added: changing these touches nothing of the model.
     meshes: [MeshSet; 2],
+    /// Where it is cut open, if it is.
+    pub section: Option<Section>,
 }
 
 /// Which buffers hold a mesh.
@@ -33,6 +37,8 @@ pub enum Origin {
     Model,
     /// Those of the additions.
     Added,
+    /// [`Section::caps`].
+    Caps,
 }
 
 /// Meshes in one set of buffers.
@@ -43,6 +49,8 @@ struct MeshSet {
     bounds: Vec<Bounds>,
     /// The edges of each mesh that may become lines; empty until topology is known.
     edges: Vec<Arc<FeatureEdges>>,
+    /// Which vertices of each mesh are one point; empty until topology is known.
+    welds: Vec<Arc<Weld>>,
     /// Per mesh, whether it is solid; empty until topology is known.
     is_solid: Vec<bool>,
     /// The plane of each mesh, once somebody asked for it.
@@ -56,6 +64,7 @@ impl MeshSet {
             geometry: upload(gpu, meshes, topology)?,
             bounds: meshes.iter().map(|m| m.bounds()).collect(),
             edges: edges(topology),
+            welds: welds(topology),
             is_solid: topology.iter().map(|t| t.is_solid).collect(),
             planes: meshes.iter().map(|_| OnceLock::new()).collect(),
         })
@@ -77,6 +86,7 @@ impl GpuScene {
             materials: MaterialBindings::new(gpu, material_layout, scene)?,
             meshes: [MeshSet::new(gpu, &scene.meshes, topology)?, MeshSet::new(gpu, &[], &[])?],
             model: Arc::clone(scene),
+            section: None,
             scene: Arc::clone(scene),
         })
     }
@@ -86,7 +96,9 @@ impl GpuScene {
         let [model, _] = &mut self.meshes;
         model.geometry = uploaded.geometry;
         model.edges = uploaded.edges;
+        model.welds = uploaded.welds;
         model.is_solid = uploaded.is_solid;
+        self.section = None;
     }
 
     /// Puts these objects beside the model in place of those that were there; the model stays on the device as it is.
@@ -106,6 +118,7 @@ impl GpuScene {
         let (own, others) = scene.materials.split_at(self.model.materials.len());
         self.materials = self.materials.with_others(own.len(), others);
         self.scene = Arc::new(scene);
+        self.section = None;
         Ok(())
     }
 
@@ -127,9 +140,14 @@ impl GpuScene {
         (&self.meshes[origin as usize], number)
     }
 
-    /// Some of the buffers.
+    /// Some of the buffers. Without a section there are none of caps, nor is anything drawn that would be in them.
     pub fn geometry(&self, origin: Origin) -> &GeometryBuffers {
-        &self.meshes[origin as usize].geometry
+        let [model, added] = &self.meshes;
+        match (origin, &self.section) {
+            (Origin::Caps, Some(section)) => &section.caps,
+            (Origin::Added, _) => &added.geometry,
+            (Origin::Model | Origin::Caps, _) => &model.geometry,
+        }
     }
 
     /// Where a mesh lies in which buffers.
@@ -150,22 +168,55 @@ impl GpuScene {
         set.edges.get(number).map(Arc::as_ref)
     }
 
+    /// Which vertices of a mesh are one point, once topology is known.
+    pub fn weld(&self, mesh: usize) -> Option<&Weld> {
+        let (set, number) = self.set(mesh);
+        set.welds.get(number).map(Arc::as_ref)
+    }
+
     /// Whether a mesh is known to enclose a volume.
     pub fn is_solid(&self, mesh: usize) -> bool {
         let (set, number) = self.set(mesh);
         set.is_solid.get(number).copied().unwrap_or(false)
     }
 
-    /// Which side of a node's triangles nobody can see: solid meshes wholly before the eye show no back face.
+    /// Cuts it open as a document asks for. Returns whether that changed anything.
+    ///
+    /// # Errors
+    /// [`GpuError::TooLarge`].
+    pub fn cut(&mut self, gpu: &Gpu, document: &Document) -> Result<bool, GpuError> {
+        let section = Section::new(gpu, document, self, self.section.as_ref())?;
+        let is_same = match (&section, &self.section) {
+            (Some(new), Some(old)) => new.is_same_cut(old),
+            (new, old) => new.is_none() && old.is_none(),
+        };
+        self.section = section;
+        Ok(!is_same)
+    }
+
+    /// Whether a section leaves nothing of a node's mesh.
+    pub fn is_cut_away(&self, node: NodeId) -> bool {
+        self.section.as_ref().is_some_and(|section| *section.part(node) == Part::Gone)
+    }
+
+    /// Whether a node shows no inside: its mesh, or what a section leaves of it with its cap, encloses a volume.
+    pub fn shows_no_inside(&self, node: NodeId) -> bool {
+        match self.section.as_ref().and_then(|section| section.opened(node)) {
+            Some(opened) => opened.is_solid,
+            None => self.scene.nodes[node].mesh.is_some_and(|mesh| self.is_solid(mesh)),
+        }
+    }
+
+    /// Which side of a node's triangles nobody can see: solids wholly before the eye show no back face.
     pub fn hidden_side(
         &self,
-        mesh: usize,
+        node: NodeId,
         view_from_local: &DMat4,
         orthographic: bool,
     ) -> Option<wgpu::Face> {
-        let is_solid = self.is_solid(mesh);
-        let is_before_the_eye =
-            orthographic || self.mesh_bounds(mesh).transformed(view_from_local).max.z < 0.0;
+        let is_solid = self.shows_no_inside(node);
+        let bounds = self.scene.nodes[node].mesh.map_or(Bounds::EMPTY, |mesh| self.mesh_bounds(mesh));
+        let is_before_the_eye = orthographic || bounds.transformed(view_from_local).max.z < 0.0;
         let mirrored = view_from_local.determinant() < 0.0;
         (is_solid && is_before_the_eye).then_some(if mirrored { wgpu::Face::Front } else { wgpu::Face::Back })
     }
@@ -219,11 +270,16 @@ impl GpuScene {
 pub struct UploadedTopology {
     geometry: GeometryBuffers,
     edges: Vec<Arc<FeatureEdges>>,
+    welds: Vec<Arc<Weld>>,
     is_solid: Vec<bool>,
 }
 
 fn edges(topology: &[Topology]) -> Vec<Arc<FeatureEdges>> {
     topology.iter().map(|t| Arc::clone(&t.edges)).collect()
+}
+
+fn welds(topology: &[Topology]) -> Vec<Arc<Weld>> {
+    topology.iter().map(|t| Arc::clone(&t.weld)).collect()
 }
 
 /// Uploads scenes, from any thread: large ones take longer than a window may wait. Clones share the device.
@@ -255,6 +311,7 @@ impl Uploader {
         Ok(UploadedTopology {
             geometry: upload(&self.gpu, &scene.meshes, topology)?,
             edges: edges(topology),
+            welds: welds(topology),
             is_solid: topology.iter().map(|t| t.is_solid).collect(),
         })
     }

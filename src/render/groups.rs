@@ -15,6 +15,7 @@ use super::passes::gbuffer::{Detail, DrawCall, DrawUniform};
 use super::style_images::StyleImages;
 use crate::document::{Document, Show};
 use crate::geometry::Bounds;
+use crate::gpu::material::MaterialUniform;
 use crate::scene::{AlphaMode, NodeId};
 use crate::style::Technique;
 
@@ -45,11 +46,13 @@ pub struct VisiblePart {
     pub enhanced: bool,
     /// Whether its mesh has no normals, so that faces are flat.
     pub is_flat: bool,
-    /// Number of its mesh.
-    pub mesh: usize,
-    /// Where the object lies.
+    /// The box around its mesh, local space.
+    pub bounds: Bounds,
+    /// Its surfaces have smaller numbers than this.
+    pub surfaces: u32,
+    /// Local to world space.
     pub world_from_local: DMat4,
-    /// Number of its material.
+    /// Number of its material; none has that of a cap.
     pub material: usize,
     /// The buffers that hold it.
     pub origin: Origin,
@@ -59,6 +62,29 @@ pub struct VisiblePart {
     pub index_count: u32,
     /// First vertex of the mesh.
     pub base_vertex: i32,
+}
+
+impl VisiblePart {
+    /// Which side of its triangles nobody can see.
+    pub fn hidden_side(
+        &self,
+        scene: &GpuScene,
+        view_from_local: &DMat4,
+        orthographic: bool,
+    ) -> Option<wgpu::Face> {
+        // A cap closes what is cut open, whatever the side that it is seen from.
+        let hidden = || scene.hidden_side(self.node, view_from_local, orthographic);
+        (self.origin != Origin::Caps).then(hidden).flatten()
+    }
+
+    /// What it is made of; a cap of the section's colour.
+    pub fn material(&self, scene: &GpuScene) -> MaterialUniform {
+        let own = scene.materials.uniform(self.material);
+        match (self.origin, &scene.section) {
+            (Origin::Caps, Some(section)) => own.with_color(section.style.color.to_linear()),
+            _ => own,
+        }
+    }
 }
 
 /// Objects that are drawn together.
@@ -94,19 +120,21 @@ pub struct Objects {
     pub halftones: Halftones,
     /// The mirrors among them.
     pub mirrors: Vec<Mirror>,
+    /// Pixels per reference pixel.
+    pub scale: f32,
 }
 
 impl Objects {
     /// Resolves styles and roles of a document for the nodes of a scene; `scale`: pixels per reference pixel.
     pub fn new(document: &Document, scene: &GpuScene, images: &StyleImages, scale: f32) -> Self {
         let resolved = document.resolve(&scene.scene);
-        let mut objects = Self::default();
+        let mut objects = Self { scale, ..Self::default() };
         // What is not drawn, entry 0 (the background) included, has neither shading nor lines.
         let count = resolved.len() + 1;
         objects.surfaces.edge_styles = vec![EdgeUniform::default(); count];
         objects.surface_styles = vec![SurfaceUniform::default(); count];
         for (node, r) in resolved.iter().enumerate() {
-            if !r.visible || scene.scene.nodes[node].mesh.is_none() {
+            if !r.visible || scene.scene.nodes[node].mesh.is_none() || scene.is_cut_away(node) {
                 continue;
             }
             let id = object_id(node) as usize;
@@ -213,8 +241,34 @@ impl Group {
         self.visible.iter().filter_map(|(id, _)| box_of(*id, scene))
     }
 
-    /// The parts of all visible objects.
+    /// The parts of all visible objects, and the caps of those that are cut open.
     pub fn parts<'a>(&'a self, scene: &'a GpuScene) -> impl Iterator<Item = VisiblePart> + 'a {
+        self.parts_of_meshes(scene).chain(self.caps(scene))
+    }
+
+    fn caps<'a>(&'a self, scene: &'a GpuScene) -> impl Iterator<Item = VisiblePart> + 'a {
+        scene.section.iter().flat_map(move |section| {
+            self.visible.iter().filter_map(move |&(node, enhanced)| {
+                let opened = section.opened(node)?;
+                let cap = opened.cap?;
+                Some(VisiblePart {
+                    node,
+                    enhanced,
+                    bounds: cap.bounds,
+                    surfaces: cap.surface + 1,
+                    is_flat: true,
+                    world_from_local: section.world_from_cap(opened),
+                    material: usize::MAX,
+                    origin: Origin::Caps,
+                    first_index: cap.range.first_index,
+                    index_count: cap.index_count,
+                    base_vertex: cap.range.base_vertex,
+                })
+            })
+        })
+    }
+
+    fn parts_of_meshes<'a>(&'a self, scene: &'a GpuScene) -> impl Iterator<Item = VisiblePart> + 'a {
         self.visible.iter().flat_map(move |&(id, enhanced)| {
             let node = &scene.scene.nodes[id];
             let found = node.mesh.and_then(|m| Some((m, scene.scene.meshes.get(m)?, scene.range_of(m)?)));
@@ -222,7 +276,8 @@ impl Group {
                 source.parts.iter().map(move |part| VisiblePart {
                     node: id,
                     enhanced,
-                    mesh,
+                    bounds: scene.mesh_bounds(mesh),
+                    surfaces: source.triangle_count() as u32,
                     is_flat: source.normals.is_empty(),
                     world_from_local: node.world_from_local,
                     material: part.material,
@@ -242,10 +297,9 @@ impl Group {
         for part in self.parts(scene) {
             // Combined in double precision, so that models far from the origin do not jitter.
             let view_from_local = view.view_from_world * part.world_from_local;
-            let local_bounds = scene.mesh_bounds(part.mesh);
-            if view.cut.is_some()
+            if view.has_cuts()
                 && view
-                    .cuts_off(&local_bounds.corners().map(|corner| view_from_local.transform_point3(corner)))
+                    .cuts_off(&part.bounds.corners().map(|corner| view_from_local.transform_point3(corner)))
             {
                 continue;
             }
@@ -253,7 +307,7 @@ impl Group {
             let alpha = material.map_or(AlphaMode::Opaque, |m| m.alpha);
             let has_images =
                 material.is_some_and(|m| m.base_color_texture.is_some() || m.normal_texture.is_some());
-            let depth = -local_bounds.transformed(&view_from_local).max.z;
+            let depth = -part.bounds.transformed(&view_from_local).max.z;
             let call = DrawCall {
                 draw: draws.len() as u32,
                 origin: part.origin,
@@ -269,32 +323,31 @@ impl Group {
                     Detail::Smooth
                 },
                 hidden_side: if alpha == AlphaMode::Opaque && !self.shows_hidden {
-                    scene.hidden_side(part.mesh, &view_from_local, view.orthographic)
+                    part.hidden_side(scene, &view_from_local, view.orthographic)
                 } else {
                     None
                 },
             };
             calls.push((depth, call));
-            let triangles = scene.scene.meshes.get(part.mesh).map_or(0, |mesh| mesh.indices.len() as u32 / 3);
             let draw = DrawUniform {
                 view_from_local: view_from_local.as_mat4(),
                 normal_from_local: normal_matrix(&view_from_local),
                 object: object_id(part.node) | if part.enhanced { ENHANCED } else { 0 },
-                material: scene.materials.uniform(part.material),
+                material: part.material(scene),
                 is_flat: u32::from(part.is_flat),
                 first_surface: 0,
             };
-            draws.push((draw, triangles));
+            draws.push((draw, part.surfaces));
         }
         // Near ones first: what lies behind them is then never shaded.
         calls.sort_by(|(a, _), (b, _)| a.total_cmp(b));
         calls.sort_by_key(|(_, c)| (c.origin, c.detail, c.hidden_side.map(|s| s as u32)));
-        // A part has at most as many surfaces as its mesh has triangles; 0 is left for nothing.
+        // 0 is left for nothing.
         let mut first_surface = 1_u32;
         for (_, call) in &calls {
-            if let Some((draw, triangles)) = draws.get_mut(call.draw as usize) {
+            if let Some((draw, surfaces)) = draws.get_mut(call.draw as usize) {
                 draw.first_surface = first_surface;
-                first_surface = first_surface.saturating_add(*triangles);
+                first_surface = first_surface.saturating_add(*surfaces);
             }
         }
         (draws.into_iter().map(|(draw, _)| draw).collect(), calls.into_iter().map(|(_, call)| call).collect())

@@ -184,7 +184,7 @@ pub struct LayerLinesInputs<'a> {
     pub segments: &'a Segments,
     /// Whether any material of an object with lines has holes.
     pub has_holes: bool,
-    /// Whether what lies behind a plane is left out.
+    /// Whether what lies behind a mirror's plane is left out.
     pub is_cut: bool,
     /// See [`EdgeInputs::before`].
     pub before: Option<[&'a Target; 2]>,

@@ -20,6 +20,7 @@ use crate::geometry::Topology;
 use crate::gpu::readback::Readback;
 use crate::gpu::{Gpu, GpuError, Pipelines, Recorder, ShaderError, Shaders, TargetPool, Timers};
 use crate::scene::{Addition, Camera, NodeId, Scene};
+use crate::style::Style;
 
 /// Height of the picture in reference pixels, in which widths and scales are given.
 const REFERENCE_HEIGHT: f32 = 1080.0;
@@ -236,9 +237,13 @@ impl Renderer {
             self.set_scene(&Arc::new(Scene::default()), &[])?;
         }
         self.note_reports();
-        let Some(scene) = &self.scene else {
+        let Some(scene) = &mut self.scene else {
             return Err(GpuError::Lost("no scene".to_owned()).into());
         };
+        if scene.cut(&self.gpu, request.document)? {
+            self.scene_revision += 1;
+        }
+        let scene = &*scene;
         let size = request.size.map(|s| s.max(1));
         let scale = size[1] as f32 / REFERENCE_HEIGHT;
         let objects = Objects::new(request.document, scene, &self.images, scale);
@@ -252,8 +257,8 @@ impl Renderer {
         };
         let sample = self.state.next_sample(subject, request.samples);
         let view = View::new(request.camera, &objects.visible_bounds, UVec2::from_array(size));
-        let view = view.moved(sample.jitter());
-        let paper = request.document.view.background.to_linear();
+        let view = view.moved(sample.jitter()).cut_at(scene.section.as_ref().map(|section| section.plane));
+        let paper = request.document.paper().to_linear();
         let background = paper.extend(if request.transparent { 0.0 } else { 1.0 });
         let timers = self.timers.as_mut();
         let frame = self.state.drawing().frame_group().clone();
@@ -278,6 +283,7 @@ impl Renderer {
                 reflections: request.document.view.reflections.round().clamp(0.0, 8.0) as u32,
             },
             show: request.document.view.show,
+            layer: request.document.view.layer,
             scale_bar: bar.as_ref(),
             selected: request.selected,
         };
@@ -312,6 +318,11 @@ impl Renderer {
     /// the order of [`Objects::blueprints`].
     pub fn last_peeled(&self) -> Vec<Option<(Peeled, LayersBy)>> {
         self.state.drawing().last_peeled()
+    }
+
+    /// The same of the blueprint that objects of this style are in; `None` if there is none, or if nothing is known yet.
+    pub fn last_peeled_of(&self, style: &Style) -> Option<&(Peeled, LayersBy)> {
+        self.state.drawing().last_peeled_of(style)
     }
 
     /// How often each stage has run so far.

@@ -1,11 +1,11 @@
 //! Shadow maps and the shadow mask: what of them has to be drawn again. Maps depend on lights and objects only, so that
 //! a turn of the camera redraws none of a light that stands still.
 
-use glam::{DMat4, Vec2};
+use glam::{DMat4, Vec2, Vec4};
 
 use super::RenderError;
 use super::drawing::DrawingInputs;
-use super::gpu_scene::GpuScene;
+use super::gpu_scene::{GpuScene, Origin};
 use super::groups::Objects;
 use super::light_view::{LightView, LookedAt, light_views};
 use super::lights::{MAX_SHADOWS, WorldLight};
@@ -105,6 +105,8 @@ fn seen_by(
             let alpha = scene.scene.materials.get(part.material).map_or(AlphaMode::Opaque, |m| m.alpha);
             let has_holes = alpha != AlphaMode::Opaque && scene.geometry(part.origin).attributes.is_some();
             let light_from_local = view.light_from_world * part.world_from_local;
+            let section = scene.section.as_ref().filter(|s| s.opened(part.node).is_some());
+            let section = section.filter(|_| part.origin != Origin::Caps).map(|section| section.plane);
             seen.calls.push(ShadowCall {
                 draw: seen.draws.len() as u32,
                 view: number,
@@ -114,19 +116,22 @@ fn seen_by(
                 base_vertex: part.base_vertex,
                 material_group: scene.materials.group_index(part.material),
                 has_holes,
+                is_cut: section.is_some(),
                 hidden_side: if has_holes {
                     None
                 } else {
-                    scene.hidden_side(part.mesh, &light_from_local, !view.is_central)
+                    part.hidden_side(scene, &light_from_local, !view.is_central)
                 },
             });
             seen.draws.push(ShadowDraw {
                 clip_from_local: (clip_from_world * part.world_from_local).as_mat4(),
-                material: scene.materials.uniform(part.material),
+                material: part.material(scene),
+                section: section
+                    .map_or(Vec4::ZERO, |plane| (part.world_from_local.transpose() * plane).as_vec4()),
             });
         }
     }
-    seen.calls.sort_by_key(|c| (c.view, c.origin, c.has_holes, c.hidden_side.map(|s| s as u32)));
+    seen.calls.sort_by_key(|c| (c.view, c.origin, c.has_holes, c.is_cut, c.hidden_side.map(|s| s as u32)));
     seen
 }
 

@@ -19,6 +19,9 @@ pub struct Blueprint {
     pub by_layer: f32,
     /// How far lines fade with the distance, 0 (not at all) to 1.
     pub by_distance: f32,
+    /// Ink below this share is left out and all other is full, as in a wire frame (section 4.2); 0 to 1, 0: ink stays as it
+    /// is.
+    pub threshold: f32,
     /// Whether lines are drawn again where a nearer layer has one at the same place (section 4.1, Fig. 5).
     pub repeated: bool,
     /// Colour of the surfaces.
@@ -48,6 +51,7 @@ impl Default for Blueprint {
             far: Color([170, 194, 232]),
             by_layer: 0.35,
             by_distance: 0.3,
+            threshold: 0.0,
             repeated: false,
             fill: Color([70, 120, 200]),
             opacity: 0.05,
@@ -84,6 +88,15 @@ impl Blueprint {
             "How far lines go over to the far colour with the distance.",
             &mut self.by_distance,
         );
+        list.number(
+            "threshold",
+            "Threshold",
+            "",
+            0.0..=1.0,
+            0.0..=1.0,
+            "As in a wire frame, fainter ink than this is left out, and all other is full; 0 leaves ink as it is.",
+            &mut self.threshold,
+        );
         list.switch(
             "repeated",
             "Repeat lines",
@@ -100,8 +113,10 @@ impl Blueprint {
             "Opacity of the fill of each layer; 0 draws lines only.",
             &mut self.opacity,
         );
-        list.integer("from", "From layer", "", 1..=64, "The first layer that is drawn.", &mut self.from);
-        list.integer("to", "To layer", "", 1..=64, "The last layer that is drawn.", &mut self.to);
+        list.span("Layers", |list| {
+            list.integer("from", "From layer", "", 1..=64, "The first layer that is drawn.", &mut self.from);
+            list.integer("to", "To layer", "", 1..=64, "The last layer that is drawn.", &mut self.to);
+        });
         list.integer(
             "layers",
             "Most layers",

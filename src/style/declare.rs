@@ -75,6 +75,7 @@ impl<'a> Params<'a> {
             conditions: self.conditions.clone(),
             detail: self.detail,
             head: false,
+            span: None,
             slot,
         });
     }
@@ -129,6 +130,15 @@ impl<'a> Params<'a> {
         value: &'a mut u32,
     ) {
         self.push(key, label, unit, help, Slot::Integer { value, range });
+    }
+
+    /// Two numbers that are the ends of one range, which the panel shows on one slider.
+    pub fn span(&mut self, label: &'static str, declare: impl FnOnce(&mut Self)) {
+        let first = self.list.len();
+        declare(self);
+        if let Some(param) = self.list.get_mut(first) {
+            param.span = Some(label);
+        }
     }
 
     /// A colour.

@@ -30,6 +30,8 @@ pub struct Param<'a> {
     pub detail: bool,
     /// Whether it is the switch of its whole section.
     pub head: bool,
+    /// That it and the next one are the ends of one range: what the panel calls it.
+    pub span: Option<&'static str>,
     /// Where the value is.
     pub slot: Slot<'a>,
 }

@@ -68,7 +68,8 @@ impl Row<'_, '_> {
         self.set(&default)
     }
 
-    fn set(&mut self, value: &Value) -> Option<Change> {
+    /// Sets it.
+    pub fn set(&mut self, value: &Value) -> Option<Change> {
         // A default always fits its own parameter, and only what inherits is asked to.
         self.param.set(value).ok().map(|()| Change::Set(self.param.key.clone(), value.clone()))
     }
@@ -174,7 +175,7 @@ pub fn named_row<R>(ui: &mut Ui, name: &str, help: &str, add: impl FnOnce(&mut U
 }
 
 /// The name of a parameter, behind room for a button that resets.
-fn label_ui(ui: &mut Ui, text: &str, color: Color32) -> egui::Response {
+pub fn label_ui(ui: &mut Ui, text: &str, color: Color32) -> egui::Response {
     let height = ui.spacing().interact_size.y;
     let (rect, response) = ui.allocate_exact_size(egui::vec2(LABEL_WIDTH, height), egui::Sense::click());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, text));
@@ -214,7 +215,8 @@ impl Number<'_> {
             .show_value(false)
             .trailing_fill(true)
             .clamping(egui::SliderClamping::Edits);
-        let speed = (self.soft.end() - self.soft.start()) / 200.0;
+        let reach = self.soft.end() - self.soft.start();
+        let (speed, decimals) = (reach / 200.0, decimals_of(reach));
         if self.is_whole {
             slider = slider.integer();
         }
@@ -222,7 +224,7 @@ impl Number<'_> {
         let mut number = egui::DragValue::new(value)
             .range(self.hard)
             .speed(speed)
-            .custom_formatter(|n, _| short(n))
+            .custom_formatter(move |n, _| short(n, decimals))
             .suffix(if self.unit.is_empty() { String::new() } else { format!(" {}", self.unit) });
         if self.is_whole {
             number = number.fixed_decimals(0);
@@ -306,9 +308,14 @@ fn slot_ui(ui: &mut Ui, param: &mut Param<'_>, label: egui::Id, help: &str) -> b
     false
 }
 
-/// At most three decimals and no trailing zeros.
-fn short(number: f64) -> String {
-    let text = format!("{number:.3}");
+/// How many decimals tell a thousandth of a slider's reach; at least three.
+fn decimals_of(reach: f64) -> usize {
+    (3.0 - reach.log10().floor()).clamp(3.0, 9.0) as usize
+}
+
+/// At most so many decimals and no trailing zeros.
+fn short(number: f64, decimals: usize) -> String {
+    let text = format!("{number:.decimals$}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
@@ -319,6 +326,7 @@ mod tests {
     #[test]
     fn names_and_numbers_are_written_for_people() {
         assert_eq!(label_of("face_normals"), "Face normals");
-        assert_eq!(["2.5", "30", "0.1"], [2.5, 30.0, 0.1_f32.into()].map(short));
+        assert_eq!(["2.5", "30", "0.1"], [2.5, 30.0, 0.1_f32.into()].map(|n| short(n, decimals_of(1.0))));
+        assert_eq!((decimals_of(500.0), short(0.00015, decimals_of(0.02))), (3, "0.00015".to_owned()));
     }
 }

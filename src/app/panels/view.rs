@@ -1,4 +1,4 @@
-//! How the picture is shown: axis, unit, projection, paper, smoothness.
+//! How the picture is shown: axis, unit, projection, paper, smoothness, section plane.
 
 use eframe::egui;
 use eframe::egui::Ui;
@@ -6,11 +6,13 @@ use eframe::egui::Ui;
 use super::Editing;
 use super::params::params_ui;
 use super::row::named_row;
+use super::section::section_ui;
 use crate::app::navigation::with_view_angle;
 use crate::app::state::Samples;
 use crate::document::View;
 use crate::scene::unit::UNITS;
 use crate::scene::{Projection, Unit, Up};
+use crate::style::param;
 
 /// Samples per pixel to choose from.
 const SAMPLES: [u32; 4] = [1, 16, 64, 256];
@@ -105,8 +107,11 @@ pub fn view_ui(ui: &mut Ui, editing: &mut Editing<'_>, samples: &mut Samples) ->
 
     ui.add_space(4.0);
     let mut default = View::default();
-    let defaults = default.params();
-    params_ui(ui, "view", &mut document.view.params(), &defaults);
+    let paper = document.style.paper.color;
+    let defaults = default.params(paper);
+    let mut params = document.view.params(paper);
+    param::retain_relevant(&mut params);
+    params_ui(ui, "view", &mut params, &defaults);
     for (name, help, value) in samples.settings() {
         named_row(ui, name, help, |ui, label| {
             let combo = egui::ComboBox::from_id_salt(name)
@@ -120,7 +125,9 @@ pub fn view_ui(ui: &mut Ui, editing: &mut Editing<'_>, samples: &mut Samples) ->
             combo.response.labelled_by(label);
         });
     }
-    document.up(scene) != before
+    let is_turned = document.up(scene) != before;
+    section_ui(ui, editing);
+    is_turned
 }
 
 fn samples_name(samples: u32) -> String {

@@ -16,6 +16,7 @@ use crate::gpu::recorder::{Draw, Input, Onto};
 use crate::gpu::{ArrayBuffer, DepthRule, Gpu, Program, Recorder, Target};
 use crate::render::RenderError;
 use crate::render::drawing::{Begun, DrawingInputs};
+use crate::render::effects::section::{CapUniform, caps};
 use crate::render::frame_uniform::FrameUniform;
 use crate::render::groups::Group;
 use crate::render::layers::{LayerInputs, LayerLines, LayerLinesInputs, Layers, LayersBy, Reported};
@@ -26,7 +27,7 @@ use crate::render::passes::peel::{Layer, MOST_LAYERS, PeelCount, Peeled};
 use crate::render::passes::segments::Segments;
 use crate::render::segments::segments;
 use crate::render::stage::{Output, Stage};
-use crate::style::{self, Edges, Style};
+use crate::style::{self, Edges, Style, Technique};
 
 /// Objects whose style is equal, peeled together.
 #[derive(Debug, Clone, PartialEq)]
@@ -45,6 +46,7 @@ pub struct BlueprintUniform {
     fill: Vec3,
     opacity: f32,
     by_distance: f32,
+    threshold: f32,
 }
 
 impl From<&style::Blueprint> for BlueprintUniform {
@@ -55,6 +57,7 @@ impl From<&style::Blueprint> for BlueprintUniform {
             fill: style.fill.to_linear(),
             opacity: style.opacity.clamp(0.0, 1.0),
             by_distance: style.by_distance.clamp(0.0, 1.0),
+            threshold: style.threshold.clamp(0.0, 1.0),
         }
     }
 }
@@ -62,7 +65,7 @@ impl From<&style::Blueprint> for BlueprintUniform {
 impl Blueprint {
     /// The group to which an object of this style belongs, in a scene with `count` object ids.
     pub fn group_of<'a>(all: &'a mut Vec<Self>, style: &Style, count: usize) -> &'a mut Group {
-        let found = all.iter().position(|b| b.style == style.blueprint && b.edges == style.edges);
+        let found = all.iter().position(|b| b.is_of(style));
         let index = found.unwrap_or(all.len());
         if found.is_none() {
             all.push(Self {
@@ -72,6 +75,11 @@ impl Blueprint {
             });
         }
         &mut all[index].group
+    }
+
+    /// Whether an object of this style belongs to it.
+    fn is_of(&self, style: &Style) -> bool {
+        style.technique == Technique::Blueprint && self.style == style.blueprint && self.edges == style.edges
     }
 
     /// Most layers that are peeled: no more than are drawn.
@@ -114,6 +122,7 @@ struct Inputs {
     uniform: FrameUniform,
     part: Option<[u32; 4]>,
     crease_angle: f32,
+    caps: Vec<CapUniform>,
     keeps_layers: bool,
     layers_by: document::LayersBy,
 }
@@ -124,6 +133,7 @@ pub struct Blueprints {
     lines: LayerLines,
     segments: Segments,
     style: ArrayBuffer,
+    caps: ArrayBuffer,
     stage: Stage<Inputs, Peels>,
 }
 
@@ -135,6 +145,7 @@ impl Blueprints {
             lines: LayerLines::new(gpu),
             segments: Segments::new(gpu),
             style: ArrayBuffer::new(gpu, "blueprint"),
+            caps: ArrayBuffer::new(gpu, "caps"),
             stage: Stage::default(),
         }
     }
@@ -151,6 +162,11 @@ impl Blueprints {
             self.stage.clear();
         }
         reported
+    }
+
+    /// Whether objects of this style were drawn last.
+    pub fn is_of(&self, style: &Style) -> bool {
+        self.stage.inputs().is_some_and(|last| last.blueprint.is_of(style))
     }
 
     /// How far the last picture came whose report has arrived.
@@ -188,22 +204,26 @@ impl Blueprints {
             uniform: uniform.without_background(),
             part: inputs.view.part,
             crease_angle: inputs.crease_angle,
+            caps: caps(inputs.scene, inputs.view, inputs.objects.scale),
             keeps_layers: inputs.keeps_layers,
             layers_by: inputs.layers_by,
         };
-        let Self { layers, lines: layer_lines, segments: placed, style, stage } = self;
+        let Self { layers, lines: layer_lines, segments: placed, style, caps, stage } = self;
         stage.run(asked, |asked| {
             let Blueprint { group, style: params, .. } = blueprint;
             style.write(rec.gpu, &vec![BlueprintUniform::from(params)]);
+            let has_caps = !asked.caps.is_empty();
+            if has_caps {
+                caps.write(rec.gpu, &asked.caps);
+            }
             layer_lines.begin(rec.gpu, &group.edge_styles);
             let view = inputs.view.moved(glam::Vec2::ZERO);
             placed.write(rec.gpu, &segments(inputs.scene, group, &view, inputs.crease_angle))?;
-            let is_cut = inputs.view.cut.is_some();
             let edges = LayerLinesInputs {
                 styles: &group.edge_styles,
                 segments: placed,
                 has_holes: group.has_holes,
-                is_cut,
+                is_cut: inputs.view.cut.is_some(),
                 before: None,
                 repeated: params.repeated,
             };
@@ -214,7 +234,7 @@ impl Blueprints {
                 scene: inputs.scene,
                 draws: &asked.draws,
                 calls: &asked.calls,
-                is_cut,
+                is_cut: inputs.view.has_cuts(),
                 most: blueprint.layers(),
                 least: blueprint.least(rec.size()),
                 mask: mask.map(|mask| &mask.value),
@@ -250,8 +270,9 @@ impl Blueprints {
                     };
                     lines(rec, &found.lines(layer, layer_lines, edges.styles), &pen, &color)?;
                 }
-                if params.opacity > 0.0 {
-                    fill(rec, layer, layer_lines.edge_styles(), sprite, &color)?;
+                if params.opacity > 0.0 || has_caps {
+                    let caps = has_caps.then_some(caps.buffer());
+                    fill(rec, layer, layer_lines.edge_styles(), sprite, caps, &color)?;
                 }
                 Ok(())
             })?;
@@ -289,12 +310,13 @@ impl<'a> Sprite<'a> {
     }
 }
 
-/// Draws the surfaces of a layer beneath what is there.
+/// Draws the surfaces of a layer beneath what is there, `caps` (those by object id) with the pen of its lines.
 fn fill(
     rec: &mut Recorder<'_>,
     layer: &Layer,
     edge_styles: &wgpu::Buffer,
     sprite: Sprite<'_>,
+    caps: Option<&wgpu::Buffer>,
     color: &Target,
 ) -> Result<(), RenderError> {
     // Of the lines' bindings only the first is read: any texture of their kind.
@@ -307,12 +329,13 @@ fn fill(
         Input::Storage(edge_styles),
     ];
     inputs.extend(sprite.inputs(&layer.order));
+    inputs.extend([Input::Texture(&layer.gbuffer.region), Input::Storage(caps.unwrap_or(edge_styles))]);
     rec.draw(Draw {
         label: "fill",
         program: Program {
             file: "effects/blueprint.wgsl",
             entry_point: "fs_fill",
-            switches: vec![sprite.without_beyond()],
+            switches: vec![("WITH_CAPS", caps.is_some()), sprite.without_beyond()],
         },
         inputs: &inputs,
         outputs: &[color],

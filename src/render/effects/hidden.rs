@@ -179,7 +179,6 @@ impl HiddenLines {
             }
             let view = inputs.view.moved(glam::Vec2::ZERO);
             placed.write(rec.gpu, &segments(inputs.scene, &group, &view, inputs.crease_angle))?;
-            let is_cut = inputs.view.cut.is_some();
             let color = rec.target("hidden lines", wgpu::TextureFormat::Rgba16Float)?;
             rec.clear("hidden lines", &color);
             let mut seen = match visible {
@@ -190,7 +189,7 @@ impl HiddenLines {
                 scene: inputs.scene,
                 draws: &asked.draws,
                 calls: &asked.calls,
-                is_cut,
+                is_cut: inputs.view.has_cuts(),
                 most: bands.last().map_or(0, |band| band.last) + 1,
                 least: hidden.least(rec.size()),
                 mask: None,
@@ -209,7 +208,7 @@ impl HiddenLines {
                     styles: &band.styles,
                     segments: placed,
                     has_holes: group.has_holes,
-                    is_cut,
+                    is_cut: inputs.view.cut.is_some(),
                     before: regions.as_ref().map(|[last, before_that]| [last, before_that]),
                     repeated: false,
                 };

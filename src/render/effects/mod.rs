@@ -5,5 +5,6 @@ pub mod gooch;
 pub mod halftone;
 pub mod hidden;
 pub mod mirror;
+pub mod section;
 pub mod surface;
 pub mod toon;

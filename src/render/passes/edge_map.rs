@@ -43,7 +43,7 @@ pub struct EdgeInputs<'a> {
     pub segments: &'a Segments,
     /// Whether any material of an object with lines has holes.
     pub has_holes: bool,
-    /// Whether what lies behind a plane is left out.
+    /// Whether what lies behind a mirror's plane is left out.
     pub is_cut: bool,
     /// Whether the G-buffer is a depth layer, which may lie behind a segment that belongs to a nearer one.
     pub is_layer: bool,

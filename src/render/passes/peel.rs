@@ -1,6 +1,8 @@
 //! Depth peeling: what lies behind what has been drawn, layer by layer (blueprints paper, section 3, Fig. 2), and when it
 //! ends, which the device decides by itself (section 4.2).
 
+use std::fmt;
+
 use encase::{ShaderType, StorageBuffer};
 
 use super::depth_mask::DepthMask;
@@ -121,6 +123,16 @@ pub enum PeelingEnd {
     TooFewPixels,
     /// So much of the depth mask is uncovered as was asked for.
     MaskUncovered,
+}
+
+impl fmt::Display for PeelingEnd {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::MostLayers => "most layers",
+            Self::TooFewPixels => "too few pixels",
+            Self::MaskUncovered => "mask uncovered",
+        })
+    }
 }
 
 impl Peeled {
