@@ -51,9 +51,10 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
     let scene = &opened.scene;
     let section = opened.document.section_fault(opened.document.up(scene), &scene.bounds());
     let faults = opened.document.role_faults(scene).into_iter().chain(section);
-    let peeled = session.renderer().peeled()?;
+    let peeled: Vec<_> = session.renderer().last_peeled().into_iter().flatten().collect();
     let warnings = images.warnings(&uses).into_iter().chain(scene.warnings.iter().cloned()).chain(faults);
-    let warnings = warnings.map(|w| w.to_string()).chain(peeling::warnings(&peeled));
+    let warnings =
+        warnings.map(|w| w.to_string()).chain(peeling::warnings(&peeled, opened.document.view.layers));
     if args.json {
         print_json(&json!({
             "output": args.output,

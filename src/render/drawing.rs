@@ -28,13 +28,14 @@ use super::groups::Objects;
 use super::layers::{LayersBy, Reported};
 use super::lights::Lights;
 use super::passes::depth_mask::{DepthMask, DepthMaskPass};
-use super::passes::edge_map::{EdgeInputs, EdgeMap, EdgeMapPass};
+use super::passes::edge_map::{EdgeInputs, EdgeMap, edge_map};
 use super::passes::edge_style::EdgeUniform;
 use super::passes::gbuffer::{DrawCall, DrawUniform, GBuffer, GBufferPass};
 use super::passes::line_distance::{Reach, line_distance};
 use super::passes::lines::{Lines, Pen, lines};
 use super::passes::overlay::overlay;
 use super::passes::peel::{Layer, Peeled};
+use super::passes::segments::Segments;
 use super::sample::Sample;
 use super::segments::segments;
 use super::shadows::{ShadowMap, ShadowMask};
@@ -124,7 +125,7 @@ pub struct Drawing {
     uniform: UniformBuffer<FrameUniform>,
     frame_group: wgpu::BindGroup,
     draws: DynamicBuffer,
-    edge_map_pass: EdgeMapPass,
+    placed_segments: Segments,
     greatest_radius: ArrayBuffer,
     edge_styles: ArrayBuffer,
     surface_styles: ArrayBuffer,
@@ -186,7 +187,7 @@ impl Drawing {
             uniform,
             frame_group,
             draws: GBufferPass::draw_buffer(gpu),
-            edge_map_pass: EdgeMapPass::new(gpu),
+            placed_segments: Segments::new(gpu),
             greatest_radius: ArrayBuffer::new(gpu, "greatest radius"),
             edge_styles: ArrayBuffer::new(gpu, "edge styles"),
             surface_styles: ArrayBuffer::new(gpu, "surface styles"),
@@ -335,13 +336,14 @@ impl Drawing {
         let revisions = [begun.gbuffer.revision, shadow_mask.map_or(0, |mask| mask.revision)];
         let edges = (revisions, styles, begun.depth_range, light);
         self.edge_map.run(edges, |(_, styles, ..)| {
-            self.edge_map_pass.run(
+            self.placed_segments.write(rec.gpu, &segments.value)?;
+            edge_map(
                 rec,
                 &EdgeInputs {
                     gbuffer: &begun.gbuffer.value,
                     styles,
                     edge_styles: self.edge_styles.buffer(),
-                    segments: &segments.value,
+                    segments: &self.placed_segments,
                     has_holes: inputs.objects.surfaces.has_holes,
                     is_cut: view.cut.is_some(),
                     is_layer: false,
