@@ -6,7 +6,7 @@ use serde_json::json;
 
 use super::args::{CameraArgs, LookArgs, RenderArgs};
 use super::{CliError, print_json};
-use crate::document::{Document, Pattern};
+use crate::document::{Document, Pattern, glyph};
 use crate::export::session::{OpenError, Opened, initial_camera, open};
 use crate::export::{Session, save_png};
 use crate::gpu::{Gpu, GpuError};
@@ -39,7 +39,8 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
     save_png(&args.output, image)?;
 
     let scene = &opened.scene;
-    let faults = opened.document.mirror_faults(scene);
+    let document = &opened.document;
+    let faults = document.mirror_faults(scene).into_iter().chain(document.glyph_faults(scene));
     let warnings = images.warnings(&uses).into_iter().chain(scene.warnings.iter().cloned()).chain(faults);
     if args.json {
         print_json(&json!({
@@ -98,9 +99,11 @@ fn matching(scene: &Scene, pattern: &str) -> Result<Vec<NodeId>, CliError> {
 /// Styles, parameters and roles in their order of precedence.
 pub(super) fn apply_look(opened: &mut Opened, look: &LookArgs) -> Result<(), CliError> {
     let Opened { document, scene } = opened;
+    // Glyphs are meant by their paths too.
+    let scene = &scene.with_additions(document.glyph_shapes(scene, &[]).additions);
     if let Some(name) = &look.style {
         document.style = preset::load(name)?.style;
-        for node in document.nodes.values_mut() {
+        for (_, node) in document.nodes.iter_mut().filter(|(path, _)| !path.starts_with(glyph::FOLDER)) {
             node.style = None;
         }
     }

@@ -6,7 +6,7 @@ use glam::{DMat4, Vec2};
 use super::RenderError;
 use super::drawing::DrawingInputs;
 use super::gpu_scene::GpuScene;
-use super::groups::Objects;
+use super::groups::{Objects, VisiblePart};
 use super::light_view::{LightView, LookedAt, light_views};
 use super::lights::{MAX_SHADOWS, WorldLight};
 use super::passes::gbuffer::GBuffer;
@@ -101,7 +101,8 @@ fn seen_by(
     };
     for (number, view) in seen.views.iter().enumerate() {
         let clip_from_world = view.clip_from_light() * view.light_from_world;
-        for part in objects.surfaces.parts(scene) {
+        let throws = |part: &VisiblePart| scene.scene.facing_of(part.node).is_none();
+        for part in objects.surfaces.parts(scene).filter(throws) {
             let alpha = scene.scene.materials.get(part.material).map_or(AlphaMode::Opaque, |m| m.alpha);
             let has_holes = alpha != AlphaMode::Opaque && scene.geometry(part.origin).attributes.is_some();
             let light_from_local = view.light_from_world * part.world_from_local;

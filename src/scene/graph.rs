@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use glam::{DMat4, DVec3, Vec3};
 
+use super::additions::Facing;
 use super::{Camera, Light, Material, Texture};
 use crate::geometry::{Bounds, Mesh};
 
@@ -18,6 +19,8 @@ pub struct Scene {
     pub nodes: Vec<Node>,
     /// How many nodes the program added: the last ones.
     pub added: usize,
+    /// Those of them that face the eye.
+    pub facing: Vec<(NodeId, Facing)>,
     /// Meshes; several nodes may show the same one.
     pub meshes: Vec<Arc<Mesh>>,
     /// Materials that mesh parts refer to.
