@@ -100,7 +100,7 @@ fn matching(scene: &Scene, pattern: &str) -> Result<Vec<NodeId>, CliError> {
 pub(super) fn apply_look(opened: &mut Opened, look: &LookArgs) -> Result<(), CliError> {
     let Opened { document, scene } = opened;
     // Glyphs are meant by their paths too.
-    let scene = &scene.with_additions(document.glyph_shapes(scene, &[]).additions);
+    let scene = &*document.scene_with_glyphs(scene);
     if let Some(name) = &look.style {
         document.style = preset::load(name)?.style;
         for (_, node) in document.nodes.iter_mut().filter(|(path, _)| !path.starts_with(glyph::FOLDER)) {
@@ -143,11 +143,12 @@ fn camera(opened: &Opened, args: &CameraArgs, aspect: f64) -> Camera {
     let Opened { document, scene } = opened;
     let up = document.up(scene);
     let bounds = scene.bounds();
+    let extent = document.scene_with_glyphs(scene).extent();
     let is_placed = args.camera_position.is_some();
     let mut camera = match document.camera {
         Some(camera) => camera,
         None if args.camera_azimuth_angle.or(args.camera_elevation_angle).is_some() || is_placed => {
-            Camera::looking_from(up.front(), up.vector(), &scene.extent(), aspect)
+            Camera::looking_from(up.front(), up.vector(), &extent, aspect)
         }
         None => initial_camera(document, scene, aspect),
     };
@@ -179,7 +180,7 @@ fn camera(opened: &Opened, args: &CameraArgs, aspect: f64) -> Camera {
     }
     let frames_all = !is_placed && args.camera_focal_point.is_none() && document.camera.is_none();
     if frames_all {
-        camera = camera.framing(&scene.extent(), aspect);
+        camera = camera.framing(&extent, aspect);
     }
     if let Some(view_height) = args.camera_view_height {
         camera.projection = Projection::Orthographic { view_height };

@@ -118,9 +118,12 @@ impl Scene {
         let mut known = std::collections::HashMap::new();
         nodes
             .into_iter()
-            .filter_map(|id| self.nodes.get(id))
-            .filter_map(|node| Some((node, self.meshes.get(node.mesh?)?)))
-            .flat_map(|(node, mesh)| {
+            .filter_map(|id| Some((id, self.nodes.get(id)?)))
+            .filter_map(|(id, node)| Some((id, node, self.meshes.get(node.mesh?)?)))
+            .flat_map(|(id, node, mesh)| {
+                if let Some(facing) = self.facing_of(id) {
+                    return vec![facing.anchor];
+                }
                 let extremes = known.entry(Arc::as_ptr(mesh)).or_insert_with(|| mesh.extremes());
                 let place = |p: &Vec3| node.world_from_local.transform_point3(p.as_dvec3());
                 extremes.iter().map(place).collect::<Vec<_>>()

@@ -1,5 +1,7 @@
 //! Glyphs become objects beside the scene.
 
+use std::borrow::Cow;
+
 use glam::{DMat4, DVec3, Vec4};
 
 use super::label::label_mesh;
@@ -13,6 +15,12 @@ use crate::style::{Color, nearest};
 
 /// Points after these are left out.
 const MOST_POINTS: usize = 2000;
+
+/// From the middle of the model, in its diagonals.
+const FARTHEST: f64 = 1e4;
+
+/// Boxes around more vertices are made of those around meshes.
+const MOST_VERTICES: usize = 300_000;
 
 /// Glyphs as objects, one each, in their order; and what could not be drawn as it was meant.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -36,9 +44,11 @@ impl Document {
         if glyphs.is_empty() {
             return shapes;
         }
-        let model = Model { scene, mesh_bounds, diagonal: 0.0 };
-        let diagonal = model.bounds_of(0..scene.own_nodes().len()).diagonal();
-        let model = Model { diagonal: if diagonal > 0.0 { diagonal } else { 1.0 }, ..model };
+        let mut model = Model { scene, mesh_bounds, diagonal: 1.0, center: DVec3::ZERO };
+        let bounds = model.bounds_of(0..scene.own_nodes().len());
+        if bounds.diagonal() > 0.0 {
+            (model.diagonal, model.center) = (bounds.diagonal(), bounds.center());
+        }
         for glyph in glyphs {
             let mut notes = Vec::new();
             let made = match &glyph.shape {
@@ -66,6 +76,15 @@ impl Document {
             });
         }
         shapes
+    }
+
+    /// A scene with the glyphs beside it.
+    pub fn scene_with_glyphs<'a>(&self, scene: &'a Scene) -> Cow<'a, Scene> {
+        if self.glyphs.is_empty() {
+            return Cow::Borrowed(scene);
+        }
+        let mesh_bounds: Vec<_> = scene.meshes.iter().map(|m| m.bounds()).collect();
+        Cow::Owned(scene.with_additions(self.glyph_shapes(scene, &mesh_bounds).additions))
     }
 
     /// A warning for each glyph that is not drawn, or not as it was meant; `scene`: without additions.
@@ -96,6 +115,7 @@ struct Model<'a> {
     scene: &'a Scene,
     mesh_bounds: &'a [Bounds],
     diagonal: f64,
+    center: DVec3,
 }
 
 impl Model<'_> {
@@ -106,18 +126,40 @@ impl Model<'_> {
         })
     }
 
+    /// [`Self::bounds_of`] by every vertex, as far as that is quick: turned objects fill little of their boxes.
+    fn close_bounds_of(&self, nodes: std::ops::Range<usize>) -> Bounds {
+        let meshes = || {
+            let nodes = self.scene.nodes.get(nodes.clone()).unwrap_or_default();
+            nodes.iter().filter_map(|n| Some((n.world_from_local, self.scene.meshes.get(n.mesh?)?)))
+        };
+        if meshes().map(|(_, mesh)| mesh.positions.len()).sum::<usize>() > MOST_VERTICES {
+            return self.bounds_of(nodes);
+        }
+        meshes().fold(Bounds::EMPTY, |all, (place, mesh)| {
+            mesh.positions
+                .iter()
+                .map(|p| place.transform_point3(p.as_dvec3()))
+                .fold(all, |all, p| Bounds { min: all.min.min(p), max: all.max.max(p) })
+        })
+    }
+
     fn bounds_below(&self, path: &str) -> Result<Bounds, String> {
         let Some(node) = self.scene.find(path) else {
             let similar = nearest(path, self.scene.nodes.iter().map(|n| n.path.as_str()));
             let meant = similar.map_or(String::new(), |n| format!("; did you mean `{n}`?"));
             return Err(format!("the model has no node `{path}`{meant}"));
         };
-        let bounds = self.bounds_of(self.scene.subtree(node));
+        let bounds = self.close_bounds_of(self.scene.subtree(node));
         if bounds.is_empty() {
             Err(format!("nothing hangs below `{path}` that can be seen"))
         } else {
             Ok(bounds)
         }
+    }
+
+    /// Whether a point is so far away that nothing else would be seen beside it.
+    fn is_too_far(&self, point: DVec3) -> bool {
+        point.distance(self.center) > FARTHEST * self.diagonal
     }
 
     fn absolute(&self, thickness: f32) -> f64 {
@@ -145,6 +187,9 @@ impl Model<'_> {
         if let Some(number) = shape.points.iter().position(|p| !p.is_finite()) {
             return Err(format!("its point {} has a coordinate that is no number", number + 1));
         }
+        if let Some(number) = shape.points.iter().position(|p| self.is_too_far(*p)) {
+            return Err(format!("its point {} is too far from the model", number + 1));
+        }
         let count = shape.points.len();
         if count > MOST_POINTS {
             notes.push(format!("has {count} points; only the first {MOST_POINTS} are drawn"));
@@ -171,6 +216,9 @@ impl Model<'_> {
         };
         if !anchor.is_finite() {
             return Err("its point has a coordinate that is no number".to_owned());
+        }
+        if self.is_too_far(anchor) {
+            return Err("its point is too far from the model".to_owned());
         }
         let text = Text::new(&shape.text);
         notes.extend(text.fault());
