@@ -9,11 +9,13 @@ still_life=assets/models/still_life.glb
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
+size=1000,1000
+
 draw() { # draw NAME MODEL ARGUMENTS...
 	name=$1
 	model=$2
 	shift 2
-	target/release/hachure render "$model" --output "screenshots/$name.png" --resolution 1000,1000 --samples 64 "$@"
+	target/release/hachure render "$model" --output "screenshots/$name.png" --resolution "$size" --samples 64 "$@"
 	echo "screenshots/$name.png"
 }
 
@@ -94,6 +96,45 @@ echo screenshots/toon_borders.png
 draw blueprint "$crank" --style blueprint
 draw blueprint_temple assets/models/temple.glb --style blueprint --object-style '/temple/statues*=technical-illustration' \
 	--set blueprint.layers=16 --set 'blueprint.opacity=0.03' --camera-azimuth-angle 35 --camera-elevation-angle 35
+
+# What each depth layer is drawn from: depth, normals and edge map (Blueprints paper, Fig. 4).
+for buffer in depth normals edge_map; do
+	for layer in 1 2 3 4 5; do
+		target/release/hachure render "$crank" --output "$work/$buffer.$layer.png" --resolution 400,400 \
+			--set edges.mode=paper --set "view.show=$buffer" --set "view.layer=$layer"
+	done
+	convert "$work/$buffer".[1-5].png +append "$work/$buffer.png"
+done
+convert "$work/depth.png" "$work/normals.png" "$work/edge_map.png" -append screenshots/blueprint_layers.png
+echo screenshots/blueprint_layers.png
+
+# Depth masking: everything before the statues, and nothing behind them (Fig. 7).
+draw blueprint_mask assets/models/temple.glb --style blueprint --mask '/temple/statues/*' \
+	--set blueprint.layers=24 --set blueprint.beyond=false --camera-azimuth-angle -20 --camera-elevation-angle 25
+
+# Blueprints on other papers, and as a wire frame.
+draw blueprint_white_on_blue "$crank" --style blueprint-white-on-blue
+draw blueprint_vellum "$crank" --style blueprint-vellum
+draw wireframe "$crank" --style wireframe
+# A building in plan and from the side, at the same scale on paper (Blueprints paper, Fig. 8).
+for side in top right; do
+	[ "$side" = top ] && size=760,1340 || size=1340,760
+	draw "temple_$side" assets/models/temple.glb --style blueprint --look-from "$side" --camera-orthographic \
+		--scale 1:400 --dpi 160 --set blueprint.layers=32 --set blueprint.opacity=0.02 --set view.scale_bar=true
+done
+size=1000,1000
+
+# Ways to a hidden chamber: a red box and red arrows among blueprints, in perspective and from above (Fig. 9).
+paths() { # paths NAME ARGUMENTS...
+	name=$1
+	shift
+	target/release/hachure render screenshots/temple_paths.hachure --output "screenshots/$name.png" --samples 64 \
+		--style blueprint --set blueprint.layers=24 --set blueprint.opacity=0.03 "$@"
+	echo "screenshots/$name.png"
+}
+paths temple_paths --resolution 1200,840 --camera-azimuth-angle -50 --camera-elevation-angle 35
+paths temple_paths_plan --resolution 1200,660 --camera-orthographic --camera-position=0,100,2 \
+	--camera-focal-point=0,0,2 --camera-view-up=-1,0,0 --camera-view-height 42
 
 # Shadows in each technique.
 for style in plain gooch comic engraving newspaper; do

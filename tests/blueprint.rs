@@ -512,3 +512,127 @@ fn a_click_means_the_nearest_of_blueprints_and_surfaces() {
     session.renderer().gpu().wait().unwrap();
     assert_eq!(session.renderer().poll_pick().unwrap().node, Some(0));
 }
+
+/// A cube alone, its lines black on white without fading, without fill.
+fn outlined() -> Opened {
+    let mut opened = blueprint(opened(
+        &scene(vec![object("cube", primitives::cube(1.0), DMat4::IDENTITY)]),
+        DVec3::new(0.5, 0.4, 1.0),
+    ));
+    for (key, value) in [
+        ("view.background", "#ffffff"),
+        ("blueprint.opacity", "0"),
+        ("blueprint.by_layer", "0"),
+        ("blueprint.by_distance", "0"),
+        ("blueprint.near", "#000000"),
+        ("edges.profile.width", "16"),
+        ("edges.inner.width", "16"),
+    ] {
+        set(&mut opened, key, value);
+    }
+    opened
+}
+
+#[test]
+fn a_threshold_rejects_faint_ink_and_fills_all_other() {
+    let mut session = session();
+    let mut opened = outlined();
+    // Inner edges of half the ink, and soft rims of both.
+    set(&mut opened, "edges.inner.strength", "0.5");
+    let soft = common::image(&mut session, &opened, 96);
+    let is_pure = |p: &image::Rgba<u8>| p.0[0] == 0 || p.0[0] == 255;
+    assert!(soft.pixels().filter(|p| !is_pure(p)).count() > 200);
+    for (threshold, with_inner) in [("0.3", true), ("0.7", false)] {
+        set(&mut opened, "blueprint.threshold", threshold);
+        let hard = common::image(&mut session, &opened, 96);
+        let limit: f64 = threshold.parse().unwrap();
+        for (a, b) in soft.pixels().zip(hard.pixels()) {
+            assert!(is_pure(b), "{b:?}");
+            // The ink of a single line; where several layers have some, the sum may pass where none of them does.
+            let linear = (f64::from(a.0[0]) / 255.0 + 0.055) / 1.055;
+            let ink = 1.0 - linear.powf(2.4);
+            if ink < limit - 0.02 {
+                assert_eq!(b.0[0], 255, "ink {ink}");
+            }
+        }
+        let black = inked(&hard);
+        set(&mut opened, "edges.inner.show", "false");
+        let profile = inked(&common::image(&mut session, &opened, 96));
+        set(&mut opened, "edges.inner.show", "true");
+        assert_eq!(with_inner, black > profile + 100, "{threshold}: {black} and {profile} of profile edges");
+    }
+}
+
+#[test]
+fn a_class_with_a_colour_of_its_own_keeps_it_in_a_blueprint() {
+    let mut session = session();
+    let mut opened = outlined();
+    let count = |session: &mut Session, opened: &Opened, is: fn([u8; 4]) -> bool| {
+        common::image(session, opened, 96).pixels().filter(|p| is(p.0)).count()
+    };
+    let green = |[r, g, b, _]: [u8; 4]| g > 100 && r < 60 && b < 60;
+    let black = |[r, g, b, _]: [u8; 4]| r < 30 && g < 30 && b < 30;
+    assert_eq!(count(&mut session, &opened, green), 0);
+    let all = count(&mut session, &opened, black);
+    set(&mut opened, "edges.ridge.color", "#00c000");
+    let (ridges, others) = (count(&mut session, &opened, green), count(&mut session, &opened, black));
+    assert!(ridges > 100 && others > 100 && ridges + others <= all + 40, "{ridges} + {others} of {all}");
+    // It fades as all lines do.
+    set(&mut opened, "blueprint.far", "#ffffff");
+    set(&mut opened, "blueprint.by_layer", "1");
+    set(&mut opened, "blueprint.from", "2");
+    assert_eq!(count(&mut session, &opened, green), 0);
+}
+
+#[test]
+fn the_paper_is_that_of_the_whole_drawings_style_unless_the_view_has_its_own() {
+    let mut session = session();
+    let mut opened = outlined();
+    let corner = |session: &mut Session, opened: &Opened| {
+        common::image(session, opened, 32).get_pixel(0, 0).0[..3].to_vec()
+    };
+    set(&mut opened, "paper", "#204060");
+    assert_eq!(corner(&mut session, &opened), [255; 3]);
+    opened.document.set("view.background", &Value::Inherit).unwrap();
+    assert_eq!(corner(&mut session, &opened), [0x20, 0x40, 0x60]);
+    set_for(&mut opened, 0, "paper", "#ff0000");
+    assert_eq!(corner(&mut session, &opened), [0x20, 0x40, 0x60]);
+}
+
+#[test]
+fn a_buffer_is_shown_of_any_layer() {
+    let mut session = session();
+    // Depth is shown from black (near) to white (far, and nothing).
+    let sheets = [(0.4, 1.0), (0.0, 2.0), (-0.4, 3.0)];
+    let objects = sheets.map(|(z, side)| object("sheet", primitives::plane(side), at(z)));
+    let mut opened = opened(&scene(objects.into()), DVec3::Z);
+    opened.document.camera = opened.document.camera.map(|c| c.with_orthographic(true));
+    let shown = |session: &mut Session, opened: &mut Opened, show: &str, layer: u32| {
+        set(opened, "view.show", show);
+        set(opened, "view.layer", &layer.to_string());
+        common::image(session, opened, 96)
+    };
+    let depths: Vec<u8> = (1..=4)
+        .map(|layer| shown(&mut session, &mut opened, "depth", layer).get_pixel(48, 48).0[0])
+        .collect();
+    assert!(depths[0] < 5 && depths[1].abs_diff(128) < 5 && depths[2] > 250, "{depths:?}");
+    let objects: Vec<_> =
+        (1..=4).map(|layer| shown(&mut session, &mut opened, "objects", layer).get_pixel(48, 48).0).collect();
+    assert!(objects[0] != objects[1] && objects[1] != objects[2], "{objects:?}");
+    // Behind the last one there is nothing, whatever was shown before.
+    for show in ["objects", "edge_map", "depth", "normal_operator"] {
+        let nothing = shown(&mut session, &mut opened, show, 4);
+        assert!(nothing.pixels().all(|p| p.0[..3] == [255; 3]), "{show}");
+    }
+    // The outline of the middle sheet is in the second layer, nearer to the picture's middle than that of the last one.
+    let edges = shown(&mut session, &mut opened, "edge_map", 2);
+    let row: Vec<usize> =
+        (0..96).filter(|x| edges.get_pixel(*x, 48).0[..3] != [255; 3]).map(|x| x as usize).collect();
+    assert!(!row.is_empty() && row[0] > 4, "{row:?}");
+    let first = shown(&mut session, &mut opened, "edge_map", 1);
+    assert!(first != edges);
+    set(&mut opened, "view.show", "picture");
+    let picture = common::image(&mut session, &opened, 96);
+    set(&mut opened, "view.layer", "1");
+    assert!(picture == common::image(&mut session, &opened, 96), "the picture is made of all layers");
+}

@@ -40,6 +40,8 @@ fn mistakes_end_with_the_right_code_and_a_message_that_helps() {
         (&["--set", "gooch.alpha"], 2, "write a parameter"),
         (&["--object-style", "rodd=gooch"], 1, "no object matches `rodd`"),
         (&["--hide", "["], 1, "is no pattern"),
+        (&["--mask", "statue*"], 1, "no object matches `statue*`"),
+        (&["--set", "blueprint.fraction=1.5"], 1, "out of range: 0 to 1"),
         (&["--resolution", "0,5"], 2, "is no size"),
         (&["--resolution", "60000,60000"], 1, "allows at most"),
         (&["--camera-position", "1,2"], 2, "is no vector"),
@@ -52,6 +54,12 @@ fn mistakes_end_with_the_right_code_and_a_message_that_helps() {
         (&["--samples", "many"], 2, "`many` is no number of samples"),
         (&["--samples=-4"], 2, "is no number of samples"),
         (&["--background", "red"], 2, "is no colour"),
+        (&["--look-from", "side"], 2, "use one of front, back"),
+        (&["--scale", "1:50"], 2, "--camera-orthographic"),
+        (&["--camera-orthographic", "--scale", "50"], 2, "such as 1:50"),
+        (&["--camera-orthographic", "--scale", "1:0"], 2, "such as 1:50"),
+        (&["--unit", "parsec"], 2, "use one of mm, cm"),
+        (&["--dpi", "0"], 2, "number above 0"),
     ];
     for (args, code, message) in cases {
         // A later --resolution would clash with the one that `render` gives.
@@ -157,7 +165,7 @@ fn info_styles_and_bench_print_what_they_promise() {
     let parameter = |key: &str| parameters.iter().find(|p| p["key"] == key).unwrap();
     let threshold = parameter("edges.profile.threshold");
     assert!(threshold["range"]["hard"].is_array() && !threshold["help"].as_str().unwrap().is_empty());
-    assert_eq!(threshold["when"]["edges.mode"], "paper");
+    assert_eq!(threshold["when"]["edges.mode"][0], "paper");
     let width = parameter("edges.silhouette.width");
     assert_eq!((&width["default"], &width["unit"]), (&"inherit".into(), &"px".into()));
     assert_eq!(width["inherits"], "edges.profile.width");
@@ -215,6 +223,61 @@ fn camera_flags_mean_what_they_say() {
 }
 
 #[test]
+fn a_scale_is_true_on_paper_and_seen_from_straight_above() {
+    let folder = tempfile::tempdir().unwrap();
+    // 2 units wide and 1 deep, on a post that must not be seen past it.
+    let model = folder.path().join("table.obj");
+    std::fs::write(
+        &model,
+        "v -1 0 -.5\nv -1 0 .5\nv 1 0 .5\nv 1 0 -.5\nv -1 -9 -.5\nv 1 -9 -.5\nf 1 2 3 4\nf 1 4 6 5\n",
+    )
+    .unwrap();
+    let model = model.to_str().unwrap();
+    let plan = ["--look-from", "top", "--camera-orthographic", "--style", "plain", "--no-background"];
+    let scaled = [&plan[..], &["--scale", "1:10", "--dpi", "50.8"]].concat();
+    let (without_unit, _) = render(folder.path(), "x.png", model, &scaled);
+    assert!(String::from_utf8_lossy(&without_unit.stderr).contains("add --unit mm"));
+
+    // A centimetre is 20 px at 50.8 pixels per inch.
+    for (unit, factor) in [("cm", 0.1), ("mm", 0.01)] {
+        let scale = format!("1:{}", 10.0 * factor);
+        let args = [&plan[..], &["--scale", &scale, "--dpi", "50.8", "--unit", unit]].concat();
+        let (result, output) = render(folder.path(), "plan.png", model, &args);
+        assert!(result.status.success(), "{}", String::from_utf8_lossy(&result.stderr));
+        let image = image::open(&output).unwrap().into_rgba8();
+        let drawn: Vec<_> = image.enumerate_pixels().filter(|(.., p)| p.0[3] > 127).collect();
+        let side = |of: fn(u32, u32) -> u32| {
+            let at = || drawn.iter().map(|(x, y, _)| of(*x, *y));
+            at().max().unwrap() + 1 - at().min().unwrap()
+        };
+        assert_eq!((side(|x, _| x), side(|_, y| y)), (40, 20), "{unit}");
+        let reader = png::Decoder::new(std::io::BufReader::new(std::fs::File::open(&output).unwrap()));
+        let dims = reader.read_info().unwrap().info().pixel_dims.unwrap();
+        assert_eq!((dims.xppu, dims.yppu, dims.unit), (2000, 2000, png::Unit::Meter));
+    }
+
+    // Whoever asks for no scale gets no resolution written.
+    let (_, output) = render(folder.path(), "free.png", model, &plan);
+    let reader = png::Decoder::new(std::io::BufReader::new(std::fs::File::open(&output).unwrap()));
+    assert!(reader.read_info().unwrap().info().pixel_dims.is_none());
+}
+
+#[test]
+fn a_scale_bar_is_shown_in_parallel_views_only() {
+    let folder = tempfile::tempdir().unwrap();
+    let crank = crank();
+    let drawn = |name: &str, args: &[&str]| {
+        let (result, output) = render(folder.path(), name, &crank, args);
+        assert!(result.status.success(), "{}", String::from_utf8_lossy(&result.stderr));
+        std::fs::read(output).unwrap()
+    };
+    let bar = ["--set", "view.scale_bar=true"];
+    let parallel = ["--camera-orthographic"];
+    assert_eq!(drawn("a.png", &bar), drawn("b.png", &[]));
+    assert_ne!(drawn("c.png", &[&parallel[..], &bar].concat()), drawn("d.png", &parallel));
+}
+
+#[test]
 fn more_samples_are_smoother() {
     let folder = tempfile::tempdir().unwrap();
     let colors = |name: &str, args: &[&str]| {
@@ -255,4 +318,47 @@ fn the_crease_angle_smooths_files_without_normals() {
     };
     assert_eq!(picture("10"), picture("30"));
     assert!(picture("30") != picture("80"));
+}
+
+#[test]
+fn how_far_blueprints_were_peeled_and_what_that_uncovered_is_printed() {
+    let folder = tempfile::tempdir().unwrap();
+    let crank = crank();
+    let blueprints = |args: &[&str]| -> (serde_json::Value, serde_json::Value) {
+        let (result, _) = render(folder.path(), "x.png", &crank, &[args, &["--json"]].concat());
+        let printed: serde_json::Value = serde_json::from_str(&stdout(&result)).unwrap();
+        (printed["blueprints"].clone(), printed["warnings"].clone())
+    };
+    assert_eq!(blueprints(&["--style", "gooch"]).0, serde_json::json!([]));
+    let designated = ["--style", "blueprint", "--mask", "rod*", "--set"];
+    let masked = |setting: &str| {
+        blueprints(
+            &[&designated[..], &[setting, "--set", "blueprint.least=0", "--set", "blueprint.layers=64"]]
+                .concat(),
+        )
+    };
+    let (all, warnings) = masked("blueprint.fraction=1");
+    let mask = &all[0]["mask"];
+    assert_eq!(warnings, serde_json::json!([]));
+    assert_eq!(all[0]["ended_by"], "mask uncovered");
+    assert!(mask["pixels"].as_u64() > Some(50) && mask["uncovered"] == mask["pixels"], "{all}");
+    assert_eq!(mask["reached"], 1.0);
+    let layers = all[0]["layers"].as_u64().unwrap() as usize;
+    assert!(layers > 1);
+    for counts in [&all[0]["pixels"], &mask["uncovered_by_layer"]] {
+        assert_eq!(counts.as_array().unwrap().len(), layers);
+    }
+    let (fewer, _) = masked("blueprint.fraction=0");
+    assert_eq!(fewer[0]["layers"], 1);
+    let (result, _) = render(
+        folder.path(),
+        "x.png",
+        &crank,
+        &[&designated[..], &["blueprint.fraction=1", "--set", "blueprint.layers=1"]].concat(),
+    );
+    let text = String::from_utf8_lossy(&result.stderr);
+    assert!(
+        result.status.success() && text.contains("of what is designated is uncovered after 1 layer"),
+        "{text}"
+    );
 }

@@ -10,6 +10,7 @@ use std::sync::Arc;
 
 use common::{opened, scene, session, set, surfels};
 use glam::{DMat4, DQuat, DVec3};
+use hachure::document::Role;
 use hachure::export::Session;
 use hachure::export::session::Opened;
 use hachure::geometry::{Mesh, primitives};
@@ -155,7 +156,7 @@ fn changes() -> Vec<Change> {
 fn changes_with(technique: &str) -> Vec<Change> {
     let mut all = changes();
     all.retain(|change| {
-        let of_it = |c: &Condition| c.key != "technique" || c.value == technique;
+        let of_it = |c: &Condition| c.key != "technique" || c.values.contains(&technique);
         change.key != "technique" && !change.key.starts_with("edges.") && change.conditions.iter().all(of_it)
     });
     all
@@ -165,7 +166,7 @@ fn changes_with(technique: &str) -> Vec<Change> {
 fn with_conditions(opened: &Opened, node: NodeId, conditions: &[Condition]) -> Opened {
     let mut opened = opened.clone();
     for condition in conditions {
-        set_for(&mut opened, node, condition.key, &Value::from(condition.value));
+        set_for(&mut opened, node, condition.key, &Value::from(condition.values[0]));
     }
     opened
 }
@@ -229,25 +230,33 @@ fn the_lines_of_one_object_change_no_pixel_beyond_their_reach() {
     let surfaces: Vec<_> = Technique::VARIANTS.iter().copied().filter(|t| *t != "blueprint").collect();
     let all = composed(&mut session, &surfaces);
     let of_a = pixels_of(&mut session, &all, A);
+    // Where it would be seen if nothing hid it: hidden lines are there.
+    let mut alone = all.clone();
+    for node in &all.scene.nodes[WALL..] {
+        alone.document.node_mut(&node.path).visible = Some(false);
+    }
+    let whole_a = pixels_of(&mut session, &alone, A);
     // Reference pixels: the widest lines lie wholly outside.
     let px = |width: f32| width * SIDE as f32 / 1080.0;
     for (mode, width) in [("exact", 2.5_f32), ("exact", 32.0), ("paper", 2.5)] {
         // Where a line of the object covers another one's spine, that one's width is missing beside it.
-        let near_a = widened(&of_a, px(64.0) + px(width) * 0.5 + 1.5);
+        let near = |pixels: &[bool]| widened(pixels, px(64.0) + px(width) * 0.5 + 1.5);
+        let (near_a, near_whole_a) = (near(&of_a), near(&whole_a));
         let mut all = all.clone();
         set(&mut all, "edges.mode", mode);
         set(&mut all, "edges.profile.width", &width.to_string());
         let mut changed = 0;
         for Change { key, conditions, values } in changes().iter().filter(|c| c.key.starts_with("edges.")) {
             let before = with_conditions(&all, A, conditions);
+            let near_a = if key.starts_with("edges.hidden.") { &near_whole_a } else { &near_a };
             let first = drawn(&mut session, &before);
             for value in values {
                 let mut after = before.clone();
                 set_for(&mut after, A, key, value);
                 let after = drawn(&mut session, &after);
-                let (inside, outside) = difference(&first, &after, &near_a);
+                let (inside, outside) = difference(&first, &after, near_a);
                 // Thin lines are found in another way than wide ones, and single pixels then differ by a shade.
-                let shades = beyond(&first, &after, &near_a);
+                let shades = beyond(&first, &after, near_a);
                 assert!(
                     shades.len() <= 2 && shades.iter().all(|shade| *shade <= 8),
                     "beside {mode}, {width} px: {key} = {value} changes another object at {outside:?}: {shades:?}"
@@ -264,7 +273,7 @@ fn in_a_mirror_a_parameter_changes_only_the_pixels_where_its_object_is_seen() {
     let mut session = session();
     let mut all = composed(&mut session, Technique::VARIANTS);
     let scene = Arc::clone(&all.scene);
-    all.document.set_mirror(&scene, &[WALL], true);
+    all.document.set_role(&scene, &[WALL], Role::Mirror, true);
     // Blueprints of equal style leave out the lines that they have in common: this one is by itself.
     let alone = B + Technique::VARIANTS.iter().position(|technique| *technique == "blueprint").unwrap();
     set_for(&mut all, alone, "blueprint.by_layer", &Value::Number(0.3));

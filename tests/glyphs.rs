@@ -176,7 +176,7 @@ fn glyphs_have_styles_of_their_own() {
     );
     opened.document.node_mut("glyphs/box").style =
         Some(Style { technique: Technique::Blank, ..Style::default() });
-    let paper = opened.document.view.background.0;
+    let paper = opened.document.paper().0;
     assert_eq!(middle(&picture(&mut session, &opened)).0[..3], paper);
     opened.document.rename_glyph(0, "chamber/1");
     assert_eq!(opened.document.glyphs[0].path(), format!("{FOLDER}chamber-1"));
@@ -204,7 +204,7 @@ fn picking_a_glyph_gives_the_node_behind_those_of_the_files() {
 /// A black label on a red plate, before and behind a cube.
 fn labelled(in_front: bool, unit: Unit, anchor: DVec3) -> Opened {
     let mut opened = nested("plain");
-    opened.document.view.background = Color([255, 0, 0]);
+    opened.document.view.background = Some(Color([255, 0, 0]));
     let mut shape = Shape::label("HI".to_owned(), Anchor::Point(anchor));
     if let Shape::Label(label) = &mut shape {
         (label.in_front, label.unit, label.offset, label.size) = (in_front, unit, [0.0, 0.0], 200.0);

@@ -6,8 +6,8 @@ mod common;
 
 use common::{image, scene, session, set};
 use glam::{DMat4, DQuat, DVec3};
-use hachure::document::Document;
 use hachure::document::lighting::Source;
+use hachure::document::{Document, Role};
 use hachure::export::Session;
 use hachure::export::session::Opened;
 use hachure::geometry::{Mesh, Plane, primitives};
@@ -66,7 +66,7 @@ fn seen(scene: &Arc<Scene>, camera: Camera) -> Opened {
 /// A perfect mirror.
 fn with_mirror(mut opened: Opened, name: &str) -> Opened {
     let node = opened.scene.nodes.iter().position(|n| n.name == name).unwrap();
-    opened.document.set_mirror(&Arc::clone(&opened.scene), &[node], true);
+    opened.document.set_role(&Arc::clone(&opened.scene), &[node], Role::Mirror, true);
     set(&mut opened, "mirror.reflectivity", "1");
     opened
 }
@@ -218,7 +218,7 @@ fn what_is_not_flat_is_drawn_and_said() {
     ]);
     let plain = seen(&scene, camera());
     let mut mirrors = plain.clone();
-    mirrors.document.set_mirror(&scene, &[0, 1], true);
+    mirrors.document.set_role(&scene, &[0, 1], Role::Mirror, true);
     assert!(drawn(&mut session, &plain) == drawn(&mut session, &mirrors));
     let faults: Vec<_> = mirrors.document.mirror_faults(&scene).iter().map(ToString::to_string).collect();
     assert_eq!(

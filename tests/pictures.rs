@@ -20,11 +20,28 @@ const INNER_4: &str = "edges.inner.width=4";
 const PROFILE_16: &str = "edges.profile.width=16";
 const INNER_16: &str = "edges.inner.width=16";
 
-/// Name, model and further arguments of every golden picture.
+/// Name, model (or a document beside the pictures) and further arguments of every golden picture.
 const PICTURES: &[(&str, &str, &[&str])] = &[
     ("gooch_crank", "crank", &["--style", "gooch"]),
     ("gooch_ogre", "ogre", &["--style", "gooch"]),
     ("blueprint_crank", "crank", &["--style", "blueprint"]),
+    ("blueprint_white_on_blue_crank", "crank", &["--style", "blueprint-white-on-blue"]),
+    ("blueprint_vellum_crank", "crank", &["--style", "blueprint-vellum"]),
+    ("wireframe_crank", "crank", &["--style", "wireframe"]),
+    (
+        "blueprint_mask_temple",
+        "temple",
+        &[
+            "--style",
+            "blueprint",
+            "--mask",
+            "/temple/statues/*",
+            "--set",
+            "blueprint.beyond=false",
+            "--camera-azimuth-angle=-20",
+            "--camera-elevation-angle=25",
+        ],
+    ),
     ("comic_ogre", "ogre", &["--style", "comic"]),
     ("two_tone_crank", "crank", &["--style", "two-tone"]),
     ("plain_crank", "crank", &["--style", "plain"]),
@@ -120,6 +137,7 @@ const PICTURES: &[(&str, &str, &[&str])] = &[
         "crank",
         &["--camera-orthographic", "--camera-azimuth-angle", "0", "--camera-elevation-angle", "90"],
     ),
+    ("glyphs", "glyphs.hachure", &["--style", "blueprint", "--object-style", "flywheel=plain"]),
     ("transparent_ogre", "ogre", &["--no-background", "--camera-azimuth-angle=-40"]),
 ];
 
@@ -128,7 +146,11 @@ fn folder() -> PathBuf {
 }
 
 fn render(model: &str, args: &[&str], output: &Path) {
-    let model = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("assets/models/{model}.glb"));
+    let model = if model.ends_with(".hachure") {
+        folder().join(model)
+    } else {
+        Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("assets/models/{model}.glb"))
+    };
     let result = Command::new(env!("CARGO_BIN_EXE_hachure"))
         .arg("render")
         .arg(model)

@@ -198,7 +198,7 @@ fn only_what_changed_runs_again() {
     assert_eq!(runs(&|_| {}), [""; 0]);
     assert_eq!(runs(&|d| d.style.edges.profile.threshold = 0.5), ["edge map", "surface", "image"]);
     assert_eq!(runs(&|d| d.style.gooch.alpha = 0.1), ["surface", "image"]);
-    assert_eq!(runs(&|d| d.view.background = "#ff0000".parse().unwrap()), ["image"]);
+    assert_eq!(runs(&|d| d.view.background = Some("#ff0000".parse().unwrap())), ["image"]);
     assert_eq!(runs(&|d| d.camera = d.camera.map(|c| c.orbited(DVec3::Y, 1.0, 0.0))), [""; 0]);
     // Nothing else has lines here, so there is no edge map any more.
     assert_eq!(runs(&|d| d.node_mut("/cube").enhanced = Some(false)), ["g-buffer", "surface", "image"]);
@@ -237,7 +237,7 @@ fn nothing_visible_is_empty_paper_and_a_picture_of_one_pixel_is_drawn() {
     let mut opened = opened(&scene, DVec3::Z);
     assert_eq!(image(&mut session, &opened, 1).dimensions(), (1, 1));
     opened.document.node_mut("/cube").visible = Some(false);
-    let paper = opened.document.view.background.0;
+    let paper = opened.document.paper().0;
     assert!(image(&mut session, &opened, 32).pixels().all(|p| p.0[..3] == paper));
     let empty = common::opened(&Arc::default(), DVec3::Z);
     assert!(image(&mut session, &empty, 32).pixels().all(|p| p.0[..3] == paper));

@@ -176,7 +176,7 @@ fn any_change_begins_a_new_picture_without_ghosts() {
         ("lines", &|d| d.style.edges.profile.show = true),
         ("visibility", &|d| d.node_mut("/cube").visible = Some(false)),
         ("light", &|d| d.lighting.key.show = false),
-        ("paper", &|d| d.view.background.0 = [1, 2, 3]),
+        ("paper", &|d| d.view.background = Some(hachure::style::Color([1, 2, 3]))),
         ("nothing at all", &|_| {}),
     ];
     for (what, change) in changes {

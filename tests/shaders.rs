@@ -13,11 +13,13 @@ use hachure::render::effects::mirror::MirrorUniform;
 use hachure::render::effects::surface::SurfaceUniform;
 use hachure::render::effects::toon::ToonUniform;
 use hachure::render::frame_uniform::{FrameUniform, LightUniform};
+use hachure::render::passes::depth_mask::Masked;
 use hachure::render::passes::edge_style::{EdgeUniform, LineUniform};
 use hachure::render::passes::gbuffer::DrawUniform;
 use hachure::render::passes::peel::Peeled;
 use hachure::render::passes::shadow::{LightViewUniform, ShadowLightUniform};
 use hachure::render::passes::shadow_map::ShadowDraw;
+use hachure::render::scale_bar::ScaleBarUniform;
 use wgpu::naga::{TypeInner, front::wgsl};
 
 /// Byte offsets of a WGSL struct's members and its size.
@@ -40,15 +42,18 @@ macro_rules! same_layout {
 #[test]
 fn rust_and_wgsl_agree_on_every_uniform() {
     same_layout!(FrameUniform, 16, "passes/resolve.wgsl", "Frame");
+    same_layout!(ScaleBarUniform, 3, "passes/resolve.wgsl", "ScaleBar");
     same_layout!(LightUniform, 3, "passes/resolve.wgsl", "Light");
     same_layout!(DrawUniform, 6, "passes/gbuffer.wgsl", "Draw");
     same_layout!(BlueprintUniform, 6, "effects/blueprint.wgsl", "Blueprint");
-    same_layout!(Peeled, 5, "effects/blueprint.wgsl", "Peeled");
-    same_layout!(Peeled, 5, "passes/count.wgsl", "Counted");
+    same_layout!(Peeled, 11, "effects/blueprint.wgsl", "Peeled");
+    same_layout!(Peeled, 11, "passes/count.wgsl", "Counted");
+    same_layout!(Masked, 3, "effects/blueprint.wgsl", "Masked");
+    same_layout!(Masked, 3, "passes/depth_mask.wgsl", "Counted");
     same_layout!(MaterialUniform, 6, "passes/gbuffer.wgsl", "Material");
     same_layout!(LineUniform, 5, "passes/lines.wgsl", "LineStyle");
     same_layout!(EdgeUniform, 22, "passes/lines.wgsl", "EdgeStyle");
-    same_layout!(SurfaceUniform, 3, "effects/surface.wgsl", "SurfaceStyle");
+    same_layout!(SurfaceUniform, 4, "effects/surface.wgsl", "SurfaceStyle");
     same_layout!(GoochUniform, 11, "effects/surface.wgsl", "GoochStyle");
     same_layout!(MirrorUniform, 4, "effects/mirror.wgsl", "Mirror");
     same_layout!(ShadowDraw, 2, "passes/shadow_map.wgsl", "ShadowDraw");

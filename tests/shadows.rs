@@ -295,7 +295,7 @@ fn only_the_shadows_that_changed_are_found_again() {
     );
     assert_eq!(runs(&|d| d.lighting.shadow_density = 0.5), ["surface", "image"]);
     assert_eq!(runs(&|d| d.lighting.shadow_softness = 2.0), ["shadow", "surface", "image"]);
-    assert_eq!(runs(&|d| d.view.background = "#ff0000".parse().unwrap()), ["image"]);
+    assert_eq!(runs(&|d| d.view.background = Some("#ff0000".parse().unwrap())), ["image"]);
     // Without shadows nothing of them is drawn.
     let off: &dyn Fn(&mut Document) = &|d| d.lighting.shadows = false;
     assert_eq!(runs(off), ["surface", "image"]);

@@ -7,8 +7,16 @@ struct Peeled {
     has_ended: u32,
     // Layers so far.
     layers: u32,
-    // Pixels of the layer that is counted.
+    // Pixels of the layer that is counted, and of the depth mask that pass the depth test against it.
     covered: u32,
-    // Pixels of each layer.
+    uncovered: u32,
+    // A layer that leaves this share of the depth mask uncovered, 0 to 1, ends it too; 1: one has.
+    fraction: f32,
+    has_uncovered: u32,
+    // Pixels of the depth mask, and those of them behind opaque surfaces.
+    masked: u32,
+    hidden: u32,
+    // Of each layer: its pixels, and those of the mask that pass.
     pixels: array<u32, 64>,
+    passed: array<u32, 64>,
 }

@@ -1,17 +1,20 @@
 // A depth layer of a blueprint as a depth sprite: lines over a fill, tested against the surfaces that are opaque (blueprints
 // paper, section 4.2).
 #import passes/lines.wgsl
+#import common/depth_mask.wgsl
+#import common/ordered.wgsl
 #import common/peeled.wgsl
 
 // Twin: `BlueprintUniform` in src/render/effects/blueprint.rs.
 struct Blueprint {
     // Linear colours.
-    near: vec3<f32>,
-    by_layer: f32,
     far: vec3<f32>,
-    by_distance: f32,
+    by_layer: f32,
     fill: vec3<f32>,
     opacity: f32,
+    by_distance: f32,
+    // Ink below it is left out, and all other is full; 0: ink stays as it is.
+    threshold: f32,
 }
 
 // The opaque surfaces, as `geometry_tex` has those of the layer.
@@ -20,7 +23,10 @@ struct Blueprint {
 @group(1) @binding(8) var<storage, read> peeled: Peeled;
 // Where nearer layers have lines; see passes/repeated.wgsl.
 @group(1) @binding(9) var seen_tex: texture_2d<u32>;
+@group(1) @binding(10) var<storage, read> mask: Masked;
 
+// Whether what lies farther than the depth mask is left out.
+override WITHOUT_BEYOND: bool = false;
 // Whether ink of the papers' operators is left out where nearer layers have some.
 override WITHOUT_REPEATED: bool = false;
 
@@ -32,6 +38,12 @@ fn faded(depth: f32) -> f32 {
     // A power of 0 is undefined.
     let left = pow(max(1.0 - blueprints[0].by_layer, 1e-6), before) * (1.0 - blueprints[0].by_distance * distance);
     return 1.0 - left;
+}
+
+// Whether a depth is left out: the mask hides what lies behind it at its own pixels, and farther than all of it nothing is
+// drawn anywhere.
+fn is_beyond(depth: f32) -> bool {
+    return WITHOUT_BEYOND && mask.pixels != 0u && depth > unordered(mask.farthest);
 }
 
 fn surface_at(px: vec2<i32>) -> Surfel {
@@ -46,15 +58,25 @@ fn fs_lines(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     if WITH_PAPER && WITHOUT_REPEATED && textureLoad(seen_tex, px, 0).x != 0u {
         return vec4(0.0);
     }
-    let color = mix(blueprints[0].near, blueprints[0].far, faded(line.depth));
-    return vec4(color, 1.0) * line.ink.a;
+    if is_beyond(line.depth) {
+        return vec4(0.0);
+    }
+    var ink = line.ink;
+    if blueprints[0].threshold > 0.0 {
+        if ink.a < blueprints[0].threshold {
+            discard;
+        }
+        ink /= ink.a;
+    }
+    return vec4(mix(ink.rgb, blueprints[0].far * ink.a, faded(line.depth)), ink.a);
 }
 
 @fragment
 fn fs_fill(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     let px = vec2<i32>(position.xy);
     let surface = surface_at(px);
-    if surface.object != 0u && surface.depth < unpack_surfel(geometry_at(px)).depth {
+    let depth = unpack_surfel(geometry_at(px)).depth;
+    if (surface.object != 0u && surface.depth < depth) || is_beyond(depth) {
         discard;
     }
     return vec4(blueprints[0].fill, 1.0) * blueprints[0].opacity;

@@ -13,6 +13,10 @@ const UNLIT: u32 = 2u;
 const GOOCH: u32 = 3u;
 const TOON: u32 = 4u;
 const HALFTONE: u32 = 5u;
+const DESIGNATED: u32 = 6u;
+
+// A surface seen edge on has this share of its highlight colour: it is lit from the eye.
+const HIGHLIGHT_RIM: f32 = 0.55;
 
 // Which techniques any object uses.
 override WITH_PLAIN: bool = true;
@@ -21,6 +25,8 @@ override WITH_GOOCH: bool = true;
 // Twin: `SurfaceUniform` in src/render/effects/surface.rs.
 struct SurfaceStyle {
     gooch: GoochStyle,
+    // Linear colour of what stands out among blueprints.
+    highlight: vec3<f32>,
     ambient: f32,
     technique: u32,
 }
@@ -49,6 +55,8 @@ fn fs_main(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
                 shade = toon(px, s, base);
             } else if WITH_HALFTONE && style.technique == HALFTONE {
                 shade = halftone(px, s, base, pos_view);
+            } else if style.technique == DESIGNATED {
+                shade = style.highlight * mix(HIGHLIGHT_RIM, 1.0, max(dot(s.normal, towards_eye(pos_view)), 0.0));
             }
             color = vec4(shade, 1.0);
         }

@@ -1,55 +1,99 @@
-// How many pixels a layer covers, and whether peeling goes on (blueprints paper, section 4.2): occlusion queries would count
-// overdraw, and only the processor could act on them.
+// How many pixels a layer covers, how much of the depth mask it leaves uncovered, and whether peeling goes on (blueprints
+// paper, sections 4.2 and 4.3): occlusion queries would count overdraw, and only the processor could act on them.
 #import common/frame.wgsl
+#import common/counted.wgsl
+#import common/depth_mask.wgsl
 
-// As in common/peeled.wgsl, but for the count.
-struct Counted {
-    least: u32,
-    has_ended: u32,
-    layers: u32,
-    covered: atomic<u32>,
-    pixels: array<u32, 64>,
-}
+// Whether there is a depth mask.
+override WITH_MASK: bool = false;
 
 // 0 where the layer has nothing.
 @group(1) @binding(0) var order_tex: texture_2d<u32>;
-@group(1) @binding(1) var<storage, read_write> peeled: Counted;
+// Depths of the layer and of the mask, reversed.
+@group(1) @binding(1) var layer_depth_tex: texture_depth_2d;
+@group(1) @binding(2) var mask_depth_tex: texture_depth_2d;
+@group(1) @binding(3) var<storage, read_write> peeled: Counted;
 // Arguments of the draws and dispatches that stop with it.
-@group(1) @binding(2) var<storage, read_write> gate: array<u32>;
+@group(1) @binding(4) var<storage, read_write> gate: array<u32>;
+@group(1) @binding(5) var<storage, read> mask: Masked;
 
 var<workgroup> covered: atomic<u32>;
+var<workgroup> uncovered: atomic<u32>;
+
+// Whether a pixel of the mask, as a depth sprite, passes the depth test against the layer. Where a layer has nothing, its
+// depth is 0, and all pass.
+fn is_uncovered(px: vec2<u32>) -> bool {
+    let depth = textureLoad(mask_depth_tex, px, 0);
+    return depth > 0.0 && depth >= textureLoad(layer_depth_tex, px, 0);
+}
 
 @compute @workgroup_size(16, 16)
 fn cs_count(
     @builtin(global_invocation_id) id: vec3<u32>,
     @builtin(local_invocation_index) index: u32,
 ) {
-    if all(id.xy < vec2<u32>(frame.size)) && textureLoad(order_tex, id.xy, 0).x != 0u {
-        atomicAdd(&covered, 1u);
+    if all(id.xy < vec2<u32>(frame.size)) {
+        if textureLoad(order_tex, id.xy, 0).x != 0u {
+            atomicAdd(&covered, 1u);
+        }
+        if WITH_MASK && is_uncovered(id.xy) {
+            atomicAdd(&uncovered, 1u);
+        }
     }
     workgroupBarrier();
     if index == 0u {
         atomicAdd(&peeled.covered, atomicLoad(&covered));
+        if WITH_MASK {
+            atomicAdd(&peeled.uncovered, atomicLoad(&uncovered));
+        }
     }
 }
 
+fn shut_gate(index: u32) {
+    for (var i = index; i < arrayLength(&gate); i += 64u) {
+        gate[i] = 0u;
+    }
+}
+
+// Before a layer is drawn: too few pixels end peeling before it.
 @compute @workgroup_size(64)
 fn cs_decide(@builtin(local_invocation_index) index: u32) {
-    let ends = peeled.has_ended == 1u || atomicLoad(&peeled.covered) < peeled.least;
+    let had_ended = peeled.has_ended == 1u;
+    let ends = had_ended || atomicLoad(&peeled.covered) < peeled.least;
     // All have read before one of them writes.
     storageBarrier();
     if ends {
-        for (var i = index; i < arrayLength(&gate); i += 64u) {
-            gate[i] = 0u;
-        }
+        shut_gate(index);
     }
-    if index != 0u || peeled.has_ended == 1u {
+    if index != 0u || had_ended {
         return;
     }
     peeled.pixels[peeled.layers] = atomicExchange(&peeled.covered, 0u);
+    peeled.passed[peeled.layers] = atomicExchange(&peeled.uncovered, 0u);
     if ends {
         peeled.has_ended = 1u;
     } else {
         peeled.layers += 1u;
+    }
+}
+
+// After a layer has been drawn: the first one with R >= fraction · Q is the last (Fig. 6). A mask that is not in the picture
+// ends nothing.
+@compute @workgroup_size(64)
+fn cs_uncovered(@builtin(local_invocation_index) index: u32) {
+    let went_on = peeled.has_ended == 0u && peeled.layers != 0u;
+    let passed = f32(peeled.passed[max(peeled.layers, 1u) - 1u]);
+    let ends = went_on && mask.pixels != 0u && passed >= peeled.fraction * f32(mask.pixels);
+    storageBarrier();
+    if ends {
+        shut_gate(index);
+    }
+    if index == 0u {
+        peeled.masked = mask.pixels;
+        peeled.hidden = mask.hidden;
+        if ends {
+            peeled.has_ended = 1u;
+            peeled.has_uncovered = 1u;
+        }
     }
 }

@@ -12,6 +12,12 @@
 // 1 where a segment is, 0.5 where it is a crease that is not drawn.
 @group(1) @binding(3) var mark_tex: texture_2d<f32>;
 
+// The regions of the two layers before this one, if it is a depth layer.
+@group(1) @binding(4) var before_tex: texture_2d<u32>;
+@group(1) @binding(5) var before_that_tex: texture_2d<u32>;
+
+// Whether a surface that goes on in one of them ends in this layer only because something before it does.
+override WITH_LAYERS_BEFORE: bool = false;
 // Whether what lies behind a plane is left out.
 override WITH_CUT: bool = false;
 
@@ -56,6 +62,13 @@ fn is_cut_off(q: vec2<i32>, plane: Plane, towards: vec2<i32>) -> bool {
     return dot(frame.cut, vec4(there, 1.0)) < 0.0;
 }
 
+// Whether a surface is found at a pixel in a nearer layer: where a solid ends, what lies behind it comes two layers nearer,
+// where a sheet ends, one.
+fn goes_on_nearer(px: vec2<i32>, region: u32) -> bool {
+    let q = clamp(px, vec2(0), vec2<i32>(frame.size) - 1);
+    return textureLoad(before_tex, q, 0).x == region || textureLoad(before_that_tex, q, 0).x == region;
+}
+
 // What lies between pixel `px` (surface `x`) and its neighbour; class 0: nothing that `x` has to draw.
 fn between(px: vec2<i32>, x: Surfel, own: u32, plane: Plane, towards: vec2<i32>) -> Spine {
     let q = px + towards;
@@ -71,6 +84,9 @@ fn between(px: vec2<i32>, x: Surfel, own: u32, plane: Plane, towards: vec2<i32>)
     let across = vec2(half.y, -half.x) * 2.0;
     let n = unpack_surfel(geometry_at(q));
     if n.object == 0u {
+        if WITH_LAYERS_BEFORE && goes_on_nearer(q, own) {
+            return none;
+        }
         return Spine(SILHOUETTE, half, across, true);
     }
     let other = plane_of(q, n.depth, n.face_normal);
@@ -80,6 +96,9 @@ fn between(px: vec2<i32>, x: Surfel, own: u32, plane: Plane, towards: vec2<i32>)
     let jump = step_px(abs(nearness_at(plane, vec2<f32>(towards)) - other.center), depth);
     let back = step_px(abs(nearness_at(other, -vec2<f32>(towards)) - plane.center), depth);
     if min(jump, back) > STEP {
+        if WITH_LAYERS_BEFORE && goes_on_nearer(q, own) {
+            return none;
+        }
         // The nearer surface draws.
         let class_of = select(OBJECT, SILHOUETTE, n.object == x.object);
         if gap > 0.0 && gap >= edge_styles[x.object].lines[class_of - 1u].threshold {

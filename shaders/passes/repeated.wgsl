@@ -3,7 +3,8 @@
 #import common/fullscreen.wgsl
 #import common/edge_map.wgsl
 
-// Whether edges are the papers' operators', which have no spines.
+// Whether any edges have spines, and whether any are the papers' operators', which have none.
+override WITH_EXACT: bool = true;
 override WITH_PAPER: bool = false;
 
 @group(1) @binding(0) var edge_map_tex: texture_2d<u32>;
@@ -21,10 +22,14 @@ fn offset_in(spine: u32) -> vec2<f32> {
 }
 
 fn own_at(px: vec2<i32>) -> u32 {
-    if WITH_PAPER {
-        return select(0u, INKED, class_of(textureLoad(edge_map_tex, px, 0)) == PAPER);
+    var own = 0u;
+    if WITH_EXACT {
+        own = textureLoad(spine_tex, px, 0).x;
     }
-    return textureLoad(spine_tex, px, 0).x;
+    if WITH_PAPER && own == 0u {
+        own = select(0u, INKED, class_of(textureLoad(edge_map_tex, px, 0)) == PAPER);
+    }
+    return own;
 }
 
 // Adds the lines of this layer to those that have been seen, and marks where they are.
@@ -41,7 +46,7 @@ fn fs_seen(@builtin(position) position: vec4<f32>) -> @location(0) u32 {
 @fragment
 fn fs_own(@builtin(position) position: vec4<f32>) -> @location(0) u32 {
     let px = vec2<i32>(position.xy);
-    let own = own_at(px);
+    let own = textureLoad(spine_tex, px, 0).x;
     let last = vec2<i32>(frame.size) - 1;
     var nearest = 1e9;
     for (var i = 0; i < 9; i++) {

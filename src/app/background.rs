@@ -9,7 +9,6 @@ use eframe::egui;
 use super::jobs::Job;
 use super::leaving::Leaving;
 use super::loading::{self, DOCUMENT_ENDING, IMAGE_ENDINGS, Intent, LoadError, Loaded, MODEL_ENDINGS};
-use super::navigation::Standard;
 use super::screenshot::{self, Destination};
 use super::viewer::{DialogFor, Viewer};
 use super::viewport::PickFor;
@@ -17,6 +16,7 @@ use crate::document::Document;
 use crate::export::session::{self, is_document};
 use crate::import::{ImportError, Progress};
 use crate::render::Pick;
+use crate::scene::Standard;
 
 /// How often the progress of a load is shown anew.
 const PROGRESS: Duration = Duration::from_millis(100);
@@ -131,7 +131,7 @@ impl Viewer {
             Intent::Reload => self.notices.done("Read again"),
             Intent::Add | Intent::Restore => {}
         }
-        let faults = self.document.mirror_faults(&self.model.files);
+        let faults = self.document.role_faults(&self.model.files);
         for fault in faults.into_iter().chain(self.document.glyph_faults(&self.model.files)) {
             self.notices.warning(fault.to_string());
         }

@@ -6,14 +6,14 @@ use eframe::egui;
 
 use super::command::Command;
 use super::loading::Intent;
-use super::navigation::{STEP, Standard};
+use super::navigation::STEP;
 use super::placing::Placed;
 use super::screenshot::{self, Destination};
 use super::theme;
 use super::viewer::{DialogFor, Open, Viewer};
 use crate::document::Glyph;
 use crate::document::glyph::Shape;
-use crate::scene::{NodeId, Projection};
+use crate::scene::{NodeId, Projection, Standard};
 use glam::DVec3;
 
 impl Viewer {

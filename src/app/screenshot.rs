@@ -9,7 +9,7 @@ use crate::export::{ExportError, save_png};
 use crate::gpu::readback::Readback;
 use crate::gpu::{Gpu, GpuError, Target};
 use crate::import::Progress;
-use crate::render::{RenderError, Renderer, Request};
+use crate::render::{RenderError, Renderer, Reported, Request};
 
 /// Where screenshots go if this variable is set.
 pub const FOLDER_VARIABLE: &str = "HACHURE_PICTURES";
@@ -89,7 +89,7 @@ impl Shot {
                 return Err(ScreenshotError::Cancelled);
             }
             progress.report((picture.sample.index + 1) as f32 / picture.sample.of as f32);
-            if picture.sample.is_last() {
+            if self.renderer.take_reports() != Reported::Incomplete && picture.sample.is_last() {
                 return Ok(read(self.renderer.gpu(), &picture.image, progress)?);
             }
         }
@@ -137,7 +137,7 @@ fn pictures_of_user_dirs() -> Option<PathBuf> {
 pub fn save(image: &RgbaImage, destination: &Destination) -> Result<PathBuf, ScreenshotError> {
     let (model, folders) = match destination {
         Destination::File(path) => {
-            save_png(path, image.clone())?;
+            save_png(path, image.clone(), None)?;
             return Ok(path.clone());
         }
         Destination::Numbered { model, folders } => (model, folders),
@@ -161,7 +161,7 @@ fn save_numbered(folder: &Path, model: &str, image: &RgbaImage) -> Result<PathBu
         number += 1;
         path = folder.join(format!("{model}_{number}.png"));
     }
-    save_png(&path, image.clone())?;
+    save_png(&path, image.clone(), None)?;
     Ok(path)
 }
 

@@ -202,6 +202,16 @@ impl Viewer {
         self.topology_for == Some(self.document.view.crease_angle) && self.jobs.topology.is_none()
     }
 
+    /// What the person is to do next, while a glyph is being placed.
+    pub fn hint(&self) -> Option<&'static str> {
+        self.placing.as_ref().map(Placing::hint)
+    }
+
+    /// Whether it is still to be found out what was clicked.
+    pub fn is_picking(&self) -> bool {
+        self.viewport.is_picking()
+    }
+
     /// Whether files are being loaded.
     pub fn is_loading(&self) -> bool {
         self.jobs.load.is_some()
@@ -262,7 +272,7 @@ impl Viewer {
             let milliseconds = self.state.statistics.then(|| self.viewport.milliseconds());
             let status = status::Status {
                 model: &self.model,
-                hint: self.placing.as_ref().map(Placing::hint),
+                hint: self.hint(),
                 warnings: self.model.scene.warnings.len() + self.images.warnings().len(),
                 document: &self.document,
                 selection: &self.selection,
@@ -286,6 +296,7 @@ impl Viewer {
             document: &mut self.document,
             selection: &mut self.selection,
             presets: &self.presets,
+            viewport: &self.viewport,
             commands: &mut self.commands,
             choosing: &mut choosing,
         };
@@ -296,7 +307,7 @@ impl Viewer {
             |ui| outliner.ui(ui, &mut editing),
         );
         let (page, samples) = (&mut self.state.page, &mut self.state.samples);
-        let hint = self.placing.as_ref().map(Placing::hint);
+        let hint = self.hint();
         let turned = egui::Panel::right("inspector")
             .default_size(290.0)
             .size_range(240.0..=460.0)

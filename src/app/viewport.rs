@@ -15,10 +15,12 @@ use super::refining::Refining;
 use super::screenshot::Shot;
 use crate::document::Document;
 use crate::gpu::{Gpu, Target};
+use crate::render::passes::peel::Peeled;
 use crate::render::{
-    GpuScene, Pick, RenderError, Renderer, Request, StyleImages, UploadedTopology, Uploader,
+    GpuScene, Pick, RenderError, Renderer, Reported, Request, StyleImages, UploadedTopology, Uploader,
 };
 use crate::scene::{Camera, NodeId, Up};
+use crate::style::Style;
 
 /// How long to wait between two looks for an answer of the device.
 const POLL: Duration = Duration::from_millis(8);
@@ -94,6 +96,7 @@ pub struct Viewport {
     rect: Rect,
     size: [u32; 2],
     measuring: Option<Job<f64>>,
+    awaiting: Option<Job<()>>,
     is_paused: bool,
     is_placing: bool,
     milliseconds: f64,
@@ -129,6 +132,7 @@ impl Viewport {
             rect: Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(16.0, 10.0)),
             size: [16, 10],
             measuring: None,
+            awaiting: None,
             is_paused: false,
             is_placing: false,
             milliseconds: 0.0,
@@ -162,6 +166,11 @@ impl Viewport {
     /// Whether the picture at rest leaves the device to other work for now.
     pub fn pause(&mut self, is_paused: bool) {
         self.is_paused = is_paused;
+    }
+
+    /// Whether it is still to be found out what was clicked.
+    pub fn is_picking(&self) -> bool {
+        self.pick.is_some()
     }
 
     /// Whether clicks place points.
@@ -200,6 +209,22 @@ impl Viewport {
         }));
     }
 
+    /// Draws again what was incomplete, and wakes the window when the device has reported about the last picture.
+    fn heed_reports(&mut self, context: &egui::Context) {
+        let reported = self.renderer.take_reports();
+        if reported == Reported::Incomplete {
+            self.draw_again();
+            context.request_repaint();
+        }
+        self.awaiting.take_if(|job| job.poll().is_some());
+        if reported == Reported::Waiting && self.awaiting.is_none() {
+            let submitted = self.renderer.gpu().submitted();
+            self.awaiting = Some(Job::start("awaiting reports", context, move |progress| {
+                submitted.wait(|| progress.is_cancelled());
+            }));
+        }
+    }
+
     /// Uploads scenes for the picture, from any thread.
     pub fn uploader(&self) -> Uploader {
         self.renderer.uploader()
@@ -210,6 +235,11 @@ impl Viewport {
         self.pick = None;
         self.renderer.show(scene);
         self.draw_again();
+    }
+
+    /// How far the blueprint of that style came in the last picture whose report has arrived.
+    pub fn last_peeled(&self, style: &Style) -> Option<&Peeled> {
+        self.renderer.last_peeled_of(style)
     }
 
     /// The images that styles name, as far as the renderer has them.
@@ -326,6 +356,7 @@ impl Viewport {
         selected: Vec<NodeId>,
         samples_at_rest: u32,
     ) -> Result<(), RenderError> {
+        self.heed_reports(ui.ctx());
         let inputs = Inputs {
             document: document.clone(),
             size: self.size,
@@ -344,6 +375,7 @@ impl Viewport {
         if is_changed || is_refined || self.selected != selected {
             self.selected = selected;
             result = self.render(ui.ctx(), document);
+            self.heed_reports(ui.ctx());
         }
         let whole = Rect::from_min_max(egui::pos2(0.0, 0.0), egui::pos2(1.0, 1.0));
         let outline = self.outline.id.filter(|_| self.has_outline);

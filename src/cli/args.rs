@@ -5,9 +5,10 @@ use std::str::FromStr;
 
 use clap::{Args, Parser, Subcommand};
 use glam::DVec3;
+use strum::VariantNames as _;
 
 use crate::render::sample::MAX_SAMPLES;
-use crate::scene::Up;
+use crate::scene::{Standard, Unit, Up};
 use crate::style::{Color, Value};
 
 /// Opens a 3D model and draws it while you turn it.
@@ -56,6 +57,9 @@ pub(super) struct RenderArgs {
     /// Colour of the paper
     #[arg(long, value_name = "#RRGGBB")]
     pub background: Option<Color>,
+    /// Pixels per inch of paper, written into the file [default with --scale: 300]
+    #[arg(long, value_name = "N", value_parser = positive)]
+    pub dpi: Option<f64>,
     /// Leave the paper out: the background becomes transparent
     #[arg(long)]
     pub no_background: bool,
@@ -85,14 +89,23 @@ pub(super) struct LookArgs {
     /// Make the flat objects that match mirrors
     #[arg(long, value_name = "GLOB")]
     pub mirror: Vec<String>,
+    /// Peel blueprints until the objects that match are uncovered (`blueprint.fraction`); they are drawn as surfaces
+    #[arg(long, value_name = "GLOB")]
+    pub mask: Vec<String>,
     /// The axis that is up: +X, -X, +Y, -Y, +Z or -Z
     #[arg(long, value_name = "AXIS", allow_hyphen_values = true)]
     pub up: Option<Up>,
+    /// The unit of the model's coordinates: mm, cm, m, km, in or ft [default: the file's]
+    #[arg(long, value_name = "UNIT")]
+    pub unit: Option<Unit>,
 }
 
 /// The flags of F3D with the same names; coordinates are the file's.
 #[derive(Debug, Args)]
 pub(super) struct CameraArgs {
+    /// Look at everything from a standard direction: front, back, right, left, top, bottom, isometric or home
+    #[arg(long, value_name = "SIDE", conflicts_with = "camera_position", value_parser = standard)]
+    pub look_from: Option<Standard>,
     /// Where the eye is
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true)]
     pub camera_position: Option<Vector>,
@@ -111,6 +124,9 @@ pub(super) struct CameraArgs {
     /// Height of the picture in units of the model [default: everything is seen]
     #[arg(long, value_name = "H", requires = "camera_orthographic", value_parser = positive)]
     pub camera_view_height: Option<f64>,
+    /// True scale on paper, such as 1:50, at --dpi
+    #[arg(long, value_name = "A:B", requires = "camera_orthographic", conflicts_with = "camera_view_height")]
+    pub scale: Option<Scale>,
     /// Turn the eye about the up axis, to its right, in degrees; from the front if no position is given
     #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = finite)]
     pub camera_azimuth_angle: Option<f64>,
@@ -168,6 +184,10 @@ fn view_angle(s: &str) -> Result<f64, String> {
     number(s, |n| (1.0..=170.0).contains(&n), "angle from 1 to 170 degrees")
 }
 
+fn standard(s: &str) -> Result<Standard, String> {
+    s.parse().map_err(|_unknown| format!("`{s}` is no side; use one of {}", Standard::VARIANTS.join(", ")))
+}
+
 fn samples(s: &str) -> Result<u32, String> {
     let samples = s.trim().parse().ok().filter(|n| (1..=MAX_SAMPLES).contains(n));
     samples.ok_or_else(|| format!("`{s}` is no number of samples from 1 to {MAX_SAMPLES}"))
@@ -186,6 +206,21 @@ impl FromStr for Resolution {
         let side =
             |side: &str| side.trim().parse().ok().filter(|n| (1..=65_536).contains(n)).ok_or_else(wrong);
         Ok(Self([side(w)?, side(h)?]))
+    }
+}
+
+/// How much longer things are than on paper.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Scale(pub f64);
+
+impl FromStr for Scale {
+    type Err = String;
+
+    fn from_str(s: &str) -> Result<Self, String> {
+        let wrong = || format!("`{s}` is no scale; write two numbers above 0, such as 1:50");
+        let (paper, world) = s.split_once(':').ok_or_else(wrong)?;
+        let number = |s: &str| positive(s).map_err(|_| wrong());
+        Ok(Self(number(world)? / number(paper)?))
     }
 }
 
@@ -265,6 +300,8 @@ mod tests {
         assert!("800".parse::<Resolution>().is_err() && "0,5".parse::<Resolution>().is_err());
         assert_eq!("1,-2,0.5".parse(), Ok(Vector(DVec3::new(1.0, -2.0, 0.5))));
         assert!("1,2".parse::<Vector>().is_err() && "1,2,nan".parse::<Vector>().is_err());
+        assert_eq!(("1:50".parse(), "2:1".parse()), (Ok(Scale(50.0)), Ok(Scale(0.5))));
+        assert!(["1", "1:0", "0:1", "1:x", "1:-2", "1:inf"].iter().all(|s| s.parse::<Scale>().is_err()));
         let setting: Setting = "/a/b*:gooch.alpha=0.3".parse().unwrap();
         assert_eq!(setting.pattern.as_deref(), Some("/a/b*"));
         assert_eq!((setting.key.as_str(), setting.value), ("gooch.alpha", Value::Number(0.3)));

@@ -3,6 +3,7 @@
 mod args;
 mod bench;
 mod info;
+mod peeling;
 mod render;
 mod styles;
 
@@ -47,6 +48,11 @@ pub enum CliError {
     /// Saving.
     #[error(transparent)]
     Export(#[from] ExportError),
+    /// A scale was asked for.
+    #[error(
+        "a scale needs to know how long a unit of the model is, and the file does not say; add --unit mm, or whatever it is"
+    )]
+    NoUnit,
     /// The output could not be written.
     #[error("cannot write to standard output: {0}")]
     Output(#[from] std::io::Error),

@@ -5,8 +5,8 @@ use std::thread::JoinHandle;
 use serde_json::json;
 
 use super::args::{CameraArgs, LookArgs, RenderArgs};
-use super::{CliError, print_json};
-use crate::document::{Document, Pattern, glyph};
+use super::{CliError, peeling, print_json};
+use crate::document::{Document, Pattern, Role, glyph};
 use crate::export::session::{OpenError, Opened, initial_camera, open};
 use crate::export::{Session, save_png};
 use crate::gpu::{Gpu, GpuError};
@@ -15,18 +15,28 @@ use crate::render::{RenderError, StyleImages};
 use crate::scene::{Camera, NodeId, Projection, Scene};
 use crate::style::{Value, preset};
 
+/// Pixels per inch of paper, as printers expect them.
+const DPI: f64 = 300.0;
+
+const METRES_PER_INCH: f64 = 0.0254;
+
 pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
     let device = StartingDevice::new()?;
     let mut opened = open(&args.files, crease_angle(&args.look), &Progress::default())?;
     apply_look(&mut opened, &args.look)?;
-    if let Some(background) = args.background {
-        opened.document.view.background = background;
-    }
+    opened.document.view.background = args.background.or(opened.document.view.background);
     let uses = opened.document.images();
     let images = ImageCache::default().read(&uses, &Progress::default()).map_err(OpenError::from)?;
     let size = args.resolution.0;
     let aspect = f64::from(size[0]) / f64::from(size[1]);
-    opened.document.camera = Some(camera(&opened, &args.camera, aspect));
+    let mut camera = camera(&opened, &args.camera, aspect);
+    let dpi = args.dpi.or(args.camera.scale.map(|_| DPI));
+    if let (Some(scale), Some(dpi)) = (args.camera.scale, dpi) {
+        let metres = opened.document.metres_per_unit(&opened.scene).ok_or(CliError::NoUnit)?;
+        let paper_height = f64::from(size[1]) / dpi * METRES_PER_INCH;
+        camera.projection = Projection::Orthographic { view_height: paper_height * scale.0 / metres };
+    }
+    opened.document.camera = Some(camera);
 
     let mut session = Session::new(device.wait()?);
     if let Some(mistake) = session.renderer().take_shader_error() {
@@ -36,12 +46,14 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
     session.set_scene(&opened)?;
     session.renderer().set_images(StyleImages::new(images.images()));
     let image = session.image(&opened, size, args.no_background)?;
-    save_png(&args.output, image)?;
+    save_png(&args.output, image, dpi)?;
 
     let scene = &opened.scene;
     let document = &opened.document;
-    let faults = document.mirror_faults(scene).into_iter().chain(document.glyph_faults(scene));
+    let faults = document.role_faults(scene).into_iter().chain(document.glyph_faults(scene));
+    let peeled = session.renderer().peeled()?;
     let warnings = images.warnings(&uses).into_iter().chain(scene.warnings.iter().cloned()).chain(faults);
+    let warnings = warnings.map(|w| w.to_string()).chain(peeling::warnings(&peeled));
     if args.json {
         print_json(&json!({
             "output": args.output,
@@ -49,7 +61,8 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
             "samples": args.samples,
             "adapter": session.renderer().gpu().adapter_name,
             "triangles": scene.triangle_count(),
-            "warnings": warnings.map(|w| w.to_string()).collect::<Vec<_>>(),
+            "blueprints": peeling::as_json(&peeled),
+            "warnings": warnings.collect::<Vec<_>>(),
         }))
     } else {
         for warning in warnings {
@@ -130,9 +143,13 @@ pub(super) fn apply_look(opened: &mut Opened, look: &LookArgs) -> Result<(), Cli
         }
     }
     for pattern in &look.mirror {
-        document.set_mirror(scene, &matching(scene, pattern)?, true);
+        document.set_role(scene, &matching(scene, pattern)?, Role::Mirror, true);
+    }
+    for pattern in &look.mask {
+        document.set_role(scene, &matching(scene, pattern)?, Role::Mask, true);
     }
     document.up = look.up.or(document.up);
+    document.metres_per_unit = look.unit.map(|unit| unit.metres).or(document.metres_per_unit);
     document.tidy();
     Ok(())
 }
@@ -145,12 +162,13 @@ fn camera(opened: &Opened, args: &CameraArgs, aspect: f64) -> Camera {
     let bounds = scene.bounds();
     let extent = document.scene_with_glyphs(scene).extent();
     let is_placed = args.camera_position.is_some();
-    let mut camera = match document.camera {
-        Some(camera) => camera,
-        None if args.camera_azimuth_angle.or(args.camera_elevation_angle).is_some() || is_placed => {
+    let mut camera = match (args.look_from, document.camera) {
+        (Some(side), like) => side.camera(up, &extent, aspect, like.as_ref()),
+        (None, Some(camera)) => camera,
+        (None, None) if args.camera_azimuth_angle.or(args.camera_elevation_angle).is_some() || is_placed => {
             Camera::looking_from(up.front(), up.vector(), &extent, aspect)
         }
-        None => initial_camera(document, scene, aspect),
+        (None, None) => initial_camera(document, scene, aspect),
     };
     if let Some(position) = args.camera_position {
         camera.position = position.0;
@@ -178,7 +196,8 @@ fn camera(opened: &Opened, args: &CameraArgs, aspect: f64) -> Camera {
     if args.camera_orthographic {
         camera = camera.with_orthographic(true);
     }
-    let frames_all = !is_placed && args.camera_focal_point.is_none() && document.camera.is_none();
+    let is_free = document.camera.is_none() || args.look_from.is_some();
+    let frames_all = !is_placed && args.camera_focal_point.is_none() && is_free;
     if frames_all {
         camera = camera.framing(&extent, aspect);
     }

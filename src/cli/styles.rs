@@ -14,8 +14,9 @@ pub(super) fn run(args: &StylesArgs) -> Result<(), CliError> {
     let mut style = Style::default();
     let mut view = View::default();
     let mut lighting = Lighting::default();
+    let paper = style.paper.color;
     let mut params = style.params();
-    params.extend(view.params());
+    params.extend(view.params(paper));
     params.extend(lighting.params());
     if args.json {
         return print_json(&json!({
@@ -56,7 +57,8 @@ fn conditions_of(param: &Param<'_>) -> String {
     if param.conditions.is_empty() {
         return String::new();
     }
-    let conditions: Vec<_> = param.conditions.iter().map(|c| format!("{}={}", c.key, c.value)).collect();
+    let conditions: Vec<_> =
+        param.conditions.iter().map(|c| format!("{}={}", c.key, c.values.join("|"))).collect();
     format!(" ({})", conditions.join(", "))
 }
 
@@ -77,7 +79,7 @@ fn parameter_json(param: &Param<'_>) -> serde_json::Value {
         "key": param.key,
         "label": param.label,
         "unit": param.unit,
-        "when": param.conditions.iter().map(|c| (c.key, c.value)).collect::<BTreeMap<_, _>>(),
+        "when": param.conditions.iter().map(|c| (c.key, &c.values)).collect::<BTreeMap<_, _>>(),
         "inherits": param.slot.inherits(),
         "default": match param.own() {
             Value::Bool(b) => json!(b),

@@ -89,6 +89,8 @@ struct NodeForm {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     mirror: Option<bool>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    mask: Option<bool>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     style: Option<toml::Table>,
 }
 
@@ -154,7 +156,7 @@ impl Document {
         // These tables hold the keys of one section; the list of parameters has them with their prefix.
         let section =
             |name: &str, table: toml::Table| toml::Table::from_iter([(name.to_owned(), table.into())]);
-        fill(&mut document.view.params(), &section("view", form.view), "view")?;
+        fill(&mut document.view.params(document.style.paper.color), &section("view", form.view), "view")?;
         fill(&mut document.lighting.params(), &section("light", form.light), "light")?;
         fill(&mut document.style.params(), &form.style, "style")?;
         for (node, form) in form.nodes {
@@ -165,8 +167,8 @@ impl Document {
                     fill(&mut style.params(), &table, &node).map(|()| style)
                 })
                 .transpose()?;
-            let NodeForm { visible, enhanced, mirror, .. } = form;
-            let settings = NodeSettings { style, visible, enhanced, mirror };
+            let NodeForm { visible, enhanced, mirror, mask, .. } = form;
+            let settings = NodeSettings { style, visible, enhanced, mirror, mask };
             document.nodes.insert(node, settings);
         }
         let own = document.nodes.values_mut().filter_map(|n| n.style.as_mut());
@@ -198,7 +200,8 @@ impl Document {
         let section = |name: &str, table: toml::Table| {
             table.get(name).and_then(|v| v.as_table()).cloned().unwrap_or_default()
         };
-        let view = diff_to_toml(&mut self.view.clone().params(), &mut View::default().params());
+        let paper = self.style.paper.color;
+        let view = diff_to_toml(&mut self.view.clone().params(paper), &mut View::default().params(paper));
         let light =
             diff_to_toml(&mut self.lighting.clone().params(), &mut default_lighting(has_lights).params());
         let form = Form {
@@ -218,6 +221,7 @@ impl Document {
                         visible: own.visible,
                         enhanced: own.enhanced,
                         mirror: own.mirror,
+                        mask: own.mask,
                         style: own.style.as_ref().map(style_table),
                     };
                     (node.clone(), form)
@@ -285,7 +289,7 @@ mod tests {
             camera: Some(Camera::default()),
             ..Document::default()
         };
-        document.view.background = "#102030".parse().unwrap();
+        document.view.background = Some("#102030".parse().unwrap());
         document.lighting.shadows = true;
         document.lighting.rim.azimuth = -12.5;
         document.node_mut("/crank/rod.3").style =

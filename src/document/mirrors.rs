@@ -26,20 +26,4 @@ impl Document {
             })
             .collect()
     }
-
-    /// Makes nodes and what hangs below them mirrors, or not.
-    pub fn set_mirror(&mut self, scene: &Scene, nodes: &[NodeId], mirror: bool) {
-        for &id in nodes {
-            for inner in scene.subtree(id) {
-                if let Some(own) = scene.nodes.get(inner).and_then(|n| self.nodes.get_mut(&n.path)) {
-                    own.mirror = None;
-                }
-            }
-            let inherited = self.resolve(scene).get(id).is_some_and(|r| r.mirror);
-            if let (true, Some(node)) = (inherited != mirror, scene.nodes.get(id)) {
-                self.node_mut(&node.path).mirror = Some(mirror);
-            }
-        }
-        self.tidy();
-    }
 }

@@ -4,21 +4,24 @@ pub mod file;
 pub mod glyph;
 pub mod history;
 pub mod lighting;
+pub mod masks;
 pub mod mirrors;
 pub mod pattern;
+pub mod roles;
 pub mod view;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
 use crate::scene::{Camera, Light, NodeId, Scene, Up};
-use crate::style::{Style, StyleError, Value, param};
+use crate::style::{Color, Style, StyleError, Value, param};
 
 pub use file::DocumentError;
 pub use glyph::Glyph;
 pub use history::History;
 pub use lighting::Lighting;
 pub use pattern::{Pattern, PatternError};
+pub use roles::Role;
 pub use view::{Show, View};
 
 /// A drawing: everything about it that is not in the model files.
@@ -59,6 +62,8 @@ pub struct NodeSettings {
     pub enhanced: Option<bool>,
     /// Whether it is a mirror.
     pub mirror: Option<bool>,
+    /// Whether blueprints are peeled until it is uncovered.
+    pub mask: Option<bool>,
 }
 
 /// A use of an image by a style.
@@ -83,6 +88,8 @@ pub struct Resolved<'a> {
     pub enhanced: bool,
     /// Whether it is a mirror, if it can be one: see [`mirrors::mirror_fault`].
     pub mirror: bool,
+    /// Whether it is designated: it belongs to the depth mask, and no blueprint is made of it.
+    pub mask: bool,
 }
 
 impl Default for Document {
@@ -109,6 +116,11 @@ fn default_style() -> Style {
 }
 
 impl Document {
+    /// Colour of the paper behind everything.
+    pub fn paper(&self) -> Color {
+        self.view.background.unwrap_or(self.style.paper.color)
+    }
+
     /// The axis that is up for a scene.
     pub fn up(&self, scene: &Scene) -> Up {
         self.up.unwrap_or(scene.up)
@@ -136,7 +148,7 @@ impl Document {
 
     /// Style and roles of every node, in the order of `scene.nodes`.
     pub fn resolve(&self, scene: &Scene) -> Vec<Resolved<'_>> {
-        let root = Resolved { style: &self.style, visible: true, enhanced: true, mirror: false };
+        let root = Resolved { style: &self.style, visible: true, enhanced: true, mirror: false, mask: false };
         let glyph = Resolved { style: glyph::base_style(), ..root };
         let mut resolved: Vec<Resolved<'_>> = Vec::with_capacity(scene.nodes.len());
         for node in &scene.nodes {
@@ -151,6 +163,7 @@ impl Document {
                 visible: above.visible && own.and_then(|n| n.visible).unwrap_or(true),
                 enhanced: own.and_then(|n| n.enhanced).unwrap_or(above.enhanced),
                 mirror: own.and_then(|n| n.mirror).unwrap_or(above.mirror),
+                mask: own.and_then(|n| n.mask).unwrap_or(above.mask),
             });
         }
         resolved
@@ -224,7 +237,7 @@ impl Document {
     /// # Errors
     /// See [`param::set`].
     pub fn set(&mut self, key: &str, value: &Value) -> Result<(), StyleError> {
-        let mut params = self.view.params();
+        let mut params = self.view.params(self.style.paper.color);
         params.extend(self.lighting.params());
         params.extend(self.style.params());
         param::set(&mut params, key, value)?;

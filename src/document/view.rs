@@ -2,17 +2,21 @@
 
 use crate::style::Color;
 use crate::style::choice;
-use crate::style::param::{Param, Params};
+use crate::style::param::{Param, Params, Place};
 
 /// View settings of a document.
 #[derive(Debug, Clone, PartialEq)]
 pub struct View {
-    /// Colour of the paper behind everything.
-    pub background: Color,
+    /// Colour of the paper behind everything; `None`: that of the document's style.
+    pub background: Option<Color>,
     /// The picture, or one of the buffers it is made from.
     pub show: Show,
+    /// Which depth layer of everything visible such a buffer is of, 1 (the nearest) to 64.
+    pub layer: u32,
     /// Dihedral angle above which an edge separates two surfaces; degrees, 0 to 180.
     pub crease_angle: f32,
+    /// Whether parallel views show how long things are.
+    pub scale_bar: bool,
     /// How many mirrors in a row a line of sight follows, 0 to 8; the nearest whole number counts.
     pub reflections: f32,
 }
@@ -46,22 +50,47 @@ choice! {
     }
 }
 
+/// What the picture may show beside the drawing.
+const BUFFERS: [Show; 10] = [
+    Show::Normals,
+    Show::FaceNormals,
+    Show::Depth,
+    Show::Objects,
+    Show::Surfaces,
+    Show::BaseColor,
+    Show::NormalOperator,
+    Show::DepthOperator,
+    Show::C1Operator,
+    Show::EdgeMap,
+];
+
 impl Default for View {
     fn default() -> Self {
-        Self { background: Color([250, 248, 242]), show: Show::Picture, crease_angle: 30.0, reflections: 2.0 }
+        Self {
+            background: None,
+            show: Show::Picture,
+            layer: 1,
+            crease_angle: 30.0,
+            scale_bar: false,
+            reflections: 2.0,
+        }
     }
 }
 
 impl View {
-    /// Every parameter, like [`crate::style::Style::params`].
-    pub fn params(&mut self) -> Vec<Param<'_>> {
+    /// Every parameter, like [`crate::style::Style::params`]; `paper`: that of the document's style.
+    pub fn params(&mut self, paper: Color) -> Vec<Param<'_>> {
         let mut list = Params::default();
         list.section("view", |list| {
             list.color(
                 "background",
                 "Background",
                 "Colour of the paper behind everything.",
-                &mut self.background,
+                Place::Inheriting {
+                    own: &mut self.background,
+                    inherited: paper,
+                    from: "paper".to_owned(),
+                },
             );
             list.number(
                 "crease_angle",
@@ -81,7 +110,23 @@ impl View {
                 "How many mirrors in a row are followed: 1 shows no mirror in a mirror, 0 switches mirrors off.",
                 &mut self.reflections,
             );
+            list.switch(
+                "scale_bar",
+                "Scale bar",
+                "Shows how long things are; in parallel projection only.",
+                &mut self.scale_bar,
+            );
             list.choice("show", "Show", "The picture, or a buffer that it is made from.", &mut self.show);
+            list.when_any("view.show", BUFFERS, |list| {
+                list.integer(
+                    "layer",
+                    "Layer",
+                    "",
+                    1..=64,
+                    "Which depth layer the buffer is of: 1 is what is visible, 2 what lies behind it, and so on.",
+                    &mut self.layer,
+                );
+            });
         });
         list.finish()
     }

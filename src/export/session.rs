@@ -9,7 +9,7 @@ use crate::document::{Document, DocumentError};
 use crate::geometry::Topology;
 use crate::gpu::{Gpu, GpuError, readback};
 use crate::import::{ImportError, ImportOptions, Progress, load_all};
-use crate::render::{Picture, RenderError, Renderer, Request};
+use crate::render::{Picture, RenderError, Renderer, Reported, Request};
 use crate::scene::{Camera, Scene};
 
 /// Files that were opened: a document and its scene.
@@ -134,14 +134,14 @@ impl Session {
             selected: &[],
             samples: self.samples,
         };
-        let mut picture = self.renderer.render(&request)?;
-        while !picture.sample.is_last() {
-            // One sample at a time, so that not all of them lie in the queue at once.
+        loop {
+            let picture = self.renderer.render(&request)?;
+            // One sample at a time, so that not all of them lie in the queue at once, and each is known to be complete.
             self.renderer.gpu().wait()?;
-            drop(picture);
-            picture = self.renderer.render(&request)?;
+            if self.renderer.take_reports() != Reported::Incomplete && picture.sample.is_last() {
+                return Ok(picture);
+            }
         }
-        Ok(picture)
     }
 
     /// Draws and reads the picture back.

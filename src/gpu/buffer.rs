@@ -1,7 +1,7 @@
 //! Uniform and storage buffers whose layout is derived from Rust types.
 
 use encase::internal::WriteInto;
-use encase::{ShaderSize, ShaderType, StorageBuffer as StorageBytes, UniformBuffer as UniformBytes};
+use encase::{ShaderType, StorageBuffer as StorageBytes, UniformBuffer as UniformBytes};
 
 use super::{Gpu, GpuError};
 
@@ -119,7 +119,7 @@ impl DynamicBuffer {
     }
 }
 
-/// A read-only storage buffer that holds an array of `T` and grows with it.
+/// A read-only storage buffer that holds an array and grows with it.
 pub struct ArrayBuffer {
     buffer: wgpu::Buffer,
     label: &'static str,
@@ -140,8 +140,8 @@ impl ArrayBuffer {
         })
     }
 
-    /// Writes the whole array; it must not be empty, as WGSL arrays are not.
-    pub fn write<T: ShaderType + ShaderSize + WriteInto>(&mut self, gpu: &Gpu, values: &Vec<T>) {
+    /// Writes the whole array, or a struct that ends with one; it must not be empty, as WGSL arrays are not.
+    pub fn write<T: ShaderType + WriteInto>(&mut self, gpu: &Gpu, values: &T) {
         let mut bytes = StorageBytes::new(Vec::new());
         if bytes.write(values).is_err() {
             return;

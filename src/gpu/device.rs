@@ -104,6 +104,12 @@ impl Gpu {
         GpuError::TooLarge { what: what.to_owned(), needed, allowed, adapter: self.adapter_name.clone() }
     }
 
+    /// Takes note of what the device has done, without waiting.
+    pub fn poll(&self) {
+        // A lost device shows elsewhere.
+        let _ = self.device.poll(wgpu::PollType::Poll);
+    }
+
     /// Waits until all submitted work is done.
     ///
     /// # Errors

@@ -10,6 +10,7 @@ pub mod pipelines;
 pub mod pool;
 pub mod readback;
 pub mod recorder;
+pub mod reports;
 pub mod shader;
 pub mod timer;
 
@@ -21,5 +22,6 @@ pub use material::MaterialBindings;
 pub use pipelines::{DepthRule, Pipelines, Program};
 pub use pool::{Target, TargetPool};
 pub use recorder::Recorder;
+pub use reports::Reports;
 pub use shader::{ShaderError, Shaders};
 pub use timer::Timers;

@@ -59,8 +59,7 @@ impl Readback {
 
     /// The bytes, row by row without padding, once they have arrived.
     pub fn poll(&self, gpu: &Gpu) -> Option<Vec<u8>> {
-        // Polling only hastens the arrival; a lost device shows elsewhere.
-        let _ = gpu.device.poll(wgpu::PollType::Poll);
+        gpu.poll();
         self.bytes()
     }
 

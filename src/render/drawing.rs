@@ -1,7 +1,7 @@
 //! The scene drawn once, from one camera; and what its mirrors show, each by a drawing of its own.
 //!
 //! ```text
-//! objects ─► G-buffer ─┬─► (shadow mask ─► cartoon map ─►) surfaces ┬─► + mirrors (drawings) ─► + lines ─► + blueprints ─► colour
+//! objects ─► G-buffer ─┬─► (shadow mask ─► cartoon map ─►) surfaces ┬─► + mirrors (drawings) ─► + hidden lines ─► + lines ─► + blueprints ─► colour
 //!                      └─► edge map ─► reach of the lines ──────────┘
 //! segments (topology) ─────┘
 //! ```
@@ -16,13 +16,16 @@ use self::reflections::Reflection;
 use super::RenderError;
 use super::effects::blueprint::{Blueprints, Peels};
 use super::effects::halftone::{HalftoneInputs, HalftoneUniform, Halftones, ThresholdMaps};
+use super::effects::hidden::HiddenLines;
 use super::effects::mirror::{MirrorUniform, mirror};
 use super::effects::surface::{Shading, SurfaceUniform, surface};
 use super::effects::toon::{ToonBuffers, Toons, cartoon_map};
 use super::frame_uniform::{FrameUniform, View};
 use super::gpu_scene::GpuScene;
 use super::groups::Objects;
+use super::layers::Reported;
 use super::lights::Lights;
+use super::passes::depth_mask::{DepthMask, DepthMaskPass};
 use super::passes::edge_map::{EdgeInputs, EdgeMap, EdgeMapPass};
 use super::passes::edge_style::EdgeUniform;
 use super::passes::gbuffer::{DrawCall, DrawUniform, GBuffer, GBufferPass};
@@ -36,6 +39,7 @@ use super::shadows::{ShadowMap, ShadowMask};
 use super::stage::{Output, Stage};
 use crate::geometry::{EdgeClass, LineSegment};
 use crate::gpu::{ArrayBuffer, DynamicBuffer, Gpu, Recorder, Target, UniformBuffer};
+use crate::style::Style;
 
 /// What is to be drawn, and from where.
 #[derive(Clone, Copy)]
@@ -87,6 +91,8 @@ pub struct Shaded {
     pub cartoon_map: Option<Target>,
     /// See `shaders/passes/coordinates.wgsl`; `None` when no object asks for it.
     pub coordinates: Option<Target>,
+    /// Reversed depth of the designated objects alone; `None` when no blueprint is peeled for them.
+    pub depth_mask: Option<Target>,
     /// Geometry of the first drawn layer of each blueprint, and their revisions.
     pub fronts: (Vec<u64>, Vec<Target>),
     /// The layers of each blueprint, the farthest first; empty unless they are kept.
@@ -137,10 +143,14 @@ pub struct Drawing {
             Vec<EdgeUniform>,
             FrameUniform,
             Seen,
+            Option<u64>,
             Vec<u64>,
         ),
         Target,
     >,
+    depth_mask: DepthMaskPass,
+    /// `None` while no object has any.
+    hidden: Option<HiddenLines>,
     blueprints: Vec<Blueprints>,
     /// How often a blueprint was drawn.
     blueprinted: u64,
@@ -181,6 +191,8 @@ impl Drawing {
             cartoon_map: Stage::default(),
             coordinates: Stage::default(),
             surface: Stage::default(),
+            depth_mask: DepthMaskPass::new(gpu),
+            hidden: None,
             blueprints: Vec::new(),
             blueprinted: 0,
             reflections: Vec::new(),
@@ -199,7 +211,7 @@ impl Drawing {
     }
 
     /// How often each stage has run, by name.
-    pub fn runs(&self) -> [(&'static str, u64); 8] {
+    pub fn runs(&self) -> [(&'static str, u64); 9] {
         [
             ("g-buffer", self.gbuffer.runs()),
             ("edge map", self.edge_map.runs()),
@@ -207,6 +219,7 @@ impl Drawing {
             ("shadow", self.shadow_mask.runs()),
             ("cartoon map", self.cartoon_map.runs()),
             ("surface", self.surface.runs()),
+            ("hidden lines", self.hidden.as_ref().map_or(0, HiddenLines::runs)),
             ("blueprint", self.blueprinted),
             ("mirror", self.reflected),
         ]
@@ -218,6 +231,26 @@ impl Drawing {
     /// [`RenderError`].
     pub fn peeled(&self, gpu: &Gpu) -> Result<Vec<Peeled>, RenderError> {
         self.blueprints.iter().map(|b| b.count().read(gpu)).collect()
+    }
+
+    /// What has been reported about the layers of its pictures and of what mirrors show; it draws incomplete ones again.
+    /// Never waits.
+    pub fn take_reports(&mut self) -> Reported {
+        let own = self.blueprints.iter_mut().map(Blueprints::take_reports);
+        let reflected = self.reflections.iter_mut().map(|r| r.drawing.take_reports());
+        let hidden = self.hidden.iter_mut().map(HiddenLines::take_reports);
+        own.chain(hidden).chain(reflected).max().unwrap_or(Reported::Complete)
+    }
+
+    /// How far the layers of each blueprint came in the last picture whose report has arrived; in the order of
+    /// [`Objects::blueprints`].
+    pub fn last_peeled(&self) -> Vec<Option<Peeled>> {
+        self.blueprints.iter().map(|b| b.last().cloned()).collect()
+    }
+
+    /// The same of the blueprint that objects of this style are in.
+    pub fn last_peeled_of(&self, style: &Style) -> Option<&Peeled> {
+        self.blueprints.iter().find(|b| b.is_of(style))?.last()
     }
 
     /// Begins a drawing with its G-buffer and the shadows on it; all later passes see through its camera.
@@ -296,6 +329,7 @@ impl Drawing {
                     has_holes: inputs.objects.surfaces.has_holes,
                     is_cut: view.cut.is_some(),
                     is_layer: false,
+                    before: None,
                     shadow_mask: shadow_mask.map(|mask| &mask.value),
                 },
             )
@@ -327,7 +361,9 @@ impl Drawing {
         edge_map: Option<&Output<EdgeMap>>,
     ) -> Result<Shaded, RenderError> {
         let reflected = self.reflect(rec, shared, inputs)?;
-        let blueprints = self.peel(rec, &mut shared.gbuffer, inputs, begun)?;
+        let mask = self.depth_mask.run(rec, &mut shared.gbuffer, inputs, &begun.gbuffer)?;
+        let blueprints = self.peel(rec, &mut shared.gbuffer, inputs, (begun, mask.as_ref()))?;
+        let hidden = self.draw_hidden(rec, &mut shared.gbuffer, inputs, begun, edge_map)?;
         let cartoon_map = self.find_bands(rec, inputs, begun)?;
         let coordinates = self.find_coordinates(rec, shared, inputs, begun)?;
         shared.thresholds.prepare(rec.gpu, &inputs.objects.halftones)?;
@@ -357,6 +393,7 @@ impl Drawing {
                 let seen = reflected.iter().map(|r| (r.color.revision, r.uniform)).collect();
                 (seen, inputs.background)
             }),
+            hidden.as_ref().map(|hidden| hidden.revision),
             blueprints.iter().map(|b| b.revision).collect(),
         );
         let color = self.surface.run(shading, |(_, _, surfaces, toons, (halftones, _), styles, ..)| {
@@ -387,6 +424,9 @@ impl Drawing {
                 reflection.uniform.write(rec.gpu, &vec![seen.uniform]);
                 mirror(rec, &gbuffer.value, &seen.color.value, reflection.uniform.buffer(), &color)?;
             }
+            if let Some(hidden) = &hidden {
+                overlay(rec, &hidden.value, &color)?;
+            }
             if let Some(edge_map) = edge_map {
                 let drawn = Lines {
                     gbuffer: &gbuffer.value,
@@ -404,7 +444,24 @@ impl Drawing {
         })?;
         let fronts = blueprints.iter().filter_map(|b| Some((b.revision, b.value.front.clone()?))).unzip();
         let layers = blueprints.into_iter().map(|b| b.value.layers).filter(|l| !l.is_empty()).collect();
-        Ok(Shaded { color, cartoon_map, coordinates, fronts, layers })
+        let depth_mask = mask.map(|mask| mask.value.depth);
+        Ok(Shaded { color, cartoon_map, coordinates, depth_mask, fronts, layers })
+    }
+
+    fn draw_hidden(
+        &mut self,
+        rec: &mut Recorder<'_>,
+        gbuffer_pass: &mut GBufferPass,
+        inputs: &DrawingInputs<'_>,
+        begun: &Begun,
+        edge_map: Option<&Output<EdgeMap>>,
+    ) -> Result<Option<Output<Target>>, RenderError> {
+        if inputs.objects.hidden.is_empty() {
+            self.hidden = None;
+            return Ok(None);
+        }
+        let hidden = self.hidden.get_or_insert_with(|| HiddenLines::new(rec.gpu));
+        hidden.run(rec, gbuffer_pass, inputs, &begun.uniform, edge_map).map(Some)
     }
 
     /// Draws the blueprints, the farthest first. Blended groups that reach into each other have no right order: that of
@@ -414,7 +471,7 @@ impl Drawing {
         rec: &mut Recorder<'_>,
         gbuffer_pass: &mut GBufferPass,
         inputs: &DrawingInputs<'_>,
-        begun: &Begun,
+        drawn: (&Begun, Option<&Output<DepthMask>>),
     ) -> Result<Vec<Output<Peels>>, RenderError> {
         let groups = &inputs.objects.blueprints;
         self.blueprints.truncate(groups.len());
@@ -422,7 +479,6 @@ impl Drawing {
         let mut pictures = Vec::new();
         for (blueprint, state) in groups.iter().zip(&mut self.blueprints) {
             let before = state.runs();
-            let drawn = (&begun.uniform, &begun.gbuffer);
             let picture = state.run(rec, gbuffer_pass, inputs, drawn, blueprint)?;
             self.blueprinted += state.runs() - before;
             pictures.push((blueprint.group.mean_depth(inputs.scene, inputs.view), picture));

@@ -7,7 +7,9 @@
 use glam::{Vec2, Vec4};
 
 use super::RenderError;
-use super::drawing::{Begun, Drawing, DrawingInputs, Shared};
+use super::drawing::{Drawing, DrawingInputs, Shared};
+use super::layers::Reported;
+use super::one_layer::OneLayer;
 use super::passes::accumulate::{Accumulation, Subject};
 use super::passes::front::front;
 use super::passes::gbuffer::GBuffer;
@@ -17,6 +19,7 @@ use super::passes::resolve::resolve;
 use super::passes::selection::{self, selection};
 use super::passes::show::show;
 use super::sample::Sample;
+use super::scale_bar::ScaleBar;
 use super::shadows::ShadowMaps;
 use super::stage::{Output, Stage};
 use crate::document::Show;
@@ -30,6 +33,10 @@ pub struct FrameInputs<'a> {
     pub drawing: DrawingInputs<'a>,
     /// The picture, or a buffer that it is made from.
     pub show: Show,
+    /// Which depth layer such a buffer is of; 1: the nearest.
+    pub layer: u32,
+    /// Shown with the picture; `None`: none.
+    pub scale_bar: Option<&'a ScaleBar>,
     /// Selected nodes; empty without a window.
     pub selected: &'a [NodeId],
 }
@@ -60,6 +67,8 @@ pub struct Picture {
     pub cartoon_map: Option<Target>,
     /// See `shaders/passes/coordinates.wgsl`; `None` when no object asks for it.
     pub coordinates: Option<Target>,
+    /// Reversed depth of the designated objects alone; `None` when no blueprint is peeled for them.
+    pub depth_mask: Option<Target>,
     /// The layers of each blueprint, the farthest first; empty unless [`super::Renderer::keep_layers`] was called.
     pub layers: Vec<Vec<Layer>>,
 }
@@ -69,12 +78,14 @@ pub struct FrameState {
     shared: Shared,
     shadow_maps: ShadowMaps,
     drawing: Drawing,
-    operators: Stage<(u64, Vec2), Target>,
+    one_layer: OneLayer,
+    operators: Stage<(u64, u32, Vec2), Target>,
     accumulation: Accumulation,
     /// What this one went on from: held, so that the other one's pool does not hand out its textures before they have
     /// been read.
     origin: Option<Accumulation>,
-    image: Stage<(u64, Show, [u64; 3], Vec4), Target>,
+    image: Stage<(u64, Show, [u64; 4], Vec4, Option<ScaleBar>), Target>,
+    scale_bar: ArrayBuffer,
     front: Stage<(u64, Vec<u64>), Target>,
     /// The geometry of the picture's first sample: outlines do not follow the jitter.
     unmoved: u64,
@@ -89,10 +100,12 @@ impl FrameState {
             shared: Shared::new(gpu),
             shadow_maps: ShadowMaps::new(gpu),
             drawing: Drawing::new(gpu, frame_layout),
+            one_layer: OneLayer::new(gpu),
             operators: Stage::default(),
             accumulation: Accumulation::default(),
             origin: None,
             image: Stage::default(),
+            scale_bar: ArrayBuffer::new(gpu, "scale bar"),
             front: Stage::default(),
             unmoved: 0,
             selected: ArrayBuffer::new(gpu, "selected"),
@@ -108,6 +121,11 @@ impl FrameState {
     /// What the eye sees.
     pub fn drawing(&self) -> &Drawing {
         &self.drawing
+    }
+
+    /// What has been reported about the pictures so far; incomplete ones are drawn again. Never waits.
+    pub fn take_reports(&mut self) -> Reported {
+        self.drawing.take_reports()
     }
 
     /// How often each stage has run, by name.
@@ -150,30 +168,52 @@ impl FrameState {
             self.drawing.forget_edges();
             None
         };
-        let operators = self.operators(rec, *what, &begun)?;
+        let is_deeper = *what != Show::Picture && inputs.layer > 1;
+        let deeper = if is_deeper {
+            let asked = (inputs.layer, begun.depth_range);
+            Some(self.one_layer.run(rec, &mut self.shared.gbuffer, eye, asked)?)
+        } else {
+            self.one_layer.forget();
+            None
+        };
+        let gbuffer = match &deeper {
+            Some(layer) => &Output { value: layer.value.0.clone(), revision: layer.revision },
+            None => &begun.gbuffer,
+        };
+        let operators = self.operators(rec, (*what, inputs.layer), gbuffer, begun.depth_range)?;
 
-        let (mut cartoon_map, mut coordinates, mut layers) = (None, None, Vec::new());
+        let (mut cartoon_map, mut coordinates, mut depth_mask, mut layers) = (None, None, None, Vec::new());
         let mut fronts = (Vec::new(), Vec::new());
         let image = if *what == Show::Picture {
             let shaded = self.drawing.shade(rec, &mut self.shared, eye, &begun, edge_map.as_ref())?;
-            (cartoon_map, coordinates, layers) = (shaded.cartoon_map, shaded.coordinates, shaded.layers);
-            fronts = shaded.fronts;
+            (cartoon_map, coordinates) = (shaded.cartoon_map, shaded.coordinates);
+            (depth_mask, layers, fronts) = (shaded.depth_mask, shaded.layers, shaded.fronts);
             let color = self.accumulation.add(rec, eye.sample, shaded.color)?;
-            let final_inputs = (shaders, *what, [color.revision, 0, 0], eye.background);
-            self.image.run(final_inputs, |_| resolve(rec, &color.value))?
+            let asked =
+                (shaders, *what, [color.revision, 0, 0, 0], eye.background, inputs.scale_bar.cloned());
+            self.image.run(asked, |(.., bar)| {
+                let bar = bar.as_ref().and_then(ScaleBar::uniform);
+                if let Some(bar) = &bar {
+                    self.scale_bar.write(rec.gpu, bar);
+                }
+                resolve(rec, &color.value, (self.scale_bar.buffer(), bar.is_some()))
+            })?
         } else {
             self.drawing.forget_surfaces();
             let revisions = [
-                begun.gbuffer.revision,
+                u64::from(inputs.layer),
+                gbuffer.revision,
                 edge_map.as_ref().map_or(0, |e| e.revision),
                 operators.as_ref().map_or(0, |(revision, _)| *revision),
             ];
             // A shader that does not read these is given any texture of their kind.
-            let gbuffer = &begun.gbuffer.value;
-            let ink = edge_map.as_ref().map_or(&gbuffer.geometry, |e| &e.value.edges);
-            let values = operators.as_ref().map_or(&gbuffer.base_color, |(_, values)| values);
-            self.image
-                .run((shaders, *what, revisions, Vec4::ZERO), |_| show(rec, *what, gbuffer, ink, values))?
+            let buffers = &gbuffer.value;
+            let visible = edge_map.as_ref().map_or(&buffers.geometry, |e| &e.value.edges);
+            let ink = deeper.as_ref().map_or(visible, |layer| &layer.value.1);
+            let values = operators.as_ref().map_or(&buffers.base_color, |(_, values)| values);
+            self.image.run((shaders, *what, revisions, Vec4::ZERO, None), |_| {
+                show(rec, *what, buffers, ink, values)
+            })?
         };
 
         let (revisions, layers_before) = fronts;
@@ -193,6 +233,7 @@ impl FrameState {
             shadow_mask: begun.shadow_mask.map(|mask| mask.value),
             cartoon_map,
             coordinates,
+            depth_mask,
             layers,
         })
     }
@@ -200,17 +241,17 @@ impl FrameState {
     fn operators(
         &mut self,
         rec: &mut Recorder<'_>,
-        what: Show,
-        begun: &Begun,
+        (what, layer): (Show, u32),
+        gbuffer: &Output<GBuffer>,
+        depth_range: Vec2,
     ) -> Result<Option<(u64, Target)>, RenderError> {
         if !matches!(what, Show::NormalOperator | Show::DepthOperator | Show::C1Operator) {
             self.operators.clear();
             return Ok(None);
         }
-        let inputs = (begun.gbuffer.revision, begun.depth_range);
-        let found = self
-            .operators
-            .run(inputs, |_| operators(rec, &begun.gbuffer.value, self.drawing.edge_styles()))?;
+        let inputs = (gbuffer.revision, layer, depth_range);
+        let found =
+            self.operators.run(inputs, |_| operators(rec, &gbuffer.value, self.drawing.edge_styles()))?;
         Ok(Some((found.revision, found.value)))
     }
 

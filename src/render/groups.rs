@@ -4,6 +4,7 @@ use glam::{DMat4, Mat3, Mat4};
 
 use super::effects::blueprint::Blueprint;
 use super::effects::halftone::Halftones;
+use super::effects::hidden::Hidden;
 use super::effects::mirror::Mirror;
 use super::effects::surface::SurfaceUniform;
 use super::effects::toon::{ToonUniform, Toons};
@@ -77,6 +78,10 @@ pub struct Group {
 pub struct Objects {
     /// The objects that hide what lies behind them: those of all surface techniques.
     pub surfaces: Group,
+    /// Those of them that blueprints are peeled to uncover; they have no lines of their own here.
+    pub masks: Group,
+    /// Their hidden lines.
+    pub hidden: Hidden,
     /// The others, together where their style is equal.
     pub blueprints: Vec<Blueprint>,
     /// The box around everything visible, world space.
@@ -115,17 +120,25 @@ impl Objects {
                 objects.halftones.add((count, id), &r.style.halftone, images, scale, has_uvs);
             }
             // A look at a buffer is one at that of surfaces, which every object then is.
-            let is_blueprint =
-                r.style.technique == Technique::Blueprint && document.view.show == Show::Picture;
+            let has_layers = r.style.technique == Technique::Blueprint && document.view.show == Show::Picture;
+            let is_blueprint = has_layers && !r.mask;
             let group = if is_blueprint {
                 Blueprint::group_of(&mut objects.blueprints, r.style, count)
             } else {
                 &mut objects.surfaces
             };
             group.visible.push((node, r.enhanced));
+            if r.mask {
+                objects.masks.visible.push((node, r.enhanced));
+            }
             if r.enhanced {
-                group.edge_styles[id] = EdgeUniform::new(&r.style.edges, scale);
+                let edges = EdgeUniform::new(&r.style.edges, scale);
+                group.edge_styles[id] =
+                    if has_layers { edges.inked(&r.style.edges, r.style.blueprint.near) } else { edges };
                 group.has_holes |= scene.has_holes(node);
+            }
+            if r.enhanced && !is_blueprint && document.view.show == Show::Picture {
+                objects.hidden.add((count, id), &r.style.edges, scale);
             }
             if r.mirror
                 && !is_blueprint
@@ -151,7 +164,7 @@ impl Objects {
 
     /// Greatest distance from its spine at which a line has ink, px.
     pub fn greatest_radius(&self) -> f32 {
-        self.groups().map(Group::greatest_radius).fold(0.0, f32::max)
+        self.groups().map(Group::greatest_radius).fold(self.hidden.greatest_radius(), f32::max)
     }
 
     /// The boxes of the enhanced objects, each in its own space, and where that lies.
@@ -165,6 +178,11 @@ impl Group {
     /// Nothing of a scene with so many object ids; what is hidden is drawn too.
     pub fn with_hidden(count: usize) -> Self {
         Self { edge_styles: vec![EdgeUniform::default(); count], shows_hidden: true, ..Self::default() }
+    }
+
+    /// The same objects, what is hidden too, with lines by object id.
+    pub fn with_hidden_lines(&self, edge_styles: &[EdgeUniform]) -> Self {
+        Self { edge_styles: edge_styles.to_vec(), shows_hidden: true, ..self.clone() }
     }
 
     /// Whether any of them has lines.

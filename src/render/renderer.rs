@@ -9,16 +9,18 @@ use super::frame::{FrameInputs, FrameState, Picture};
 use super::frame_uniform::View;
 use super::gpu_scene::{GpuScene, UploadedTopology, Uploader};
 use super::groups::{Objects, node_of};
+use super::layers::Reported;
 use super::lights::Lights;
 use super::passes::accumulate::Subject;
 use super::passes::peel::Peeled;
+use super::scale_bar::ScaleBar;
 use super::style_images::StyleImages;
 use crate::document::{Document, Glyph};
 use crate::geometry::Topology;
 use crate::gpu::readback::Readback;
 use crate::gpu::{Gpu, GpuError, Pipelines, Recorder, ShaderError, Shaders, TargetPool, Timers};
 use crate::scene::{Addition, Camera, NodeId, Scene};
-use crate::style::Color;
+use crate::style::{Color, Style};
 
 /// Height of the picture in reference pixels, in which widths and scales are given.
 pub(super) const REFERENCE_HEIGHT: f64 = 1080.0;
@@ -85,6 +87,10 @@ pub struct Renderer {
     pick: Option<PendingPick>,
     shader_error: Option<ShaderError>,
     keeps_layers: bool,
+    /// How often a picture turned out to be incomplete.
+    incomplete: u64,
+    /// Whether one did that nobody has been told of.
+    was_incomplete: bool,
 }
 
 impl Renderer {
@@ -107,6 +113,8 @@ impl Renderer {
             pick: None,
             shader_error,
             keeps_layers: false,
+            incomplete: 0,
+            was_incomplete: false,
         }
     }
 
@@ -121,6 +129,7 @@ impl Renderer {
         twin.additions = self.additions.clone();
         twin.glyphs = self.glyphs.clone();
         twin.has_new_additions = self.has_new_additions;
+        twin.incomplete = self.incomplete;
         twin.images = self.images.clone();
         twin.state.go_on_from(&self.state);
         twin
@@ -247,6 +256,7 @@ impl Renderer {
             self.set_scene(&Arc::new(Scene::default()), &[])?;
         }
         self.update_additions(request.document)?;
+        self.note_reports();
         let Some(scene) = &mut self.scene else {
             return Err(GpuError::Lost("no scene".to_owned()).into());
         };
@@ -259,17 +269,21 @@ impl Renderer {
             document: request.document.clone(),
             camera: *request.camera,
             size,
+            incomplete: self.incomplete,
         };
         let sample = self.state.next_sample(subject, request.samples);
         let view = View::new(request.camera, &objects.visible_bounds, UVec2::from_array(size));
         scene.face(&view);
         let view = view.moved(sample.jitter());
-        let paper = request.document.view.background.to_linear();
+        let paper = request.document.paper().to_linear();
         let background = paper.extend(if request.transparent { 0.0 } else { 1.0 });
         let timers = self.timers.as_mut();
         let frame = self.state.drawing().frame_group().clone();
         let mut recorder = Recorder::new(&self.gpu, &mut self.pipelines, &mut self.pool, timers, frame, size);
         let lights = Lights::new(request.document, &scene.scene, &view.view_from_world);
+        let metres = request.document.metres_per_unit(&scene.scene);
+        let shows_bar = request.document.view.scale_bar;
+        let bar = shows_bar.then(|| ScaleBar::new(request.camera, metres, size, scale, paper)).flatten();
         let inputs = FrameInputs {
             drawing: DrawingInputs {
                 scene,
@@ -285,6 +299,8 @@ impl Renderer {
                 reflections: request.document.view.reflections.round().clamp(0.0, 8.0) as u32,
             },
             show: request.document.view.show,
+            layer: request.document.view.layer,
+            scale_bar: bar.as_ref(),
             selected: request.selected,
         };
         // The old picture's textures may be drawn into again.
@@ -294,6 +310,34 @@ impl Renderer {
         self.pool.shrink_to(size);
         self.last = Some((picture.clone(), view));
         Ok(picture)
+    }
+
+    /// What the device has reported about the pictures so far. Never waits: a report is there at the latest when the device
+    /// is done with the picture. After [`Reported::Incomplete`] the same request begins anew, with room enough.
+    pub fn take_reports(&mut self) -> Reported {
+        let reported = self.note_reports();
+        if std::mem::take(&mut self.was_incomplete) { Reported::Incomplete } else { reported }
+    }
+
+    fn note_reports(&mut self) -> Reported {
+        self.gpu.poll();
+        let reported = self.state.take_reports();
+        if reported == Reported::Incomplete {
+            self.incomplete += 1;
+            self.was_incomplete = true;
+        }
+        reported
+    }
+
+    /// How far the layers of each blueprint came in the last picture whose report has arrived, in the order of
+    /// [`Objects::blueprints`].
+    pub fn last_peeled(&self) -> Vec<Option<Peeled>> {
+        self.state.drawing().last_peeled()
+    }
+
+    /// The same of the blueprint that objects of this style are in; `None` if there is none, or if nothing is known yet.
+    pub fn last_peeled_of(&self, style: &Style) -> Option<&Peeled> {
+        self.state.drawing().last_peeled_of(style)
     }
 
     /// How often each stage has run so far.

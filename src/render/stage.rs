@@ -39,6 +39,11 @@ impl<I: PartialEq, O: Clone> Stage<I, O> {
         Ok(Output { value, revision: self.revision })
     }
 
+    /// What the last output depends on, if there is one.
+    pub fn inputs(&self) -> Option<&I> {
+        self.last.as_ref().map(|(inputs, _)| inputs)
+    }
+
     /// How often the stage ran.
     pub fn runs(&self) -> u64 {
         self.revision

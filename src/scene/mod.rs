@@ -5,11 +5,15 @@ pub mod camera;
 pub mod graph;
 pub mod light;
 pub mod material;
+pub mod standard;
 pub mod texture;
+pub mod unit;
 
 pub use additions::Addition;
 pub use camera::{Camera, Projection};
 pub use graph::{Node, NodeId, Scene, Up, Warning};
 pub use light::{Light, LightKind};
 pub use material::{AlphaMode, Material, TextureRef, UvTransform, Wrap};
+pub use standard::Standard;
 pub use texture::{Images, Texture};
+pub use unit::Unit;

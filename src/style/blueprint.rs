@@ -19,6 +19,9 @@ pub struct Blueprint {
     pub by_layer: f32,
     /// How far lines fade with the distance, 0 (not at all) to 1.
     pub by_distance: f32,
+    /// Ink below this share is left out and all other is full, as in a wire frame (section 4.2); 0 to 1, 0: ink stays as it
+    /// is.
+    pub threshold: f32,
     /// Whether lines are drawn again where a nearer layer has one at the same place (section 4.1, Fig. 5).
     pub repeated: bool,
     /// Colour of the surfaces.
@@ -33,6 +36,12 @@ pub struct Blueprint {
     pub layers: u32,
     /// Peeling ends before a layer with fewer pixels; percent of the picture's, 0 to 100.
     pub least: f32,
+    /// Peeling ends with the layer that leaves this share of the depth mask uncovered, 0 to 1 (section 4.3).
+    pub fraction: f32,
+    /// Whether what lies farther than the depth mask is drawn.
+    pub beyond: bool,
+    /// Colour of designated objects of this style, which are no blueprints.
+    pub highlight: Color,
 }
 
 impl Default for Blueprint {
@@ -42,6 +51,7 @@ impl Default for Blueprint {
             far: Color([170, 194, 232]),
             by_layer: 0.35,
             by_distance: 0.3,
+            threshold: 0.0,
             repeated: false,
             fill: Color([70, 120, 200]),
             opacity: 0.05,
@@ -49,6 +59,9 @@ impl Default for Blueprint {
             to: 64,
             layers: 8,
             least: 0.1,
+            fraction: 0.9,
+            beyond: true,
+            highlight: Color([226, 110, 44]),
         }
     }
 }
@@ -75,6 +88,15 @@ impl Blueprint {
             "How far lines go over to the far colour with the distance.",
             &mut self.by_distance,
         );
+        list.number(
+            "threshold",
+            "Threshold",
+            "",
+            0.0..=1.0,
+            0.0..=1.0,
+            "As in a wire frame, fainter ink than this is left out, and all other is full; 0 leaves ink as it is.",
+            &mut self.threshold,
+        );
         list.switch(
             "repeated",
             "Repeat lines",
@@ -91,8 +113,10 @@ impl Blueprint {
             "Opacity of the fill of each layer; 0 draws lines only.",
             &mut self.opacity,
         );
-        list.integer("from", "From layer", "", 1..=64, "The first layer that is drawn.", &mut self.from);
-        list.integer("to", "To layer", "", 1..=64, "The last layer that is drawn.", &mut self.to);
+        list.span("Layers", |list| {
+            list.integer("from", "From layer", "", 1..=64, "The first layer that is drawn.", &mut self.from);
+            list.integer("to", "To layer", "", 1..=64, "The last layer that is drawn.", &mut self.to);
+        });
         list.integer(
             "layers",
             "Most layers",
@@ -109,6 +133,27 @@ impl Blueprint {
             0.0..=100.0,
             "Peeling ends before a layer that covers a smaller share of the picture.",
             &mut self.least,
+        );
+        list.number(
+            "fraction",
+            "Uncover",
+            "",
+            0.0..=1.0,
+            0.0..=1.0,
+            "Peeling ends with the layer that leaves this share of the designated objects uncovered.",
+            &mut self.fraction,
+        );
+        list.switch(
+            "beyond",
+            "Draw beyond",
+            "Draws what lies farther away than the designated objects.",
+            &mut self.beyond,
+        );
+        list.color(
+            "highlight",
+            "Highlight",
+            "Colour of designated objects of this style, which are drawn as surfaces.",
+            &mut self.highlight,
         );
     }
 }

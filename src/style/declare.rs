@@ -40,7 +40,17 @@ impl<'a> Params<'a> {
         value: impl Into<&'static str>,
         declare: impl FnOnce(&mut Self),
     ) {
-        let condition = Condition { key, value: value.into() };
+        self.when_any(key, [value], declare);
+    }
+
+    /// Declares parameters that matter only while the choice `key` (a whole key) has one of these values.
+    pub fn when_any<const N: usize>(
+        &mut self,
+        key: &'static str,
+        values: [impl Into<&'static str>; N],
+        declare: impl FnOnce(&mut Self),
+    ) {
+        let condition = Condition { key, values: values.map(Into::into).to_vec() };
         let is_new = !self.conditions.contains(&condition);
         self.conditions.extend(is_new.then_some(condition));
         declare(self);
@@ -65,6 +75,7 @@ impl<'a> Params<'a> {
             conditions: self.conditions.clone(),
             detail: self.detail,
             head: false,
+            span: None,
             slot,
         });
     }
@@ -119,6 +130,15 @@ impl<'a> Params<'a> {
         value: &'a mut u32,
     ) {
         self.push(key, label, unit, help, Slot::Integer { value, range });
+    }
+
+    /// Two numbers that are the ends of one range, which the panel shows on one slider.
+    pub fn span(&mut self, label: &'static str, declare: impl FnOnce(&mut Self)) {
+        let first = self.list.len();
+        declare(self);
+        if let Some(param) = self.list.get_mut(first) {
+            param.span = Some(label);
+        }
     }
 
     /// A colour.

@@ -2,6 +2,7 @@
 
 use super::edge_group::{EdgeGroup, Inner, Profile};
 use super::edge_line::{ClassStyle, Line};
+use super::hidden::Hidden;
 use super::param::Params;
 use super::slot::choice;
 use crate::geometry::EdgeClass;
@@ -31,6 +32,8 @@ pub struct Edges {
     pub variation: Variation,
     /// How the width changes along a line. Exact mode.
     pub pressure: Pressure,
+    /// Lines behind other surfaces.
+    pub hidden: Hidden,
 }
 
 choice! {
@@ -109,6 +112,7 @@ impl Default for Edges {
             darken: 0.6,
             variation: Variation::default(),
             pressure: Pressure { amount: 0.0, scale: 60.0 },
+            hidden: Hidden::default(),
         }
     }
 }
@@ -188,6 +192,7 @@ impl Edges {
             list.detail("variation", |list| self.variation.params(list));
             list.detail("pressure", |list| self.pressure.params(list));
         });
+        list.section("hidden", |list| self.hidden.params(list));
     }
 }
 

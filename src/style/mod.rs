@@ -11,7 +11,9 @@ pub mod edge_line;
 pub mod edges;
 pub mod gooch;
 pub mod halftone;
+pub mod hidden;
 pub mod mirror;
+mod paper;
 pub mod param;
 #[cfg(test)]
 mod param_tests;
@@ -31,7 +33,9 @@ pub use edge_line::Line;
 pub use edges::{Alignment, DepthOperator, EdgeMode, Edges};
 pub use gooch::Gooch;
 pub use halftone::Halftone;
+pub use hidden::{Hidden, HiddenMode};
 pub use mirror::Mirror;
+pub use paper::Paper;
 pub use param::{Param, Slot, Value};
 pub use plain::Plain;
 pub use toml_file::{diff_to_toml, set_from_toml};
@@ -66,6 +70,8 @@ choice! {
 pub struct Style {
     /// How surfaces are shaded.
     pub technique: Technique,
+    /// What it is drawn on, where it is the style of a whole document that does not say so itself.
+    pub paper: Paper,
     /// Parameters of [`Technique::Plain`].
     pub plain: Plain,
     /// Parameters of [`Technique::Gooch`].
@@ -87,6 +93,7 @@ impl Style {
     pub fn params(&mut self) -> Vec<Param<'_>> {
         let mut list = Params::default();
         list.choice("technique", "Technique", "How surfaces are shaded.", &mut self.technique);
+        self.paper.params(&mut list);
         list.when("technique", Technique::Plain, |list| {
             list.section("plain", |list| self.plain.params(list));
         });

@@ -30,17 +30,19 @@ pub struct Param<'a> {
     pub detail: bool,
     /// Whether it is the switch of its whole section.
     pub head: bool,
+    /// That it and the next one are the ends of one range: what the panel calls it.
+    pub span: Option<&'static str>,
     /// Where the value is.
     pub slot: Slot<'a>,
 }
 
-/// That a choice has a value.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// That a choice has one of some values.
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Condition {
     /// Key of the choice.
     pub key: &'static str,
-    /// The name that it must have.
-    pub value: &'static str,
+    /// The names of which it must have one.
+    pub values: Vec<&'static str>,
 }
 
 impl Param<'_> {
@@ -115,6 +117,8 @@ impl Param<'_> {
                 true
             }
             (Slot::Choice(c), Value::Text(new)) => c.choose(new),
+            // What stands without quotes on the command line is read as a switch.
+            (Slot::Choice(c), Value::Bool(false)) => c.choose("off"),
             _ => false,
         };
         if done {
@@ -161,6 +165,6 @@ pub fn retain_relevant(params: &mut Vec<Param<'_>>) {
             _ => None,
         })
         .collect();
-    let holds = |c: &Condition| choices.iter().any(|(key, name)| key == c.key && *name == c.value);
+    let holds = |c: &Condition| choices.iter().any(|(key, name)| key == c.key && c.values.contains(name));
     params.retain(|p| p.conditions.iter().all(holds));
 }

@@ -63,8 +63,10 @@ fn conditions_and_sources_are_parameters_of_the_list() {
     let params = style.params();
     let find = |key: &str| params.iter().find(|p| p.key == key).unwrap();
     for param in &params {
-        for Condition { key, value } in &param.conditions {
-            assert!(matches!(&find(key).slot, Slot::Choice(c) if c.names().contains(value)), "{key}={value}");
+        for Condition { key, values } in &param.conditions {
+            assert!(!values.is_empty());
+            let has = |name: &&str| matches!(&find(key).slot, Slot::Choice(c) if c.names().contains(name));
+            assert!(values.iter().all(has), "{key}={values:?}");
         }
         if let Some(other) = param.slot.inherits() {
             assert_eq!(std::mem::discriminant(&param.slot), std::mem::discriminant(&find(other).slot));

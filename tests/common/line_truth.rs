@@ -58,7 +58,7 @@ impl Stage {
     pub fn new(session: &mut Session, subject: &Subject) -> Self {
         let scene = &subject.scene;
         let mut document = Document { style: Style::default(), ..Document::default() };
-        document.view.background = Color([255; 3]);
+        document.view.background = Some(Color([255; 3]));
         document.style.technique = Technique::Blank;
         let opened = Opened { document, scene: scene.clone() };
         session.set_scene(&opened).unwrap();

@@ -4,7 +4,7 @@ use eframe::egui;
 use eframe::egui::{Color32, Painter, Pos2, Rect, Response, Sense, Stroke, Ui, vec2};
 
 /// What a button shows.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Icon {
     /// Visible.
     Eye,
@@ -12,6 +12,8 @@ pub enum Icon {
     Edges,
     /// It is a mirror.
     Mirror,
+    /// It belongs to the depth mask.
+    Mask,
 }
 
 /// Side of a button.
@@ -34,7 +36,7 @@ pub fn toggle(
         (true, false) => 0.9,
         (true, true) => 0.4,
         // It is there only where somebody looks.
-        (false, _) if icon == Icon::Mirror => 0.5,
+        (false, _) if matches!(icon, Icon::Mirror | Icon::Mask) => 0.5,
         (false, _) => 0.22,
     };
     let strength = if response.hovered() { 1.0 } else { strength };
@@ -44,6 +46,7 @@ pub fn toggle(
         Icon::Eye => eye(painter, rect.center(), on, color),
         Icon::Edges => cube(painter, rect.center(), on, color),
         Icon::Mirror => looking_glass(painter, rect.center(), on, color),
+        Icon::Mask => behind_sheets(painter, rect.center(), on, color),
     }
     response
 }
@@ -116,6 +119,20 @@ fn looking_glass(painter: &Painter, center: Pos2, on: bool, color: Color32) {
             let ends = [vec2(-2.2 + shift, 1.2), vec2(0.2 + shift, -2.0)].map(|p| center + p);
             painter.line_segment(ends, Stroke::new(1.0, color));
         }
+    }
+}
+
+/// A disc behind the corners of sheets.
+fn behind_sheets(painter: &Painter, center: Pos2, on: bool, color: Color32) {
+    let stroke = Stroke::new(if on { 1.6 } else { 1.0 }, color);
+    for [x, y] in [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]] {
+        let corner = center + 5.4 * vec2(x, y);
+        painter.line(vec![corner - vec2(3.2 * x, 0.0), corner, corner - vec2(0.0, 3.2 * y)], stroke);
+    }
+    if on {
+        painter.circle_filled(center, 2.6, color);
+    } else {
+        painter.circle_stroke(center, 2.2, stroke);
     }
 }
 

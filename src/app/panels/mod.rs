@@ -9,7 +9,9 @@ pub mod light;
 pub mod menu;
 pub mod outliner;
 pub mod params;
+mod peeling;
 pub mod row;
+mod span;
 pub mod status;
 pub mod style;
 pub mod view;
@@ -17,6 +19,7 @@ pub mod view;
 use super::command::Command;
 use super::loading::Model;
 use super::selection::Selection;
+use super::viewport::Viewport;
 use crate::document::Document;
 use crate::style::preset::Preset;
 use eframe::egui;
@@ -31,6 +34,8 @@ pub struct Editing<'a> {
     pub selection: &'a mut Selection,
     /// The built-in styles.
     pub presets: &'a [Preset],
+    /// What was drawn last.
+    pub viewport: &'a Viewport,
     /// What the window is asked to do.
     pub commands: &'a mut Vec<Command>,
     /// The image that the window is asked to let the person choose.

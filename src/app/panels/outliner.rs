@@ -7,6 +7,7 @@ use eframe::egui::{Rect, Sense, Ui, pos2, vec2};
 
 use super::Editing;
 use super::icons::{self, Icon};
+use crate::document::Role;
 use crate::document::mirrors::mirror_fault;
 use crate::document::{Document, Resolved};
 use crate::scene::{NodeId, Scene};
@@ -182,24 +183,33 @@ impl Outliner {
             icons::toggle(ui, edges_at, id.with("edges"), Icon::Edges, roles.enhanced, !visible, &edges_name)
                 .on_hover_text("Draw the edges of this object (enhanced)");
         let targets = targets();
-        // Few objects are mirrors: the others have the switch only where somebody looks.
+        // Few objects are mirrors or designated: the others have the switches only where somebody looks.
         let looked_at = ui.rect_contains_pointer(rect);
         let mut left_of_switches = edges_at.left();
-        if looked_at || roles.mirror {
-            let at = square(2.0);
+        let switches = [(Role::Mirror, Icon::Mirror, "Mirror"), (Role::Mask, Icon::Mask, "Uncover")];
+        for (i, (role, icon, label)) in switches.into_iter().enumerate() {
+            let has = roles.has(role);
+            if !looked_at && !has {
+                continue;
+            }
+            let at = square(2.0 + i as f32);
             left_of_switches = at.left();
-            let label = format!("Mirror {name}");
-            let mirror =
-                icons::toggle(ui, at, id.with("mirror"), Icon::Mirror, roles.mirror, !visible, &label);
-            let fault = if mirror.hovered() { mirror_fault(scene, row.node) } else { None };
-            let help = match fault {
-                Some(fault) => format!("Cannot be a mirror: {fault}"),
-                None if roles.mirror => "Make this mirror an object like any other".to_owned(),
-                None if node.mesh.is_none() => "Make each flat object below a mirror".to_owned(),
-                None => "Make this flat object a mirror".to_owned(),
+            let label = format!("{label} {name}");
+            let switch = icons::toggle(ui, at, id.with(icon), icon, has, !visible, &label);
+            let fault =
+                (role == Role::Mirror && switch.hovered()).then(|| mirror_fault(scene, row.node)).flatten();
+            let help = match (&fault, role) {
+                (Some(fault), _) => format!("Cannot be a mirror: {fault}"),
+                (None, Role::Mirror) if has => "Make this mirror an object like any other".to_owned(),
+                (None, Role::Mirror) if node.mesh.is_none() => {
+                    "Make each flat object below a mirror".to_owned()
+                }
+                (None, Role::Mirror) => "Make this flat object a mirror".to_owned(),
+                (None, Role::Mask) if has => "Let blueprints hide this object again".to_owned(),
+                (None, Role::Mask) => "Peel blueprints until this object is uncovered".to_owned(),
             };
-            if mirror.on_hover_text(help).clicked() && (fault.is_none() || roles.mirror) {
-                editing.document.set_mirror(scene, &targets, !roles.mirror);
+            if switch.on_hover_text(help).clicked() && (fault.is_none() || has) {
+                editing.document.set_role(scene, &targets, role, !has);
             }
         }
         if eye.clicked() {

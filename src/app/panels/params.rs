@@ -6,6 +6,7 @@ use eframe::egui::{RichText, Ui};
 
 use super::icons;
 use super::row::{Change, RESET_WIDTH, Row, capitalised, spaced};
+use super::span::span_ui;
 use crate::style::param::Param;
 
 /// How far a section within a section is moved to the right.
@@ -118,8 +119,20 @@ impl Section<'_, '_> {
     }
 
     fn rows_ui(&mut self, ui: &mut Ui, changes: &mut Vec<Change>) {
-        for row in self.rows.iter_mut().filter(|row| !row.param.head) {
-            changes.extend(row.ui(ui));
+        let mut next = 0;
+        while let Some(rows) = self.rows.get_mut(next..) {
+            next += match rows {
+                [] => break,
+                [row, ..] if row.param.head => 1,
+                [row, end, ..] if row.param.span.is_some() => {
+                    changes.extend(span_ui(ui, [row, end]));
+                    2
+                }
+                [row, ..] => {
+                    changes.extend(row.ui(ui));
+                    1
+                }
+            };
         }
     }
 }

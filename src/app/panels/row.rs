@@ -68,7 +68,8 @@ impl Row<'_, '_> {
         self.set(&default)
     }
 
-    fn set(&mut self, value: &Value) -> Option<Change> {
+    /// Sets it.
+    pub fn set(&mut self, value: &Value) -> Option<Change> {
         // A default always fits its own parameter, and only what inherits is asked to.
         self.param.set(value).ok().map(|()| Change::Set(self.param.key.clone(), value.clone()))
     }
@@ -174,7 +175,7 @@ pub fn named_row<R>(ui: &mut Ui, name: &str, help: &str, add: impl FnOnce(&mut U
 }
 
 /// The name of a parameter, behind room for a button that resets.
-fn label_ui(ui: &mut Ui, text: &str, color: Color32) -> egui::Response {
+pub fn label_ui(ui: &mut Ui, text: &str, color: Color32) -> egui::Response {
     let height = ui.spacing().interact_size.y;
     let (rect, response) = ui.allocate_exact_size(egui::vec2(LABEL_WIDTH, height), egui::Sense::click());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, text));

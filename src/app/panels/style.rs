@@ -5,6 +5,7 @@ use eframe::egui::{RichText, Ui};
 
 use super::outliner::{inherit, style_name};
 use super::params::params_ui;
+use super::peeling::peeling_ui;
 use super::row::{Change, label_of, named_row};
 use super::{Choosing, Editing};
 use crate::document::Document;
@@ -13,6 +14,9 @@ use crate::style::{Style, StyleError, Value, param};
 
 /// The most that the list of presets is high, in points: all of them are seen at once.
 const PRESETS_HEIGHT: f32 = 480.0;
+
+/// Parameters that matter only while objects are designated.
+const FOR_MASKS: [&str; 3] = ["blueprint.fraction", "blueprint.beyond", "blueprint.highlight"];
 
 /// The page.
 pub fn style_ui(ui: &mut Ui, editing: &mut Editing<'_>) {
@@ -42,10 +46,21 @@ pub fn style_ui(ui: &mut Ui, editing: &mut Editing<'_>) {
         return;
     }
 
+    if let Some(peeled) = editing.viewport.last_peeled(&style) {
+        peeling_ui(ui, peeled);
+    }
+
     let mut default = Style::default();
     let defaults = default.params();
     let mut params = style.params();
     param::retain_relevant(&mut params);
+    // What is not the style of the whole drawing has no say in its paper.
+    if !targets.is_empty() {
+        params.retain(|param| param.key != "paper");
+    }
+    if !editing.document.has_mask(&scene) {
+        params.retain(|param| !FOR_MASKS.contains(&param.key.as_str()));
+    }
     if !is_mirror {
         params.retain(|param| !param.key.starts_with("mirror."));
     }

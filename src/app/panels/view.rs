@@ -9,17 +9,9 @@ use super::row::named_row;
 use crate::app::navigation::with_view_angle;
 use crate::app::state::Samples;
 use crate::document::View;
-use crate::scene::{Projection, Up};
-
-/// Units by name, in metres.
-const UNITS: [(&str, f64); 6] = [
-    ("Millimetre", 0.001),
-    ("Centimetre", 0.01),
-    ("Metre", 1.0),
-    ("Kilometre", 1000.0),
-    ("Inch", 0.0254),
-    ("Foot", 0.3048),
-];
+use crate::scene::unit::UNITS;
+use crate::scene::{Projection, Unit, Up};
+use crate::style::param;
 
 /// Samples per pixel to choose from.
 const SAMPLES: [u32; 4] = [1, 16, 64, 256];
@@ -56,13 +48,14 @@ pub fn view_ui(ui: &mut Ui, editing: &mut Editing<'_>, samples: &mut Samples) ->
             .selected_text(text)
             .show_ui(ui, |ui| {
                 ui.selectable_value(&mut document.metres_per_unit, None, as_file);
-                for (name, metres) in UNITS {
-                    ui.selectable_value(&mut document.metres_per_unit, Some(metres), name);
+                for unit in UNITS {
+                    ui.selectable_value(&mut document.metres_per_unit, Some(unit.metres), unit.name);
                 }
             });
         combo.response.labelled_by(label);
     });
 
+    let unit = document.metres_per_unit(scene).and_then(Unit::of);
     if let Some(camera) = &mut document.camera {
         named_row(ui, "Projection", "Perspective, or parallel as in technical drawings", |ui, label| {
             let mut parallel = matches!(camera.projection, Projection::Orthographic { .. });
@@ -80,6 +73,18 @@ pub fn view_ui(ui: &mut Ui, editing: &mut Editing<'_>, samples: &mut Samples) ->
                 *camera = camera.with_orthographic(parallel);
             }
         });
+        if let Projection::Orthographic { view_height } = &mut camera.projection {
+            named_row(ui, "Height", "Height of the picture in units of the model", |ui, label| {
+                let speed = *view_height * 0.005;
+                let number = egui::DragValue::new(view_height)
+                    .range(f64::MIN_POSITIVE..=f64::MAX)
+                    .speed(speed)
+                    .max_decimals(6)
+                    .suffix(unit.map_or_else(String::new, |unit| format!(" {}", unit.symbol)));
+                let width = ui.available_width();
+                ui.add_sized([width, ui.spacing().interact_size.y], number).labelled_by(label);
+            });
+        }
         if let Projection::Perspective { view_angle } = camera.projection {
             named_row(ui, "View angle", "Vertical angle of the view; a small one flattens", |ui, label| {
                 let mut angle = view_angle;
@@ -101,8 +106,11 @@ pub fn view_ui(ui: &mut Ui, editing: &mut Editing<'_>, samples: &mut Samples) ->
 
     ui.add_space(4.0);
     let mut default = View::default();
-    let defaults = default.params();
-    params_ui(ui, "view", &mut document.view.params(), &defaults);
+    let paper = document.style.paper.color;
+    let defaults = default.params(paper);
+    let mut params = document.view.params(paper);
+    param::retain_relevant(&mut params);
+    params_ui(ui, "view", &mut params, &defaults);
     for (name, help, value) in samples.settings() {
         named_row(ui, name, help, |ui, label| {
             let combo = egui::ComboBox::from_id_salt(name)
@@ -124,8 +132,5 @@ fn samples_name(samples: u32) -> String {
 }
 
 fn unit_name(metres: f64) -> String {
-    UNITS
-        .iter()
-        .find(|(_, m)| (m - metres).abs() < 1e-9 * m)
-        .map_or_else(|| format!("{metres} m"), |(name, _)| (*name).to_owned())
+    Unit::of(metres).map_or_else(|| format!("{metres} m"), |unit| unit.name.to_owned())
 }

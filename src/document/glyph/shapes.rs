@@ -34,7 +34,7 @@ pub struct Shapes {
 impl Document {
     /// All that [`Self::glyph_shapes`] depends on beside the scene.
     pub fn glyph_inputs(&self) -> (&[Glyph], Color) {
-        (&self.glyphs, self.view.background)
+        (&self.glyphs, self.paper())
     }
 
     /// The glyphs for a scene (without additions) whose meshes have these boxes, each in its own space.

@@ -9,7 +9,7 @@ use crate::render::stage::Output;
 /// What a mirror shows.
 pub(super) struct Reflection {
     object: u32,
-    drawing: Drawing,
+    pub(super) drawing: Drawing,
     pub(super) uniform: ArrayBuffer,
 }
 

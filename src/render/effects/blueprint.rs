@@ -2,40 +2,29 @@
 //! section 4).
 //!
 //! ```text
-//!            ┌────────────────────────────────────────────────────────┐
-//!            ▼                                                        │
-//! draws ─► layer i ─► count ─► edge map ─► lines ─► beneath the layers before ─► picture of the group
-//!                       └─► gate: too few pixels shut it, and nothing after that runs
+//! draws ─► layers ─► edge map of each ─► lines ─► beneath the layers before ─► picture of the group
 //! ```
 //!
 //! The paper blends the layers back to front; front to back, each beneath those before it, gives the same picture with two
 //! layers in memory instead of all, and ends wherever peeling does.
 
-use std::sync::Arc;
-
 use encase::ShaderType;
 use glam::Vec3;
 
-use crate::geometry::LineSegment;
 use crate::gpu::recorder::{Draw, Input, Onto};
-use crate::gpu::{ArrayBuffer, DepthRule, DynamicBuffer, Gate, Gpu, Program, Recorder, Target};
+use crate::gpu::{ArrayBuffer, DepthRule, Gpu, Program, Recorder, Target};
 use crate::render::RenderError;
-use crate::render::drawing::DrawingInputs;
+use crate::render::drawing::{Begun, DrawingInputs};
 use crate::render::frame_uniform::FrameUniform;
 use crate::render::groups::Group;
-use crate::render::passes::edge_map::{EdgeInputs, EdgeMapPass};
-use crate::render::passes::edge_style::EdgeUniform;
+use crate::render::layers::{LayerInputs, LayerLines, LayerLinesInputs, Layers, Reported};
+use crate::render::passes::depth_mask::DepthMask;
 use crate::render::passes::gbuffer::{DrawCall, DrawUniform, GBuffer, GBufferPass};
-use crate::render::passes::line_distance::line_distance;
-use crate::render::passes::lines::{Lines, Pen, lines};
-use crate::render::passes::peel::{Layer, MOST_LAYERS, Peel, PeelCount, before_all};
-use crate::render::passes::repeated::{none_seen, without_repeated};
+use crate::render::passes::lines::{Pen, lines};
+use crate::render::passes::peel::{Layer, MOST_LAYERS, PeelCount, Peeled};
 use crate::render::segments::segments;
 use crate::render::stage::{Output, Stage};
-use crate::style::{self, Edges, Style};
-
-/// Kinds of passes that a layer has beside the draws of its objects: room in the gate.
-const PASSES: usize = 16;
+use crate::style::{self, Edges, Style, Technique};
 
 /// Objects whose style is equal, peeled together.
 #[derive(Debug, Clone, PartialEq)]
@@ -49,23 +38,23 @@ pub struct Blueprint {
 /// Twin of `Blueprint` in `shaders/effects/blueprint.wgsl`.
 #[derive(Debug, Clone, Copy, PartialEq, ShaderType)]
 pub struct BlueprintUniform {
-    near: Vec3,
-    by_layer: f32,
     far: Vec3,
-    by_distance: f32,
+    by_layer: f32,
     fill: Vec3,
     opacity: f32,
+    by_distance: f32,
+    threshold: f32,
 }
 
 impl From<&style::Blueprint> for BlueprintUniform {
     fn from(style: &style::Blueprint) -> Self {
         Self {
-            near: style.near.to_linear(),
-            by_layer: style.by_layer.clamp(0.0, 1.0),
             far: style.far.to_linear(),
-            by_distance: style.by_distance.clamp(0.0, 1.0),
+            by_layer: style.by_layer.clamp(0.0, 1.0),
             fill: style.fill.to_linear(),
             opacity: style.opacity.clamp(0.0, 1.0),
+            by_distance: style.by_distance.clamp(0.0, 1.0),
+            threshold: style.threshold.clamp(0.0, 1.0),
         }
     }
 }
@@ -73,7 +62,7 @@ impl From<&style::Blueprint> for BlueprintUniform {
 impl Blueprint {
     /// The group to which an object of this style belongs, in a scene with `count` object ids.
     pub fn group_of<'a>(all: &'a mut Vec<Self>, style: &Style, count: usize) -> &'a mut Group {
-        let found = all.iter().position(|b| b.style == style.blueprint && b.edges == style.edges);
+        let found = all.iter().position(|b| b.is_of(style));
         let index = found.unwrap_or(all.len());
         if found.is_none() {
             all.push(Self {
@@ -83,6 +72,11 @@ impl Blueprint {
             });
         }
         &mut all[index].group
+    }
+
+    /// Whether an object of this style belongs to it.
+    fn is_of(&self, style: &Style) -> bool {
+        style.technique == Technique::Blueprint && self.style == style.blueprint && self.edges == style.edges
     }
 
     /// Most layers that are peeled: no more than are drawn.
@@ -118,6 +112,7 @@ struct Inputs {
     shaders: u64,
     scene_revision: u64,
     surfaces: u64,
+    mask: Option<u64>,
     blueprint: Blueprint,
     draws: Vec<DrawUniform>,
     calls: Vec<DrawCall>,
@@ -129,13 +124,9 @@ struct Inputs {
 
 /// What of the drawing of a group lives across frames.
 pub struct Blueprints {
-    draws: DynamicBuffer,
-    edge_map_pass: EdgeMapPass,
-    edge_styles: ArrayBuffer,
-    greatest_radius: ArrayBuffer,
+    layers: Layers,
+    lines: LayerLines,
     style: ArrayBuffer,
-    gate: Option<Gate>,
-    count: PeelCount,
     stage: Stage<Inputs, Peels>,
 }
 
@@ -143,13 +134,9 @@ impl Blueprints {
     /// Nothing drawn yet.
     pub fn new(gpu: &Gpu) -> Self {
         Self {
-            draws: GBufferPass::draw_buffer(gpu),
-            edge_map_pass: EdgeMapPass::new(gpu),
-            edge_styles: ArrayBuffer::new(gpu, "edge styles of a blueprint"),
-            greatest_radius: ArrayBuffer::new(gpu, "greatest radius"),
+            layers: Layers::new(gpu),
+            lines: LayerLines::new(gpu),
             style: ArrayBuffer::new(gpu, "blueprint"),
-            gate: None,
-            count: PeelCount::new(gpu),
             stage: Stage::default(),
         }
     }
@@ -159,12 +146,31 @@ impl Blueprints {
         self.stage.runs()
     }
 
-    /// How far peeling came in the last picture.
-    pub fn count(&self) -> &PeelCount {
-        &self.count
+    /// What has been reported about its pictures; it draws an incomplete one again. Never waits.
+    pub fn take_reports(&mut self) -> Reported {
+        let reported = self.layers.take_reports();
+        if reported == Reported::Incomplete {
+            self.stage.clear();
+        }
+        reported
     }
 
-    /// The picture of a group, as far as opaque surfaces do not hide it.
+    /// Whether objects of this style were drawn last.
+    pub fn is_of(&self, style: &Style) -> bool {
+        self.stage.inputs().is_some_and(|last| last.blueprint.is_of(style))
+    }
+
+    /// How far the last picture came whose report has arrived.
+    pub fn last(&self) -> Option<&Peeled> {
+        self.layers.last()
+    }
+
+    /// How far peeling came in the last picture.
+    pub fn count(&self) -> &PeelCount {
+        self.layers.count()
+    }
+
+    /// The picture of a group, as far as opaque surfaces do not hide it, peeled until `mask` is uncovered.
     ///
     /// # Errors
     /// [`RenderError`].
@@ -173,14 +179,16 @@ impl Blueprints {
         rec: &mut Recorder<'_>,
         gbuffer_pass: &mut GBufferPass,
         inputs: &DrawingInputs<'_>,
-        (uniform, surfaces): (&FrameUniform, &Output<GBuffer>),
+        (begun, mask): (&Begun, Option<&Output<DepthMask>>),
         blueprint: &Blueprint,
     ) -> Result<Output<Peels>, RenderError> {
+        let Begun { uniform, gbuffer: surfaces, .. } = begun;
         let (draws, calls) = blueprint.group.draws(inputs.scene, inputs.view);
         let asked = Inputs {
             shaders: rec.pipelines.generation(),
             scene_revision: inputs.scene_revision,
             surfaces: surfaces.revision,
+            mask: mask.map(|mask| mask.revision),
             blueprint: blueprint.clone(),
             draws,
             calls,
@@ -189,182 +197,133 @@ impl Blueprints {
             crease_angle: inputs.crease_angle,
             keeps_layers: inputs.keeps_layers,
         };
-        let Self { draws, edge_map_pass, edge_styles, greatest_radius, style, gate, count, stage } = self;
+        let Self { layers, lines: layer_lines, style, stage } = self;
         stage.run(asked, |asked| {
-            edge_styles.write(rec.gpu, &blueprint.group.edge_styles);
-            style.write(rec.gpu, &vec![BlueprintUniform::from(&blueprint.style)]);
-            count.begin(rec.gpu, blueprint.least(rec.size()));
-            let mut own = gate.take().unwrap_or_else(|| Gate::new(rec.gpu));
-            own.clear(rec.gpu, asked.calls.len() + PASSES)?;
-            let view = inputs.view.moved(glam::Vec2::ZERO);
-            let segments = segments(inputs.scene, &blueprint.group, &view, inputs.crease_angle);
-            let mut peeling = Peeling {
-                inputs,
-                asked,
-                surfaces: &surfaces.value,
-                segments: Arc::new(segments),
-                gbuffer_pass,
-                draws,
-                edge_map_pass,
-                edge_styles,
-                greatest_radius,
-                style,
-                count,
-                front: None,
-                kept: Vec::new(),
+            let Blueprint { group, style: params, .. } = blueprint;
+            style.write(rec.gpu, &vec![BlueprintUniform::from(params)]);
+            layer_lines.begin(rec.gpu, &group.edge_styles);
+            let segments =
+                segments(inputs.scene, group, &inputs.view.moved(glam::Vec2::ZERO), inputs.crease_angle);
+            let is_cut = inputs.view.cut.is_some();
+            let edges = LayerLinesInputs {
+                styles: &group.edge_styles,
+                segments: &segments,
+                has_holes: group.has_holes,
+                is_cut,
+                before: None,
+                repeated: params.repeated,
             };
             let color = rec.target("blueprint", wgpu::TextureFormat::Rgba16Float)?;
             rec.clear("blueprint", &color);
-            let first = before_all(rec)?;
-            rec.gate = Some(own);
-            let peeled = peeling.peel(rec, first, &color);
-            *gate = rec.gate.take();
-            if let Some(gate) = gate {
-                gate.open(rec.gpu);
-            }
-            let Peeling { front, kept: layers, .. } = peeling;
-            peeled.map(|()| Peels { color, front, layers })
+            let (mut seen, mut front, mut kept) = (None, None, Vec::new());
+            let cut = LayerInputs {
+                scene: inputs.scene,
+                draws: &asked.draws,
+                calls: &asked.calls,
+                is_cut,
+                most: blueprint.layers(),
+                least: blueprint.least(rec.size()),
+                mask: mask.map(|mask| &mask.value),
+                fraction: params.fraction,
+            };
+            layers.each(rec, gbuffer_pass, &cut, |rec, number, layer, count| {
+                if asked.keeps_layers {
+                    kept.push(layer.clone());
+                }
+                if !blueprint.shows(number) {
+                    return Ok(());
+                }
+                front.get_or_insert_with(|| layer.gbuffer.geometry.clone());
+                let sprite = Sprite {
+                    surfaces: &surfaces.value,
+                    style: style.buffer(),
+                    count,
+                    mask: mask.map(|mask| &mask.value).filter(|_| !params.beyond),
+                };
+                if group.have_lines() {
+                    let found = layer_lines.edges(rec, &edges, layer, &mut seen)?;
+                    let pen = Pen {
+                        file: "effects/blueprint.wgsl",
+                        entry_point: "fs_lines",
+                        inputs: &sprite.inputs(found.nearer.as_ref().unwrap_or(&layer.order)),
+                        switches: &[
+                            ("WITHOUT_REPEATED", found.nearer.is_some()),
+                            ("AMONG_OTHERS", true),
+                            sprite.without_beyond(),
+                        ],
+                        onto: Onto::Beneath,
+                    };
+                    lines(rec, &found.lines(layer, layer_lines, edges.styles), &pen, &color)?;
+                }
+                if params.opacity > 0.0 {
+                    fill(rec, layer, layer_lines.edge_styles(), sprite, &color)?;
+                }
+                Ok(())
+            })?;
+            Ok(Peels { color, front, layers: kept })
         })
     }
 }
 
-/// A group while it is peeled.
-struct Peeling<'a> {
-    inputs: &'a DrawingInputs<'a>,
-    asked: &'a Inputs,
+/// What layers are drawn with and tested against.
+#[derive(Clone, Copy)]
+struct Sprite<'a> {
     surfaces: &'a GBuffer,
-    segments: Arc<Vec<LineSegment>>,
-    gbuffer_pass: &'a mut GBufferPass,
-    draws: &'a mut DynamicBuffer,
-    edge_map_pass: &'a mut EdgeMapPass,
-    edge_styles: &'a ArrayBuffer,
-    greatest_radius: &'a mut ArrayBuffer,
-    style: &'a ArrayBuffer,
+    style: &'a wgpu::Buffer,
     count: &'a PeelCount,
-    front: Option<Target>,
-    kept: Vec<Layer>,
+    /// Nothing is drawn beyond it.
+    mask: Option<&'a DepthMask>,
 }
 
-impl Peeling<'_> {
-    fn peel(
-        &mut self,
-        rec: &mut Recorder<'_>,
-        [mut last_depth, mut last_order]: [Target; 2],
-        color: &Target,
-    ) -> Result<(), RenderError> {
-        let blueprint = &self.asked.blueprint;
-        let mut seen = None;
-        for number in 0..blueprint.layers() {
-            let order = rec.target("order", last_order.format())?;
-            let peel = Peel { last_depth: &last_depth, last_order: &last_order, order: &order };
-            let drawn = (self.asked.draws.as_slice(), self.asked.calls.as_slice());
-            let is_cut = self.inputs.view.cut.is_some();
-            let gbuffer =
-                self.gbuffer_pass.run(rec, self.inputs.scene, self.draws, drawn, is_cut, Some(&peel))?;
-            let layer = Layer { gbuffer, order };
-            self.count.count(rec, &layer)?;
-            if blueprint.shows(number) {
-                self.front.get_or_insert_with(|| layer.gbuffer.geometry.clone());
-                if blueprint.group.have_lines() {
-                    self.lines(rec, &layer, &mut seen, color)?;
-                }
-                self.fill(rec, &layer, color)?;
-            }
-            if self.asked.keeps_layers {
-                self.kept.push(layer.clone());
-            }
-            (last_depth, last_order) = (layer.gbuffer.depth, layer.order);
-        }
-        Ok(())
-    }
-
-    /// Draws the lines of a layer beneath what is there. `seen`: those of the layers before.
-    fn lines(
-        &mut self,
-        rec: &mut Recorder<'_>,
-        layer: &Layer,
-        seen: &mut Option<Target>,
-        color: &Target,
-    ) -> Result<(), RenderError> {
-        let Blueprint { group, style, .. } = &self.asked.blueprint;
-        let styles: &[EdgeUniform] = &group.edge_styles;
-        let mut edge_map = self.edge_map_pass.run(
-            rec,
-            &EdgeInputs {
-                gbuffer: &layer.gbuffer,
-                styles,
-                edge_styles: self.edge_styles.buffer(),
-                segments: &self.segments,
-                has_holes: group.has_holes,
-                is_cut: self.inputs.view.cut.is_some(),
-                is_layer: true,
-                shadow_mask: None,
-            },
-        )?;
-        let mut seen_before = None;
-        if !style.repeated {
-            let before = match seen.take() {
-                Some(seen) => seen,
-                None => none_seen(rec)?,
-            };
-            let (now, own) = without_repeated(rec, &edge_map, &before)?;
-            (*seen, edge_map, seen_before) = (Some(now), own, Some(before));
-        }
-        let reach = match &edge_map.spines {
-            Some(spines) => Some(line_distance(rec, spines, styles, self.greatest_radius)?),
-            None => None,
-        };
-        let drawn = Lines {
-            gbuffer: &layer.gbuffer,
-            edge_map: &edge_map,
-            reach: reach.as_ref(),
-            styles,
-            edge_styles: self.edge_styles.buffer(),
-        };
-        let pen = Pen {
-            file: "effects/blueprint.wgsl",
-            entry_point: "fs_lines",
-            inputs: &self.sprite(seen_before.as_ref().unwrap_or(&layer.order)),
-            switches: &[("WITHOUT_REPEATED", seen_before.is_some()), ("AMONG_OTHERS", true)],
-            onto: Onto::Beneath,
-        };
-        lines(rec, &drawn, &pen, color)
+impl<'a> Sprite<'a> {
+    /// Whether what lies beyond the depth mask is left out.
+    fn without_beyond(&self) -> (&'static str, bool) {
+        ("WITHOUT_BEYOND", self.mask.is_some())
     }
 
     /// What the shader of the effect reads from binding 6 on.
-    fn sprite<'b>(&'b self, seen: &'b Target) -> [Input<'b>; 4] {
+    fn inputs(&self, seen: &'a Target) -> [Input<'a>; 5] {
         [
             Input::Texture(&self.surfaces.geometry),
-            Input::Storage(self.style.buffer()),
+            Input::Storage(self.style),
             Input::Storage(self.count.buffer()),
             Input::Texture(seen),
+            // Unread without a mask: any buffer.
+            Input::Storage(self.mask.map_or(self.style, |mask| &mask.count)),
         ]
     }
+}
 
-    /// Draws the surfaces of a layer beneath what is there.
-    fn fill(&self, rec: &mut Recorder<'_>, layer: &Layer, color: &Target) -> Result<(), RenderError> {
-        if self.asked.blueprint.style.opacity <= 0.0 {
-            return Ok(());
-        }
-        // Of the lines' bindings only the first is read: any texture of their kind.
-        let mut inputs = vec![
-            Input::Texture(&layer.gbuffer.geometry),
-            Input::Texture(&layer.order),
-            Input::Texture(&layer.gbuffer.base_color),
-            Input::Texture(&layer.order),
-            Input::Texture(&layer.order),
-            Input::Storage(self.edge_styles.buffer()),
-        ];
-        inputs.extend(self.sprite(&layer.order));
-        rec.draw(Draw {
-            label: "fill",
-            program: Program::new("effects/blueprint.wgsl", "fs_fill"),
-            inputs: &inputs,
-            outputs: &[color],
-            onto: Onto::Beneath,
-            depth: Some((&layer.gbuffer.depth, DepthRule::Covered)),
-            lines: None,
-        })?;
-        Ok(())
-    }
+/// Draws the surfaces of a layer beneath what is there.
+fn fill(
+    rec: &mut Recorder<'_>,
+    layer: &Layer,
+    edge_styles: &wgpu::Buffer,
+    sprite: Sprite<'_>,
+    color: &Target,
+) -> Result<(), RenderError> {
+    // Of the lines' bindings only the first is read: any texture of their kind.
+    let mut inputs = vec![
+        Input::Texture(&layer.gbuffer.geometry),
+        Input::Texture(&layer.order),
+        Input::Texture(&layer.gbuffer.base_color),
+        Input::Texture(&layer.order),
+        Input::Texture(&layer.order),
+        Input::Storage(edge_styles),
+    ];
+    inputs.extend(sprite.inputs(&layer.order));
+    rec.draw(Draw {
+        label: "fill",
+        program: Program {
+            file: "effects/blueprint.wgsl",
+            entry_point: "fs_fill",
+            switches: vec![sprite.without_beyond()],
+        },
+        inputs: &inputs,
+        outputs: &[color],
+        onto: Onto::Beneath,
+        depth: Some((&layer.gbuffer.depth, DepthRule::Covered)),
+        lines: None,
+    })?;
+    Ok(())
 }

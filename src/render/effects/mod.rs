@@ -3,6 +3,7 @@
 pub mod blueprint;
 pub mod gooch;
 pub mod halftone;
+pub mod hidden;
 pub mod mirror;
 pub mod surface;
 pub mod toon;

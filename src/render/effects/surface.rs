@@ -2,7 +2,7 @@
 //! the scene is traversed once, where the edge-enhancement paper's pipeline traverses it twice.
 
 use encase::ShaderType;
-use glam::DMat4;
+use glam::{DMat4, Vec3};
 
 use super::gooch::GoochUniform;
 use super::halftone::{self, HalftoneInputs};
@@ -17,6 +17,7 @@ use crate::style::{Style, Technique};
 #[derive(Debug, Clone, Copy, PartialEq, ShaderType, Default)]
 pub struct SurfaceUniform {
     gooch: GoochUniform,
+    highlight: Vec3,
     ambient: f32,
     technique: u32,
 }
@@ -28,6 +29,7 @@ const UNLIT: u32 = 2;
 const GOOCH: u32 = 3;
 const TOON: u32 = 4;
 const HALFTONE: u32 = 5;
+const DESIGNATED: u32 = 6;
 
 impl SurfaceUniform {
     /// Of an object that lies at `world_from_local`.
@@ -37,10 +39,12 @@ impl SurfaceUniform {
                 Technique::Gooch => GoochUniform::new(&style.gooch, world_from_local),
                 _ => GoochUniform::default(),
             },
+            highlight: style.blueprint.highlight.to_linear(),
             ambient: style.plain.ambient.clamp(0.0, 1.0),
             technique: match style.technique {
-                // Blueprints are no surfaces.
-                Technique::Blank | Technique::Blueprint => BLANK,
+                Technique::Blank => BLANK,
+                // Only what is designated is a surface.
+                Technique::Blueprint => DESIGNATED,
                 Technique::Plain => PLAIN,
                 Technique::Unlit => UNLIT,
                 Technique::Gooch => GOOCH,

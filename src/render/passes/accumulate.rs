@@ -24,6 +24,8 @@ pub struct Subject {
     pub camera: Camera,
     /// Size of the picture in pixels.
     pub size: [u32; 2],
+    /// How often a sample turned out to be incomplete: none of those has a part in it.
+    pub incomplete: u64,
 }
 
 /// The samples that have been drawn of one subject. Only colours are averaged: ids, depths and strengths of edges are

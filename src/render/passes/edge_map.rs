@@ -25,6 +25,8 @@ pub struct EdgeMap {
     pub edges: Target,
     /// Where spines of exact lines run and how wide they are; `None` without any.
     pub spines: Option<Target>,
+    /// Whether ink of the papers' operators may be in it.
+    pub has_paper: bool,
 }
 
 /// What makes the edge map.
@@ -49,6 +51,9 @@ pub struct EdgeInputs<'a> {
     pub is_cut: bool,
     /// Whether the G-buffer is a depth layer, which may lie behind a segment that belongs to a nearer one.
     pub is_layer: bool,
+    /// Of a depth layer the regions of the last one before it and of that before that: what goes on there has no outline
+    /// where it leaves the layer. `None`: it has.
+    pub before: Option<[&'a Target; 2]>,
     /// Which lights reach each pixel; `None` when no light throws shadows.
     pub shadow_mask: Option<&'a Target>,
 }
@@ -71,11 +76,12 @@ impl EdgeMapPass {
             spines = Some(self.exact_edges(rec, inputs, &edge_map)?);
             onto = Onto::Old;
         }
+        let has_paper = inputs.styles.iter().any(EdgeUniform::is_paper);
         // Without exact edges it is this that clears the map.
-        if onto == Onto::Nothing || inputs.styles.iter().any(EdgeUniform::is_paper) {
+        if onto == Onto::Nothing || has_paper {
             paper_edges(rec, inputs.gbuffer, inputs.styles, inputs.edge_styles, &edge_map, onto)?;
         }
-        Ok(EdgeMap { edges: edge_map, spines })
+        Ok(EdgeMap { edges: edge_map, spines, has_paper })
     }
 
     fn exact_edges(
@@ -84,8 +90,17 @@ impl EdgeMapPass {
         inputs: &EdgeInputs<'_>,
         edge_map: &Target,
     ) -> Result<Target, RenderError> {
-        let EdgeInputs { gbuffer, styles, edge_styles, segments, has_holes, is_cut, is_layer, shadow_mask } =
-            *inputs;
+        let EdgeInputs {
+            gbuffer,
+            styles,
+            edge_styles,
+            segments,
+            has_holes,
+            is_cut,
+            is_layer,
+            before,
+            shadow_mask,
+        } = *inputs;
         let any = |has: fn(&EdgeUniform) -> bool| styles.iter().any(|s| s.is_exact() && has(s));
         let variation =
             [("WITH_VARIATION", any(EdgeUniform::varies)), ("WITH_PRESSURE", any(|s| s.pressure > 0.0))];
@@ -121,8 +136,14 @@ impl EdgeMapPass {
             Input::Texture(&gbuffer.region),
             Input::Storage(edge_styles),
             Input::Texture(&marks),
+            // Unread unless it is a layer.
+            Input::Texture(before.map_or(&gbuffer.region, |[before, _]| before)),
+            Input::Texture(before.map_or(&gbuffer.region, |[_, before_that]| before_that)),
         ];
-        let switches = [("WITH_CUT", is_cut)].into_iter().chain(variation).collect::<Vec<_>>();
+        let switches = [("WITH_CUT", is_cut), ("WITH_LAYERS_BEFORE", before.is_some())]
+            .into_iter()
+            .chain(variation)
+            .collect::<Vec<_>>();
         let program = |entry_point| Program {
             file: "passes/discontinuities.wgsl",
             entry_point,

@@ -4,7 +4,7 @@ use encase::ShaderType;
 use glam::Vec3;
 
 use crate::geometry::EdgeClass;
-use crate::style::{DepthOperator, EdgeMode, Edges};
+use crate::style::{Color, DepthOperator, EdgeMode, Edges, HiddenMode};
 
 /// Twin of `LineStyle` in `shaders/common/edge_style.wgsl`.
 #[derive(Debug, Clone, Copy, PartialEq, ShaderType, Default)]
@@ -108,6 +108,48 @@ impl EdgeUniform {
             inner_threshold: inner.threshold.clamp(0.0, 0.99),
             use_c1: u32::from(edges.operator == DepthOperator::C1),
         }
+    }
+
+    /// The same in one colour, but for the classes that have a colour of their own.
+    #[must_use]
+    pub fn inked(mut self, edges: &Edges, color: Color) -> Self {
+        for (class, line) in EdgeClass::ALL.into_iter().zip(&mut self.lines) {
+            line.color = edges.class(class).color.unwrap_or(color).to_linear();
+        }
+        (self.profile_color, self.inner_color) = (color.to_linear(), color.to_linear());
+        self
+    }
+
+    /// The same for hidden lines, which are not aligned to any side; of an object that has none, nothing.
+    pub fn hidden(edges: &Edges, scale: f32) -> Self {
+        let hidden = &edges.hidden;
+        if hidden.mode == HiddenMode::Off {
+            return Self::default();
+        }
+        let mut style = Self { alignment: 0, ..Self::new(edges, scale) };
+        for (class, line) in EdgeClass::ALL.into_iter().zip(&mut style.lines) {
+            if class.is_detail() {
+                line.strength = 0.0;
+            }
+            if hidden.mode == HiddenMode::Own {
+                line.color = hidden.color.to_linear();
+                line.width = hidden.width.clamp(0.25, 64.0) * scale;
+                line.dashed = u32::from(hidden.dashed);
+            } else {
+                line.strength *= hidden.strength.clamp(0.0, 1.0);
+                line.width *= hidden.narrow.clamp(0.1, 1.0);
+                line.dashed = u32::from(hidden.mode == HiddenMode::Dashed);
+            }
+        }
+        if hidden.mode == HiddenMode::Own {
+            style.surface_color = 0.0;
+            (style.profile_color, style.inner_color) = (hidden.color.to_linear(), hidden.color.to_linear());
+        } else {
+            style.profile_strength *= hidden.strength.clamp(0.0, 1.0);
+            style.inner_strength *= hidden.strength.clamp(0.0, 1.0);
+        }
+        let (length, gap) = (hidden.dash.clamp(1.0, 512.0), hidden.gap.clamp(1.0, 512.0));
+        Self { dash_period: (length + gap) * scale, dash_share: length / (length + gap), ..style }
     }
 
     /// Whether exact lines are drawn.

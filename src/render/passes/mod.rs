@@ -2,6 +2,7 @@
 
 pub mod accumulate;
 pub mod coordinates;
+pub mod depth_mask;
 pub mod edge_map;
 pub mod edge_style;
 pub mod front;

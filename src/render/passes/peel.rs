@@ -1,8 +1,11 @@
 //! Depth peeling: what lies behind what has been drawn, layer by layer (blueprints paper, section 3, Fig. 2), and when it
 //! ends, which the device decides by itself (section 4.2).
 
+use std::fmt;
+
 use encase::{ShaderType, StorageBuffer};
 
+use super::depth_mask::DepthMask;
 use super::gbuffer::{DEPTH, GBuffer, ORDER};
 use crate::gpu::recorder::{Input, color_attachment};
 use crate::gpu::{Gpu, Program, Recorder, Target, readback};
@@ -85,7 +88,7 @@ pub fn before_all(rec: &mut Recorder<'_>) -> Result<[Target; 2], RenderError> {
 /// How far peeling has come. Twin of `Peeled` in `shaders/common/peeled.wgsl`.
 #[derive(Debug, Clone, PartialEq, ShaderType)]
 pub struct Peeled {
-    /// A layer with fewer pixels ends it.
+    /// A layer with fewer pixels ends it, before it is drawn.
     pub least: u32,
     /// 1: it has ended.
     pub has_ended: u32,
@@ -93,8 +96,136 @@ pub struct Peeled {
     pub layers: u32,
     /// Pixels of the layer that is counted.
     pub covered: u32,
+    /// Pixels of the depth mask that pass the depth test against it.
+    pub uncovered: u32,
+    /// A layer that leaves this share of the depth mask uncovered, 0 to 1, ends it once it has been drawn.
+    pub fraction: f32,
+    /// 1: such a layer has ended it.
+    pub has_uncovered: u32,
+    /// Pixels of the depth mask, the paper's Q; 0: nothing designated is in the picture.
+    pub masked: u32,
+    /// Those of them that opaque surfaces hide, which no peeling uncovers.
+    pub hidden: u32,
     /// Pixels of each layer, that which ended it included.
     pub pixels: [u32; MOST_LAYERS as usize],
+    /// Pixels of the mask that pass the depth test against each layer, the paper's R.
+    pub passed: [u32; MOST_LAYERS as usize],
+}
+
+/// What ends peeling.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PeelingEnd {
+    /// Nothing did: as many layers were drawn as were asked for.
+    MostLayers,
+    /// The next layer has too few pixels, or none.
+    TooFewPixels,
+    /// So much of the depth mask is uncovered as was asked for.
+    MaskUncovered,
+}
+
+impl fmt::Display for PeelingEnd {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::MostLayers => "most layers",
+            Self::TooFewPixels => "too few pixels",
+            Self::MaskUncovered => "mask uncovered",
+        })
+    }
+}
+
+impl Peeled {
+    /// Nothing yet.
+    fn begun(least: u32, fraction: f32) -> Self {
+        let none = [0; MOST_LAYERS as usize];
+        Self {
+            least,
+            has_ended: 0,
+            layers: 0,
+            covered: 0,
+            uncovered: 0,
+            fraction: fraction.clamp(0.0, 1.0),
+            has_uncovered: 0,
+            masked: 0,
+            hidden: 0,
+            pixels: none,
+            passed: none,
+        }
+    }
+
+    /// As it comes back from the device.
+    pub fn from_bytes(bytes: &[u8]) -> Self {
+        let mut words = bytes.chunks_exact(4).filter_map(|w| w.try_into().ok()).map(u32::from_le_bytes);
+        let mut next = || words.next().unwrap_or(0);
+        Self {
+            least: next(),
+            has_ended: next(),
+            layers: next(),
+            covered: next(),
+            uncovered: next(),
+            fraction: f32::from_bits(next()),
+            has_uncovered: next(),
+            masked: next(),
+            hidden: next(),
+            pixels: std::array::from_fn(|_| next()),
+            passed: std::array::from_fn(|_| next()),
+        }
+    }
+
+    /// What ended it.
+    pub fn ended(&self) -> PeelingEnd {
+        match (self.has_ended, self.has_uncovered) {
+            (0, _) => PeelingEnd::MostLayers,
+            (_, 0) => PeelingEnd::TooFewPixels,
+            _ => PeelingEnd::MaskUncovered,
+        }
+    }
+
+    /// Pixels of the mask that pass the depth test against the layer that was peeled last, drawn or not.
+    pub fn uncovered(&self) -> u32 {
+        let last =
+            if self.ended() == PeelingEnd::TooFewPixels { self.layers } else { self.layers.max(1) - 1 };
+        self.passed.get(last as usize).copied().unwrap_or(0)
+    }
+
+    /// The same as a share of the mask, 0 to 1.
+    pub fn share_uncovered(&self) -> f64 {
+        f64::from(self.uncovered()) / f64::from(self.masked.max(1))
+    }
+
+    /// Why less of the mask is uncovered than was asked for, and what to do; `None` if there is no mask in the picture, or
+    /// enough of it.
+    pub fn shortfall(&self) -> Option<String> {
+        if self.masked == 0 {
+            return None;
+        }
+        let asked = f64::from(self.fraction);
+        let layers = self.layers;
+        let plural = if layers == 1 { "" } else { "s" };
+        let reached = percent(self.share_uncovered());
+        let hidden = f64::from(self.hidden) / f64::from(self.masked);
+        let remedy = match self.ended() {
+            PeelingEnd::MostLayers => "allow more layers (blueprint.layers, blueprint.to)",
+            PeelingEnd::TooFewPixels if self.share_uncovered() < asked => {
+                "allow smaller layers (blueprint.least)"
+            }
+            _ if 1.0 - hidden < asked => {
+                let hidden = percent(hidden);
+                return Some(format!(
+                    "opaque objects hide {hidden} of what is designated: hide them or make them blueprints"
+                ));
+            }
+            _ => return None,
+        };
+        let asked = percent(asked);
+        Some(format!(
+            "{reached} of what is designated is uncovered after {layers} layer{plural}, not {asked}: {remedy}"
+        ))
+    }
+}
+
+/// In whole percent, rounded down: all is all.
+fn percent(share: f64) -> String {
+    format!("{} %", (share * 100.0 + 1e-6).floor())
 }
 
 /// How far peeling has come, on the device.
@@ -121,9 +252,10 @@ impl PeelCount {
         &self.buffer
     }
 
-    /// Begins anew, for what is submitted next; it ends with a layer of fewer than `least` pixels.
-    pub fn begin(&self, gpu: &Gpu, least: u32) {
-        let begun = Peeled { least, has_ended: 0, layers: 0, covered: 0, pixels: [0; MOST_LAYERS as usize] };
+    /// Begins anew, for what is submitted next; it ends before a layer of fewer than `least` pixels, and with one that
+    /// leaves `fraction` of the depth mask uncovered.
+    pub fn begin(&self, gpu: &Gpu, least: u32, fraction: f32) {
+        let begun = Peeled::begun(least, fraction);
         let mut bytes = StorageBuffer::new(Vec::new());
         // Writing into a growing vector cannot fail.
         if bytes.write(&begun).is_ok() {
@@ -136,31 +268,69 @@ impl PeelCount {
     /// # Errors
     /// [`RenderError`].
     pub fn read(&self, gpu: &Gpu) -> Result<Peeled, RenderError> {
-        let bytes = readback::read_buffer(gpu, &self.buffer)?;
-        let mut words = bytes.chunks_exact(4).filter_map(|w| w.try_into().ok()).map(u32::from_le_bytes);
-        let mut next = || words.next().unwrap_or(0);
-        let (least, has_ended, layers, covered) = (next(), next(), next(), next());
-        Ok(Peeled { least, has_ended, layers, covered, pixels: std::array::from_fn(|_| next()) })
+        Ok(Peeled::from_bytes(&readback::read_buffer(gpu, &self.buffer)?))
     }
 
-    /// Counts the pixels of a layer and shuts the recorder's gate if they are too few.
+    /// Counts the pixels of a layer, and those of the depth mask that it leaves uncovered, and shuts the recorder's gate if
+    /// the layer has too few.
     ///
     /// # Errors
     /// [`RenderError`].
-    pub fn count(&self, rec: &mut Recorder<'_>, layer: &Layer) -> Result<(), RenderError> {
+    pub fn count(
+        &self,
+        rec: &mut Recorder<'_>,
+        layer: &Layer,
+        mask: Option<&DepthMask>,
+    ) -> Result<(), RenderError> {
         let [width, height] = rec.size();
-        let program = |entry_point| Program::new("passes/count.wgsl", entry_point);
-        rec.compute(
-            "count",
-            program("cs_count"),
-            &[Input::Texture(&layer.order), Input::Written(&self.buffer)],
-            [width.div_ceil(GROUP), height.div_ceil(GROUP)],
-        )?;
+        let program = Program {
+            file: "passes/count.wgsl",
+            entry_point: "cs_count",
+            switches: vec![("WITH_MASK", mask.is_some())],
+        };
+        let groups = [width.div_ceil(GROUP), height.div_ceil(GROUP)];
+        rec.compute("count", program, &self.counted(layer, mask), groups)?;
+        self.decide(rec, "cs_decide", layer, mask)
+    }
+
+    /// After a layer has been drawn: shuts the recorder's gate if it left so much of the mask uncovered as is asked for.
+    ///
+    /// # Errors
+    /// [`RenderError`].
+    pub fn end_where_uncovered(
+        &self,
+        rec: &mut Recorder<'_>,
+        layer: &Layer,
+        mask: &DepthMask,
+    ) -> Result<(), RenderError> {
+        self.decide(rec, "cs_uncovered", layer, Some(mask))
+    }
+
+    /// The first bindings of `passes/count.wgsl`.
+    fn counted<'a>(&'a self, layer: &'a Layer, mask: Option<&'a DepthMask>) -> [Input<'a>; 4] {
+        let depth = &layer.gbuffer.depth;
+        [
+            Input::Texture(&layer.order),
+            Input::Texture(depth),
+            // Unread without a mask: any texture of its kind.
+            Input::Texture(mask.map_or(depth, |mask| &mask.depth)),
+            Input::Written(&self.buffer),
+        ]
+    }
+
+    fn decide(
+        &self,
+        rec: &mut Recorder<'_>,
+        entry_point: &'static str,
+        layer: &Layer,
+        mask: Option<&DepthMask>,
+    ) -> Result<(), RenderError> {
         // What shuts the gate cannot stand behind it.
         let Some(gate) = rec.gate.take() else { return Ok(()) };
-        let inputs =
-            [Input::Texture(&layer.order), Input::Written(&self.buffer), Input::Written(gate.buffer())];
-        let decided = rec.compute("go on", program("cs_decide"), &inputs, [1, 1]);
+        let mut inputs = self.counted(layer, mask).to_vec();
+        inputs.push(Input::Written(gate.buffer()));
+        inputs.extend(mask.map(|mask| Input::Storage(&mask.count)));
+        let decided = rec.compute("go on", Program::new("passes/count.wgsl", entry_point), &inputs, [1, 1]);
         rec.gate = Some(gate);
         Ok(decided?)
     }

@@ -15,6 +15,20 @@ pub fn none_seen(rec: &mut Recorder<'_>) -> Result<Target, RenderError> {
     Ok(seen)
 }
 
+/// The lines of an edge map.
+///
+/// # Errors
+/// [`RenderError`].
+pub fn seen_lines(rec: &mut Recorder<'_>, edge_map: &EdgeMap) -> Result<Target, RenderError> {
+    match &edge_map.spines {
+        Some(spines) if !edge_map.has_paper => Ok(spines.clone()),
+        _ => {
+            let none = none_seen(rec)?;
+            Ok(without_repeated(rec, edge_map, &none)?.0)
+        }
+    }
+}
+
 /// What the lines of a layer leave: those of all layers so far, and its edge map without those in `seen`. The papers'
 /// operators have no spines: whoever draws their ink looks at `seen` itself.
 ///
@@ -28,7 +42,7 @@ pub fn without_repeated(
     let program = |entry_point| Program {
         file: "passes/repeated.wgsl",
         entry_point,
-        switches: vec![("WITH_PAPER", edge_map.spines.is_none())],
+        switches: vec![("WITH_PAPER", edge_map.has_paper), ("WITH_EXACT", edge_map.spines.is_some())],
     };
     let inputs = [
         Input::Texture(&edge_map.edges),
@@ -58,5 +72,5 @@ pub fn without_repeated(
         lines: None,
     })?;
     let spines = edge_map.spines.is_some().then_some(own);
-    Ok((now_seen, EdgeMap { edges: edge_map.edges.clone(), spines }))
+    Ok((now_seen, EdgeMap { spines, ..edge_map.clone() }))
 }

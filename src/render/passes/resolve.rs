@@ -7,18 +7,21 @@ use crate::render::RenderError;
 /// What the window, PNG files and tests see: sRGB with straight alpha.
 pub const FINAL: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 
-/// Lays the drawing over the paper and applies the sRGB curve.
+/// Lays the drawing over the paper, a scale bar (`ScaleBarUniform`), if it is shown, over both, and applies the sRGB curve.
 ///
 /// # Errors
 /// [`RenderError`].
-pub fn resolve(rec: &mut Recorder<'_>, color: &Target) -> Result<Target, RenderError> {
+pub fn resolve(
+    rec: &mut Recorder<'_>,
+    color: &Target,
+    (scale_bar, is_shown): (&wgpu::Buffer, bool),
+) -> Result<Target, RenderError> {
     let image = rec.target("final image", FINAL)?;
-    rec.fullscreen(
-        "resolve",
-        Program::new("passes/resolve.wgsl", "fs_main"),
-        &[Input::Texture(color)],
-        &[&image],
-        None,
-    )?;
+    let program = Program {
+        file: "passes/resolve.wgsl",
+        entry_point: "fs_main",
+        switches: vec![("WITH_SCALE_BAR", is_shown)],
+    };
+    rec.fullscreen("resolve", program, &[Input::Texture(color), Input::Storage(scale_bar)], &[&image], None)?;
     Ok(image)
 }

@@ -1,0 +1,59 @@
+//! What became of a blueprint: its layers, and what of the designated objects they uncover.
+
+use eframe::egui;
+use eframe::egui::{RichText, Ui};
+
+use super::row::capitalised;
+use super::status::grouped;
+use crate::render::passes::peel::Peeled;
+
+/// The most that the list of layers is high, in points.
+const LIST_HEIGHT: f32 = 150.0;
+
+/// Height of a row of that list, in points.
+const ROW_HEIGHT: f32 = 14.0;
+
+/// How far the last picture came, as far as that is known.
+pub(super) fn peeling_ui(ui: &mut Ui, peeled: &Peeled) {
+    let title = format!("Layers drawn: {}", peeled.layers);
+    let heading = egui::CollapsingHeader::new(RichText::new(title).strong()).id_salt("layers drawn");
+    let shown = heading.default_open(true).show(ui, |ui| {
+        layers_ui(ui, peeled);
+        ui.add(egui::Label::new(RichText::new(format!("Ended by: {}", peeled.ended())).weak().small()));
+        if peeled.masked > 0 {
+            let uncovered = format!(
+                "{:.1} % uncovered, {} of {} pixels; {:.0} % asked for",
+                peeled.share_uncovered() * 100.0,
+                grouped(peeled.uncovered() as usize),
+                grouped(peeled.masked as usize),
+                peeled.fraction * 100.0,
+            );
+            ui.add(egui::Label::new(uncovered).wrap());
+        }
+    });
+    shown.header_response.on_hover_text("Of the picture that is seen, without its mirrors");
+    if let Some(shortfall) = peeled.shortfall() {
+        let color = ui.visuals().warn_fg_color;
+        ui.add(egui::Label::new(RichText::new(capitalised(&shortfall)).color(color)).wrap());
+    }
+}
+
+/// A bar for each layer, as long as it has pixels.
+fn layers_ui(ui: &mut Ui, peeled: &Peeled) {
+    let drawn = peeled.pixels.iter().zip(&peeled.passed).take(peeled.layers as usize);
+    let most = drawn.clone().map(|(pixels, _)| *pixels).max().unwrap_or(1).max(1);
+    egui::ScrollArea::vertical().id_salt("layers").max_height(LIST_HEIGHT).show(ui, |ui| {
+        for (i, (pixels, passed)) in drawn.enumerate() {
+            let mut text = format!("{}: {} px", i + 1, grouped(*pixels as usize));
+            if peeled.masked > 0 {
+                let share = f64::from(*passed) / f64::from(peeled.masked);
+                text.push_str(&format!(", {:.0} % uncovered", share * 100.0));
+            }
+            let bar = egui::ProgressBar::new(*pixels as f32 / most as f32)
+                .desired_height(ROW_HEIGHT)
+                .corner_radius(2.0)
+                .text(RichText::new(text).small());
+            ui.add(bar);
+        }
+    });
+}

@@ -1,0 +1,106 @@
+//! A look at one depth layer of everything visible: its geometry and its edge map (blueprints paper, Fig. 4).
+
+use glam::Vec2;
+
+use super::RenderError;
+use super::drawing::DrawingInputs;
+use super::frame_uniform::View;
+use super::layers::{LayerInputs, LayerLines, LayerLinesInputs, Layers};
+use super::passes::edge_style::EdgeUniform;
+use super::passes::gbuffer::{DrawCall, DrawUniform, GBuffer, GBufferPass};
+use super::segments::segments;
+use super::stage::{Output, Stage};
+use crate::gpu::{Gpu, GpuError, Recorder, Target};
+
+/// What of that look lives across frames.
+pub(super) struct OneLayer {
+    lines: LayerLines,
+    stage: Stage<Inputs, (GBuffer, Target)>,
+}
+
+/// What it depends on.
+#[derive(PartialEq)]
+struct Inputs {
+    shaders: u64,
+    scene_revision: u64,
+    number: u32,
+    view: View,
+    draws: Vec<DrawUniform>,
+    calls: Vec<DrawCall>,
+    edge_styles: Vec<EdgeUniform>,
+    depth_range: Vec2,
+    crease_angle: f32,
+}
+
+impl OneLayer {
+    /// Nothing drawn yet.
+    pub(super) fn new(gpu: &Gpu) -> Self {
+        Self { lines: LayerLines::new(gpu), stage: Stage::default() }
+    }
+
+    /// Lets go of the last one.
+    pub(super) fn forget(&mut self) {
+        self.stage.clear();
+    }
+
+    /// The layer of that number, 1 being the nearest, and its edge map; both empty behind the last one. `depth_range`: see
+    /// [`super::drawing::Begun`].
+    ///
+    /// # Errors
+    /// [`RenderError`].
+    pub(super) fn run(
+        &mut self,
+        rec: &mut Recorder<'_>,
+        gbuffer_pass: &mut GBufferPass,
+        inputs: &DrawingInputs<'_>,
+        (number, depth_range): (u32, Vec2),
+    ) -> Result<Output<(GBuffer, Target)>, RenderError> {
+        let DrawingInputs { scene, view, crease_angle, .. } = *inputs;
+        let mut group = inputs.objects.surfaces.clone();
+        group.shows_hidden = true;
+        let (draws, calls) = group.draws(scene, view);
+        let asked = Inputs {
+            shaders: rec.pipelines.generation(),
+            scene_revision: inputs.scene_revision,
+            number,
+            view: *view,
+            draws,
+            calls,
+            edge_styles: group.edge_styles.clone(),
+            depth_range,
+            crease_angle,
+        };
+        let lines = &mut self.lines;
+        self.stage.run(asked, |asked| {
+            let is_cut = view.cut.is_some();
+            let cut = LayerInputs {
+                scene,
+                draws: &asked.draws,
+                calls: &asked.calls,
+                is_cut,
+                most: number,
+                least: 1,
+                mask: None,
+                fraction: 1.0,
+            };
+            let mut found = None;
+            // A layer that has ended is empty, and nobody waits for the report about it.
+            Layers::new(rec.gpu).each(rec, gbuffer_pass, &cut, |_, _, layer, _| {
+                found = Some(layer.clone());
+                Ok(())
+            })?;
+            let Some(layer) = found else { return Err(GpuError::Lost("no layer".to_owned()).into()) };
+            lines.begin(rec.gpu, &group.edge_styles);
+            let edges = LayerLinesInputs {
+                styles: &group.edge_styles,
+                segments: &segments(scene, &group, view, crease_angle),
+                has_holes: group.has_holes,
+                is_cut,
+                repeated: true,
+                before: None,
+            };
+            let edges = lines.edges(rec, &edges, &layer, &mut None)?;
+            Ok((layer.gbuffer, edges.edge_map.edges))
+        })
+    }
+}

@@ -1,0 +1,175 @@
+//! Hidden lines: those of what lies behind, drawn over what hides it.
+
+use super::Color;
+use super::edges::EdgeMode;
+use super::param::Params;
+use super::slot::choice;
+
+/// How the hidden lines of an object are drawn, whatever hides them. Details of surfaces (images, relief, shadows) have
+/// none.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Hidden {
+    /// How they look.
+    pub mode: HiddenMode,
+    /// Of which layers they are.
+    pub layers: HiddenLayers,
+    /// With [`HiddenLayers::All`]: most layers behind the visible one, 1 to 63.
+    pub most: u32,
+    /// They end before a layer with fewer pixels; percent of the picture's, 0 to 100.
+    pub least: f32,
+    /// Opacity as a share of the visible lines', 0 to 1.
+    pub strength: f32,
+    /// Width as a share of the visible lines', 0.1 to 1. Exact mode.
+    pub narrow: f32,
+    /// Their own colour.
+    pub color: Color,
+    /// Their own width in reference pixels, 0.25 to 64. Exact mode.
+    pub width: f32,
+    /// Whether lines in their own colour and width have dashes. Exact mode.
+    pub dashed: bool,
+    /// Length of a dash in reference pixels, 1 to 512. Exact mode.
+    pub dash: f32,
+    /// Length of the gap behind it in reference pixels, 1 to 512. Exact mode.
+    pub gap: f32,
+}
+
+choice! {
+    /// How hidden lines look.
+    pub enum HiddenMode {
+        /// Not drawn.
+        #[default]
+        Off,
+        /// As the visible ones, but paler and narrower.
+        Faint,
+        /// The same in dashes; in paper mode, whose edges have no direction, without.
+        Dashed,
+        /// In a colour and width of their own.
+        Own,
+    }
+}
+
+choice! {
+    /// Of which layers hidden lines are.
+    pub enum HiddenLayers {
+        /// The surfaces next behind the visible ones.
+        Next,
+        /// All.
+        #[default]
+        All,
+    }
+}
+
+impl Default for Hidden {
+    fn default() -> Self {
+        Self {
+            mode: HiddenMode::default(),
+            layers: HiddenLayers::default(),
+            most: 12,
+            least: 0.1,
+            strength: 0.6,
+            // ISO 128-2: hidden edges are narrow dashed lines, half as wide as visible ones.
+            narrow: 0.5,
+            color: Color([80, 110, 160]),
+            width: 1.2,
+            dashed: true,
+            dash: 9.0,
+            gap: 4.5,
+        }
+    }
+}
+
+impl Hidden {
+    /// How many layers behind the visible one have lines of this object.
+    pub fn depth(&self) -> u32 {
+        match (self.mode, self.layers) {
+            (HiddenMode::Off, _) => 0,
+            (_, HiddenLayers::Next) => 1,
+            (_, HiddenLayers::All) => self.most.max(1),
+        }
+    }
+
+    pub(super) fn params<'a>(&'a mut self, list: &mut Params<'a>) {
+        use HiddenMode::{Dashed, Faint, Own};
+        const MODE: &str = "edges.hidden.mode";
+        list.choice("mode", "Hidden lines", "How lines behind other surfaces are drawn.", &mut self.mode);
+        list.when_any(MODE, [Faint, Dashed, Own], |list| {
+            list.choice(
+                "layers",
+                "Layers",
+                "The lines of the surfaces next behind the visible ones, or of all.",
+                &mut self.layers,
+            );
+            list.when("edges.hidden.layers", HiddenLayers::All, |list| {
+                list.integer(
+                    "most",
+                    "Most layers",
+                    "",
+                    1..=63,
+                    "So many layers behind the visible one have lines.",
+                    &mut self.most,
+                );
+            });
+            list.number(
+                "least",
+                "Least pixels",
+                "%",
+                0.0..=1.0,
+                0.0..=100.0,
+                "They end before a layer that covers a smaller share of the picture.",
+                &mut self.least,
+            );
+        });
+        list.when_any(MODE, [Faint, Dashed], |list| {
+            list.number(
+                "strength",
+                "Strength",
+                "",
+                0.0..=1.0,
+                0.0..=1.0,
+                "Opacity of hidden lines as a share of the visible ones'.",
+                &mut self.strength,
+            );
+        });
+        list.when(MODE, Own, |list| {
+            list.color("color", "Colour", "Colour of hidden lines.", &mut self.color);
+        });
+        list.when("edges.mode", EdgeMode::Exact, |list| {
+            list.when_any(MODE, [Faint, Dashed], |list| {
+                list.number(
+                    "narrow",
+                    "Width",
+                    "",
+                    0.1..=1.0,
+                    0.1..=1.0,
+                    "Width of hidden lines as a share of the visible ones'.",
+                    &mut self.narrow,
+                );
+            });
+            list.when(MODE, Own, |list| {
+                list.number(
+                    "width",
+                    "Width",
+                    "px",
+                    0.5..=16.0,
+                    0.25..=64.0,
+                    "Width of hidden lines.",
+                    &mut self.width,
+                );
+                list.switch("dashed", "Dashed", "Draw hidden lines in dashes.", &mut self.dashed);
+            });
+            list.when_any(MODE, [Dashed, Own], |list| {
+                let (soft, hard) = (1.0..=64.0, 1.0..=512.0);
+                list.number(
+                    "dash",
+                    "Dash",
+                    "px",
+                    soft.clone(),
+                    hard.clone(),
+                    "Length of a dash of hidden lines.",
+                    &mut self.dash,
+                );
+                list.number("gap", "Gap", "px", soft, hard, "Length of the gap behind it.", &mut self.gap);
+            });
+        });
+    }
+}
