@@ -290,6 +290,7 @@ impl Viewer {
     }
 
     fn side_panels(&mut self, ui: &mut egui::Ui) {
+        let hint = self.hint();
         let mut choosing = None;
         let mut editing = Editing {
             model: &self.model,
@@ -307,7 +308,6 @@ impl Viewer {
             |ui| outliner.ui(ui, &mut editing),
         );
         let (page, samples) = (&mut self.state.page, &mut self.state.samples);
-        let hint = self.hint();
         let turned = egui::Panel::right("inspector")
             .default_size(290.0)
             .size_range(240.0..=460.0)
