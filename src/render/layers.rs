@@ -13,22 +13,22 @@
 
 mod room;
 
-pub use self::room::{LayersBy, Reported};
+pub use self::room::{LayersBy, Reason, Reported};
 
 use self::room::{Recorded, Room};
 use crate::document;
-use crate::geometry::LineSegment;
 use crate::gpu::{ArrayBuffer, DynamicBuffer, Gate, Gpu, Recorder, Reports, Target};
 use crate::render::RenderError;
 use crate::render::gpu_scene::GpuScene;
 use crate::render::passes::depth_mask::DepthMask;
-use crate::render::passes::edge_map::{EdgeInputs, EdgeMap, EdgeMapPass};
+use crate::render::passes::edge_map::{EdgeInputs, EdgeMap, edge_map};
 use crate::render::passes::edge_style::EdgeUniform;
 use crate::render::passes::gbuffer::{DrawCall, DrawUniform, GBufferPass};
 use crate::render::passes::line_distance::{Reach, line_distance};
 use crate::render::passes::lines::Lines;
 use crate::render::passes::peel::{Layer, MOST_LAYERS, Peel, PeelCount, Peeled, before_all};
 use crate::render::passes::repeated::{none_seen, without_repeated};
+use crate::render::passes::segments::Segments;
 
 /// Kinds of passes that a layer has beside the draws of its objects: room in the gate.
 const PASSES: usize = 24;
@@ -122,7 +122,7 @@ impl Layers {
         let mut recorded = self.room.plan(rec.gpu, rec.size(), inputs.most.min(MOST_LAYERS), inputs.by);
         let mut gate = self.gate.take().unwrap_or_else(|| Gate::new(rec.gpu));
         gate.clear(rec.gpu, calls.len() + PASSES)?;
-        if let Some(room) = &mut recorded.fragments {
+        if let Ok(room) = &mut recorded.fragments {
             *room = gbuffer_pass.lists.begin(rec, *room)?;
             gbuffer_pass.collect(rec, scene, &mut self.draws, (draws, calls), is_cut, &self.count)?;
         }
@@ -150,7 +150,7 @@ impl Layers {
         for number in 0..recorded.layers {
             let layer = match recorded.by() {
                 LayersBy::Lists => gbuffer_pass.lists.cut(rec, number, &last)?,
-                LayersBy::Peeling => {
+                LayersBy::Peeling(_) => {
                     let order = rec.target("order", last[1].format())?;
                     let peel = Peel { last_depth: &last[0], last_order: &last[1], order: &order };
                     let gbuffer =
@@ -171,7 +171,6 @@ impl Layers {
 
 /// What of the lines of layers lives across frames.
 pub struct LayerLines {
-    edge_map_pass: EdgeMapPass,
     edge_styles: ArrayBuffer,
     greatest_radius: ArrayBuffer,
 }
@@ -182,7 +181,7 @@ pub struct LayerLinesInputs<'a> {
     /// Edge styles by object id.
     pub styles: &'a [EdgeUniform],
     /// What topology knows, hidden edges included.
-    pub segments: &'a [LineSegment],
+    pub segments: &'a Segments,
     /// Whether any material of an object with lines has holes.
     pub has_holes: bool,
     /// Whether what lies behind a mirror's plane is left out.
@@ -225,7 +224,6 @@ impl LayerLines {
     /// Nothing drawn yet.
     pub fn new(gpu: &Gpu) -> Self {
         Self {
-            edge_map_pass: EdgeMapPass::new(gpu),
             edge_styles: ArrayBuffer::new(gpu, "edge styles of layers"),
             greatest_radius: ArrayBuffer::new(gpu, "greatest radius"),
         }
@@ -252,7 +250,7 @@ impl LayerLines {
         layer: &Layer,
         seen: &mut Option<Target>,
     ) -> Result<LayerEdges, RenderError> {
-        let mut edge_map = self.edge_map_pass.run(
+        let mut edge_map = edge_map(
             rec,
             &EdgeInputs {
                 gbuffer: &layer.gbuffer,

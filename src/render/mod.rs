@@ -22,7 +22,7 @@ mod style_images;
 
 pub use frame::Picture;
 pub use gpu_scene::{GpuScene, Origin, UploadedTopology, Uploader};
-pub use layers::{LayersBy, Reported};
+pub use layers::{LayersBy, Reason, Reported};
 pub use renderer::{Pick, RenderError, Renderer, Request};
 pub use sample::Sample;
 pub use style_images::StyleImages;

@@ -1,7 +1,7 @@
 //! How many layers are recorded, and how much room there is, is guessed from reports about earlier pictures.
 
 use hachure::gpu::Gpu;
-use hachure::render::{LayersBy, Reported};
+use hachure::render::{LayersBy, Reason, Reported};
 
 use crate::common::{self, session, set};
 use crate::{render, stack, way};
@@ -103,6 +103,6 @@ fn a_device_whose_fragments_cannot_write_peels_whatever_is_asked() {
     for by in ["auto", "lists"] {
         set(&mut three, "view.layers", by);
         assert!(common::image(&mut session, &three, 64) == expected);
-        assert_eq!(way(&mut session), LayersBy::Peeling, "{by}");
+        assert_eq!(way(&mut session), LayersBy::Peeling(Reason::Device), "{by}");
     }
 }

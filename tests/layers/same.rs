@@ -7,7 +7,7 @@ use hachure::document::Role;
 use hachure::export::session::{Opened, open};
 use hachure::geometry::{Mesh, primitives};
 use hachure::import::Progress;
-use hachure::render::LayersBy;
+use hachure::render::{LayersBy, Reason};
 use hachure::scene::{AlphaMode, Scene, Texture, TextureRef};
 
 use crate::common::{self, opened, scene, session, set};
@@ -18,7 +18,7 @@ fn check_same_layers(name: &str, opened: &Opened, side: u32) -> u32 {
     let mut session = session();
     session.set_scene(opened).unwrap();
     let (peeled, by) = layers(&mut session, opened, side, "peeling");
-    assert_eq!(by, LayersBy::Peeling);
+    assert_eq!(by, LayersBy::Peeling(Reason::Asked));
     let counted = session.renderer().peeled().unwrap().remove(0);
     let (cut, by) = layers(&mut session, opened, side, "auto");
     assert_eq!(by, LayersBy::Lists);

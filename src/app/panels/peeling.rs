@@ -22,7 +22,7 @@ pub(super) fn peeling_ui(ui: &mut Ui, (peeled, by): &(Peeled, LayersBy)) {
         layers_ui(ui, peeled);
         let made = match by {
             LayersBy::Lists => "from lists of fragments",
-            LayersBy::Peeling => "by peeling",
+            LayersBy::Peeling(_) => "by peeling",
         };
         let text = format!("Made {made}; ended by: {}", peeled.ended());
         ui.add(egui::Label::new(RichText::new(text).weak().small()).wrap());
@@ -38,7 +38,7 @@ pub(super) fn peeling_ui(ui: &mut Ui, (peeled, by): &(Peeled, LayersBy)) {
         }
     });
     shown.header_response.on_hover_text("Of the picture that is seen, without its mirrors");
-    if let Some(shortfall) = peeled.shortfall() {
+    for shortfall in by.shortfall().into_iter().chain(peeled.shortfall()) {
         let color = ui.visuals().warn_fg_color;
         ui.add(egui::Label::new(RichText::new(capitalised(&shortfall)).color(color)).wrap());
     }

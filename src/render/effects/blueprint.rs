@@ -24,6 +24,7 @@ use crate::render::passes::depth_mask::DepthMask;
 use crate::render::passes::gbuffer::{DrawCall, DrawUniform, GBuffer, GBufferPass};
 use crate::render::passes::lines::{Pen, lines};
 use crate::render::passes::peel::{Layer, MOST_LAYERS, PeelCount, Peeled};
+use crate::render::passes::segments::Segments;
 use crate::render::segments::segments;
 use crate::render::stage::{Output, Stage};
 use crate::style::{self, Edges, Style, Technique};
@@ -130,6 +131,7 @@ struct Inputs {
 pub struct Blueprints {
     layers: Layers,
     lines: LayerLines,
+    segments: Segments,
     style: ArrayBuffer,
     caps: ArrayBuffer,
     stage: Stage<Inputs, Peels>,
@@ -141,6 +143,7 @@ impl Blueprints {
         Self {
             layers: Layers::new(gpu),
             lines: LayerLines::new(gpu),
+            segments: Segments::new(gpu),
             style: ArrayBuffer::new(gpu, "blueprint"),
             caps: ArrayBuffer::new(gpu, "caps"),
             stage: Stage::default(),
@@ -205,7 +208,7 @@ impl Blueprints {
             keeps_layers: inputs.keeps_layers,
             layers_by: inputs.layers_by,
         };
-        let Self { layers, lines: layer_lines, style, caps, stage } = self;
+        let Self { layers, lines: layer_lines, segments: placed, style, caps, stage } = self;
         stage.run(asked, |asked| {
             let Blueprint { group, style: params, .. } = blueprint;
             style.write(rec.gpu, &vec![BlueprintUniform::from(params)]);
@@ -214,11 +217,11 @@ impl Blueprints {
                 caps.write(rec.gpu, &asked.caps);
             }
             layer_lines.begin(rec.gpu, &group.edge_styles);
-            let segments =
-                segments(inputs.scene, group, &inputs.view.moved(glam::Vec2::ZERO), inputs.crease_angle);
+            let view = inputs.view.moved(glam::Vec2::ZERO);
+            placed.write(rec.gpu, &segments(inputs.scene, group, &view, inputs.crease_angle))?;
             let edges = LayerLinesInputs {
                 styles: &group.edge_styles,
-                segments: &segments,
+                segments: placed,
                 has_holes: group.has_holes,
                 is_cut: inputs.view.cut.is_some(),
                 before: None,
@@ -338,7 +341,7 @@ fn fill(
         outputs: &[color],
         onto: Onto::Beneath,
         depth: Some((&layer.gbuffer.depth, DepthRule::Covered)),
-        lines: None,
+        points: None,
     })?;
     Ok(())
 }

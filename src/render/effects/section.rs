@@ -100,7 +100,7 @@ pub fn section(
         outputs: &[color],
         onto: Onto::Blended,
         depth: Some((&gbuffer.depth, DepthRule::Covered)),
-        lines: None,
+        points: None,
     })?;
     Ok(())
 }

@@ -153,7 +153,7 @@ impl FragmentLists {
             ],
             onto: Onto::Nothing,
             depth: Some((&layer.gbuffer.depth, DepthRule::Mark)),
-            lines: None,
+            points: None,
         })?;
         Ok(layer)
     }

@@ -15,6 +15,7 @@ pub mod overlay;
 pub mod peel;
 pub mod repeated;
 pub mod resolve;
+pub mod segments;
 pub mod selection;
 pub mod shadow;
 pub mod shadow_map;
