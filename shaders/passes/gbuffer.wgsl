@@ -148,13 +148,18 @@ fn region(surface: u32) -> u32 {
     return max((draw.object & 0x7fffffffu) * 2654435769u + surface, 1u);
 }
 
+// The opacity of a surface: 1 unless its material blends.
+fn opacity(alpha: f32) -> f32 {
+    return select(1.0, alpha, draw.material.blends == 1u);
+}
+
 fn lean(v: Lean) -> GBuffer {
     let face = face_normal(v.pos_oriented);
     if is_cut_off(v.pos_oriented) {
         discard;
     }
-    let color = draw.material.base_color.rgb;
-    return GBuffer(pack(face, face, v.depth, draw.object), vec4(color, 1.0), region(v.surface));
+    let color = vec4(draw.material.base_color.rgb, opacity(draw.material.base_color.a));
+    return GBuffer(pack(face, face, v.depth, draw.object), color, region(v.surface));
 }
 
 // Seen from behind, a surface is shaded as if it were two-sided.
@@ -204,7 +209,8 @@ fn full(v: Full) -> GBuffer {
         }
         normal = turned_to(face, normal);
     }
-    return GBuffer(pack(normal, face, v.depth, draw.object), vec4(color.rgb, 1.0), region(v.surface));
+    let base_color = vec4(color.rgb, opacity(color.a));
+    return GBuffer(pack(normal, face, v.depth, draw.object), base_color, region(v.surface));
 }
 
 @fragment

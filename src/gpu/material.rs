@@ -18,6 +18,19 @@ pub struct MaterialUniform {
     /// Pixels with less alpha are holes; negative: none are.
     alpha_cutoff: f32,
     has_normal_texture: u32,
+    /// 1: alpha is opacity.
+    blends: u32,
+}
+
+/// Less alpha than this is none in a picture of 8 bits.
+const LEAST_ALPHA: f32 = 0.5 / 255.0;
+
+impl MaterialUniform {
+    /// The same for shadows, which have no shades: what blends throws one where it is more opaque than not.
+    #[must_use]
+    pub fn throwing_shadows(self) -> Self {
+        Self { alpha_cutoff: if self.blends == 1 { 0.5 } else { self.alpha_cutoff }, ..self }
+    }
 }
 
 impl From<&Material> for MaterialUniform {
@@ -31,8 +44,10 @@ impl From<&Material> for MaterialUniform {
             alpha_cutoff: match m.alpha {
                 AlphaMode::Opaque => -1.0,
                 AlphaMode::Mask(cutoff) => cutoff,
+                AlphaMode::Blend => LEAST_ALPHA,
             },
             has_normal_texture: u32::from(m.normal_texture.is_some()),
+            blends: u32::from(m.alpha == AlphaMode::Blend),
         }
     }
 }

@@ -14,6 +14,7 @@ use glam::{Vec2, Vec4};
 
 use self::reflections::Reflection;
 use super::RenderError;
+use super::effects::blended::{Blend, Blended, Opaque};
 use super::effects::blueprint::{Blueprints, Peels};
 use super::effects::halftone::{HalftoneInputs, HalftoneUniform, Halftones, ThresholdMaps};
 use super::effects::hidden::HiddenLines;
@@ -150,12 +151,15 @@ pub struct Drawing {
             FrameUniform,
             Seen,
             Option<u64>,
+            Option<Blend>,
             Vec<u64>,
             Vec<CapUniform>,
         ),
-        Target,
+        (Target, Option<Target>),
     >,
     depth_mask: DepthMaskPass,
+    /// `None` while nothing blends.
+    blended: Option<Blended>,
     /// `None` while no object has any.
     hidden: Option<HiddenLines>,
     blueprints: Vec<Blueprints>,
@@ -200,6 +204,7 @@ impl Drawing {
             coordinates: Stage::default(),
             surface: Stage::default(),
             depth_mask: DepthMaskPass::new(gpu),
+            blended: None,
             hidden: None,
             blueprints: Vec::new(),
             blueprinted: 0,
@@ -247,7 +252,11 @@ impl Drawing {
         let own = self.blueprints.iter_mut().map(Blueprints::take_reports);
         let reflected = self.reflections.iter_mut().map(|r| r.drawing.take_reports());
         let hidden = self.hidden.iter_mut().map(HiddenLines::take_reports);
-        own.chain(hidden).chain(reflected).max().unwrap_or(Reported::Complete)
+        let blended = self.blended.as_mut().map(Blended::take_reports);
+        if blended == Some(Reported::Incomplete) {
+            self.surface.clear();
+        }
+        own.chain(hidden).chain(blended).chain(reflected).max().unwrap_or(Reported::Complete)
     }
 
     /// How far the layers of each blueprint came in the last picture whose report has arrived; in the order of
@@ -404,10 +413,12 @@ impl Drawing {
                 (seen, inputs.background)
             }),
             hidden.as_ref().map(|hidden| hidden.revision),
-            blueprints.iter().map(|b| b.revision).collect(),
+            Blend::new(inputs),
+            blueprints.iter().map(|(_, b)| b.revision).collect(),
             caps.clone(),
         );
-        let color = self.surface.run(shading, |(_, _, surfaces, toons, (halftones, _), styles, ..)| {
+        let drawn = self.surface.run(shading, |shading| {
+            let (_, _, surfaces, toons, (halftones, _), styles, .., blend, _, _) = shading;
             self.surface_styles.write(rec.gpu, surfaces);
             if !halftones.is_empty() {
                 self.halftone_styles.write(rec.gpu, halftones);
@@ -428,6 +439,7 @@ impl Drawing {
                     maps: &shared.thresholds,
                     coordinates: coordinates.as_ref(),
                 },
+                blends: false,
             };
             let color = surface(rec, &gbuffer.value, &shading)?;
             if !caps.is_empty() {
@@ -442,23 +454,46 @@ impl Drawing {
             if let Some(hidden) = &hidden {
                 overlay(rec, &hidden.value, &color)?;
             }
-            if let Some(edge_map) = edge_map {
-                let drawn = Lines {
-                    gbuffer: &gbuffer.value,
-                    edge_map: &edge_map.value,
-                    reach: reach.as_ref().map(|reach| &reach.value),
-                    styles,
-                    edge_styles: self.edge_styles.buffer(),
-                };
-                lines(rec, &drawn, &Pen::PLAIN, &color)?;
+            let opaque_lines = edge_map.map(|edge_map| Lines {
+                gbuffer: &gbuffer.value,
+                edge_map: &edge_map.value,
+                reach: reach.as_ref().map(|reach| &reach.value),
+                styles,
+                edge_styles: self.edge_styles.buffer(),
+            });
+            if let Some(opaque_lines) = &opaque_lines {
+                lines(rec, opaque_lines, &Pen::PLAIN, &color)?;
             }
-            for blueprint in &blueprints {
-                overlay(rec, &blueprint.value.color, &color)?;
+            let panes = match blend {
+                Some(blend) => {
+                    let blended = self.blended.get_or_insert_with(|| Blended::new(rec.gpu));
+                    let opaque = Opaque { gbuffer: &gbuffer.value, lines: opaque_lines.as_ref() };
+                    let shaded = (&shading, &mut self.shadow_mask);
+                    Some(blended.run(rec, &mut shared.gbuffer, inputs, blend, opaque, shaded)?)
+                }
+                None => {
+                    self.blended = None;
+                    None
+                }
+            };
+            let mut pictures: Vec<_> =
+                blueprints.iter().map(|(depth, peels)| (*depth, &peels.value.color)).collect();
+            if let Some(panes) = &panes {
+                pictures.push((inputs.objects.blended.mean_depth(inputs.scene, inputs.view), &panes.color));
+                pictures.sort_by(|(a, _), (b, _)| b.total_cmp(a));
             }
-            Ok::<_, RenderError>(color)
+            for (_, picture) in pictures {
+                overlay(rec, picture, &color)?;
+            }
+            Ok::<_, RenderError>((color, panes.and_then(|panes| panes.front)))
         })?;
-        let fronts = blueprints.iter().filter_map(|b| Some((b.revision, b.value.front.clone()?))).unzip();
-        let layers = blueprints.into_iter().map(|b| b.value.layers).filter(|l| !l.is_empty()).collect();
+        let (color, front_pane) = drawn.value;
+        let color = Output { value: color, revision: drawn.revision };
+        let mut fronts: (Vec<_>, Vec<_>) =
+            blueprints.iter().filter_map(|(_, b)| Some((b.revision, b.value.front.clone()?))).unzip();
+        fronts.0.extend(front_pane.as_ref().map(|_| drawn.revision));
+        fronts.1.extend(front_pane);
+        let layers = blueprints.into_iter().map(|(_, b)| b.value.layers).filter(|l| !l.is_empty()).collect();
         let depth_mask = mask.map(|mask| mask.value.depth);
         Ok(Shaded { color, cartoon_map, coordinates, depth_mask, fronts, layers })
     }
@@ -479,7 +514,7 @@ impl Drawing {
         hidden.run(rec, gbuffer_pass, inputs, &begun.uniform, edge_map).map(Some)
     }
 
-    /// Draws the blueprints, the farthest first. Blended groups that reach into each other have no right order: that of
+    /// Draws the blueprints, the farthest first, each with the depth of its middle. Blended groups that reach into each other have no right order: that of
     /// their middles is the nearest to it.
     fn peel(
         &mut self,
@@ -487,7 +522,7 @@ impl Drawing {
         gbuffer_pass: &mut GBufferPass,
         inputs: &DrawingInputs<'_>,
         drawn: (&Begun, Option<&Output<DepthMask>>),
-    ) -> Result<Vec<Output<Peels>>, RenderError> {
+    ) -> Result<Vec<(f64, Output<Peels>)>, RenderError> {
         let groups = &inputs.objects.blueprints;
         self.blueprints.truncate(groups.len());
         self.blueprints.resize_with(groups.len(), || Blueprints::new(rec.gpu));
@@ -499,7 +534,7 @@ impl Drawing {
             pictures.push((blueprint.group.mean_depth(inputs.scene, inputs.view), picture));
         }
         pictures.sort_by(|(a, _), (b, _)| b.total_cmp(a));
-        Ok(pictures.into_iter().map(|(_, picture)| picture).collect())
+        Ok(pictures)
     }
 
     fn find_coordinates(

@@ -5,12 +5,13 @@ use std::sync::{Arc, OnceLock};
 use glam::{DMat4, DVec3};
 use rayon::prelude::*;
 
+use super::frame_uniform::View;
 use super::section::{Part, Section};
 use crate::document::Document;
 use crate::geometry::{Bounds, FeatureEdges, Mesh, NotFlat, Plane, Topology, Weld};
 use crate::gpu::geometry::{MeshRange, MeshSource};
 use crate::gpu::{GeometryBuffers, Gpu, GpuError, MaterialBindings};
-use crate::scene::{Addition, AlphaMode, NodeId, Scene};
+use crate::scene::{Addition, AlphaMode, Material, NodeId, Scene};
 
 /// Folds of additions that are sharper separate surfaces; radians.
 const ADDED_CREASE_ANGLE: f32 = 0.5;
@@ -24,6 +25,8 @@ pub struct GpuScene {
     model: Arc<Scene>,
     /// Its materials.
     pub materials: MaterialBindings,
+    /// Of the model, which materials let something show through anywhere.
+    blends: Arc<[bool]>,
     /// The meshes of the model, and those that were added: changing these touches nothing of the model.
     meshes: [MeshSet; 2],
     /// Where it is cut open, if it is.
@@ -84,6 +87,7 @@ impl GpuScene {
     ) -> Result<Self, GpuError> {
         Ok(Self {
             materials: MaterialBindings::new(gpu, material_layout, scene)?,
+            blends: scene.materials.par_iter().enumerate().map(|(i, m)| blends(scene, i, m)).collect(),
             meshes: [MeshSet::new(gpu, &scene.meshes, topology)?, MeshSet::new(gpu, &[], &[])?],
             model: Arc::clone(scene),
             section: None,
@@ -120,6 +124,24 @@ impl GpuScene {
         self.scene = Arc::new(scene);
         self.section = None;
         Ok(())
+    }
+
+    /// Turns what faces the eye to this view.
+    pub fn face(&mut self, view: &View) {
+        for index in 0..self.scene.facing.len() {
+            let Some((node, facing)) = self.scene.facing.get(index).copied() else { continue };
+            let place = view.facing(&facing);
+            if self.scene.nodes.get(node).is_some_and(|n| n.world_from_local != place)
+                && let Some(node) = Arc::make_mut(&mut self.scene).nodes.get_mut(node)
+            {
+                node.world_from_local = place;
+            }
+        }
+    }
+
+    /// The boxes of the model's meshes, local space.
+    pub fn model_bounds(&self) -> &[Bounds] {
+        &self.meshes[Origin::Model as usize].bounds
     }
 
     /// The scene without additions.
@@ -221,14 +243,22 @@ impl GpuScene {
         (is_solid && is_before_the_eye).then_some(if mirrored { wgpu::Face::Front } else { wgpu::Face::Back })
     }
 
+    /// How a material uses its alpha: many files say of what is opaque everywhere that it blends.
+    pub fn alpha(&self, material: usize) -> AlphaMode {
+        let alpha = self.scene.materials.get(material).map_or(AlphaMode::Opaque, |m| m.alpha);
+        let is_opaque = alpha == AlphaMode::Blend && self.blends.get(material) == Some(&false);
+        if is_opaque { AlphaMode::Opaque } else { alpha }
+    }
+
+    /// How the materials of a node's parts use their alpha.
+    pub fn alphas(&self, node: NodeId) -> impl Iterator<Item = AlphaMode> {
+        let mesh = self.scene.nodes[node].mesh.and_then(|m| self.scene.meshes.get(m));
+        mesh.into_iter().flat_map(|mesh| mesh.parts.iter().map(|part| self.alpha(part.material)))
+    }
+
     /// Whether any material of a node has holes by alpha.
     pub fn has_holes(&self, node: NodeId) -> bool {
-        let mesh = self.scene.nodes[node].mesh.and_then(|m| self.scene.meshes.get(m));
-        mesh.is_some_and(|mesh| {
-            mesh.parts.iter().any(|part| {
-                self.scene.materials.get(part.material).is_some_and(|m| m.alpha != AlphaMode::Opaque)
-            })
-        })
+        self.alphas(node).any(|alpha| alpha != AlphaMode::Opaque)
     }
 
     /// Whether a node's mesh has texture coordinates.
@@ -259,11 +289,25 @@ impl GpuScene {
         bounds.corners().map(|corner| node.world_from_local.transform_point3(corner))
     }
 
-    /// The box of a node's own mesh, world space.
+    /// The box of a node's own mesh, world space; of what faces the eye only the point where it is.
     pub fn bounds_of(&self, node: NodeId) -> Bounds {
+        if let Some(facing) = self.scene.facing_of(node) {
+            return Bounds { min: facing.anchor, max: facing.anchor };
+        }
         let node = &self.scene.nodes[node];
         node.mesh.map_or(Bounds::EMPTY, |m| self.mesh_bounds(m).transformed(&node.world_from_local))
     }
+}
+
+/// Whether anything shows through a material anywhere.
+fn blends(scene: &Scene, number: usize, material: &Material) -> bool {
+    let image = material.base_color_texture.as_ref().and_then(|t| scene.textures.get(t.texture));
+    let has_alpha = |texels: &[u8]| texels.chunks_exact(4).any(|texel| texel[3] < u8::MAX);
+    let mut meshes = scene.meshes.iter().filter(|m| m.parts.iter().any(|part| part.material == number));
+    material.alpha == AlphaMode::Blend
+        && (material.base_color.w < 1.0
+            || image.is_some_and(|image| has_alpha(&image.rgba))
+            || meshes.any(|mesh| mesh.colors.iter().any(|color| color[3] < u8::MAX)))
 }
 
 /// The findings of topology on the device, for the scene from which they were made.

@@ -54,6 +54,8 @@ pub struct VisiblePart {
     pub world_from_local: DMat4,
     /// Number of its material; none has that of a cap.
     pub material: usize,
+    /// Whether all of its object is drawn together with it.
+    pub is_whole: bool,
     /// The buffers that hold it.
     pub origin: Origin,
     /// Range of the index buffer.
@@ -62,6 +64,44 @@ pub struct VisiblePart {
     pub index_count: u32,
     /// First vertex of the mesh.
     pub base_vertex: i32,
+}
+
+/// An object in a group.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Visible {
+    /// The object.
+    pub node: NodeId,
+    /// Whether its edges are drawn.
+    pub enhanced: bool,
+    parts: Parts,
+}
+
+/// Which parts of an object are in a group.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Parts {
+    All,
+    /// Those through which nothing shows.
+    Opaque,
+    /// The others.
+    Blended,
+}
+
+impl Visible {
+    /// Whether all of its parts are in the group.
+    pub fn is_whole(&self) -> bool {
+        self.parts == Parts::All
+    }
+
+    fn has(&self, material: usize, scene: &GpuScene) -> bool {
+        let blends = scene.alpha(material) == AlphaMode::Blend;
+        let is_in = match self.parts {
+            Parts::All => true,
+            Parts::Opaque => !blends,
+            Parts::Blended => blends,
+        };
+        // Nothing is left of what has no opacity at all.
+        is_in && !(blends && scene.scene.materials.get(material).is_some_and(|m| m.base_color.w <= 0.0))
+    }
 }
 
 impl VisiblePart {
@@ -74,7 +114,7 @@ impl VisiblePart {
     ) -> Option<wgpu::Face> {
         // A cap closes what is cut open, whatever the side that it is seen from.
         let hidden = || scene.hidden_side(self.node, view_from_local, orthographic);
-        (self.origin != Origin::Caps).then(hidden).flatten()
+        (self.origin != Origin::Caps && self.is_whole).then(hidden).flatten()
     }
 
     /// What it is made of; a cap of the section's colour.
@@ -90,7 +130,7 @@ impl VisiblePart {
 /// Objects that are drawn together.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Group {
-    visible: Vec<(NodeId, bool)>,
+    visible: Vec<Visible>,
     /// Edge parameters by object id; those of other objects draw nothing.
     pub edge_styles: Vec<EdgeUniform>,
     /// Whether any object with lines has holes by alpha.
@@ -108,6 +148,8 @@ pub struct Objects {
     pub masks: Group,
     /// Their hidden lines.
     pub hidden: Hidden,
+    /// Parts of the same techniques through which something shows.
+    pub blended: Group,
     /// The others, together where their style is equal.
     pub blueprints: Vec<Blueprint>,
     /// The box around everything visible, world space.
@@ -150,23 +192,33 @@ impl Objects {
             // A look at a buffer is one at that of surfaces, which every object then is.
             let has_layers = r.style.technique == Technique::Blueprint && document.view.show == Show::Picture;
             let is_blueprint = has_layers && !r.mask;
-            let group = if is_blueprint {
-                Blueprint::group_of(&mut objects.blueprints, r.style, count)
-            } else {
-                &mut objects.surfaces
-            };
-            group.visible.push((node, r.enhanced));
+            // Mirrors and masks show and hide as a whole.
+            let blends = document.view.show == Show::Picture && !has_layers && !r.mask && !r.mirror;
+            let is_blended = |alpha: AlphaMode| blends && alpha == AlphaMode::Blend;
+            let has_blended = scene.alphas(node).any(is_blended);
+            let is_opaque = !has_blended || !scene.alphas(node).all(is_blended);
+            if has_blended && objects.blended.visible.is_empty() {
+                objects.blended = Group::with_hidden(count);
+            }
+            let edges = EdgeUniform::new(&r.style.edges, scale);
+            let edges = if has_layers { edges.inked(&r.style.edges, r.style.blueprint.near) } else { edges };
+            let whole = Visible { node, enhanced: r.enhanced, parts: Parts::All };
+            if is_blueprint {
+                let group = Blueprint::group_of(&mut objects.blueprints, r.style, count);
+                group.add(whole, edges, scene);
+            } else if is_opaque {
+                let parts = if has_blended { Parts::Opaque } else { Parts::All };
+                objects.surfaces.add(Visible { parts, ..whole }, edges, scene);
+                if r.enhanced && document.view.show == Show::Picture {
+                    objects.hidden.add((count, id), &r.style.edges, scale);
+                }
+            }
+            if has_blended {
+                let parts = if is_opaque { Parts::Blended } else { Parts::All };
+                objects.blended.add(Visible { parts, ..whole }, edges, scene);
+            }
             if r.mask {
-                objects.masks.visible.push((node, r.enhanced));
-            }
-            if r.enhanced {
-                let edges = EdgeUniform::new(&r.style.edges, scale);
-                group.edge_styles[id] =
-                    if has_layers { edges.inked(&r.style.edges, r.style.blueprint.near) } else { edges };
-                group.has_holes |= scene.has_holes(node);
-            }
-            if r.enhanced && !is_blueprint && document.view.show == Show::Picture {
-                objects.hidden.add((count, id), &r.style.edges, scale);
+                objects.masks.visible.push(whole);
             }
             if r.mirror
                 && !is_blueprint
@@ -187,7 +239,7 @@ impl Objects {
 
     /// All visible objects.
     fn groups(&self) -> impl Iterator<Item = &Group> {
-        std::iter::once(&self.surfaces).chain(self.blueprints.iter().map(|b| &b.group))
+        [&self.surfaces, &self.blended].into_iter().chain(self.blueprints.iter().map(|b| &b.group))
     }
 
     /// Greatest distance from its spine at which a line has ink, px.
@@ -197,8 +249,8 @@ impl Objects {
 
     /// The boxes of the enhanced objects, each in its own space, and where that lies.
     pub fn enhanced_boxes<'a>(&'a self, scene: &'a GpuScene) -> impl Iterator<Item = (Bounds, DMat4)> + 'a {
-        let enhanced = self.groups().flat_map(|group| &group.visible).filter(|(_, enhanced)| *enhanced);
-        enhanced.filter_map(|(id, _)| box_of(*id, scene))
+        let enhanced = self.groups().flat_map(|group| &group.visible).filter(|object| object.enhanced);
+        enhanced.filter_map(|object| box_of(object.node, scene))
     }
 }
 
@@ -206,6 +258,15 @@ impl Group {
     /// Nothing of a scene with so many object ids; what is hidden is drawn too.
     pub fn with_hidden(count: usize) -> Self {
         Self { edge_styles: vec![EdgeUniform::default(); count], shows_hidden: true, ..Self::default() }
+    }
+
+    /// Adds an object with its lines.
+    fn add(&mut self, object: Visible, edges: EdgeUniform, scene: &GpuScene) {
+        self.visible.push(object);
+        if object.enhanced {
+            self.edge_styles[object_id(object.node) as usize] = edges;
+            self.has_holes |= scene.has_holes(object.node);
+        }
     }
 
     /// The same objects, what is hidden too, with lines by object id.
@@ -231,14 +292,14 @@ impl Group {
         self.boxes(scene).map(middle).sum::<f64>() / self.visible.len().max(1) as f64
     }
 
-    /// The visible objects, and whether each is enhanced.
-    pub fn visible(&self) -> &[(NodeId, bool)] {
+    /// The visible objects.
+    pub fn visible(&self) -> &[Visible] {
         &self.visible
     }
 
     /// The boxes of all visible objects, each in its own space, and where that lies.
     pub fn boxes<'a>(&'a self, scene: &'a GpuScene) -> impl Iterator<Item = (Bounds, DMat4)> + 'a {
-        self.visible.iter().filter_map(|(id, _)| box_of(*id, scene))
+        self.visible.iter().filter_map(|object| box_of(object.node, scene))
     }
 
     /// The part of the picture that they and their lines cover at most: left, top, right and bottom edge in pixels.
@@ -264,7 +325,8 @@ impl Group {
 
     fn caps<'a>(&'a self, scene: &'a GpuScene) -> impl Iterator<Item = VisiblePart> + 'a {
         scene.section.iter().flat_map(move |section| {
-            self.visible.iter().filter_map(move |&(node, enhanced)| {
+            self.visible.iter().filter(|object| object.parts != Parts::Blended).filter_map(move |object| {
+                let Visible { node, enhanced, .. } = *object;
                 let opened = section.opened(node)?;
                 let cap = opened.cap?;
                 Some(VisiblePart {
@@ -275,6 +337,7 @@ impl Group {
                     is_flat: true,
                     world_from_local: section.world_from_cap(opened),
                     material: usize::MAX,
+                    is_whole: true,
                     origin: Origin::Caps,
                     first_index: cap.range.first_index,
                     index_count: cap.index_count,
@@ -285,11 +348,13 @@ impl Group {
     }
 
     fn parts_of_meshes<'a>(&'a self, scene: &'a GpuScene) -> impl Iterator<Item = VisiblePart> + 'a {
-        self.visible.iter().flat_map(move |&(id, enhanced)| {
+        self.visible.iter().flat_map(move |object| {
+            let Visible { node: id, enhanced, .. } = *object;
             let node = &scene.scene.nodes[id];
             let found = node.mesh.and_then(|m| Some((m, scene.scene.meshes.get(m)?, scene.range_of(m)?)));
             found.into_iter().flat_map(move |(mesh, source, (origin, range))| {
-                source.parts.iter().map(move |part| VisiblePart {
+                let parts = source.parts.iter().filter(|part| object.has(part.material, scene));
+                parts.map(move |part| VisiblePart {
                     node: id,
                     enhanced,
                     bounds: scene.mesh_bounds(mesh),
@@ -297,6 +362,7 @@ impl Group {
                     is_flat: source.normals.is_empty(),
                     world_from_local: node.world_from_local,
                     material: part.material,
+                    is_whole: object.is_whole(),
                     origin,
                     first_index: range.first_index + part.first_index,
                     index_count: part.index_count,
@@ -313,6 +379,10 @@ impl Group {
         for part in self.parts(scene) {
             // Combined in double precision, so that models far from the origin do not jitter.
             let view_from_local = view.view_from_world * part.world_from_local;
+            // What faces the eye does not face its mirror images.
+            if view.cut.is_some() && scene.scene.facing_of(part.node).is_some() {
+                continue;
+            }
             if view.has_cuts()
                 && view
                     .cuts_off(&part.bounds.corners().map(|corner| view_from_local.transform_point3(corner)))
@@ -320,7 +390,7 @@ impl Group {
                 continue;
             }
             let material = scene.scene.materials.get(part.material);
-            let alpha = material.map_or(AlphaMode::Opaque, |m| m.alpha);
+            let alpha = scene.alpha(part.material);
             let has_images =
                 material.is_some_and(|m| m.base_color_texture.is_some() || m.normal_texture.is_some());
             let depth = -part.bounds.transformed(&view_from_local).max.z;
@@ -370,8 +440,12 @@ impl Group {
     }
 }
 
-/// The box of an object in its own space, and where that lies.
+/// The box of an object in its own space, and where that lies; `None` for what faces the eye, which lies elsewhere for
+/// each.
 fn box_of(node: NodeId, scene: &GpuScene) -> Option<(Bounds, DMat4)> {
+    if scene.scene.facing_of(node).is_some() {
+        return None;
+    }
     let node = &scene.scene.nodes[node];
     Some((scene.mesh_bounds(node.mesh?), node.world_from_local))
 }

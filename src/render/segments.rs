@@ -21,7 +21,8 @@ pub(super) fn segments(scene: &GpuScene, group: &Group, view: &View, crease_angl
         cuts: view.cuts(),
     };
     let mut all = Vec::new();
-    for &(node, enhanced) in group.visible() {
+    for object in group.visible() {
+        let (node, enhanced) = (object.node, object.enhanced);
         let id = object_id(node);
         let Some(style) = group.edge_styles.get(id as usize).filter(|s| enhanced && s.is_exact()) else {
             continue;
@@ -37,7 +38,7 @@ pub(super) fn segments(scene: &GpuScene, group: &Group, view: &View, crease_angl
             world_from_local: found.world_from_local,
             object: id,
             // What a solid hides is left out.
-            is_solid: scene.shows_no_inside(node) && !group.shows_hidden,
+            is_solid: scene.shows_no_inside(node) && object.is_whole() && !group.shows_hidden,
         };
         let first = all.len();
         let wanted = wanted(style, crease_angle);

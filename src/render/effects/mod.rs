@@ -1,5 +1,6 @@
 //! What an object looks like: one file per effect, named as its style and its shader.
 
+pub mod blended;
 pub mod blueprint;
 pub mod gooch;
 pub mod halftone;
