@@ -27,18 +27,28 @@ fn is_uncovered(px: vec2<u32>) -> bool {
     return depth > 0.0 && depth >= textureLoad(layer_depth_tex, px, 0);
 }
 
+// Each invocation counts every sixteenth pixel of every sixteenth row of a square of 64 by 64.
 @compute @workgroup_size(16, 16)
 fn cs_count(
-    @builtin(global_invocation_id) id: vec3<u32>,
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(local_invocation_id) id: vec3<u32>,
     @builtin(local_invocation_index) index: u32,
 ) {
-    if all(id.xy < vec2<u32>(frame.size)) {
-        if textureLoad(order_tex, id.xy, 0).x != 0u {
-            atomicAdd(&covered, 1u);
+    var own = vec2(0u);
+    for (var i = 0u; i < 16u; i++) {
+        let px = 64u * group.xy + 16u * vec2(i % 4u, i / 4u) + id.xy;
+        if all(px < vec2<u32>(frame.size)) {
+            own.x += select(0u, 1u, textureLoad(order_tex, px, 0).x != 0u);
+            if WITH_MASK {
+                own.y += select(0u, 1u, is_uncovered(px));
+            }
         }
-        if WITH_MASK && is_uncovered(id.xy) {
-            atomicAdd(&uncovered, 1u);
-        }
+    }
+    if own.x != 0u {
+        atomicAdd(&covered, own.x);
+    }
+    if own.y != 0u {
+        atomicAdd(&uncovered, own.y);
     }
     workgroupBarrier();
     if index == 0u {

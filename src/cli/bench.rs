@@ -8,13 +8,14 @@ use serde_json::json;
 
 use super::args::BenchArgs;
 use super::{CliError, print_json, print_line, sample};
-use crate::document::Lighting;
+use crate::document::{LayersBy, Lighting};
 use crate::export::Session;
 use crate::export::session::{Opened, initial_camera, open, topology};
 use crate::geometry::primitives;
 use crate::gpu::Gpu;
 use crate::import::Progress;
 use crate::render::Request;
+use crate::render::passes::peel::MOST_LAYERS;
 use crate::scene::{Camera, Material, Node, Scene};
 use crate::style::halftone::{Mapping, Space};
 use crate::style::hidden::HiddenLayers;
@@ -27,6 +28,7 @@ struct Look {
     style: Style,
     lighting: Lighting,
     behind: Behind,
+    layers_by: LayersBy,
 }
 
 /// What stands behind the model.
@@ -58,7 +60,8 @@ pub(super) fn run(args: &BenchArgs) -> Result<(), CliError> {
     let load_ms = started.elapsed().as_secs_f64() * 1e3;
     let mut bench = Bench::new(opened, args.resolution.0)?;
 
-    let looks = looks(bench.opened.scene.meshes.iter().any(|mesh| !mesh.uvs.is_empty()))?;
+    let has_uvs = bench.opened.scene.meshes.iter().any(|mesh| !mesh.uvs.is_empty());
+    let looks = looks(has_uvs, bench.layers()?)?;
     let mut rows: Vec<Row> =
         looks.iter().map(|look| Row { name: look.name, frame_ms: Vec::new(), stages: Vec::new() }).collect();
     // The looks take turns, so that a slow moment of the machine hits all of them alike.
@@ -153,11 +156,25 @@ impl Bench {
         Ok(Self { session, opened, size, camera, topology_ms })
     }
 
+    /// How many depth layers the model has, up to as many as can be drawn.
+    fn layers(&mut self) -> Result<u32, CliError> {
+        let look = Look {
+            name: "all layers",
+            style: blueprint(MOST_LAYERS)?,
+            lighting: Lighting::default(),
+            behind: Behind::Nothing,
+            layers_by: LayersBy::Auto,
+        };
+        self.frame(&look, MIDDLE)?;
+        Ok(self.session.renderer().peeled()?.first().map_or(1, |peeled| peeled.layers.max(1)))
+    }
+
     /// Draws everything in one look, turned by so many degrees; returns milliseconds.
     fn frame(&mut self, look: &Look, turn: f64) -> Result<f64, CliError> {
         let mut document = self.opened.document.clone();
         document.style = look.style.clone();
         document.lighting = look.lighting.clone();
+        document.view.layers = look.layers_by;
         document.nodes.clear();
         let wall = document.node_mut(WALL);
         wall.visible = Some(look.behind != Behind::Nothing);
@@ -177,7 +194,26 @@ impl Bench {
     }
 }
 
-fn looks(has_uvs: bool) -> Result<Vec<Look>, CliError> {
+/// A blueprint of so many layers, however small they are.
+fn blueprint(layers: u32) -> Result<Style, StyleError> {
+    let mut style = preset::load("blueprint")?.style;
+    (style.blueprint.layers, style.blueprint.least) = (layers, 0.0);
+    Ok(style)
+}
+
+/// Names of the blueprints in the table: one and five layers from lists, the same by peeling, as many as there are, and as many
+/// as there can be.
+const BLUEPRINTS: [&str; 6] = [
+    "blueprint, 1 layer",
+    "blueprint, 5 layers",
+    "blueprint, 1 peeled layer",
+    "blueprint, 5 peeled layers",
+    "blueprint, all layers",
+    "blueprint, up to 64 layers",
+];
+
+/// `layers`: how many the model has.
+fn looks(has_uvs: bool, layers: u32) -> Result<Vec<Look>, CliError> {
     let gooch = preset::load("gooch")?.style;
     let mut diagonal = gooch.clone();
     diagonal.edges.mode = EdgeMode::Paper;
@@ -204,11 +240,6 @@ fn looks(has_uvs: bool) -> Result<Vec<Look>, CliError> {
         let mut style = gooch.clone();
         (style.edges.profile.width, style.edges.inner.width) = (width, width);
         style
-    };
-    let blueprint = |layers| {
-        let mut style = preset::load("blueprint")?.style;
-        (style.blueprint.layers, style.blueprint.least) = (layers, 0.0);
-        Ok::<_, StyleError>(style)
     };
     let hidden = |layers| {
         let mut style = exact(2.0);
@@ -237,23 +268,48 @@ fn looks(has_uvs: bool) -> Result<Vec<Look>, CliError> {
         ("gooch + hidden lines, next", hidden(HiddenLayers::Next)),
         ("gooch + hidden lines, all", hidden(HiddenLayers::All)),
         ("lines", preset::load("lines")?.style),
-        ("blueprint, 1 layer", blueprint(1)?),
-        ("blueprint, 5 layers", blueprint(5)?),
+    ];
+    let [one, five, one_peeled, five_peeled, all, up_to_64] = BLUEPRINTS;
+    let blueprints = [
+        (one, 1, LayersBy::Auto),
+        (five, 5, LayersBy::Auto),
+        (one_peeled, 1, LayersBy::Peeling),
+        (five_peeled, 5, LayersBy::Peeling),
+        (all, layers, LayersBy::Auto),
+        (up_to_64, MOST_LAYERS, LayersBy::Auto),
     ];
     let look = |name, style, lighting: &Lighting| Look {
         name,
         style,
         lighting: lighting.clone(),
         behind: Behind::Nothing,
+        layers_by: LayersBy::Auto,
     };
     let mut looks: Vec<Look> =
         styles.into_iter().chain(by_uv).map(|(name, style)| look(name, style, &unshadowed)).collect();
+    for (name, layers, layers_by) in blueprints {
+        looks.push(Look { layers_by, ..look(name, blueprint(layers)?, &unshadowed) });
+    }
     looks.push(look("plain, shadow", plain.clone(), &hard));
     looks.push(look("plain, soft shadow", plain, &soft));
     for (name, behind) in [("before a wall", Behind::Wall), ("before a mirror", Behind::Mirror)] {
         looks.push(Look { behind, ..look(name, exact(2.0), &unshadowed) });
     }
     Ok(looks)
+}
+
+/// What a depth layer more costs from lists and by peeling, and what it costs to find out that there are no more; ms.
+fn layer_costs(rows: &[Row]) -> Vec<(&'static str, f64)> {
+    let found: Vec<&Row> = BLUEPRINTS.iter().filter_map(|n| rows.iter().find(|row| row.name == *n)).collect();
+    let [one, five, one_peeled, five_peeled, all, up_to_64] = found.as_slice() else { return Vec::new() };
+    let more = |a: &Row, b: &Row| {
+        median(&a.frame_ms.iter().zip(&b.frame_ms).map(|(a, b)| b - a).collect::<Vec<_>>())
+    };
+    vec![
+        ("each layer more, from lists", more(one, five) / 4.0),
+        ("each layer more, by peeling", more(one_peeled, five_peeled) / 4.0),
+        ("the end of the layers", more(all, up_to_64)),
+    ]
 }
 
 fn median(values: &[f64]) -> f64 {
@@ -281,6 +337,7 @@ fn report(args: &BenchArgs, bench: &mut Bench, load_ms: f64, rows: &[Row]) -> Re
         return print_json(&json!({
             "adapter": adapter, "resolution": [w, h], "triangles": triangles, "frames": args.frames,
             "load_ms": load_ms, "topology_ms": bench.topology_ms, "plain_ms": plain, "mirror_ratio": mirror, "styles": styles,
+            "layers_ms": layer_costs(rows).into_iter().map(|(name, ms)| (name.to_owned(), json!(ms))).collect::<serde_json::Map<_, _>>(),
         }));
     }
     print_line(&format!("{adapter}, {w} × {h}, {triangles} triangles, median of {} frames", args.frames))?;
@@ -298,5 +355,8 @@ fn report(args: &BenchArgs, bench: &mut Bench, load_ms: f64, rows: &[Row]) -> Re
         ))?;
     }
     print_line(&format!("a mirror: × {mirror:.2} of the frame with a wall in its place"))?;
+    for (name, ms) in layer_costs(rows) {
+        print_line(&format!("{name}: {ms:.1} ms, × {:.2} of plain", ms / plain.max(1e-9)))?;
+    }
     Ok(())
 }

@@ -5,7 +5,7 @@ use glam::{DMat4, Mat3, Mat4};
 use super::effects::blueprint::Blueprint;
 use super::effects::halftone::Halftones;
 use super::effects::hidden::Hidden;
-use super::effects::mirror::Mirror;
+use super::effects::mirror::{Mirror, part_of};
 use super::effects::surface::SurfaceUniform;
 use super::effects::toon::{ToonUniform, Toons};
 use super::frame_uniform::View;
@@ -300,6 +300,22 @@ impl Group {
     /// The boxes of all visible objects, each in its own space, and where that lies.
     pub fn boxes<'a>(&'a self, scene: &'a GpuScene) -> impl Iterator<Item = (Bounds, DMat4)> + 'a {
         self.visible.iter().filter_map(|object| box_of(object.node, scene))
+    }
+
+    /// The part of the picture that they and their lines cover at most: left, top, right and bottom edge in pixels.
+    pub fn part(&self, scene: &GpuScene, view: &View) -> [u32; 4] {
+        let margin = self.greatest_radius();
+        let boxes = self.boxes(scene).filter(|(bounds, _)| !bounds.is_empty());
+        let parts = boxes.filter_map(|(bounds, place)| {
+            part_of(view, &bounds.corners().map(|corner| place.transform_point3(corner)), margin)
+        });
+        let [width, height] = view.size.to_array();
+        let [left, top, right, bottom] = view.part.unwrap_or([0, 0, width, height]);
+        let [x0, y0, x1, y1] = parts.fold([right, bottom, left, top], |a, b| {
+            [a[0].min(b[0]), a[1].min(b[1]), a[2].max(b[2]), a[3].max(b[3])]
+        });
+        let [x1, y1] = [x1.min(right), y1.min(bottom)];
+        [x0.max(left).min(x1), y0.max(top).min(y1), x1, y1]
     }
 
     /// The parts of all visible objects, and the caps of those that are cut open.

@@ -54,6 +54,8 @@ pub struct LayerInputs<'a> {
     pub fraction: f32,
     /// How layers are to be made.
     pub by: document::LayersBy,
+    /// Whether their base colour is asked for.
+    pub with_color: bool,
 }
 
 /// What of the layers of a group lives across frames.
@@ -117,14 +119,15 @@ impl Layers {
         inputs: &LayerInputs<'_>,
         draw: impl FnMut(&mut Recorder<'_>, u32, &Layer, &PeelCount) -> Result<(), RenderError>,
     ) -> Result<(), RenderError> {
-        let LayerInputs { scene, draws, calls, is_cut, .. } = *inputs;
+        let LayerInputs { scene, draws, calls, is_cut, with_color, .. } = *inputs;
         self.count.begin(rec.gpu, inputs.least.max(1), inputs.fraction);
         let mut recorded = self.room.plan(rec.gpu, rec.size(), inputs.most.min(MOST_LAYERS), inputs.by);
         let mut gate = self.gate.take().unwrap_or_else(|| Gate::new(rec.gpu));
         gate.clear(rec.gpu, calls.len() + PASSES)?;
         if let Ok(room) = &mut recorded.fragments {
             *room = gbuffer_pass.lists.begin(rec, *room)?;
-            gbuffer_pass.collect(rec, scene, &mut self.draws, (draws, calls), is_cut, &self.count)?;
+            let parts = (draws, calls);
+            gbuffer_pass.collect(rec, scene, &mut self.draws, parts, is_cut, with_color, &self.count)?;
         }
         let first = before_all(rec)?;
         rec.gate = Some(gate);
@@ -146,13 +149,14 @@ impl Layers {
         mut last: [Target; 2],
         mut draw: impl FnMut(&mut Recorder<'_>, u32, &Layer, &PeelCount) -> Result<(), RenderError>,
     ) -> Result<(), RenderError> {
-        let LayerInputs { scene, draws, calls, is_cut, mask, .. } = *inputs;
+        let LayerInputs { scene, draws, calls, is_cut, mask, with_color, .. } = *inputs;
         for number in 0..recorded.layers {
             let layer = match recorded.by() {
-                LayersBy::Lists => gbuffer_pass.lists.cut(rec, number, &last)?,
+                LayersBy::Lists => gbuffer_pass.lists.cut(rec, number, with_color, &last)?,
                 LayersBy::Peeling(_) => {
                     let order = rec.target("order", last[1].format())?;
-                    let peel = Peel { last_depth: &last[0], last_order: &last[1], order: &order };
+                    let [last_depth, last_order] = &last;
+                    let peel = Peel { last_depth, last_order, order: &order, with_color };
                     let gbuffer =
                         gbuffer_pass.run(rec, scene, &mut self.draws, (draws, calls), is_cut, Some(&peel))?;
                     Layer { gbuffer, order }

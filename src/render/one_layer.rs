@@ -87,6 +87,7 @@ impl OneLayer {
                 fraction: 1.0,
                 // It cannot run out of room, which nobody would hear of.
                 by: LayersBy::Peeling,
+                with_color: true,
             };
             let mut found = None;
             // A layer that has ended is empty, and nobody waits for the report about it.

@@ -91,6 +91,8 @@ pub struct Renderer {
     incomplete: u64,
     /// Whether one did that nobody has been told of.
     was_incomplete: bool,
+    /// Whether all reports about its pictures have come.
+    is_settled: bool,
 }
 
 impl Renderer {
@@ -115,6 +117,7 @@ impl Renderer {
             keeps_layers: false,
             incomplete: 0,
             was_incomplete: false,
+            is_settled: true,
         }
     }
 
@@ -131,7 +134,10 @@ impl Renderer {
         twin.incomplete = self.incomplete;
         twin.additions = self.additions.clone();
         twin.images = self.images.clone();
-        twin.state.go_on_from(&self.state);
+        // Of a sample that may yet turn out to be incomplete nothing is taken over.
+        if self.is_settled {
+            twin.state.go_on_from(&self.state);
+        }
         twin
     }
 
@@ -315,6 +321,7 @@ impl Renderer {
         self.pool.shrink_to(size);
         self.state.shrink(&self.gpu);
         self.last = Some((picture.clone(), view));
+        self.note_reports();
         Ok(picture)
     }
 
@@ -328,6 +335,7 @@ impl Renderer {
     fn note_reports(&mut self) -> Reported {
         self.gpu.poll();
         let reported = self.state.take_reports();
+        self.is_settled = reported == Reported::Complete;
         if reported == Reported::Incomplete {
             self.incomplete += 1;
             self.was_incomplete = true;

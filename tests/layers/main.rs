@@ -1,12 +1,14 @@
 //! Depth layers: from lists of fragments they are the same as by peeling, and no guess about how many there are is ever seen.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+#![allow(clippy::print_stdout, reason = "measurements are printed")]
 
 #[path = "../common/mod.rs"]
 mod common;
 mod hard;
 mod reports;
 mod same;
+mod speed;
 
 use common::{opened, scene, set, texels};
 use glam::{DMat4, DVec3};

@@ -12,6 +12,7 @@ use encase::ShaderType;
 use glam::Vec3;
 
 use crate::document;
+use crate::geometry::EdgeClass;
 use crate::gpu::recorder::{Draw, Input, Onto};
 use crate::gpu::{ArrayBuffer, DepthRule, Gpu, Program, Recorder, Target};
 use crate::render::RenderError;
@@ -240,8 +241,12 @@ impl Blueprints {
                 mask: mask.map(|mask| &mask.value),
                 fraction: params.fraction,
                 by: inputs.layers_by,
+                // Lines within images are found in it; those of a blueprint have a colour of their own.
+                with_color: asked.keeps_layers
+                    || group.edge_styles.iter().any(|s| s.draws(EdgeClass::Texture)),
             };
-            layers.each(rec, gbuffer_pass, &cut, |rec, number, layer, count| {
+            let outer = std::mem::replace(&mut rec.part, Some(group.part(inputs.scene, inputs.view)));
+            let drawn = layers.each(rec, gbuffer_pass, &cut, |rec, number, layer, count| {
                 if asked.keeps_layers {
                     kept.push(layer.clone());
                 }
@@ -275,7 +280,9 @@ impl Blueprints {
                     fill(rec, layer, layer_lines.edge_styles(), sprite, caps, &color)?;
                 }
                 Ok(())
-            })?;
+            });
+            rec.part = outer;
+            drawn?;
             Ok(Peels { color, front, layers: kept })
         })
     }

@@ -195,6 +195,7 @@ impl HiddenLines {
                 mask: None,
                 fraction: 1.0,
                 by: inputs.layers_by,
+                with_color: true,
             };
             let mut before: Option<[Target; 2]> = None;
             layers.each(rec, gbuffer_pass, &cut, |rec, number, layer, _| {

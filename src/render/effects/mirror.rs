@@ -81,7 +81,7 @@ impl Mirror {
 
 /// The part of the picture that a box covers at most, with a margin: left, top, right and bottom edge in pixels. `None`
 /// if it is empty. `corners`: world space, in the order of [`Bounds::corners`].
-fn part_of(view: &View, corners: &[DVec3; 8], margin: f32) -> Option<[u32; 4]> {
+pub fn part_of(view: &View, corners: &[DVec3; 8], margin: f32) -> Option<[u32; 4]> {
     let projector = view.projector();
     let [near, _] = view.clip_range;
     let in_view = corners.map(|corner| view.view_from_world.transform_point3(corner));

@@ -109,16 +109,16 @@ impl FragmentLists {
         self.fragments[0].size() / BYTES[0]
     }
 
-    /// Gives memory back of which little is needed any more.
+    /// Gives memory back of which the last frame that used any needed little.
     pub fn shrink(&mut self, gpu: &Gpu) {
-        let asked = std::mem::take(&mut self.asked).max(1);
-        if self.room() > 4 * asked {
+        let asked = std::mem::take(&mut self.asked);
+        if asked > 0 && self.room() > 4 * asked {
             self.fragments = BYTES.map(|bytes| create(gpu, "fragments", bytes * asked));
         }
     }
 
     /// The layer of this number, from 0 on, which lies behind the last one: its depth and order. Layers are cut one after
-    /// the other.
+    /// the other, with a base colour if the fragments have been collected with it.
     ///
     /// # Errors
     /// [`RenderError`].
@@ -126,6 +126,7 @@ impl FragmentLists {
         &self,
         rec: &mut Recorder<'_>,
         number: u32,
+        with_color: bool,
         [last_depth, last_order]: &[Target; 2],
     ) -> Result<Layer, RenderError> {
         let layer = Layer { gbuffer: GBuffer::new(rec)?, order: rec.target("order", ORDER)? };
@@ -143,7 +144,11 @@ impl FragmentLists {
         let is_first = number % SORTED == 0;
         rec.draw(Draw {
             label: if is_first { "sort and cut" } else { "cut" },
-            program: Program::new("passes/cut.wgsl", if is_first { "fs_first" } else { "fs_next" }),
+            program: Program {
+                file: "passes/cut.wgsl",
+                entry_point: if is_first { "fs_first" } else { "fs_next" },
+                switches: vec![("WITH_COLOR", with_color)],
+            },
             inputs: &inputs,
             outputs: &[
                 &layer.gbuffer.geometry,

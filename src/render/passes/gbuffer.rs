@@ -122,6 +122,8 @@ struct Variant {
     hidden_side: Option<wgpu::Face>,
     /// Whether what lies behind a plane is left out.
     is_cut: bool,
+    /// Whether layers have a base colour.
+    with_color: bool,
     purpose: Purpose,
 }
 
@@ -170,6 +172,7 @@ const LAYER: &[wgpu::TextureFormat] = &[GEOMETRY, BASE_COLOR, REGION, ORDER];
 struct Traversal<'a> {
     label: &'static str,
     purpose: Purpose,
+    with_color: bool,
     color: &'a [&'a Target],
     depth: &'a Target,
     /// Bind group 3.
@@ -230,13 +233,13 @@ impl GBufferPass {
     ) -> Result<GBuffer, RenderError> {
         let gbuffer = GBuffer::new(rec)?;
         let GBuffer { geometry, base_color, region, depth } = &gbuffer;
-        let (label, purpose) = match peel {
-            Some(_) => ("peel", Purpose::Layer),
-            None => ("g-buffer", Purpose::Surfaces),
+        let (label, purpose, with_color) = match peel {
+            Some(peel) => ("peel", Purpose::Layer, peel.with_color),
+            None => ("g-buffer", Purpose::Surfaces, true),
         };
         let color: Vec<_> = [geometry, base_color, region].into_iter().chain(peel.map(|p| p.order)).collect();
         let group = peel.map(|peel| peel.group(rec.gpu, &self.layer_layout));
-        let traversal = Traversal { label, purpose, color: &color, depth, group };
+        let traversal = Traversal { label, purpose, with_color, color: &color, depth, group };
         self.traverse(rec, scene, buffer, parts, is_cut, traversal)?;
         Ok(gbuffer)
     }
@@ -252,13 +255,14 @@ impl GBufferPass {
         buffer: &mut DynamicBuffer,
         parts: (&[DrawUniform], &[DrawCall]),
         is_cut: bool,
+        with_color: bool,
         count: &PeelCount,
     ) -> Result<(), RenderError> {
         let group = Some(self.lists.group(rec.gpu, count));
         // A pass has to have an output.
         let depth = &rec.target("depth", DEPTH)?;
-        let traversal =
-            Traversal { label: "fragment lists", purpose: Purpose::Lists, color: &[], depth, group };
+        let (label, purpose) = ("fragment lists", Purpose::Lists);
+        let traversal = Traversal { label, purpose, with_color, color: &[], depth, group };
         self.traverse(rec, scene, buffer, parts, is_cut, traversal)
     }
 
@@ -271,10 +275,12 @@ impl GBufferPass {
         is_cut: bool,
         traversal: Traversal<'_>,
     ) -> Result<(), RenderError> {
-        let Traversal { label, purpose, color, depth, group: own } = traversal;
+        let Traversal { label, purpose, with_color, color, depth, group: own } = traversal;
         let gpu = rec.gpu;
-        let variant =
-            |call: &DrawCall| Variant { detail: call.detail, hidden_side: call.hidden_side, is_cut, purpose };
+        let variant = |call: &DrawCall| {
+            let DrawCall { detail, hidden_side, .. } = *call;
+            Variant { detail, hidden_side, is_cut, with_color, purpose }
+        };
         for call in calls {
             self.prepare(gpu, rec.pipelines, variant(call))?;
         }
@@ -363,6 +369,9 @@ fn build(
     let buffers = [Some(position), Some(surface), Some(Attributes::LAYOUT)];
     let (vertex, fragment) = variant.purpose.entry_points(variant.detail);
     let targets: Vec<_> = variant.purpose.outputs().iter().map(|&format| Some(format.into())).collect();
+    let mut constants = vec![("WITH_CUT", variant.is_cut)];
+    constants.extend((variant.purpose != Purpose::Surfaces).then_some(("WITH_COLOR", variant.with_color)));
+    let constants: Vec<_> = constants.into_iter().map(|(name, on)| (name, f64::from(u8::from(on)))).collect();
     // Lists take all fragments.
     let is_list = variant.purpose == Purpose::Lists;
     let depth_compare = if is_list { wgpu::CompareFunction::Always } else { wgpu::CompareFunction::Greater };
@@ -389,7 +398,7 @@ fn build(
             module,
             entry_point: Some(fragment),
             compilation_options: wgpu::PipelineCompilationOptions {
-                constants: &[("WITH_CUT", f64::from(u8::from(variant.is_cut)))],
+                constants: &constants,
                 ..Default::default()
             },
             targets: &targets,

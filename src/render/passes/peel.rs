@@ -14,8 +14,8 @@ use crate::render::RenderError;
 /// No object has more layers than this that are drawn.
 pub const MOST_LAYERS: u32 = 64;
 
-/// Pixels per side of a workgroup, as in `passes/count.wgsl`.
-const GROUP: u32 = 16;
+/// Pixels per side that a workgroup counts, as in `passes/count.wgsl`.
+const GROUP: u32 = 64;
 
 /// One depth layer.
 #[derive(Debug, Clone)]
@@ -34,6 +34,8 @@ pub struct Peel<'a> {
     pub last_order: &'a Target,
     /// Order of the layer that is drawn.
     pub order: &'a Target,
+    /// Whether it has a base colour.
+    pub with_color: bool,
 }
 
 impl Peel<'_> {
