@@ -102,8 +102,8 @@ fn objects_and_groups_become_nodes_with_unique_paths_in_tree_order() {
 
 #[test]
 fn materials_images_and_options_of_an_obj() {
-    let obj = "mtllib my materials.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvt 0 0\nvt 1 0\nvt 0 1\n\
-        usemtl wood\nf 1/1 2/2 3/3\nusemtl glass\nf 1/1 2/2 4/3\nusemtl leaf\nf 1/1 3/2 4/3\nusemtl void\nf 4/1 3/2 2/3\nusemtl gone\nf 2/1 3/2 4/3\n";
+    let obj = "mtllib my materials.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 1 1 1\nvt 0 0\nvt 1 0\nvt 0 1\n\
+        usemtl wood\nf 1/1 2/2 3/3\nusemtl glass\nf 1/1 2/2 4/3\nusemtl leaf\nf 1/1 3/2 4/3\nusemtl void\nf 4/1 3/2 5/3\nusemtl gone\nf 2/1 3/2 4/3\n";
     let mtl = "newmtl wood\nKd 1 1 1\nmap_Kd -clamp on tex\\wood.png\nnewmtl glass\nKd 0 0 1\nd 0.5\n\
         newmtl void\nd 0\nnewmtl leaf\nmap_Kd tex/wood.png\nmap_d tex/wood.png\n";
     let folder = Folder::with(&[
