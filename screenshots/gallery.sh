@@ -130,6 +130,18 @@ draw x_ray assets/models/temple.glb --style x-ray --camera-azimuth-angle 35 --ca
 draw section_temple assets/models/temple.glb --style lines --section y=2 --camera-orthographic --look-from top
 draw section_crank "$crank" --style technical-illustration --section z=0 --set section.color=#f4d9a8
 
+# Ways to a hidden chamber: a red box and red arrows among blueprints, in perspective and from above (Fig. 9).
+paths() { # paths NAME ARGUMENTS...
+	name=$1
+	shift
+	target/release/hachure render screenshots/temple_paths.hachure --output "screenshots/$name.png" --samples 64 \
+		--style blueprint --set blueprint.layers=24 --set blueprint.opacity=0.03 "$@"
+	echo "screenshots/$name.png"
+}
+paths temple_paths --resolution 1200,840 --camera-azimuth-angle -50 --camera-elevation-angle 35
+paths temple_paths_plan --resolution 1200,660 --camera-orthographic --camera-position=0,100,2 \
+	--camera-focal-point=0,0,2 --camera-view-up=-1,0,0 --camera-view-height 42
+
 # Shadows in each technique.
 for style in plain gooch comic engraving newspaper; do
 	draw "shadows_$style" "$ogre" --style "$style" --set light.shadows=true --set light.key.azimuth=-55 \

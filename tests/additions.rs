@@ -19,7 +19,7 @@ const SIDE: u32 = 96;
 
 fn addition(path: &str, owner: Option<NodeId>, mesh: Mesh, place: DMat4) -> Addition {
     let material = Material { base_color: glam::vec4(0.9, 0.2, 0.1, 1.0), ..Material::default() };
-    Addition { path: path.to_owned(), owner, mesh, world_from_local: place, material }
+    Addition { path: path.to_owned(), owner, mesh, world_from_local: place, material, facing: None }
 }
 
 fn picture(session: &mut Session, opened: &Opened) -> RgbaImage {
@@ -53,7 +53,7 @@ fn additions_are_drawn_like_objects_of_the_files() {
             let without = picture(&mut session, &opened);
             assert!(differences(&without, &expected_picture) > 200, "{technique}");
             let additions = vec![addition("added", None, added.clone(), place)];
-            session.renderer().show_additions(additions).unwrap();
+            session.renderer().show_additions(additions);
             let with = picture(&mut session, &opened);
             assert_eq!(differences(&with, &expected_picture), 0, "{technique}");
         }
@@ -65,7 +65,7 @@ fn cube_with_knob(session: &mut Session) -> Opened {
     let model: Arc<Scene> = scene(vec![("cube", primitives::cube(1.0), DMat4::IDENTITY, [0.5; 3])]);
     let opened = opened(&model, DVec3::Z);
     session.set_scene(&opened).unwrap();
-    session.renderer().show_additions(vec![knob(0.9)]).unwrap();
+    session.renderer().show_additions(vec![knob(0.9)]);
     opened
 }
 
@@ -111,11 +111,11 @@ fn a_changed_addition_uploads_nothing_of_the_model() {
     };
     let before = buffers(&mut session);
     let first = picture(&mut session, &opened);
-    session.renderer().show_additions(vec![knob(0.6)]).unwrap();
+    session.renderer().show_additions(vec![knob(0.6)]);
     let after = buffers(&mut session);
     assert!(before.0 == after.0 && before.1 != after.1 && before.2 == after.2);
     assert!(differences(&first, &picture(&mut session, &opened)) > 0);
-    session.renderer().show_additions(Vec::new()).unwrap();
+    session.renderer().show_additions(Vec::new());
     let alone = picture(&mut session, &opened);
     let mut bare = Session::new(session.renderer().gpu().clone());
     bare.set_scene(&opened).unwrap();
@@ -130,7 +130,7 @@ fn another_scene_comes_without_the_additions_of_the_last_one() {
     assert_eq!(session.renderer().scene().unwrap().scene.added, 0);
     let empty = Opened { document: Document::default(), scene: Arc::default() };
     session.set_scene(&empty).unwrap();
-    session.renderer().show_additions(vec![knob(0.0)]).unwrap();
+    session.renderer().show_additions(vec![knob(0.0)]);
     let drawn = picture(&mut session, &empty);
     assert!(drawn.pixels().all(|p| p.0[3] == 255), "an owner that is not there is no reason to fail");
 }

@@ -15,6 +15,7 @@ use glam::{DMat4, DVec3};
 use hachure::app::command::Command;
 use hachure::app::{self, Launch, Viewer};
 use hachure::document::Document;
+use hachure::document::glyph::Shape;
 use hachure::geometry::{EdgeClass, primitives};
 use hachure::gpu::Gpu;
 use hachure::import::{ImportError, Progress};
@@ -825,4 +826,113 @@ fn images_of_styles_are_read_beside_the_window_and_again_when_it_is_come_back_to
     assert_eq!(window.state().document().style.toon.image, Some(ramp));
     choose(&mut window, "Ramp", "Ink wash");
     assert_eq!(rows(&window), [0, 0]);
+}
+
+fn glyph_names(window: &Window) -> Vec<&str> {
+    window.state().document().glyphs.iter().map(|g| g.name.as_str()).collect()
+}
+
+#[test]
+fn a_box_is_added_changed_renamed_removed_and_brought_back() {
+    let mut window = window();
+    click(&mut window, Role::Tab, "Glyphs");
+    assert!(!window.state().is_enabled(Command::AddBox), "around what?");
+    click(&mut window, Role::TreeItem, "wheel");
+    click(&mut window, Role::Button, "Box");
+    assert_eq!((glyph_names(&window), selected(&window)), (vec!["box"], vec!["box"]));
+    assert!(!window.state().is_enabled(Command::AddBox), "no box around a glyph");
+    click(&mut window, Role::CheckBox, "Frame");
+    assert!(
+        matches!(&window.state().document().glyphs[0].shape, Shape::Box(b) if b.frame && b.node == "/engine/wheel")
+    );
+
+    window.get_by_role_and_label(Role::TextInput, "Name").focus();
+    settle(&mut window);
+    window.key_press_modifiers(CTRL, Key::A);
+    window.get_by_role_and_label(Role::TextInput, "Name").type_text("here");
+    settle(&mut window);
+    window.key_press(Key::Enter);
+    settle(&mut window);
+    assert_eq!((glyph_names(&window), selected(&window)), (vec!["here"], vec!["here"]));
+
+    click(&mut window, Role::CheckBox, "Show here");
+    assert_eq!(own(&window, "glyphs/here").unwrap().visible, Some(false), "a row of the outliner");
+    window.key_press(Key::Delete);
+    settle(&mut window);
+    assert!(glyph_names(&window).is_empty() && own(&window, "glyphs/here").is_none());
+    ask(&mut window, Command::Undo);
+    assert_eq!(glyph_names(&window), ["here"]);
+    assert_eq!(own(&window, "glyphs/here").unwrap().visible, Some(false));
+    while window.state().is_enabled(Command::Undo) {
+        ask(&mut window, Command::Undo);
+    }
+    assert!(glyph_names(&window).is_empty() && selected(&window).is_empty());
+}
+
+/// Clicks on the picture, so many shares of its width right of its middle.
+fn click_picture(window: &mut Window, right: f32) {
+    let picture = window.get_by_label("Picture").rect();
+    let at = picture.center() + Vec2::new(right * picture.width(), 0.0);
+    window.hover_at(at);
+    window.drag_at(at);
+    window.drop_at(at);
+    window.step();
+}
+
+#[test]
+fn a_path_is_placed_by_clicks_on_surfaces() {
+    let mut window = window();
+    ask(&mut window, Command::Front);
+    let start = window.state().document().clone();
+    ask(&mut window, Command::AddPath);
+    let mut hints = vec![window.state().hint().unwrap()];
+    for right in [-0.36, 0.0, 0.36] {
+        click_picture(&mut window, right);
+        let before = *hints.last().unwrap();
+        if hints.len() < 3 {
+            until(&mut window, "the point is placed", |v| v.hint() != Some(before));
+            hints.push(window.state().hint().unwrap());
+        }
+    }
+    let points = |v: &Viewer| match v.document().glyphs.first().map(|g| g.shape.clone()) {
+        Some(Shape::Path(path)) => path.points,
+        _ => Vec::new(),
+    };
+    until(&mut window, "there are three points", |v| points(v).len() == 3);
+    for (point, x) in points(window.state()).iter().zip([-2.0, 0.0, 2.0]) {
+        assert!((point.x - x).abs() < 0.5 && (0.5..0.7).contains(&point.z), "{point}");
+    }
+    window.key_press(Key::Backspace);
+    settle(&mut window);
+    assert_eq!(points(window.state()).len(), 2);
+    window.key_press(Key::Enter);
+    settle(&mut window);
+    assert_eq!((window.state().hint(), selected(&window)), (None, vec!["arrow"]));
+    assert_eq!(window.state().document().camera, start.camera, "Enter frames nothing now");
+    ask(&mut window, Command::Undo);
+    assert_eq!(window.state().document().glyphs, [], "all of it is one step");
+    ask(&mut window, Command::Redo);
+    assert_eq!(points(window.state()).len(), 2);
+}
+
+#[test]
+fn escape_leaves_nothing_of_what_was_being_placed() {
+    let mut window = window();
+    ask(&mut window, Command::Front);
+    let start = window.state().document().clone();
+    ask(&mut window, Command::AddPath);
+    for (right, placed) in [(-0.36, 0), (0.0, 1)] {
+        click_picture(&mut window, right);
+        until(&mut window, "the point is placed", |v| v.document().glyphs.len() == placed && !v.is_picking());
+    }
+    window.key_press(Key::Escape);
+    settle(&mut window);
+    assert_eq!((window.state().hint(), window.state().document()), (None, &start));
+    ask(&mut window, Command::AddLabel);
+    click_picture(&mut window, 0.0);
+    until(&mut window, "the label is there", |v| v.document().glyphs.len() == 1);
+    assert_eq!((window.state().hint(), selected(&window)), (None, vec!["label"]));
+    window.get_by_role_and_label(Role::MultilineTextInput, "Text").type_text("!");
+    settle(&mut window);
+    assert!(matches!(&window.state().document().glyphs[0].shape, Shape::Label(l) if l.text.contains('!')));
 }

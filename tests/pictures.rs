@@ -20,7 +20,7 @@ const INNER_4: &str = "edges.inner.width=4";
 const PROFILE_16: &str = "edges.profile.width=16";
 const INNER_16: &str = "edges.inner.width=16";
 
-/// Name, model and further arguments of every golden picture.
+/// Name, model (or a document beside the pictures) and further arguments of every golden picture.
 const PICTURES: &[(&str, &str, &[&str])] = &[
     ("gooch_crank", "crank", &["--style", "gooch"]),
     ("gooch_ogre", "ogre", &["--style", "gooch"]),
@@ -144,6 +144,7 @@ const PICTURES: &[(&str, &str, &[&str])] = &[
         "temple",
         &["--style", "lines", "--section", "y=2", "--camera-orthographic", "--look-from", "top"],
     ),
+    ("glyphs", "glyphs.hachure", &["--style", "blueprint", "--object-style", "flywheel=plain"]),
     ("transparent_ogre", "ogre", &["--no-background", "--camera-azimuth-angle=-40"]),
 ];
 
@@ -152,7 +153,11 @@ fn folder() -> PathBuf {
 }
 
 fn render(model: &str, args: &[&str], output: &Path) {
-    let model = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("assets/models/{model}.glb"));
+    let model = if model.ends_with(".hachure") {
+        folder().join(model)
+    } else {
+        Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("assets/models/{model}.glb"))
+    };
     let result = Command::new(env!("CARGO_BIN_EXE_hachure"))
         .arg("render")
         .arg(model)

@@ -98,6 +98,11 @@ impl Viewer {
     fn show_loaded(&mut self, loaded: Loaded) {
         let Loaded { model, on_device, models, document, intent } = loaded;
         self.viewport.show(on_device);
+        self.cancel_placing();
+        let mut model = model;
+        if intent != Intent::Open {
+            model.show_glyphs(&self.document);
+        }
         let selection = self.selection.carried_over(&self.model.scene, &model.scene);
         self.model = model;
         self.jobs.topology = None;
@@ -126,7 +131,8 @@ impl Viewer {
             Intent::Reload => self.notices.done("Read again"),
             Intent::Add | Intent::Restore => {}
         }
-        for fault in self.document.role_faults(&self.model.scene) {
+        let faults = self.document.role_faults(&self.model.files);
+        for fault in faults.into_iter().chain(self.document.glyph_faults(&self.model.files)) {
             self.notices.warning(fault.to_string());
         }
         let warnings = self.model.scene.warnings.len();
@@ -154,10 +160,10 @@ impl Viewer {
             }
         }
         let angle = self.document.view.crease_angle;
-        let is_wanted = !self.model.scene.meshes.is_empty();
+        let is_wanted = !self.model.files.meshes.is_empty();
         if is_wanted && self.topology_for != Some(angle) && context.input(|i| !i.pointer.any_down()) {
             self.topology_for = Some(angle);
-            let scene = Arc::clone(&self.model.scene);
+            let scene = Arc::clone(&self.model.files);
             let uploader = self.viewport.uploader();
             let work = move |_: &Progress| uploader.topology(&scene, &session::topology(&scene, angle));
             self.jobs.topology = Some(Job::start("examining the meshes", context, work));
@@ -202,6 +208,7 @@ impl Viewer {
                 }
                 self.outliner.reveal(node, &self.model.scene);
             }
+            (PickFor::Place { is_last }, ..) => self.place_point(pick, is_last),
             (PickFor::Select { add: false }, ..) => self.selection.clear(),
             (PickFor::Center, _, Some(point)) => {
                 if let Some(camera) = &mut self.document.camera {

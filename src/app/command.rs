@@ -41,6 +41,16 @@ pub enum Command {
     Isolate,
     /// Draw everything again.
     ShowAll,
+    /// Draw a box around the selected object.
+    AddBox,
+    /// Place an arrow.
+    AddArrow,
+    /// Place a path with arrow heads.
+    AddPath,
+    /// Place a label.
+    AddLabel,
+    /// Remove the selected glyphs.
+    Delete,
     /// Frame everything from the standard direction.
     Home,
     /// Frame everything from the present direction.
@@ -100,6 +110,8 @@ pub enum Group {
     File,
     /// Undo and selection.
     Edit,
+    /// Glyphs.
+    Glyphs,
     /// The camera.
     View,
     /// The window.
@@ -114,6 +126,7 @@ impl Group {
         match self {
             Self::File => "File",
             Self::Edit => "Edit",
+            Self::Glyphs => "Glyphs",
             Self::View => "View",
             Self::Window => "Window",
             Self::Help => "Help",
@@ -157,6 +170,11 @@ impl Command {
             Self::Hide => ("Hide selected", "Do not draw the selected objects"),
             Self::Isolate => ("Isolate selected", "Draw only the selected objects; again to show all"),
             Self::ShowAll => ("Show all", "Draw every object again"),
+            Self::AddBox => ("Box", "Draw a box around the selected object"),
+            Self::AddArrow => ("Arrow", "Place an arrow by two clicks on surfaces"),
+            Self::AddPath => ("Path", "Place a path with an arrow head, by clicks on surfaces"),
+            Self::AddLabel => ("Label", "Write something beside a point of a surface"),
+            Self::Delete => ("Delete glyph", "Remove the selected glyphs; objects of the model stay"),
             Self::Home => ("Home view", "See everything from front, right and above"),
             Self::FrameAll => ("Frame all", "See everything from the present direction"),
             Self::FrameSelected => ("Frame selected", "Fill the picture with the selected objects"),
@@ -208,6 +226,7 @@ impl Command {
             | Self::Hide
             | Self::Isolate
             | Self::ShowAll => Group::Edit,
+            Self::AddBox | Self::AddArrow | Self::AddPath | Self::AddLabel | Self::Delete => Group::Glyphs,
             Self::Home
             | Self::FrameAll
             | Self::FrameSelected
@@ -243,6 +262,7 @@ impl Command {
                 | Self::Quit
                 | Self::SelectAll
                 | Self::Hide
+                | Self::Delete
                 | Self::Front
                 | Self::FileCamera
                 | Self::OrbitLeft
@@ -280,6 +300,7 @@ impl Command {
             Self::Hide => const { &[ctrl(Key::H)] },
             Self::Isolate => const { &[key(Key::Slash)] },
             Self::ShowAll => const { &[KeyboardShortcut::new(Modifiers::ALT, Key::H)] },
+            Self::Delete => const { &[key(Key::Delete)] },
             Self::Home => const { &[key(Key::Home)] },
             Self::FrameAll => const { &[key(Key::Enter)] },
             Self::FrameSelected => const { &[key(Key::F), key(Key::Period)] },
@@ -301,6 +322,7 @@ impl Command {
             Self::FullScreen => const { &[key(Key::F11)] },
             Self::ReloadShaders => const { &[ctrl(Key::R)] },
             Self::Help => const { &[key(Key::F1), key(Key::H)] },
+            Self::AddBox | Self::AddArrow | Self::AddPath | Self::AddLabel => &[],
             Self::Outliner | Self::Inspector | Self::DarkPanels | Self::Warnings => &[],
         }
     }

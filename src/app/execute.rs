@@ -7,9 +7,12 @@ use eframe::egui;
 use super::command::Command;
 use super::loading::Intent;
 use super::navigation::STEP;
+use super::placing::Placed;
 use super::screenshot::{self, Destination};
 use super::theme;
 use super::viewer::{DialogFor, Open, Viewer};
+use crate::document::Glyph;
+use crate::document::glyph::Shape;
 use crate::scene::{NodeId, Projection, Standard};
 use glam::DVec3;
 
@@ -20,7 +23,12 @@ impl Viewer {
         match command {
             Command::Reload => !self.document.models.is_empty(),
             Command::Save => any || self.saved.is_some(),
-            Command::Undo => self.history.can_undo(),
+            Command::AddBox => self.selection.lead_object(&self.model.files).is_some(),
+            Command::AddArrow | Command::AddPath | Command::AddLabel => any && self.document.camera.is_some(),
+            Command::Delete => {
+                self.placing.is_none() && self.selection.iter().any(|n| self.model.scene.is_added(n))
+            }
+            Command::Undo => self.history.can_undo() || self.placing.is_some(),
             Command::Redo => self.history.can_redo(),
             Command::SelectNone => selected || self.open.help || self.open.warnings,
             Command::Hide | Command::Isolate | Command::FrameSelected => selected,
@@ -93,6 +101,25 @@ impl Viewer {
             Command::TransparentScreenshot => self.capture(context, true, self.numbered()),
             Command::ScreenshotAs => self.ask_for_file(context, DialogFor::Screenshot),
             Command::Quit => context.send_viewport_cmd(egui::ViewportCommand::Close),
+            Command::AddBox => {
+                if let Some(node) = self.selection.lead_object(&self.model.files) {
+                    let glyph = Glyph::new("box".to_owned(), Shape::around(node.path.clone()));
+                    let index = self.document.add_glyph(glyph);
+                    self.select_glyph(index);
+                }
+            }
+            Command::AddArrow => self.begin_placing(Placed::Arrow),
+            Command::AddPath => self.begin_placing(Placed::Path),
+            Command::AddLabel => self.begin_placing(Placed::Label),
+            Command::Delete => {
+                let own = self.model.files.nodes.len();
+                let indices: Vec<_> = self.selection.iter().filter_map(|n| n.checked_sub(own)).collect();
+                for index in indices.into_iter().rev() {
+                    self.document.remove_glyph(index);
+                }
+                self.selection.clear();
+            }
+            Command::Undo if self.placing.is_some() => self.take_point_back(),
             Command::Undo => {
                 self.history.undo(&mut self.document);
                 self.follow_models(context);

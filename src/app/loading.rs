@@ -3,13 +3,14 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use crate::document::{Document, DocumentError};
+use crate::document::{Document, DocumentError, Glyph};
 use crate::export::session::is_document;
 use crate::geometry::Bounds;
 use crate::gpu::GpuError;
 use crate::import::{ImportError, ImportOptions, Progress};
 use crate::render::{GpuScene, Uploader};
-use crate::scene::{NodeId, Scene};
+use crate::scene::{NodeId, Scene, Warning};
+use crate::style::Color;
 use glam::DVec3;
 
 /// The ending of documents.
@@ -41,8 +42,16 @@ pub enum Intent {
 /// A scene with what the window needs to know about it.
 #[derive(Debug, Clone, Default)]
 pub struct Model {
-    /// The scene.
+    /// What the files hold.
+    pub files: Arc<Scene>,
+    /// The same with the document's glyphs: what panels and selections are about.
     pub scene: Arc<Scene>,
+    /// The glyphs and the paper for which that holds, and what is wrong with them.
+    glyphs: (Vec<Glyph>, Color),
+    /// Glyphs that are not drawn, or not as they were meant.
+    pub glyph_warnings: Vec<Warning>,
+    /// The box of each mesh of the files, local space.
+    mesh_bounds: Vec<Bounds>,
     /// The outermost points of each node's own mesh, world space ([`Scene::extent_of`]).
     pub extents: Vec<Vec<DVec3>>,
     /// The box around everything, in units of the scene.
@@ -71,7 +80,45 @@ impl Model {
             .map(|n| n.mesh.and_then(|m| scene.meshes.get(m)).map_or(0, |m| m.triangle_count()))
             .collect();
         let bounds = scene.bounds();
-        Self { scene: Arc::new(scene), extents, bounds, diagonal: bounds.diagonal(), triangles }
+        let mesh_bounds = scene.meshes.iter().map(|m| m.bounds()).collect();
+        let files = Arc::new(scene);
+        let scene = Arc::clone(&files);
+        Self {
+            files,
+            scene,
+            extents,
+            bounds,
+            diagonal: bounds.diagonal(),
+            triangles,
+            mesh_bounds,
+            ..Self::default()
+        }
+    }
+
+    /// Takes over a document's glyphs. Returns whether anything changed.
+    pub fn show_glyphs(&mut self, document: &Document) -> bool {
+        let (glyphs, paper) = document.glyph_inputs();
+        if self.glyphs.0 == glyphs && (glyphs.is_empty() || self.glyphs.1 == paper) {
+            return false;
+        }
+        let shapes = document.glyph_shapes(&self.files, &self.mesh_bounds);
+        self.glyphs = (glyphs.to_vec(), paper);
+        self.glyph_warnings = shapes.warnings;
+        let own = self.files.nodes.len();
+        self.extents.truncate(own);
+        self.triangles.truncate(own);
+        for addition in &shapes.additions {
+            let place = |p: &glam::Vec3| addition.world_from_local.transform_point3(p.as_dvec3());
+            // What faces the eye has no size of its own.
+            let is_flat = addition.facing.is_some();
+            let origin = addition.world_from_local.transform_point3(DVec3::ZERO);
+            let extent =
+                if is_flat { vec![origin] } else { addition.mesh.extremes().iter().map(place).collect() };
+            self.extents.push(extent);
+            self.triangles.push(addition.mesh.triangle_count());
+        }
+        self.scene = Arc::new(self.files.with_additions(shapes.additions));
+        true
     }
 
     /// Triangles of some nodes.
@@ -150,6 +197,6 @@ pub fn load(
     let crease_angle = document.as_ref().map_or(crease_angle, |(_, d)| d.view.crease_angle);
     let scene = loader(&models, &ImportOptions { crease_angle }, progress)?;
     let model = Model::new(scene);
-    let on_device = uploader.scene(&model.scene, &[])?;
+    let on_device = uploader.scene(&model.files, &[])?;
     Ok(Loaded { model, on_device, models, document, intent })
 }

@@ -16,6 +16,7 @@ pub mod loading;
 pub mod navigation;
 pub mod notices;
 pub mod panels;
+pub mod placing;
 pub mod refining;
 pub mod screenshot;
 pub mod selection;

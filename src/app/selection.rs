@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use crate::scene::{NodeId, Scene};
+use crate::scene::{Node, NodeId, Scene};
 
 /// The selected nodes; the last one that was touched leads.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -35,6 +35,11 @@ impl Selection {
     /// The node that was touched last, whose values the panels show.
     pub fn lead(&self) -> Option<NodeId> {
         self.lead.filter(|n| self.nodes.contains(n)).or_else(|| self.nodes.first().copied())
+    }
+
+    /// The node of the files that leads; `None` where a glyph does.
+    pub fn lead_object<'a>(&self, files: &'a Scene) -> Option<&'a Node> {
+        files.nodes.get(self.lead()?)
     }
 
     /// Selects nothing.

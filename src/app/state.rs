@@ -47,6 +47,8 @@ pub enum Page {
     Style,
     /// What lights it.
     Light,
+    /// What points things out.
+    Glyphs,
     /// How the picture is shown.
     View,
 }

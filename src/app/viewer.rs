@@ -12,7 +12,10 @@ use super::jobs::Job;
 use super::leaving::{Leaving, is_changed};
 use super::loading::{Intent, LoadError, Loaded, Loader, Model};
 use super::notices::Notices;
-use super::panels::{Choosing, Editing, empty, help, light, menu, outliner::Outliner, status, style, view};
+use super::panels::{
+    Choosing, Editing, empty, glyphs, help, light, menu, outliner::Outliner, status, style, view,
+};
+use super::placing::Placing;
 use super::screenshot::{Destination, ScreenshotError, Shot};
 use super::selection::Selection;
 use super::state::{AppState, Page, Samples};
@@ -104,6 +107,8 @@ pub struct Viewer {
     pub(super) is_dark: bool,
     pub(super) recent: Vec<(PathBuf, bool)>,
     title: String,
+    /// The glyph that is being placed.
+    pub(super) placing: Option<Placing>,
     /// What closing the window waits for.
     pub(super) leaving: Leaving,
 }
@@ -147,6 +152,7 @@ impl Viewer {
             is_dark: false,
             recent: Vec::new(),
             title: String::new(),
+            placing: None,
             leaving: Leaving::default(),
             document,
         };
@@ -194,6 +200,16 @@ impl Viewer {
     /// Whether the meshes have been examined for the present crease angle.
     pub fn has_topology(&self) -> bool {
         self.topology_for == Some(self.document.view.crease_angle) && self.jobs.topology.is_none()
+    }
+
+    /// What the person is to do next, while a glyph is being placed.
+    pub fn hint(&self) -> Option<&'static str> {
+        self.placing.as_ref().map(Placing::hint)
+    }
+
+    /// Whether it is still to be found out what was clicked.
+    pub fn is_picking(&self) -> bool {
+        self.viewport.is_picking()
     }
 
     /// Whether files are being loaded.
@@ -256,6 +272,7 @@ impl Viewer {
             let milliseconds = self.state.statistics.then(|| self.viewport.milliseconds());
             let status = status::Status {
                 model: &self.model,
+                hint: self.hint(),
                 warnings: self.model.scene.warnings.len() + self.images.warnings().len(),
                 document: &self.document,
                 selection: &self.selection,
@@ -273,6 +290,7 @@ impl Viewer {
     }
 
     fn side_panels(&mut self, ui: &mut egui::Ui) {
+        let hint = self.hint();
         let mut choosing = None;
         let mut editing = Editing {
             model: &self.model,
@@ -294,7 +312,7 @@ impl Viewer {
             .default_size(290.0)
             .size_range(240.0..=460.0)
             .show_collapsible(ui, &mut self.state.inspector, |ui| {
-                inspector_ui(ui, page, samples, &mut editing)
+                inspector_ui(ui, page, samples, &mut editing, hint)
             });
         if turned.is_some_and(|t| t.inner) {
             self.commands.push(Command::Home);
@@ -307,6 +325,7 @@ impl Viewer {
     fn picture(&mut self, ui: &mut egui::Ui) {
         let up = self.document.up(&self.model.scene);
         let diagonal = self.model.diagonal;
+        self.viewport.set_placing(self.placing.is_some());
         let moved = self.viewport.input(ui, self.document.camera.as_ref(), up, diagonal);
         if let Some(camera) = moved.camera {
             self.document.camera = Some(camera);
@@ -315,12 +334,16 @@ impl Viewer {
             self.context_menu(&response);
         }
         self.viewport.set_measures(self.state.statistics);
+        self.follow_glyphs();
         self.viewport.pause(self.jobs.picture.is_some());
         let selected = self.selection.with_descendants(&self.model.scene);
         if let Err(error) = self.viewport.draw(ui, &self.document, selected, self.state.samples.at_rest()) {
             self.notices.error(format!("The picture could not be drawn: {error}"));
         }
         let area = self.viewport.rect();
+        if let (Some(placing), Some(camera)) = (&self.placing, &self.document.camera) {
+            placing.draw(ui, area, camera);
+        }
         if self.model.scene.nodes.is_empty() && self.jobs.load.is_none() {
             let chosen = empty::empty_ui(ui, area, self.state.recent(), &mut self.commands);
             if let Some(path) = chosen {
@@ -334,6 +357,15 @@ impl Viewer {
         }
         if ui.input(|i| !i.raw.hovered_files.is_empty()) {
             empty::hovering_ui(ui, area, ui.input(|i| i.modifiers.command));
+        }
+    }
+
+    /// Glyphs may have come, gone or changed.
+    fn follow_glyphs(&mut self) {
+        let before = Arc::clone(&self.model.scene);
+        let is_selected = self.selection.iter().any(|node| before.is_added(node));
+        if self.model.show_glyphs(&self.document) && is_selected {
+            self.selection = self.selection.carried_over(&before, &self.model.scene);
         }
     }
 
@@ -371,7 +403,7 @@ impl Viewer {
         });
         if since_scroll < QUIET {
             context.request_repaint_after(std::time::Duration::from_secs_f32(QUIET - since_scroll + 0.01));
-        } else if !busy && !context.text_edit_focused() {
+        } else if !busy && !context.text_edit_focused() && self.placing.is_none() {
             self.history.commit(&self.document);
             self.state.remember(&self.document);
         }
@@ -400,10 +432,13 @@ fn inspector_ui(
     page: &mut Page,
     samples: &mut Samples,
     editing: &mut Editing<'_>,
+    hint: Option<&str>,
 ) -> bool {
     ui.add_space(4.0);
     ui.horizontal(|ui| {
-        for (this, name) in [(Page::Style, "Style"), (Page::Light, "Light"), (Page::View, "View")] {
+        let pages =
+            [(Page::Style, "Style"), (Page::Light, "Light"), (Page::Glyphs, "Glyphs"), (Page::View, "View")];
+        for (this, name) in pages {
             let is_open = *page == this;
             let tab = ui.selectable_value(page, this, name);
             tab.widget_info(|| egui::WidgetInfo::selected(egui::Role::Tab, true, is_open, name));
@@ -415,6 +450,7 @@ fn inspector_ui(
         match page {
             Page::Style => style::style_ui(ui, editing),
             Page::Light => light::light_ui(ui, editing),
+            Page::Glyphs => glyphs::glyphs_ui(ui, editing, hint),
             Page::View => turned = view::view_ui(ui, editing, samples),
         }
         ui.add_space(8.0);
@@ -424,6 +460,7 @@ fn inspector_ui(
 
 impl eframe::App for Viewer {
     fn logic(&mut self, context: &egui::Context, _frame: &mut eframe::Frame) {
+        self.take_placing_keys(context);
         self.commands.extend(Command::take_pressed(context));
         self.take_dropped_files(context);
         self.answer_jobs(context);

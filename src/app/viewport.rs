@@ -39,6 +39,11 @@ pub enum PickFor {
     },
     /// To turn about it.
     Center,
+    /// To place a point of a glyph there.
+    Place {
+        /// No further one is wanted.
+        is_last: bool,
+    },
 }
 
 /// A texture of egui's that shows a target.
@@ -94,6 +99,7 @@ pub struct Viewport {
     measuring: Option<Job<f64>>,
     awaiting: Option<Job<()>>,
     is_paused: bool,
+    is_placing: bool,
     milliseconds: f64,
     pictures: u64,
 }
@@ -129,6 +135,7 @@ impl Viewport {
             measuring: None,
             awaiting: None,
             is_paused: false,
+            is_placing: false,
             milliseconds: 0.0,
             pictures: 0,
         }
@@ -160,6 +167,16 @@ impl Viewport {
     /// Whether the picture at rest leaves the device to other work for now.
     pub fn pause(&mut self, is_paused: bool) {
         self.is_paused = is_paused;
+    }
+
+    /// Whether it is still to be found out what was clicked.
+    pub fn is_picking(&self) -> bool {
+        self.pick.is_some()
+    }
+
+    /// Whether clicks place points.
+    pub fn set_placing(&mut self, is_placing: bool) {
+        self.is_placing = is_placing;
     }
 
     /// How many pictures have been drawn so far.
@@ -294,7 +311,11 @@ impl Viewport {
     }
 
     fn click(&mut self, ui: &Ui, response: &egui::Response) {
-        let purpose = if response.double_clicked() || response.middle_clicked() {
+        let purpose = if self.is_placing && response.double_clicked() {
+            PickFor::Place { is_last: true }
+        } else if self.is_placing && response.clicked() {
+            PickFor::Place { is_last: false }
+        } else if response.double_clicked() || response.middle_clicked() {
             PickFor::Center
         } else if response.clicked() {
             PickFor::Select { add: ui.input(|i| i.modifiers.shift || i.modifiers.command) }

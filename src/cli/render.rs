@@ -6,7 +6,7 @@ use serde_json::json;
 
 use super::args::{CameraArgs, LookArgs, RenderArgs, SectionAt};
 use super::{CliError, peeling, print_json};
-use crate::document::{Document, Pattern, Role, Section};
+use crate::document::{Document, Pattern, Role, Section, glyph};
 use crate::export::session::{OpenError, Opened, initial_camera, open};
 use crate::export::{Session, save_png};
 use crate::gpu::{Gpu, GpuError};
@@ -49,8 +49,9 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
     save_png(&args.output, image, dpi)?;
 
     let scene = &opened.scene;
-    let section = opened.document.section_fault(opened.document.up(scene), &scene.bounds());
-    let faults = opened.document.role_faults(scene).into_iter().chain(section);
+    let document = &opened.document;
+    let section = document.section_fault(document.up(scene), &scene.bounds());
+    let faults = document.role_faults(scene).into_iter().chain(section).chain(document.glyph_faults(scene));
     let peeled: Vec<_> = session.renderer().last_peeled().into_iter().flatten().collect();
     let warnings = images.warnings(&uses).into_iter().chain(scene.warnings.iter().cloned()).chain(faults);
     let warnings =
@@ -113,9 +114,11 @@ fn matching(scene: &Scene, pattern: &str) -> Result<Vec<NodeId>, CliError> {
 /// Styles, parameters and roles in their order of precedence.
 pub(super) fn apply_look(opened: &mut Opened, look: &LookArgs) -> Result<(), CliError> {
     let Opened { document, scene } = opened;
+    // Glyphs are meant by their paths too.
+    let scene = &*document.scene_with_glyphs(scene);
     if let Some(name) = &look.style {
         document.style = preset::load(name)?.style;
-        for node in document.nodes.values_mut() {
+        for (_, node) in document.nodes.iter_mut().filter(|(path, _)| !path.starts_with(glyph::FOLDER)) {
             node.style = None;
         }
     }
@@ -162,12 +165,13 @@ fn camera(opened: &Opened, args: &CameraArgs, aspect: f64) -> Camera {
     let Opened { document, scene } = opened;
     let up = document.up(scene);
     let bounds = scene.bounds();
+    let extent = document.scene_with_glyphs(scene).extent();
     let is_placed = args.camera_position.is_some();
     let mut camera = match (args.look_from, document.camera) {
-        (Some(side), like) => side.camera(up, &scene.extent(), aspect, like.as_ref()),
+        (Some(side), like) => side.camera(up, &extent, aspect, like.as_ref()),
         (None, Some(camera)) => camera,
         (None, None) if args.camera_azimuth_angle.or(args.camera_elevation_angle).is_some() || is_placed => {
-            Camera::looking_from(up.front(), up.vector(), &scene.extent(), aspect)
+            Camera::looking_from(up.front(), up.vector(), &extent, aspect)
         }
         (None, None) => initial_camera(document, scene, aspect),
     };
@@ -200,7 +204,7 @@ fn camera(opened: &Opened, args: &CameraArgs, aspect: f64) -> Camera {
     let is_free = document.camera.is_none() || args.look_from.is_some();
     let frames_all = !is_placed && args.camera_focal_point.is_none() && is_free;
     if frames_all {
-        camera = camera.framing(&scene.extent(), aspect);
+        camera = camera.framing(&extent, aspect);
     }
     if let Some(view_height) = args.camera_view_height {
         camera.projection = Projection::Orthographic { view_height };

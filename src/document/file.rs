@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 
 use super::lighting::{Lighting, Source};
-use super::{Document, NodeSettings, Section, View};
+use super::{Document, NodeSettings, Section, View, glyph};
 use crate::scene::{Camera, Light, Up};
 use crate::style::param::{Param, map_paths};
 use crate::style::{Style, StyleError, diff_to_toml, set_from_toml};
@@ -77,6 +77,8 @@ struct Form {
     style: toml::Table,
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     nodes: BTreeMap<String, NodeForm>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    glyph: Vec<toml::Table>,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -138,6 +140,7 @@ impl Document {
             })
         };
         let folder = path.parent().unwrap_or(Path::new(""));
+        let (glyphs, unreadable_glyphs) = glyph::from_tables(form.glyph);
         let mut document = Self {
             models: form.models.iter().map(|m| folder.join(m)).collect(),
             up: form.up,
@@ -146,8 +149,12 @@ impl Document {
             lighting: default_lighting(form.lights.is_some()),
             lights: form.lights.unwrap_or_default(),
             style: Style::default(),
+            unreadable_glyphs,
             ..Self::default()
         };
+        for glyph in glyphs {
+            document.add_glyph(glyph);
+        }
         // These tables hold the keys of one section; the list of parameters has them with their prefix.
         let section =
             |name: &str, table: toml::Table| toml::Table::from_iter([(name.to_owned(), table.into())]);
@@ -225,6 +232,7 @@ impl Document {
                     (node.clone(), form)
                 })
                 .collect(),
+            glyph: glyph::to_tables(&self.glyphs, &self.unreadable_glyphs),
         };
         toml::to_string(&form)
             .map_err(|e| DocumentError::Malformed { path: path.into(), message: e.to_string() })

@@ -1,6 +1,7 @@
 //! What a person can change, save and undo: models, styles and roles per object, camera, lights, view, section plane.
 
 pub mod file;
+pub mod glyph;
 pub mod history;
 pub mod lighting;
 pub mod masks;
@@ -17,6 +18,7 @@ use crate::scene::{Camera, Light, NodeId, Scene, Up};
 use crate::style::{Color, Style, StyleError, Value, param};
 
 pub use file::DocumentError;
+pub use glyph::Glyph;
 pub use history::History;
 pub use lighting::Lighting;
 pub use pattern::{Pattern, PatternError};
@@ -47,6 +49,10 @@ pub struct Document {
     pub style: Style,
     /// What single nodes have of their own, by node path.
     pub nodes: BTreeMap<String, NodeSettings>,
+    /// What points things out.
+    pub glyphs: Vec<Glyph>,
+    /// What a file lists as glyphs and cannot be read.
+    pub unreadable_glyphs: Vec<glyph::Unreadable>,
 }
 
 /// What a person set for one node; what is `None` is inherited from the parent.
@@ -103,6 +109,8 @@ impl Default for Document {
             section: Section::default(),
             style: default_style(),
             nodes: BTreeMap::new(),
+            glyphs: Vec::new(),
+            unreadable_glyphs: Vec::new(),
         }
     }
 }
@@ -146,9 +154,14 @@ impl Document {
     /// Style and roles of every node, in the order of `scene.nodes`.
     pub fn resolve(&self, scene: &Scene) -> Vec<Resolved<'_>> {
         let root = Resolved { style: &self.style, visible: true, enhanced: true, mirror: false, mask: false };
+        let glyph = Resolved { style: glyph::base_style(), ..root };
         let mut resolved: Vec<Resolved<'_>> = Vec::with_capacity(scene.nodes.len());
         for node in &scene.nodes {
-            let above = node.parent.and_then(|p| resolved.get(p)).copied().unwrap_or(root);
+            let above = node.parent.and_then(|p| resolved.get(p)).copied().unwrap_or_else(|| {
+                let is_label = || scene.facing_of(resolved.len()).is_some();
+                let is_glyph = node.path.starts_with(glyph::FOLDER);
+                if is_glyph { Resolved { enhanced: !is_label(), ..glyph } } else { root }
+            });
             let own = self.nodes.get(&node.path);
             resolved.push(Resolved {
                 style: own.and_then(|n| n.style.as_ref()).unwrap_or(above.style),
@@ -223,7 +236,8 @@ impl Document {
         self.tidy();
     }
 
-    /// Sets one parameter of the default style, of the view, the light or the section plane, and in all styles that single nodes have.
+    /// Sets one parameter of the default style, of the view, the light or the section plane, and in all styles that single
+    /// nodes have; glyphs keep theirs.
     ///
     /// # Errors
     /// See [`param::set`].
@@ -234,7 +248,8 @@ impl Document {
         params.extend(self.style.params());
         param::set(&mut params, key, value)?;
         if !["view.", "light.", "section."].iter().any(|section| key.starts_with(section)) {
-            for style in self.nodes.values_mut().filter_map(|n| n.style.as_mut()) {
+            let of_objects = self.nodes.iter_mut().filter(|(path, _)| !path.starts_with(glyph::FOLDER));
+            for style in of_objects.filter_map(|(_, n)| n.style.as_mut()) {
                 param::set(&mut style.params(), key, value)?;
             }
         }

@@ -71,7 +71,7 @@ pub fn open(files: &[PathBuf], crease_angle: Option<f32>, progress: &Progress) -
 /// The camera of a new drawing: the whole scene from the front, turned 30° and raised 20°.
 pub fn initial_camera(document: &Document, scene: &Scene, aspect: f64) -> Camera {
     let up = document.up(scene);
-    let extent = scene.extent();
+    let extent = document.scene_with_glyphs(scene).extent();
     Camera::looking_from(up.front(), up.vector(), &extent, aspect)
         .orbited(up.vector(), 30.0, 20.0)
         .framing(&extent, aspect)

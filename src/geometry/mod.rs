@@ -1,7 +1,9 @@
 //! Triangle meshes and what can be computed from them. Plain data: no file, no GPU.
 
 pub mod angle;
+pub mod arrow;
 pub mod bounds;
+pub mod box_frame;
 pub mod bvh;
 pub mod clean;
 pub mod edge_class;
@@ -20,12 +22,15 @@ pub mod section;
 pub mod solid;
 pub mod stitch;
 pub mod surfaces;
+pub mod text;
 pub mod topology;
 pub mod triangulate;
 pub mod visible_edges;
 pub mod weld;
 
+pub use arrow::{Heads, arrow};
 pub use bounds::Bounds;
+pub use box_frame::box_frame;
 pub use bvh::Bvh;
 pub use clean::{Report, clean};
 pub use edge_class::{ClassSet, EdgeClass};
@@ -38,6 +43,7 @@ pub use rig::Rig;
 pub use solid::Topology;
 pub use stitch::Seam;
 pub use surfaces::{Provoking, Surfaces, provoking};
+pub use text::Text;
 pub use topology::{Adjacency, Edge, EdgeKind};
 pub use triangulate::Triangulator;
 pub use weld::Weld;

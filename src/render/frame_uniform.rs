@@ -4,8 +4,10 @@ use encase::ShaderType;
 use glam::{DMat4, DVec3, DVec4, Mat4, UVec2, Vec2, Vec3, Vec4};
 
 use super::lights::{Lights, MAX_LIGHTS, WorldLight};
+use super::renderer::REFERENCE_HEIGHT;
 use super::sample::Sample;
 use crate::geometry::{Bounds, Lens, Plane, Projector};
+use crate::scene::additions::{Facing, LetterSize};
 use crate::scene::{Camera, LightKind, Projection};
 
 /// What lies this close before a mirror belongs to the mirror; share of the diagonal of everything visible.
@@ -180,6 +182,34 @@ impl View {
     /// Whether anything is cut off.
     pub fn has_cuts(&self) -> bool {
         self.cut.is_some() || self.section.is_some()
+    }
+
+    /// Where something lies that faces the eye: local to world space. It is seen where its anchor is, nothing of size where
+    /// that is behind the eye.
+    pub fn facing(&self, facing: &Facing) -> DMat4 {
+        let [near, far] = self.clip_range;
+        let half = f64::from(self.half_extent.y);
+        let anchor = self.view_from_world.transform_point3(facing.anchor);
+        let depth = -anchor.z;
+        // Just behind the nearest plane, before all that is seen.
+        let front = if self.orthographic { near + (far - near) * 2e-4 } else { near * 1.000_5 };
+        let units = |depth: f64| match facing.size {
+            LetterSize::Units(units) => units,
+            LetterSize::ReferencePixels(px) => {
+                px * 2.0 * half / REFERENCE_HEIGHT * if self.orthographic { 1.0 } else { depth }
+            }
+        };
+        // Nearer by its own size, so that it does not sink into what it stands on.
+        let wanted = if facing.in_front { front } else { (depth - 2.0 * units(depth)).max(front) }.min(depth);
+        let (share, size) = match (self.orthographic, depth > 0.0) {
+            (true, _) => (1.0, units(depth)),
+            (false, true) => (wanted / depth, units(depth) * wanted / depth),
+            (false, false) => (1.0, 0.0),
+        };
+        let place = DVec3::new(anchor.x * share, anchor.y * share, -wanted);
+        self.view_from_world.inverse()
+            * DMat4::from_translation(place)
+            * DMat4::from_scale(DVec3::splat(size))
     }
 
     /// Whether the cuts leave nothing of what lies between these points, in view space.

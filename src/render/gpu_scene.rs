@@ -5,6 +5,7 @@ use std::sync::{Arc, OnceLock};
 use glam::{DMat4, DVec3};
 use rayon::prelude::*;
 
+use super::frame_uniform::View;
 use super::section::{Part, Section};
 use crate::document::Document;
 use crate::geometry::{Bounds, FeatureEdges, Mesh, NotFlat, Plane, Topology, Weld};
@@ -123,6 +124,24 @@ impl GpuScene {
         self.scene = Arc::new(scene);
         self.section = None;
         Ok(())
+    }
+
+    /// Turns what faces the eye to this view.
+    pub fn face(&mut self, view: &View) {
+        for index in 0..self.scene.facing.len() {
+            let Some((node, facing)) = self.scene.facing.get(index).copied() else { continue };
+            let place = view.facing(&facing);
+            if self.scene.nodes.get(node).is_some_and(|n| n.world_from_local != place)
+                && let Some(node) = Arc::make_mut(&mut self.scene).nodes.get_mut(node)
+            {
+                node.world_from_local = place;
+            }
+        }
+    }
+
+    /// The boxes of the model's meshes, local space.
+    pub fn model_bounds(&self) -> &[Bounds] {
+        &self.meshes[Origin::Model as usize].bounds
     }
 
     /// The scene without additions.
@@ -270,8 +289,11 @@ impl GpuScene {
         bounds.corners().map(|corner| node.world_from_local.transform_point3(corner))
     }
 
-    /// The box of a node's own mesh, world space.
+    /// The box of a node's own mesh, world space; of what faces the eye only the point where it is.
     pub fn bounds_of(&self, node: NodeId) -> Bounds {
+        if let Some(facing) = self.scene.facing_of(node) {
+            return Bounds { min: facing.anchor, max: facing.anchor };
+        }
         let node = &self.scene.nodes[node];
         node.mesh.map_or(Bounds::EMPTY, |m| self.mesh_bounds(m).transformed(&node.world_from_local))
     }

@@ -363,6 +363,10 @@ impl Group {
         for part in self.parts(scene) {
             // Combined in double precision, so that models far from the origin do not jitter.
             let view_from_local = view.view_from_world * part.world_from_local;
+            // What faces the eye does not face its mirror images.
+            if view.cut.is_some() && scene.scene.facing_of(part.node).is_some() {
+                continue;
+            }
             if view.has_cuts()
                 && view
                     .cuts_off(&part.bounds.corners().map(|corner| view_from_local.transform_point3(corner)))
@@ -420,8 +424,12 @@ impl Group {
     }
 }
 
-/// The box of an object in its own space, and where that lies.
+/// The box of an object in its own space, and where that lies; `None` for what faces the eye, which lies elsewhere for
+/// each.
 fn box_of(node: NodeId, scene: &GpuScene) -> Option<(Bounds, DMat4)> {
+    if scene.scene.facing_of(node).is_some() {
+        return None;
+    }
     let node = &scene.scene.nodes[node];
     Some((scene.mesh_bounds(node.mesh?), node.world_from_local))
 }

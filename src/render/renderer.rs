@@ -15,15 +15,15 @@ use super::passes::accumulate::Subject;
 use super::passes::peel::Peeled;
 use super::scale_bar::ScaleBar;
 use super::style_images::StyleImages;
-use crate::document::Document;
+use crate::document::{Document, Glyph};
 use crate::geometry::Topology;
 use crate::gpu::readback::Readback;
 use crate::gpu::{Gpu, GpuError, Pipelines, Recorder, ShaderError, Shaders, TargetPool, Timers};
 use crate::scene::{Addition, Camera, NodeId, Scene};
-use crate::style::Style;
+use crate::style::{Color, Style};
 
 /// Height of the picture in reference pixels, in which widths and scales are given.
-const REFERENCE_HEIGHT: f32 = 1080.0;
+pub(super) const REFERENCE_HEIGHT: f64 = 1080.0;
 
 /// Why there is no picture.
 #[derive(Debug, thiserror::Error)]
@@ -77,7 +77,11 @@ pub struct Renderer {
     state: FrameState,
     scene: Option<GpuScene>,
     scene_revision: u64,
+    /// What stands beside the model, the document's glyphs apart.
     additions: Vec<Addition>,
+    /// The document's glyphs and paper as they were drawn last.
+    glyphs: (Vec<Glyph>, Color),
+    has_new_additions: bool,
     images: StyleImages,
     last: Option<(Picture, View)>,
     pick: Option<PendingPick>,
@@ -102,6 +106,8 @@ impl Renderer {
             scene: None,
             scene_revision: 0,
             additions: Vec::new(),
+            glyphs: Default::default(),
+            has_new_additions: false,
             images: StyleImages::default(),
             last: None,
             pick: None,
@@ -120,6 +126,8 @@ impl Renderer {
         twin.pipelines = self.pipelines.clone();
         twin.scene = self.scene.clone();
         twin.scene_revision = self.scene_revision;
+        twin.glyphs = self.glyphs.clone();
+        twin.has_new_additions = self.has_new_additions;
         twin.incomplete = self.incomplete;
         twin.additions = self.additions.clone();
         twin.images = self.images.clone();
@@ -141,6 +149,7 @@ impl Renderer {
     pub fn show(&mut self, scene: GpuScene) {
         self.scene = Some(scene);
         self.additions.clear();
+        self.glyphs = Default::default();
         self.scene_revision += 1;
     }
 
@@ -164,18 +173,28 @@ impl Renderer {
     }
 
     /// Puts objects beside the scene that is shown, in place of the last ones; the scene itself stays as it is. Another
-    /// scene comes without them.
-    ///
-    /// # Errors
-    /// [`GpuError::TooLarge`]; the last ones then stay.
-    pub fn show_additions(&mut self, additions: Vec<Addition>) -> Result<(), RenderError> {
-        if let Some(scene) = &mut self.scene
-            && self.additions != additions
-        {
-            scene.set_additions(&self.gpu, additions.iter().cloned())?;
+    /// scene comes without them. They stand behind the glyphs of the document.
+    pub fn show_additions(&mut self, additions: Vec<Addition>) {
+        if self.additions != additions {
             self.additions = additions;
-            self.scene_revision += 1;
+            // The next picture puts them beside its document's glyphs.
+            self.has_new_additions = true;
         }
+    }
+
+    /// Puts a document's glyphs and the other additions beside the scene, unless they are there.
+    fn update_additions(&mut self, document: &Document) -> Result<(), RenderError> {
+        let Some(scene) = &mut self.scene else { return Ok(()) };
+        let (glyphs, paper) = document.glyph_inputs();
+        let is_known = self.glyphs.0 == glyphs && (glyphs.is_empty() || self.glyphs.1 == paper);
+        if is_known && !self.has_new_additions {
+            return Ok(());
+        }
+        let shapes = document.glyph_shapes(scene.model(), scene.model_bounds());
+        scene.set_additions(&self.gpu, shapes.additions.into_iter().chain(self.additions.iter().cloned()))?;
+        self.glyphs = (glyphs.to_vec(), paper);
+        self.has_new_additions = false;
+        self.scene_revision += 1;
         Ok(())
     }
 
@@ -236,6 +255,7 @@ impl Renderer {
         if self.scene.is_none() {
             self.set_scene(&Arc::new(Scene::default()), &[])?;
         }
+        self.update_additions(request.document)?;
         self.note_reports();
         let Some(scene) = &mut self.scene else {
             return Err(GpuError::Lost("no scene".to_owned()).into());
@@ -243,9 +263,8 @@ impl Renderer {
         if scene.cut(&self.gpu, request.document)? {
             self.scene_revision += 1;
         }
-        let scene = &*scene;
         let size = request.size.map(|s| s.max(1));
-        let scale = size[1] as f32 / REFERENCE_HEIGHT;
+        let scale = size[1] as f32 / REFERENCE_HEIGHT as f32;
         let objects = Objects::new(request.document, scene, &self.images, scale);
         let subject = Subject {
             shaders: self.pipelines.generation(),
@@ -257,6 +276,8 @@ impl Renderer {
         };
         let sample = self.state.next_sample(subject, request.samples);
         let view = View::new(request.camera, &objects.visible_bounds, UVec2::from_array(size));
+        scene.face(&view);
+        let scene = &*scene;
         let view = view.moved(sample.jitter()).cut_at(scene.section.as_ref().map(|section| section.plane));
         let paper = request.document.paper().to_linear();
         let background = paper.extend(if request.transparent { 0.0 } else { 1.0 });

@@ -6,7 +6,7 @@ use glam::{DMat4, Vec2, Vec4};
 use super::RenderError;
 use super::drawing::DrawingInputs;
 use super::gpu_scene::{GpuScene, Origin};
-use super::groups::Objects;
+use super::groups::{Objects, VisiblePart};
 use super::light_view::{LightView, LookedAt, light_views};
 use super::lights::{MAX_SHADOWS, WorldLight};
 use super::passes::gbuffer::GBuffer;
@@ -102,7 +102,8 @@ fn seen_by(
     };
     for (number, view) in seen.views.iter().enumerate() {
         let clip_from_world = view.clip_from_light() * view.light_from_world;
-        for part in groups.iter().flat_map(|group| group.parts(scene)) {
+        let throws = |part: &VisiblePart| scene.scene.facing_of(part.node).is_none();
+        for part in groups.iter().flat_map(|group| group.parts(scene)).filter(throws) {
             let alpha = scene.alpha(part.material);
             let has_attributes = scene.geometry(part.origin).attributes.is_some();
             let has_holes = alpha != AlphaMode::Opaque && has_attributes;

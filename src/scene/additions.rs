@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use glam::DMat4;
+use glam::{DMat4, DVec3};
 
 use super::{Material, Node, NodeId, Scene};
 use crate::geometry::{Mesh, MeshPart};
@@ -21,6 +21,28 @@ pub struct Addition {
     pub world_from_local: DMat4,
     /// What it is made of; images are not shown.
     pub material: Material,
+    /// Whether it turns to the eye: then `world_from_local` is found for each camera.
+    pub facing: Option<Facing>,
+}
+
+/// How something flat, in x and y about its origin, faces the eye.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Facing {
+    /// Where its origin is seen, in the files' coordinates.
+    pub anchor: DVec3,
+    /// How large it is.
+    pub size: LetterSize,
+    /// Whether it stands before everything else; otherwise what is before its anchor hides it.
+    pub in_front: bool,
+}
+
+/// What a length of 1 becomes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum LetterSize {
+    /// So many reference pixels.
+    ReferencePixels(f64),
+    /// So many units of the scene.
+    Units(f64),
 }
 
 impl Scene {
@@ -29,8 +51,10 @@ impl Scene {
     #[must_use]
     pub fn with_additions(&self, additions: impl IntoIterator<Item = Addition>) -> Self {
         let mut scene = self.clone();
-        for Addition { path, owner, mut mesh, world_from_local, material } in additions {
+        for addition in additions {
+            let Addition { path, owner, mut mesh, world_from_local, material, facing } = addition;
             let has_triangles = !mesh.indices.is_empty();
+            scene.facing.extend(facing.map(|facing| (scene.nodes.len(), facing)));
             scene.nodes.push(Node {
                 name: path.rsplit('/').next().unwrap_or(&path).to_owned(),
                 path,
@@ -60,6 +84,14 @@ impl Scene {
         id >= self.own_nodes().len()
     }
 
+    /// How a node faces the eye, if it does.
+    pub fn facing_of(&self, id: NodeId) -> Option<&Facing> {
+        if !self.is_added(id) {
+            return None;
+        }
+        self.facing.iter().find(|(node, _)| *node == id).map(|(_, facing)| facing)
+    }
+
     /// The node that is meant by a node: the owner of an addition that has one, else itself.
     pub fn meant_by(&self, id: NodeId) -> NodeId {
         let owner = if self.is_added(id) { self.nodes.get(id).and_then(|n| n.parent) } else { None };
@@ -74,7 +106,7 @@ mod tests {
 
     fn addition(path: &str, owner: Option<NodeId>, mesh: Mesh) -> Addition {
         let (world_from_local, material) = (DMat4::IDENTITY, Material::default());
-        Addition { path: path.to_owned(), owner, mesh, world_from_local, material }
+        Addition { path: path.to_owned(), owner, mesh, world_from_local, material, facing: None }
     }
 
     #[test]

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use glam::{DMat4, DVec3, Vec3};
 
+use super::additions::Facing;
 use super::{Camera, Light, Material, Texture};
 use crate::geometry::{Bounds, Mesh};
 
@@ -18,6 +19,8 @@ pub struct Scene {
     pub nodes: Vec<Node>,
     /// How many nodes the program added: the last ones.
     pub added: usize,
+    /// Those of them that face the eye.
+    pub facing: Vec<(NodeId, Facing)>,
     /// Meshes; several nodes may show the same one.
     pub meshes: Vec<Arc<Mesh>>,
     /// Materials that mesh parts refer to.
@@ -115,9 +118,12 @@ impl Scene {
         let mut known = std::collections::HashMap::new();
         nodes
             .into_iter()
-            .filter_map(|id| self.nodes.get(id))
-            .filter_map(|node| Some((node, self.meshes.get(node.mesh?)?)))
-            .flat_map(|(node, mesh)| {
+            .filter_map(|id| Some((id, self.nodes.get(id)?)))
+            .filter_map(|(id, node)| Some((id, node, self.meshes.get(node.mesh?)?)))
+            .flat_map(|(id, node, mesh)| {
+                if let Some(facing) = self.facing_of(id) {
+                    return vec![facing.anchor];
+                }
                 let extremes = known.entry(Arc::as_ptr(mesh)).or_insert_with(|| mesh.extremes());
                 let place = |p: &Vec3| node.world_from_local.transform_point3(p.as_dvec3());
                 extremes.iter().map(place).collect::<Vec<_>>()

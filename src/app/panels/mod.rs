@@ -1,6 +1,7 @@
 //! What stands around the picture. Panels change the document in place and ask for everything else by command.
 
 pub mod empty;
+pub mod glyphs;
 pub mod help;
 pub mod icons;
 pub mod leave;

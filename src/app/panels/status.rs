@@ -12,6 +12,8 @@ use crate::document::Document;
 pub struct Status<'a> {
     /// The loaded scene.
     pub model: &'a Model,
+    /// What the person is to do next.
+    pub hint: Option<&'static str>,
     /// How many warnings there are.
     pub warnings: usize,
     /// The document.
@@ -46,13 +48,17 @@ pub fn status_ui(ui: &mut Ui, status: &Status<'_>, commands: &mut Vec<Command>) 
     let mut is_cancelled = false;
     ui.horizontal_centered(|ui| {
         let scene = &status.model.scene;
-        if !scene.nodes.is_empty() {
+        if let Some(hint) = status.hint {
+            ui.strong(hint);
+        } else if !scene.nodes.is_empty() {
             let objects = scene.nodes.iter().filter(|n| n.mesh.is_some()).count();
             let triangles = status.model.triangle_count(0..scene.nodes.len());
             let plural = if objects == 1 { "" } else { "s" };
             ui.label(format!("{objects} object{plural}, {} triangles", grouped(triangles)));
         }
-        if let Some(lead) = status.selection.lead().and_then(|n| scene.nodes.get(n)) {
+        if status.hint.is_none()
+            && let Some(lead) = status.selection.lead().and_then(|n| scene.nodes.get(n))
+        {
             ui.separator();
             let more = status.selection.len() - 1;
             let text = if more > 0 { format!("{} and {more} more", lead.path) } else { lead.path.clone() };
