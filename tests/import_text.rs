@@ -102,10 +102,10 @@ fn objects_and_groups_become_nodes_with_unique_paths_in_tree_order() {
 
 #[test]
 fn materials_images_and_options_of_an_obj() {
-    let obj = "mtllib my materials.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvt 0 0\nvt 1 0\nvt 0 1\n\
-        usemtl wood\nf 1/1 2/2 3/3\nusemtl glass\nf 1/1 2/2 4/3\nusemtl leaf\nf 1/1 3/2 4/3\nusemtl gone\nf 2/1 3/2 4/3\n";
+    let obj = "mtllib my materials.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 1 1 1\nvt 0 0\nvt 1 0\nvt 0 1\n\
+        usemtl wood\nf 1/1 2/2 3/3\nusemtl glass\nf 1/1 2/2 4/3\nusemtl leaf\nf 1/1 3/2 4/3\nusemtl void\nf 4/1 3/2 5/3\nusemtl gone\nf 2/1 3/2 4/3\n";
     let mtl = "newmtl wood\nKd 1 1 1\nmap_Kd -clamp on tex\\wood.png\nnewmtl glass\nKd 0 0 1\nd 0.5\n\
-        newmtl leaf\nmap_Kd tex/wood.png\nmap_d tex/wood.png\n";
+        newmtl void\nd 0\nnewmtl leaf\nmap_Kd tex/wood.png\nmap_d tex/wood.png\n";
     let folder = Folder::with(&[
         ("a.obj", obj.as_bytes()),
         ("my materials.mtl", mtl.as_bytes()),
@@ -113,17 +113,20 @@ fn materials_images_and_options_of_an_obj() {
     ]);
     let scene = open(&folder.path("a.obj"));
     let mesh = &scene.meshes[0];
-    assert_eq!(mesh.parts.len(), 4);
+    assert_eq!(mesh.parts.len(), 5);
     let material = |part: usize| &scene.materials[mesh.parts[part].material];
     let wood = material(0);
     let image = wood.base_color_texture.as_ref().unwrap();
     assert_eq!((wood.name.as_str(), image.wrap), ("wood", [Wrap::Clamp; 2]));
     assert_eq!(&scene.textures[image.texture].rgba[..4], [255, 0, 0, 255]);
-    assert_eq!((material(1).base_color.z, material(1).alpha), (1.0, AlphaMode::Opaque));
+    let glass = material(1);
+    assert_eq!((glass.base_color.z, glass.base_color.w, glass.alpha), (1.0, 0.5, AlphaMode::Blend));
+    // Some writers mean 1 by 0.
+    assert_eq!((material(3).base_color.w, material(3).alpha), (1.0, AlphaMode::Opaque));
     assert_eq!(material(2).alpha, AlphaMode::Mask(0.5));
-    assert_eq!(material(3).name, "gone");
+    assert_eq!(material(4).name, "gone");
     let said = warnings(&scene);
-    assert!(said.contains("`glass` is transparent") && said.contains("`gone`"), "{said}");
+    assert!(said.contains("`void` cannot be seen") && said.contains("`gone`"), "{said}");
     // The origin of texture coordinates moves to the upper left.
     let corner = mesh.positions.iter().position(|&p| p == Vec3::ZERO).unwrap();
     assert_eq!(mesh.uvs[corner], Vec2::new(0.0, 1.0));

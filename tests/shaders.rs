@@ -51,7 +51,7 @@ fn rust_and_wgsl_agree_on_every_uniform() {
     same_layout!(Peeled, 12, "passes/count.wgsl", "Counted");
     same_layout!(Masked, 3, "effects/blueprint.wgsl", "Masked");
     same_layout!(Masked, 3, "passes/depth_mask.wgsl", "Counted");
-    same_layout!(MaterialUniform, 6, "passes/gbuffer.wgsl", "Material");
+    same_layout!(MaterialUniform, 7, "passes/gbuffer.wgsl", "Material");
     same_layout!(LineUniform, 5, "passes/lines.wgsl", "LineStyle");
     same_layout!(EdgeUniform, 22, "passes/lines.wgsl", "EdgeStyle");
     same_layout!(SurfaceUniform, 4, "effects/surface.wgsl", "SurfaceStyle");

@@ -52,15 +52,14 @@ fn materials_bring_factors_textures_and_samplers() {
 }
 
 #[test]
-fn a_missing_image_and_transparency_are_warnings() {
+fn a_missing_image_is_a_warning_and_transparency_is_none() {
     let texture = json!({"baseColorTexture": {"index": 0}});
     let scene = with_material(&json!({"alphaMode": "BLEND", "pbrMetallicRoughness": texture}), b"no image");
     let warnings: Vec<String> = scene.warnings.iter().map(ToString::to_string).collect();
-    assert_eq!(warnings.len(), 2, "{warnings:?}");
+    assert_eq!(warnings.len(), 1, "{warnings:?}");
     assert!(warnings[0].contains("model.glb, image 0 \"paint\"") && warnings[0].contains("neither a PNG"));
-    assert!(warnings[1].contains("material 0") && warnings[1].contains("drawn opaque"));
     assert_eq!(scene.materials[0].base_color_texture, None);
-    assert_eq!(scene.materials[0].alpha, AlphaMode::Opaque);
+    assert_eq!(scene.materials[0].alpha, AlphaMode::Blend);
 }
 
 #[test]

@@ -120,8 +120,9 @@ fn read_images(
 
 fn convert(mtl: &Mtl, images: &Images, assembly: &mut Assembly<'_>) -> Material {
     // Some writers mean 1 by 0.
-    let opacity = if mtl.opacity > 0.0 { mtl.opacity.min(1.0) } else { 1.0 };
-    if opacity != mtl.opacity {
+    let is_seen = mtl.opacity > 0.0;
+    let opacity = if is_seen { mtl.opacity.min(1.0) } else { 1.0 };
+    if !is_seen {
         let (name, d) = (&mtl.name, mtl.opacity);
         assembly.warn("", format!("the material `{name}` cannot be seen (d = {d}); it is drawn opaque"));
     }
