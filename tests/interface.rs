@@ -812,6 +812,8 @@ fn a_box_is_added_changed_renamed_removed_and_brought_back() {
     click(&mut window, Role::Tab, "Glyphs");
     assert!(!window.state().is_enabled(Command::AddBox), "around what?");
     click(&mut window, Role::TreeItem, "wheel");
+    assert_eq!(selected(&window), ["wheel"]);
+    assert!(window.state().is_enabled(Command::AddBox));
     click(&mut window, Role::Button, "Box");
     assert_eq!((glyph_names(&window), selected(&window)), (vec!["box"], vec!["box"]));
     assert!(!window.state().is_enabled(Command::AddBox), "no box around a glyph");
@@ -874,7 +876,7 @@ fn a_path_is_placed_by_clicks_on_surfaces() {
     };
     until(&mut window, "there are three points", |v| points(v).len() == 3);
     for (point, x) in points(window.state()).iter().zip([-2.0, 0.0, 2.0]) {
-        assert!((point.x - x).abs() < 0.5 && (0.5..0.7).contains(&point.z), "{point}");
+        assert!((point.x - x).abs() < 0.5 && (0.49..0.7).contains(&point.z), "{point}");
     }
     window.key_press(Key::Backspace);
     settle(&mut window);
@@ -906,6 +908,8 @@ fn escape_leaves_nothing_of_what_was_being_placed() {
     click_picture(&mut window, 0.0);
     until(&mut window, "the label is there", |v| v.document().glyphs.len() == 1);
     assert_eq!((window.state().hint(), selected(&window)), (None, vec!["label"]));
+    window.get_by_role_and_label(Role::MultilineTextInput, "Text").focus();
+    settle(&mut window);
     window.get_by_role_and_label(Role::MultilineTextInput, "Text").type_text("!");
     settle(&mut window);
     assert!(matches!(&window.state().document().glyphs[0].shape, Shape::Label(l) if l.text.contains('!')));

@@ -50,7 +50,8 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
 
     let scene = &opened.scene;
     let document = &opened.document;
-    let faults = document.role_faults(scene).into_iter().chain(document.glyph_faults(scene));
+    let roles = document.role_faults(&document.scene_with_glyphs(scene));
+    let faults = roles.into_iter().chain(document.glyph_faults(scene));
     let peeled = session.renderer().peeled()?;
     let warnings = images.warnings(&uses).into_iter().chain(scene.warnings.iter().cloned()).chain(faults);
     let warnings = warnings.map(|w| w.to_string()).chain(peeling::warnings(&peeled));
