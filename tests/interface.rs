@@ -809,9 +809,11 @@ fn glyph_names(window: &Window) -> Vec<&str> {
 #[test]
 fn a_box_is_added_changed_renamed_removed_and_brought_back() {
     let mut window = window();
-    click(&mut window, Role::Tab, "Glyphs");
     assert!(!window.state().is_enabled(Command::AddBox), "around what?");
-    click(&mut window, Role::TreeItem, "wheel");
+    ask(&mut window, Command::Front);
+    click_picture(&mut window, 0.36);
+    until(&mut window, "the wheel is selected", |v| !v.selection().is_empty());
+    click(&mut window, Role::Tab, "Glyphs");
     assert_eq!(selected(&window), ["wheel"]);
     assert!(window.state().is_enabled(Command::AddBox));
     click(&mut window, Role::Button, "Box");
