@@ -123,6 +123,12 @@ for side in top right; do
 		--scale 1:400 --dpi 160 --set blueprint.layers=32 --set blueprint.opacity=0.02 --set view.scale_bar=true
 done
 size=1000,1000
+# Hidden lines of surfaces.
+draw hidden_lines "$crank" --style hidden-lines --set edges.hidden.layers=next
+draw x_ray assets/models/temple.glb --style x-ray --camera-azimuth-angle 35 --camera-elevation-angle 30
+# A plan cut at a height, and an assembly cut open.
+draw section_temple assets/models/temple.glb --style lines --section y=2 --camera-orthographic --look-from top
+draw section_crank "$crank" --style technical-illustration --section z=0 --set section.color=#f4d9a8
 
 # Ways to a hidden chamber: a red box and red arrows among blueprints, in perspective and from above (Fig. 9).
 paths() { # paths NAME ARGUMENTS...

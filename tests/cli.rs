@@ -143,23 +143,12 @@ fn info_styles_and_bench_print_what_they_promise() {
     let styles: serde_json::Value = serde_json::from_str(&stdout(&hachure(&["styles", "--json"]))).unwrap();
     let names: Vec<_> =
         styles["presets"].as_array().unwrap().iter().map(|p| p["name"].as_str().unwrap()).collect();
-    let all = [
-        "blueprint",
-        "clay-with-ink",
-        "comic",
-        "engraving",
-        "gooch",
-        "instruction-manual",
-        "line-drawing",
-        "lines",
-        "milled-metal",
-        "newspaper",
-        "patent-drawing",
-        "plain",
-        "statue",
-        "technical-illustration",
-        "two-tone",
-    ];
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/styles");
+    let mut all: Vec<_> = std::fs::read_dir(folder)
+        .unwrap()
+        .map(|file| file.unwrap().path().file_stem().unwrap().to_string_lossy().into_owned())
+        .collect();
+    all.sort();
     assert_eq!(names, all);
     let parameters = styles["parameters"].as_array().unwrap();
     let parameter = |key: &str| parameters.iter().find(|p| p["key"] == key).unwrap();

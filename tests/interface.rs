@@ -173,9 +173,9 @@ fn an_object_is_designated_in_its_row_and_what_masks_need_is_then_among_the_para
     // What became of it arrives a frame later, and nobody asked for it.
     let style = window.state().document().style.clone();
     until(&mut window, "the layers are counted", |v| {
-        v.viewport().last_peeled(&style).is_some_and(|peeled| peeled.masked > 0)
+        v.viewport().last_peeled(&style).is_some_and(|(peeled, _)| peeled.masked > 0)
     });
-    let peeled = window.state().viewport().last_peeled(&style).unwrap().clone();
+    let (peeled, _) = window.state().viewport().last_peeled(&style).unwrap().clone();
     let title = format!("Layers drawn: {}", peeled.layers);
     assert!(window.query_by_role_and_label(Role::Button, &title).is_some(), "{title}");
     assert!(window.query_by_label_contains("% uncovered,").is_some());
@@ -597,6 +597,32 @@ fn the_view_page_sets_the_axis_and_the_model_stands_upright() {
     assert_eq!(window.state().document().up, Some(Up::PosZ));
     let camera = window.state().document().camera.unwrap();
     assert!(camera.up().z > 0.5, "{camera:?}");
+}
+
+#[test]
+fn the_section_plane_moves_within_the_model_and_can_be_undone() {
+    let mut window = window();
+    let before = window.state().document().clone();
+    click(&mut window, Role::Tab, "View");
+    click(&mut window, Role::CheckBox, "Section plane");
+    assert!(window.state().document().section.show);
+    choose(&mut window, "Axis", "X");
+    // The engine reaches from -2.5 to 2.5: that is what the slider offers, beginning in the middle.
+    let slider = window.get_all_by_role_and_label(Role::Slider, "Position").next().unwrap();
+    let node = slider.accesskit_node();
+    let reach = (node.min_numeric_value(), node.max_numeric_value(), node.numeric_value());
+    assert_eq!(reach, (Some(-2.5), Some(2.5), Some(0.0)));
+    let pictures = window.state().viewport().pictures();
+    let at = slider.rect().center();
+    drag(&mut window, at, Vec2::new(30.0, 0.0), PointerButton::Primary);
+    settle(&mut window);
+    let position = window.state().document().section.position.unwrap();
+    assert!(position > 0.1 && position < 2.5, "{position}");
+    assert!(window.state().viewport().pictures() > pictures, "it was drawn while it moved");
+    for _ in 0..3 {
+        ask(&mut window, Command::Undo);
+    }
+    assert_eq!(window.state().document(), &before);
 }
 
 #[test]

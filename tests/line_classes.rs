@@ -34,9 +34,9 @@ fn color(class: EdgeClass) -> [u8; 3] {
         [class as usize]
 }
 
-/// The classes that come from the shape.
+/// The classes that come from the shape alone.
 fn shapes() -> impl Iterator<Item = EdgeClass> {
-    EdgeClass::ALL.into_iter().filter(|class| !class.is_detail())
+    EdgeClass::ALL.into_iter().filter(|class| !class.is_detail() && *class != EdgeClass::Section)
 }
 
 /// Objects that have lines of each of them.

@@ -226,7 +226,7 @@ fn classes(measured: &Measured) -> RgbImage {
         EdgeClass::Material => [150, 150, 150],
         EdgeClass::Intersection => [220, 0, 220],
         // The truth knows geometry only.
-        EdgeClass::Texture | EdgeClass::Relief | EdgeClass::Shadow => [255; 3],
+        EdgeClass::Texture | EdgeClass::Relief | EdgeClass::Shadow | EdgeClass::Section => [255; 3],
     });
     let mut picture = RgbImage::from_pixel(measured.side, measured.side, Rgb([255; 3]));
     for (samples, color) in measured.truth.samples.iter().zip(colors) {

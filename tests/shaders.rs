@@ -10,6 +10,7 @@ use hachure::render::effects::blueprint::BlueprintUniform;
 use hachure::render::effects::gooch::GoochUniform;
 use hachure::render::effects::halftone::HalftoneUniform;
 use hachure::render::effects::mirror::MirrorUniform;
+use hachure::render::effects::section::CapUniform;
 use hachure::render::effects::surface::SurfaceUniform;
 use hachure::render::effects::toon::ToonUniform;
 use hachure::render::frame_uniform::{FrameUniform, LightUniform};
@@ -41,13 +42,13 @@ macro_rules! same_layout {
 
 #[test]
 fn rust_and_wgsl_agree_on_every_uniform() {
-    same_layout!(FrameUniform, 16, "passes/resolve.wgsl", "Frame");
+    same_layout!(FrameUniform, 17, "passes/resolve.wgsl", "Frame");
     same_layout!(ScaleBarUniform, 3, "passes/resolve.wgsl", "ScaleBar");
     same_layout!(LightUniform, 3, "passes/resolve.wgsl", "Light");
     same_layout!(DrawUniform, 6, "passes/gbuffer.wgsl", "Draw");
     same_layout!(BlueprintUniform, 6, "effects/blueprint.wgsl", "Blueprint");
-    same_layout!(Peeled, 11, "effects/blueprint.wgsl", "Peeled");
-    same_layout!(Peeled, 11, "passes/count.wgsl", "Counted");
+    same_layout!(Peeled, 12, "effects/blueprint.wgsl", "Peeled");
+    same_layout!(Peeled, 12, "passes/count.wgsl", "Counted");
     same_layout!(Masked, 3, "effects/blueprint.wgsl", "Masked");
     same_layout!(Masked, 3, "passes/depth_mask.wgsl", "Counted");
     same_layout!(MaterialUniform, 6, "passes/gbuffer.wgsl", "Material");
@@ -55,8 +56,9 @@ fn rust_and_wgsl_agree_on_every_uniform() {
     same_layout!(EdgeUniform, 22, "passes/lines.wgsl", "EdgeStyle");
     same_layout!(SurfaceUniform, 4, "effects/surface.wgsl", "SurfaceStyle");
     same_layout!(GoochUniform, 11, "effects/surface.wgsl", "GoochStyle");
+    same_layout!(CapUniform, 8, "effects/section.wgsl", "Cap");
     same_layout!(MirrorUniform, 4, "effects/mirror.wgsl", "Mirror");
-    same_layout!(ShadowDraw, 2, "passes/shadow_map.wgsl", "ShadowDraw");
+    same_layout!(ShadowDraw, 3, "passes/shadow_map.wgsl", "ShadowDraw");
     same_layout!(ShadowLightUniform, 3, "passes/shadow.wgsl", "ShadowLight");
     same_layout!(LightViewUniform, 8, "passes/shadow.wgsl", "LightView");
     same_layout!(ToonUniform, 11, "effects/toon.wgsl", "ToonStyle");

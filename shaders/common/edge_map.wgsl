@@ -13,6 +13,7 @@ const INTERSECTION: u32 = 7u;
 const TEXTURE: u32 = 8u;
 const RELIEF: u32 = 9u;
 const SHADOW: u32 = 10u;
+const SECTION: u32 = 11u;
 // Ink of the papers' operators at this very pixel.
 const PAPER: u32 = 15u;
 

@@ -14,7 +14,7 @@ struct LineStyle {
 
 struct EdgeStyle {
     // By class.
-    lines: array<LineStyle, 10>,
+    lines: array<LineStyle, 11>,
     // 0: none, 1: exact, 2: the papers' operators.
     mode: u32,
     // Where the width goes: 0 both sides, 1 outwards, 2 inwards.

@@ -35,6 +35,8 @@ struct Frame {
     cut_depth: f32,
     // What lies behind this plane is not drawn; its product with (pos_view, 1) is the distance before it.
     cut: vec4<f32>,
+    // The same for the section plane; 0: there is none.
+    section: vec4<f32>,
     // How dark shadows are, 0 to 1.
     shadow_density: f32,
     // Paper: linear colour and opacity.

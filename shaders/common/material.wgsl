@@ -8,4 +8,6 @@ struct Material {
     // Pixels with less alpha are holes; negative: none are.
     alpha_cutoff: f32,
     has_normal_texture: u32,
+    // 1: alpha is opacity.
+    blends: u32,
 }

@@ -16,6 +16,8 @@ struct Peeled {
     // Pixels of the depth mask, and those of them behind opaque surfaces.
     masked: u32,
     hidden: u32,
+    // Fragments of all lists, those for which there was no room included; 0 without lists.
+    fragments: u32,
     // Of each layer: its pixels, and those of the mask that pass.
     pixels: array<u32, 64>,
     passed: array<u32, 64>,

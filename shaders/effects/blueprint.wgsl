@@ -4,6 +4,7 @@
 #import common/depth_mask.wgsl
 #import common/ordered.wgsl
 #import common/peeled.wgsl
+#import common/cap.wgsl
 
 // Twin: `BlueprintUniform` in src/render/effects/blueprint.rs.
 struct Blueprint {
@@ -25,6 +26,12 @@ struct Blueprint {
 @group(1) @binding(9) var seen_tex: texture_2d<u32>;
 @group(1) @binding(10) var<storage, read> mask: Masked;
 
+// What tells caps of a section, and those by object id.
+@group(1) @binding(11) var region_tex: texture_2d<u32>;
+@group(1) @binding(12) var<storage, read> caps: array<Cap>;
+
+// Whether any object has a cap.
+override WITH_CAPS: bool = false;
 // Whether what lies farther than the depth mask is left out.
 override WITHOUT_BEYOND: bool = false;
 // Whether ink of the papers' operators is left out where nearer layers have some.
@@ -75,9 +82,17 @@ fn fs_lines(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
 fn fs_fill(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     let px = vec2<i32>(position.xy);
     let surface = surface_at(px);
-    let depth = unpack_surfel(geometry_at(px)).depth;
-    if (surface.object != 0u && surface.depth < depth) || is_beyond(depth) {
+    let layer = unpack_surfel(geometry_at(px));
+    if (surface.object != 0u && surface.depth < layer.depth) || is_beyond(layer.depth) {
         discard;
     }
-    return vec4(blueprints[0].fill, 1.0) * blueprints[0].opacity;
+    let fill = vec4(blueprints[0].fill, 1.0) * blueprints[0].opacity;
+    if !WITH_CAPS || caps[layer.object].region == 0u
+        || textureLoad(region_tex, px, 0).x != caps[layer.object].region {
+        return fill;
+    }
+    let cap = caps[layer.object];
+    let ink = select(hatched_share(cap, px), 1.0, cap.width <= 0.0);
+    let near = edge_styles[layer.object].lines[SECTION - 1u].color;
+    return over(vec4(mix(near, blueprints[0].far, faded(layer.depth)), 1.0) * ink, fill);
 }

@@ -21,6 +21,8 @@ const HIGHLIGHT_RIM: f32 = 0.55;
 // Which techniques any object uses.
 override WITH_PLAIN: bool = true;
 override WITH_GOOCH: bool = true;
+// Whether surfaces are as opaque as their materials.
+override WITH_OPACITY: bool = false;
 
 // Twin: `SurfaceUniform` in src/render/effects/surface.rs.
 struct SurfaceStyle {
@@ -44,7 +46,8 @@ fn fs_main(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
         let s = unpack_surfel(texel);
         let style = surface_styles[s.object];
         if style.technique != BLANK {
-            let base = textureLoad(base_color_tex, px, 0).rgb;
+            let base_color = textureLoad(base_color_tex, px, 0);
+            let base = base_color.rgb;
             let pos_view = pos_view_of(px, s.depth);
             var shade = base;
             if WITH_GOOCH && style.technique == GOOCH {
@@ -58,7 +61,7 @@ fn fs_main(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
             } else if style.technique == DESIGNATED {
                 shade = style.highlight * mix(HIGHLIGHT_RIM, 1.0, max(dot(s.normal, towards_eye(pos_view)), 0.0));
             }
-            color = vec4(shade, 1.0);
+            color = vec4(shade, 1.0) * select(1.0, base_color.a, WITH_OPACITY);
         }
     }
     return color;

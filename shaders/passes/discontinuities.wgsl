@@ -18,7 +18,7 @@
 
 // Whether a surface that goes on in one of them ends in this layer only because something before it does.
 override WITH_LAYERS_BEFORE: bool = false;
-// Whether what lies behind a plane is left out.
+// Whether what lies behind a mirror's plane is left out. Where the section plane cuts, there are segments.
 override WITH_CUT: bool = false;
 
 // A step in depth, in pixels, from which two surfaces do not touch.

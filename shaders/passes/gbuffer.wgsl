@@ -18,7 +18,7 @@ struct Draw {
     first_surface: u32,
 }
 
-// Whether what lies behind a plane is left out.
+// Whether what lies behind a plane is left out: that of a mirror, that of the section, or either.
 override WITH_CUT: bool = false;
 
 @group(1) @binding(0) var base_tex: texture_2d<f32>;
@@ -139,8 +139,8 @@ fn pack(normal: vec3<f32>, face: vec3<f32>, depth: f32, object: u32) -> vec4<u32
 }
 
 fn is_cut_off(pos_oriented: vec3<f32>) -> bool {
-    let pos_view = pos_oriented + draw.view_from_local[3].xyz;
-    return WITH_CUT && dot(frame.cut, vec4(pos_view, 1.0)) < 0.0;
+    let pos_view = vec4(pos_oriented + draw.view_from_local[3].xyz, 1.0);
+    return WITH_CUT && min(dot(frame.cut, pos_view), dot(frame.section, pos_view)) < 0.0;
 }
 
 // Tells the surfaces of all objects apart; 0 is the background. Twin: `region` in src/render/groups.rs.
@@ -148,13 +148,18 @@ fn region(surface: u32) -> u32 {
     return max((draw.object & 0x7fffffffu) * 2654435769u + surface, 1u);
 }
 
+// The opacity of a surface: 1 unless its material blends.
+fn opacity(alpha: f32) -> f32 {
+    return select(1.0, alpha, draw.material.blends == 1u);
+}
+
 fn lean(v: Lean) -> GBuffer {
     let face = face_normal(v.pos_oriented);
     if is_cut_off(v.pos_oriented) {
         discard;
     }
-    let color = draw.material.base_color.rgb;
-    return GBuffer(pack(face, face, v.depth, draw.object), vec4(color, 1.0), region(v.surface));
+    let color = vec4(draw.material.base_color.rgb, opacity(draw.material.base_color.a));
+    return GBuffer(pack(face, face, v.depth, draw.object), color, region(v.surface));
 }
 
 // Seen from behind, a surface is shaded as if it were two-sided.
@@ -204,7 +209,8 @@ fn full(v: Full) -> GBuffer {
         }
         normal = turned_to(face, normal);
     }
-    return GBuffer(pack(normal, face, v.depth, draw.object), vec4(color.rgb, 1.0), region(v.surface));
+    let base_color = vec4(color.rgb, opacity(color.a));
+    return GBuffer(pack(normal, face, v.depth, draw.object), base_color, region(v.surface));
 }
 
 @fragment

@@ -1,6 +1,7 @@
 // One depth layer into a G-buffer: fragments that do not lie behind the last layer are rejected, of the others the ordinary
 // depth test leaves the nearest (blueprints paper, section 3, Fig. 2).
 #import passes/gbuffer.wgsl
+#import common/layer_color.wgsl
 
 // The last layer; for the first one, depth 1 and order 0 everywhere.
 @group(3) @binding(0) var last_depth_tex: texture_depth_2d;
@@ -25,7 +26,7 @@ fn layer(position: vec4<f32>, surface: u32, drawn: GBuffer) -> Layer {
     if !is_behind {
         discard;
     }
-    return Layer(drawn.geometry, drawn.base_color, drawn.region, order);
+    return Layer(drawn.geometry, unpack_color(pack_color(drawn.base_color)), drawn.region, order);
 }
 
 @fragment

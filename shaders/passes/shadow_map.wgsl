@@ -6,6 +6,8 @@
 struct ShadowDraw {
     clip_from_local: mat4x4<f32>,
     material: Material,
+    // What lies behind the section plane is left out: its product with (position, 1) is the distance before it.
+    section: vec4<f32>,
 }
 
 @group(1) @binding(0) var base_tex: texture_2d<f32>;
@@ -18,10 +20,33 @@ fn vs_main(@location(0) position: vec3<f32>) -> @builtin(position) @invariant ve
     return draw.clip_from_local * vec4(position, 1.0);
 }
 
+struct Cut {
+    @builtin(position) @invariant position: vec4<f32>,
+    // Distance before the section plane.
+    @location(0) lead: f32,
+}
+
+fn lead_of(position: vec3<f32>) -> f32 {
+    return dot(draw.section, vec4(position, 1.0));
+}
+
+@vertex
+fn vs_cut(@location(0) position: vec3<f32>) -> Cut {
+    return Cut(draw.clip_from_local * vec4(position, 1.0), lead_of(position));
+}
+
+@fragment
+fn fs_cut(v: Cut) {
+    if v.lead < 0.0 {
+        discard;
+    }
+}
+
 struct Holes {
     @builtin(position) @invariant position: vec4<f32>,
     @location(0) uv: vec2<f32>,
     @location(1) alpha: f32,
+    @location(2) lead: f32,
 }
 
 @vertex
@@ -31,14 +56,14 @@ fn vs_holes(
     @location(5) color: vec4<f32>,
 ) -> Holes {
     let uv_base = (draw.material.base_uv * vec3(uv, 1.0)).xy;
-    return Holes(draw.clip_from_local * vec4(position, 1.0), uv_base, color.a);
+    return Holes(draw.clip_from_local * vec4(position, 1.0), uv_base, color.a, lead_of(position));
 }
 
 // Light falls through the holes that passes/gbuffer.wgsl leaves.
 @fragment
 fn fs_holes(v: Holes) {
     let alpha = textureSample(base_tex, base_sampler, v.uv).a * draw.material.base_color.a * v.alpha;
-    if alpha < draw.material.alpha_cutoff {
+    if alpha < draw.material.alpha_cutoff || v.lead < 0.0 {
         discard;
     }
 }

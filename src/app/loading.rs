@@ -54,7 +54,9 @@ pub struct Model {
     mesh_bounds: Vec<Bounds>,
     /// The outermost points of each node's own mesh, world space ([`Scene::extent_of`]).
     pub extents: Vec<Vec<DVec3>>,
-    /// Diagonal of the box around everything, in units of the scene.
+    /// The box around everything, in units of the scene.
+    pub bounds: Bounds,
+    /// Its diagonal.
     pub diagonal: f64,
     /// Triangles of each node's own mesh.
     pub triangles: Vec<usize>,
@@ -77,11 +79,20 @@ impl Model {
             .iter()
             .map(|n| n.mesh.and_then(|m| scene.meshes.get(m)).map_or(0, |m| m.triangle_count()))
             .collect();
-        let diagonal = scene.bounds().diagonal();
+        let bounds = scene.bounds();
         let mesh_bounds = scene.meshes.iter().map(|m| m.bounds()).collect();
         let files = Arc::new(scene);
         let scene = Arc::clone(&files);
-        Self { files, scene, extents, diagonal, triangles, mesh_bounds, ..Self::default() }
+        Self {
+            files,
+            scene,
+            extents,
+            bounds,
+            diagonal: bounds.diagonal(),
+            triangles,
+            mesh_bounds,
+            ..Self::default()
+        }
     }
 
     /// Takes over a document's glyphs. Returns whether anything changed.

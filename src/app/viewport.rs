@@ -17,7 +17,8 @@ use crate::document::Document;
 use crate::gpu::{Gpu, Target};
 use crate::render::passes::peel::Peeled;
 use crate::render::{
-    GpuScene, Pick, RenderError, Renderer, Reported, Request, StyleImages, UploadedTopology, Uploader,
+    GpuScene, LayersBy, Pick, RenderError, Renderer, Reported, Request, StyleImages, UploadedTopology,
+    Uploader,
 };
 use crate::scene::{Camera, NodeId, Up};
 use crate::style::Style;
@@ -238,7 +239,7 @@ impl Viewport {
     }
 
     /// How far the blueprint of that style came in the last picture whose report has arrived.
-    pub fn last_peeled(&self, style: &Style) -> Option<&Peeled> {
+    pub fn last_peeled(&self, style: &Style) -> Option<&(Peeled, LayersBy)> {
         self.renderer.last_peeled_of(style)
     }
 

@@ -7,6 +7,7 @@ use clap::{Args, Parser, Subcommand};
 use glam::DVec3;
 use strum::VariantNames as _;
 
+use crate::document::section::Axis;
 use crate::render::sample::MAX_SAMPLES;
 use crate::scene::{Standard, Unit, Up};
 use crate::style::{Color, Value};
@@ -89,6 +90,10 @@ pub(super) struct LookArgs {
     /// Make the flat objects that match mirrors
     #[arg(long, value_name = "GLOB")]
     pub mirror: Vec<String>,
+    /// Cut away what lies beyond a plane: its axis (x, y or z) and its position in units of the model [default: the middle];
+    /// `--set section.flip=true` cuts away the other side, `section.axis=free` allows any direction
+    #[arg(long, value_name = "AXIS[=POSITION]")]
+    pub section: Option<SectionAt>,
     /// Peel blueprints until the objects that match are uncovered (`blueprint.fraction`); they are drawn as surfaces
     #[arg(long, value_name = "GLOB")]
     pub mask: Vec<String>,
@@ -241,6 +246,26 @@ impl FromStr for Vector {
     }
 }
 
+/// `AXIS[=POSITION]`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct SectionAt {
+    pub axis: Axis,
+    pub position: Option<f32>,
+}
+
+impl FromStr for SectionAt {
+    type Err = String;
+
+    fn from_str(s: &str) -> Result<Self, String> {
+        let wrong = || format!("`{s}` is no plane; write x, y or z and a position, such as y=1.5");
+        let (axis, position) = s.split_once('=').map_or((s, None), |(axis, position)| (axis, Some(position)));
+        let axis = axis.trim().to_ascii_lowercase().parse().ok().filter(|axis| *axis != Axis::Free);
+        let position =
+            position.map(|p| p.trim().parse().ok().filter(|p: &f32| p.is_finite()).ok_or_else(wrong));
+        Ok(Self { axis: axis.ok_or_else(wrong)?, position: position.transpose()? })
+    }
+}
+
 /// `GLOB=NAME`.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Assignment {
@@ -300,6 +325,9 @@ mod tests {
         assert!("800".parse::<Resolution>().is_err() && "0,5".parse::<Resolution>().is_err());
         assert_eq!("1,-2,0.5".parse(), Ok(Vector(DVec3::new(1.0, -2.0, 0.5))));
         assert!("1,2".parse::<Vector>().is_err() && "1,2,nan".parse::<Vector>().is_err());
+        assert_eq!("y=-1.5".parse(), Ok(SectionAt { axis: Axis::Y, position: Some(-1.5) }));
+        assert_eq!("Z".parse(), Ok(SectionAt { axis: Axis::Z, position: None }));
+        assert!(["w=1", "free", "y=", "y=nan", ""].iter().all(|s| s.parse::<SectionAt>().is_err()));
         assert_eq!(("1:50".parse(), "2:1".parse()), (Ok(Scale(50.0)), Ok(Scale(0.5))));
         assert!(["1", "1:0", "0:1", "1:x", "1:-2", "1:inf"].iter().all(|s| s.parse::<Scale>().is_err()));
         let setting: Setting = "/a/b*:gooch.alpha=0.3".parse().unwrap();

@@ -17,8 +17,9 @@ use crate::import::Progress;
 use crate::render::Request;
 use crate::scene::{Camera, Material, Node, Scene};
 use crate::style::halftone::{Mapping, Space};
+use crate::style::hidden::HiddenLayers;
 use crate::style::toon::Border;
-use crate::style::{DepthOperator, EdgeMode, Style, StyleError, Technique, preset};
+use crate::style::{DepthOperator, EdgeMode, HiddenMode, Style, StyleError, Technique, preset};
 
 /// What is measured: a style in some light, and what stands behind the model.
 struct Look {
@@ -209,6 +210,11 @@ fn looks(has_uvs: bool) -> Result<Vec<Look>, CliError> {
         (style.blueprint.layers, style.blueprint.least) = (layers, 0.0);
         Ok::<_, StyleError>(style)
     };
+    let hidden = |layers| {
+        let mut style = exact(2.0);
+        (style.edges.hidden.mode, style.edges.hidden.layers) = (HiddenMode::Dashed, layers);
+        style
+    };
     let plain = preset::load("plain")?.style;
     let unshadowed = Lighting::default();
     let hard = Lighting { shadows: true, ..Lighting::default() };
@@ -228,6 +234,8 @@ fn looks(has_uvs: bool) -> Result<Vec<Look>, CliError> {
         ("gooch + edges, C1", c1),
         ("gooch + edges, 2 px", exact(2.0)),
         ("gooch + edges, 32 px", exact(32.0)),
+        ("gooch + hidden lines, next", hidden(HiddenLayers::Next)),
+        ("gooch + hidden lines, all", hidden(HiddenLayers::All)),
         ("lines", preset::load("lines")?.style),
         ("blueprint, 1 layer", blueprint(1)?),
         ("blueprint, 5 layers", blueprint(5)?),

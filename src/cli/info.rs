@@ -85,7 +85,8 @@ fn as_json(opened: &Opened) -> Result<(), CliError> {
                 "base_color": m.base_color.to_array(),
                 "base_color_texture": m.base_color_texture.as_ref().map(|t| t.texture),
                 "normal_texture": m.normal_texture.as_ref().map(|t| t.texture),
-                "alpha_cutoff": match m.alpha { AlphaMode::Opaque => None, AlphaMode::Mask(cutoff) => Some(cutoff) },
+                "alpha_cutoff": match m.alpha { AlphaMode::Mask(cutoff) => Some(cutoff), _ => None },
+                "blends": m.alpha == AlphaMode::Blend,
                 "double_sided": m.double_sided,
                 "unlit": m.unlit,
             })

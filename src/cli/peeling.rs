@@ -2,18 +2,21 @@
 
 use serde_json::{Value, json};
 
+use crate::document::LayersBy;
+use crate::render;
 use crate::render::passes::peel::Peeled;
 
-/// Exactly how far each blueprint was peeled.
-pub(super) fn as_json(peeled: &[Peeled]) -> Value {
+/// Exactly how far each blueprint was peeled, and how its layers were made.
+pub(super) fn as_json(peeled: &[(Peeled, render::LayersBy)]) -> Value {
     peeled.iter().map(blueprint).collect()
 }
 
-fn blueprint(peeled: &Peeled) -> Value {
+fn blueprint((peeled, by): &(Peeled, render::LayersBy)) -> Value {
     let drawn = peeled.layers as usize;
     let of_layers = |counts: &[u32]| counts.iter().take(drawn).copied().collect::<Vec<_>>();
     let mut found = json!({
         "layers": drawn,
+        "layers_by": by.to_string(),
         "pixels": of_layers(&peeled.pixels),
         "ended_by": peeled.ended().to_string(),
     });
@@ -30,7 +33,14 @@ fn blueprint(peeled: &Peeled) -> Value {
     found
 }
 
-/// What could not be uncovered.
-pub(super) fn warnings(peeled: &[Peeled]) -> impl Iterator<Item = String> + '_ {
-    peeled.iter().filter_map(Peeled::shortfall).map(|shortfall| format!("blueprint: {shortfall}"))
+/// What could not be uncovered, and whether layers could not be made as was asked for.
+pub(super) fn warnings(
+    peeled: &[(Peeled, render::LayersBy)],
+    asked: LayersBy,
+) -> impl Iterator<Item = String> + '_ {
+    let shortfalls = peeled.iter().flat_map(move |(peeled, by)| {
+        let by = by.shortfall().filter(|_| asked == LayersBy::Lists);
+        peeled.shortfall().into_iter().chain(by)
+    });
+    shortfalls.map(|shortfall| format!("blueprint: {shortfall}"))
 }

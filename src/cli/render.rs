@@ -4,9 +4,9 @@ use std::thread::JoinHandle;
 
 use serde_json::json;
 
-use super::args::{CameraArgs, LookArgs, RenderArgs};
+use super::args::{CameraArgs, LookArgs, RenderArgs, SectionAt};
 use super::{CliError, peeling, print_json};
-use crate::document::{Document, Pattern, Role, glyph};
+use crate::document::{Document, Pattern, Role, Section, glyph};
 use crate::export::session::{OpenError, Opened, initial_camera, open};
 use crate::export::{Session, save_png};
 use crate::gpu::{Gpu, GpuError};
@@ -50,11 +50,13 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
 
     let scene = &opened.scene;
     let document = &opened.document;
+    let section = document.section_fault(document.up(scene), &scene.bounds());
     let roles = document.role_faults(&document.scene_with_glyphs(scene));
-    let faults = roles.into_iter().chain(document.glyph_faults(scene));
-    let peeled = session.renderer().peeled()?;
+    let faults = roles.into_iter().chain(section).chain(document.glyph_faults(scene));
+    let peeled: Vec<_> = session.renderer().last_peeled().into_iter().flatten().collect();
     let warnings = images.warnings(&uses).into_iter().chain(scene.warnings.iter().cloned()).chain(faults);
-    let warnings = warnings.map(|w| w.to_string()).chain(peeling::warnings(&peeled));
+    let warnings =
+        warnings.map(|w| w.to_string()).chain(peeling::warnings(&peeled, opened.document.view.layers));
     if args.json {
         print_json(&json!({
             "output": args.output,
@@ -124,6 +126,9 @@ pub(super) fn apply_look(opened: &mut Opened, look: &LookArgs) -> Result<(), Cli
     for assignment in &look.object_style {
         let style = preset::load(&assignment.style)?.style;
         document.set_style(scene, &matching(scene, &assignment.pattern)?, &style);
+    }
+    if let Some(SectionAt { axis, position }) = look.section {
+        document.section = Section { show: true, axis, position, ..document.section.clone() };
     }
     for setting in &look.set {
         match &setting.pattern {

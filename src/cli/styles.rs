@@ -6,7 +6,7 @@ use serde_json::json;
 
 use super::args::StylesArgs;
 use super::{CliError, print_json, print_line};
-use crate::document::{Lighting, View};
+use crate::document::{Lighting, Section, View};
 use crate::style::{Param, Slot, Style, Value, preset};
 
 pub(super) fn run(args: &StylesArgs) -> Result<(), CliError> {
@@ -15,9 +15,11 @@ pub(super) fn run(args: &StylesArgs) -> Result<(), CliError> {
     let mut view = View::default();
     let mut lighting = Lighting::default();
     let paper = style.paper.color;
+    let mut section = Section::default();
     let mut params = style.params();
     params.extend(view.params(paper));
     params.extend(lighting.params());
+    params.extend(section.params());
     if args.json {
         return print_json(&json!({
             "presets": presets.iter().map(|p| json!({

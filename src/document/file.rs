@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 
 use super::lighting::{Lighting, Source};
-use super::{Document, NodeSettings, View, glyph};
+use super::{Document, NodeSettings, Section, View, glyph};
 use crate::scene::{Camera, Light, Up};
 use crate::style::param::{Param, map_paths};
 use crate::style::{Style, StyleError, diff_to_toml, set_from_toml};
@@ -42,12 +42,12 @@ pub enum DocumentError {
         /// What is wrong and in which line.
         message: String,
     },
-    /// A parameter of a style, of the view or of the light in it is wrong.
+    /// A parameter of a style, of the view, the light or the section plane in it is wrong.
     #[error("{}, {place}: {source}", path.display())]
     Style {
         /// The file.
         path: PathBuf,
-        /// `style`, `view`, `light` or the path of the node.
+        /// `style`, `view`, `light`, `section` or the path of the node.
         place: String,
         /// What is wrong.
         source: StyleError,
@@ -71,6 +71,8 @@ struct Form {
     light: toml::Table,
     #[serde(default, skip_serializing_if = "toml::Table::is_empty")]
     view: toml::Table,
+    #[serde(default, skip_serializing_if = "toml::Table::is_empty")]
+    section: toml::Table,
     #[serde(default, skip_serializing_if = "toml::Table::is_empty")]
     style: toml::Table,
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
@@ -158,6 +160,7 @@ impl Document {
             |name: &str, table: toml::Table| toml::Table::from_iter([(name.to_owned(), table.into())]);
         fill(&mut document.view.params(document.style.paper.color), &section("view", form.view), "view")?;
         fill(&mut document.lighting.params(), &section("light", form.light), "light")?;
+        fill(&mut document.section.params(), &section("section", form.section), "section")?;
         fill(&mut document.style.params(), &form.style, "style")?;
         for (node, form) in form.nodes {
             let style = form
@@ -202,6 +205,7 @@ impl Document {
         };
         let paper = self.style.paper.color;
         let view = diff_to_toml(&mut self.view.clone().params(paper), &mut View::default().params(paper));
+        let cut = diff_to_toml(&mut self.section.clone().params(), &mut Section::default().params());
         let light =
             diff_to_toml(&mut self.lighting.clone().params(), &mut default_lighting(has_lights).params());
         let form = Form {
@@ -212,6 +216,7 @@ impl Document {
             lights: has_lights.then(|| self.lights.clone()),
             light: section("light", light),
             view: section("view", view),
+            section: section("section", cut),
             style: style_table(&self.style),
             nodes: self
                 .nodes
@@ -292,6 +297,9 @@ mod tests {
         document.view.background = Some("#102030".parse().unwrap());
         document.lighting.shadows = true;
         document.lighting.rim.azimuth = -12.5;
+        document.section.show = true;
+        document.section.position = Some(0.25);
+        document.section.hatch.spacing = 7.5;
         document.node_mut("/crank/rod.3").style =
             Some(Style { technique: Technique::Plain, ..Style::default() });
         document.node_mut("/crank/rod.4").visible = Some(false);
@@ -344,6 +352,9 @@ mod tests {
         );
         assert!(open("[nodes.\"/crank\".style]\ngooch.alpha = 9").contains("a.hachure, /crank: "));
         assert!(open("\u{0}").contains("a.hachure"));
+        assert!(open("[section]\nazimuth = nan").contains("a.hachure, section: "));
+        assert!(open("[section]\nposition = inf").contains("section.position"));
+        assert!(open("[section]\naxis = \"w\"").contains("one of x, y, z, free"));
         let camera = "[camera]\nposition = [nan, 0.0, 0.0]\nfocal_point = [0.0, 0.0, 0.0]\nview_up = [0.0, 1.0, 0.0]\n\
                       [camera.projection.perspective]\nview_angle = 30.0";
         assert!(open(camera).contains("camera: its numbers must be finite"));

@@ -1,4 +1,4 @@
-//! What a person can change, save and undo: models, styles and roles per object, camera, lights, view.
+//! What a person can change, save and undo: models, styles and roles per object, camera, lights, view, section plane.
 
 pub mod file;
 pub mod glyph;
@@ -8,6 +8,7 @@ pub mod masks;
 pub mod mirrors;
 pub mod pattern;
 pub mod roles;
+pub mod section;
 pub mod view;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -22,7 +23,8 @@ pub use history::History;
 pub use lighting::Lighting;
 pub use pattern::{Pattern, PatternError};
 pub use roles::Role;
-pub use view::{Show, View};
+pub use section::Section;
+pub use view::{LayersBy, Show, View};
 
 /// A drawing: everything about it that is not in the model files.
 #[derive(Debug, Clone, PartialEq)]
@@ -41,6 +43,8 @@ pub struct Document {
     pub lights: Vec<Light>,
     /// How the picture is shown.
     pub view: View,
+    /// The plane at which the model is cut open.
+    pub section: Section,
     /// The style of every object that has none and inherits none.
     pub style: Style,
     /// What single nodes have of their own, by node path.
@@ -102,6 +106,7 @@ impl Default for Document {
             lighting: Lighting::default(),
             lights: Vec::new(),
             view: View::default(),
+            section: Section::default(),
             style: default_style(),
             nodes: BTreeMap::new(),
             glyphs: Vec::new(),
@@ -231,17 +236,18 @@ impl Document {
         self.tidy();
     }
 
-    /// Sets one parameter of the default style, of the view or of the light, and in all styles that single nodes have;
-    /// glyphs keep theirs.
+    /// Sets one parameter of the default style, of the view, the light or the section plane, and in all styles that single
+    /// nodes have; glyphs keep theirs.
     ///
     /// # Errors
     /// See [`param::set`].
     pub fn set(&mut self, key: &str, value: &Value) -> Result<(), StyleError> {
         let mut params = self.view.params(self.style.paper.color);
         params.extend(self.lighting.params());
+        params.extend(self.section.params());
         params.extend(self.style.params());
         param::set(&mut params, key, value)?;
-        if !key.starts_with("view.") && !key.starts_with("light.") {
+        if !["view.", "light.", "section."].iter().any(|section| key.starts_with(section)) {
             let of_objects = self.nodes.iter_mut().filter(|(path, _)| !path.starts_with(glyph::FOLDER));
             for style in of_objects.filter_map(|(_, n)| n.style.as_mut()) {
                 param::set(&mut style.params(), key, value)?;

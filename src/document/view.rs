@@ -19,6 +19,8 @@ pub struct View {
     pub scale_bar: bool,
     /// How many mirrors in a row a line of sight follows, 0 to 8; the nearest whole number counts.
     pub reflections: f32,
+    /// How depth layers are made; the picture is the same.
+    pub layers: LayersBy,
 }
 
 choice! {
@@ -63,6 +65,18 @@ const BUFFERS: [Show; 10] = [
     Show::C1Operator,
     Show::EdgeMap,
 ];
+choice! {
+    /// How depth layers are made.
+    pub enum LayersBy {
+        /// From lists where the device can and there is memory enough, otherwise by peeling.
+        #[default]
+        Auto,
+        /// From lists of all fragments, which one traversal of the scene collects.
+        Lists,
+        /// By peeling: one traversal of the scene for each layer.
+        Peeling,
+    }
+}
 
 impl Default for View {
     fn default() -> Self {
@@ -73,6 +87,7 @@ impl Default for View {
             crease_angle: 30.0,
             scale_bar: false,
             reflections: 2.0,
+            layers: LayersBy::Auto,
         }
     }
 }
@@ -109,6 +124,12 @@ impl View {
                 0.0..=8.0,
                 "How many mirrors in a row are followed: 1 shows no mirror in a mirror, 0 switches mirrors off.",
                 &mut self.reflections,
+            );
+            list.choice(
+                "layers",
+                "Layers by",
+                "How the depth layers of blueprints are made: from lists of fragments, which is faster but takes memory, or by peeling.",
+                &mut self.layers,
             );
             list.switch(
                 "scale_bar",

@@ -123,7 +123,7 @@ fn rings(points: &[DVec3], radius: f64, heads: Heads) -> Vec<Ring> {
         }
         match corner {
             Some((next, angle, trimmed)) => {
-                corner_rings(&mut rings, to, (forward, next), angle, trimmed, radius)
+                corner_rings(&mut rings, to, (forward, next), angle, trimmed, radius);
             }
             None if at_end > 0.0 => {
                 rings.push(ring(length - at_end, radius));

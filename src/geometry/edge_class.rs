@@ -25,11 +25,13 @@ pub enum EdgeClass {
     Relief,
     /// The shadow of something ends on a surface.
     Shadow,
+    /// A section plane cuts the surface open.
+    Section,
 }
 
 impl EdgeClass {
     /// All classes, in order.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::Silhouette,
         Self::Border,
         Self::Object,
@@ -40,16 +42,17 @@ impl EdgeClass {
         Self::Texture,
         Self::Relief,
         Self::Shadow,
+        Self::Section,
     ];
 
     /// Whether it belongs to the profile edges; the others are inner edges.
     pub fn is_profile(self) -> bool {
-        self <= Self::Object
+        self <= Self::Object || self == Self::Section
     }
 
     /// Whether it is a line within a surface that has nothing to do with its shape.
     pub fn is_detail(self) -> bool {
-        self >= Self::Texture
+        matches!(self, Self::Texture | Self::Relief | Self::Shadow)
     }
 }
 

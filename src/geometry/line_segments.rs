@@ -7,6 +7,7 @@
 mod angles;
 mod arcs;
 mod clip;
+mod contours;
 mod facing;
 mod fan;
 mod outlines;
@@ -17,6 +18,7 @@ use rayon::prelude::*;
 
 use self::angles::Angles;
 use self::clip::PictureMap;
+pub use self::contours::{PlacedContours, contour_segments};
 use self::facing::Facings;
 use self::fan::Fans;
 use super::feature_edges::Traits;
@@ -79,8 +81,9 @@ pub struct LineView {
     pub jitter: DVec2,
     /// How far beyond the sides of the picture segments go on, in pixels; at least half of the widest line.
     pub margin: f64,
-    /// What lies behind this plane is left out: view space, its product with (point, 1) is the distance before it.
-    pub cut: Option<DVec4>,
+    /// What lies behind one of these planes is left out: view space, the product with (point, 1) is the distance before
+    /// it. 0: no plane.
+    pub cuts: [DVec4; 2],
 }
 
 /// Which lines are looked for.

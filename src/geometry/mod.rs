@@ -18,6 +18,7 @@ pub mod normals;
 pub mod primitives;
 pub mod projector;
 pub mod rig;
+pub mod section;
 pub mod solid;
 pub mod stitch;
 pub mod surfaces;

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{Adjacency, FeatureEdges, Mesh, Provoking, provoking};
+use super::{Adjacency, FeatureEdges, Mesh, Provoking, Weld, provoking};
 
 /// The findings of topology about one mesh, in the form that drawing needs.
 #[derive(Debug, Clone, PartialEq)]
@@ -14,6 +14,8 @@ pub struct Topology {
     pub is_solid: bool,
     /// The edges, to be classified for every camera.
     pub edges: Arc<FeatureEdges>,
+    /// Which vertices are one point.
+    pub weld: Arc<Weld>,
 }
 
 impl Topology {
@@ -29,6 +31,7 @@ impl Topology {
             is_solid: is_solid(mesh, &adjacency),
             provoking: provoking(mesh, &surfaces),
             edges: Arc::new(FeatureEdges::new(mesh, &adjacency, surfaces)),
+            weld: Arc::new(adjacency.weld),
         }
     }
 }

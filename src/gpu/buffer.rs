@@ -160,7 +160,7 @@ impl ArrayBuffer {
     }
 }
 
-/// A read-only storage buffer of plain records, which a vertex shader reads word by word; grows with their number.
+/// A storage buffer of plain records, which shaders read word by word; grows with their number.
 pub struct RecordBuffer {
     buffer: wgpu::Buffer,
     label: &'static str,
@@ -187,11 +187,20 @@ impl RecordBuffer {
     /// [`GpuError::TooLarge`].
     pub fn write<T: bytemuck::NoUninit>(&mut self, gpu: &Gpu, records: &[T]) -> Result<(), GpuError> {
         let bytes: &[u8] = bytemuck::cast_slice(records);
-        gpu.check_buffer_size(self.label, bytes.len() as u64)?;
-        if self.buffer.size() < bytes.len() as u64 {
-            self.buffer = Self::create(gpu, self.label, (bytes.len() as u64).next_power_of_two());
-        }
+        self.reserve(gpu, bytes.len() as u64)?;
         gpu.queue.write_buffer(&self.buffer, 0, bytes);
+        Ok(())
+    }
+
+    /// Makes room for so many bytes, with undefined contents.
+    ///
+    /// # Errors
+    /// [`GpuError::TooLarge`].
+    pub fn reserve(&mut self, gpu: &Gpu, bytes: u64) -> Result<(), GpuError> {
+        gpu.check_buffer_size(self.label, bytes)?;
+        if self.buffer.size() < bytes {
+            self.buffer = Self::create(gpu, self.label, bytes.next_power_of_two());
+        }
         Ok(())
     }
 

@@ -50,6 +50,8 @@ pub struct Gpu {
     pub queue: wgpu::Queue,
     /// Name of the adapter, for people.
     pub adapter_name: String,
+    /// Whether fragment shaders can write into buffers.
+    pub writes_in_fragments: bool,
 }
 
 impl Gpu {
@@ -72,7 +74,9 @@ impl Gpu {
     /// Takes over a device that somebody else opened with [`device_descriptor`].
     pub fn new(adapter: &wgpu::Adapter, device: wgpu::Device, queue: wgpu::Queue) -> Self {
         let info = adapter.get_info();
-        Self { device, queue, adapter_name: info.name }
+        let flags = adapter.get_downlevel_capabilities().flags;
+        let writes_in_fragments = flags.contains(wgpu::DownlevelFlags::FRAGMENT_WRITABLE_STORAGE);
+        Self { device, queue, adapter_name: info.name, writes_in_fragments }
     }
 
     /// Fails if a texture of this size cannot exist.

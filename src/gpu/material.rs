@@ -1,7 +1,7 @@
 //! Materials and their images on the device.
 
 use encase::ShaderType;
-use glam::{Mat3, Vec4};
+use glam::{Mat3, Vec3, Vec4};
 use rayon::prelude::*;
 
 use super::{Gpu, GpuError};
@@ -18,6 +18,19 @@ pub struct MaterialUniform {
     /// Pixels with less alpha are holes; negative: none are.
     alpha_cutoff: f32,
     has_normal_texture: u32,
+    /// 1: alpha is opacity.
+    blends: u32,
+}
+
+/// Less alpha than this is none in a picture of 8 bits.
+const LEAST_ALPHA: f32 = 0.5 / 255.0;
+
+impl MaterialUniform {
+    /// The same for shadows, which have no shades: what blends throws one where it is more opaque than not.
+    #[must_use]
+    pub fn throwing_shadows(self) -> Self {
+        Self { alpha_cutoff: if self.blends == 1 { 0.5 } else { self.alpha_cutoff }, ..self }
+    }
 }
 
 impl From<&Material> for MaterialUniform {
@@ -31,9 +44,19 @@ impl From<&Material> for MaterialUniform {
             alpha_cutoff: match m.alpha {
                 AlphaMode::Opaque => -1.0,
                 AlphaMode::Mask(cutoff) => cutoff,
+                AlphaMode::Blend => LEAST_ALPHA,
             },
             has_normal_texture: u32::from(m.normal_texture.is_some()),
+            blends: u32::from(m.alpha == AlphaMode::Blend),
         }
+    }
+}
+
+impl MaterialUniform {
+    /// The same in another colour, linear.
+    #[must_use]
+    pub fn with_color(self, color: Vec3) -> Self {
+        Self { base_color: color.extend(1.0), ..self }
     }
 }
 

@@ -60,6 +60,8 @@ pub enum DepthRule {
     Marked,
     /// The nearest wins.
     Nearest,
+    /// As [`Self::Nearest`], also against what has been drawn before.
+    Nearer,
 }
 
 impl DepthRule {
@@ -69,7 +71,7 @@ impl DepthRule {
             Self::Mark => (wgpu::CompareFunction::Always, true),
             Self::MarkCovered => (wgpu::CompareFunction::Less, true),
             Self::Marked => (wgpu::CompareFunction::Equal, false),
-            Self::Nearest => (wgpu::CompareFunction::Greater, true),
+            Self::Nearest | Self::Nearer => (wgpu::CompareFunction::Greater, true),
         };
         wgpu::DepthStencilState {
             format,
@@ -84,7 +86,7 @@ impl DepthRule {
     pub fn operations(self) -> Option<wgpu::Operations<f32>> {
         let load = match self {
             Self::Covered | Self::Marked => return None,
-            Self::MarkCovered => wgpu::LoadOp::Load,
+            Self::MarkCovered | Self::Nearer => wgpu::LoadOp::Load,
             Self::Mark | Self::Nearest => wgpu::LoadOp::Clear(0.0),
         };
         Some(wgpu::Operations { load, store: wgpu::StoreOp::Store })
@@ -104,8 +106,8 @@ pub struct RasterKey {
     pub blend: Option<wgpu::BlendState>,
     /// Its depth buffer.
     pub depth: Option<(wgpu::TextureFormat, DepthRule)>,
-    /// Whether lines are drawn, whose ends the vertex shader `vs_main` makes; otherwise the whole picture.
-    pub lines: bool,
+    /// Whether points are drawn, which the vertex shader `vs_main` makes; otherwise the whole picture.
+    pub points: bool,
 }
 
 /// Everything that a compute pipeline depends on.
@@ -316,7 +318,7 @@ fn build_raster(
     key: &RasterKey,
 ) -> Made<wgpu::RenderPipeline> {
     let label = key.program.file;
-    let stages = if key.lines { wgpu::ShaderStages::VERTEX_FRAGMENT } else { wgpu::ShaderStages::FRAGMENT };
+    let stages = if key.points { wgpu::ShaderStages::VERTEX_FRAGMENT } else { wgpu::ShaderStages::FRAGMENT };
     let inputs = layout_of(gpu, label, &key.inputs, stages);
     let constants = key.program.constants();
     let targets: Vec<_> = key
@@ -331,13 +333,13 @@ fn build_raster(
         layout: Some(&pipeline_layout(gpu, label, frame_layout, &inputs)),
         vertex: wgpu::VertexState {
             module,
-            entry_point: Some(if key.lines { "vs_main" } else { "vs_fullscreen" }),
+            entry_point: Some(if key.points { "vs_main" } else { "vs_fullscreen" }),
             compilation_options: wgpu::PipelineCompilationOptions::default(),
             buffers: &[],
         },
         primitive: wgpu::PrimitiveState {
-            topology: if key.lines {
-                wgpu::PrimitiveTopology::LineList
+            topology: if key.points {
+                wgpu::PrimitiveTopology::PointList
             } else {
                 wgpu::PrimitiveTopology::TriangleList
             },

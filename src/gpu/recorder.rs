@@ -91,8 +91,8 @@ pub struct Draw<'a> {
     pub onto: Onto,
     /// Its depth buffer.
     pub depth: Option<(&'a Target, DepthRule)>,
-    /// `Some`: so many lines, whose ends the vertex shader `vs_main` makes from its index; `None`: once per pixel.
-    pub lines: Option<u32>,
+    /// `Some`: so many points, which the vertex shader `vs_main` makes from its index; `None`: once per pixel.
+    pub points: Option<u32>,
 }
 
 /// One frame while it is being recorded.
@@ -197,7 +197,7 @@ impl<'a> Recorder<'a> {
         covered: Option<&Target>,
     ) -> Result<(), ShaderError> {
         let depth = covered.map(|target| (target, DepthRule::Covered));
-        self.draw(Draw { label, program, inputs, outputs, onto: Onto::Nothing, depth, lines: None })
+        self.draw(Draw { label, program, inputs, outputs, onto: Onto::Nothing, depth, points: None })
     }
 
     /// Runs one render pass with one draw.
@@ -211,7 +211,7 @@ impl<'a> Recorder<'a> {
             outputs: draw.outputs.iter().map(|o| o.format()).collect(),
             blend: draw.onto.blend(),
             depth: draw.depth.map(|(target, rule)| (target.format(), rule)),
-            lines: draw.lines.is_some(),
+            points: draw.points.is_some(),
         };
         let made = self.pipelines.raster(self.gpu, &key)?;
         let pipeline = made.pipeline.clone();
@@ -226,8 +226,8 @@ impl<'a> Recorder<'a> {
             depth_ops: rule.operations(),
             stencil_ops: None,
         });
-        // Not one instance per line: software devices set up every instance anew.
-        let vertices = draw.lines.map_or(3, |count| 2 * count);
+        // Not one instance per point: software devices set up every instance anew.
+        let vertices = draw.points.unwrap_or(3);
         let gated = self.gated([vertices, 1, 0, 0, 0]);
         let mut pass = self.pass(draw.label, &color, depth);
         pass.set_pipeline(&pipeline);

@@ -14,29 +14,33 @@ use glam::{Vec2, Vec4};
 
 use self::reflections::Reflection;
 use super::RenderError;
+use super::effects::blended::{Blend, Blended, Opaque};
 use super::effects::blueprint::{Blueprints, Peels};
 use super::effects::halftone::{HalftoneInputs, HalftoneUniform, Halftones, ThresholdMaps};
 use super::effects::hidden::HiddenLines;
 use super::effects::mirror::{MirrorUniform, mirror};
+use super::effects::section::{CapUniform, caps, section};
 use super::effects::surface::{Shading, SurfaceUniform, surface};
 use super::effects::toon::{ToonBuffers, Toons, cartoon_map};
 use super::frame_uniform::{FrameUniform, View};
-use super::gpu_scene::GpuScene;
+use super::gpu_scene::{GpuScene, Origin};
 use super::groups::Objects;
-use super::layers::Reported;
+use super::layers::{LayersBy, Reported};
 use super::lights::Lights;
 use super::passes::depth_mask::{DepthMask, DepthMaskPass};
-use super::passes::edge_map::{EdgeInputs, EdgeMap, EdgeMapPass};
+use super::passes::edge_map::{EdgeInputs, EdgeMap, edge_map};
 use super::passes::edge_style::EdgeUniform;
 use super::passes::gbuffer::{DrawCall, DrawUniform, GBuffer, GBufferPass};
 use super::passes::line_distance::{Reach, line_distance};
 use super::passes::lines::{Lines, Pen, lines};
 use super::passes::overlay::overlay;
 use super::passes::peel::{Layer, Peeled};
+use super::passes::segments::Segments;
 use super::sample::Sample;
 use super::segments::segments;
 use super::shadows::{ShadowMap, ShadowMask};
 use super::stage::{Output, Stage};
+use crate::document;
 use crate::geometry::{EdgeClass, LineSegment};
 use crate::gpu::{ArrayBuffer, DynamicBuffer, Gpu, Recorder, Target, UniformBuffer};
 use crate::style::Style;
@@ -66,6 +70,8 @@ pub struct DrawingInputs<'a> {
     pub reflections: u32,
     /// Whether the layers of blueprints are kept.
     pub keeps_layers: bool,
+    /// How depth layers are to be made.
+    pub layers_by: document::LayersBy,
 }
 
 /// A drawing while it is being made: what all of its passes read.
@@ -119,13 +125,14 @@ pub struct Drawing {
     uniform: UniformBuffer<FrameUniform>,
     frame_group: wgpu::BindGroup,
     draws: DynamicBuffer,
-    edge_map_pass: EdgeMapPass,
+    placed_segments: Segments,
     greatest_radius: ArrayBuffer,
     edge_styles: ArrayBuffer,
     surface_styles: ArrayBuffer,
     toon_styles: ArrayBuffer,
     toon_bands: ArrayBuffer,
     halftone_styles: ArrayBuffer,
+    caps: ArrayBuffer,
     gbuffer: Stage<(u64, u64, View, Vec<DrawUniform>, Vec<DrawCall>), GBuffer>,
     segments: Stage<(u64, View, Vec<EdgeUniform>, f32), Arc<Vec<LineSegment>>>,
     edge_map: Stage<([u64; 2], Vec<EdgeUniform>, Vec2, Option<FrameUniform>), EdgeMap>,
@@ -144,11 +151,15 @@ pub struct Drawing {
             FrameUniform,
             Seen,
             Option<u64>,
+            Option<Blend>,
             Vec<u64>,
+            Vec<CapUniform>,
         ),
-        Target,
+        (Target, Option<Target>),
     >,
     depth_mask: DepthMaskPass,
+    /// `None` while nothing blends.
+    blended: Option<Blended>,
     /// `None` while no object has any.
     hidden: Option<HiddenLines>,
     blueprints: Vec<Blueprints>,
@@ -176,13 +187,14 @@ impl Drawing {
             uniform,
             frame_group,
             draws: GBufferPass::draw_buffer(gpu),
-            edge_map_pass: EdgeMapPass::new(gpu),
+            placed_segments: Segments::new(gpu),
             greatest_radius: ArrayBuffer::new(gpu, "greatest radius"),
             edge_styles: ArrayBuffer::new(gpu, "edge styles"),
             surface_styles: ArrayBuffer::new(gpu, "surface styles"),
             toon_styles: ArrayBuffer::new(gpu, "toon styles"),
             toon_bands: ArrayBuffer::new(gpu, "toon bands"),
             halftone_styles: ArrayBuffer::new(gpu, "halftone styles"),
+            caps: ArrayBuffer::new(gpu, "caps"),
             gbuffer: Stage::default(),
             segments: Stage::default(),
             edge_map: Stage::default(),
@@ -192,6 +204,7 @@ impl Drawing {
             coordinates: Stage::default(),
             surface: Stage::default(),
             depth_mask: DepthMaskPass::new(gpu),
+            blended: None,
             hidden: None,
             blueprints: Vec::new(),
             blueprinted: 0,
@@ -239,17 +252,21 @@ impl Drawing {
         let own = self.blueprints.iter_mut().map(Blueprints::take_reports);
         let reflected = self.reflections.iter_mut().map(|r| r.drawing.take_reports());
         let hidden = self.hidden.iter_mut().map(HiddenLines::take_reports);
-        own.chain(hidden).chain(reflected).max().unwrap_or(Reported::Complete)
+        let blended = self.blended.as_mut().map(Blended::take_reports);
+        if blended == Some(Reported::Incomplete) {
+            self.surface.clear();
+        }
+        own.chain(hidden).chain(blended).chain(reflected).max().unwrap_or(Reported::Complete)
     }
 
     /// How far the layers of each blueprint came in the last picture whose report has arrived; in the order of
     /// [`Objects::blueprints`].
-    pub fn last_peeled(&self) -> Vec<Option<Peeled>> {
+    pub fn last_peeled(&self) -> Vec<Option<(Peeled, LayersBy)>> {
         self.blueprints.iter().map(|b| b.last().cloned()).collect()
     }
 
     /// The same of the blueprint that objects of this style are in.
-    pub fn last_peeled_of(&self, style: &Style) -> Option<&Peeled> {
+    pub fn last_peeled_of(&self, style: &Style) -> Option<&(Peeled, LayersBy)> {
         self.blueprints.iter().find(|b| b.is_of(style))?.last()
     }
 
@@ -274,15 +291,15 @@ impl Drawing {
         let with_coordinates = calls
             .iter()
             .filter(|call| {
-                draws
-                    .get(call.draw as usize)
-                    .is_some_and(|draw| objects.halftones.need_coordinates(draw.object))
+                let draw = draws.get(call.draw as usize);
+                call.origin != Origin::Caps
+                    && draw.is_some_and(|draw| objects.halftones.need_coordinates(draw.object))
             })
             .copied()
             .collect();
         let geometry = (rec.pipelines.generation(), inputs.scene_revision, *view, draws, calls);
         let gbuffer = self.gbuffer.run(geometry, |(.., draws, calls)| {
-            shared.gbuffer.run(rec, scene, &mut self.draws, (draws, calls), view.cut.is_some(), None)
+            shared.gbuffer.run(rec, scene, &mut self.draws, (draws, calls), view.has_cuts(), None)
         })?;
         let shadow_mask = self.shadow_mask.run(rec, &gbuffer, inputs)?;
         Ok(Begun { uniform, depth_range, gbuffer, shadow_mask, with_coordinates })
@@ -319,13 +336,14 @@ impl Drawing {
         let revisions = [begun.gbuffer.revision, shadow_mask.map_or(0, |mask| mask.revision)];
         let edges = (revisions, styles, begun.depth_range, light);
         self.edge_map.run(edges, |(_, styles, ..)| {
-            self.edge_map_pass.run(
+            self.placed_segments.write(rec.gpu, &segments.value)?;
+            edge_map(
                 rec,
                 &EdgeInputs {
                     gbuffer: &begun.gbuffer.value,
                     styles,
                     edge_styles: self.edge_styles.buffer(),
-                    segments: &segments.value,
+                    segments: &self.placed_segments,
                     has_holes: inputs.objects.surfaces.has_holes,
                     is_cut: view.cut.is_some(),
                     is_layer: false,
@@ -381,6 +399,7 @@ impl Drawing {
             }
         };
         let revisions = edge_map.map(|e| [e.revision, reach.as_ref().map_or(0, |reach| reach.revision)]);
+        let caps = caps(inputs.scene, inputs.view, inputs.objects.scale);
         let shading = (
             [gbuffer.revision, begun.shadow_mask.as_ref().map_or(0, |mask| mask.revision)],
             revisions,
@@ -394,9 +413,12 @@ impl Drawing {
                 (seen, inputs.background)
             }),
             hidden.as_ref().map(|hidden| hidden.revision),
-            blueprints.iter().map(|b| b.revision).collect(),
+            Blend::new(inputs),
+            blueprints.iter().map(|(_, b)| b.revision).collect(),
+            caps.clone(),
         );
-        let color = self.surface.run(shading, |(_, _, surfaces, toons, (halftones, _), styles, ..)| {
+        let drawn = self.surface.run(shading, |shading| {
+            let (_, _, surfaces, toons, (halftones, _), styles, .., blend, _, _) = shading;
             self.surface_styles.write(rec.gpu, surfaces);
             if !halftones.is_empty() {
                 self.halftone_styles.write(rec.gpu, halftones);
@@ -417,8 +439,13 @@ impl Drawing {
                     maps: &shared.thresholds,
                     coordinates: coordinates.as_ref(),
                 },
+                blends: false,
             };
             let color = surface(rec, &gbuffer.value, &shading)?;
+            if !caps.is_empty() {
+                self.caps.write(rec.gpu, &caps);
+                section(rec, &gbuffer.value, self.caps.buffer(), &color)?;
+            }
             for seen in &reflected {
                 let Some(reflection) = self.reflections.get_mut(seen.index) else { continue };
                 reflection.uniform.write(rec.gpu, &vec![seen.uniform]);
@@ -427,23 +454,46 @@ impl Drawing {
             if let Some(hidden) = &hidden {
                 overlay(rec, &hidden.value, &color)?;
             }
-            if let Some(edge_map) = edge_map {
-                let drawn = Lines {
-                    gbuffer: &gbuffer.value,
-                    edge_map: &edge_map.value,
-                    reach: reach.as_ref().map(|reach| &reach.value),
-                    styles,
-                    edge_styles: self.edge_styles.buffer(),
-                };
-                lines(rec, &drawn, &Pen::PLAIN, &color)?;
+            let opaque_lines = edge_map.map(|edge_map| Lines {
+                gbuffer: &gbuffer.value,
+                edge_map: &edge_map.value,
+                reach: reach.as_ref().map(|reach| &reach.value),
+                styles,
+                edge_styles: self.edge_styles.buffer(),
+            });
+            if let Some(opaque_lines) = &opaque_lines {
+                lines(rec, opaque_lines, &Pen::PLAIN, &color)?;
             }
-            for blueprint in &blueprints {
-                overlay(rec, &blueprint.value.color, &color)?;
+            let panes = match blend {
+                Some(blend) => {
+                    let blended = self.blended.get_or_insert_with(|| Blended::new(rec.gpu));
+                    let opaque = Opaque { gbuffer: &gbuffer.value, lines: opaque_lines.as_ref() };
+                    let shaded = (&shading, &mut self.shadow_mask);
+                    Some(blended.run(rec, &mut shared.gbuffer, inputs, blend, opaque, shaded)?)
+                }
+                None => {
+                    self.blended = None;
+                    None
+                }
+            };
+            let mut pictures: Vec<_> =
+                blueprints.iter().map(|(depth, peels)| (*depth, &peels.value.color)).collect();
+            if let Some(panes) = &panes {
+                pictures.push((inputs.objects.blended.mean_depth(inputs.scene, inputs.view), &panes.color));
+                pictures.sort_by(|(a, _), (b, _)| b.total_cmp(a));
             }
-            Ok::<_, RenderError>(color)
+            for (_, picture) in pictures {
+                overlay(rec, picture, &color)?;
+            }
+            Ok::<_, RenderError>((color, panes.and_then(|panes| panes.front)))
         })?;
-        let fronts = blueprints.iter().filter_map(|b| Some((b.revision, b.value.front.clone()?))).unzip();
-        let layers = blueprints.into_iter().map(|b| b.value.layers).filter(|l| !l.is_empty()).collect();
+        let (color, front_pane) = drawn.value;
+        let color = Output { value: color, revision: drawn.revision };
+        let mut fronts: (Vec<_>, Vec<_>) =
+            blueprints.iter().filter_map(|(_, b)| Some((b.revision, b.value.front.clone()?))).unzip();
+        fronts.0.extend(front_pane.as_ref().map(|_| drawn.revision));
+        fronts.1.extend(front_pane);
+        let layers = blueprints.into_iter().map(|(_, b)| b.value.layers).filter(|l| !l.is_empty()).collect();
         let depth_mask = mask.map(|mask| mask.value.depth);
         Ok(Shaded { color, cartoon_map, coordinates, depth_mask, fronts, layers })
     }
@@ -464,7 +514,7 @@ impl Drawing {
         hidden.run(rec, gbuffer_pass, inputs, &begun.uniform, edge_map).map(Some)
     }
 
-    /// Draws the blueprints, the farthest first. Blended groups that reach into each other have no right order: that of
+    /// Draws the blueprints, the farthest first, each with the depth of its middle. Blended groups that reach into each other have no right order: that of
     /// their middles is the nearest to it.
     fn peel(
         &mut self,
@@ -472,7 +522,7 @@ impl Drawing {
         gbuffer_pass: &mut GBufferPass,
         inputs: &DrawingInputs<'_>,
         drawn: (&Begun, Option<&Output<DepthMask>>),
-    ) -> Result<Vec<Output<Peels>>, RenderError> {
+    ) -> Result<Vec<(f64, Output<Peels>)>, RenderError> {
         let groups = &inputs.objects.blueprints;
         self.blueprints.truncate(groups.len());
         self.blueprints.resize_with(groups.len(), || Blueprints::new(rec.gpu));
@@ -484,7 +534,7 @@ impl Drawing {
             pictures.push((blueprint.group.mean_depth(inputs.scene, inputs.view), picture));
         }
         pictures.sort_by(|(a, _), (b, _)| b.total_cmp(a));
-        Ok(pictures.into_iter().map(|(_, picture)| picture).collect())
+        Ok(pictures)
     }
 
     fn find_coordinates(

@@ -128,6 +128,11 @@ impl FrameState {
         self.drawing.take_reports()
     }
 
+    /// Gives memory back that the last frame did not need.
+    pub fn shrink(&mut self, gpu: &Gpu) {
+        self.shared.gbuffer.lists.shrink(gpu);
+    }
+
     /// How often each stage has run, by name.
     pub fn runs(&self) -> Vec<(&'static str, u64)> {
         let mut runs = self.drawing.runs().to_vec();

@@ -37,6 +37,7 @@ pub struct FrameUniform {
     center_depth: f32,
     cut_depth: f32,
     cut: Vec4,
+    section: Vec4,
     shadow_density: f32,
     background: Vec4,
     lights: [LightUniform; MAX_LIGHTS],
@@ -67,6 +68,8 @@ pub struct View {
     pub jitter: Vec2,
     /// What lies behind this plane is not drawn: view space, its product with (point, 1) is the distance before it.
     pub cut: Option<DVec4>,
+    /// What lies behind the section plane is not drawn either: the same in world space.
+    pub section: Option<DVec4>,
     /// The part of the picture that is wanted: left, top, right and bottom edge in pixels; `None`: all of it.
     pub part: Option<[u32; 4]>,
 }
@@ -139,6 +142,7 @@ impl View {
             center: if visible.is_empty() { DVec3::ZERO } else { visible.center() },
             jitter: Vec2::ZERO,
             cut: None,
+            section: None,
             part: None,
         }
     }
@@ -157,9 +161,27 @@ impl View {
             cut: Some(view_from_world.inverse().transpose() * cut),
             part: Some([self.size.x - right, top, self.size.x - left, bottom]),
             center: self.center,
+            section: self.section,
             ..Self::through(view_from_world, self.projection, visible, self.size)
         }
         .moved(self.jitter * Vec2::new(-1.0, 1.0))
+    }
+
+    /// The same with everything behind a plane cut away: world space, its product with (point, 1) is the distance before it.
+    #[must_use]
+    pub fn cut_at(self, section: Option<DVec4>) -> Self {
+        Self { section, ..self }
+    }
+
+    /// The planes behind which nothing is drawn, in view space: that of a mirror and that of the section; 0: none.
+    pub fn cuts(&self) -> [DVec4; 2] {
+        let section = self.section.map(|plane| self.view_from_world.inverse().transpose() * plane);
+        [self.cut, section].map(Option::unwrap_or_default)
+    }
+
+    /// Whether anything is cut off.
+    pub fn has_cuts(&self) -> bool {
+        self.cut.is_some() || self.section.is_some()
     }
 
     /// Where something lies that faces the eye: local to world space. It is seen where its anchor is, nothing of size where
@@ -190,9 +212,9 @@ impl View {
             * DMat4::from_scale(DVec3::splat(size))
     }
 
-    /// Whether the cut leaves nothing of what lies between these points, in view space.
+    /// Whether the cuts leave nothing of what lies between these points, in view space.
     pub fn cuts_off(&self, corners: &[DVec3]) -> bool {
-        self.cut.is_some_and(|cut| corners.iter().all(|c| cut.dot(c.extend(1.0)) < 0.0))
+        self.cuts().iter().any(|cut| corners.iter().all(|c| cut.dot(c.extend(1.0)) < 0.0))
     }
 
     /// The same with the picture moved by so many pixels, right and down; less than one in each direction.
@@ -258,6 +280,7 @@ impl View {
 impl FrameUniform {
     /// All that the shaders know of camera, lights and paper. `background`: linear colour and opacity.
     pub fn new(view: &View, sample: Sample, depth_range: Vec2, lights: &Lights, background: Vec4) -> Self {
+        let [cut, section] = view.cuts();
         let mut uniforms = [LightUniform::default(); MAX_LIGHTS];
         for (uniform, light) in uniforms.iter_mut().zip(&lights.lights) {
             *uniform = light_uniform(light, &view.view_from_world);
@@ -281,7 +304,8 @@ impl FrameUniform {
             light_count: lights.lights.len().min(MAX_LIGHTS) as u32,
             center_depth: -view.view_from_world.transform_point3(view.center).z as f32,
             cut_depth: if view.is_cut { view.clip_range[0] as f32 } else { 0.0 },
-            cut: view.cut.map_or(Vec4::ZERO, |cut| cut.as_vec4()),
+            cut: cut.as_vec4(),
+            section: section.as_vec4(),
             shadow_density: lights.density,
             background,
             lights: uniforms,

@@ -6,10 +6,12 @@ use glam::{DMat4, DVec3};
 use rayon::prelude::*;
 
 use super::frame_uniform::View;
-use crate::geometry::{Bounds, FeatureEdges, Mesh, NotFlat, Plane, Topology};
+use super::section::{Part, Section};
+use crate::document::Document;
+use crate::geometry::{Bounds, FeatureEdges, Mesh, NotFlat, Plane, Topology, Weld};
 use crate::gpu::geometry::{MeshRange, MeshSource};
 use crate::gpu::{GeometryBuffers, Gpu, GpuError, MaterialBindings};
-use crate::scene::{Addition, AlphaMode, NodeId, Scene};
+use crate::scene::{Addition, AlphaMode, Material, NodeId, Scene};
 
 /// Folds of additions that are sharper separate surfaces; radians.
 const ADDED_CREASE_ANGLE: f32 = 0.5;
@@ -23,8 +25,12 @@ pub struct GpuScene {
     model: Arc<Scene>,
     /// Its materials.
     pub materials: MaterialBindings,
+    /// Of the model, which materials let something show through anywhere.
+    blends: Arc<[bool]>,
     /// The meshes of the model, and those that were added: changing these touches nothing of the model.
     meshes: [MeshSet; 2],
+    /// Where it is cut open, if it is.
+    pub section: Option<Section>,
 }
 
 /// Which buffers hold a mesh.
@@ -34,6 +40,8 @@ pub enum Origin {
     Model,
     /// Those of the additions.
     Added,
+    /// [`Section::caps`].
+    Caps,
 }
 
 /// Meshes in one set of buffers.
@@ -44,6 +52,8 @@ struct MeshSet {
     bounds: Vec<Bounds>,
     /// The edges of each mesh that may become lines; empty until topology is known.
     edges: Vec<Arc<FeatureEdges>>,
+    /// Which vertices of each mesh are one point; empty until topology is known.
+    welds: Vec<Arc<Weld>>,
     /// Per mesh, whether it is solid; empty until topology is known.
     is_solid: Vec<bool>,
     /// The plane of each mesh, once somebody asked for it.
@@ -57,6 +67,7 @@ impl MeshSet {
             geometry: upload(gpu, meshes, topology)?,
             bounds: meshes.iter().map(|m| m.bounds()).collect(),
             edges: edges(topology),
+            welds: welds(topology),
             is_solid: topology.iter().map(|t| t.is_solid).collect(),
             planes: meshes.iter().map(|_| OnceLock::new()).collect(),
         })
@@ -76,8 +87,10 @@ impl GpuScene {
     ) -> Result<Self, GpuError> {
         Ok(Self {
             materials: MaterialBindings::new(gpu, material_layout, scene)?,
+            blends: scene.materials.par_iter().enumerate().map(|(i, m)| blends(scene, i, m)).collect(),
             meshes: [MeshSet::new(gpu, &scene.meshes, topology)?, MeshSet::new(gpu, &[], &[])?],
             model: Arc::clone(scene),
+            section: None,
             scene: Arc::clone(scene),
         })
     }
@@ -87,7 +100,9 @@ impl GpuScene {
         let [model, _] = &mut self.meshes;
         model.geometry = uploaded.geometry;
         model.edges = uploaded.edges;
+        model.welds = uploaded.welds;
         model.is_solid = uploaded.is_solid;
+        self.section = None;
     }
 
     /// Puts these objects beside the model in place of those that were there; the model stays on the device as it is.
@@ -107,6 +122,7 @@ impl GpuScene {
         let (own, others) = scene.materials.split_at(self.model.materials.len());
         self.materials = self.materials.with_others(own.len(), others);
         self.scene = Arc::new(scene);
+        self.section = None;
         Ok(())
     }
 
@@ -146,9 +162,14 @@ impl GpuScene {
         (&self.meshes[origin as usize], number)
     }
 
-    /// Some of the buffers.
+    /// Some of the buffers. Without a section there are none of caps, nor is anything drawn that would be in them.
     pub fn geometry(&self, origin: Origin) -> &GeometryBuffers {
-        &self.meshes[origin as usize].geometry
+        let [model, added] = &self.meshes;
+        match (origin, &self.section) {
+            (Origin::Caps, Some(section)) => &section.caps,
+            (Origin::Added, _) => &added.geometry,
+            (Origin::Model | Origin::Caps, _) => &model.geometry,
+        }
     }
 
     /// Where a mesh lies in which buffers.
@@ -169,34 +190,75 @@ impl GpuScene {
         set.edges.get(number).map(Arc::as_ref)
     }
 
+    /// Which vertices of a mesh are one point, once topology is known.
+    pub fn weld(&self, mesh: usize) -> Option<&Weld> {
+        let (set, number) = self.set(mesh);
+        set.welds.get(number).map(Arc::as_ref)
+    }
+
     /// Whether a mesh is known to enclose a volume.
     pub fn is_solid(&self, mesh: usize) -> bool {
         let (set, number) = self.set(mesh);
         set.is_solid.get(number).copied().unwrap_or(false)
     }
 
-    /// Which side of a node's triangles nobody can see: solid meshes wholly before the eye show no back face.
+    /// Cuts it open as a document asks for. Returns whether that changed anything.
+    ///
+    /// # Errors
+    /// [`GpuError::TooLarge`].
+    pub fn cut(&mut self, gpu: &Gpu, document: &Document) -> Result<bool, GpuError> {
+        let section = Section::new(gpu, document, self, self.section.as_ref())?;
+        let is_same = match (&section, &self.section) {
+            (Some(new), Some(old)) => new.is_same_cut(old),
+            (new, old) => new.is_none() && old.is_none(),
+        };
+        self.section = section;
+        Ok(!is_same)
+    }
+
+    /// Whether a section leaves nothing of a node's mesh.
+    pub fn is_cut_away(&self, node: NodeId) -> bool {
+        self.section.as_ref().is_some_and(|section| *section.part(node) == Part::Gone)
+    }
+
+    /// Whether a node shows no inside: its mesh, or what a section leaves of it with its cap, encloses a volume.
+    pub fn shows_no_inside(&self, node: NodeId) -> bool {
+        match self.section.as_ref().and_then(|section| section.opened(node)) {
+            Some(opened) => opened.is_solid,
+            None => self.scene.nodes[node].mesh.is_some_and(|mesh| self.is_solid(mesh)),
+        }
+    }
+
+    /// Which side of a node's triangles nobody can see: solids wholly before the eye show no back face.
     pub fn hidden_side(
         &self,
-        mesh: usize,
+        node: NodeId,
         view_from_local: &DMat4,
         orthographic: bool,
     ) -> Option<wgpu::Face> {
-        let is_solid = self.is_solid(mesh);
-        let is_before_the_eye =
-            orthographic || self.mesh_bounds(mesh).transformed(view_from_local).max.z < 0.0;
+        let is_solid = self.shows_no_inside(node);
+        let bounds = self.scene.nodes[node].mesh.map_or(Bounds::EMPTY, |mesh| self.mesh_bounds(mesh));
+        let is_before_the_eye = orthographic || bounds.transformed(view_from_local).max.z < 0.0;
         let mirrored = view_from_local.determinant() < 0.0;
         (is_solid && is_before_the_eye).then_some(if mirrored { wgpu::Face::Front } else { wgpu::Face::Back })
     }
 
+    /// How a material uses its alpha: many files say of what is opaque everywhere that it blends.
+    pub fn alpha(&self, material: usize) -> AlphaMode {
+        let alpha = self.scene.materials.get(material).map_or(AlphaMode::Opaque, |m| m.alpha);
+        let is_opaque = alpha == AlphaMode::Blend && self.blends.get(material) == Some(&false);
+        if is_opaque { AlphaMode::Opaque } else { alpha }
+    }
+
+    /// How the materials of a node's parts use their alpha.
+    pub fn alphas(&self, node: NodeId) -> impl Iterator<Item = AlphaMode> {
+        let mesh = self.scene.nodes[node].mesh.and_then(|m| self.scene.meshes.get(m));
+        mesh.into_iter().flat_map(|mesh| mesh.parts.iter().map(|part| self.alpha(part.material)))
+    }
+
     /// Whether any material of a node has holes by alpha.
     pub fn has_holes(&self, node: NodeId) -> bool {
-        let mesh = self.scene.nodes[node].mesh.and_then(|m| self.scene.meshes.get(m));
-        mesh.is_some_and(|mesh| {
-            mesh.parts.iter().any(|part| {
-                self.scene.materials.get(part.material).is_some_and(|m| m.alpha != AlphaMode::Opaque)
-            })
-        })
+        self.alphas(node).any(|alpha| alpha != AlphaMode::Opaque)
     }
 
     /// Whether a node's mesh has texture coordinates.
@@ -237,15 +299,31 @@ impl GpuScene {
     }
 }
 
+/// Whether anything shows through a material anywhere.
+fn blends(scene: &Scene, number: usize, material: &Material) -> bool {
+    let image = material.base_color_texture.as_ref().and_then(|t| scene.textures.get(t.texture));
+    let has_alpha = |texels: &[u8]| texels.chunks_exact(4).any(|texel| texel[3] < u8::MAX);
+    let mut meshes = scene.meshes.iter().filter(|m| m.parts.iter().any(|part| part.material == number));
+    material.alpha == AlphaMode::Blend
+        && (material.base_color.w < 1.0
+            || image.is_some_and(|image| has_alpha(&image.rgba))
+            || meshes.any(|mesh| mesh.colors.iter().any(|color| color[3] < u8::MAX)))
+}
+
 /// The findings of topology on the device, for the scene from which they were made.
 pub struct UploadedTopology {
     geometry: GeometryBuffers,
     edges: Vec<Arc<FeatureEdges>>,
+    welds: Vec<Arc<Weld>>,
     is_solid: Vec<bool>,
 }
 
 fn edges(topology: &[Topology]) -> Vec<Arc<FeatureEdges>> {
     topology.iter().map(|t| Arc::clone(&t.edges)).collect()
+}
+
+fn welds(topology: &[Topology]) -> Vec<Arc<Weld>> {
+    topology.iter().map(|t| Arc::clone(&t.weld)).collect()
 }
 
 /// Uploads scenes, from any thread: large ones take longer than a window may wait. Clones share the device.
@@ -277,6 +355,7 @@ impl Uploader {
         Ok(UploadedTopology {
             geometry: upload(&self.gpu, &scene.meshes, topology)?,
             edges: edges(topology),
+            welds: welds(topology),
             is_solid: topology.iter().map(|t| t.is_solid).collect(),
         })
     }

@@ -15,6 +15,7 @@ use super::passes::gbuffer::{Detail, DrawCall, DrawUniform};
 use super::style_images::StyleImages;
 use crate::document::{Document, Show};
 use crate::geometry::Bounds;
+use crate::gpu::material::MaterialUniform;
 use crate::scene::{AlphaMode, NodeId};
 use crate::style::Technique;
 
@@ -45,12 +46,16 @@ pub struct VisiblePart {
     pub enhanced: bool,
     /// Whether its mesh has no normals, so that faces are flat.
     pub is_flat: bool,
-    /// Number of its mesh.
-    pub mesh: usize,
-    /// Where the object lies.
+    /// The box around its mesh, local space.
+    pub bounds: Bounds,
+    /// Its surfaces have smaller numbers than this.
+    pub surfaces: u32,
+    /// Local to world space.
     pub world_from_local: DMat4,
-    /// Number of its material.
+    /// Number of its material; none has that of a cap.
     pub material: usize,
+    /// Whether all of its object is drawn together with it.
+    pub is_whole: bool,
     /// The buffers that hold it.
     pub origin: Origin,
     /// Range of the index buffer.
@@ -61,10 +66,71 @@ pub struct VisiblePart {
     pub base_vertex: i32,
 }
 
+/// An object in a group.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Visible {
+    /// The object.
+    pub node: NodeId,
+    /// Whether its edges are drawn.
+    pub enhanced: bool,
+    parts: Parts,
+}
+
+/// Which parts of an object are in a group.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Parts {
+    All,
+    /// Those through which nothing shows.
+    Opaque,
+    /// The others.
+    Blended,
+}
+
+impl Visible {
+    /// Whether all of its parts are in the group.
+    pub fn is_whole(&self) -> bool {
+        self.parts == Parts::All
+    }
+
+    fn has(&self, material: usize, scene: &GpuScene) -> bool {
+        let blends = scene.alpha(material) == AlphaMode::Blend;
+        let is_in = match self.parts {
+            Parts::All => true,
+            Parts::Opaque => !blends,
+            Parts::Blended => blends,
+        };
+        // Nothing is left of what has no opacity at all.
+        is_in && !(blends && scene.scene.materials.get(material).is_some_and(|m| m.base_color.w <= 0.0))
+    }
+}
+
+impl VisiblePart {
+    /// Which side of its triangles nobody can see.
+    pub fn hidden_side(
+        &self,
+        scene: &GpuScene,
+        view_from_local: &DMat4,
+        orthographic: bool,
+    ) -> Option<wgpu::Face> {
+        // A cap closes what is cut open, whatever the side that it is seen from.
+        let hidden = || scene.hidden_side(self.node, view_from_local, orthographic);
+        (self.origin != Origin::Caps && self.is_whole).then(hidden).flatten()
+    }
+
+    /// What it is made of; a cap of the section's colour.
+    pub fn material(&self, scene: &GpuScene) -> MaterialUniform {
+        let own = scene.materials.uniform(self.material);
+        match (self.origin, &scene.section) {
+            (Origin::Caps, Some(section)) => own.with_color(section.style.color.to_linear()),
+            _ => own,
+        }
+    }
+}
+
 /// Objects that are drawn together.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Group {
-    visible: Vec<(NodeId, bool)>,
+    visible: Vec<Visible>,
     /// Edge parameters by object id; those of other objects draw nothing.
     pub edge_styles: Vec<EdgeUniform>,
     /// Whether any object with lines has holes by alpha.
@@ -82,6 +148,8 @@ pub struct Objects {
     pub masks: Group,
     /// Their hidden lines.
     pub hidden: Hidden,
+    /// Parts of the same techniques through which something shows.
+    pub blended: Group,
     /// The others, together where their style is equal.
     pub blueprints: Vec<Blueprint>,
     /// The box around everything visible, world space.
@@ -94,19 +162,21 @@ pub struct Objects {
     pub halftones: Halftones,
     /// The mirrors among them.
     pub mirrors: Vec<Mirror>,
+    /// Pixels per reference pixel.
+    pub scale: f32,
 }
 
 impl Objects {
     /// Resolves styles and roles of a document for the nodes of a scene; `scale`: pixels per reference pixel.
     pub fn new(document: &Document, scene: &GpuScene, images: &StyleImages, scale: f32) -> Self {
         let resolved = document.resolve(&scene.scene);
-        let mut objects = Self::default();
+        let mut objects = Self { scale, ..Self::default() };
         // What is not drawn, entry 0 (the background) included, has neither shading nor lines.
         let count = resolved.len() + 1;
         objects.surfaces.edge_styles = vec![EdgeUniform::default(); count];
         objects.surface_styles = vec![SurfaceUniform::default(); count];
         for (node, r) in resolved.iter().enumerate() {
-            if !r.visible || scene.scene.nodes[node].mesh.is_none() {
+            if !r.visible || scene.scene.nodes[node].mesh.is_none() || scene.is_cut_away(node) {
                 continue;
             }
             let id = object_id(node) as usize;
@@ -122,23 +192,33 @@ impl Objects {
             // A look at a buffer is one at that of surfaces, which every object then is.
             let has_layers = r.style.technique == Technique::Blueprint && document.view.show == Show::Picture;
             let is_blueprint = has_layers && !r.mask;
-            let group = if is_blueprint {
-                Blueprint::group_of(&mut objects.blueprints, r.style, count)
-            } else {
-                &mut objects.surfaces
-            };
-            group.visible.push((node, r.enhanced));
+            // Mirrors and masks show and hide as a whole.
+            let blends = document.view.show == Show::Picture && !has_layers && !r.mask && !r.mirror;
+            let is_blended = |alpha: AlphaMode| blends && alpha == AlphaMode::Blend;
+            let has_blended = scene.alphas(node).any(is_blended);
+            let is_opaque = !has_blended || !scene.alphas(node).all(is_blended);
+            if has_blended && objects.blended.visible.is_empty() {
+                objects.blended = Group::with_hidden(count);
+            }
+            let edges = EdgeUniform::new(&r.style.edges, scale);
+            let edges = if has_layers { edges.inked(&r.style.edges, r.style.blueprint.near) } else { edges };
+            let whole = Visible { node, enhanced: r.enhanced, parts: Parts::All };
+            if is_blueprint {
+                let group = Blueprint::group_of(&mut objects.blueprints, r.style, count);
+                group.add(whole, edges, scene);
+            } else if is_opaque {
+                let parts = if has_blended { Parts::Opaque } else { Parts::All };
+                objects.surfaces.add(Visible { parts, ..whole }, edges, scene);
+                if r.enhanced && document.view.show == Show::Picture {
+                    objects.hidden.add((count, id), &r.style.edges, scale);
+                }
+            }
+            if has_blended {
+                let parts = if is_opaque { Parts::Blended } else { Parts::All };
+                objects.blended.add(Visible { parts, ..whole }, edges, scene);
+            }
             if r.mask {
-                objects.masks.visible.push((node, r.enhanced));
-            }
-            if r.enhanced {
-                let edges = EdgeUniform::new(&r.style.edges, scale);
-                group.edge_styles[id] =
-                    if has_layers { edges.inked(&r.style.edges, r.style.blueprint.near) } else { edges };
-                group.has_holes |= scene.has_holes(node);
-            }
-            if r.enhanced && !is_blueprint && document.view.show == Show::Picture {
-                objects.hidden.add((count, id), &r.style.edges, scale);
+                objects.masks.visible.push(whole);
             }
             if r.mirror
                 && !is_blueprint
@@ -159,7 +239,7 @@ impl Objects {
 
     /// All visible objects.
     fn groups(&self) -> impl Iterator<Item = &Group> {
-        std::iter::once(&self.surfaces).chain(self.blueprints.iter().map(|b| &b.group))
+        [&self.surfaces, &self.blended].into_iter().chain(self.blueprints.iter().map(|b| &b.group))
     }
 
     /// Greatest distance from its spine at which a line has ink, px.
@@ -169,8 +249,8 @@ impl Objects {
 
     /// The boxes of the enhanced objects, each in its own space, and where that lies.
     pub fn enhanced_boxes<'a>(&'a self, scene: &'a GpuScene) -> impl Iterator<Item = (Bounds, DMat4)> + 'a {
-        let enhanced = self.groups().flat_map(|group| &group.visible).filter(|(_, enhanced)| *enhanced);
-        enhanced.filter_map(|(id, _)| box_of(*id, scene))
+        let enhanced = self.groups().flat_map(|group| &group.visible).filter(|object| object.enhanced);
+        enhanced.filter_map(|object| box_of(object.node, scene))
     }
 }
 
@@ -178,6 +258,15 @@ impl Group {
     /// Nothing of a scene with so many object ids; what is hidden is drawn too.
     pub fn with_hidden(count: usize) -> Self {
         Self { edge_styles: vec![EdgeUniform::default(); count], shows_hidden: true, ..Self::default() }
+    }
+
+    /// Adds an object with its lines.
+    fn add(&mut self, object: Visible, edges: EdgeUniform, scene: &GpuScene) {
+        self.visible.push(object);
+        if object.enhanced {
+            self.edge_styles[object_id(object.node) as usize] = edges;
+            self.has_holes |= scene.has_holes(object.node);
+        }
     }
 
     /// The same objects, what is hidden too, with lines by object id.
@@ -203,29 +292,61 @@ impl Group {
         self.boxes(scene).map(middle).sum::<f64>() / self.visible.len().max(1) as f64
     }
 
-    /// The visible objects, and whether each is enhanced.
-    pub fn visible(&self) -> &[(NodeId, bool)] {
+    /// The visible objects.
+    pub fn visible(&self) -> &[Visible] {
         &self.visible
     }
 
     /// The boxes of all visible objects, each in its own space, and where that lies.
     pub fn boxes<'a>(&'a self, scene: &'a GpuScene) -> impl Iterator<Item = (Bounds, DMat4)> + 'a {
-        self.visible.iter().filter_map(|(id, _)| box_of(*id, scene))
+        self.visible.iter().filter_map(|object| box_of(object.node, scene))
     }
 
-    /// The parts of all visible objects.
+    /// The parts of all visible objects, and the caps of those that are cut open.
     pub fn parts<'a>(&'a self, scene: &'a GpuScene) -> impl Iterator<Item = VisiblePart> + 'a {
-        self.visible.iter().flat_map(move |&(id, enhanced)| {
+        self.parts_of_meshes(scene).chain(self.caps(scene))
+    }
+
+    fn caps<'a>(&'a self, scene: &'a GpuScene) -> impl Iterator<Item = VisiblePart> + 'a {
+        scene.section.iter().flat_map(move |section| {
+            self.visible.iter().filter(|object| object.parts != Parts::Blended).filter_map(move |object| {
+                let Visible { node, enhanced, .. } = *object;
+                let opened = section.opened(node)?;
+                let cap = opened.cap?;
+                Some(VisiblePart {
+                    node,
+                    enhanced,
+                    bounds: cap.bounds,
+                    surfaces: cap.surface + 1,
+                    is_flat: true,
+                    world_from_local: section.world_from_cap(opened),
+                    material: usize::MAX,
+                    is_whole: true,
+                    origin: Origin::Caps,
+                    first_index: cap.range.first_index,
+                    index_count: cap.index_count,
+                    base_vertex: cap.range.base_vertex,
+                })
+            })
+        })
+    }
+
+    fn parts_of_meshes<'a>(&'a self, scene: &'a GpuScene) -> impl Iterator<Item = VisiblePart> + 'a {
+        self.visible.iter().flat_map(move |object| {
+            let Visible { node: id, enhanced, .. } = *object;
             let node = &scene.scene.nodes[id];
             let found = node.mesh.and_then(|m| Some((m, scene.scene.meshes.get(m)?, scene.range_of(m)?)));
             found.into_iter().flat_map(move |(mesh, source, (origin, range))| {
-                source.parts.iter().map(move |part| VisiblePart {
+                let parts = source.parts.iter().filter(|part| object.has(part.material, scene));
+                parts.map(move |part| VisiblePart {
                     node: id,
                     enhanced,
-                    mesh,
+                    bounds: scene.mesh_bounds(mesh),
+                    surfaces: source.triangle_count() as u32,
                     is_flat: source.normals.is_empty(),
                     world_from_local: node.world_from_local,
                     material: part.material,
+                    is_whole: object.is_whole(),
                     origin,
                     first_index: range.first_index + part.first_index,
                     index_count: part.index_count,
@@ -246,18 +367,17 @@ impl Group {
             if view.cut.is_some() && scene.scene.facing_of(part.node).is_some() {
                 continue;
             }
-            let local_bounds = scene.mesh_bounds(part.mesh);
-            if view.cut.is_some()
+            if view.has_cuts()
                 && view
-                    .cuts_off(&local_bounds.corners().map(|corner| view_from_local.transform_point3(corner)))
+                    .cuts_off(&part.bounds.corners().map(|corner| view_from_local.transform_point3(corner)))
             {
                 continue;
             }
             let material = scene.scene.materials.get(part.material);
-            let alpha = material.map_or(AlphaMode::Opaque, |m| m.alpha);
+            let alpha = scene.alpha(part.material);
             let has_images =
                 material.is_some_and(|m| m.base_color_texture.is_some() || m.normal_texture.is_some());
-            let depth = -local_bounds.transformed(&view_from_local).max.z;
+            let depth = -part.bounds.transformed(&view_from_local).max.z;
             let call = DrawCall {
                 draw: draws.len() as u32,
                 origin: part.origin,
@@ -273,32 +393,31 @@ impl Group {
                     Detail::Smooth
                 },
                 hidden_side: if alpha == AlphaMode::Opaque && !self.shows_hidden {
-                    scene.hidden_side(part.mesh, &view_from_local, view.orthographic)
+                    part.hidden_side(scene, &view_from_local, view.orthographic)
                 } else {
                     None
                 },
             };
             calls.push((depth, call));
-            let triangles = scene.scene.meshes.get(part.mesh).map_or(0, |mesh| mesh.indices.len() as u32 / 3);
             let draw = DrawUniform {
                 view_from_local: view_from_local.as_mat4(),
                 normal_from_local: normal_matrix(&view_from_local),
                 object: object_id(part.node) | if part.enhanced { ENHANCED } else { 0 },
-                material: scene.materials.uniform(part.material),
+                material: part.material(scene),
                 is_flat: u32::from(part.is_flat),
                 first_surface: 0,
             };
-            draws.push((draw, triangles));
+            draws.push((draw, part.surfaces));
         }
         // Near ones first: what lies behind them is then never shaded.
         calls.sort_by(|(a, _), (b, _)| a.total_cmp(b));
         calls.sort_by_key(|(_, c)| (c.origin, c.detail, c.hidden_side.map(|s| s as u32)));
-        // A part has at most as many surfaces as its mesh has triangles; 0 is left for nothing.
+        // 0 is left for nothing.
         let mut first_surface = 1_u32;
         for (_, call) in &calls {
-            if let Some((draw, triangles)) = draws.get_mut(call.draw as usize) {
+            if let Some((draw, surfaces)) = draws.get_mut(call.draw as usize) {
                 draw.first_surface = first_surface;
-                first_surface = first_surface.saturating_add(*triangles);
+                first_surface = first_surface.saturating_add(*surfaces);
             }
         }
         (draws.into_iter().map(|(draw, _)| draw).collect(), calls.into_iter().map(|(_, call)| call).collect())

@@ -1,24 +1,34 @@
 //! A group cut into depth layers, one behind the other, and the lines of each (blueprints paper, sections 3 and 4.1).
 //!
 //! ```text
-//!            ┌──────────────────────────────────────────────┐
-//!            ▼                                              │
-//! draws ─► layer i ─► count ─► what the caller makes of it ─┘
+//! draws ─► fragment lists, where the device can
+//!            │┌──────────────────────────────────────────────┐
+//!            ▼▼                                              │
+//! (draws ─►) layer i ─► count ─► what the caller makes of it ─┘
 //!                       └─► gate: too few pixels shut it, or enough of the depth mask, and nothing after that runs
 //! ```
+//!
+//! How many layers are recorded, and how much room there is for fragments, is guessed from reports about earlier pictures;
+//! a wrong guess is reported too, and the picture drawn again.
 
-use crate::geometry::LineSegment;
+mod room;
+
+pub use self::room::{LayersBy, Reason, Reported};
+
+use self::room::{Recorded, Room};
+use crate::document;
 use crate::gpu::{ArrayBuffer, DynamicBuffer, Gate, Gpu, Recorder, Reports, Target};
 use crate::render::RenderError;
 use crate::render::gpu_scene::GpuScene;
 use crate::render::passes::depth_mask::DepthMask;
-use crate::render::passes::edge_map::{EdgeInputs, EdgeMap, EdgeMapPass};
+use crate::render::passes::edge_map::{EdgeInputs, EdgeMap, edge_map};
 use crate::render::passes::edge_style::EdgeUniform;
 use crate::render::passes::gbuffer::{DrawCall, DrawUniform, GBufferPass};
 use crate::render::passes::line_distance::{Reach, line_distance};
 use crate::render::passes::lines::Lines;
 use crate::render::passes::peel::{Layer, MOST_LAYERS, Peel, PeelCount, Peeled, before_all};
 use crate::render::passes::repeated::{none_seen, without_repeated};
+use crate::render::passes::segments::Segments;
 
 /// Kinds of passes that a layer has beside the draws of its objects: room in the gate.
 const PASSES: usize = 24;
@@ -42,28 +52,8 @@ pub struct LayerInputs<'a> {
     pub mask: Option<&'a DepthMask>,
     /// See `mask`.
     pub fraction: f32,
-}
-
-/// More layers are recorded than the last report names, as there may be more by now.
-const MORE_LAYERS: u32 = 1;
-
-/// What is known of pictures that were drawn, from reports that come back some time after them.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Reported {
-    /// All of them are complete.
-    Complete,
-    /// Not yet all about the last one.
-    Waiting,
-    /// One was incomplete, as there was not room enough. Whoever wants it asks for it again: there is now.
-    Incomplete,
-}
-
-/// What the processor has to know of a frame to understand its report.
-#[derive(Debug, Clone, Copy)]
-struct Recorded {
-    /// So many layers were recorded, of so many that were asked for.
-    layers: u32,
-    most: u32,
+    /// How layers are to be made.
+    pub by: document::LayersBy,
 }
 
 /// What of the layers of a group lives across frames.
@@ -72,10 +62,9 @@ pub struct Layers {
     gate: Option<Gate>,
     count: PeelCount,
     reports: Reports<Recorded>,
-    /// The latest report.
-    last: Option<Peeled>,
-    /// How many layers there were then: how many to record is guessed from it; `None`: all.
-    guess: Option<u32>,
+    /// The latest report, and how those layers were made.
+    last: Option<(Peeled, LayersBy)>,
+    room: Room,
 }
 
 impl Layers {
@@ -87,27 +76,27 @@ impl Layers {
             count: PeelCount::new(gpu),
             reports: Reports::default(),
             last: None,
-            guess: None,
+            room: Room::default(),
         }
     }
 
     /// What has been reported since the last call. Never waits.
     pub fn take_reports(&mut self) -> Reported {
-        let mut reported = Reported::Complete;
-        if let Some((recorded, bytes)) = self.reports.take() {
-            let peeled = Peeled::from_bytes(&bytes);
-            let is_complete = peeled.has_ended == 1 || recorded.layers >= recorded.most;
-            self.guess = is_complete.then_some(peeled.layers + 1);
-            if !is_complete {
-                reported = Reported::Incomplete;
-            }
-            self.last = Some(peeled);
+        let Some((recorded, bytes)) = self.reports.take() else {
+            return if self.reports.is_waiting() { Reported::Waiting } else { Reported::Complete };
+        };
+        let peeled = Peeled::from_bytes(&bytes);
+        let is_complete = self.room.learn(&recorded, &peeled);
+        self.last = Some((peeled, recorded.by()));
+        match is_complete {
+            false => Reported::Incomplete,
+            true if self.reports.is_waiting() => Reported::Waiting,
+            true => Reported::Complete,
         }
-        if reported == Reported::Complete && self.reports.is_waiting() { Reported::Waiting } else { reported }
     }
 
-    /// How far the last picture came whose report has arrived.
-    pub fn last(&self) -> Option<&Peeled> {
+    /// How far the last picture came whose report has arrived, and how its layers were made.
+    pub fn last(&self) -> Option<&(Peeled, LayersBy)> {
         self.last.as_ref()
     }
 
@@ -128,47 +117,53 @@ impl Layers {
         inputs: &LayerInputs<'_>,
         draw: impl FnMut(&mut Recorder<'_>, u32, &Layer, &PeelCount) -> Result<(), RenderError>,
     ) -> Result<(), RenderError> {
+        let LayerInputs { scene, draws, calls, is_cut, .. } = *inputs;
         self.count.begin(rec.gpu, inputs.least.max(1), inputs.fraction);
+        let mut recorded = self.room.plan(rec.gpu, rec.size(), inputs.most.min(MOST_LAYERS), inputs.by);
         let mut gate = self.gate.take().unwrap_or_else(|| Gate::new(rec.gpu));
-        gate.clear(rec.gpu, inputs.calls.len() + PASSES)?;
+        gate.clear(rec.gpu, calls.len() + PASSES)?;
+        if let Ok(room) = &mut recorded.fragments {
+            *room = gbuffer_pass.lists.begin(rec, *room)?;
+            gbuffer_pass.collect(rec, scene, &mut self.draws, (draws, calls), is_cut, &self.count)?;
+        }
         let first = before_all(rec)?;
         rec.gate = Some(gate);
-        let peeled = self.peel(rec, gbuffer_pass, inputs, first, draw);
+        let drawn = self.draw_each(rec, gbuffer_pass, inputs, recorded, first, draw);
         self.gate = rec.gate.take();
-        let most = inputs.most.min(MOST_LAYERS);
-        self.reports.send(rec, self.count.buffer(), Recorded { layers: self.recorded(most), most });
+        self.reports.send(rec, self.count.buffer(), recorded);
         if let Some(gate) = &self.gate {
             gate.open(rec.gpu);
         }
-        peeled
+        drawn
     }
 
-    /// How many of so many layers are recorded. The guess decides nothing: when it is wrong, the report says so.
-    fn recorded(&self, most: u32) -> u32 {
-        self.guess.map_or(most, |guess| (guess + MORE_LAYERS).min(most))
-    }
-
-    fn peel(
+    fn draw_each(
         &mut self,
         rec: &mut Recorder<'_>,
         gbuffer_pass: &mut GBufferPass,
         inputs: &LayerInputs<'_>,
-        [mut last_depth, mut last_order]: [Target; 2],
+        recorded: Recorded,
+        mut last: [Target; 2],
         mut draw: impl FnMut(&mut Recorder<'_>, u32, &Layer, &PeelCount) -> Result<(), RenderError>,
     ) -> Result<(), RenderError> {
         let LayerInputs { scene, draws, calls, is_cut, mask, .. } = *inputs;
-        for number in 0..self.recorded(inputs.most.min(MOST_LAYERS)) {
-            let order = rec.target("order", last_order.format())?;
-            let peel = Peel { last_depth: &last_depth, last_order: &last_order, order: &order };
-            let gbuffer =
-                gbuffer_pass.run(rec, scene, &mut self.draws, (draws, calls), is_cut, Some(&peel))?;
-            let layer = Layer { gbuffer, order };
+        for number in 0..recorded.layers {
+            let layer = match recorded.by() {
+                LayersBy::Lists => gbuffer_pass.lists.cut(rec, number, &last)?,
+                LayersBy::Peeling(_) => {
+                    let order = rec.target("order", last[1].format())?;
+                    let peel = Peel { last_depth: &last[0], last_order: &last[1], order: &order };
+                    let gbuffer =
+                        gbuffer_pass.run(rec, scene, &mut self.draws, (draws, calls), is_cut, Some(&peel))?;
+                    Layer { gbuffer, order }
+                }
+            };
             self.count.count(rec, &layer, mask)?;
             draw(rec, number, &layer, &self.count)?;
             if let Some(mask) = mask {
                 self.count.end_where_uncovered(rec, &layer, mask)?;
             }
-            (last_depth, last_order) = (layer.gbuffer.depth, layer.order);
+            last = [layer.gbuffer.depth, layer.order];
         }
         Ok(())
     }
@@ -176,7 +171,6 @@ impl Layers {
 
 /// What of the lines of layers lives across frames.
 pub struct LayerLines {
-    edge_map_pass: EdgeMapPass,
     edge_styles: ArrayBuffer,
     greatest_radius: ArrayBuffer,
 }
@@ -187,10 +181,10 @@ pub struct LayerLinesInputs<'a> {
     /// Edge styles by object id.
     pub styles: &'a [EdgeUniform],
     /// What topology knows, hidden edges included.
-    pub segments: &'a [LineSegment],
+    pub segments: &'a Segments,
     /// Whether any material of an object with lines has holes.
     pub has_holes: bool,
-    /// Whether what lies behind a plane is left out.
+    /// Whether what lies behind a mirror's plane is left out.
     pub is_cut: bool,
     /// See [`EdgeInputs::before`].
     pub before: Option<[&'a Target; 2]>,
@@ -230,7 +224,6 @@ impl LayerLines {
     /// Nothing drawn yet.
     pub fn new(gpu: &Gpu) -> Self {
         Self {
-            edge_map_pass: EdgeMapPass::new(gpu),
             edge_styles: ArrayBuffer::new(gpu, "edge styles of layers"),
             greatest_radius: ArrayBuffer::new(gpu, "greatest radius"),
         }
@@ -257,7 +250,7 @@ impl LayerLines {
         layer: &Layer,
         seen: &mut Option<Target>,
     ) -> Result<LayerEdges, RenderError> {
-        let mut edge_map = self.edge_map_pass.run(
+        let mut edge_map = edge_map(
             rec,
             &EdgeInputs {
                 gbuffer: &layer.gbuffer,

@@ -14,6 +14,7 @@ pub mod passes;
 mod renderer;
 pub mod sample;
 pub mod scale_bar;
+pub mod section;
 mod segments;
 pub mod shadows;
 pub mod stage;
@@ -21,7 +22,7 @@ mod style_images;
 
 pub use frame::Picture;
 pub use gpu_scene::{GpuScene, Origin, UploadedTopology, Uploader};
-pub use layers::Reported;
+pub use layers::{LayersBy, Reason, Reported};
 pub use renderer::{Pick, RenderError, Renderer, Request};
 pub use sample::Sample;
 pub use style_images::StyleImages;

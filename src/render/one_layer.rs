@@ -8,13 +8,16 @@ use super::frame_uniform::View;
 use super::layers::{LayerInputs, LayerLines, LayerLinesInputs, Layers};
 use super::passes::edge_style::EdgeUniform;
 use super::passes::gbuffer::{DrawCall, DrawUniform, GBuffer, GBufferPass};
+use super::passes::segments::Segments;
 use super::segments::segments;
 use super::stage::{Output, Stage};
+use crate::document::LayersBy;
 use crate::gpu::{Gpu, GpuError, Recorder, Target};
 
 /// What of that look lives across frames.
 pub(super) struct OneLayer {
     lines: LayerLines,
+    segments: Segments,
     stage: Stage<Inputs, (GBuffer, Target)>,
 }
 
@@ -35,7 +38,7 @@ struct Inputs {
 impl OneLayer {
     /// Nothing drawn yet.
     pub(super) fn new(gpu: &Gpu) -> Self {
-        Self { lines: LayerLines::new(gpu), stage: Stage::default() }
+        Self { lines: LayerLines::new(gpu), segments: Segments::new(gpu), stage: Stage::default() }
     }
 
     /// Lets go of the last one.
@@ -70,8 +73,8 @@ impl OneLayer {
             depth_range,
             crease_angle,
         };
-        let lines = &mut self.lines;
-        self.stage.run(asked, |asked| {
+        let Self { lines, segments: placed, stage } = self;
+        stage.run(asked, |asked| {
             let is_cut = view.cut.is_some();
             let cut = LayerInputs {
                 scene,
@@ -82,6 +85,8 @@ impl OneLayer {
                 least: 1,
                 mask: None,
                 fraction: 1.0,
+                // It cannot run out of room, which nobody would hear of.
+                by: LayersBy::Peeling,
             };
             let mut found = None;
             // A layer that has ended is empty, and nobody waits for the report about it.
@@ -91,9 +96,10 @@ impl OneLayer {
             })?;
             let Some(layer) = found else { return Err(GpuError::Lost("no layer".to_owned()).into()) };
             lines.begin(rec.gpu, &group.edge_styles);
+            placed.write(rec.gpu, &segments(scene, &group, view, crease_angle))?;
             let edges = LayerLinesInputs {
                 styles: &group.edge_styles,
-                segments: &segments(scene, &group, view, crease_angle),
+                segments: placed,
                 has_holes: group.has_holes,
                 is_cut,
                 repeated: true,

@@ -9,7 +9,7 @@ use super::frame::{FrameInputs, FrameState, Picture};
 use super::frame_uniform::View;
 use super::gpu_scene::{GpuScene, UploadedTopology, Uploader};
 use super::groups::{Objects, node_of};
-use super::layers::Reported;
+use super::layers::{LayersBy, Reported};
 use super::lights::Lights;
 use super::passes::accumulate::Subject;
 use super::passes::peel::Peeled;
@@ -126,10 +126,10 @@ impl Renderer {
         twin.pipelines = self.pipelines.clone();
         twin.scene = self.scene.clone();
         twin.scene_revision = self.scene_revision;
-        twin.additions = self.additions.clone();
         twin.glyphs = self.glyphs.clone();
         twin.has_new_additions = self.has_new_additions;
         twin.incomplete = self.incomplete;
+        twin.additions = self.additions.clone();
         twin.images = self.images.clone();
         twin.state.go_on_from(&self.state);
         twin
@@ -260,6 +260,9 @@ impl Renderer {
         let Some(scene) = &mut self.scene else {
             return Err(GpuError::Lost("no scene".to_owned()).into());
         };
+        if scene.cut(&self.gpu, request.document)? {
+            self.scene_revision += 1;
+        }
         let size = request.size.map(|s| s.max(1));
         let scale = size[1] as f32 / REFERENCE_HEIGHT as f32;
         let objects = Objects::new(request.document, scene, &self.images, scale);
@@ -274,7 +277,8 @@ impl Renderer {
         let sample = self.state.next_sample(subject, request.samples);
         let view = View::new(request.camera, &objects.visible_bounds, UVec2::from_array(size));
         scene.face(&view);
-        let view = view.moved(sample.jitter());
+        let scene = &*scene;
+        let view = view.moved(sample.jitter()).cut_at(scene.section.as_ref().map(|section| section.plane));
         let paper = request.document.paper().to_linear();
         let background = paper.extend(if request.transparent { 0.0 } else { 1.0 });
         let timers = self.timers.as_mut();
@@ -296,6 +300,7 @@ impl Renderer {
                 view: &view,
                 background,
                 keeps_layers: self.keeps_layers,
+                layers_by: request.document.view.layers,
                 reflections: request.document.view.reflections.round().clamp(0.0, 8.0) as u32,
             },
             show: request.document.view.show,
@@ -308,6 +313,7 @@ impl Renderer {
         let picture = self.state.record(&mut recorder, &inputs)?;
         recorder.submit();
         self.pool.shrink_to(size);
+        self.state.shrink(&self.gpu);
         self.last = Some((picture.clone(), view));
         Ok(picture)
     }
@@ -329,14 +335,14 @@ impl Renderer {
         reported
     }
 
-    /// How far the layers of each blueprint came in the last picture whose report has arrived, in the order of
-    /// [`Objects::blueprints`].
-    pub fn last_peeled(&self) -> Vec<Option<Peeled>> {
+    /// How far the layers of each blueprint came in the last picture whose report has arrived, and how they were made; in
+    /// the order of [`Objects::blueprints`].
+    pub fn last_peeled(&self) -> Vec<Option<(Peeled, LayersBy)>> {
         self.state.drawing().last_peeled()
     }
 
     /// The same of the blueprint that objects of this style are in; `None` if there is none, or if nothing is known yet.
-    pub fn last_peeled_of(&self, style: &Style) -> Option<&Peeled> {
+    pub fn last_peeled_of(&self, style: &Style) -> Option<&(Peeled, LayersBy)> {
         self.state.drawing().last_peeled_of(style)
     }
 

@@ -4,7 +4,9 @@ use super::frame_uniform::View;
 use super::gpu_scene::GpuScene;
 use super::groups::{Group, object_id, region};
 use super::passes::edge_style::EdgeUniform;
-use crate::geometry::line_segments::{Dashes, LineView, PlacedEdges, Wanted};
+use crate::geometry::line_segments::{
+    Dashes, LineView, PlacedContours, PlacedEdges, Wanted, contour_segments,
+};
 use crate::geometry::{ClassSet, EdgeClass, LineSegment, line_segments};
 
 /// Silhouettes, borders, creases and material boundaries of all objects of a group with exact lines, hidden ones included. Empty
@@ -16,10 +18,11 @@ pub(super) fn segments(scene: &GpuScene, group: &Group, view: &View, crease_angl
         projector: view.projector(),
         jitter: glam::DVec2::ZERO,
         margin: f64::from(margin),
-        cut: view.cut,
+        cuts: view.cuts(),
     };
     let mut all = Vec::new();
-    for &(node, enhanced) in group.visible() {
+    for object in group.visible() {
+        let (node, enhanced) = (object.node, object.enhanced);
         let id = object_id(node);
         let Some(style) = group.edge_styles.get(id as usize).filter(|s| enhanced && s.is_exact()) else {
             continue;
@@ -35,10 +38,21 @@ pub(super) fn segments(scene: &GpuScene, group: &Group, view: &View, crease_angl
             world_from_local: found.world_from_local,
             object: id,
             // What a solid hides is left out.
-            is_solid: scene.is_solid(index) && !group.shows_hidden,
+            is_solid: scene.shows_no_inside(node) && object.is_whole() && !group.shows_hidden,
         };
         let first = all.len();
-        line_segments(&placed, &view, &wanted(style, crease_angle), &mut all);
+        let wanted = wanted(style, crease_angle);
+        line_segments(&placed, &view, &wanted, &mut all);
+        if let Some((section, opened)) = scene.section.as_ref().and_then(|s| Some((s, s.opened(node)?))) {
+            let placed = PlacedContours {
+                contours: &opened.contours,
+                world_from_plane: section.world_from_cap(opened),
+                edges,
+                object: id,
+                cap: opened.cap.map(|cap| cap.surface),
+            };
+            contour_segments(&placed, &view, &wanted, &mut all);
+        }
         for segment in all.iter_mut().skip(first) {
             segment.surfaces = segment.surfaces.map(|surface| region(id, surface));
         }

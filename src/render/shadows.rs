@@ -1,11 +1,11 @@
 //! Shadow maps and the shadow mask: what of them has to be drawn again. Maps depend on lights and objects only, so that
 //! a turn of the camera redraws none of a light that stands still.
 
-use glam::{DMat4, Vec2};
+use glam::{DMat4, Vec2, Vec4};
 
 use super::RenderError;
 use super::drawing::DrawingInputs;
-use super::gpu_scene::GpuScene;
+use super::gpu_scene::{GpuScene, Origin};
 use super::groups::{Objects, VisiblePart};
 use super::light_view::{LightView, LookedAt, light_views};
 use super::lights::{MAX_SHADOWS, WorldLight};
@@ -92,7 +92,8 @@ fn seen_by(
     looked_at: &LookedAt,
     side: u32,
 ) -> ShadowScene {
-    let boxes: Vec<_> = objects.surfaces.boxes(scene).collect();
+    let groups = [&objects.surfaces, &objects.blended];
+    let boxes: Vec<_> = groups.iter().flat_map(|group| group.boxes(scene)).collect();
     let mut seen = ShadowScene {
         views: light_views(&light.kind, &boxes, looked_at, side),
         draws: Vec::new(),
@@ -102,10 +103,17 @@ fn seen_by(
     for (number, view) in seen.views.iter().enumerate() {
         let clip_from_world = view.clip_from_light() * view.light_from_world;
         let throws = |part: &VisiblePart| scene.scene.facing_of(part.node).is_none();
-        for part in objects.surfaces.parts(scene).filter(throws) {
-            let alpha = scene.scene.materials.get(part.material).map_or(AlphaMode::Opaque, |m| m.alpha);
-            let has_holes = alpha != AlphaMode::Opaque && scene.geometry(part.origin).attributes.is_some();
+        for part in groups.iter().flat_map(|group| group.parts(scene)).filter(throws) {
+            let alpha = scene.alpha(part.material);
+            let has_attributes = scene.geometry(part.origin).attributes.is_some();
+            let has_holes = alpha != AlphaMode::Opaque && has_attributes;
+            let opacity = scene.scene.materials.get(part.material).map_or(1.0, |m| m.base_color.w);
+            if alpha == AlphaMode::Blend && opacity < 0.5 {
+                continue;
+            }
             let light_from_local = view.light_from_world * part.world_from_local;
+            let section = scene.section.as_ref().filter(|s| s.opened(part.node).is_some());
+            let section = section.filter(|_| part.origin != Origin::Caps).map(|section| section.plane);
             seen.calls.push(ShadowCall {
                 draw: seen.draws.len() as u32,
                 view: number,
@@ -115,19 +123,22 @@ fn seen_by(
                 base_vertex: part.base_vertex,
                 material_group: scene.materials.group_index(part.material),
                 has_holes,
+                is_cut: section.is_some(),
                 hidden_side: if has_holes {
                     None
                 } else {
-                    scene.hidden_side(part.mesh, &light_from_local, !view.is_central)
+                    part.hidden_side(scene, &light_from_local, !view.is_central)
                 },
             });
             seen.draws.push(ShadowDraw {
                 clip_from_local: (clip_from_world * part.world_from_local).as_mat4(),
-                material: scene.materials.uniform(part.material),
+                material: part.material(scene).throwing_shadows(),
+                section: section
+                    .map_or(Vec4::ZERO, |plane| (part.world_from_local.transpose() * plane).as_vec4()),
             });
         }
     }
-    seen.calls.sort_by_key(|c| (c.view, c.origin, c.has_holes, c.hidden_side.map(|s| s as u32)));
+    seen.calls.sort_by_key(|c| (c.view, c.origin, c.has_holes, c.is_cut, c.hidden_side.map(|s| s as u32)));
     seen
 }
 
@@ -146,6 +157,20 @@ impl ShadowMask {
     /// How often it has been drawn.
     pub fn runs(&self) -> u64 {
         self.stage.runs()
+    }
+
+    /// The mask of a depth layer, always drawn anew.
+    ///
+    /// # Errors
+    /// [`RenderError`].
+    pub fn of_layer(
+        &mut self,
+        rec: &mut Recorder<'_>,
+        layer: &GBuffer,
+        drawing: &DrawingInputs<'_>,
+    ) -> Result<Option<Target>, RenderError> {
+        let maps: Vec<_> = drawing.shadow_maps.iter().map(|m| (m.views.as_slice(), &m.map.value)).collect();
+        self.pass.run(rec, layer, &drawing.view.view_from_world, &maps, drawing.lights.spread)
     }
 
     /// Channel i: how much of the light of channel i reaches each pixel; `None` when no light throws shadows.

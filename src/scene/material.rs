@@ -46,6 +46,8 @@ pub enum AlphaMode {
     Opaque,
     /// A pixel whose alpha lies below the cut-off (0 to 1) is a hole.
     Mask(f32),
+    /// What lies behind shows through.
+    Blend,
 }
 
 /// A use of an image: which, and how it lies on the surface.

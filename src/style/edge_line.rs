@@ -5,6 +5,9 @@ use super::edges::EdgeMode;
 use super::param::{Params, Place};
 use crate::geometry::EdgeClass;
 
+/// Width of section lines in reference pixels.
+const SECTION_WIDTH: f32 = 4.0;
+
 /// The look of a class of lines, complete.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Line {
@@ -49,7 +52,8 @@ impl ClassStyle {
             | EdgeClass::Border
             | EdgeClass::Object
             | EdgeClass::Material
-            | EdgeClass::Shadow => 0.0,
+            | EdgeClass::Shadow
+            | EdgeClass::Section => 0.0,
             EdgeClass::Ridge | EdgeClass::Valley => 30.0,
             EdgeClass::Intersection => 2.0,
             EdgeClass::Texture => 0.15,
@@ -57,7 +61,9 @@ impl ClassStyle {
         };
         // Materials and details are many in some files, and what they separate has colours of its own.
         let show = (class == EdgeClass::Material || class.is_detail()).then_some(false);
-        Self { show, color: None, strength: None, width: None, dashed: None, threshold }
+        // Where something is cut, draughtsmen draw the heaviest lines.
+        let width = (class == EdgeClass::Section).then_some(SECTION_WIDTH);
+        Self { show, color: None, strength: None, width, dashed: None, threshold }
     }
 
     /// Fills in from the group what is not set.
@@ -147,7 +153,7 @@ impl ClassStyle {
                         "Flatter steps of the relief draw nothing.",
                         threshold,
                     ),
-                    EdgeClass::Material | EdgeClass::Shadow => {}
+                    EdgeClass::Material | EdgeClass::Shadow | EdgeClass::Section => {}
                 }
             });
         });
@@ -168,6 +174,7 @@ fn words(class: EdgeClass) -> (&'static str, &'static str) {
         EdgeClass::Shadow => {
             ("Shadow borders", "Draw lines where cast shadows end, in drawings with shadows.")
         }
+        EdgeClass::Section => ("Section lines", "Draw lines where the section plane cuts a surface."),
         EdgeClass::Relief => ("Relief edges", "Draw lines where a normal map folds the surface."),
     }
 }

@@ -16,7 +16,7 @@ pub struct Edges {
     pub alignment: Alignment,
     /// The operator that finds depth discontinuities. Paper mode.
     pub operator: DepthOperator,
-    /// Profile edges: silhouettes, borders and the outlines of objects.
+    /// Profile edges: silhouettes, borders, the outlines of objects and of sections.
     pub profile: EdgeGroup<Profile>,
     /// Inner edges: creases, borders of materials, intersections.
     pub inner: EdgeGroup<Inner>,
@@ -271,6 +271,7 @@ mod tests {
             let (group, width) =
                 if class.is_profile() { (edges.profile.line(), 2.5) } else { (edges.inner.line(), 2.2) };
             let line = edges.line(class);
+            let width = if class == EdgeClass::Section { 4.0 } else { width };
             assert_eq!((line.color, line.strength, line.width), (group.color, 1.0, width), "{class:?}");
             assert_eq!(line.show, class != EdgeClass::Material && !class.is_detail());
         }

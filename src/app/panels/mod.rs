@@ -11,6 +11,7 @@ pub mod outliner;
 pub mod params;
 mod peeling;
 pub mod row;
+pub mod section;
 mod span;
 pub mod status;
 pub mod style;

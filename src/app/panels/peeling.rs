@@ -5,6 +5,7 @@ use eframe::egui::{RichText, Ui};
 
 use super::row::capitalised;
 use super::status::grouped;
+use crate::render::LayersBy;
 use crate::render::passes::peel::Peeled;
 
 /// The most that the list of layers is high, in points.
@@ -14,12 +15,17 @@ const LIST_HEIGHT: f32 = 150.0;
 const ROW_HEIGHT: f32 = 14.0;
 
 /// How far the last picture came, as far as that is known.
-pub(super) fn peeling_ui(ui: &mut Ui, peeled: &Peeled) {
+pub(super) fn peeling_ui(ui: &mut Ui, (peeled, by): &(Peeled, LayersBy)) {
     let title = format!("Layers drawn: {}", peeled.layers);
     let heading = egui::CollapsingHeader::new(RichText::new(title).strong()).id_salt("layers drawn");
     let shown = heading.default_open(true).show(ui, |ui| {
         layers_ui(ui, peeled);
-        ui.add(egui::Label::new(RichText::new(format!("Ended by: {}", peeled.ended())).weak().small()));
+        let made = match by {
+            LayersBy::Lists => "from lists of fragments",
+            LayersBy::Peeling(_) => "by peeling",
+        };
+        let text = format!("Made {made}; ended by: {}", peeled.ended());
+        ui.add(egui::Label::new(RichText::new(text).weak().small()).wrap());
         if peeled.masked > 0 {
             let uncovered = format!(
                 "{:.1} % uncovered, {} of {} pixels; {:.0} % asked for",
@@ -32,7 +38,7 @@ pub(super) fn peeling_ui(ui: &mut Ui, peeled: &Peeled) {
         }
     });
     shown.header_response.on_hover_text("Of the picture that is seen, without its mirrors");
-    if let Some(shortfall) = peeled.shortfall() {
+    for shortfall in by.shortfall().into_iter().chain(peeled.shortfall()) {
         let color = ui.visuals().warn_fg_color;
         ui.add(egui::Label::new(RichText::new(capitalised(&shortfall)).color(color)).wrap());
     }

@@ -3,7 +3,7 @@
 use eframe::egui;
 use std::path::PathBuf;
 
-use eframe::egui::{Color32, RichText, Ui};
+use eframe::egui::{Color32, RichText, Ui, WidgetText};
 
 use super::icons;
 use crate::style::Value;
@@ -12,7 +12,7 @@ use crate::style::param::{Param, Place, Slot};
 /// Width of the column of names.
 const LABEL_WIDTH: f32 = 108.0;
 
-/// Width of the column of numbers.
+/// Least width of the column of numbers.
 const NUMBER_WIDTH: f32 = 58.0;
 
 /// Width of a button that resets.
@@ -210,12 +210,15 @@ struct Number<'a> {
 impl Number<'_> {
     fn ui(self, ui: &mut Ui, value: &mut f64, label: egui::Id, help: &str) {
         let gap = ui.spacing().item_spacing.x;
-        ui.spacing_mut().slider_width = (ui.available_width() - NUMBER_WIDTH - gap).max(40.0);
+        let reach = self.soft.end() - self.soft.start();
+        let (speed, decimals) = (reach / 200.0, decimals_of(reach));
+        let suffix = if self.unit.is_empty() { String::new() } else { format!(" {}", self.unit) };
+        let width = number_width(ui, label, format!("{}{suffix}", short(*value, decimals)));
+        ui.spacing_mut().slider_width = (ui.available_width() - width - gap).max(40.0);
         let mut slider = egui::Slider::new(value, self.soft.clone())
             .show_value(false)
             .trailing_fill(true)
             .clamping(egui::SliderClamping::Edits);
-        let speed = (self.soft.end() - self.soft.start()) / 200.0;
         if self.is_whole {
             slider = slider.integer();
         }
@@ -223,15 +226,23 @@ impl Number<'_> {
         let mut number = egui::DragValue::new(value)
             .range(self.hard)
             .speed(speed)
-            .custom_formatter(|n, _| short(n))
-            .suffix(if self.unit.is_empty() { String::new() } else { format!(" {}", self.unit) });
+            .custom_formatter(move |n, _| short(n, decimals))
+            .suffix(suffix);
         if self.is_whole {
             number = number.fixed_decimals(0);
         }
-        ui.add_sized([NUMBER_WIDTH, ui.spacing().interact_size.y], number)
-            .labelled_by(label)
-            .on_hover_text(help);
+        ui.add_sized([width, ui.spacing().interact_size.y], number).labelled_by(label).on_hover_text(help);
     }
+}
+
+/// Room for a number, as wide as its row ever needed: where it did not fit, the panel would grow with it.
+fn number_width(ui: &Ui, row: egui::Id, text: String) -> f32 {
+    let galley = WidgetText::from(text).into_galley(ui, None, f32::INFINITY, egui::TextStyle::Button);
+    let needed = (galley.size().x + 2.0 * ui.spacing().button_padding.x).ceil();
+    let id = row.with("width of the number");
+    let widest = ui.data(|d| d.get_temp::<f32>(id)).unwrap_or(NUMBER_WIDTH).max(needed);
+    ui.data_mut(|d| d.insert_temp(id, widest));
+    widest
 }
 
 /// The name of a file, behind which a dialog opens, and a button that lets go of it. Returns whether another file is
@@ -307,9 +318,16 @@ fn slot_ui(ui: &mut Ui, param: &mut Param<'_>, label: egui::Id, help: &str) -> b
     false
 }
 
-/// At most three decimals and no trailing zeros.
-fn short(number: f64) -> String {
-    let text = format!("{number:.3}");
+/// How many decimals a number has whose slider reaches so far.
+fn decimals_of(reach: f64) -> usize {
+    let digits = reach.log10().floor();
+    let decimals = if digits < 0.0 { (2.0 - digits).clamp(3.0, 9.0) } else { (4.0 - digits).clamp(0.0, 3.0) };
+    decimals as usize
+}
+
+/// At most so many decimals and no trailing zeros.
+fn short(number: f64, decimals: usize) -> String {
+    let text = format!("{number:.decimals$}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
@@ -320,6 +338,8 @@ mod tests {
     #[test]
     fn names_and_numbers_are_written_for_people() {
         assert_eq!(label_of("face_normals"), "Face normals");
-        assert_eq!(["2.5", "30", "0.1"], [2.5, 30.0, 0.1_f32.into()].map(short));
+        assert_eq!(["2.5", "30", "0.1"], [2.5, 30.0, 0.1_f32.into()].map(|n| short(n, decimals_of(1.0))));
+        assert_eq!([5e4, 360.0, 20.0, 0.5, 0.02].map(decimals_of), [0, 2, 3, 3, 4]);
+        assert_eq!((short(0.00015, decimals_of(0.002)), decimals_of(0.0)), ("0.00015".to_owned(), 9));
     }
 }

@@ -1,4 +1,4 @@
-//! How the picture is shown: axis, unit, projection, paper, smoothness.
+//! How the picture is shown: axis, unit, projection, paper, smoothness, section plane.
 
 use eframe::egui;
 use eframe::egui::Ui;
@@ -6,6 +6,7 @@ use eframe::egui::Ui;
 use super::Editing;
 use super::params::params_ui;
 use super::row::named_row;
+use super::section::section_ui;
 use crate::app::navigation::with_view_angle;
 use crate::app::state::Samples;
 use crate::document::View;
@@ -124,7 +125,9 @@ pub fn view_ui(ui: &mut Ui, editing: &mut Editing<'_>, samples: &mut Samples) ->
             combo.response.labelled_by(label);
         });
     }
-    document.up(scene) != before
+    let is_turned = document.up(scene) != before;
+    section_ui(ui, editing);
+    is_turned
 }
 
 fn samples_name(samples: u32) -> String {

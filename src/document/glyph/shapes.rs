@@ -159,7 +159,7 @@ impl Model<'_> {
 
     /// Whether a point is so far away that nothing else would be seen beside it, or nowhere.
     fn is_too_far(&self, point: DVec3) -> bool {
-        !(point.distance(self.center) <= FARTHEST * self.diagonal)
+        !point.is_finite() || point.distance(self.center) > FARTHEST * self.diagonal
     }
 
     fn absolute(&self, thickness: f32) -> f64 {

@@ -132,7 +132,7 @@ fn arcs_go_on_beyond_the_sides_and_the_near_plane() {
     let projector =
         Projector { view_from_world: DMat4::IDENTITY, lens, size: [400, 300], near: 0.1, far: 100.0 };
     let found = |margin: f64| {
-        let view = LineView { projector, jitter: DVec2::ZERO, margin, cut: None };
+        let view = LineView { projector, jitter: DVec2::ZERO, margin, cuts: [glam::DVec4::ZERO; 2] };
         let segments = roof.segments(DMat4::IDENTITY, &view, &dashed());
         segments.into_iter().filter(|s| s.class == EdgeClass::Ridge as u32).collect::<Vec<_>>()
     };

@@ -21,8 +21,8 @@ struct Homogeneous {
     px: DVec2,
     w: f64,
     depth: f64,
-    /// Distance before the plane that cuts.
-    lead: f64,
+    /// Distances before the planes that cut.
+    leads: DVec2,
 }
 
 /// How local space is seen.
@@ -32,7 +32,7 @@ pub(super) struct PictureMap {
     y: DVec4,
     w: DVec4,
     depth: DVec4,
-    lead: DVec4,
+    leads: [DVec4; 2],
     near: f64,
     far: f64,
     /// Corners of the picture with its margin, in pixels.
@@ -42,7 +42,7 @@ pub(super) struct PictureMap {
 
 impl PictureMap {
     pub(super) fn new(view: &LineView, view_from_local: &DMat4) -> Self {
-        let LineView { projector, jitter, margin, cut } = view;
+        let LineView { projector, jitter, margin, cuts } = view;
         let size = DVec2::from(projector.size.map(f64::from));
         let depth = -view_from_local.row(2);
         let (w, pixels_per_unit, nearest) = match projector.lens {
@@ -55,7 +55,7 @@ impl PictureMap {
             y: -view_from_local.row(1) * pixels_per_unit + w * center.y,
             w,
             depth,
-            lead: cut.map_or(DVec4::ZERO, |cut| view_from_local.transpose() * cut),
+            leads: cuts.map(|cut| view_from_local.transpose() * cut),
             near: projector.near.max(nearest),
             far: projector.far,
             low: DVec2::splat(-margin),
@@ -94,7 +94,7 @@ impl PictureMap {
             return false;
         }
         let corners = bounds.corners().map(|corner| self.inside(&self.map(corner)));
-        (0..7).all(|side| corners.iter().any(|inside| inside[side] >= 0.0))
+        (0..8).all(|side| corners.iter().any(|inside| inside[side] >= 0.0))
     }
 
     fn cut<const N: usize>(
@@ -126,14 +126,14 @@ impl PictureMap {
             px: DVec2::new(self.x.dot(p), self.y.dot(p)),
             w: self.w.dot(p),
             depth: self.depth.dot(p),
-            lead: self.lead.dot(p),
+            leads: DVec2::from_array(self.leads.map(|lead| lead.dot(p))),
         }
     }
 
     /// Not negative where a point is inside of each of the planes.
-    fn inside(&self, p: &Homogeneous) -> [f64; 7] {
+    fn inside(&self, p: &Homogeneous) -> [f64; 8] {
         let (low, high) = (p.px - self.low * p.w, self.high * p.w - p.px);
-        [p.depth - self.near, self.far - p.depth, low.x, low.y, high.x, high.y, p.lead]
+        [p.depth - self.near, self.far - p.depth, low.x, low.y, high.x, high.y, p.leads.x, p.leads.y]
     }
 }
 
@@ -143,7 +143,7 @@ impl Homogeneous {
             px: self.px.lerp(other.px, t),
             w: self.w + (other.w - self.w) * t,
             depth: self.depth + (other.depth - self.depth) * t,
-            lead: self.lead + (other.lead - self.lead) * t,
+            leads: self.leads.lerp(other.leads, t),
         }
     }
 

@@ -26,7 +26,7 @@ pub(super) fn look_at(eye: DVec3) -> DMat4 {
 pub(super) fn look_from(eye: DVec3, lens: Lens) -> LineView {
     let projector =
         Projector { view_from_world: look_at(eye), lens, size: [800, 800], near: 0.01, far: 100.0 };
-    LineView { projector, jitter: DVec2::ZERO, margin: 64.0, cut: None }
+    LineView { projector, jitter: DVec2::ZERO, margin: 64.0, cuts: [glam::DVec4::ZERO; 2] }
 }
 
 /// All classes, creases from 30°.
@@ -207,7 +207,7 @@ fn segments_end_at_the_near_plane_and_beyond_the_sides() {
     for lens in LENSES {
         let projector =
             Projector { view_from_world: DMat4::IDENTITY, lens, size: [800, 600], near: 0.5, far: 100.0 };
-        let view = LineView { projector, jitter: DVec2::ZERO, margin: 64.0, cut: None };
+        let view = LineView { projector, jitter: DVec2::ZERO, margin: 64.0, cuts: [glam::DVec4::ZERO; 2] };
         let segments = bar.segments(place, &view, &everything());
         assert!(segments.len() >= 3, "{lens:?}: {}", segments.len());
         for segment in &segments {

@@ -157,10 +157,7 @@ fn convert_one(
     let cutoff = declared.alpha_cutoff.map_or(0.5, |c| c.0);
     let alpha = match declared.alpha_mode {
         Checked::Valid(DeclaredAlpha::Mask) => AlphaMode::Mask(cutoff),
-        Checked::Valid(DeclaredAlpha::Blend) => {
-            notes.push("it is partly transparent (alpha mode BLEND) but is drawn opaque".into());
-            AlphaMode::Opaque
-        }
+        Checked::Valid(DeclaredAlpha::Blend) => AlphaMode::Blend,
         Checked::Valid(DeclaredAlpha::Opaque) | Checked::Invalid => AlphaMode::Opaque,
     };
     Material {

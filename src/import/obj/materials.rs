@@ -119,11 +119,11 @@ fn read_images(
 }
 
 fn convert(mtl: &Mtl, images: &Images, assembly: &mut Assembly<'_>) -> Material {
-    if mtl.opacity < 1.0 {
-        assembly.warn(
-            "",
-            format!("the material `{}` is transparent (d = {}); it is drawn opaque", mtl.name, mtl.opacity),
-        );
+    // Some writers mean 1 by 0.
+    let opacity = if mtl.opacity > 0.0 { mtl.opacity.min(1.0) } else { 1.0 };
+    if opacity != mtl.opacity {
+        let (name, d) = (&mtl.name, mtl.opacity);
+        assembly.warn("", format!("the material `{name}` cannot be seen (d = {d}); it is drawn opaque"));
     }
     let reference = |map: &Option<Map>| {
         let map = map.as_ref()?;
@@ -143,11 +143,15 @@ fn convert(mtl: &Mtl, images: &Images, assembly: &mut Assembly<'_>) -> Material 
     };
     Material {
         name: mtl.name.clone(),
-        base_color: mtl.base_color(base_color_texture.is_some()),
+        base_color: mtl.base_color(base_color_texture.is_some()).truncate().extend(opacity),
         normal_texture: reference(&mtl.normal_map),
         normal_scale: mtl.normal_map.as_ref().map_or(1.0, |map| map.strength),
         base_color_texture,
-        alpha: if cut_out { AlphaMode::Mask(0.5) } else { AlphaMode::Opaque },
+        alpha: match (opacity < 1.0, cut_out) {
+            (true, _) => AlphaMode::Blend,
+            (false, true) => AlphaMode::Mask(0.5),
+            (false, false) => AlphaMode::Opaque,
+        },
         double_sided: true,
         unlit: false,
     }

@@ -11,17 +11,20 @@
 use encase::ShaderType;
 use glam::Vec3;
 
+use crate::document;
 use crate::gpu::recorder::{Draw, Input, Onto};
 use crate::gpu::{ArrayBuffer, DepthRule, Gpu, Program, Recorder, Target};
 use crate::render::RenderError;
 use crate::render::drawing::{Begun, DrawingInputs};
+use crate::render::effects::section::{CapUniform, caps};
 use crate::render::frame_uniform::FrameUniform;
 use crate::render::groups::Group;
-use crate::render::layers::{LayerInputs, LayerLines, LayerLinesInputs, Layers, Reported};
+use crate::render::layers::{LayerInputs, LayerLines, LayerLinesInputs, Layers, LayersBy, Reported};
 use crate::render::passes::depth_mask::DepthMask;
 use crate::render::passes::gbuffer::{DrawCall, DrawUniform, GBuffer, GBufferPass};
 use crate::render::passes::lines::{Pen, lines};
 use crate::render::passes::peel::{Layer, MOST_LAYERS, PeelCount, Peeled};
+use crate::render::passes::segments::Segments;
 use crate::render::segments::segments;
 use crate::render::stage::{Output, Stage};
 use crate::style::{self, Edges, Style, Technique};
@@ -119,14 +122,18 @@ struct Inputs {
     uniform: FrameUniform,
     part: Option<[u32; 4]>,
     crease_angle: f32,
+    caps: Vec<CapUniform>,
     keeps_layers: bool,
+    layers_by: document::LayersBy,
 }
 
 /// What of the drawing of a group lives across frames.
 pub struct Blueprints {
     layers: Layers,
     lines: LayerLines,
+    segments: Segments,
     style: ArrayBuffer,
+    caps: ArrayBuffer,
     stage: Stage<Inputs, Peels>,
 }
 
@@ -136,7 +143,9 @@ impl Blueprints {
         Self {
             layers: Layers::new(gpu),
             lines: LayerLines::new(gpu),
+            segments: Segments::new(gpu),
             style: ArrayBuffer::new(gpu, "blueprint"),
+            caps: ArrayBuffer::new(gpu, "caps"),
             stage: Stage::default(),
         }
     }
@@ -161,7 +170,7 @@ impl Blueprints {
     }
 
     /// How far the last picture came whose report has arrived.
-    pub fn last(&self) -> Option<&Peeled> {
+    pub fn last(&self) -> Option<&(Peeled, LayersBy)> {
         self.layers.last()
     }
 
@@ -195,21 +204,26 @@ impl Blueprints {
             uniform: uniform.without_background(),
             part: inputs.view.part,
             crease_angle: inputs.crease_angle,
+            caps: caps(inputs.scene, inputs.view, inputs.objects.scale),
             keeps_layers: inputs.keeps_layers,
+            layers_by: inputs.layers_by,
         };
-        let Self { layers, lines: layer_lines, style, stage } = self;
+        let Self { layers, lines: layer_lines, segments: placed, style, caps, stage } = self;
         stage.run(asked, |asked| {
             let Blueprint { group, style: params, .. } = blueprint;
             style.write(rec.gpu, &vec![BlueprintUniform::from(params)]);
+            let has_caps = !asked.caps.is_empty();
+            if has_caps {
+                caps.write(rec.gpu, &asked.caps);
+            }
             layer_lines.begin(rec.gpu, &group.edge_styles);
-            let segments =
-                segments(inputs.scene, group, &inputs.view.moved(glam::Vec2::ZERO), inputs.crease_angle);
-            let is_cut = inputs.view.cut.is_some();
+            let view = inputs.view.moved(glam::Vec2::ZERO);
+            placed.write(rec.gpu, &segments(inputs.scene, group, &view, inputs.crease_angle))?;
             let edges = LayerLinesInputs {
                 styles: &group.edge_styles,
-                segments: &segments,
+                segments: placed,
                 has_holes: group.has_holes,
-                is_cut,
+                is_cut: inputs.view.cut.is_some(),
                 before: None,
                 repeated: params.repeated,
             };
@@ -220,11 +234,12 @@ impl Blueprints {
                 scene: inputs.scene,
                 draws: &asked.draws,
                 calls: &asked.calls,
-                is_cut,
+                is_cut: inputs.view.has_cuts(),
                 most: blueprint.layers(),
                 least: blueprint.least(rec.size()),
                 mask: mask.map(|mask| &mask.value),
                 fraction: params.fraction,
+                by: inputs.layers_by,
             };
             layers.each(rec, gbuffer_pass, &cut, |rec, number, layer, count| {
                 if asked.keeps_layers {
@@ -255,8 +270,9 @@ impl Blueprints {
                     };
                     lines(rec, &found.lines(layer, layer_lines, edges.styles), &pen, &color)?;
                 }
-                if params.opacity > 0.0 {
-                    fill(rec, layer, layer_lines.edge_styles(), sprite, &color)?;
+                if params.opacity > 0.0 || has_caps {
+                    let caps = has_caps.then_some(caps.buffer());
+                    fill(rec, layer, layer_lines.edge_styles(), sprite, caps, &color)?;
                 }
                 Ok(())
             })?;
@@ -294,12 +310,13 @@ impl<'a> Sprite<'a> {
     }
 }
 
-/// Draws the surfaces of a layer beneath what is there.
+/// Draws the surfaces of a layer beneath what is there, `caps` (those by object id) with the pen of its lines.
 fn fill(
     rec: &mut Recorder<'_>,
     layer: &Layer,
     edge_styles: &wgpu::Buffer,
     sprite: Sprite<'_>,
+    caps: Option<&wgpu::Buffer>,
     color: &Target,
 ) -> Result<(), RenderError> {
     // Of the lines' bindings only the first is read: any texture of their kind.
@@ -312,18 +329,19 @@ fn fill(
         Input::Storage(edge_styles),
     ];
     inputs.extend(sprite.inputs(&layer.order));
+    inputs.extend([Input::Texture(&layer.gbuffer.region), Input::Storage(caps.unwrap_or(edge_styles))]);
     rec.draw(Draw {
         label: "fill",
         program: Program {
             file: "effects/blueprint.wgsl",
             entry_point: "fs_fill",
-            switches: vec![sprite.without_beyond()],
+            switches: vec![("WITH_CAPS", caps.is_some()), sprite.without_beyond()],
         },
         inputs: &inputs,
         outputs: &[color],
         onto: Onto::Beneath,
         depth: Some((&layer.gbuffer.depth, DepthRule::Covered)),
-        lines: None,
+        points: None,
     })?;
     Ok(())
 }

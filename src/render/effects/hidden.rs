@@ -7,6 +7,7 @@
 //! visible edge map ──────────┘ no line twice
 //! ```
 
+use crate::document::LayersBy;
 use crate::gpu::recorder::{Input, Onto};
 use crate::gpu::{Gpu, Recorder, Target};
 use crate::render::RenderError;
@@ -19,6 +20,7 @@ use crate::render::passes::gbuffer::{DrawCall, DrawUniform, GBufferPass};
 use crate::render::passes::lines::{Pen, lines};
 use crate::render::passes::peel::PeelCount;
 use crate::render::passes::repeated::seen_lines;
+use crate::render::passes::segments::Segments;
 use crate::render::segments::segments;
 use crate::render::stage::{Output, Stage};
 use crate::style::Edges;
@@ -99,6 +101,7 @@ struct Inputs {
     uniform: FrameUniform,
     part: Option<[u32; 4]>,
     crease_angle: f32,
+    layers_by: LayersBy,
 }
 
 /// What of the drawing of hidden lines lives across frames.
@@ -106,13 +109,19 @@ pub struct HiddenLines {
     layers: Layers,
     /// By band.
     lines: Vec<LayerLines>,
+    segments: Segments,
     stage: Stage<Inputs, Target>,
 }
 
 impl HiddenLines {
     /// Nothing drawn yet.
     pub fn new(gpu: &Gpu) -> Self {
-        Self { layers: Layers::new(gpu), lines: Vec::new(), stage: Stage::default() }
+        Self {
+            layers: Layers::new(gpu),
+            lines: Vec::new(),
+            segments: Segments::new(gpu),
+            stage: Stage::default(),
+        }
     }
 
     /// What became of the last pictures; one that was incomplete is drawn again when it is asked for.
@@ -159,17 +168,17 @@ impl HiddenLines {
             uniform: uniform.without_background(),
             part: inputs.view.part,
             crease_angle: inputs.crease_angle,
+            layers_by: inputs.layers_by,
         };
-        let Self { layers, lines: band_lines, stage } = self;
+        let Self { layers, lines: band_lines, segments: placed, stage } = self;
         stage.run(asked, |asked| {
             let bands = hidden.bands();
             band_lines.resize_with(bands.len(), || LayerLines::new(rec.gpu));
             for (lines, band) in band_lines.iter_mut().zip(&bands) {
                 lines.begin(rec.gpu, &band.styles);
             }
-            let segments =
-                segments(inputs.scene, &group, &inputs.view.moved(glam::Vec2::ZERO), inputs.crease_angle);
-            let is_cut = inputs.view.cut.is_some();
+            let view = inputs.view.moved(glam::Vec2::ZERO);
+            placed.write(rec.gpu, &segments(inputs.scene, &group, &view, inputs.crease_angle))?;
             let color = rec.target("hidden lines", wgpu::TextureFormat::Rgba16Float)?;
             rec.clear("hidden lines", &color);
             let mut seen = match visible {
@@ -180,11 +189,12 @@ impl HiddenLines {
                 scene: inputs.scene,
                 draws: &asked.draws,
                 calls: &asked.calls,
-                is_cut,
+                is_cut: inputs.view.has_cuts(),
                 most: bands.last().map_or(0, |band| band.last) + 1,
                 least: hidden.least(rec.size()),
                 mask: None,
                 fraction: 1.0,
+                by: inputs.layers_by,
             };
             let mut before: Option<[Target; 2]> = None;
             layers.each(rec, gbuffer_pass, &cut, |rec, number, layer, _| {
@@ -196,9 +206,9 @@ impl HiddenLines {
                 let Some((band, band_lines)) = band.filter(|_| number > 0) else { return Ok(()) };
                 let edges = LayerLinesInputs {
                     styles: &band.styles,
-                    segments: &segments,
+                    segments: placed,
                     has_holes: group.has_holes,
-                    is_cut,
+                    is_cut: inputs.view.cut.is_some(),
                     before: regions.as_ref().map(|[last, before_that]| [last, before_that]),
                     repeated: false,
                 };

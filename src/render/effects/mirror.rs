@@ -132,7 +132,7 @@ pub fn mirror(
         outputs: &[color],
         onto: Onto::Blended,
         depth: Some((&gbuffer.depth, DepthRule::Covered)),
-        lines: None,
+        points: None,
     })?;
     Ok(())
 }

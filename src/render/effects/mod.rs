@@ -1,9 +1,11 @@
 //! What an object looks like: one file per effect, named as its style and its shader.
 
+pub mod blended;
 pub mod blueprint;
 pub mod gooch;
 pub mod halftone;
 pub mod hidden;
 pub mod mirror;
+pub mod section;
 pub mod surface;
 pub mod toon;

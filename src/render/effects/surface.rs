@@ -72,6 +72,8 @@ pub struct Shading<'a> {
     pub cartoon_map: Option<&'a Target>,
     /// What halftones need.
     pub halftones: HalftoneInputs<'a>,
+    /// Whether materials blend: then colours are as opaque as they are.
+    pub blends: bool,
 }
 
 /// Linear colour times opacity, and opacity. Nothing where there is no object.
@@ -87,6 +89,7 @@ pub fn surface(
     let uses = |technique| shading.surfaces.iter().any(|s| s.technique == technique);
     let mut switches = vec![
         ("WITH_SHADOWS", shading.shadow_mask.is_some()),
+        ("WITH_OPACITY", shading.blends),
         ("WITH_PLAIN", uses(PLAIN)),
         ("WITH_GOOCH", uses(GOOCH)),
         ("WITH_METAL", shading.surfaces.iter().any(|s| s.gooch.has_metal())),

@@ -86,7 +86,7 @@ impl DepthMaskPass {
             let designated = if objects.masks.visible() == objects.surfaces.visible() {
                 surfaces.value.clone()
             } else {
-                gbuffer_pass.run(rec, scene, buffer, (draws, calls), view.cut.is_some(), None)?
+                gbuffer_pass.run(rec, scene, buffer, (draws, calls), view.has_cuts(), None)?
             };
             rec.encoder.clear_buffer(count, 0, None);
             let [width, height] = rec.size();

@@ -7,9 +7,10 @@
 use super::edge_style::EdgeUniform;
 use super::gbuffer::GBuffer;
 use super::operators::paper_edges;
-use crate::geometry::{EdgeClass, LineSegment};
+use super::segments::{SegmentInputs, Segments};
+use crate::geometry::EdgeClass;
 use crate::gpu::recorder::{Draw, Input, Onto};
-use crate::gpu::{DepthRule, Gpu, Program, RecordBuffer, Recorder, Target};
+use crate::gpu::{DepthRule, Program, Recorder, Target};
 use crate::render::RenderError;
 
 const EDGE_MAP: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Uint;
@@ -29,11 +30,6 @@ pub struct EdgeMap {
     pub has_paper: bool,
 }
 
-/// What makes the edge map.
-pub struct EdgeMapPass {
-    segments: RecordBuffer,
-}
-
 /// What the edge map is made of.
 #[derive(Clone, Copy)]
 pub struct EdgeInputs<'a> {
@@ -44,10 +40,10 @@ pub struct EdgeInputs<'a> {
     /// The same on the device.
     pub edge_styles: &'a wgpu::Buffer,
     /// What topology knows, for the view of the G-buffer.
-    pub segments: &'a [LineSegment],
+    pub segments: &'a Segments,
     /// Whether any material of an object with lines has holes.
     pub has_holes: bool,
-    /// Whether what lies behind a plane is left out.
+    /// Whether what lies behind a mirror's plane is left out.
     pub is_cut: bool,
     /// Whether the G-buffer is a depth layer, which may lie behind a segment that belongs to a nearer one.
     pub is_layer: bool,
@@ -58,143 +54,118 @@ pub struct EdgeInputs<'a> {
     pub shadow_mask: Option<&'a Target>,
 }
 
-impl EdgeMapPass {
-    /// Holds nothing yet.
-    pub fn new(gpu: &Gpu) -> Self {
-        Self { segments: RecordBuffer::new(gpu, "segments") }
+/// Makes the edge map: exact edges first, then those of the papers' operators.
+///
+/// # Errors
+/// [`RenderError`].
+pub fn edge_map(rec: &mut Recorder<'_>, inputs: &EdgeInputs<'_>) -> Result<EdgeMap, RenderError> {
+    let edge_map = rec.target("edge map", EDGE_MAP)?;
+    let mut spines = None;
+    let mut onto = Onto::Nothing;
+    if inputs.styles.iter().any(EdgeUniform::is_exact) {
+        spines = Some(exact_edges(rec, inputs, &edge_map)?);
+        onto = Onto::Old;
     }
-
-    /// Makes the edge map: exact edges first, then those of the papers' operators.
-    ///
-    /// # Errors
-    /// [`RenderError`].
-    pub fn run(&mut self, rec: &mut Recorder<'_>, inputs: &EdgeInputs<'_>) -> Result<EdgeMap, RenderError> {
-        let edge_map = rec.target("edge map", EDGE_MAP)?;
-        let mut spines = None;
-        let mut onto = Onto::Nothing;
-        if inputs.styles.iter().any(EdgeUniform::is_exact) {
-            spines = Some(self.exact_edges(rec, inputs, &edge_map)?);
-            onto = Onto::Old;
-        }
-        let has_paper = inputs.styles.iter().any(EdgeUniform::is_paper);
-        // Without exact edges it is this that clears the map.
-        if onto == Onto::Nothing || has_paper {
-            paper_edges(rec, inputs.gbuffer, inputs.styles, inputs.edge_styles, &edge_map, onto)?;
-        }
-        Ok(EdgeMap { edges: edge_map, spines, has_paper })
+    let has_paper = inputs.styles.iter().any(EdgeUniform::is_paper);
+    // Without exact edges it is this that clears the map.
+    if onto == Onto::Nothing || has_paper {
+        paper_edges(rec, inputs.gbuffer, inputs.styles, inputs.edge_styles, &edge_map, onto)?;
     }
+    Ok(EdgeMap { edges: edge_map, spines, has_paper })
+}
 
-    fn exact_edges(
-        &mut self,
-        rec: &mut Recorder<'_>,
-        inputs: &EdgeInputs<'_>,
-        edge_map: &Target,
-    ) -> Result<Target, RenderError> {
-        let EdgeInputs {
-            gbuffer,
-            styles,
-            edge_styles,
-            segments,
-            has_holes,
-            is_cut,
-            is_layer,
-            before,
-            shadow_mask,
-        } = *inputs;
-        let any = |has: fn(&EdgeUniform) -> bool| styles.iter().any(|s| s.is_exact() && has(s));
-        let variation =
-            [("WITH_VARIATION", any(EdgeUniform::varies)), ("WITH_PRESSURE", any(|s| s.pressure > 0.0))];
-        let with_angles = any(|s| s.by_angle > 0.0);
-        let spines = rec.target("spines", SPINES)?;
-        let marks = rec.target("segment marks", MARKS)?;
-        let order = rec.target("segment order", DEPTH)?;
-        self.segments.write(rec.gpu, segments)?;
+fn exact_edges(
+    rec: &mut Recorder<'_>,
+    inputs: &EdgeInputs<'_>,
+    edge_map: &Target,
+) -> Result<Target, RenderError> {
+    let EdgeInputs {
+        gbuffer,
+        styles,
+        edge_styles,
+        segments,
+        has_holes,
+        is_cut,
+        is_layer,
+        before,
+        shadow_mask,
+    } = *inputs;
+    let any = |has: fn(&EdgeUniform) -> bool| styles.iter().any(|s| s.is_exact() && has(s));
+    let variation =
+        [("WITH_VARIATION", any(EdgeUniform::varies)), ("WITH_PRESSURE", any(|s| s.pressure > 0.0))];
+    let with_angles = any(|s| s.by_angle > 0.0);
+    let spines = rec.target("spines", SPINES)?;
+    let marks = rec.target("segment marks", MARKS)?;
+    let order = rec.target("segment order", DEPTH)?;
+    let switches: Vec<_> = [("WITH_HOLES", has_holes), ("IN_LAYER", is_layer), ("WITH_ANGLES", with_angles)]
+        .into_iter()
+        .chain(variation)
+        .collect();
+    let tested = SegmentInputs { gbuffer, edge_styles, switches: &switches };
+    segments.draw(rec, &tested, &[edge_map, &spines, &marks], &order)?;
+
+    let inputs = [
+        Input::Texture(&gbuffer.geometry),
+        Input::Texture(&gbuffer.region),
+        Input::Storage(edge_styles),
+        Input::Texture(&marks),
+        // Unread unless it is a layer.
+        Input::Texture(before.map_or(&gbuffer.region, |[before, _]| before)),
+        Input::Texture(before.map_or(&gbuffer.region, |[_, before_that]| before_that)),
+    ];
+    let switches = [("WITH_CUT", is_cut), ("WITH_LAYERS_BEFORE", before.is_some())]
+        .into_iter()
+        .chain(variation)
+        .collect::<Vec<_>>();
+    let program = |entry_point| Program {
+        file: "passes/discontinuities.wgsl",
+        entry_point,
+        switches: switches.clone(),
+    };
+    let [texture, relief, shadow] = [EdgeClass::Texture, EdgeClass::Relief, EdgeClass::Shadow]
+        .map(|class| styles.iter().any(|s| s.is_exact() && s.draws(class)));
+    let shadow = shadow && shadow_mask.is_some();
+    if texture || relief || shadow {
+        let mut switches = vec![("WITH_TEXTURE", texture), ("WITH_RELIEF", relief), ("WITH_SHADOW", shadow)];
+        switches.extend(variation);
         rec.draw(Draw {
-            label: "segments",
-            program: Program {
-                file: "passes/segments.wgsl",
-                entry_point: "fs_main",
-                switches: [("WITH_HOLES", has_holes), ("IN_LAYER", is_layer), ("WITH_ANGLES", with_angles)]
-                    .into_iter()
-                    .chain(variation)
-                    .collect(),
-            },
+            label: "details",
+            program: Program { file: "passes/details.wgsl", entry_point: "fs_main", switches },
             inputs: &[
                 Input::Texture(&gbuffer.geometry),
                 Input::Texture(&gbuffer.region),
                 Input::Storage(edge_styles),
-                Input::Storage(self.segments.buffer()),
+                Input::Texture(&marks),
+                Input::Texture(&gbuffer.base_color),
+                // Unread without shadows.
+                Input::Texture(shadow_mask.unwrap_or(&gbuffer.base_color)),
             ],
-            outputs: &[edge_map, &spines, &marks],
-            onto: Onto::Nothing,
-            depth: Some((&order, DepthRule::Nearest)),
-            lines: Some(segments.len() as u32),
-        })?;
-
-        let inputs = [
-            Input::Texture(&gbuffer.geometry),
-            Input::Texture(&gbuffer.region),
-            Input::Storage(edge_styles),
-            Input::Texture(&marks),
-            // Unread unless it is a layer.
-            Input::Texture(before.map_or(&gbuffer.region, |[before, _]| before)),
-            Input::Texture(before.map_or(&gbuffer.region, |[_, before_that]| before_that)),
-        ];
-        let switches = [("WITH_CUT", is_cut), ("WITH_LAYERS_BEFORE", before.is_some())]
-            .into_iter()
-            .chain(variation)
-            .collect::<Vec<_>>();
-        let program = |entry_point| Program {
-            file: "passes/discontinuities.wgsl",
-            entry_point,
-            switches: switches.clone(),
-        };
-        let [texture, relief, shadow] = [EdgeClass::Texture, EdgeClass::Relief, EdgeClass::Shadow]
-            .map(|class| styles.iter().any(|s| s.is_exact() && s.draws(class)));
-        let shadow = shadow && shadow_mask.is_some();
-        if texture || relief || shadow {
-            let mut switches =
-                vec![("WITH_TEXTURE", texture), ("WITH_RELIEF", relief), ("WITH_SHADOW", shadow)];
-            switches.extend(variation);
-            rec.draw(Draw {
-                label: "details",
-                program: Program { file: "passes/details.wgsl", entry_point: "fs_main", switches },
-                inputs: &[
-                    Input::Texture(&gbuffer.geometry),
-                    Input::Texture(&gbuffer.region),
-                    Input::Storage(edge_styles),
-                    Input::Texture(&marks),
-                    Input::Texture(&gbuffer.base_color),
-                    // Unread without shadows.
-                    Input::Texture(shadow_mask.unwrap_or(&gbuffer.base_color)),
-                ],
-                outputs: &[edge_map, &spines],
-                onto: Onto::Old,
-                depth: Some((&gbuffer.depth, DepthRule::Covered)),
-                lines: None,
-            })?;
-        }
-
-        let borders = rec.target("surface borders", DEPTH)?;
-        rec.copy(&gbuffer.depth, &borders);
-        rec.draw(Draw {
-            label: "surface borders",
-            program: program("fs_borders"),
-            inputs: &inputs,
-            outputs: &[],
-            onto: Onto::Nothing,
-            depth: Some((&borders, DepthRule::MarkCovered)),
-            lines: None,
-        })?;
-        rec.draw(Draw {
-            label: "discontinuities",
-            program: program("fs_main"),
-            inputs: &inputs,
             outputs: &[edge_map, &spines],
             onto: Onto::Old,
-            depth: Some((&borders, DepthRule::Marked)),
-            lines: None,
+            depth: Some((&gbuffer.depth, DepthRule::Covered)),
+            points: None,
         })?;
-        Ok(spines)
     }
+
+    let borders = rec.target("surface borders", DEPTH)?;
+    rec.copy(&gbuffer.depth, &borders);
+    rec.draw(Draw {
+        label: "surface borders",
+        program: program("fs_borders"),
+        inputs: &inputs,
+        outputs: &[],
+        onto: Onto::Nothing,
+        depth: Some((&borders, DepthRule::MarkCovered)),
+        points: None,
+    })?;
+    rec.draw(Draw {
+        label: "discontinuities",
+        program: program("fs_main"),
+        inputs: &inputs,
+        outputs: &[edge_map, &spines],
+        onto: Onto::Old,
+        depth: Some((&borders, DepthRule::Marked)),
+        points: None,
+    })?;
+    Ok(spines)
 }

@@ -6,7 +6,8 @@ use encase::ShaderType;
 use glam::{Mat3, Mat4};
 
 use super::coordinates::CoordinatesPass;
-use super::peel::Peel;
+use super::fragment_lists::FragmentLists;
+use super::peel::{Peel, PeelCount};
 use crate::gpu::geometry::Attributes;
 use crate::gpu::material::MaterialUniform;
 use crate::gpu::recorder::color_attachment;
@@ -36,6 +37,18 @@ pub struct GBuffer {
     pub region: Target,
     /// Reversed depth.
     pub depth: Target,
+}
+
+impl GBuffer {
+    /// With undefined contents.
+    pub(super) fn new(rec: &mut Recorder<'_>) -> Result<Self, RenderError> {
+        Ok(Self {
+            geometry: rec.target("geometry", GEOMETRY)?,
+            base_color: rec.target("base color", BASE_COLOR)?,
+            region: rec.target("regions", REGION)?,
+            depth: rec.target("depth", DEPTH)?,
+        })
+    }
 }
 
 /// One draw; twin of `Draw` in `shaders/passes/gbuffer.wgsl`.
@@ -95,8 +108,9 @@ pub struct GBufferPass {
     pub draw_layout: wgpu::BindGroupLayout,
     /// Layout of bind group 1.
     pub material_layout: wgpu::BindGroupLayout,
-    /// Layout of bind group 3: the layer before the one that is peeled.
-    pub layer_layout: wgpu::BindGroupLayout,
+    layer_layout: wgpu::BindGroupLayout,
+    /// Where the fragments of one group after the other are collected.
+    pub lists: FragmentLists,
     /// Draws what has been drawn once more, for coordinates on surfaces.
     pub coordinates: CoordinatesPass,
 }
@@ -108,8 +122,58 @@ struct Variant {
     hidden_side: Option<wgpu::Face>,
     /// Whether what lies behind a plane is left out.
     is_cut: bool,
-    /// Whether only what lies behind another layer is drawn.
-    is_peeled: bool,
+    purpose: Purpose,
+}
+
+/// What objects are drawn for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+enum Purpose {
+    /// The nearest surfaces.
+    Surfaces,
+    /// What lies behind another layer.
+    Layer,
+    /// All fragments, as lists.
+    Lists,
+}
+
+impl Purpose {
+    fn file(self) -> &'static str {
+        match self {
+            Self::Surfaces => "passes/gbuffer.wgsl",
+            Self::Layer => "passes/peel.wgsl",
+            Self::Lists => "passes/fragment_lists.wgsl",
+        }
+    }
+
+    fn entry_points(self, detail: Detail) -> (&'static str, &'static str) {
+        let (vertex, fragments) = match detail {
+            Detail::Lean => ("vs_lean", ["fs_lean", "fs_lean_layer", "fs_lean_list"]),
+            Detail::Smooth => ("vs_smooth", ["fs_smooth", "fs_smooth_layer", "fs_smooth_list"]),
+            Detail::Full => ("vs_full", ["fs_full", "fs_full_layer", "fs_full_list"]),
+        };
+        (vertex, fragments[self as usize])
+    }
+
+    fn outputs(self) -> &'static [wgpu::TextureFormat] {
+        match self {
+            Self::Surfaces => &LAYER[..3],
+            Self::Layer => LAYER,
+            Self::Lists => &[],
+        }
+    }
+}
+
+/// What a layer consists of beside its depth; a G-buffer lacks the last one.
+const LAYER: &[wgpu::TextureFormat] = &[GEOMETRY, BASE_COLOR, REGION, ORDER];
+
+/// A traversal of the scene.
+struct Traversal<'a> {
+    label: &'static str,
+    purpose: Purpose,
+    color: &'a [&'a Target],
+    depth: &'a Target,
+    /// Bind group 3.
+    group: Option<wgpu::BindGroup>,
 }
 
 impl GBufferPass {
@@ -122,6 +186,7 @@ impl GBufferPass {
             draw_layout,
             material_layout: MaterialBindings::layout(gpu),
             layer_layout: Peel::layout(gpu),
+            lists: FragmentLists::new(gpu),
             coordinates: CoordinatesPass::default(),
         }
     }
@@ -134,10 +199,13 @@ impl GBufferPass {
         if self.pipelines.contains_key(&key) {
             return Ok(());
         }
-        let file = if key.is_peeled { "passes/peel.wgsl" } else { "passes/gbuffer.wgsl" };
-        let module = pipelines.module(gpu, file)?;
+        let module = pipelines.module(gpu, key.purpose.file())?;
         let mut layouts = vec![pipelines.frame_layout(), &self.material_layout, &self.draw_layout];
-        layouts.extend(key.is_peeled.then_some(&self.layer_layout));
+        layouts.extend(match key.purpose {
+            Purpose::Surfaces => None,
+            Purpose::Layer => Some(&self.layer_layout),
+            Purpose::Lists => Some(self.lists.layout()),
+        });
         self.pipelines.insert(key, build(gpu, &module, &layouts, key));
         Ok(())
     }
@@ -156,48 +224,76 @@ impl GBufferPass {
         rec: &mut Recorder<'_>,
         scene: &GpuScene,
         buffer: &mut DynamicBuffer,
-        (draws, calls): (&[DrawUniform], &[DrawCall]),
+        parts: (&[DrawUniform], &[DrawCall]),
         is_cut: bool,
         peel: Option<&Peel<'_>>,
     ) -> Result<GBuffer, RenderError> {
-        let gbuffer = GBuffer {
-            geometry: rec.target("geometry", GEOMETRY)?,
-            base_color: rec.target("base color", BASE_COLOR)?,
-            region: rec.target("regions", REGION)?,
-            depth: rec.target("depth", DEPTH)?,
+        let gbuffer = GBuffer::new(rec)?;
+        let GBuffer { geometry, base_color, region, depth } = &gbuffer;
+        let (label, purpose) = match peel {
+            Some(_) => ("peel", Purpose::Layer),
+            None => ("g-buffer", Purpose::Surfaces),
         };
+        let color: Vec<_> = [geometry, base_color, region].into_iter().chain(peel.map(|p| p.order)).collect();
+        let group = peel.map(|peel| peel.group(rec.gpu, &self.layer_layout));
+        let traversal = Traversal { label, purpose, color: &color, depth, group };
+        self.traverse(rec, scene, buffer, parts, is_cut, traversal)?;
+        Ok(gbuffer)
+    }
+
+    /// Collects all fragments of the given parts of a scene in [`Self::lists`].
+    ///
+    /// # Errors
+    /// [`RenderError`].
+    pub fn collect(
+        &mut self,
+        rec: &mut Recorder<'_>,
+        scene: &GpuScene,
+        buffer: &mut DynamicBuffer,
+        parts: (&[DrawUniform], &[DrawCall]),
+        is_cut: bool,
+        count: &PeelCount,
+    ) -> Result<(), RenderError> {
+        let group = Some(self.lists.group(rec.gpu, count));
+        // A pass has to have an output.
+        let depth = &rec.target("depth", DEPTH)?;
+        let traversal =
+            Traversal { label: "fragment lists", purpose: Purpose::Lists, color: &[], depth, group };
+        self.traverse(rec, scene, buffer, parts, is_cut, traversal)
+    }
+
+    fn traverse(
+        &mut self,
+        rec: &mut Recorder<'_>,
+        scene: &GpuScene,
+        buffer: &mut DynamicBuffer,
+        (draws, calls): (&[DrawUniform], &[DrawCall]),
+        is_cut: bool,
+        traversal: Traversal<'_>,
+    ) -> Result<(), RenderError> {
+        let Traversal { label, purpose, color, depth, group: own } = traversal;
         let gpu = rec.gpu;
-        let is_peeled = peel.is_some();
-        let variant = |call: &DrawCall| Variant {
-            detail: call.detail,
-            hidden_side: call.hidden_side,
-            is_cut,
-            is_peeled,
-        };
+        let variant =
+            |call: &DrawCall| Variant { detail: call.detail, hidden_side: call.hidden_side, is_cut, purpose };
         for call in calls {
             self.prepare(gpu, rec.pipelines, variant(call))?;
         }
         buffer.write(gpu, draws)?;
         let group = draw_group(gpu, &self.draw_layout, buffer);
-        let clear = || wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT);
-        let color: Vec<_> = [&gbuffer.geometry, &gbuffer.base_color, &gbuffer.region]
-            .into_iter()
-            .chain(peel.map(|p| p.order))
-            .map(|target| Some(color_attachment(target, clear())))
-            .collect();
-        let layer = peel.map(|peel| peel.group(gpu, &self.layer_layout));
+        let clear = wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT);
+        let color: Vec<_> = color.iter().map(|target| Some(color_attachment(target, clear))).collect();
         let gated: Vec<_> = calls
             .iter()
             .map(|c| rec.gated([c.index_count, 1, c.first_index, c.base_vertex as u32, 0]))
             .collect();
         let depth = wgpu::RenderPassDepthStencilAttachment {
-            view: gbuffer.depth.view(),
+            view: depth.view(),
             depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Store }),
             stencil_ops: None,
         };
-        let mut pass = rec.pass(if is_peeled { "peel" } else { "g-buffer" }, &color, Some(depth));
-        if let Some(layer) = &layer {
-            pass.set_bind_group(3, layer, &[]);
+        let mut pass = rec.pass(label, &color, Some(depth));
+        if let Some(own) = &own {
+            pass.set_bind_group(3, own, &[]);
         }
         let (mut bound, mut material, mut origin) = (None, None, None);
         for (call, gated) in calls.iter().zip(&gated) {
@@ -226,7 +322,7 @@ impl GBufferPass {
             }
         }
         drop(pass);
-        Ok(gbuffer)
+        Ok(())
     }
 }
 
@@ -265,13 +361,11 @@ fn build(
         attributes: &wgpu::vertex_attr_array![1 => Uint32],
     };
     let buffers = [Some(position), Some(surface), Some(Attributes::LAYOUT)];
-    let (vertex, fragment, peeled) = match variant.detail {
-        Detail::Lean => ("vs_lean", "fs_lean", "fs_lean_layer"),
-        Detail::Smooth => ("vs_smooth", "fs_smooth", "fs_smooth_layer"),
-        Detail::Full => ("vs_full", "fs_full", "fs_full_layer"),
-    };
-    let mut targets = vec![Some(GEOMETRY.into()), Some(BASE_COLOR.into()), Some(REGION.into())];
-    targets.extend(variant.is_peeled.then_some(Some(ORDER.into())));
+    let (vertex, fragment) = variant.purpose.entry_points(variant.detail);
+    let targets: Vec<_> = variant.purpose.outputs().iter().map(|&format| Some(format.into())).collect();
+    // Lists take all fragments.
+    let is_list = variant.purpose == Purpose::Lists;
+    let depth_compare = if is_list { wgpu::CompareFunction::Always } else { wgpu::CompareFunction::Greater };
     gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some("g-buffer"),
         layout: Some(&layout),
@@ -285,15 +379,15 @@ fn build(
         primitive: wgpu::PrimitiveState { cull_mode: variant.hidden_side, ..Default::default() },
         depth_stencil: Some(wgpu::DepthStencilState {
             format: DEPTH,
-            depth_write_enabled: Some(true),
-            depth_compare: Some(wgpu::CompareFunction::Greater),
+            depth_write_enabled: Some(!is_list),
+            depth_compare: Some(depth_compare),
             stencil: wgpu::StencilState::default(),
             bias: wgpu::DepthBiasState::default(),
         }),
         multisample: wgpu::MultisampleState::default(),
         fragment: Some(wgpu::FragmentState {
             module,
-            entry_point: Some(if variant.is_peeled { peeled } else { fragment }),
+            entry_point: Some(fragment),
             compilation_options: wgpu::PipelineCompilationOptions {
                 constants: &[("WITH_CUT", f64::from(u8::from(variant.is_cut)))],
                 ..Default::default()

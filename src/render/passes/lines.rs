@@ -91,7 +91,7 @@ pub fn lines(
         outputs: &[],
         onto: Onto::Nothing,
         depth: Some((&reached, DepthRule::Mark)),
-        lines: None,
+        points: None,
     })?;
     inputs.extend(pen.inputs);
     switches.extend(pen.switches);
@@ -102,7 +102,7 @@ pub fn lines(
         outputs: &[color],
         onto: pen.onto,
         depth: Some((&reached, DepthRule::Marked)),
-        lines: None,
+        points: None,
     })?;
     Ok(())
 }

@@ -29,7 +29,7 @@ pub fn paper_edges(
         outputs: &[edge_map],
         onto,
         depth: Some((&gbuffer.depth, DepthRule::Covered)),
-        lines: None,
+        points: None,
     })?;
     Ok(())
 }

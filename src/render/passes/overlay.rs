@@ -16,7 +16,7 @@ pub fn overlay(rec: &mut Recorder<'_>, picture: &Target, color: &Target) -> Resu
         outputs: &[color],
         onto: Onto::Blended,
         depth: None,
-        lines: None,
+        points: None,
     })?;
     Ok(())
 }

@@ -106,6 +106,8 @@ pub struct Peeled {
     pub masked: u32,
     /// Those of them that opaque surfaces hide, which no peeling uncovers.
     pub hidden: u32,
+    /// Fragments of all lists, those for which there was no room included; 0 without lists.
+    pub fragments: u32,
     /// Pixels of each layer, that which ended it included.
     pub pixels: [u32; MOST_LAYERS as usize],
     /// Pixels of the mask that pass the depth test against each layer, the paper's R.
@@ -135,7 +137,7 @@ impl fmt::Display for PeelingEnd {
 
 impl Peeled {
     /// Nothing yet.
-    fn begun(least: u32, fraction: f32) -> Self {
+    pub(in crate::render) fn begun(least: u32, fraction: f32) -> Self {
         let none = [0; MOST_LAYERS as usize];
         Self {
             least,
@@ -147,6 +149,7 @@ impl Peeled {
             has_uncovered: 0,
             masked: 0,
             hidden: 0,
+            fragments: 0,
             pixels: none,
             passed: none,
         }
@@ -166,6 +169,7 @@ impl Peeled {
             has_uncovered: next(),
             masked: next(),
             hidden: next(),
+            fragments: next(),
             pixels: std::array::from_fn(|_| next()),
             passed: std::array::from_fn(|_| next()),
         }

@@ -4,7 +4,7 @@
 use std::collections::HashMap;
 
 use encase::ShaderType;
-use glam::Mat4;
+use glam::{Mat4, Vec4};
 
 use crate::gpu::geometry::Attributes;
 use crate::gpu::material::MaterialUniform;
@@ -23,6 +23,8 @@ pub struct ShadowDraw {
     pub clip_from_local: Mat4,
     /// What it is made of, for its holes.
     pub material: MaterialUniform,
+    /// What lies behind the section plane is left out: local space, its product with (point, 1) is the distance before it.
+    pub section: Vec4,
 }
 
 /// One draw call.
@@ -44,6 +46,8 @@ pub struct ShadowCall {
     pub material_group: usize,
     /// Whether light falls through holes.
     pub has_holes: bool,
+    /// Whether the section plane cuts it open.
+    pub is_cut: bool,
     /// The side of its triangles that is left out.
     pub hidden_side: Option<wgpu::Face>,
 }
@@ -61,7 +65,20 @@ pub struct ShadowScene {
     pub side: u32,
 }
 
-type Key = (bool, Option<wgpu::Face>);
+/// What tells the pipelines apart.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+struct Key {
+    has_holes: bool,
+    is_cut: bool,
+    hidden_side: Option<wgpu::Face>,
+}
+
+impl From<&ShadowCall> for Key {
+    fn from(call: &ShadowCall) -> Self {
+        let ShadowCall { has_holes, is_cut, hidden_side, .. } = *call;
+        Self { has_holes, is_cut, hidden_side }
+    }
+}
 
 /// The pipelines of the pass, made when first needed, and room for the draws of one map.
 pub struct ShadowMapPass {
@@ -116,7 +133,7 @@ impl ShadowMapPass {
         let map = rec.target_of("shadow map", DEPTH, [seen.side, seen.side])?;
         let gpu = rec.gpu;
         for call in &seen.calls {
-            self.prepare(gpu, rec.pipelines, material_layout, (call.has_holes, call.hidden_side))?;
+            self.prepare(gpu, rec.pipelines, material_layout, call.into())?;
         }
         self.draws.write(gpu, &seen.draws)?;
         let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
@@ -137,7 +154,7 @@ impl ShadowMapPass {
                 geometry.bind(&mut pass, &[Some(&geometry.positions), geometry.attributes.as_ref()]);
                 origin = Some(call.origin);
             }
-            let key = (call.has_holes, call.hidden_side);
+            let key = Key::from(call);
             if bound != Some(key) {
                 let Some(pipeline) = self.pipelines.get(&key) else { continue };
                 pass.set_pipeline(pipeline);
@@ -166,7 +183,7 @@ fn build(
     gpu: &Gpu,
     module: &wgpu::ShaderModule,
     layouts: &[&wgpu::BindGroupLayout; 3],
-    (has_holes, hidden_side): Key,
+    Key { has_holes, is_cut, hidden_side }: Key,
 ) -> wgpu::RenderPipeline {
     let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
         label: Some("shadow map"),
@@ -184,7 +201,11 @@ fn build(
         layout: Some(&layout),
         vertex: wgpu::VertexState {
             module,
-            entry_point: Some(if has_holes { "vs_holes" } else { "vs_main" }),
+            entry_point: Some(match (has_holes, is_cut) {
+                (true, _) => "vs_holes",
+                (false, true) => "vs_cut",
+                (false, false) => "vs_main",
+            }),
             compilation_options: wgpu::PipelineCompilationOptions::default(),
             buffers: if has_holes { &buffers } else { &buffers[..1] },
         },
@@ -197,9 +218,9 @@ fn build(
             bias: wgpu::DepthBiasState::default(),
         }),
         multisample: wgpu::MultisampleState::default(),
-        fragment: has_holes.then(|| wgpu::FragmentState {
+        fragment: (has_holes || is_cut).then(|| wgpu::FragmentState {
             module,
-            entry_point: Some("fs_holes"),
+            entry_point: Some(if has_holes { "fs_holes" } else { "fs_cut" }),
             compilation_options: wgpu::PipelineCompilationOptions::default(),
             targets: &[],
         }),

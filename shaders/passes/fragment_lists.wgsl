@@ -1,0 +1,37 @@
+// All fragments of a group into lists, in one traversal. Those for which there is no room are counted all the same.
+#import passes/gbuffer.wgsl
+#import common/fragments.wgsl
+#import common/counted.wgsl
+#import common/layer_color.wgsl
+
+@group(3) @binding(0) var<storage, read_write> counted: Counted;
+// The last fragment so far of each pixel.
+@group(3) @binding(1) var<storage, read_write> heads: array<atomic<u32>>;
+@group(3) @binding(2) var<storage, read_write> links: array<Link>;
+@group(3) @binding(3) var<storage, read_write> payloads: array<Payload>;
+@group(3) @binding(4) var<storage, read_write> colors: array<u32>;
+
+fn append(position: vec4<f32>, surface: u32, drawn: GBuffer) {
+    let index = atomicAdd(&counted.fragments, 1u);
+    if index < arrayLength(&links) {
+        let next = atomicExchange(&heads[list_of(vec2<u32>(position.xy))], index + 1u);
+        links[index] = Link(next, bitcast<u32>(position.z), draw.first_surface + surface, drawn.geometry.w);
+        payloads[index] = Payload(drawn.geometry.x, drawn.geometry.y, drawn.geometry.z, drawn.region);
+        colors[index] = pack_color(drawn.base_color);
+    }
+}
+
+@fragment
+fn fs_lean_list(v: Lean) {
+    append(v.position, v.surface, lean(v));
+}
+
+@fragment
+fn fs_smooth_list(v: Smooth) {
+    append(v.position, v.surface, smooth_surface(v));
+}
+
+@fragment
+fn fs_full_list(v: Full) {
+    append(v.position, v.surface, full(v));
+}

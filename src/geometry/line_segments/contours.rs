@@ -1,0 +1,92 @@
+//! The contours of a section as lines in the picture.
+
+use std::f32::consts::FRAC_PI_2;
+
+use glam::{DMat4, DVec2, Vec3};
+
+use super::arcs::Scale;
+use super::clip::PictureMap;
+use super::{Dashes, LineSegment, LineView, NO_SURFACE, Wanted};
+use crate::geometry::section::Contour;
+use crate::geometry::{EdgeClass, FeatureEdges};
+
+/// The contours of an object somewhere in the world.
+#[derive(Debug, Clone, Copy)]
+pub struct PlacedContours<'a> {
+    /// The contours.
+    pub contours: &'a [Contour],
+    /// Where their plane lies.
+    pub world_from_plane: DMat4,
+    /// The edges of the mesh that was cut.
+    pub edges: &'a FeatureEdges,
+    /// A number for the object, returned with its segments.
+    pub object: u32,
+    /// The surface of the cap, if there is one.
+    pub cap: Option<u32>,
+}
+
+/// Appends the segments of contours, which are [`LineSegment::HIDDEN`] unless sections are wanted.
+pub fn contour_segments(
+    placed: &PlacedContours<'_>,
+    view: &LineView,
+    wanted: &Wanted,
+    out: &mut Vec<LineSegment>,
+) {
+    let picture = PictureMap::new(view, &(view.projector.view_from_world * placed.world_from_plane));
+    let is_wanted = wanted.classes.contains(EdgeClass::Section);
+    if !is_wanted && wanted.suppress_angle == f32::INFINITY {
+        return;
+    }
+    let class = EdgeClass::Section as u32 | if is_wanted { 0 } else { LineSegment::HIDDEN };
+    let dashes = wanted.dashes.filter(|d| d.classes.contains(EdgeClass::Section));
+    for contour in placed.contours {
+        let scale = dashes.map(|dashes| Lengths::new(contour, &picture, &dashes));
+        for (number, (ends, triangle)) in contour.stretches().enumerate() {
+            let Some([from, to]) = picture.segment(ends.map(in_plane)) else { continue };
+            let surface = placed.edges.surface_of_triangle.get(triangle as usize).copied();
+            out.push(LineSegment {
+                ends: [from.px.as_vec2().to_array(), to.px.as_vec2().to_array()],
+                depths: [from.depth as f32, to.depth as f32],
+                arcs: scale.as_ref().map_or([0.0; 2], |scale| scale.arcs(number, [from.px, to.px])),
+                angle: FRAC_PI_2,
+                class,
+                object: placed.object,
+                surfaces: [surface.unwrap_or(NO_SURFACE), placed.cap.unwrap_or(NO_SURFACE)],
+            });
+        }
+    }
+}
+
+/// Of a contour's point, as the device has those of caps.
+fn in_plane(point: DVec2) -> Vec3 {
+    point.as_vec2().extend(0.0)
+}
+
+/// How long a contour is in the picture up to each of its corners.
+struct Lengths {
+    /// Where each stretch begins in the picture, and the length up to there.
+    starts: Vec<(DVec2, f64)>,
+    scale: Scale,
+}
+
+impl Lengths {
+    fn new(contour: &Contour, picture: &PictureMap, dashes: &Dashes) -> Self {
+        let mut starts = Vec::with_capacity(contour.triangles.len());
+        let mut length = 0.0;
+        for (ends, _) in contour.stretches() {
+            let [from, to] =
+                picture.before(ends.map(in_plane)).map_or([DVec2::ZERO; 2], |ends| ends.map(|e| e.0));
+            starts.push((from, length));
+            length += from.distance(to);
+        }
+        let around = contour.is_closed.then_some(length).filter(|length| *length > 0.0);
+        Self { starts, scale: Scale { anchor: 0.0, around, period: f64::from(dashes.period) } }
+    }
+
+    fn arcs(&self, stretch: usize, ends: [DVec2; 2]) -> [f32; 2] {
+        let (start, length) = self.starts.get(stretch).copied().unwrap_or_default();
+        let [from, to] = ends.map(|end| length + start.distance(end));
+        // A loop's first length is not its last one.
+        self.scale.arcs([from.max(f64::MIN_POSITIVE), to.max(f64::MIN_POSITIVE)])
+    }
+}

@@ -1,0 +1,106 @@
+//! Caps of a section: flat colour and hatching over the shaded surfaces, and in the layers of blueprints.
+
+use encase::ShaderType;
+use glam::{DVec2, DVec3, Vec2, Vec3};
+
+use crate::document::section::Fill;
+use crate::gpu::recorder::{Draw, Input, Onto};
+use crate::gpu::{DepthRule, Program, Recorder, Target};
+use crate::render::RenderError;
+use crate::render::frame_uniform::View;
+use crate::render::gpu_scene::GpuScene;
+use crate::render::groups::{object_id, region};
+use crate::render::passes::gbuffer::GBuffer;
+use crate::render::section::Section;
+
+/// How objects that touch each other are told apart: degrees by which the lines are turned, and how many times as far
+/// apart they are.
+const PATTERNS: [(f64, f32); 6] = [(0.0, 1.0), (90.0, 1.0), (0.0, 0.6), (90.0, 0.6), (0.0, 1.5), (90.0, 1.5)];
+
+/// Twin of `Cap` in `shaders/common/cap.wgsl`.
+#[derive(Debug, Clone, Copy, PartialEq, ShaderType, Default)]
+pub struct CapUniform {
+    fill: Vec3,
+    region: u32,
+    ink: Vec3,
+    lit: u32,
+    across: Vec2,
+    spacing: f32,
+    offset: f32,
+    width: f32,
+}
+
+/// The caps of a scene by object id, for a view with this many pixels per reference pixel; empty when there are none.
+pub fn caps(scene: &GpuScene, view: &View, scale: f32) -> Vec<CapUniform> {
+    let Some(section) = scene.section.as_ref().filter(|section| section.has_caps()) else {
+        return Vec::new();
+    };
+    let nodes = 0..scene.scene.nodes.len();
+    let patterns = PATTERNS.map(|(turn, spacing)| hatching(section, view, scale, turn, spacing));
+    let cap = |node| {
+        let Some(cap) = section.opened(node).and_then(|opened| opened.cap) else {
+            return CapUniform::default();
+        };
+        let region = region(object_id(node), cap.surface);
+        CapUniform { region, ..patterns[cap.pattern as usize % PATTERNS.len()] }
+    };
+    // Entry 0 is the background.
+    std::iter::once(CapUniform::default()).chain(nodes.map(cap)).collect()
+}
+
+/// One kind of hatching as a view sees it: lines that run in the plane, at the same distance everywhere in the picture.
+fn hatching(section: &Section, view: &View, scale: f32, turn: f64, wider: f32) -> CapUniform {
+    let style = &section.style;
+    let hatch = &style.hatch;
+    let (plane, right) = section.place();
+    let (sin, cos) = (f64::from(hatch.angle) + turn).to_radians().sin_cos();
+    let along = view.view_from_world.transform_vector3(right * cos + plane.normal.cross(right) * sin);
+    let anchor = view.view_from_world.transform_point3(plane.point);
+    let across = across(view, anchor, along);
+    let spacing = hatch.spacing.clamp(2.0, 200.0) * scale * wider;
+    let is_seen = view.orthographic || -anchor.z > view.clip_range[0];
+    let at = if is_seen { view.projector().pixel(anchor).dot(across) } else { 0.0 };
+    CapUniform {
+        fill: style.color.to_linear(),
+        region: 0,
+        ink: hatch.color.to_linear(),
+        lit: u32::from(style.lit),
+        across: across.as_vec2(),
+        spacing,
+        offset: at.rem_euclid(f64::from(spacing)) as f32,
+        width: if style.cap == Fill::Hatched { hatch.width.clamp(0.25, 32.0) * scale } else { 0.0 },
+    }
+}
+
+/// Across a direction in the picture, where y runs down, at a point; both in view space.
+fn across(view: &View, at: DVec3, along: DVec3) -> DVec2 {
+    let depth = -at.z;
+    let seen = if view.orthographic || depth <= 0.0 {
+        along.truncate()
+    } else {
+        along.truncate() * depth + at.truncate() * along.z
+    };
+    DVec2::new(seen.y, seen.x).normalize_or(DVec2::X)
+}
+
+/// Draws the caps over the surfaces. `caps`: an array of [`CapUniform`] by object id.
+///
+/// # Errors
+/// [`RenderError`].
+pub fn section(
+    rec: &mut Recorder<'_>,
+    gbuffer: &GBuffer,
+    caps: &wgpu::Buffer,
+    color: &Target,
+) -> Result<(), RenderError> {
+    rec.draw(Draw {
+        label: "section",
+        program: Program::new("effects/section.wgsl", "fs_main"),
+        inputs: &[Input::Texture(&gbuffer.geometry), Input::Texture(&gbuffer.region), Input::Storage(caps)],
+        outputs: &[color],
+        onto: Onto::Blended,
+        depth: Some((&gbuffer.depth, DepthRule::Covered)),
+        points: None,
+    })?;
+    Ok(())
+}

@@ -1,0 +1,194 @@
+//! How much room a frame has for layers and for the fragments that they are made of: guessed before it, known after it.
+
+use crate::document;
+use crate::gpu::Gpu;
+use crate::render::passes::fragment_lists::FragmentLists;
+use crate::render::passes::peel::Peeled;
+
+/// Fragments per pixel of the picture, as long as nobody has counted them.
+const FIRST_GUESS: u64 = 4;
+
+/// More layers are recorded than the last report names, as there may be more by now.
+const MORE_LAYERS: u32 = 1;
+
+/// What is known of pictures that were drawn, from reports that come back some time after them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Reported {
+    /// All of them are complete.
+    Complete,
+    /// Not yet all about the last one.
+    Waiting,
+    /// One was incomplete, as there was not room enough. Whoever wants it asks for it again: there is now.
+    Incomplete,
+}
+
+/// How layers were made.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LayersBy {
+    /// From lists of fragments.
+    Lists,
+    /// By peeling.
+    Peeling(Reason),
+}
+
+/// Why layers are peeled.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Reason {
+    /// The document asks for it.
+    Asked,
+    /// The device cannot do otherwise.
+    Device,
+    /// So many fragments are more than are ever kept.
+    TooMany(u64),
+}
+
+impl LayersBy {
+    /// Whether it was peeled although that was not asked for, as a sentence.
+    pub fn shortfall(&self) -> Option<String> {
+        match self {
+            Self::Lists | Self::Peeling(Reason::Asked) => None,
+            Self::Peeling(Reason::Device) => Some(
+                "layers are peeled, as fragment shaders cannot write with this graphics driver".to_owned(),
+            ),
+            Self::Peeling(Reason::TooMany(fragments)) => Some(format!(
+                "layers are peeled, as lists of {fragments} fragments would take too much memory"
+            )),
+        }
+    }
+}
+
+impl std::fmt::Display for LayersBy {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::Lists => "lists",
+            Self::Peeling(_) => "peeling",
+        })
+    }
+}
+
+/// What a frame has room for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Recorded {
+    /// So many layers are recorded, of so many that were asked for.
+    pub(super) layers: u32,
+    most: u32,
+    /// Room for so many fragments, or why it is peeled.
+    pub(super) fragments: Result<u64, Reason>,
+}
+
+impl Recorded {
+    pub(super) fn by(&self) -> LayersBy {
+        self.fragments.map_or_else(LayersBy::Peeling, |_| LayersBy::Lists)
+    }
+}
+
+/// What reports have taught. It decides nothing: when it is wrong, the next report says so.
+#[derive(Debug, Default)]
+pub(super) struct Room {
+    /// Layers there were; `None`: nobody knows.
+    layers: Option<u32>,
+    /// Fragments there were.
+    fragments: Option<u64>,
+    /// Since lists had more fragments than there can be room for: pixels of all layers when it was first peeled.
+    peeled: Option<u64>,
+}
+
+impl Room {
+    /// What to record for a picture of which up to `most` layers are wanted.
+    pub(super) fn plan(&self, gpu: &Gpu, size: [u32; 2], most: u32, by: document::LayersBy) -> Recorded {
+        let bound = match (by, FragmentLists::most(gpu)) {
+            (document::LayersBy::Peeling, _) => Err(Reason::Asked),
+            (_, 0) => Err(Reason::Device),
+            (_, most) => Ok(most),
+        };
+        self.plan_within(bound, size, most)
+    }
+
+    fn plan_within(&self, bound: Result<u64, Reason>, [width, height]: [u32; 2], most: u32) -> Recorded {
+        let first = FIRST_GUESS * u64::from(width) * u64::from(height);
+        // A quarter more than there were, as there may be more by now.
+        let room = self.fragments.map_or(first, |counted| counted + counted / 4);
+        let fragments = bound.and_then(|bound| match self.fragments {
+            Some(counted) if counted > bound => Err(Reason::TooMany(counted)),
+            _ => Ok(room.clamp(1, bound)),
+        });
+        Recorded {
+            layers: self.layers.map_or(most, |layers| (layers + MORE_LAYERS).min(most)),
+            most,
+            fragments,
+        }
+    }
+
+    /// Learns from a report; returns whether the picture was complete.
+    pub(super) fn learn(&mut self, recorded: &Recorded, peeled: &Peeled) -> bool {
+        let fragments = u64::from(peeled.fragments);
+        let overflowed = recorded.fragments.is_ok_and(|room| fragments > room);
+        let is_complete = !overflowed && (peeled.has_ended == 1 || recorded.layers >= recorded.most);
+        // That which ended it is recorded too.
+        self.layers = is_complete.then_some(peeled.layers + 1);
+        if recorded.fragments.is_ok() {
+            self.fragments = Some(fragments);
+            self.peeled = None;
+        } else {
+            let pixels = peeled.pixels.iter().copied().map(u64::from).sum();
+            let first = *self.peeled.get_or_insert(pixels);
+            if 2 * pixels < first {
+                // So much less that lists may do again.
+                *self = Self { layers: self.layers, ..Self::default() };
+            }
+        }
+        is_complete
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn peeled(layers: u32, has_ended: bool, fragments: u32) -> Peeled {
+        let mut pixels = [0; 64];
+        pixels[..layers as usize].fill(100);
+        Peeled { has_ended: u32::from(has_ended), layers, fragments, pixels, ..Peeled::begun(1, 1.0) }
+    }
+
+    #[test]
+    fn without_a_report_all_layers_are_recorded_and_after_one_a_few_more_than_there_were() {
+        let mut room = Room::default();
+        let first = room.plan_within(Ok(1000), [10, 10], 64);
+        assert_eq!((first.layers, first.fragments), (64, Ok(400)));
+        assert!(room.learn(&first, &peeled(5, true, 80)));
+        let second = room.plan_within(Ok(1000), [10, 10], 64);
+        assert_eq!((second.layers, second.fragments), (7, Ok(100)));
+        // Two layers more: nobody reached their end.
+        assert!(!room.learn(&second, &peeled(7, false, 90)));
+        assert_eq!(room.plan_within(Ok(1000), [10, 10], 64).layers, 64);
+        // As many as were asked for need no end.
+        assert!(room.learn(&room.plan_within(Ok(1000), [10, 10], 7), &peeled(7, false, 90)));
+    }
+
+    #[test]
+    fn fragments_without_room_get_it_or_are_peeled_until_there_are_far_fewer() {
+        let mut room = Room::default();
+        let first = room.plan_within(Ok(1000), [10, 10], 8);
+        assert!(!room.learn(&first, &peeled(3, true, 700)));
+        let second = room.plan_within(Ok(1000), [10, 10], 8);
+        assert_eq!((second.fragments, second.by()), (Ok(875), LayersBy::Lists));
+        assert!(!room.learn(&second, &peeled(3, true, 1001)));
+        let third = room.plan_within(Ok(1000), [10, 10], 8);
+        let peeling = LayersBy::Peeling(Reason::TooMany(1001));
+        assert_eq!(third.by(), peeling);
+        assert!(peeling.shortfall().is_some_and(|why| why.contains("1001")));
+        for (layers, by) in [(8, peeling), (4, peeling), (3, LayersBy::Lists)] {
+            assert!(room.learn(&room.plan_within(Ok(1000), [10, 10], 8), &peeled(layers, true, 0)));
+            assert_eq!(room.plan_within(Ok(1000), [10, 10], 8).by(), by, "{layers}");
+        }
+    }
+
+    #[test]
+    fn a_device_without_lists_peels_and_says_so_unless_that_was_asked_for() {
+        for (reason, is_said) in [(Reason::Device, true), (Reason::Asked, false)] {
+            let by = Room::default().plan_within(Err(reason), [10, 10], 8).by();
+            assert_eq!((by, by.shortfall().is_some()), (LayersBy::Peeling(reason), is_said));
+        }
+    }
+}

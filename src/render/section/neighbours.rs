@@ -1,0 +1,102 @@
+//! Numbers that tell objects apart where their boxes meet: caps of neighbours are hatched differently, and where solids reach
+//! into each other one cap lies over the other.
+
+use glam::DVec3;
+
+use crate::geometry::Bounds;
+use crate::render::gpu_scene::GpuScene;
+use crate::scene::NodeId;
+
+/// What tells an object from those that touch it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(super) struct Number {
+    /// Different from that of each other one, and small.
+    pub pattern: u32,
+    /// Greater than that of each smaller one.
+    pub level: u32,
+}
+
+/// Numbers by node. They depend on all objects that are visible and not on the plane, so that hatching stays as it is while
+/// that moves. `margin`: boxes that are no farther apart touch.
+pub(super) fn numbers(scene: &GpuScene, visible: &[NodeId], margin: f64) -> Vec<Number> {
+    let boxes: Vec<_> = visible.iter().map(|&node| scene.bounds_of(node)).collect();
+    let mut numbers = vec![Number::default(); scene.scene.nodes.len()];
+    for (&node, number) in visible.iter().zip(numbers_of(&boxes, margin)) {
+        numbers[node] = number;
+    }
+    numbers
+}
+
+fn numbers_of(boxes: &[Bounds], margin: f64) -> Vec<Number> {
+    let touching = touching(boxes, margin);
+    let mut by_size: Vec<usize> = (0..boxes.len()).collect();
+    by_size.sort_by(|&a, &b| boxes[a].diagonal().total_cmp(&boxes[b].diagonal()));
+    let mut numbers: Vec<Option<Number>> = vec![None; boxes.len()];
+    for i in by_size {
+        let smaller: Vec<Number> = touching[i].iter().filter_map(|&other| numbers[other]).collect();
+        let is_free = |pattern: &u32| smaller.iter().all(|other| other.pattern != *pattern);
+        numbers[i] = Some(Number {
+            pattern: (0..).find(is_free).unwrap_or(0),
+            level: smaller.iter().map(|other| other.level + 1).max().unwrap_or(0),
+        });
+    }
+    numbers.into_iter().map(Option::unwrap_or_default).collect()
+}
+
+/// For each box those that it touches.
+fn touching(boxes: &[Bounds], margin: f64) -> Vec<Vec<usize>> {
+    let reach = DVec3::splat(margin);
+    let mut order: Vec<usize> = (0..boxes.len()).filter(|&i| !boxes[i].is_empty()).collect();
+    order.sort_by(|&a, &b| boxes[a].min.x.total_cmp(&boxes[b].min.x));
+    let mut touching = vec![Vec::new(); boxes.len()];
+    let mut before: Vec<usize> = Vec::new();
+    for i in order {
+        let own = &boxes[i];
+        before.retain(|&other| boxes[other].max.x + margin >= own.min.x);
+        for &other in &before {
+            let Bounds { min, max } = boxes[other];
+            if min.cmple(own.max + reach).all() && max.cmpge(own.min - reach).all() {
+                touching[i].push(other);
+                touching[other].push(i);
+            }
+        }
+        before.push(i);
+    }
+    touching
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn cube(at: [f64; 3], size: f64) -> Bounds {
+        let at = DVec3::from_array(at);
+        Bounds { min: at, max: at + size }
+    }
+
+    #[test]
+    fn what_touches_differs_and_the_larger_lies_lower() {
+        let boxes = [
+            cube([0.0; 3], 10.0),
+            cube([1.0; 3], 1.0),
+            cube([2.0, 1.0, 1.0], 2.0),
+            cube([20.0; 3], 1.0),
+            Bounds::EMPTY,
+            cube([10.0, 0.0, 0.0], 3.0),
+        ];
+        let numbers = numbers_of(&boxes, 1e-6);
+        for (i, a) in boxes.iter().enumerate() {
+            for (j, b) in boxes.iter().enumerate().skip(i + 1) {
+                let touches =
+                    !a.is_empty() && !b.is_empty() && a.min.cmple(b.max).all() && a.max.cmpge(b.min).all();
+                if touches {
+                    assert_ne!(numbers[i].pattern, numbers[j].pattern, "{i} {j}");
+                    let is_larger = a.diagonal() > b.diagonal();
+                    assert_eq!(numbers[i].level > numbers[j].level, is_larger, "{i} {j}");
+                }
+            }
+        }
+        assert_eq!(numbers[3], Number::default());
+        assert_eq!(numbers[0], Number { pattern: 2, level: 2 });
+    }
+}

@@ -1,0 +1,108 @@
+//! How many layers are recorded, and how much room there is, is guessed from reports about earlier pictures.
+
+use hachure::gpu::Gpu;
+use hachure::render::{LayersBy, Reason, Reported};
+
+use crate::common::{self, session, set};
+use crate::{render, stack, way};
+
+#[test]
+fn what_a_frame_counted_is_reported_after_it() {
+    let mut session = session();
+    let three = stack(3, 1.0);
+    session.set_scene(&three).unwrap();
+    assert_eq!(session.renderer().take_reports(), Reported::Complete);
+    render(&mut session, &three, [64; 2]);
+    session.renderer().gpu().wait().unwrap();
+    assert_eq!(session.renderer().take_reports(), Reported::Complete);
+    let counted = session.renderer().peeled().unwrap();
+    assert_eq!(counted[0].layers, 3);
+    assert_eq!(session.renderer().last_peeled(), [Some((counted[0].clone(), LayersBy::Lists))]);
+}
+
+#[test]
+fn more_layers_than_were_guessed_are_found_missing_and_drawn() {
+    let mut session = session();
+    let (few, many) = (stack(3, 1.0), stack(30, 1.0));
+    session.set_scene(&few).unwrap();
+    session.draw(&few, [64; 2], false).unwrap();
+
+    // So many layers nobody expected, and the first picture says so.
+    session.set_scene(&many).unwrap();
+    render(&mut session, &many, [64; 2]);
+    session.renderer().gpu().wait().unwrap();
+    assert!(session.renderer().peeled().unwrap()[0].layers < 30);
+    assert_eq!(session.renderer().take_reports(), Reported::Incomplete);
+    render(&mut session, &many, [64; 2]);
+    session.renderer().gpu().wait().unwrap();
+    assert_eq!(session.renderer().take_reports(), Reported::Complete);
+    assert_eq!(session.renderer().peeled().unwrap()[0].layers, 30);
+}
+
+#[test]
+fn no_incomplete_sample_has_a_part_in_a_picture() {
+    let (mut fresh, mut used) = (session(), session());
+    let (few, many) = (stack(2, 1.0), stack(12, 1.0));
+    for session in [&mut fresh, &mut used] {
+        session.set_samples(4);
+    }
+    used.set_scene(&few).unwrap();
+    used.draw(&few, [64; 2], false).unwrap();
+    let [expected, image] = [fresh, used].map(|mut session| common::image(&mut session, &many, 64));
+    assert!(image == expected);
+}
+
+#[test]
+fn a_report_that_is_outstanding_survives_a_resize_and_another_scene() {
+    let mut session = session();
+    let three = stack(3, 1.0);
+    session.set_scene(&three).unwrap();
+    render(&mut session, &three, [64; 2]);
+    let five = stack(5, 1.0);
+    session.set_scene(&five).unwrap();
+    session.draw(&five, [40, 90], false).unwrap();
+    assert_eq!(session.renderer().last_peeled()[0].as_ref().map(|(p, _)| p.layers), Some(5));
+}
+
+#[test]
+fn fragments_without_room_are_found_missing_and_get_it() {
+    let mut session = session();
+    let (small, large) = (blueprint_of(0.02, 1), blueprint_of(2.0, 24));
+    session.set_scene(&small).unwrap();
+    session.draw(&small, [64; 2], false).unwrap();
+    // After a frame that needs little, little is kept.
+    render(&mut session, &small, [65; 2]);
+    session.renderer().gpu().wait().unwrap();
+
+    session.set_scene(&large).unwrap();
+    render(&mut session, &large, [64; 2]);
+    session.renderer().gpu().wait().unwrap();
+    assert_eq!(session.renderer().take_reports(), Reported::Incomplete);
+    let counted = session.renderer().last_peeled().remove(0).unwrap().0;
+    let image = session.image(&large, [64; 2], false).unwrap();
+    assert_eq!(session.renderer().peeled().unwrap()[0].fragments, counted.fragments, "all were counted");
+    assert_eq!(way(&mut session), LayersBy::Lists);
+    let mut fresh = common::session();
+    assert!(image == common::image(&mut fresh, &large, 64));
+}
+
+/// Squares behind each other with sides of this length, in a view of length 3.
+fn blueprint_of(side: f32, planes: usize) -> hachure::export::session::Opened {
+    let mut opened = stack(planes, side);
+    opened.document.camera = Some(stack(2, 3.0).document.camera.unwrap());
+    opened
+}
+
+#[test]
+fn a_device_whose_fragments_cannot_write_peels_whatever_is_asked() {
+    let mut gpu = Gpu::headless().unwrap();
+    gpu.writes_in_fragments = false;
+    let mut session = hachure::export::Session::new(gpu);
+    let mut three = stack(3, 1.0);
+    let expected = common::image(&mut common::session(), &three, 64);
+    for by in ["auto", "lists"] {
+        set(&mut three, "view.layers", by);
+        assert!(common::image(&mut session, &three, 64) == expected);
+        assert_eq!(way(&mut session), LayersBy::Peeling(Reason::Device), "{by}");
+    }
+}
