@@ -12,6 +12,7 @@ use hachure::document::glyph::{Anchor, FOLDER, Glyph, Shape, Unit};
 use hachure::export::Session;
 use hachure::export::session::Opened;
 use hachure::geometry::{Text, primitives};
+use hachure::scene::Projection;
 use hachure::style::{Color, Style, Technique};
 use image::{Rgba, RgbaImage};
 
@@ -127,7 +128,7 @@ fn hostile_glyphs_are_told_and_the_rest_is_drawn() {
         (label(""), "it has no text"),
         (label("漢字"), "the font has no `漢字`"),
         (label("x") + "\nsize = nan", "out of range"),
-        (label("x") + "\npoint = [nan, 0, 0]", "no number"),
+        (label("x") + "\npoint = [nan, 0, 0]", "its point 1 has"),
         (label(&"x".repeat(5000)), "only its first 1000 letters"),
     ] {
         let good = "[[glyph]]\nkind = \"box\"\nname = \"good\"\nnode = \"/shell\"\n";
@@ -249,8 +250,16 @@ fn labels_face_the_eye_and_have_their_size_from_everywhere() {
             // Two letters that are narrower than their places.
             assert!((0.6..1.1).contains(&(width / (f64::from(text.max.x) * em))), "{towards}: {width}");
             let center = [f64::from(l + r + 1) * 0.5, f64::from(t + b + 1) * 0.5];
-            let expected = f64::from(SIDE) * 0.5;
-            assert!((center[0] - expected).abs() < 2.5 && (center[1] - expected).abs() < 8.0, "{center:?}");
+            let camera = opened.document.camera.unwrap();
+            let origin = camera.view_from_world().transform_point3(DVec3::ZERO);
+            let half = match camera.projection {
+                Projection::Perspective { view_angle } => -origin.z * (view_angle * 0.5).to_radians().tan(),
+                Projection::Orthographic { view_height } => view_height * 0.5,
+            };
+            let seen = |along: f64| (1.0 + along / half) * f64::from(SIDE) * 0.5;
+            let off = [center[0] - seen(origin.x), center[1] - seen(-origin.y)];
+            // Capitals stand a little above the middle of a line.
+            assert!(off[0].abs() < 2.0 && (-5.0..0.0).contains(&off[1]), "{towards}: {off:?}");
         }
     }
 }
@@ -301,7 +310,7 @@ fn an_edit_of_a_glyph_beside_a_million_triangles_takes_a_moment() {
     opened.document.add_glyph(Glyph::new("box".to_owned(), Shape::around("/big".to_owned())));
     let gpu = session.renderer().gpu().clone();
     let mut on_device = session.renderer().scene().unwrap().clone();
-    let fastest = (0..5)
+    let fastest = (0..10)
         .map(|_| {
             let began = Instant::now();
             let shapes = opened.document.glyph_shapes(&scene, on_device.model_bounds());
@@ -309,7 +318,6 @@ fn an_edit_of_a_glyph_beside_a_million_triangles_takes_a_moment() {
             began.elapsed().as_secs_f64() * 1000.0
         })
         .fold(f64::MAX, f64::min);
-    println!("{fastest:.1} ms");
     assert!(fastest < 20.0, "{fastest} ms");
     assert_eq!(on_device.scene.added, 2);
 }

@@ -835,9 +835,13 @@ fn glyph_names(window: &Window) -> Vec<&str> {
 #[test]
 fn a_box_is_added_changed_renamed_removed_and_brought_back() {
     let mut window = window();
-    click(&mut window, Role::Tab, "Glyphs");
     assert!(!window.state().is_enabled(Command::AddBox), "around what?");
-    click(&mut window, Role::TreeItem, "wheel");
+    ask(&mut window, Command::Front);
+    click_picture(&mut window, 0.36);
+    until(&mut window, "the wheel is selected", |v| !v.selection().is_empty());
+    click(&mut window, Role::Tab, "Glyphs");
+    assert_eq!(selected(&window), ["wheel"]);
+    assert!(window.state().is_enabled(Command::AddBox));
     click(&mut window, Role::Button, "Box");
     assert_eq!((glyph_names(&window), selected(&window)), (vec!["box"], vec!["box"]));
     assert!(!window.state().is_enabled(Command::AddBox), "no box around a glyph");
@@ -900,7 +904,7 @@ fn a_path_is_placed_by_clicks_on_surfaces() {
     };
     until(&mut window, "there are three points", |v| points(v).len() == 3);
     for (point, x) in points(window.state()).iter().zip([-2.0, 0.0, 2.0]) {
-        assert!((point.x - x).abs() < 0.5 && (0.5..0.7).contains(&point.z), "{point}");
+        assert!((point.x - x).abs() < 0.5 && (0.49..0.7).contains(&point.z), "{point}");
     }
     window.key_press(Key::Backspace);
     settle(&mut window);
@@ -932,6 +936,8 @@ fn escape_leaves_nothing_of_what_was_being_placed() {
     click_picture(&mut window, 0.0);
     until(&mut window, "the label is there", |v| v.document().glyphs.len() == 1);
     assert_eq!((window.state().hint(), selected(&window)), (None, vec!["label"]));
+    window.get_by_role_and_label(Role::MultilineTextInput, "Text").focus();
+    settle(&mut window);
     window.get_by_role_and_label(Role::MultilineTextInput, "Text").type_text("!");
     settle(&mut window);
     assert!(matches!(&window.state().document().glyphs[0].shape, Shape::Label(l) if l.text.contains('!')));

@@ -131,7 +131,8 @@ impl Viewer {
             Intent::Reload => self.notices.done("Read again"),
             Intent::Add | Intent::Restore => {}
         }
-        let faults = self.document.role_faults(&self.model.files);
+        self.model.show_glyphs(&self.document);
+        let faults = self.document.role_faults(&self.model.scene);
         for fault in faults.into_iter().chain(self.document.glyph_faults(&self.model.files)) {
             self.notices.warning(fault.to_string());
         }

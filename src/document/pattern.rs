@@ -5,7 +5,7 @@ use crate::style::nearest;
 
 /// A shell pattern: `*` any text, `?` one character, `[ab]` one of these.
 ///
-/// With a `/` it is compared with the whole path and `*` crosses levels; without one, with the last name only.
+/// Glyphs are meant only by patterns that begin with `glyphs/`. With a `/` it is compared with the whole path and `*` crosses levels; without one, with the last name only.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Pattern {
     glob: glob::Pattern,
@@ -47,6 +47,10 @@ impl Pattern {
 
     /// Whether a node of this path is meant.
     pub fn matches(&self, path: &str) -> bool {
+        let is_glyph = path.starts_with(super::glyph::FOLDER);
+        if is_glyph && !self.glob.as_str().starts_with(super::glyph::FOLDER) {
+            return false;
+        }
         let text = if self.whole_path { path } else { path.rsplit('/').next().unwrap_or(path) };
         self.glob.matches(text)
     }
@@ -72,6 +76,11 @@ mod tests {
         assert!(!matches("/crank/rod.3/*", "/crank/rod.4/cap"));
         assert!(matches("rod.?", "/crank/rod.3"));
         assert!(!matches("rod.?", "/crank/rod.3/cap"));
+        assert!(
+            matches("glyphs/w*", "glyphs/way")
+                && !matches("*", "glyphs/way")
+                && !matches("*/way", "glyphs/way")
+        );
         assert!(Pattern::new("[").is_err());
     }
 }

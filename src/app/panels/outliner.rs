@@ -189,7 +189,8 @@ impl Outliner {
         let switches = [(Role::Mirror, Icon::Mirror, "Mirror"), (Role::Mask, Icon::Mask, "Uncover")];
         for (i, (role, icon, label)) in switches.into_iter().enumerate() {
             let has = roles.has(role);
-            if !looked_at && !has {
+            let can_be = role != Role::Mirror || !scene.is_added(row.node);
+            if !can_be || (!looked_at && !has) {
                 continue;
             }
             let at = square(2.0 + i as f32);

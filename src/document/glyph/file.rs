@@ -10,7 +10,8 @@ use crate::style::{StyleError, diff_to_toml, nearest, set_from_toml};
 /// A table that is no glyph. It is kept, so that saving loses nothing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Unreadable {
-    table: Table,
+    /// As TOML.
+    text: String,
     /// What is wrong with it.
     pub reason: String,
 }
@@ -34,7 +35,7 @@ pub(in crate::document) fn from_tables(tables: Vec<Table>) -> (Vec<Glyph>, Vec<U
     for table in tables {
         match from_table(table.clone()) {
             Ok(glyph) => glyphs.push(glyph),
-            Err(reason) => unreadable.push(Unreadable { table, reason }),
+            Err(reason) => unreadable.push(Unreadable { text: table.to_string(), reason }),
         }
     }
     (glyphs, unreadable)
@@ -46,6 +47,10 @@ fn from_table(mut table: Table) -> Result<Glyph, String> {
         .filter_map(|key| Some((key.to_owned(), table.remove(key)?)))
         .collect();
     let form: Form = own.try_into().map_err(|e: toml::de::Error| e.message().to_owned())?;
+    let points = form.points.iter().flatten().chain(&form.point);
+    if let Some(number) = points.clone().position(|p| !p.is_finite()) {
+        return Err(format!("its point {} has a coordinate that is no number", number + 1));
+    }
     let missing = |key: &str| format!("a glyph of kind `{}` needs `{key}`", form.kind);
     let shape = match form.kind.as_str() {
         "box" => Shape::around(form.node.ok_or_else(|| missing("node"))?),
@@ -75,7 +80,7 @@ fn from_table(mut table: Table) -> Result<Glyph, String> {
 /// The tables of glyphs: only what differs from the usual look is written.
 pub(in crate::document) fn to_tables(glyphs: &[Glyph], unreadable: &[Unreadable]) -> Vec<Table> {
     let tables = glyphs.iter().map(to_table);
-    tables.chain(unreadable.iter().map(|u| u.table.clone())).collect()
+    tables.chain(unreadable.iter().map(|u| u.text.parse().unwrap_or_default())).collect()
 }
 
 fn to_table(glyph: &Glyph) -> Table {

@@ -157,9 +157,9 @@ impl Model<'_> {
         }
     }
 
-    /// Whether a point is so far away that nothing else would be seen beside it.
+    /// Whether a point is so far away that nothing else would be seen beside it, or nowhere.
     fn is_too_far(&self, point: DVec3) -> bool {
-        point.distance(self.center) > FARTHEST * self.diagonal
+        !point.is_finite() || point.distance(self.center) > FARTHEST * self.diagonal
     }
 
     fn absolute(&self, thickness: f32) -> f64 {
@@ -184,9 +184,6 @@ impl Model<'_> {
     }
 
     fn path(&self, shape: &ArrowPath, notes: &mut Vec<String>) -> Result<Made, String> {
-        if let Some(number) = shape.points.iter().position(|p| !p.is_finite()) {
-            return Err(format!("its point {} has a coordinate that is no number", number + 1));
-        }
         if let Some(number) = shape.points.iter().position(|p| self.is_too_far(*p)) {
             return Err(format!("its point {} is too far from the model", number + 1));
         }
@@ -214,9 +211,6 @@ impl Model<'_> {
             Anchor::Point(point) => *point,
             Anchor::Node(path) => self.bounds_below(path)?.center(),
         };
-        if !anchor.is_finite() {
-            return Err("its point has a coordinate that is no number".to_owned());
-        }
         if self.is_too_far(anchor) {
             return Err("its point is too far from the model".to_owned());
         }
