@@ -20,6 +20,7 @@ use crate::render::layers::{LayerInputs, LayerLines, LayerLinesInputs, Layers, R
 use crate::render::passes::gbuffer::{DrawCall, DrawUniform, GBuffer, GBufferPass};
 use crate::render::passes::lines::{Lines, Pen, lines};
 use crate::render::passes::peel::Layer;
+use crate::render::passes::segments::Segments;
 use crate::render::segments::segments;
 use crate::render::shadows::ShadowMask;
 
@@ -81,13 +82,19 @@ pub struct Panes {
 pub struct Blended {
     layers: Layers,
     lines: LayerLines,
+    segments: Segments,
     draws: DynamicBuffer,
 }
 
 impl Blended {
     /// Nothing drawn yet.
     pub fn new(gpu: &Gpu) -> Self {
-        Self { layers: Layers::new(gpu), lines: LayerLines::new(gpu), draws: GBufferPass::draw_buffer(gpu) }
+        Self {
+            layers: Layers::new(gpu),
+            lines: LayerLines::new(gpu),
+            segments: Segments::new(gpu),
+            draws: GBufferPass::draw_buffer(gpu),
+        }
     }
 
     /// What has been reported about its pictures. Never waits.
@@ -109,11 +116,10 @@ impl Blended {
         (shading, shadow_mask): (&Shading<'_>, &mut ShadowMask),
     ) -> Result<Panes, RenderError> {
         let Blend { group, draws, calls, .. } = blend;
-        let Self { layers, lines: layer_lines, draws: draw_buffer } = self;
+        let Self { layers, lines: layer_lines, segments: placed, draws: draw_buffer } = self;
         layer_lines.begin(rec.gpu, &group.edge_styles);
-        let segments =
-            segments(inputs.scene, group, &inputs.view.moved(glam::Vec2::ZERO), inputs.crease_angle);
-        let is_cut = inputs.view.cut.is_some();
+        let view = inputs.view.moved(glam::Vec2::ZERO);
+        placed.write(rec.gpu, &segments(inputs.scene, group, &view, inputs.crease_angle))?;
         let cover = match opaque.lines {
             Some(opaque_lines) => Some(cover(rec, opaque_lines)?),
             None => None,
@@ -139,7 +145,7 @@ impl Blended {
             scene: inputs.scene,
             draws,
             calls,
-            is_cut,
+            is_cut: inputs.view.has_cuts(),
             most: MOST_LAYERS,
             least: 1,
             mask: None,
@@ -169,9 +175,9 @@ impl Blended {
             if group.have_lines() {
                 let edges = LayerLinesInputs {
                     styles: &group.edge_styles,
-                    segments: &segments,
+                    segments: placed,
                     has_holes: group.has_holes,
-                    is_cut,
+                    is_cut: inputs.view.cut.is_some(),
                     before: None,
                     repeated: false,
                 };
@@ -261,7 +267,7 @@ fn lay_beneath(
         outputs: &[color],
         onto: Onto::Beneath,
         depth: Some((&layer.gbuffer.depth, DepthRule::Covered)),
-        lines: None,
+        points: None,
     })?;
     Ok(())
 }
