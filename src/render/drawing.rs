@@ -19,7 +19,7 @@ use super::effects::blueprint::{Blueprints, Peels};
 use super::effects::halftone::{HalftoneInputs, HalftoneUniform, Halftones, ThresholdMaps};
 use super::effects::hidden::HiddenLines;
 use super::effects::mirror::{MirrorUniform, mirror};
-use super::effects::section::{CapUniform, caps, section};
+use super::effects::section::{CapUniform, caps};
 use super::effects::surface::{Shading, SurfaceUniform, surface};
 use super::effects::toon::{ToonBuffers, Toons, cartoon_map};
 use super::frame_uniform::{FrameUniform, View};
@@ -399,7 +399,6 @@ impl Drawing {
             }
         };
         let revisions = edge_map.map(|e| [e.revision, reach.as_ref().map_or(0, |reach| reach.revision)]);
-        let caps = caps(inputs.scene, inputs.view, inputs.objects.scale);
         let shading = (
             [gbuffer.revision, begun.shadow_mask.as_ref().map_or(0, |mask| mask.revision)],
             revisions,
@@ -415,11 +414,14 @@ impl Drawing {
             hidden.as_ref().map(|hidden| hidden.revision),
             Blend::new(inputs),
             blueprints.iter().map(|(_, b)| b.revision).collect(),
-            caps.clone(),
+            caps(inputs.scene, inputs.view, inputs.objects.scale),
         );
         let drawn = self.surface.run(shading, |shading| {
-            let (_, _, surfaces, toons, (halftones, _), styles, .., blend, _, _) = shading;
+            let (_, _, surfaces, toons, (halftones, _), styles, .., blend, _, caps) = shading;
             self.surface_styles.write(rec.gpu, surfaces);
+            if !caps.is_empty() {
+                self.caps.write(rec.gpu, caps);
+            }
             if !halftones.is_empty() {
                 self.halftone_styles.write(rec.gpu, halftones);
             }
@@ -439,13 +441,10 @@ impl Drawing {
                     maps: &shared.thresholds,
                     coordinates: coordinates.as_ref(),
                 },
+                caps: (!caps.is_empty()).then_some(self.caps.buffer()),
                 blends: false,
             };
             let color = surface(rec, &gbuffer.value, &shading)?;
-            if !caps.is_empty() {
-                self.caps.write(rec.gpu, &caps);
-                section(rec, &gbuffer.value, self.caps.buffer(), &color)?;
-            }
             for seen in &reflected {
                 let Some(reflection) = self.reflections.get_mut(seen.index) else { continue };
                 reflection.uniform.write(rec.gpu, &vec![seen.uniform]);

@@ -120,7 +120,6 @@ impl Blended {
         layer_lines.begin(rec.gpu, &group.edge_styles);
         let view = inputs.view.moved(glam::Vec2::ZERO);
         placed.write(rec.gpu, &segments(inputs.scene, group, &view, inputs.crease_angle))?;
-        let is_cut = inputs.view.cut.is_some();
         let cover = match opaque.lines {
             Some(opaque_lines) => Some(cover(rec, opaque_lines)?),
             None => None,
@@ -146,7 +145,7 @@ impl Blended {
             scene: inputs.scene,
             draws,
             calls,
-            is_cut,
+            is_cut: inputs.view.has_cuts(),
             most: MOST_LAYERS,
             least: 1,
             mask: None,
@@ -179,7 +178,7 @@ impl Blended {
                     styles: &group.edge_styles,
                     segments: placed,
                     has_holes: group.has_holes,
-                    is_cut,
+                    is_cut: inputs.view.cut.is_some(),
                     before: None,
                     repeated: false,
                 };

@@ -6,6 +6,7 @@ use glam::{DMat4, Vec3};
 
 use super::gooch::GoochUniform;
 use super::halftone::{self, HalftoneInputs};
+use super::section::section;
 use super::toon::{self, ToonBuffers, Toons};
 use crate::gpu::recorder::Input;
 use crate::gpu::{Program, Recorder, Target};
@@ -72,6 +73,8 @@ pub struct Shading<'a> {
     pub cartoon_map: Option<&'a Target>,
     /// What halftones need.
     pub halftones: HalftoneInputs<'a>,
+    /// The caps of a section by object id; `None` when there are none.
+    pub caps: Option<&'a wgpu::Buffer>,
     /// Whether materials blend: then colours are as opaque as they are.
     pub blends: bool,
 }
@@ -118,5 +121,8 @@ pub fn surface(
         &[&color],
         Some(&gbuffer.depth),
     )?;
+    if let Some(caps) = shading.caps {
+        section(rec, gbuffer, caps, &color)?;
+    }
     Ok(color)
 }
