@@ -364,7 +364,8 @@ impl Viewer {
     fn follow_glyphs(&mut self) {
         let before = Arc::clone(&self.model.scene);
         let is_selected = self.selection.iter().any(|node| before.is_added(node));
-        if self.model.show_glyphs(&self.document) && is_selected {
+        // A renamed glyph keeps its number.
+        if self.model.show_glyphs(&self.document) && is_selected && self.model.scene.added != before.added {
             self.selection = self.selection.carried_over(&before, &self.model.scene);
         }
     }
