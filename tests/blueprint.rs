@@ -550,7 +550,7 @@ fn a_threshold_leaves_faint_lines_out_and_makes_all_others_full() {
         let few = drawn(&mut session, &[("blueprint.threshold", "0.7")]);
         let none = drawn(&mut session, &[("edges.inner.show", "false"), ("edges.inner.strength", "1")]);
         drawn(&mut session, &[("edges.inner.show", "true")]);
-        let [full, faint, some, few, none] = [&full, &faint, &some, &few, &none].map(|i| inked(i));
+        let [full, faint, some, few, none] = [&full, &faint, &some, &few, &none].map(inked);
         assert!(none > 100 && full > none + 100 && faint > none, "{mode}: {none} {faint} {full}");
         // The papers' operators have soft ink of their own.
         let slack = if mode == "exact" { 12 } else { full / 5 };
