@@ -9,7 +9,6 @@ pub mod clean;
 pub mod edge_class;
 pub mod feature_edges;
 pub mod flat;
-pub mod font;
 mod line_chains;
 pub mod line_score;
 pub mod line_segments;

@@ -2,10 +2,9 @@
 
 use encase::ShaderType;
 use glam::{Vec3, Vec4};
-use skrifa::outline::OutlinePen;
 use tiny_skia::{FillRule, Mask, PathBuilder, Rect, Transform};
 
-use crate::geometry::font::draw_text;
+use crate::geometry::text::Text;
 use crate::scene::{Camera, Projection, Unit};
 
 /// It takes at most this share of the picture's width.
@@ -98,17 +97,29 @@ impl ScaleBar {
     /// How much of each pixel it covers.
     fn mask(&self) -> Option<Mask> {
         let s = self.scale;
-        let mut letters = Letters { path: PathBuilder::new(), at: [0.0, 0.0] };
         let (base, top) = (MARGIN * s, (MARGIN + HEIGHT) * s);
-        letters.at = [MARGIN * s, top + GAP * s];
-        draw_text("0", TEXT * s, &mut letters);
-        letters.at = [MARGIN * s + self.length, top + GAP * s];
-        let end = MARGIN * s + self.length + draw_text(&self.label, TEXT * s, &mut letters);
+        let mut letters = PathBuilder::new();
+        let mut write = |text: &str, left: f32| {
+            let text = Text::new(text);
+            let at = |index: &u32| {
+                let p = text.mesh.positions.get(*index as usize).copied().unwrap_or_default();
+                (left + p.x * TEXT * s, top + (GAP + p.y * TEXT) * s)
+            };
+            for triangle in text.mesh.indices.chunks_exact(3) {
+                for (i, (x, y)) in triangle.iter().map(at).enumerate() {
+                    if i == 0 { letters.move_to(x, y) } else { letters.line_to(x, y) }
+                }
+                letters.close();
+            }
+            left + text.max.x * TEXT * s
+        };
+        write("0", MARGIN * s);
+        let end = write(&self.label, MARGIN * s + self.length);
         let (width, height) = ((end + 2.0).ceil(), (top + (GAP + TEXT) * s).ceil());
         let mut mask = Mask::new(width as u32, height as u32)?;
         // Rows go down, and so does its y.
         let upright = Transform::from_row(1.0, 0.0, 0.0, -1.0, 0.0, height);
-        if let Some(path) = letters.path.finish() {
+        if let Some(path) = letters.finish() {
             mask.fill_path(&path, FillRule::Winding, true, upright);
         }
         let mut fields = PathBuilder::new();
@@ -148,36 +159,6 @@ fn round_below(longest: f64) -> Option<(f64, u32)> {
         (number <= longest * (1.0 + 1e-9)).then_some(number)
     };
     [(5.0, 5), (2.0, 4), (1.0, 5)].into_iter().find_map(|(digit, fields)| Some((digits(digit)?, fields)))
-}
-
-/// Letters as a path.
-struct Letters {
-    path: PathBuilder,
-    at: [f32; 2],
-}
-
-impl OutlinePen for Letters {
-    fn move_to(&mut self, x: f32, y: f32) {
-        self.path.move_to(self.at[0] + x, self.at[1] + y);
-    }
-
-    fn line_to(&mut self, x: f32, y: f32) {
-        self.path.line_to(self.at[0] + x, self.at[1] + y);
-    }
-
-    fn quad_to(&mut self, cx: f32, cy: f32, x: f32, y: f32) {
-        let [left, base] = self.at;
-        self.path.quad_to(left + cx, base + cy, left + x, base + y);
-    }
-
-    fn curve_to(&mut self, cx0: f32, cy0: f32, cx1: f32, cy1: f32, x: f32, y: f32) {
-        let [left, base] = self.at;
-        self.path.cubic_to(left + cx0, base + cy0, left + cx1, base + cy1, left + x, base + y);
-    }
-
-    fn close(&mut self) {
-        self.path.close();
-    }
 }
 
 #[cfg(test)]
