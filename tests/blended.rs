@@ -30,11 +30,11 @@ fn at(x: f64, y: f64, z: f64) -> DMat4 {
 }
 
 fn scene(objects: Vec<Object>) -> Scene {
-    let opaque =
-        objects.iter().map(|(name, mesh, place, _)| (*name, mesh.clone(), *place, [1.0; 3])).collect();
+    let (opaque, colors): (Vec<_>, Vec<_>) =
+        objects.into_iter().map(|(name, mesh, place, color)| ((name, mesh, place, [1.0; 3]), color)).unzip();
     let mut scene = Arc::unwrap_or_clone(common::scene(opaque));
-    for (material, (.., color)) in scene.materials.iter_mut().zip(&objects) {
-        material.base_color = *color;
+    for (material, color) in scene.materials.iter_mut().zip(colors) {
+        material.base_color = color;
         material.alpha = if color.w < 1.0 { AlphaMode::Blend } else { AlphaMode::Opaque };
     }
     scene

@@ -96,7 +96,7 @@ fn a_cut_cube_looks_like_half_a_cube() {
                 opened
             });
             let mut cut = cut;
-            let own = hachure::style::Color(RED.map(|c| hachure::style::color::srgb_from_linear(c)));
+            let own = hachure::style::Color(RED.map(hachure::style::color::srgb_from_linear));
             set_all(
                 &mut cut,
                 &[

@@ -322,8 +322,14 @@ impl Command {
             Self::FullScreen => const { &[key(Key::F11)] },
             Self::ReloadShaders => const { &[ctrl(Key::R)] },
             Self::Help => const { &[key(Key::F1), key(Key::H)] },
-            Self::AddBox | Self::AddArrow | Self::AddPath | Self::AddLabel => &[],
-            Self::Outliner | Self::Inspector | Self::DarkPanels | Self::Warnings => &[],
+            Self::AddBox
+            | Self::AddArrow
+            | Self::AddPath
+            | Self::AddLabel
+            | Self::Outliner
+            | Self::Inspector
+            | Self::DarkPanels
+            | Self::Warnings => &[],
         }
     }
 

@@ -224,7 +224,7 @@ impl FromStr for Scale {
     fn from_str(s: &str) -> Result<Self, String> {
         let wrong = || format!("`{s}` is no scale; write two numbers above 0, such as 1:50");
         let (paper, world) = s.split_once(':').ok_or_else(wrong)?;
-        let number = |s: &str| positive(s).map_err(|_| wrong());
+        let number = |s: &str| positive(s).map_err(|_no_number| wrong());
         Ok(Self(number(world)? / number(paper)?))
     }
 }

@@ -283,8 +283,8 @@ mod tests {
 
     #[test]
     fn a_plane_beyond_the_model_is_told() {
-        let mut document = Document::default();
-        document.section = Section { show: true, position: Some(0.5), ..Section::default() };
+        let section = Section { show: true, position: Some(0.5), ..Section::default() };
+        let mut document = Document { section, ..Document::default() };
         let mut fault = |position, flip| {
             (document.section.position, document.section.flip) = (Some(position), flip);
             document.section_fault(Up::PosY, &BOX).map(|w| w.to_string())

@@ -192,7 +192,7 @@ impl Cut<'_> {
 
     fn contour(&self, stretches: &[Stretch], chain: &[u32], is_closed: bool) -> Contour {
         let of_chain = || chain.iter().filter_map(|&i| stretches.get(i as usize));
-        let last = of_chain().last().filter(|_| !is_closed).map(|s| s.to);
+        let last = of_chain().next_back().filter(|_| !is_closed).map(|s| s.to);
         Contour {
             points: of_chain().map(|s| s.from).chain(last).map(|crossing| self.point(crossing)).collect(),
             triangles: of_chain().map(|s| s.triangle).collect(),

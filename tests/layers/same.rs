@@ -87,7 +87,7 @@ fn random_objects(seed: u64) -> Vec<(&'static str, Mesh, DMat4, [f32; 3])> {
     let mut random = Random(seed);
     let mut objects = Vec::new();
     for name in ["a", "b", "c", "d"] {
-        let mesh = soup(&mut random, 12, seed % 2 == 0);
+        let mesh = soup(&mut random, 12, seed.is_multiple_of(2));
         let color = [random.next(), random.next(), random.next()];
         objects.push((name, mesh.clone(), DMat4::IDENTITY, color));
         if random.next() < 0.5 {

@@ -245,7 +245,7 @@ impl Blueprints {
                 with_color: asked.keeps_layers
                     || group.edge_styles.iter().any(|s| s.draws(EdgeClass::Texture)),
             };
-            let outer = std::mem::replace(&mut rec.part, Some(group.part(inputs.scene, inputs.view)));
+            let outer = rec.part.replace(group.part(inputs.scene, inputs.view));
             let drawn = layers.each(rec, gbuffer_pass, &cut, |rec, number, layer, count| {
                 if asked.keeps_layers {
                     kept.push(layer.clone());

@@ -141,7 +141,7 @@ impl FragmentLists {
             Input::Texture(last_depth),
             Input::Texture(last_order),
         ];
-        let is_first = number % SORTED == 0;
+        let is_first = number.is_multiple_of(SORTED);
         rec.draw(Draw {
             label: if is_first { "sort and cut" } else { "cut" },
             program: Program {
