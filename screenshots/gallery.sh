@@ -134,8 +134,7 @@ draw section_crank "$crank" --style technical-illustration --section z=0 --set s
 paths() { # paths NAME ARGUMENTS...
 	name=$1
 	shift
-	target/release/hachure render screenshots/temple_paths.hachure --output "screenshots/$name.png" --samples 64 \
-		--style blueprint --set blueprint.layers=24 --set blueprint.opacity=0.03 "$@"
+	target/release/hachure render screenshots/temple_paths.hachure --output "screenshots/$name.png" --samples 64 "$@"
 	echo "screenshots/$name.png"
 }
 paths temple_paths --resolution 1200,840 --camera-azimuth-angle -50 --camera-elevation-angle 35
