@@ -6,7 +6,9 @@
 //! segments (topology) ─────┘
 //! ```
 
+mod layered;
 mod reflections;
+mod tones;
 
 use std::sync::Arc;
 
@@ -15,26 +17,25 @@ use glam::{Vec2, Vec4};
 use self::reflections::Reflection;
 use super::RenderError;
 use super::effects::blended::{Blend, Blended, Opaque};
-use super::effects::blueprint::{Blueprints, Peels};
+use super::effects::blueprint::Blueprints;
 use super::effects::halftone::{HalftoneInputs, HalftoneUniform, Halftones, ThresholdMaps};
 use super::effects::hidden::HiddenLines;
 use super::effects::mirror::{MirrorUniform, mirror};
 use super::effects::section::{CapUniform, caps};
 use super::effects::surface::{Shading, SurfaceUniform, surface};
-use super::effects::toon::{ToonBuffers, Toons, cartoon_map};
+use super::effects::toon::{ToonBuffers, Toons};
 use super::frame_uniform::{FrameUniform, View};
 use super::gpu_scene::{GpuScene, Origin};
 use super::groups::Objects;
-use super::layers::{LayersBy, Reported};
 use super::lights::Lights;
-use super::passes::depth_mask::{DepthMask, DepthMaskPass};
+use super::passes::depth_mask::DepthMaskPass;
 use super::passes::edge_map::{EdgeInputs, EdgeMap, edge_map};
 use super::passes::edge_style::EdgeUniform;
 use super::passes::gbuffer::{DrawCall, DrawUniform, GBuffer, GBufferPass};
 use super::passes::line_distance::{Reach, line_distance};
 use super::passes::lines::{Lines, Pen, lines};
 use super::passes::overlay::overlay;
-use super::passes::peel::{Layer, Peeled};
+use super::passes::peel::Layer;
 use super::passes::segments::Segments;
 use super::sample::Sample;
 use super::segments::segments;
@@ -43,7 +44,6 @@ use super::stage::{Output, Stage};
 use crate::document;
 use crate::geometry::{EdgeClass, LineSegment};
 use crate::gpu::{ArrayBuffer, DynamicBuffer, Gpu, Recorder, Target, UniformBuffer};
-use crate::style::Style;
 
 /// What is to be drawn, and from where.
 #[derive(Clone, Copy)]
@@ -236,38 +236,6 @@ impl Drawing {
             ("blueprint", self.blueprinted),
             ("mirror", self.reflected),
         ]
-    }
-
-    /// How far peeling came in each blueprint. Waits for the device.
-    ///
-    /// # Errors
-    /// [`RenderError`].
-    pub fn peeled(&self, gpu: &Gpu) -> Result<Vec<Peeled>, RenderError> {
-        self.blueprints.iter().map(|b| b.count().read(gpu)).collect()
-    }
-
-    /// What has been reported about the layers of its pictures and of what mirrors show; it draws incomplete ones again.
-    /// Never waits.
-    pub fn take_reports(&mut self) -> Reported {
-        let own = self.blueprints.iter_mut().map(Blueprints::take_reports);
-        let reflected = self.reflections.iter_mut().map(|r| r.drawing.take_reports());
-        let hidden = self.hidden.iter_mut().map(HiddenLines::take_reports);
-        let blended = self.blended.as_mut().map(Blended::take_reports);
-        if blended == Some(Reported::Incomplete) {
-            self.surface.clear();
-        }
-        own.chain(hidden).chain(blended).chain(reflected).max().unwrap_or(Reported::Complete)
-    }
-
-    /// How far the layers of each blueprint came in the last picture whose report has arrived; in the order of
-    /// [`Objects::blueprints`].
-    pub fn last_peeled(&self) -> Vec<Option<(Peeled, LayersBy)>> {
-        self.blueprints.iter().map(|b| b.last().cloned()).collect()
-    }
-
-    /// The same of the blueprint that objects of this style are in.
-    pub fn last_peeled_of(&self, style: &Style) -> Option<&(Peeled, LayersBy)> {
-        self.blueprints.iter().find(|b| b.is_of(style))?.last()
     }
 
     /// Begins a drawing with its G-buffer and the shadows on it; all later passes see through its camera.
@@ -495,89 +463,5 @@ impl Drawing {
         let layers = blueprints.into_iter().map(|(_, b)| b.value.layers).filter(|l| !l.is_empty()).collect();
         let depth_mask = mask.map(|mask| mask.value.depth);
         Ok(Shaded { color, cartoon_map, coordinates, depth_mask, fronts, layers })
-    }
-
-    fn draw_hidden(
-        &mut self,
-        rec: &mut Recorder<'_>,
-        gbuffer_pass: &mut GBufferPass,
-        inputs: &DrawingInputs<'_>,
-        begun: &Begun,
-        edge_map: Option<&Output<EdgeMap>>,
-    ) -> Result<Option<Output<Target>>, RenderError> {
-        if inputs.objects.hidden.is_empty() {
-            self.hidden = None;
-            return Ok(None);
-        }
-        let hidden = self.hidden.get_or_insert_with(|| HiddenLines::new(rec.gpu));
-        hidden.run(rec, gbuffer_pass, inputs, &begun.uniform, edge_map).map(Some)
-    }
-
-    /// Draws the blueprints, the farthest first, each with the depth of its middle. Blended groups that reach into each other have no right order: that of
-    /// their middles is the nearest to it.
-    fn peel(
-        &mut self,
-        rec: &mut Recorder<'_>,
-        gbuffer_pass: &mut GBufferPass,
-        inputs: &DrawingInputs<'_>,
-        drawn: (&Begun, Option<&Output<DepthMask>>),
-    ) -> Result<Vec<(f64, Output<Peels>)>, RenderError> {
-        let groups = &inputs.objects.blueprints;
-        self.blueprints.truncate(groups.len());
-        self.blueprints.resize_with(groups.len(), || Blueprints::new(rec.gpu));
-        let mut pictures = Vec::new();
-        for (blueprint, state) in groups.iter().zip(&mut self.blueprints) {
-            let before = state.runs();
-            let picture = state.run(rec, gbuffer_pass, inputs, drawn, blueprint)?;
-            self.blueprinted += state.runs() - before;
-            pictures.push((blueprint.group.mean_depth(inputs.scene, inputs.view), picture));
-        }
-        pictures.sort_by(|(a, _), (b, _)| b.total_cmp(a));
-        Ok(pictures)
-    }
-
-    fn find_coordinates(
-        &mut self,
-        rec: &mut Recorder<'_>,
-        shared: &mut Shared,
-        inputs: &DrawingInputs<'_>,
-        begun: &Begun,
-    ) -> Result<Option<Target>, RenderError> {
-        if begun.with_coordinates.is_empty() {
-            self.coordinates.clear();
-            return Ok(None);
-        }
-        let asked = (begun.gbuffer.revision, begun.with_coordinates.clone());
-        let coordinates = self.coordinates.run(asked, |(_, calls)| {
-            let draws = (&shared.gbuffer.draw_layout, &self.draws);
-            shared.gbuffer.coordinates.run(rec, inputs.scene, &begun.gbuffer.value, draws, calls)
-        })?;
-        Ok(Some(coordinates.value))
-    }
-
-    fn find_bands(
-        &mut self,
-        rec: &mut Recorder<'_>,
-        inputs: &DrawingInputs<'_>,
-        begun: &Begun,
-    ) -> Result<Option<Target>, RenderError> {
-        let toons = &inputs.objects.toons;
-        if !toons.styles.is_empty() {
-            self.toon_styles.write(rec.gpu, &toons.styles);
-            self.toon_bands.write(rec.gpu, &toons.bands);
-        }
-        if !inputs.objects.have_cartoon_map() {
-            self.cartoon_map.clear();
-            return Ok(None);
-        }
-        let gbuffer = &begun.gbuffer;
-        let mask = begun.shadow_mask.as_ref();
-        let shadows = mask.map_or(0, |mask| mask.revision);
-        let bands = (gbuffer.revision, shadows, toons.clone(), begun.uniform.without_background());
-        let toon_styles = self.toon_styles.buffer();
-        let map = self
-            .cartoon_map
-            .run(bands, |_| cartoon_map(rec, &gbuffer.value, toon_styles, mask.map(|mask| &mask.value)))?;
-        Ok(Some(map.value))
     }
 }
