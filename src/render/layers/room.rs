@@ -8,8 +8,11 @@ use crate::render::passes::peel::Peeled;
 /// Fragments per pixel of the picture, as long as nobody has counted them.
 const FIRST_GUESS: u64 = 4;
 
-/// More layers are recorded than the last report names, as there may be more by now.
-const MORE_LAYERS: u32 = 1;
+/// After so many complete pictures in a row, more than one has samples, guesses may be tight again.
+const CALM: u32 = 2 * crate::render::sample::MAX_SAMPLES;
+
+/// Wrong guesses after which room does not grow any more: then all layers are recorded.
+const MOST_MISTAKES: u32 = 6;
 
 /// What is known of pictures that were drawn, from reports that come back some time after them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -89,6 +92,11 @@ pub(super) struct Room {
     layers: Option<u32>,
     /// Fragments there were.
     fragments: Option<u64>,
+    /// Guesses that were wrong: each doubles the reserve. Samples of one picture differ, and each wrong guess begins it
+    /// anew, so a reserve is kept at least until it is done.
+    mistakes: u32,
+    /// Complete pictures since the last wrong guess.
+    calm: u32,
     /// Since lists had more fragments than there can be room for: pixels of all layers when it was first peeled.
     peeled: Option<u64>,
 }
@@ -106,14 +114,15 @@ impl Room {
 
     fn plan_within(&self, bound: Result<u64, Reason>, [width, height]: [u32; 2], most: u32) -> Recorded {
         let first = FIRST_GUESS * u64::from(width) * u64::from(height);
-        // A quarter more than there were, as there may be more by now.
-        let room = self.fragments.map_or(first, |counted| counted + counted / 4);
+        // More than there were, as there may be more by now: a quarter, and one layer.
+        let reserve = 1 << self.mistakes;
+        let room = self.fragments.map_or(first, |counted| counted + counted / 4 * reserve);
         let fragments = bound.and_then(|bound| match self.fragments {
             Some(counted) if counted > bound => Err(Reason::TooMany(counted)),
             _ => Ok(room.clamp(1, bound)),
         });
         Recorded {
-            layers: self.layers.map_or(most, |layers| (layers + MORE_LAYERS).min(most)),
+            layers: self.layers.map_or(most, |layers| (layers + reserve as u32).min(most)),
             most,
             fragments,
         }
@@ -124,6 +133,14 @@ impl Room {
         let fragments = u64::from(peeled.fragments);
         let overflowed = recorded.fragments.is_ok_and(|room| fragments > room);
         let is_complete = !overflowed && (peeled.has_ended == 1 || recorded.layers >= recorded.most);
+        if is_complete {
+            self.calm += 1;
+            if self.calm >= CALM {
+                (self.mistakes, self.calm) = (0, 0);
+            }
+        } else {
+            (self.mistakes, self.calm) = ((self.mistakes + 1).min(MOST_MISTAKES), 0);
+        }
         // That which ended it is recorded too.
         self.layers = is_complete.then_some(peeled.layers + 1);
         if recorded.fragments.is_ok() {
@@ -134,7 +151,7 @@ impl Room {
             let first = *self.peeled.get_or_insert(pixels);
             if 2 * pixels < first {
                 // So much less that lists may do again.
-                *self = Self { layers: self.layers, ..Self::default() };
+                (self.fragments, self.peeled) = (None, None);
             }
         }
         is_complete
@@ -172,7 +189,7 @@ mod tests {
         let first = room.plan_within(Ok(1000), [10, 10], 8);
         assert!(!room.learn(&first, &peeled(3, true, 700)));
         let second = room.plan_within(Ok(1000), [10, 10], 8);
-        assert_eq!((second.fragments, second.by()), (Ok(875), LayersBy::Lists));
+        assert_eq!((second.fragments, second.by()), (Ok(1000), LayersBy::Lists));
         assert!(!room.learn(&second, &peeled(3, true, 1001)));
         let third = room.plan_within(Ok(1000), [10, 10], 8);
         let peeling = LayersBy::Peeling(Reason::TooMany(1001));
@@ -182,6 +199,28 @@ mod tests {
             assert!(room.learn(&room.plan_within(Ok(1000), [10, 10], 8), &peeled(layers, true, 0)));
             assert_eq!(room.plan_within(Ok(1000), [10, 10], 8).by(), by, "{layers}");
         }
+    }
+
+    #[test]
+    fn a_picture_whose_samples_differ_gets_done() {
+        let mut room = Room::default();
+        let (mut sample, mut drawn) = (0_u32, 0);
+        while sample < 64 {
+            let recorded = room.plan_within(Ok(100_000), [10, 10], 64);
+            // Each fifth sample has many more layers and fragments.
+            let (layers, fragments) = if sample % 5 == 4 { (20, 900) } else { (9, 300) };
+            let has_ended = recorded.layers > layers;
+            let is_complete = room.learn(&recorded, &peeled(layers, has_ended, fragments));
+            sample = if is_complete { sample + 1 } else { 0 };
+            drawn += 1;
+            assert!(drawn < 200, "begun anew for ever");
+        }
+        // Long after that it is guessed tightly again.
+        for _ in 0..CALM {
+            let recorded = room.plan_within(Ok(100_000), [10, 10], 64);
+            assert!(room.learn(&recorded, &peeled(9, true, 300)));
+        }
+        assert_eq!(room.plan_within(Ok(100_000), [10, 10], 64).layers, 11);
     }
 
     #[test]
