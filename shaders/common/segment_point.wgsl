@@ -4,12 +4,11 @@ struct SegmentPoint {
     // See common/edge_map.wgsl.
     edge: vec4<u32>,
     spine: u32,
-    // Of several in a pixel the greatest counts, 0 to 1; 0: there is nothing.
-    order: f32,
-    // 1, or 0.5 if it is only an explanation; see passes/discontinuities.wgsl.
-    mark: f32,
+    // Of several in a pixel the greatest counts. The lowest bit is its mark: 1, or 0 if the line is not drawn but explains
+    // what is there. 0: there is nothing.
+    key: u32,
     // Column in the lower 16 bits, row in the upper ones.
     px: u32,
 }
 
-const NO_POINT: SegmentPoint = SegmentPoint(vec4<u32>(0u, 0u, 0u, 0u), 0u, 0.0, 0.0, 0u);
+const NO_POINT: SegmentPoint = SegmentPoint(vec4<u32>(0u, 0u, 0u, 0u), 0u, 0u, 0u);

@@ -9,8 +9,8 @@
 #import common/line_width.wgsl
 
 @group(1) @binding(1) var region_tex: texture_2d<u32>;
-// 1 where a segment is, 0.5 where it is a crease that is not drawn.
-@group(1) @binding(3) var mark_tex: texture_2d<f32>;
+// Keys of segments; see common/segment_point.wgsl.
+@group(1) @binding(3) var<storage, read> keys: array<u32>;
 
 // The regions of the two layers before this one, if it is a depth layer.
 @group(1) @binding(4) var before_tex: texture_2d<u32>;
@@ -28,8 +28,14 @@ fn region_at(px: vec2<i32>) -> u32 {
     return textureLoad(region_tex, clamp(px, vec2(0), vec2<i32>(frame.size) - 1), 0).x;
 }
 
-fn mark_at(px: vec2<i32>) -> f32 {
-    return textureLoad(mark_tex, clamp(px, vec2(0), vec2<i32>(frame.size) - 1), 0).x;
+// What segments have in a pixel: no bit, `EXPLAINED`, or both bits.
+const EXPLAINED: u32 = 1u;
+const DRAWN: u32 = 2u;
+
+fn mark_at(px: vec2<i32>) -> u32 {
+    let q = clamp(px, vec2(0), vec2<i32>(frame.size) - 1);
+    let key = keys[q.y * i32(frame.size.x) + q.x];
+    return select(EXPLAINED | ((key & 1u) * DRAWN), 0u, key == 0u);
 }
 
 // Marks the pixels beside which another surface begins that no segment explains.
@@ -40,9 +46,9 @@ fn fs_borders(@builtin(position) position: vec4<f32>) {
     let differs = (region_at(px + vec2(1, 0)) ^ own) | (region_at(px - vec2(1, 0)) ^ own)
         | (region_at(px + vec2(0, 1)) ^ own) | (region_at(px - vec2(0, 1)) ^ own);
     // The corners are looked at later, of the few that are left.
-    let mark = max(max(mark_at(px + vec2(1, 0)), mark_at(px - vec2(1, 0))),
-        max(max(mark_at(px + vec2(0, 1)), mark_at(px - vec2(0, 1))), mark_at(px)));
-    if own == 0u || differs == 0u || mark > 0.75 {
+    let marks = mark_at(px) | mark_at(px + vec2(1, 0)) | mark_at(px - vec2(1, 0))
+        | mark_at(px + vec2(0, 1)) | mark_at(px - vec2(0, 1));
+    if own == 0u || differs == 0u || (marks & DRAWN) != 0u {
         discard;
     }
 }
@@ -140,11 +146,11 @@ fn fs_main(@builtin(position) position: vec4<f32>) -> Out {
     let x = unpack_surfel(geometry_at(px));
     let own = region_at(px);
     // An edge near a segment is the segment's; where the near plane cuts, there is no edge.
-    var mark = 0.0;
+    var marks = 0u;
     for (var i = 0; i < 9; i++) {
-        mark = max(mark, mark_at(px + vec2(i % 3, i / 3) - 1));
+        marks |= mark_at(px + vec2(i % 3, i / 3) - 1);
     }
-    if !x.enhanced || mark > 0.75 || x.depth < 1.5 * frame.cut_depth {
+    if !x.enhanced || (marks & DRAWN) != 0u || x.depth < 1.5 * frame.cut_depth {
         discard;
     }
     if edge_styles[x.object].mode != EXACT_MODE {
@@ -173,7 +179,7 @@ fn fs_main(@builtin(position) position: vec4<f32>) -> Out {
         spine = other;
     }
     // A crease that is not drawn explains what is inside its object, but not where another one ends.
-    let is_explained = mark > 0.25 && !spine.ends_object;
+    let is_explained = marks != 0u && !spine.ends_object;
     if spine.class_of == NO_EDGE || is_explained {
         discard;
     }

@@ -1,33 +1,33 @@
-// Draws what passes/segments.wgsl found, a point each; where several share a pixel, the depth test decides.
+// Puts what passes/segments.wgsl found into the edge map. Where several points of one pixel are equal, the first one counts.
 #import common/frame.wgsl
 #import common/segment_point.wgsl
 
 @group(1) @binding(0) var<storage, read> points: array<SegmentPoint>;
+// The greatest key of each pixel.
+@group(1) @binding(1) var<storage, read> keys: array<u32>;
+// For each pixel the inverted number of its point: a greater one is an earlier one.
+@group(1) @binding(2) var<storage, read_write> winners: array<atomic<u32>>;
+@group(1) @binding(3) var edge_tex: texture_storage_2d<rgba32uint, write>;
+@group(1) @binding(4) var spine_tex: texture_storage_2d<r32uint, write>;
 
-struct Point {
-    @builtin(position) position: vec4<f32>,
-    @location(0) @interpolate(flat) edge: vec4<u32>,
-    @location(1) @interpolate(flat) spine: u32,
-    @location(2) @interpolate(flat) mark: f32,
+fn index_of(point: SegmentPoint) -> u32 {
+    return (point.px >> 16u) * u32(frame.size.x) + (point.px & 0xffffu);
 }
 
-@vertex
-fn vs_main(@builtin(vertex_index) index: u32) -> Point {
-    let point = points[index];
-    let px = vec2(f32(point.px & 0xffffu), f32(point.px >> 16u)) + 0.5;
-    let ndc = px / frame.size * vec2(2.0, -2.0) + vec2(-1.0, 1.0);
-    // What is nothing lies before the near plane.
-    let depth = select(2.0, point.order, point.order > 0.0);
-    return Point(vec4(ndc, depth, 1.0), point.edge, point.spine, point.mark);
+@compute @workgroup_size(64)
+fn cs_compare(@builtin(global_invocation_id) id: vec3<u32>) {
+    let point = points[id.x];
+    if point.key != 0u && point.key == keys[index_of(point)] {
+        atomicMax(&winners[index_of(point)], ~id.x);
+    }
 }
 
-struct Out {
-    @location(0) edge: vec4<u32>,
-    @location(1) spine: u32,
-    @location(2) mark: f32,
-}
-
-@fragment
-fn fs_main(point: Point) -> Out {
-    return Out(point.edge, point.spine, point.mark);
+@compute @workgroup_size(64)
+fn cs_put(@builtin(global_invocation_id) id: vec3<u32>) {
+    let point = points[id.x];
+    if point.key != 0u && atomicLoad(&winners[index_of(point)]) == ~id.x {
+        let px = vec2(point.px & 0xffffu, point.px >> 16u);
+        textureStore(edge_tex, px, point.edge);
+        textureStore(spine_tex, px, vec4(point.spine, 0u, 0u, 0u));
+    }
 }

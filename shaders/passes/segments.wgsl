@@ -1,5 +1,6 @@
-// The lines that topology knows (silhouettes, borders, creases, material boundaries), where something of them is visible: the
-// pixels of each segment, one per step along it, are tested side by side. passes/segment_points.wgsl draws what is found.
+// The lines that topology knows (silhouettes, borders, creases, material boundaries), where something of them is visible:
+// the pixels of each segment, one per step along it. Software devices run both sides of a branch, so steps are sifted first,
+// and only those that are left are looked at closely. passes/segment_points.wgsl puts what is found into the edge map.
 #import common/frame.wgsl
 #import common/gbuffer.wgsl
 #import common/plane.wgsl
@@ -7,6 +8,7 @@
 #import common/edge_style.wgsl
 #import common/line_width.wgsl
 #import common/segment_point.wgsl
+#import common/kept.wgsl
 
 // Whether any object has holes by alpha: there a line needs one of its own surfaces beside it.
 override WITH_HOLES: bool = true;
@@ -17,8 +19,16 @@ override IN_LAYER: bool = false;
 // Records of `LineSegment` in src/geometry/line_segments.rs.
 @group(1) @binding(3) var<storage, read> segments: array<u32>;
 // Number of a segment, and how many steps from its beginning.
+// Number of a segment, and how many steps from its beginning.
 @group(1) @binding(4) var<storage, read> steps: array<vec2<u32>>;
-@group(1) @binding(5) var<storage, read_write> points: array<SegmentPoint>;
+// A bit for each step: whether it is looked at closely; see passes/gather.wgsl.
+@group(1) @binding(5) var<storage, read_write> sifted: array<atomic<u32>>;
+// The steps that are, then `NO_STEP`.
+@group(1) @binding(6) var<storage, read> kept: array<u32>;
+// What is found of each.
+@group(1) @binding(7) var<storage, read_write> points: array<SegmentPoint>;
+// The greatest key of each pixel.
+@group(1) @binding(8) var<storage, read_write> keys: array<atomic<u32>>;
 
 const RECORD_WORDS: u32 = 13u;
 
@@ -84,6 +94,10 @@ fn is_beside(px: vec2<i32>, regions: vec2<u32>) -> bool {
     return found;
 }
 
+fn texel_of(at: vec2<f32>) -> vec2<i32> {
+    return clamp(vec2<i32>(floor(at)), vec2(0), vec2<i32>(frame.size) - 1);
+}
+
 // What a pixel near the spine shows.
 struct Beside {
     surfel: Surfel,
@@ -94,35 +108,70 @@ struct Beside {
     carries: bool,
 }
 
-fn beside(at: vec2<f32>, spine: vec2<f32>, nearness: f32, depth: f32, regions: vec2<u32>) -> Beside {
-    let px = clamp(vec2<i32>(floor(at)), vec2(0), vec2<i32>(frame.size) - 1);
+// So far along the normal of the spine, px.
+fn beside(spine: Spine, along: f32, regions: vec2<u32>) -> Beside {
+    let px = texel_of(spine.at + along * spine.normal);
     let s = unpack_surfel(textureLoad(geometry_tex, px, 0));
     let plane = plane_of(px, s.depth, s.face_normal);
-    let lead = nearness_at(plane, spine - vec2<f32>(px) - 0.5) - nearness;
+    let lead = nearness_at(plane, spine.at - vec2<f32>(px) - 0.5) - spine.nearness;
     var carries = false;
     if IN_LAYER {
         let miss = abs(lead) - length(plane.slope);
-        carries = any(regions == vec2(textureLoad(region_tex, px, 0).x)) && step_px(miss, depth) <= 2.0;
+        carries = any(regions == vec2(textureLoad(region_tex, px, 0).x)) && step_px(miss, spine.depth) <= 2.0;
     }
-    return Beside(s, select(step_px(lead, depth), -1e9, s.object == 0u), carries && s.object != 0u);
+    return Beside(s, select(step_px(lead, spine.depth), -1e9, s.object == 0u), carries && s.object != 0u);
 }
 
-// What is found at a pixel of a segment; order 0: nothing.
-fn point_at(v: Segment, px: vec2<f32>) -> SegmentPoint {
+// The point of a segment's line next to the centre of a pixel.
+struct Spine {
+    // px.
+    at: vec2<f32>,
+    // Share of the way from one end to the other.
+    t: f32,
+    tangent: vec2<f32>,
+    // To its left.
+    normal: vec2<f32>,
+    // 0 for a segment without a length.
+    inverse_length: f32,
+    nearness: f32,
+    depth: f32,
+}
+
+fn spine_at(v: Segment, px: vec2<f32>) -> Spine {
     let d = v.ends.zw - v.ends.xy;
     let length2 = dot(d, d);
     let inverse_length = select(0.0, inverseSqrt(length2), length2 > 1e-12);
     let tangent = select(vec2(1.0, 0.0), d * inverse_length, inverse_length > 0.0);
-    let center = px + 0.5;
-    let t = clamp(dot(center - v.ends.xy, tangent) * inverse_length, 0.0, 1.0);
-    let spine = mix(v.ends.xy, v.ends.zw, t);
+    let t = clamp(dot(px + 0.5 - v.ends.xy, tangent) * inverse_length, 0.0, 1.0);
+    let at = mix(v.ends.xy, v.ends.zw, t);
     let nearness = mix(nearness_of(v.depths_arcs.x), nearness_of(v.depths_arcs.y), t);
-    let depth = depth_of(nearness);
-    let normal = vec2(tangent.y, -tangent.x);
+    return Spine(at, t, tangent, vec2(tangent.y, -tangent.x), inverse_length, nearness, depth_of(nearness));
+}
 
+// Whether a pixel of a segment is worth a closer look: in a layer, if one of its surfaces is seen nearby, as few are;
+// otherwise, if no surface lies before it.
+fn is_worth_it(v: Segment, px: vec2<f32>) -> bool {
+    let spine = spine_at(v, px);
+    if IN_LAYER {
+        var is_seen = false;
+        for (var place = -2; place <= 2; place++) {
+            let q = texel_of(spine.at + f32(place) * BESIDE * spine.normal);
+            is_seen = is_seen || any(v.ids.zw == vec2(textureLoad(region_tex, q, 0).x));
+        }
+        return is_seen;
+    }
+    let left = beside(spine, BESIDE, v.ids.zw);
+    let right = beside(spine, -BESIDE, v.ids.zw);
+    return min(left.lead, right.lead) <= SLACK;
+}
+
+// What is found at a pixel of a segment.
+fn point_at(v: Segment, px: vec2<f32>) -> SegmentPoint {
+    let spine = spine_at(v, px);
+    let depth = spine.depth;
     let regions = v.ids.zw;
-    let left = beside(spine + BESIDE * normal, spine, nearness, depth, regions);
-    let right = beside(spine - BESIDE * normal, spine, nearness, depth, regions);
+    let left = beside(spine, BESIDE, regions);
+    let right = beside(spine, -BESIDE, regions);
     let own = v.ids.y;
     var is_visible = min(left.lead, right.lead) <= SLACK;
     if WITH_HOLES {
@@ -130,9 +179,9 @@ fn point_at(v: Segment, px: vec2<f32>) -> SegmentPoint {
     }
     if IN_LAYER {
         let is_carried = left.carries || right.carries
-            || beside(spine, spine, nearness, depth, regions).carries
-            || beside(spine + 2.0 * BESIDE * normal, spine, nearness, depth, regions).carries
-            || beside(spine - 2.0 * BESIDE * normal, spine, nearness, depth, regions).carries;
+            || beside(spine, 0.0, regions).carries
+            || beside(spine, 2.0 * BESIDE, regions).carries
+            || beside(spine, -2.0 * BESIDE, regions).carries;
         is_visible = is_visible && is_carried;
     }
     if !is_visible {
@@ -163,15 +212,15 @@ fn point_at(v: Segment, px: vec2<f32>) -> SegmentPoint {
     let is_hidden = (v.ids.x & HIDDEN) != 0u || edge_styles[own].lines[index].strength <= 0.0 || weight <= 0.0;
     let pos_view = pos_view_of(vec2<i32>(px), depth);
     let front = select(left.surfel.normal, right.surfel.normal, left_is_outside);
-    let arc = mix(v.depths_arcs.z, v.depths_arcs.w, t);
+    let arc = mix(v.depths_arcs.z, v.depths_arcs.w, spine.t);
     let edge = Edge(
         class_of,
         own,
-        spine - center,
-        pack_tangent(tangent),
+        spine.at - px - 0.5,
+        pack_tangent(spine.tangent),
         select(-1.0, 1.0, left_is_outside),
         // Of short segments only some have a pixel: each goes on to the next one that has.
-        clamp(0.5 / max(inverse_length, 1e-6), 0.5, 0.75) * select(0.0, 1.0, inverse_length > 0.0),
+        clamp(0.5 / max(spine.inverse_length, 1e-6), 0.5, 0.75) * select(0.0, 1.0, spine.inverse_length > 0.0),
         depth,
         half_width(own, class_of, pos_view, front),
         arc / edge_styles[own].dash_period,
@@ -187,18 +236,33 @@ fn point_at(v: Segment, px: vec2<f32>) -> SegmentPoint {
     let texel = pack_edge(edge);
     let is_rim = class_of <= OBJECT;
     let packed = spine_of(texel, halves_of(own), select(0.0, 1.0, is_profile), 1.0 - range_share(depth));
-    let mark = select(0.5, 1.0, is_rim || !is_hidden);
-    return SegmentPoint(texel, packed, order, mark, u32(px.x) | (u32(px.y) << 16u));
+    let mark = select(0u, 1u, is_rim || !is_hidden);
+    // Positive numbers have the order of their bits, and those below 1 leave two of them.
+    return SegmentPoint(texel, packed, (bitcast<u32>(order) << 1u) | mark, u32(px.x) | (u32(px.y) << 16u));
 }
 
 @compute @workgroup_size(64)
-fn cs_main(@builtin(global_invocation_id) id: vec3<u32>) {
+fn cs_sift(@builtin(global_invocation_id) id: vec3<u32>) {
     let step = steps[id.x];
     let segment = segment_at(step.x);
     let place = place_of(segment.ends, step.y);
-    var point = NO_POINT;
-    if place.is_on {
-        point = point_at(segment, place.px);
+    if place.is_on && is_worth_it(segment, place.px) {
+        atomicOr(&sifted[id.x / 32u], 1u << (id.x % 32u));
     }
+}
+
+@compute @workgroup_size(64)
+fn cs_points(@builtin(global_invocation_id) id: vec3<u32>) {
+    let number = kept[id.x];
+    if number == NO_STEP {
+        points[id.x] = NO_POINT;
+        return;
+    }
+    let step = steps[number];
+    let segment = segment_at(step.x);
+    let point = point_at(segment, place_of(segment.ends, step.y).px);
     points[id.x] = point;
+    if point.key != 0u {
+        atomicMax(&keys[(point.px >> 16u) * u32(frame.size.x) + (point.px & 0xffffu)], point.key);
+    }
 }

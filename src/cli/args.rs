@@ -167,6 +167,9 @@ pub(super) struct BenchArgs {
     /// Frames per measurement; the median counts
     #[arg(long, value_name = "N", default_value = "20", value_parser = clap::value_parser!(u32).range(1..=10_000))]
     pub frames: u32,
+    /// Only rows whose name has this in it, beside the plain one
+    #[arg(long, value_name = "TEXT")]
+    pub only: Option<String>,
     /// Print as JSON
     #[arg(long)]
     pub json: bool,

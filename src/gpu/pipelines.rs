@@ -58,10 +58,6 @@ pub enum DepthRule {
     MarkCovered,
     /// Draws only where [`Self::Mark`] or [`Self::MarkCovered`] did.
     Marked,
-    /// The nearest wins.
-    Nearest,
-    /// As [`Self::Nearest`], also against what has been drawn before.
-    Nearer,
 }
 
 impl DepthRule {
@@ -71,7 +67,6 @@ impl DepthRule {
             Self::Mark => (wgpu::CompareFunction::Always, true),
             Self::MarkCovered => (wgpu::CompareFunction::Less, true),
             Self::Marked => (wgpu::CompareFunction::Equal, false),
-            Self::Nearest | Self::Nearer => (wgpu::CompareFunction::Greater, true),
         };
         wgpu::DepthStencilState {
             format,
@@ -86,8 +81,8 @@ impl DepthRule {
     pub fn operations(self) -> Option<wgpu::Operations<f32>> {
         let load = match self {
             Self::Covered | Self::Marked => return None,
-            Self::MarkCovered | Self::Nearer => wgpu::LoadOp::Load,
-            Self::Mark | Self::Nearest => wgpu::LoadOp::Clear(0.0),
+            Self::MarkCovered => wgpu::LoadOp::Load,
+            Self::Mark => wgpu::LoadOp::Clear(0.0),
         };
         Some(wgpu::Operations { load, store: wgpu::StoreOp::Store })
     }
@@ -106,8 +101,6 @@ pub struct RasterKey {
     pub blend: Option<wgpu::BlendState>,
     /// Its depth buffer.
     pub depth: Option<(wgpu::TextureFormat, DepthRule)>,
-    /// Whether points are drawn, which the vertex shader `vs_main` makes; otherwise the whole picture.
-    pub points: bool,
 }
 
 /// Everything that a compute pipeline depends on.
@@ -318,8 +311,7 @@ fn build_raster(
     key: &RasterKey,
 ) -> Made<wgpu::RenderPipeline> {
     let label = key.program.file;
-    let stages = if key.points { wgpu::ShaderStages::VERTEX_FRAGMENT } else { wgpu::ShaderStages::FRAGMENT };
-    let inputs = layout_of(gpu, label, &key.inputs, stages);
+    let inputs = layout_of(gpu, label, &key.inputs, wgpu::ShaderStages::FRAGMENT);
     let constants = key.program.constants();
     let targets: Vec<_> = key
         .outputs
@@ -333,18 +325,11 @@ fn build_raster(
         layout: Some(&pipeline_layout(gpu, label, frame_layout, &inputs)),
         vertex: wgpu::VertexState {
             module,
-            entry_point: Some(if key.points { "vs_main" } else { "vs_fullscreen" }),
+            entry_point: Some("vs_fullscreen"),
             compilation_options: wgpu::PipelineCompilationOptions::default(),
             buffers: &[],
         },
-        primitive: wgpu::PrimitiveState {
-            topology: if key.points {
-                wgpu::PrimitiveTopology::PointList
-            } else {
-                wgpu::PrimitiveTopology::TriangleList
-            },
-            ..Default::default()
-        },
+        primitive: wgpu::PrimitiveState::default(),
         depth_stencil: key.depth.map(|(format, rule)| rule.state(format)),
         multisample: wgpu::MultisampleState::default(),
         fragment: Some(wgpu::FragmentState {

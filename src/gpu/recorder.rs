@@ -91,8 +91,28 @@ pub struct Draw<'a> {
     pub onto: Onto,
     /// Its depth buffer.
     pub depth: Option<(&'a Target, DepthRule)>,
-    /// `Some`: so many points, which the vertex shader `vs_main` makes from its index; `None`: once per pixel.
-    pub points: Option<u32>,
+}
+
+/// How many workgroups run a compute program.
+#[derive(Clone, Copy)]
+pub enum Workgroups<'a> {
+    /// Columns and rows of them.
+    Counted([u32; 2]),
+    /// As many as a compute shader has written here, whether the gate is open or shut: there had better be none if what
+    /// writes them stands behind it.
+    Written(&'a wgpu::Buffer),
+}
+
+impl From<[u32; 2]> for Workgroups<'_> {
+    fn from(counted: [u32; 2]) -> Self {
+        Self::Counted(counted)
+    }
+}
+
+impl<'a> From<&'a wgpu::Buffer> for Workgroups<'a> {
+    fn from(written: &'a wgpu::Buffer) -> Self {
+        Self::Written(written)
+    }
 }
 
 /// One frame while it is being recorded.
@@ -197,7 +217,7 @@ impl<'a> Recorder<'a> {
         covered: Option<&Target>,
     ) -> Result<(), ShaderError> {
         let depth = covered.map(|target| (target, DepthRule::Covered));
-        self.draw(Draw { label, program, inputs, outputs, onto: Onto::Nothing, depth, points: None })
+        self.draw(Draw { label, program, inputs, outputs, onto: Onto::Nothing, depth })
     }
 
     /// Runs one render pass with one draw.
@@ -211,7 +231,6 @@ impl<'a> Recorder<'a> {
             outputs: draw.outputs.iter().map(|o| o.format()).collect(),
             blend: draw.onto.blend(),
             depth: draw.depth.map(|(target, rule)| (target.format(), rule)),
-            points: draw.points.is_some(),
         };
         let made = self.pipelines.raster(self.gpu, &key)?;
         let pipeline = made.pipeline.clone();
@@ -226,15 +245,13 @@ impl<'a> Recorder<'a> {
             depth_ops: rule.operations(),
             stencil_ops: None,
         });
-        // Not one instance per point: software devices set up every instance anew.
-        let vertices = draw.points.unwrap_or(3);
-        let gated = self.gated([vertices, 1, 0, 0, 0]);
+        let gated = self.gated([3, 1, 0, 0, 0]);
         let mut pass = self.pass(draw.label, &color, depth);
         pass.set_pipeline(&pipeline);
         pass.set_bind_group(1, &group, &[]);
         match &gated {
             Some((buffer, offset)) => pass.draw_indirect(buffer, *offset),
-            None => pass.draw(0..vertices, 0..1),
+            None => pass.draw(0..3, 0..1),
         }
         Ok(())
     }
@@ -264,22 +281,26 @@ impl<'a> Recorder<'a> {
         );
     }
 
-    /// Runs a compute program with this many workgroups.
+    /// Runs a compute program.
     ///
     /// # Errors
     /// [`ShaderError::Missing`].
-    pub fn compute(
+    pub fn compute<'w>(
         &mut self,
         label: &'static str,
         program: Program,
         inputs: &[Input<'_>],
-        workgroups: [u32; 2],
+        workgroups: impl Into<Workgroups<'w>>,
     ) -> Result<(), ShaderError> {
         let key = ComputeKey { program, inputs: inputs.iter().map(Input::binding).collect() };
         let made = self.pipelines.compute(self.gpu, &key)?;
         let pipeline = made.pipeline.clone();
         let group = inputs_group(self.gpu, label, &made.inputs, inputs);
-        let gated = self.gated([workgroups[0], workgroups[1], 1, 0, 0]);
+        let workgroups = workgroups.into();
+        let gated = match workgroups {
+            Workgroups::Counted([columns, rows]) => self.gated([columns, rows, 1, 0, 0]),
+            Workgroups::Written(_) => None,
+        };
         let timestamp_writes = self.timers.as_mut().and_then(|t| t.pass(label));
         let mut pass = self.encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
             label: Some(label),
@@ -292,9 +313,10 @@ impl<'a> Recorder<'a> {
         pass.set_pipeline(&pipeline);
         pass.set_bind_group(0, &self.frame, &[]);
         pass.set_bind_group(1, &group, &[]);
-        match &gated {
-            Some((buffer, offset)) => pass.dispatch_workgroups_indirect(buffer, *offset),
-            None => pass.dispatch_workgroups(workgroups[0], workgroups[1], 1),
+        match (&gated, workgroups) {
+            (Some((buffer, offset)), _) => pass.dispatch_workgroups_indirect(buffer, *offset),
+            (None, Workgroups::Counted([columns, rows])) => pass.dispatch_workgroups(columns, rows, 1),
+            (None, Workgroups::Written(buffer)) => pass.dispatch_workgroups_indirect(buffer, 0),
         }
         Ok(())
     }

@@ -304,13 +304,14 @@ impl Drawing {
         let revisions = [begun.gbuffer.revision, shadow_mask.map_or(0, |mask| mask.revision)];
         let edges = (revisions, styles, begun.depth_range, light);
         self.edge_map.run(edges, |(_, styles, ..)| {
-            self.placed_segments.write(rec.gpu, &segments.value)?;
+            self.placed_segments.write(rec.gpu, rec.size(), &segments.value)?;
             edge_map(
                 rec,
                 &EdgeInputs {
                     gbuffer: &begun.gbuffer.value,
                     styles,
                     edge_styles: self.edge_styles.buffer(),
+                    is_whole: true,
                     segments: &self.placed_segments,
                     has_holes: inputs.objects.surfaces.has_holes,
                     is_cut: view.cut.is_some(),

@@ -184,6 +184,8 @@ pub struct LayerLines {
 pub struct LayerLinesInputs<'a> {
     /// Edge styles by object id.
     pub styles: &'a [EdgeUniform],
+    /// See [`EdgeInputs::is_whole`].
+    pub is_whole: bool,
     /// What topology knows, hidden edges included.
     pub segments: &'a Segments,
     /// Whether any material of an object with lines has holes.
@@ -260,6 +262,7 @@ impl LayerLines {
                 gbuffer: &layer.gbuffer,
                 styles: inputs.styles,
                 edge_styles: self.edge_styles.buffer(),
+                is_whole: inputs.is_whole,
                 segments: inputs.segments,
                 has_holes: inputs.has_holes,
                 is_cut: inputs.is_cut,

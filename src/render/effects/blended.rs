@@ -119,7 +119,7 @@ impl Blended {
         let Self { layers, lines: layer_lines, segments: placed, draws: draw_buffer } = self;
         layer_lines.begin(rec.gpu, &group.edge_styles);
         let view = inputs.view.moved(glam::Vec2::ZERO);
-        placed.write(rec.gpu, &segments(inputs.scene, group, &view, inputs.crease_angle))?;
+        placed.write(rec.gpu, rec.size(), &segments(inputs.scene, group, &view, inputs.crease_angle))?;
         let cover = match opaque.lines {
             Some(opaque_lines) => Some(cover(rec, opaque_lines)?),
             None => None,
@@ -176,6 +176,7 @@ impl Blended {
             if group.have_lines() {
                 let edges = LayerLinesInputs {
                     styles: &group.edge_styles,
+                    is_whole: false,
                     segments: placed,
                     has_holes: group.has_holes,
                     is_cut: inputs.view.cut.is_some(),
@@ -268,7 +269,6 @@ fn lay_beneath(
         outputs: &[color],
         onto: Onto::Beneath,
         depth: Some((&layer.gbuffer.depth, DepthRule::Covered)),
-        points: None,
     })?;
     Ok(())
 }

@@ -219,9 +219,10 @@ impl Blueprints {
             }
             layer_lines.begin(rec.gpu, &group.edge_styles);
             let view = inputs.view.moved(glam::Vec2::ZERO);
-            placed.write(rec.gpu, &segments(inputs.scene, group, &view, inputs.crease_angle))?;
+            placed.write(rec.gpu, rec.size(), &segments(inputs.scene, group, &view, inputs.crease_angle))?;
             let edges = LayerLinesInputs {
                 styles: &group.edge_styles,
+                is_whole: false,
                 segments: placed,
                 has_holes: group.has_holes,
                 is_cut: inputs.view.cut.is_some(),
@@ -348,7 +349,6 @@ fn fill(
         outputs: &[color],
         onto: Onto::Beneath,
         depth: Some((&layer.gbuffer.depth, DepthRule::Covered)),
-        points: None,
     })?;
     Ok(())
 }

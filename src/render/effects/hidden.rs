@@ -178,7 +178,7 @@ impl HiddenLines {
                 lines.begin(rec.gpu, &band.styles);
             }
             let view = inputs.view.moved(glam::Vec2::ZERO);
-            placed.write(rec.gpu, &segments(inputs.scene, &group, &view, inputs.crease_angle))?;
+            placed.write(rec.gpu, rec.size(), &segments(inputs.scene, &group, &view, inputs.crease_angle))?;
             let color = rec.target("hidden lines", wgpu::TextureFormat::Rgba16Float)?;
             rec.clear("hidden lines", &color);
             let mut seen = match visible {
@@ -207,6 +207,7 @@ impl HiddenLines {
                 let Some((band, band_lines)) = band.filter(|_| number > 0) else { return Ok(()) };
                 let edges = LayerLinesInputs {
                     styles: &band.styles,
+                    is_whole: false,
                     segments: placed,
                     has_holes: group.has_holes,
                     is_cut: inputs.view.cut.is_some(),

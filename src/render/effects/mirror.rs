@@ -132,7 +132,6 @@ pub fn mirror(
         outputs: &[color],
         onto: Onto::Blended,
         depth: Some((&gbuffer.depth, DepthRule::Covered)),
-        points: None,
     })?;
     Ok(())
 }

@@ -100,7 +100,6 @@ pub fn section(
         outputs: &[color],
         onto: Onto::Blended,
         depth: Some((&gbuffer.depth, DepthRule::Covered)),
-        points: None,
     })?;
     Ok(())
 }

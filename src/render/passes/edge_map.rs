@@ -16,7 +16,6 @@ use crate::render::RenderError;
 const EDGE_MAP: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Uint;
 /// What the distance transform reads of it.
 pub(super) const SPINES: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;
-const MARKS: wgpu::TextureFormat = wgpu::TextureFormat::R8Unorm;
 const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 
 /// The edge map, and of its lines what [`super::line_distance`] reads.
@@ -39,6 +38,8 @@ pub struct EdgeInputs<'a> {
     pub styles: &'a [EdgeUniform],
     /// The same on the device.
     pub edge_styles: &'a wgpu::Buffer,
+    /// Whether the map is looked at by itself. Otherwise it is undefined where no spines and no ink of operators are.
+    pub is_whole: bool,
     /// What topology knows, for the view of the G-buffer.
     pub segments: &'a Segments,
     /// Whether any material of an object with lines has holes.
@@ -83,6 +84,7 @@ fn exact_edges(
         gbuffer,
         styles,
         edge_styles,
+        is_whole,
         segments,
         has_holes,
         is_cut,
@@ -95,20 +97,22 @@ fn exact_edges(
         [("WITH_VARIATION", any(EdgeUniform::varies)), ("WITH_PRESSURE", any(|s| s.pressure > 0.0))];
     let with_angles = any(|s| s.by_angle > 0.0);
     let spines = rec.target("spines", SPINES)?;
-    let marks = rec.target("segment marks", MARKS)?;
-    let order = rec.target("segment order", DEPTH)?;
+    rec.clear("no spines", &spines);
+    if is_whole || styles.iter().any(EdgeUniform::is_paper) {
+        rec.clear("no edges", edge_map);
+    }
     let switches: Vec<_> = [("WITH_HOLES", has_holes), ("IN_LAYER", is_layer), ("WITH_ANGLES", with_angles)]
         .into_iter()
         .chain(variation)
         .collect();
     let tested = SegmentInputs { gbuffer, edge_styles, switches: &switches };
-    segments.draw(rec, &tested, &[edge_map, &spines, &marks], &order)?;
+    segments.put(rec, &tested, edge_map, &spines)?;
 
     let inputs = [
         Input::Texture(&gbuffer.geometry),
         Input::Texture(&gbuffer.region),
         Input::Storage(edge_styles),
-        Input::Texture(&marks),
+        Input::Storage(segments.keys()),
         // Unread unless it is a layer.
         Input::Texture(before.map_or(&gbuffer.region, |[before, _]| before)),
         Input::Texture(before.map_or(&gbuffer.region, |[_, before_that]| before_that)),
@@ -135,7 +139,7 @@ fn exact_edges(
                 Input::Texture(&gbuffer.geometry),
                 Input::Texture(&gbuffer.region),
                 Input::Storage(edge_styles),
-                Input::Texture(&marks),
+                Input::Storage(segments.keys()),
                 Input::Texture(&gbuffer.base_color),
                 // Unread without shadows.
                 Input::Texture(shadow_mask.unwrap_or(&gbuffer.base_color)),
@@ -143,7 +147,6 @@ fn exact_edges(
             outputs: &[edge_map, &spines],
             onto: Onto::Old,
             depth: Some((&gbuffer.depth, DepthRule::Covered)),
-            points: None,
         })?;
     }
 
@@ -156,7 +159,6 @@ fn exact_edges(
         outputs: &[],
         onto: Onto::Nothing,
         depth: Some((&borders, DepthRule::MarkCovered)),
-        points: None,
     })?;
     rec.draw(Draw {
         label: "discontinuities",
@@ -165,7 +167,6 @@ fn exact_edges(
         outputs: &[edge_map, &spines],
         onto: Onto::Old,
         depth: Some((&borders, DepthRule::Marked)),
-        points: None,
     })?;
     Ok(spines)
 }

@@ -158,7 +158,6 @@ impl FragmentLists {
             ],
             onto: Onto::Nothing,
             depth: Some((&layer.gbuffer.depth, DepthRule::Mark)),
-            points: None,
         })?;
         Ok(layer)
     }

@@ -91,7 +91,6 @@ pub fn lines(
         outputs: &[],
         onto: Onto::Nothing,
         depth: Some((&reached, DepthRule::Mark)),
-        points: None,
     })?;
     inputs.extend(pen.inputs);
     switches.extend(pen.switches);
@@ -102,7 +101,6 @@ pub fn lines(
         outputs: &[color],
         onto: pen.onto,
         depth: Some((&reached, DepthRule::Marked)),
-        points: None,
     })?;
     Ok(())
 }

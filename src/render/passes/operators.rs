@@ -29,7 +29,6 @@ pub fn paper_edges(
         outputs: &[edge_map],
         onto,
         depth: Some((&gbuffer.depth, DepthRule::Covered)),
-        points: None,
     })?;
     Ok(())
 }

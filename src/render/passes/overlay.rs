@@ -16,7 +16,6 @@ pub fn overlay(rec: &mut Recorder<'_>, picture: &Target, color: &Target) -> Resu
         outputs: &[color],
         onto: Onto::Blended,
         depth: None,
-        points: None,
     })?;
     Ok(())
 }

@@ -60,7 +60,6 @@ pub fn without_repeated(
         outputs: &[&now_seen],
         onto: Onto::Old,
         depth: Some((&marks, DepthRule::Mark)),
-        points: None,
     })?;
     rec.draw(Draw {
         label: "repeated lines",
@@ -69,7 +68,6 @@ pub fn without_repeated(
         outputs: &[&own],
         onto: Onto::Nothing,
         depth: Some((&marks, DepthRule::Marked)),
-        points: None,
     })?;
     let spines = edge_map.spines.is_some().then_some(own);
     Ok((now_seen, EdgeMap { spines, ..edge_map.clone() }))

@@ -1,26 +1,40 @@
 //! The lines that topology knows, where they are visible: each pixel of each segment is tested against a G-buffer, and what is
-//! left is drawn into the edge map. Software devices run a shader for whole blocks of pixels, of which a line has few: this
-//! is why lines are not drawn as such.
+//! left is put into the edge map.
+//!
+//! ```text
+//! steps ─► sift ─► gather ─► points ─► compare ─► put ─► edge map, spines
+//!                              └─► keys: which of the points of a pixel counts
+//! ```
 
 use super::gbuffer::GBuffer;
 use crate::geometry::LineSegment;
-use crate::gpu::recorder::{Draw, Input, Onto};
-use crate::gpu::{DepthRule, Gpu, GpuError, Program, RecordBuffer, Recorder, Target};
+use crate::gpu::recorder::Input;
+use crate::gpu::{Gpu, GpuError, Program, RecordBuffer, Recorder, Target};
 use crate::render::RenderError;
 
-/// Pixels of segments that are tested in one go; each takes 32 bytes while it is.
+/// Pixels of segments that are tested in one go; each takes 36 bytes while it is.
 const MOST_STEPS: usize = 1 << 20;
 /// Bytes of `SegmentPoint` in `shaders/common/segment_point.wgsl`.
 const POINT_BYTES: u64 = 32;
 /// Steps per workgroup, as in `passes/segments.wgsl`.
 const GROUP: u32 = 64;
 
-/// Segments on the device, ready to be drawn into the edge maps of several G-buffers.
+/// Segments on the device, ready to be put into the edge maps of several G-buffers.
 pub struct Segments {
     records: RecordBuffer,
     /// Pixels of segments and how many there are, at most [`MOST_STEPS`] each.
     steps: Vec<(RecordBuffer, u32)>,
+    /// A bit for each step: whether it is looked at closely.
+    sifted: RecordBuffer,
+    /// The steps that are.
+    kept: RecordBuffer,
+    /// Workgroups that look at them.
+    workgroups: wgpu::Buffer,
     points: RecordBuffer,
+    keys: RecordBuffer,
+    winners: RecordBuffer,
+    /// Bytes of the last two for all pixels.
+    pixels: u64,
 }
 
 /// What they are tested against.
@@ -40,15 +54,33 @@ impl Segments {
         Self {
             records: RecordBuffer::new(gpu, "segments"),
             steps: Vec::new(),
+            sifted: RecordBuffer::new(gpu, "sifted steps"),
+            kept: RecordBuffer::new(gpu, "kept steps"),
+            workgroups: gpu.device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some("workgroups of kept steps"),
+                size: 12,
+                usage: wgpu::BufferUsages::INDIRECT
+                    | wgpu::BufferUsages::STORAGE
+                    | wgpu::BufferUsages::COPY_DST,
+                mapped_at_creation: false,
+            }),
             points: RecordBuffer::new(gpu, "points of segments"),
+            keys: RecordBuffer::new(gpu, "keys of segments"),
+            winners: RecordBuffer::new(gpu, "points of pixels"),
+            pixels: 0,
         }
     }
 
-    /// Uploads those of a view, in place of the last ones.
+    /// Uploads those of a view of a picture of `width` by `height` pixels, in place of the last ones.
     ///
     /// # Errors
     /// [`GpuError::TooLarge`].
-    pub fn write(&mut self, gpu: &Gpu, segments: &[LineSegment]) -> Result<(), GpuError> {
+    pub fn write(
+        &mut self,
+        gpu: &Gpu,
+        [width, height]: [u32; 2],
+        segments: &[LineSegment],
+    ) -> Result<(), GpuError> {
         self.records.write(gpu, segments)?;
         let steps: Vec<[u32; 2]> = (0..)
             .zip(segments)
@@ -60,59 +92,87 @@ impl Segments {
             buffer.write(gpu, chunk)?;
             *count = chunk.len() as u32;
         }
-        let most = steps.len().min(MOST_STEPS) as u64;
-        self.points.reserve(gpu, most.next_multiple_of(u64::from(GROUP)) * POINT_BYTES)
+        let most = (steps.len().min(MOST_STEPS) as u64).next_multiple_of(u64::from(GROUP));
+        self.sifted.reserve(gpu, most / 8)?;
+        self.kept.reserve(gpu, most * 4)?;
+        self.points.reserve(gpu, most * POINT_BYTES)?;
+        self.pixels = u64::from(width) * u64::from(height) * 4;
+        self.keys.reserve(gpu, self.pixels)?;
+        self.winners.reserve(gpu, self.pixels)
     }
 
-    /// Draws them into an edge map, with spines and marks; `order` is room for the depth test.
+    /// For each pixel the key of its segment in the edge map that was written last, see `shaders/common/segment_point.wgsl`.
+    pub fn keys(&self) -> &wgpu::Buffer {
+        self.keys.buffer()
+    }
+
+    /// Puts them into an edge map and its spines, over what is there.
     ///
     /// # Errors
     /// [`RenderError`].
-    pub fn draw(
+    pub fn put(
         &self,
         rec: &mut Recorder<'_>,
         inputs: &SegmentInputs<'_>,
-        outputs: &[&Target; 3],
-        order: &Target,
+        edge_map: &Target,
+        spines: &Target,
     ) -> Result<(), RenderError> {
-        let none = [(&self.points, 0)];
-        let chunks = self.steps.iter().map(|(steps, count)| (steps, *count));
-        // Without any the outputs are cleared all the same.
-        let none = none.into_iter().filter(|_| self.steps.is_empty());
-        for (number, (steps, count)) in chunks.chain(none).enumerate() {
-            let (onto, rule) = match number {
-                0 => (Onto::Nothing, DepthRule::Nearest),
-                _ => (Onto::Old, DepthRule::Nearer),
-            };
-            if count > 0 {
-                rec.compute(
-                    "segments",
-                    Program {
-                        file: "passes/segments.wgsl",
-                        entry_point: "cs_main",
-                        switches: inputs.switches.to_vec(),
-                    },
-                    &[
-                        Input::Texture(&inputs.gbuffer.geometry),
-                        Input::Texture(&inputs.gbuffer.region),
-                        Input::Storage(inputs.edge_styles),
-                        Input::Storage(self.records.buffer()),
-                        Input::Storage(steps.buffer()),
-                        Input::Written(self.points.buffer()),
-                    ],
-                    [count.div_ceil(GROUP), 1],
-                )?;
+        rec.encoder.clear_buffer(self.keys.buffer(), 0, Some(self.pixels));
+        // Where the recorder's gate is shut nobody counts any.
+        rec.encoder.clear_buffer(&self.workgroups, 0, None);
+        for (steps, count) in &self.steps {
+            rec.encoder.clear_buffer(self.sifted.buffer(), 0, None);
+            rec.encoder.clear_buffer(self.winners.buffer(), 0, Some(self.pixels));
+            self.find(rec, inputs, steps, *count)?;
+            let found = [
+                Input::Storage(self.points.buffer()),
+                Input::Storage(self.keys.buffer()),
+                Input::Written(self.winners.buffer()),
+                Input::Image(edge_map),
+                Input::Image(spines),
+            ];
+            for (label, entry_point) in [("compare points", "cs_compare"), ("put points", "cs_put")] {
+                let program = Program::new("passes/segment_points.wgsl", entry_point);
+                rec.compute(label, program, &found, &self.workgroups)?;
             }
-            rec.draw(Draw {
-                label: "points of segments",
-                program: Program::new("passes/segment_points.wgsl", "fs_main"),
-                inputs: &[Input::Storage(self.points.buffer())],
-                outputs,
-                onto,
-                depth: Some((order, rule)),
-                points: Some(count),
-            })?;
         }
+        Ok(())
+    }
+
+    /// Finds the points of these steps.
+    fn find(
+        &self,
+        rec: &mut Recorder<'_>,
+        inputs: &SegmentInputs<'_>,
+        steps: &RecordBuffer,
+        count: u32,
+    ) -> Result<(), RenderError> {
+        let program = |entry_point| Program {
+            file: "passes/segments.wgsl",
+            entry_point,
+            switches: inputs.switches.to_vec(),
+        };
+        let mut tested = vec![
+            Input::Texture(&inputs.gbuffer.geometry),
+            Input::Texture(&inputs.gbuffer.region),
+            Input::Storage(inputs.edge_styles),
+            Input::Storage(self.records.buffer()),
+            Input::Storage(steps.buffer()),
+            Input::Written(self.sifted.buffer()),
+        ];
+        rec.compute("sift segments", program("cs_sift"), &tested, [count.div_ceil(GROUP), 1])?;
+        let gathered = [
+            Input::Storage(self.sifted.buffer()),
+            Input::Written(self.kept.buffer()),
+            Input::Written(&self.workgroups),
+        ];
+        rec.compute("gather segments", Program::new("passes/gather.wgsl", "cs_main"), &gathered, [1, 1])?;
+        tested.extend([
+            Input::Storage(self.kept.buffer()),
+            Input::Written(self.points.buffer()),
+            Input::Written(self.keys.buffer()),
+        ]);
+        rec.compute("segments", program("cs_points"), &tested, &self.workgroups)?;
         Ok(())
     }
 }
