@@ -1,5 +1,5 @@
-// The next depth layer of fragment lists. Eight layers at a time are sorted: the first of them takes the eight fragments that
-// follow the last layer and notes their order, the other seven follow it.
+// Depth layers of fragment lists: the fragments of each pixel are sorted, as many layers as there are targets at a time, and
+// each layer is made of its own ones.
 #import common/fragments.wgsl
 #import common/fullscreen.wgsl
 #import common/layer_color.wgsl
@@ -9,13 +9,14 @@
 @group(1) @binding(1) var<storage, read> links: array<Link>;
 @group(1) @binding(2) var<storage, read> payloads: array<Payload>;
 @group(1) @binding(3) var<storage, read> colors: array<u32>;
-// The fragment of each pixel in the next layer, as far as it is sorted.
-@group(1) @binding(4) var<storage, read_write> cursors: array<u32>;
-// The fragment that lies behind a fragment, as far as it is sorted.
-@group(1) @binding(5) var<storage, read_write> behind: array<u32>;
-// The last layer, as in passes/peel.wgsl.
-@group(1) @binding(6) var last_depth_tex: texture_depth_2d;
-@group(1) @binding(7) var last_order_tex: texture_2d<u32>;
+// Sorting: the last layer, as in passes/peel.wgsl.
+@group(1) @binding(4) var last_depth_tex: texture_depth_2d;
+@group(1) @binding(5) var last_order_tex: texture_2d<u32>;
+// Cutting: the numbers of the fragments of the layer, plus 1; 0: none.
+@group(1) @binding(6) var number_tex: texture_2d<u32>;
+
+// Whether no more than four layers are sorted.
+override FEW: bool = false;
 
 // A fragment that is being sorted.
 struct Sorted {
@@ -49,34 +50,29 @@ fn sort(kept: ptr<function, Sorted>, other: ptr<function, Sorted>) {
     );
 }
 
-struct Layer {
-    @location(0) geometry: vec4<u32>,
-    @location(1) base_color: vec4<f32>,
-    @location(2) region: u32,
-    @location(3) order: u32,
-    @builtin(frag_depth) depth: f32,
-}
-
-fn layer(number: u32) -> Layer {
-    let link = links[number - 1u];
-    let payload = payloads[number - 1u];
-    return Layer(
-        vec4(payload.normal, payload.face, payload.depth, link.object),
-        unpack_color(colors[number - 1u]), payload.region, link.order, bitcast<f32>(link.depth),
-    );
-}
-
-fn follow(a: Sorted, b: Sorted) {
-    if a.number != 0u {
-        behind[a.number - 1u] = b.number;
+// Marks pixels that have any fragments.
+@fragment
+fn fs_listed(@builtin(position) position: vec4<f32>) {
+    if heads[list_of(vec2<u32>(position.xy))] == 0u {
+        discard;
     }
 }
 
-// The first of eight layers.
+// The numbers of fragments of up to eight layers, plus 1.
+struct Numbers {
+    @location(0) a: u32,
+    @location(1) b: u32,
+    @location(2) c: u32,
+    @location(3) d: u32,
+    @location(4) e: u32,
+    @location(5) f: u32,
+    @location(6) g: u32,
+    @location(7) h: u32,
+}
+
 @fragment
-fn fs_first(@builtin(position) position: vec4<f32>) -> Layer {
+fn fs_sort(@builtin(position) position: vec4<f32>) -> Numbers {
     let px = vec2<i32>(position.xy);
-    let list = list_of(vec2<u32>(px));
     let last = Sorted(
         bitcast<u32>(textureLoad(last_depth_tex, px, 0)), textureLoad(last_order_tex, px, 0).x, 0u,
     );
@@ -88,7 +84,7 @@ fn fs_first(@builtin(position) position: vec4<f32>) -> Layer {
     var f = NONE;
     var g = NONE;
     var h = NONE;
-    var number = heads[list];
+    var number = heads[list_of(vec2<u32>(px))];
     while number != 0u {
         let link = links[number - 1u];
         var own = Sorted(link.depth, link.order, number);
@@ -99,35 +95,49 @@ fn fs_first(@builtin(position) position: vec4<f32>) -> Layer {
         sort(&b, &own);
         sort(&c, &own);
         sort(&d, &own);
-        sort(&e, &own);
-        sort(&f, &own);
-        sort(&g, &own);
-        sort(&h, &own);
+        if !FEW {
+            sort(&e, &own);
+            sort(&f, &own);
+            sort(&g, &own);
+            sort(&h, &own);
+        }
         number = link.next;
     }
-    if a.number == 0u {
-        cursors[list] = 0u;
-        discard;
-    }
-    cursors[list] = b.number;
-    follow(b, c);
-    follow(c, d);
-    follow(d, e);
-    follow(e, f);
-    follow(f, g);
-    follow(g, h);
-    follow(h, NONE);
-    return layer(a.number);
+    return Numbers(a.number, b.number, c.number, d.number, e.number, f.number, g.number, h.number);
 }
 
-// One of the others.
+fn number_at(position: vec4<f32>) -> u32 {
+    return textureLoad(number_tex, vec2<i32>(position.xy), 0).x;
+}
+
+struct Depth {
+    @builtin(frag_depth) depth: f32,
+}
+
 @fragment
-fn fs_next(@builtin(position) position: vec4<f32>) -> Layer {
-    let list = list_of(vec2<u32>(position.xy));
-    let number = cursors[list];
+fn fs_depth(@builtin(position) position: vec4<f32>) -> Depth {
+    let number = number_at(position);
     if number == 0u {
         discard;
     }
-    cursors[list] = behind[number - 1u];
-    return layer(number);
+    return Depth(bitcast<f32>(links[number - 1u].depth));
+}
+
+struct Layer {
+    @location(0) geometry: vec4<u32>,
+    @location(1) region: u32,
+    @location(2) order: u32,
+    @location(3) base_color: vec4<f32>,
+}
+
+// Only where there is a fragment.
+@fragment
+fn fs_layer(@builtin(position) position: vec4<f32>) -> Layer {
+    let index = number_at(position) - 1u;
+    let link = links[index];
+    let payload = payloads[index];
+    return Layer(
+        vec4(payload.normal, payload.face, payload.depth, link.object), payload.region, link.order,
+        unpack_color(colors[index]),
+    );
 }

@@ -150,10 +150,14 @@ impl Layers {
         mut draw: impl FnMut(&mut Recorder<'_>, u32, &Layer, &PeelCount) -> Result<(), RenderError>,
     ) -> Result<(), RenderError> {
         let LayerInputs { scene, draws, calls, is_cut, mask, with_color, .. } = *inputs;
+        let mut lists = match recorded.by() {
+            LayersBy::Lists => Some(gbuffer_pass.lists.cut(rec, recorded.layers)?),
+            LayersBy::Peeling(_) => None,
+        };
         for number in 0..recorded.layers {
-            let layer = match recorded.by() {
-                LayersBy::Lists => gbuffer_pass.lists.cut(rec, number, with_color, &last)?,
-                LayersBy::Peeling(_) => {
+            let layer = match &mut lists {
+                Some(lists) => lists.next(rec, with_color, &last)?,
+                None => {
                     let order = rec.target("order", last[1].format())?;
                     let [last_depth, last_order] = &last;
                     let peel = Peel { last_depth, last_order, order: &order, with_color };

@@ -4,17 +4,22 @@
 //! A list holds as many fragments as there is room for, and all are counted: who finds out later that there were more
 //! makes room and draws again. See `shaders/common/fragments.wgsl`.
 
-use super::gbuffer::{GBuffer, ORDER};
+use super::gbuffer::{DEPTH, GBuffer, ORDER};
 use super::peel::{Layer, PeelCount};
 use crate::gpu::recorder::{Draw, Input, Onto};
 use crate::gpu::{DepthRule, Gpu, GpuError, Program, Recorder, Target};
 use crate::render::RenderError;
 
-/// Bytes of a fragment in each of the buffers: how it is linked, what it is, its base colour, and what lies behind it.
-const BYTES: [u64; 4] = [16, 16, 4, 4];
+/// Bytes of a fragment in each of the buffers: how it is linked, what it is, its base colour.
+const BYTES: [u64; 3] = [16, 16, 4];
 
-/// As many layers are sorted at a time, as in `passes/cut.wgsl`.
+/// As many layers are sorted at a time: a pass has no more targets.
 const SORTED: u32 = 8;
+/// As many with less work, as in `passes/cut.wgsl`.
+const FEW: u32 = 4;
+
+/// For each pixel the number of a fragment.
+const NUMBERS: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;
 
 /// More fragments are never kept: they take 320 MiB.
 const MOST_FRAGMENTS: u64 = 1 << 23;
@@ -23,7 +28,6 @@ const MOST_FRAGMENTS: u64 = 1 << 23;
 pub struct FragmentLists {
     layout: wgpu::BindGroupLayout,
     heads: wgpu::Buffer,
-    cursors: wgpu::Buffer,
     /// In the order of [`BYTES`].
     fragments: [wgpu::Buffer; BYTES.len()],
     /// The most room that was asked for since the last [`Self::shrink`].
@@ -49,7 +53,6 @@ impl FragmentLists {
                 entries: &[0, 1, 2, 3, 4].map(written),
             }),
             heads: create(gpu, "heads of lists", 4),
-            cursors: create(gpu, "next layer of lists", 4),
             fragments: BYTES.map(|bytes| create(gpu, "fragments", bytes)),
             asked: 0,
         }
@@ -72,7 +75,7 @@ impl FragmentLists {
 
     /// The bind group that fragments are written through; `count` counts them.
     pub(super) fn group(&self, gpu: &Gpu, count: &PeelCount) -> wgpu::BindGroup {
-        let [links, payloads, colors, _] = &self.fragments;
+        let [links, payloads, colors] = &self.fragments;
         let buffers = [count.buffer(), &self.heads, links, payloads, colors];
         let entries: Vec<_> = (0..)
             .zip(buffers)
@@ -95,7 +98,6 @@ impl FragmentLists {
         gpu.check_buffer_size("the lists of a picture", heads)?;
         if self.heads.size() != heads {
             self.heads = create(gpu, "heads of lists", heads);
-            self.cursors = create(gpu, "next layer of lists", heads);
         }
         rec.encoder.clear_buffer(&self.heads, 0, None);
         self.asked = self.asked.max(fragments);
@@ -117,49 +119,109 @@ impl FragmentLists {
         }
     }
 
-    /// The layer of this number, from 0 on, which lies behind the last one: its depth and order. Layers are cut one after
-    /// the other, with a base colour if the fragments have been collected with it.
+    /// Begins to cut so many layers.
     ///
     /// # Errors
     /// [`RenderError`].
-    pub fn cut(
-        &self,
-        rec: &mut Recorder<'_>,
-        number: u32,
-        with_color: bool,
-        [last_depth, last_order]: &[Target; 2],
-    ) -> Result<Layer, RenderError> {
-        let layer = Layer { gbuffer: GBuffer::new(rec)?, order: rec.target("order", ORDER)? };
-        let [links, payloads, colors, behind] = &self.fragments;
-        let inputs = [
-            Input::Storage(&self.heads),
-            Input::Storage(links),
-            Input::Storage(payloads),
-            Input::Storage(colors),
-            Input::Written(&self.cursors),
-            Input::Written(behind),
-            Input::Texture(last_depth),
-            Input::Texture(last_order),
-        ];
-        let is_first = number.is_multiple_of(SORTED);
+    pub fn cut(&self, rec: &mut Recorder<'_>, layers: u32) -> Result<CutLists, RenderError> {
+        let [links, payloads, colors] = &self.fragments;
+        let buffers = [&self.heads, links, payloads, colors].map(wgpu::Buffer::clone);
+        let listed = rec.target("listed", DEPTH)?;
+        let lists = CutLists { buffers, listed, numbers: Vec::new(), layers };
+        let inputs = lists.inputs();
         rec.draw(Draw {
-            label: if is_first { "sort and cut" } else { "cut" },
-            program: Program {
-                file: "passes/cut.wgsl",
-                entry_point: if is_first { "fs_first" } else { "fs_next" },
-                switches: vec![("WITH_COLOR", with_color)],
-            },
+            label: "listed",
+            program: Program::new("passes/cut.wgsl", "fs_listed"),
             inputs: &inputs,
-            outputs: &[
-                &layer.gbuffer.geometry,
-                &layer.gbuffer.base_color,
-                &layer.gbuffer.region,
-                &layer.order,
-            ],
+            outputs: &[],
             onto: Onto::Nothing,
-            depth: Some((&layer.gbuffer.depth, DepthRule::Mark)),
+            depth: Some((&lists.listed, DepthRule::Mark)),
+        })?;
+        Ok(lists)
+    }
+}
+
+/// The lists of one group while they are cut into layers.
+pub struct CutLists {
+    /// The first bindings of `passes/cut.wgsl`.
+    buffers: [wgpu::Buffer; 4],
+    /// Marks pixels that have any fragments.
+    listed: Target,
+    /// The fragments of the next layers, the nearest one last.
+    numbers: Vec<Target>,
+    /// So many are left to be cut.
+    layers: u32,
+}
+
+impl CutLists {
+    /// The next layer, which lies behind the last one: its depth and order. It has a base colour if the fragments have been
+    /// collected with it.
+    ///
+    /// # Errors
+    /// [`RenderError`].
+    pub fn next(
+        &mut self,
+        rec: &mut Recorder<'_>,
+        with_color: bool,
+        last: &[Target; 2],
+    ) -> Result<Layer, RenderError> {
+        let numbers = match self.numbers.pop() {
+            Some(numbers) => numbers,
+            None => self.sort(rec, last)?,
+        };
+        self.layers = self.layers.saturating_sub(1);
+        let layer = Layer { gbuffer: GBuffer::new(rec)?, order: rec.target("order", ORDER)? };
+        let GBuffer { geometry, base_color, region, depth } = &layer.gbuffer;
+        let mut inputs = self.inputs().to_vec();
+        // Those of sorting are not read: any of their kinds.
+        inputs.extend([Input::Texture(&self.listed), Input::Texture(&numbers), Input::Texture(&numbers)]);
+        let program = |entry_point| Program::new("passes/cut.wgsl", entry_point);
+        rec.draw(Draw {
+            label: "depth of layer",
+            program: program("fs_depth"),
+            inputs: &inputs,
+            outputs: &[],
+            onto: Onto::Nothing,
+            depth: Some((depth, DepthRule::Mark)),
+        })?;
+        let outputs = [geometry, region, &layer.order, base_color];
+        let without_color = outputs.split_last().map_or(&outputs[..], |(_, others)| others);
+        rec.draw(Draw {
+            label: "cut",
+            program: program("fs_layer"),
+            inputs: &inputs,
+            outputs: if with_color { &outputs } else { without_color },
+            onto: Onto::Nothing,
+            depth: Some((depth, DepthRule::Covered)),
         })?;
         Ok(layer)
+    }
+
+    /// Sorts the next layers, and returns the fragments of the nearest one.
+    fn sort(&mut self, rec: &mut Recorder<'_>, last: &[Target; 2]) -> Result<Target, RenderError> {
+        let layers = self.layers.clamp(1, SORTED);
+        let nearest = rec.target("fragments of layer", NUMBERS)?;
+        self.numbers = (1..layers).map(|_| rec.target("fragments of layer", NUMBERS)).collect::<Result<_, _>>()?;
+        let mut inputs = self.inputs().to_vec();
+        inputs.extend(last.iter().map(Input::Texture));
+        rec.draw(Draw {
+            label: "sort",
+            program: Program {
+                file: "passes/cut.wgsl",
+                entry_point: "fs_sort",
+                switches: vec![("FEW", layers <= FEW)],
+            },
+            inputs: &inputs,
+            outputs: &std::iter::once(&nearest).chain(&self.numbers).collect::<Vec<_>>(),
+            onto: Onto::Nothing,
+            depth: Some((&self.listed, DepthRule::Marked)),
+        })?;
+        self.numbers.reverse();
+        Ok(nearest)
+    }
+
+    fn inputs(&self) -> [Input<'_>; 4] {
+        self.buffers.each_ref().map(Input::Storage)
     }
 }
 
