@@ -301,6 +301,9 @@ fn looks(has_uvs: bool, layers: u32) -> Result<Vec<Look>, CliError> {
     for (name, layers, layers_by) in blueprints {
         looks.push(Look { layers_by, ..look(name, blueprint(layers)?, &unshadowed) });
     }
+    let mut as_in_paper = blueprint(5)?;
+    as_in_paper.edges.mode = EdgeMode::Paper;
+    looks.push(look("blueprint, 5 layers, paper mode", as_in_paper, &unshadowed));
     looks.push(look("plain, shadow", plain.clone(), &hard));
     looks.push(look("plain, soft shadow", plain, &soft));
     for (name, behind) in [("before a wall", Behind::Wall), ("before a mirror", Behind::Mirror)] {
