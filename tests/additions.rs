@@ -79,7 +79,7 @@ fn a_pick_of_what_belongs_to_a_node_is_one_of_the_node() {
     let mut session = session();
     let opened = cube_with_knob(&mut session);
     let picture = session.draw(&opened, [SIDE, SIDE], false).unwrap();
-    let objects: Vec<[u32; 4]> = texels(&mut session, &picture.front);
+    let objects: Vec<[u32; 4]> = texels(&mut session, &picture.front.surfaces);
     let middle = (SIDE / 2 * SIDE + SIDE / 2) as usize;
     assert_eq!(objects[middle][3] & 0x7fff_ffff, 2, "the knob is in front");
     session.renderer().start_pick([SIDE / 2, SIDE / 2]).unwrap();

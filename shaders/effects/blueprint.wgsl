@@ -83,7 +83,8 @@ fn fs_fill(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     let px = vec2<i32>(position.xy);
     let surface = surface_at(px);
     let layer = unpack_surfel(geometry_at(px));
-    if (surface.object != 0u && surface.depth < layer.depth) || is_beyond(layer.depth) {
+    let is_hidden = surface.object != 0u && surface.depth < layer.depth;
+    if layer.object == 0u || is_hidden || is_beyond(layer.depth) {
         discard;
     }
     let fill = vec4(blueprints[0].fill, 1.0) * blueprints[0].opacity;

@@ -9,14 +9,17 @@
 @group(1) @binding(1) var<storage, read> links: array<Link>;
 @group(1) @binding(2) var<storage, read> payloads: array<Payload>;
 @group(1) @binding(3) var<storage, read> colors: array<u32>;
-// Sorting: the last layer, as in passes/peel.wgsl.
-@group(1) @binding(4) var last_depth_tex: texture_depth_2d;
-@group(1) @binding(5) var last_order_tex: texture_2d<u32>;
-// Cutting: the numbers of the fragments of the layer, plus 1; 0: none.
-@group(1) @binding(6) var number_tex: texture_2d<u32>;
+// The numbers of the fragments of a layer, plus 1; 0: none. Sorting: that which was sorted last; cutting: that which is cut.
+@group(1) @binding(4) var number_tex: texture_2d<u32>;
 
-// Whether no more than four layers are sorted.
-override FEW: bool = false;
+// Whether so many are sorted.
+override THREE_OR_MORE: bool = true;
+override FIVE_OR_MORE: bool = true;
+override SEVEN_OR_MORE: bool = true;
+
+fn number_at(position: vec4<f32>) -> u32 {
+    return textureLoad(number_tex, vec2<i32>(position.xy), 0).x;
+}
 
 // A fragment that is being sorted.
 struct Sorted {
@@ -50,12 +53,17 @@ fn sort(kept: ptr<function, Sorted>, other: ptr<function, Sorted>) {
     );
 }
 
-// Marks pixels that have any fragments.
+struct Depth {
+    @builtin(frag_depth) depth: f32,
+}
+
+// Covers pixels that have any fragments.
 @fragment
-fn fs_listed(@builtin(position) position: vec4<f32>) {
+fn fs_listed(@builtin(position) position: vec4<f32>) -> Depth {
     if heads[list_of(vec2<u32>(position.xy))] == 0u {
         discard;
     }
+    return Depth(1.0);
 }
 
 // The numbers of fragments of up to eight layers, plus 1.
@@ -70,12 +78,7 @@ struct Numbers {
     @location(7) h: u32,
 }
 
-@fragment
-fn fs_sort(@builtin(position) position: vec4<f32>) -> Numbers {
-    let px = vec2<i32>(position.xy);
-    let last = Sorted(
-        bitcast<u32>(textureLoad(last_depth_tex, px, 0)), textureLoad(last_order_tex, px, 0).x, 0u,
-    );
+fn sorted(position: vec4<f32>, last: Sorted) -> Numbers {
     var a = NONE;
     var b = NONE;
     var c = NONE;
@@ -84,7 +87,7 @@ fn fs_sort(@builtin(position) position: vec4<f32>) -> Numbers {
     var f = NONE;
     var g = NONE;
     var h = NONE;
-    var number = heads[list_of(vec2<u32>(px))];
+    var number = heads[list_of(vec2<u32>(position.xy))];
     while number != 0u {
         let link = links[number - 1u];
         var own = Sorted(link.depth, link.order, number);
@@ -93,11 +96,15 @@ fn fs_sort(@builtin(position) position: vec4<f32>) -> Numbers {
         }
         sort(&a, &own);
         sort(&b, &own);
-        sort(&c, &own);
-        sort(&d, &own);
-        if !FEW {
+        if THREE_OR_MORE {
+            sort(&c, &own);
+            sort(&d, &own);
+        }
+        if FIVE_OR_MORE {
             sort(&e, &own);
             sort(&f, &own);
+        }
+        if SEVEN_OR_MORE {
             sort(&g, &own);
             sort(&h, &own);
         }
@@ -106,12 +113,18 @@ fn fs_sort(@builtin(position) position: vec4<f32>) -> Numbers {
     return Numbers(a.number, b.number, c.number, d.number, e.number, f.number, g.number, h.number);
 }
 
-fn number_at(position: vec4<f32>) -> u32 {
-    return textureLoad(number_tex, vec2<i32>(position.xy), 0).x;
+@fragment
+fn fs_sort(@builtin(position) position: vec4<f32>) -> Numbers {
+    return sorted(position, Sorted(0xffffffffu, 0u, 0u));
 }
 
-struct Depth {
-    @builtin(frag_depth) depth: f32,
+// Those behind the layer that was sorted last.
+@fragment
+fn fs_sort_behind(@builtin(position) position: vec4<f32>) -> Numbers {
+    let number = number_at(position);
+    let link = links[max(number, 1u) - 1u];
+    // Behind none there are none.
+    return sorted(position, Sorted(select(link.depth, 0u, number == 0u), link.order, number));
 }
 
 @fragment
@@ -130,10 +143,13 @@ struct Layer {
     @location(3) base_color: vec4<f32>,
 }
 
-// Only where there is a fragment.
 @fragment
 fn fs_layer(@builtin(position) position: vec4<f32>) -> Layer {
-    let index = number_at(position) - 1u;
+    let number = number_at(position);
+    if number == 0u {
+        return Layer(vec4(0u), 0u, 0u, vec4(0.0));
+    }
+    let index = number - 1u;
     let link = links[index];
     let payload = payloads[index];
     return Layer(

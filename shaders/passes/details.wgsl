@@ -6,6 +6,7 @@
 #import common/edge_map.wgsl
 #import common/edge_style.wgsl
 #import common/line_width.wgsl
+#import common/repeated.wgsl
 
 // Which classes any object draws.
 override WITH_TEXTURE: bool = true;
@@ -18,6 +19,8 @@ override WITH_SHADOW: bool = true;
 @group(1) @binding(4) var base_color_tex: texture_2d<f32>;
 // Of passes/shadow.wgsl.
 @group(1) @binding(5) var shadow_mask_tex: texture_2d<f32>;
+// Without repeated lines: the spines of all nearer layers.
+@group(1) @binding(6) var seen_tex: texture_2d<u32>;
 
 fn region_at(px: vec2<i32>) -> u32 {
     return textureLoad(region_tex, clamp(px, vec2(0), vec2<i32>(frame.size) - 1), 0).x;
@@ -161,6 +164,8 @@ fn step_near(class_of: u32, x: Surfel, px: vec2<i32>, own: u32) -> Step {
 struct Out {
     @location(0) edge: vec4<u32>,
     @location(1) spine: u32,
+    // Of this layer and all nearer ones.
+    @location(2) seen: u32,
 }
 
 fn is_drawn(object: u32, class_of: u32) -> bool {
@@ -239,5 +244,6 @@ fn fs_main(@builtin(position) position: vec4<f32>) -> Out {
         arc / edge_styles[x.object].dash_period,
         1.0,
     ));
-    return Out(texel, spine_of(texel, halves_of(x.object), 0.0, 1.0 - range_share(x.depth)));
+    let seen = seen_at(seen_tex, px, spine_of(texel, halves_of(x.object), 0.0, 1.0 - range_share(x.depth)));
+    return Out(texel, seen.own, seen.now);
 }

@@ -7,6 +7,7 @@
 #import common/edge_map.wgsl
 #import common/edge_style.wgsl
 #import common/line_width.wgsl
+#import common/repeated.wgsl
 
 @group(1) @binding(1) var region_tex: texture_2d<u32>;
 // Keys of segments; see common/segment_point.wgsl.
@@ -15,6 +16,8 @@
 // The regions of the two layers before this one, if it is a depth layer.
 @group(1) @binding(4) var before_tex: texture_2d<u32>;
 @group(1) @binding(5) var before_that_tex: texture_2d<u32>;
+// Without repeated lines: the spines of all nearer layers.
+@group(1) @binding(6) var seen_tex: texture_2d<u32>;
 
 // Whether a surface that goes on in one of them ends in this layer only because something before it does.
 override WITH_LAYERS_BEFORE: bool = false;
@@ -138,6 +141,8 @@ fn is_nearer(first: Spine, second: Spine) -> bool {
 struct Out {
     @location(0) edge: vec4<u32>,
     @location(1) spine: u32,
+    // Of this layer and all nearer ones.
+    @location(2) seen: u32,
 }
 
 @fragment
@@ -200,5 +205,6 @@ fn fs_main(@builtin(position) position: vec4<f32>) -> Out {
         select(0.0, 1.0, edge_styles[x.object].lines[spine.class_of - 1u].strength > 0.0),
     ));
     let rank = select(0.0, 1.0, spine.class_of <= OBJECT);
-    return Out(texel, spine_of(texel, halves_of(x.object), rank, 1.0 - range_share(x.depth)));
+    let seen = seen_at(seen_tex, px, spine_of(texel, halves_of(x.object), rank, 1.0 - range_share(x.depth)));
+    return Out(texel, seen.own, seen.now);
 }

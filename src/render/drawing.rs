@@ -312,6 +312,7 @@ impl Drawing {
                     styles,
                     edge_styles: self.edge_styles.buffer(),
                     is_whole: true,
+                    seen: None,
                     segments: &self.placed_segments,
                     has_holes: inputs.objects.surfaces.has_holes,
                     is_cut: view.cut.is_some(),

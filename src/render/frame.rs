@@ -11,7 +11,7 @@ use super::drawing::{Drawing, DrawingInputs, Shared};
 use super::layers::Reported;
 use super::one_layer::OneLayer;
 use super::passes::accumulate::{Accumulation, Subject};
-use super::passes::front::front;
+use super::passes::front::Front;
 use super::passes::gbuffer::GBuffer;
 use super::passes::operators::operators;
 use super::passes::peel::Layer;
@@ -54,8 +54,8 @@ pub struct Picture {
     pub selection: Option<Target>,
     /// Per-pixel geometry of the surfaces, for tests.
     pub gbuffer: GBuffer,
-    /// Geometry of what is in front, blueprints among it: for picking.
-    pub front: Target,
+    /// What is in front, blueprints among it: for picking.
+    pub front: Front,
     /// Operators' values, if they were shown.
     pub operators: Option<Target>,
     /// See `shaders/common/edge_map.wgsl`; `None` when no object has lines.
@@ -86,11 +86,10 @@ pub struct FrameState {
     origin: Option<Accumulation>,
     image: Stage<(u64, Show, [u64; 4], Vec4, Option<ScaleBar>), Target>,
     scale_bar: ArrayBuffer,
-    front: Stage<(u64, Vec<u64>), Target>,
     /// The geometry of the picture's first sample: outlines do not follow the jitter.
-    unmoved: u64,
+    unmoved: (u64, Vec<u64>),
     selected: ArrayBuffer,
-    selection: Stage<(u64, Vec<u32>), Target>,
+    selection: Stage<((u64, Vec<u64>), Vec<u32>), Target>,
 }
 
 impl FrameState {
@@ -106,8 +105,7 @@ impl FrameState {
             origin: None,
             image: Stage::default(),
             scale_bar: ArrayBuffer::new(gpu, "scale bar"),
-            front: Stage::default(),
-            unmoved: 0,
+            unmoved: (0, Vec::new()),
             selected: ArrayBuffer::new(gpu, "selected"),
             selection: Stage::default(),
         }
@@ -222,13 +220,11 @@ impl FrameState {
         };
 
         let (revisions, layers_before) = fronts;
-        let front = self.front.run((begun.gbuffer.revision, revisions), |_| {
-            front(rec, &begun.gbuffer.value.geometry, &layers_before)
-        })?;
+        let front = Front { surfaces: begun.gbuffer.value.geometry.clone(), layers: layers_before };
 
         Ok(Picture {
-            selection: self.outline(rec, inputs, &front)?,
-            front: front.value,
+            selection: self.outline(rec, inputs, &front, (begun.gbuffer.revision, revisions))?,
+            front,
             image: image.value,
             sample: eye.sample,
             revision: image.revision,
@@ -264,19 +260,21 @@ impl FrameState {
         &mut self,
         rec: &mut Recorder<'_>,
         inputs: &FrameInputs<'_>,
-        front: &Output<Target>,
+        front: &Front,
+        revisions: (u64, Vec<u64>),
     ) -> Result<Option<Target>, RenderError> {
         if inputs.selected.is_empty() {
             self.selection.clear();
             return Ok(None);
         }
         if inputs.drawing.sample.index == 0 {
-            self.unmoved = front.revision;
+            self.unmoved = revisions;
         }
         let bits = selection::bits(inputs.selected, &inputs.drawing.scene.scene);
-        let outline = self.selection.run((self.unmoved, bits), |(_, bits)| {
+        let outline = self.selection.run((self.unmoved.clone(), bits), |(_, bits)| {
             self.selected.write(rec.gpu, bits);
-            selection(rec, &front.value, self.selected.buffer())
+            let front = front.nearest(rec)?;
+            selection(rec, &front, self.selected.buffer())
         })?;
         Ok(Some(outline.value))
     }

@@ -27,7 +27,7 @@ use crate::render::passes::gbuffer::{DrawCall, DrawUniform, GBufferPass};
 use crate::render::passes::line_distance::{Reach, line_distance};
 use crate::render::passes::lines::Lines;
 use crate::render::passes::peel::{Layer, MOST_LAYERS, Peel, PeelCount, Peeled, before_all};
-use crate::render::passes::repeated::{none_seen, without_repeated};
+use crate::render::passes::repeated::Seen;
 use crate::render::passes::segments::Segments;
 
 /// Kinds of passes that a layer has beside the draws of its objects: room in the gate.
@@ -56,6 +56,8 @@ pub struct LayerInputs<'a> {
     pub by: document::LayersBy,
     /// Whether their base colour is asked for.
     pub with_color: bool,
+    /// Whether their depth is asked for; see [`crate::render::passes::gbuffer::GBuffer::depth`].
+    pub with_depth: bool,
 }
 
 /// What of the layers of a group lives across frames.
@@ -129,9 +131,8 @@ impl Layers {
             let parts = (draws, calls);
             gbuffer_pass.collect(rec, scene, &mut self.draws, parts, is_cut, with_color, &self.count)?;
         }
-        let first = before_all(rec)?;
         rec.gate = Some(gate);
-        let drawn = self.draw_each(rec, gbuffer_pass, inputs, recorded, first, draw);
+        let drawn = self.draw_each(rec, gbuffer_pass, inputs, recorded, draw);
         self.gate = rec.gate.take();
         self.reports.send(rec, self.count.buffer(), recorded);
         if let Some(gate) = &self.gate {
@@ -146,7 +147,6 @@ impl Layers {
         gbuffer_pass: &mut GBufferPass,
         inputs: &LayerInputs<'_>,
         recorded: Recorded,
-        mut last: [Target; 2],
         mut draw: impl FnMut(&mut Recorder<'_>, u32, &Layer, &PeelCount) -> Result<(), RenderError>,
     ) -> Result<(), RenderError> {
         let LayerInputs { scene, draws, calls, is_cut, mask, with_color, .. } = *inputs;
@@ -154,12 +154,16 @@ impl Layers {
             LayersBy::Lists => Some(gbuffer_pass.lists.cut(rec, recorded.layers)?),
             LayersBy::Peeling(_) => None,
         };
+        let mut last = None;
         for number in 0..recorded.layers {
             let layer = match &mut lists {
-                Some(lists) => lists.next(rec, with_color, &last)?,
+                Some(lists) => lists.next(rec, with_color, inputs.with_depth || mask.is_some())?,
                 None => {
-                    let order = rec.target("order", last[1].format())?;
-                    let [last_depth, last_order] = &last;
+                    let [last_depth, last_order] = &match last.take() {
+                        Some(last) => last,
+                        None => before_all(rec)?,
+                    };
+                    let order = rec.target("order", last_order.format())?;
                     let peel = Peel { last_depth, last_order, order: &order, with_color };
                     let gbuffer =
                         gbuffer_pass.run(rec, scene, &mut self.draws, (draws, calls), is_cut, Some(&peel))?;
@@ -171,7 +175,7 @@ impl Layers {
             if let Some(mask) = mask {
                 self.count.end_where_uncovered(rec, &layer, mask)?;
             }
-            last = [layer.gbuffer.depth, layer.order];
+            last = Some([layer.gbuffer.depth, layer.order]);
         }
         Ok(())
     }
@@ -260,7 +264,11 @@ impl LayerLines {
         layer: &Layer,
         seen: &mut Option<Target>,
     ) -> Result<LayerEdges, RenderError> {
-        let mut edge_map = edge_map(
+        let own = match inputs.repeated {
+            true => None,
+            false => Some(Seen::behind(rec, seen.take())?),
+        };
+        let edge_map = edge_map(
             rec,
             &EdgeInputs {
                 gbuffer: &layer.gbuffer,
@@ -273,21 +281,15 @@ impl LayerLines {
                 is_layer: true,
                 before: inputs.before,
                 shadow_mask: None,
+                seen: own.as_ref(),
             },
         )?;
-        let mut nearer = None;
-        if !inputs.repeated {
-            let before = match seen.take() {
-                Some(seen) => seen,
-                None => none_seen(rec)?,
-            };
-            let (now, own) = without_repeated(rec, &edge_map, &before)?;
-            (*seen, edge_map, nearer) = (Some(now), own, Some(before));
-        }
+        let (before, now) = own.map(|Seen { before, now }| (before, now)).unzip();
+        *seen = now;
         let reach = match &edge_map.spines {
             Some(spines) => Some(line_distance(rec, spines, inputs.styles, &mut self.greatest_radius)?),
             None => None,
         };
-        Ok(LayerEdges { edge_map, reach, nearer })
+        Ok(LayerEdges { edge_map, reach, nearer: before })
     }
 }

@@ -63,7 +63,8 @@ pub struct Pick {
 }
 
 struct PendingPick {
-    readback: Readback,
+    /// The pixel in everything that may be in front.
+    texels: Vec<Readback>,
     view: View,
     px: Vec2,
 }
@@ -365,22 +366,27 @@ impl Renderer {
     /// [`RenderError`].
     pub fn start_pick(&mut self, px: [u32; 2]) -> Result<(), RenderError> {
         let Some((picture, view)) = &self.last else { return Ok(()) };
-        let [w, h] = picture.front.size();
+        let [w, h] = picture.front.surfaces.size();
         let px = [px[0].min(w - 1), px[1].min(h - 1)];
-        let readback = Readback::start(&self.gpu, &picture.front, px, [1, 1])?;
+        let texel = |target| Readback::start(&self.gpu, target, px, [1, 1]);
+        let texels = picture.front.all().map(texel).collect::<Result<_, _>>()?;
         let px = Vec2::new(px[0] as f32 + 0.5, px[1] as f32 + 0.5);
-        self.pick = Some(PendingPick { readback, view: *view, px });
+        self.pick = Some(PendingPick { texels, view: *view, px });
         Ok(())
     }
 
     /// The answer to the last [`Self::start_pick`], once, as soon as it is there. Never waits.
     pub fn poll_pick(&mut self) -> Option<Pick> {
         let pending = self.pick.as_ref()?;
-        let texel: Vec<u32> = bytemuck::pod_collect_to_vec(&pending.readback.poll(&self.gpu)?);
-        let (depth, object) = (f32::from_bits(*texel.get(2)?), *texel.get(3)?);
-        let node = node_of(object).map(|node| self.scene.as_ref().map_or(node, |s| s.scene.meant_by(node)));
-        let point = node.map(|_| pending.view.unproject(pending.px, depth));
+        let texels: Vec<Vec<u8>> = pending.texels.iter().map(|t| t.poll(&self.gpu)).collect::<Option<_>>()?;
+        let found = texels.iter().filter_map(|texel| {
+            let texel: Vec<u32> = bytemuck::pod_collect_to_vec(texel);
+            Some((node_of(*texel.get(3)?)?, f32::from_bits(*texel.get(2)?)))
+        });
+        let nearest = found.min_by(|(_, a), (_, b)| a.total_cmp(b));
+        let point = nearest.map(|(_, depth)| pending.view.unproject(pending.px, depth));
         self.pick = None;
+        let node = nearest.map(|(node, _)| self.scene.as_ref().map_or(node, |s| s.scene.meant_by(node)));
         Some(Pick { node, point })
     }
 

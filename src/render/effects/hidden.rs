@@ -196,6 +196,7 @@ impl HiddenLines {
                 fraction: 1.0,
                 by: inputs.layers_by,
                 with_color: true,
+                with_depth: false,
             };
             let mut before: Option<[Target; 2]> = None;
             layers.each(rec, gbuffer_pass, &cut, |rec, number, layer, _| {

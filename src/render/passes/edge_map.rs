@@ -7,6 +7,7 @@
 use super::edge_style::EdgeUniform;
 use super::gbuffer::GBuffer;
 use super::operators::paper_edges;
+use super::repeated::{Seen, add_ink};
 use super::segments::{SegmentInputs, Segments};
 use crate::geometry::EdgeClass;
 use crate::gpu::recorder::{Draw, Input, Onto};
@@ -53,6 +54,8 @@ pub struct EdgeInputs<'a> {
     pub before: Option<[&'a Target; 2]>,
     /// Which lights reach each pixel; `None` when no light throws shadows.
     pub shadow_mask: Option<&'a Target>,
+    /// The lines of nearer layers, which are left out, and to which these are added; `None`: all are drawn.
+    pub seen: Option<&'a Seen>,
 }
 
 /// Makes the edge map: exact edges first, then those of the papers' operators.
@@ -71,6 +74,10 @@ pub fn edge_map(rec: &mut Recorder<'_>, inputs: &EdgeInputs<'_>) -> Result<EdgeM
     // Without exact edges it is this that clears the map.
     if onto == Onto::Nothing || has_paper {
         paper_edges(rec, inputs.gbuffer, inputs.styles, inputs.edge_styles, &edge_map, onto)?;
+        if let Some(Seen { before, now }) = inputs.seen.filter(|_| has_paper) {
+            // Where it had been seen before that stays so.
+            add_ink(rec, &edge_map, spines.as_ref().unwrap_or(before), now)?;
+        }
     }
     Ok(EdgeMap { edges: edge_map, spines, has_paper })
 }
@@ -91,6 +98,7 @@ fn exact_edges(
         is_layer,
         before,
         shadow_mask,
+        seen,
     } = *inputs;
     let any = |has: fn(&EdgeUniform) -> bool| styles.iter().any(|s| s.is_exact() && has(s));
     let variation =
@@ -106,7 +114,11 @@ fn exact_edges(
         .chain(variation)
         .collect();
     let tested = SegmentInputs { gbuffer, edge_styles, switches: &switches };
-    segments.put(rec, &tested, edge_map, &spines)?;
+    segments.put(rec, &tested, edge_map, &spines, seen)?;
+    let outputs: Vec<_> = [edge_map, &spines].into_iter().chain(seen.map(|seen| &seen.now)).collect();
+    let unseen = ("WITHOUT_REPEATED", seen.is_some());
+    // Unread without.
+    let before_all = Input::Texture(seen.map_or(&gbuffer.region, |seen| &seen.before));
 
     let inputs = [
         Input::Texture(&gbuffer.geometry),
@@ -116,8 +128,9 @@ fn exact_edges(
         // Unread unless it is a layer.
         Input::Texture(before.map_or(&gbuffer.region, |[before, _]| before)),
         Input::Texture(before.map_or(&gbuffer.region, |[_, before_that]| before_that)),
+        before_all,
     ];
-    let switches = [("WITH_CUT", is_cut), ("WITH_LAYERS_BEFORE", before.is_some())]
+    let switches = [("WITH_CUT", is_cut), ("WITH_LAYERS_BEFORE", before.is_some()), unseen]
         .into_iter()
         .chain(variation)
         .collect::<Vec<_>>();
@@ -130,7 +143,8 @@ fn exact_edges(
         .map(|class| styles.iter().any(|s| s.is_exact() && s.draws(class)));
     let shadow = shadow && shadow_mask.is_some();
     if texture || relief || shadow {
-        let mut switches = vec![("WITH_TEXTURE", texture), ("WITH_RELIEF", relief), ("WITH_SHADOW", shadow)];
+        let mut switches =
+            vec![("WITH_TEXTURE", texture), ("WITH_RELIEF", relief), ("WITH_SHADOW", shadow), unseen];
         switches.extend(variation);
         rec.draw(Draw {
             label: "details",
@@ -143,8 +157,9 @@ fn exact_edges(
                 Input::Texture(&gbuffer.base_color),
                 // Unread without shadows.
                 Input::Texture(shadow_mask.unwrap_or(&gbuffer.base_color)),
+                before_all,
             ],
-            outputs: &[edge_map, &spines],
+            outputs: &outputs,
             onto: Onto::Old,
             depth: Some((&gbuffer.depth, DepthRule::Covered)),
         })?;
@@ -164,7 +179,7 @@ fn exact_edges(
         label: "discontinuities",
         program: program("fs_main"),
         inputs: &inputs,
-        outputs: &[edge_map, &spines],
+        outputs: &outputs,
         onto: Onto::Old,
         depth: Some((&borders, DepthRule::Marked)),
     })?;

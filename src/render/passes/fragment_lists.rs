@@ -15,8 +15,6 @@ const BYTES: [u64; 3] = [16, 16, 4];
 
 /// As many layers are sorted at a time: a pass has no more targets.
 const SORTED: u32 = 8;
-/// As many with less work, as in `passes/cut.wgsl`.
-const FEW: u32 = 4;
 
 /// For each pixel the number of a fragment.
 const NUMBERS: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;
@@ -127,7 +125,7 @@ impl FragmentLists {
         let [links, payloads, colors] = &self.fragments;
         let buffers = [&self.heads, links, payloads, colors].map(wgpu::Buffer::clone);
         let listed = rec.target("listed", DEPTH)?;
-        let lists = CutLists { buffers, listed, numbers: Vec::new(), layers };
+        let lists = CutLists { buffers, listed, numbers: Vec::new(), last: None, layers };
         let inputs = lists.inputs();
         rec.draw(Draw {
             label: "listed",
@@ -145,17 +143,18 @@ impl FragmentLists {
 pub struct CutLists {
     /// The first bindings of `passes/cut.wgsl`.
     buffers: [wgpu::Buffer; 4],
-    /// Marks pixels that have any fragments.
+    /// A depth buffer that is covered where there are any fragments.
     listed: Target,
     /// The fragments of the next layers, the nearest one last.
     numbers: Vec<Target>,
+    /// Those of the layer that was cut last.
+    last: Option<Target>,
     /// So many are left to be cut.
     layers: u32,
 }
 
 impl CutLists {
-    /// The next layer, which lies behind the last one: its depth and order. It has a base colour if the fragments have been
-    /// collected with it.
+    /// The next layer. It has a base colour if the fragments have been collected with it.
     ///
     /// # Errors
     /// [`RenderError`].
@@ -163,27 +162,29 @@ impl CutLists {
         &mut self,
         rec: &mut Recorder<'_>,
         with_color: bool,
-        last: &[Target; 2],
+        with_depth: bool,
     ) -> Result<Layer, RenderError> {
         let numbers = match self.numbers.pop() {
             Some(numbers) => numbers,
-            None => self.sort(rec, last)?,
+            None => self.sort(rec)?,
         };
         self.layers = self.layers.saturating_sub(1);
-        let layer = Layer { gbuffer: GBuffer::new(rec)?, order: rec.target("order", ORDER)? };
-        let GBuffer { geometry, base_color, region, depth } = &layer.gbuffer;
-        let mut inputs = self.inputs().to_vec();
-        // Those of sorting are not read: any of their kinds.
-        inputs.extend([Input::Texture(&self.listed), Input::Texture(&numbers), Input::Texture(&numbers)]);
+        let mut layer = Layer { gbuffer: GBuffer::new(rec)?, order: rec.target("order", ORDER)? };
+        let inputs: Vec<_> = self.inputs().into_iter().chain([Input::Texture(&numbers)]).collect();
         let program = |entry_point| Program::new("passes/cut.wgsl", entry_point);
-        rec.draw(Draw {
-            label: "depth of layer",
-            program: program("fs_depth"),
-            inputs: &inputs,
-            outputs: &[],
-            onto: Onto::Nothing,
-            depth: Some((depth, DepthRule::Mark)),
-        })?;
+        if with_depth {
+            rec.draw(Draw {
+                label: "depth of layer",
+                program: program("fs_depth"),
+                inputs: &inputs,
+                outputs: &[],
+                onto: Onto::Nothing,
+                depth: Some((&layer.gbuffer.depth, DepthRule::Mark)),
+            })?;
+        } else {
+            layer.gbuffer.depth = self.listed.clone();
+        }
+        let GBuffer { geometry, base_color, region, depth } = &layer.gbuffer;
         let outputs = [geometry, region, &layer.order, base_color];
         let without_color = outputs.split_last().map_or(&outputs[..], |(_, others)| others);
         rec.draw(Draw {
@@ -194,27 +195,33 @@ impl CutLists {
             onto: Onto::Nothing,
             depth: Some((depth, DepthRule::Covered)),
         })?;
+        self.last = Some(numbers);
         Ok(layer)
     }
 
     /// Sorts the next layers, and returns the fragments of the nearest one.
-    fn sort(&mut self, rec: &mut Recorder<'_>, last: &[Target; 2]) -> Result<Target, RenderError> {
+    fn sort(&mut self, rec: &mut Recorder<'_>) -> Result<Target, RenderError> {
         let layers = self.layers.clamp(1, SORTED);
         let nearest = rec.target("fragments of layer", NUMBERS)?;
-        self.numbers = (1..layers).map(|_| rec.target("fragments of layer", NUMBERS)).collect::<Result<_, _>>()?;
-        let mut inputs = self.inputs().to_vec();
-        inputs.extend(last.iter().map(Input::Texture));
+        self.numbers =
+            (1..layers).map(|_| rec.target("fragments of layer", NUMBERS)).collect::<Result<_, _>>()?;
+        let inputs: Vec<_> =
+            self.inputs().into_iter().chain(self.last.as_ref().map(Input::Texture)).collect();
         rec.draw(Draw {
             label: "sort",
             program: Program {
                 file: "passes/cut.wgsl",
-                entry_point: "fs_sort",
-                switches: vec![("FEW", layers <= FEW)],
+                entry_point: if self.last.is_some() { "fs_sort_behind" } else { "fs_sort" },
+                switches: vec![
+                    ("THREE_OR_MORE", layers >= 3),
+                    ("FIVE_OR_MORE", layers >= 5),
+                    ("SEVEN_OR_MORE", layers >= 7),
+                ],
             },
             inputs: &inputs,
             outputs: &std::iter::once(&nearest).chain(&self.numbers).collect::<Vec<_>>(),
             onto: Onto::Nothing,
-            depth: Some((&self.listed, DepthRule::Marked)),
+            depth: Some((&self.listed, DepthRule::Covered)),
         })?;
         self.numbers.reverse();
         Ok(nearest)

@@ -5,17 +5,33 @@ use crate::gpu::recorder::Input;
 use crate::gpu::{Program, Recorder, Target};
 use crate::render::RenderError;
 
-/// The nearest at each pixel of some geometries (see `shaders/common/gbuffer.wgsl`).
-///
-/// # Errors
-/// [`RenderError`].
-pub fn front(rec: &mut Recorder<'_>, surfaces: &Target, layers: &[Target]) -> Result<Target, RenderError> {
-    let mut nearest = surfaces.clone();
-    for layer in layers {
-        let both = rec.target("front", nearest.format())?;
-        let inputs = [Input::Texture(&nearest), Input::Texture(layer)];
-        rec.fullscreen("front", Program::new("passes/front.wgsl", "fs_main"), &inputs, &[&both], None)?;
-        nearest = both;
+/// Geometries (see `shaders/common/gbuffer.wgsl`) of which the nearest counts at each pixel.
+#[derive(Debug, Clone)]
+pub struct Front {
+    /// Of the opaque surfaces.
+    pub surfaces: Target,
+    /// Of what may lie before them.
+    pub layers: Vec<Target>,
+}
+
+impl Front {
+    /// The nearest at each pixel.
+    ///
+    /// # Errors
+    /// [`RenderError`].
+    pub fn nearest(&self, rec: &mut Recorder<'_>) -> Result<Target, RenderError> {
+        let mut nearest = self.surfaces.clone();
+        for layer in &self.layers {
+            let both = rec.target("front", nearest.format())?;
+            let inputs = [Input::Texture(&nearest), Input::Texture(layer)];
+            rec.fullscreen("front", Program::new("passes/front.wgsl", "fs_main"), &inputs, &[&both], None)?;
+            nearest = both;
+        }
+        Ok(nearest)
     }
-    Ok(nearest)
+
+    /// Each of them.
+    pub fn all(&self) -> impl Iterator<Item = &Target> {
+        std::iter::once(&self.surfaces).chain(&self.layers)
+    }
 }

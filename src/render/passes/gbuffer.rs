@@ -35,7 +35,7 @@ pub struct GBuffer {
     pub base_color: Target,
     /// A number for each surface of each object; 0: background.
     pub region: Target,
-    /// Reversed depth.
+    /// Reversed depth. Of a layer from fragment lists of which it was not asked for, only 0 where no layer has anything.
     pub depth: Target,
 }
 

@@ -7,6 +7,7 @@
 //! ```
 
 use super::gbuffer::GBuffer;
+use super::repeated::Seen;
 use crate::geometry::LineSegment;
 use crate::gpu::recorder::Input;
 use crate::gpu::{Gpu, GpuError, Program, RecordBuffer, Recorder, Target};
@@ -106,7 +107,7 @@ impl Segments {
         self.keys.buffer()
     }
 
-    /// Puts them into an edge map and its spines, over what is there.
+    /// Puts them into an edge map and its spines, over what is there, without those that have been `seen`.
     ///
     /// # Errors
     /// [`RenderError`].
@@ -116,6 +117,7 @@ impl Segments {
         inputs: &SegmentInputs<'_>,
         edge_map: &Target,
         spines: &Target,
+        seen: Option<&Seen>,
     ) -> Result<(), RenderError> {
         rec.encoder.clear_buffer(self.keys.buffer(), 0, Some(self.pixels));
         // Where the recorder's gate is shut nobody counts any.
@@ -124,17 +126,22 @@ impl Segments {
             rec.encoder.clear_buffer(self.sifted.buffer(), 0, None);
             rec.encoder.clear_buffer(self.winners.buffer(), 0, Some(self.pixels));
             self.find(rec, inputs, steps, *count)?;
-            let found = [
+            let mut found = vec![
                 Input::Storage(self.points.buffer()),
                 Input::Storage(self.keys.buffer()),
                 Input::Written(self.winners.buffer()),
                 Input::Image(edge_map),
                 Input::Image(spines),
             ];
-            for (label, entry_point) in [("compare points", "cs_compare"), ("put points", "cs_put")] {
-                let program = Program::new("passes/segment_points.wgsl", entry_point);
-                rec.compute(label, program, &found, &self.workgroups)?;
-            }
+            let program = |entry_point| Program {
+                file: "passes/segment_points.wgsl",
+                entry_point,
+                switches: vec![("WITHOUT_REPEATED", seen.is_some())],
+            };
+            rec.compute("compare points", program("cs_compare"), &found, &self.workgroups)?;
+            let put = if seen.is_some() { "cs_put_unseen" } else { "cs_put" };
+            found.extend(seen.into_iter().flat_map(|s| [Input::Texture(&s.before), Input::Image(&s.now)]));
+            rec.compute("put points", program(put), &found, &self.workgroups)?;
         }
         Ok(())
     }

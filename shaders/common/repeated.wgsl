@@ -1,0 +1,38 @@
+// Lines of a layer that a nearer layer has at the same place (blueprints paper, section 4.1, Fig. 5).
+
+// Whether they are left out.
+override WITHOUT_REPEATED: bool = false;
+
+// Closer than this, px, two spines are one.
+const SAME: f32 = 1.0;
+
+fn offset_in(spine: u32) -> vec2<f32> {
+    return vec2(f32((spine >> 8u) & 255u), f32(spine & 255u)) / 127.0 - 1.0;
+}
+
+// Whether a spine is repeated; `seen_tex` holds the spines of all nearer layers.
+fn is_repeated(seen_tex: texture_2d<u32>, px: vec2<i32>, spine: u32) -> bool {
+    let last = vec2<i32>(textureDimensions(seen_tex)) - 1;
+    var nearest = 1e9;
+    for (var i = 0; i < 9; i++) {
+        let q = clamp(px + vec2(i % 3, i / 3) - 1, vec2(0), last);
+        let other = textureLoad(seen_tex, q, 0).x;
+        let apart = vec2<f32>(q - px) + offset_in(other) - offset_in(spine);
+        nearest = select(nearest, min(nearest, dot(apart, apart)), other != 0u);
+    }
+    return nearest < SAME * SAME;
+}
+
+// The spines of a pixel, without repeated ones, and all of them so far.
+struct Seen {
+    own: u32,
+    now: u32,
+}
+
+fn seen_at(seen_tex: texture_2d<u32>, px: vec2<i32>, spine: u32) -> Seen {
+    if !WITHOUT_REPEATED {
+        return Seen(spine, spine);
+    }
+    let before = textureLoad(seen_tex, px, 0).x;
+    return Seen(select(spine, 0u, is_repeated(seen_tex, px, spine)), select(spine, before, spine == 0u));
+}
