@@ -271,6 +271,24 @@ fn the_cut_has_lines_of_its_own_class() {
     assert!(differing(&image(&mut session, &opened, SIDE), &without) > (1.5 * radius) as usize);
 }
 
+/// Where lines run a few pixels apart, others that are wide enough to reach over both change what is seen of them.
+#[test]
+fn section_lines_do_not_count_where_nothing_is_cut() {
+    let mut session = session();
+    // A ridge two pixels beside a silhouette, with lines a little less wide.
+    let cube = object("cube", primitives::cube(2.0), RED);
+    let mut opened = view(vec![cube], DVec3::new(0.04, 0.3, 1.0), true);
+    set_all(&mut opened, &[("edges.profile.width", "12"), ("edges.inner.width", "12")]);
+    for (show, position) in [("false", "0"), ("true", "5")] {
+        set_all(&mut opened, &[("section.show", show), ("section.position", position)]);
+        let mut with_width = |width| {
+            set(&mut opened, "edges.section.width", width);
+            image(&mut session, &opened, SIDE)
+        };
+        assert!(with_width("64") == with_width("1"), "{position}");
+    }
+}
+
 #[test]
 fn a_plane_that_leaves_nothing_leaves_paper_and_says_so() {
     let mut session = session();

@@ -221,6 +221,11 @@ impl GpuScene {
         self.section.as_ref().is_some_and(|section| *section.part(node) == Part::Gone)
     }
 
+    /// Whether a section cuts a node's mesh open.
+    pub fn is_cut_open(&self, node: NodeId) -> bool {
+        self.section.as_ref().is_some_and(|section| section.opened(node).is_some())
+    }
+
     /// Whether a node shows no inside: its mesh, or what a section leaves of it with its cap, encloses a volume.
     pub fn shows_no_inside(&self, node: NodeId) -> bool {
         match self.section.as_ref().and_then(|section| section.opened(node)) {

@@ -14,7 +14,7 @@ use super::passes::edge_style::EdgeUniform;
 use super::passes::gbuffer::{Detail, DrawCall, DrawUniform};
 use super::style_images::StyleImages;
 use crate::document::{Document, Show};
-use crate::geometry::Bounds;
+use crate::geometry::{Bounds, EdgeClass};
 use crate::gpu::material::MaterialUniform;
 use crate::scene::{AlphaMode, NodeId};
 use crate::style::Technique;
@@ -200,7 +200,11 @@ impl Objects {
             if has_blended && objects.blended.visible.is_empty() {
                 objects.blended = Group::with_hidden(count);
             }
-            let edges = EdgeUniform::new(&r.style.edges, scale);
+            // The width of lines that are nowhere would decide how all others are drawn.
+            let possible = |edges: EdgeUniform| {
+                if scene.is_cut_open(node) { edges } else { edges.without(EdgeClass::Section) }
+            };
+            let edges = possible(EdgeUniform::new(&r.style.edges, scale));
             let edges = if has_layers { edges.inked(&r.style.edges, r.style.blueprint.near) } else { edges };
             let whole = Visible { node, enhanced: r.enhanced, parts: Parts::All };
             if is_blueprint {
@@ -210,7 +214,8 @@ impl Objects {
                 let parts = if has_blended { Parts::Opaque } else { Parts::All };
                 objects.surfaces.add(Visible { parts, ..whole }, edges, scene);
                 if r.enhanced && document.view.show == Show::Picture {
-                    objects.hidden.add((count, id), &r.style.edges, scale);
+                    let style = possible(EdgeUniform::hidden(&r.style.edges, scale));
+                    objects.hidden.add((count, id), style, &r.style.edges.hidden);
                 }
             }
             if has_blended {

@@ -23,7 +23,7 @@ use crate::render::passes::repeated::seen_lines;
 use crate::render::passes::segments::Segments;
 use crate::render::segments::segments;
 use crate::render::stage::{Output, Stage};
-use crate::style::Edges;
+use crate::style;
 
 /// Which surfaces have hidden lines: nothing as long as none has.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -46,17 +46,16 @@ struct Band {
 
 impl Hidden {
     /// Adds the hidden lines of an object, if it has any, in a scene with `count` object ids.
-    pub fn add(&mut self, (count, id): (usize, usize), edges: &Edges, scale: f32) {
-        let style = EdgeUniform::hidden(edges, scale);
+    pub fn add(&mut self, (count, id): (usize, usize), style: EdgeUniform, hidden: &style::Hidden) {
         if !style.is_exact() && !style.is_paper() {
             return;
         }
-        let least = edges.hidden.least.clamp(0.0, 100.0);
+        let least = hidden.least.clamp(0.0, 100.0);
         self.least = if self.styles.is_empty() { least } else { self.least.min(least) };
         self.styles.resize(count, EdgeUniform::default());
         self.depths.resize(count, 0);
         self.styles[id] = style;
-        self.depths[id] = edges.hidden.depth();
+        self.depths[id] = hidden.depth();
     }
 
     /// Whether no object has any.

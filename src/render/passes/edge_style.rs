@@ -152,6 +152,13 @@ impl EdgeUniform {
         Self { dash_period: (length + gap) * scale, dash_share: length / (length + gap), ..style }
     }
 
+    /// The same, but for a class that is not drawn.
+    #[must_use]
+    pub fn without(mut self, class: EdgeClass) -> Self {
+        self.lines[class as usize].strength = 0.0;
+        self
+    }
+
     /// Whether exact lines are drawn.
     pub fn is_exact(&self) -> bool {
         self.mode == EXACT && self.lines.iter().any(|l| l.strength > 0.0)
