@@ -5,7 +5,7 @@ mod common;
 
 use std::sync::Arc;
 
-use common::{opened, scene, session, set, texels};
+use common::{opened, scene, session, set};
 use glam::{DMat4, DVec3};
 use hachure::document::Document;
 use hachure::export::Session;
@@ -79,9 +79,9 @@ fn a_pick_of_what_belongs_to_a_node_is_one_of_the_node() {
     let mut session = session();
     let opened = cube_with_knob(&mut session);
     let picture = session.draw(&opened, [SIDE, SIDE], false).unwrap();
-    let objects: Vec<[u32; 4]> = texels(&mut session, &picture.front.surfaces);
+    let objects = common::objects_in_front(&mut session, &picture);
     let middle = (SIDE / 2 * SIDE + SIDE / 2) as usize;
-    assert_eq!(objects[middle][3] & 0x7fff_ffff, 2, "the knob is in front");
+    assert_eq!(objects[middle], 2, "the knob is in front");
     session.renderer().start_pick([SIDE / 2, SIDE / 2]).unwrap();
     session.renderer().gpu().wait().unwrap();
     let pick = session.renderer().poll_pick().unwrap();

@@ -398,10 +398,10 @@ fn mirrors_show_what_is_peeled_for_their_own_view() {
         set(&mut scene, "blueprint.fraction", fraction);
         session.set_scene(&scene).unwrap();
         let picture = session.draw(&scene, [SIDE; 2], false).unwrap();
-        let objects =
-            texels::<[u32; 4]>(&mut session, &picture.front).into_iter().map(|s| s[3] & 0x7fff_ffff);
+        let objects = common::objects_in_front(&mut session, &picture);
         let image = common::image(&mut session, &scene, SIDE);
         let seen: Vec<[u8; 4]> = objects
+            .into_iter()
             .zip(image.pixels())
             .map(|(object, pixel)| if object == object_id(2) { pixel.0 } else { [0; 4] })
             .collect();

@@ -1,2 +1,2 @@
-// Steps that passes/gather.wgsl has gathered fill whole workgroups; this stands for none.
+// Steps fill whole workgroups; this stands for none.
 const NO_STEP: u32 = 0xffffffffu;

@@ -18,8 +18,8 @@ override IN_LAYER: bool = false;
 @group(1) @binding(1) var region_tex: texture_2d<u32>;
 // Records of `LineSegment` in src/geometry/line_segments.rs.
 @group(1) @binding(3) var<storage, read> segments: array<u32>;
-// Number of a segment, and how many steps from its beginning.
-// Number of a segment, and how many steps from its beginning.
+// Number of a segment, and how many steps from its beginning; at the end `NO_STEP`.
+// Number of a segment, and how many steps from its beginning; at the end `NO_STEP`.
 @group(1) @binding(4) var<storage, read> steps: array<vec2<u32>>;
 // A bit for each step: whether it is looked at closely; see passes/gather.wgsl.
 @group(1) @binding(5) var<storage, read_write> sifted: array<atomic<u32>>;
@@ -246,7 +246,7 @@ fn cs_sift(@builtin(global_invocation_id) id: vec3<u32>) {
     let step = steps[id.x];
     let segment = segment_at(step.x);
     let place = place_of(segment.ends, step.y);
-    if place.is_on && is_worth_it(segment, place.px) {
+    if step.x != NO_STEP && place.is_on && is_worth_it(segment, place.px) {
         atomicOr(&sifted[id.x / 32u], 1u << (id.x % 32u));
     }
 }

@@ -96,6 +96,18 @@ fn octahedral(packed: u32) -> glam::Vec3 {
     glam::vec3(unfold(x), unfold(y), z).normalize()
 }
 
+/// The object in front at each pixel; 0: none.
+pub fn objects_in_front(session: &mut Session, picture: &Picture) -> Vec<u32> {
+    let fronts: Vec<Vec<[u32; 4]>> = picture.front.all().map(|target| texels(session, target)).collect();
+    (0..fronts[0].len())
+        .map(|px| {
+            let there = fronts.iter().map(|front| front[px]).filter(|texel| texel[3] != 0);
+            let nearest = there.min_by(|a, b| f32::from_bits(a[2]).total_cmp(&f32::from_bits(b[2])));
+            nearest.map_or(0, |texel| texel[3] & 0x7fff_ffff)
+        })
+        .collect()
+}
+
 /// The G-buffer of a picture, row by row.
 pub fn surfels(session: &mut Session, picture: &Picture) -> Vec<Surfel> {
     texels::<[u32; 4]>(session, &picture.gbuffer.geometry)

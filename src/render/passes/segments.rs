@@ -20,6 +20,9 @@ const POINT_BYTES: u64 = 32;
 /// Steps per workgroup, as in `passes/segments.wgsl`.
 const GROUP: u32 = 64;
 
+/// Fills the last workgroup, as in `common/kept.wgsl`.
+const NO_STEP: [u32; 2] = [u32::MAX; 2];
+
 /// Segments on the device, ready to be put into the edge maps of several G-buffers.
 pub struct Segments {
     records: RecordBuffer,
@@ -90,8 +93,10 @@ impl Segments {
         let chunks = steps.len().div_ceil(MOST_STEPS);
         self.steps.resize_with(chunks, || (RecordBuffer::new(gpu, "steps of segments"), 0));
         for ((buffer, count), chunk) in self.steps.iter_mut().zip(steps.chunks(MOST_STEPS)) {
-            buffer.write(gpu, chunk)?;
             *count = chunk.len() as u32;
+            let mut groups = chunk.to_vec();
+            groups.resize(chunk.len().next_multiple_of(GROUP as usize), NO_STEP);
+            buffer.write(gpu, &groups)?;
         }
         let most = (steps.len().min(MOST_STEPS) as u64).next_multiple_of(u64::from(GROUP));
         self.sifted.reserve(gpu, most / 8)?;
