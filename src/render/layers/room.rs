@@ -39,6 +39,8 @@ pub enum LayersBy {
 pub enum Reason {
     /// The document asks for it.
     Asked,
+    /// A single layer is made faster so.
+    Single,
     /// The device cannot do otherwise.
     Device,
     /// So many fragments are more than are ever kept.
@@ -49,7 +51,7 @@ impl LayersBy {
     /// Whether it was peeled although that was not asked for, as a sentence.
     pub fn shortfall(&self) -> Option<String> {
         match self {
-            Self::Lists | Self::Peeling(Reason::Asked) => None,
+            Self::Lists | Self::Peeling(Reason::Asked | Reason::Single) => None,
             Self::Peeling(Reason::Device) => Some(
                 "layers are peeled, as fragment shaders cannot write with this graphics driver".to_owned(),
             ),
@@ -106,8 +108,9 @@ impl Room {
     pub(super) fn plan(&self, gpu: &Gpu, size: [u32; 2], most: u32, by: document::LayersBy) -> Recorded {
         let bound = match (by, FragmentLists::most(gpu)) {
             (document::LayersBy::Peeling, _) => Err(Reason::Asked),
+            (document::LayersBy::Auto, _) if most == 1 => Err(Reason::Single),
             (_, 0) => Err(Reason::Device),
-            (_, most) => Ok(most),
+            (_, fragments) => Ok(fragments),
         };
         self.plan_within(bound, size, most)
     }
