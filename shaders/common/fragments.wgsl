@@ -8,9 +8,8 @@ struct Link {
     next: u32,
     // Bits of the reversed depth: what is nearer is greater, as a number too.
     depth: u32,
-    // Of which draw and surface it is.
+    // Of which draw and surface it is: this tells its object and its region too.
     order: u32,
-    object: u32,
 }
 
 // What else a fragment is, as in common/gbuffer.wgsl.
@@ -19,7 +18,6 @@ struct Payload {
     face: u32,
     // Bits of the linear depth.
     depth: u32,
-    region: u32,
 }
 
 // Index of a pixel among the lists.

@@ -8,7 +8,7 @@
 override WITH_MASK: bool = false;
 
 // 0 where the layer has nothing.
-@group(1) @binding(0) var order_tex: texture_2d<u32>;
+@group(1) @binding(0) var region_tex: texture_2d<u32>;
 // Depths of the layer and of the mask, reversed.
 @group(1) @binding(1) var layer_depth_tex: texture_depth_2d;
 @group(1) @binding(2) var mask_depth_tex: texture_depth_2d;
@@ -38,7 +38,7 @@ fn cs_count(
     for (var i = 0u; i < 16u; i++) {
         let px = 64u * group.xy + 16u * vec2(i % 4u, i / 4u) + id.xy;
         if all(px < vec2<u32>(frame.size)) {
-            own.x += select(0u, 1u, textureLoad(order_tex, px, 0).x != 0u);
+            own.x += select(0u, 1u, textureLoad(region_tex, px, 0).x != 0u);
             if WITH_MASK {
                 own.y += select(0u, 1u, is_uncovered(px));
             }

@@ -3,14 +3,18 @@
 #import common/fragments.wgsl
 #import common/fullscreen.wgsl
 #import common/layer_color.wgsl
+#import common/region.wgsl
 
 // The fragment of each pixel that was drawn last.
 @group(1) @binding(0) var<storage, read> heads: array<u32>;
 @group(1) @binding(1) var<storage, read> links: array<Link>;
 @group(1) @binding(2) var<storage, read> payloads: array<Payload>;
 @group(1) @binding(3) var<storage, read> colors: array<u32>;
+// By orders without the bits that tell the surfaces of a draw apart: object id with the enhanced flag, and the order of the
+// first surface. The first one holds how many bits that are.
+@group(1) @binding(4) var<storage, read> draws: array<vec2<u32>>;
 // The numbers of the fragments of a layer, plus 1; 0: none. Sorting: that which was sorted last; cutting: that which is cut.
-@group(1) @binding(4) var number_tex: texture_2d<u32>;
+@group(1) @binding(5) var number_tex: texture_2d<u32>;
 
 // Whether so many are sorted.
 override THREE_OR_MORE: bool = true;
@@ -139,21 +143,25 @@ fn fs_depth(@builtin(position) position: vec4<f32>) -> Depth {
 struct Layer {
     @location(0) geometry: vec4<u32>,
     @location(1) region: u32,
-    @location(2) order: u32,
-    @location(3) base_color: vec4<f32>,
+    @location(2) base_color: vec4<f32>,
+    @location(3) order: u32,
 }
 
 @fragment
 fn fs_layer(@builtin(position) position: vec4<f32>) -> Layer {
     let number = number_at(position);
     if number == 0u {
-        return Layer(vec4(0u), 0u, 0u, vec4(0.0));
+        return Layer(vec4(0u), 0u, vec4(0.0), 0u);
     }
-    let index = number - 1u;
-    let link = links[index];
-    let payload = payloads[index];
+    let order = links[number - 1u].order;
+    let payload = payloads[number - 1u];
+    let drawn = draws[order >> draws[0].x];
+    var color = 0u;
+    if WITH_COLOR {
+        color = colors[number - 1u];
+    }
     return Layer(
-        vec4(payload.normal, payload.face, payload.depth, link.object), payload.region, link.order,
-        unpack_color(colors[index]),
+        vec4(payload.normal, payload.face, payload.depth, drawn.x), region_of(drawn.x, order - drawn.y),
+        unpack_color(color), order,
     );
 }

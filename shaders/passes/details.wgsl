@@ -14,8 +14,8 @@ override WITH_RELIEF: bool = true;
 override WITH_SHADOW: bool = true;
 
 @group(1) @binding(1) var region_tex: texture_2d<u32>;
-// Keys of segments; see common/segment_point.wgsl.
-@group(1) @binding(3) var<storage, read> keys: array<u32>;
+// What segments have; see common/segment_point.wgsl.
+@group(1) @binding(3) var mark_tex: texture_2d<u32>;
 @group(1) @binding(4) var base_color_tex: texture_2d<f32>;
 // Of passes/shadow.wgsl.
 @group(1) @binding(5) var shadow_mask_tex: texture_2d<f32>;
@@ -197,7 +197,7 @@ fn fs_main(@builtin(position) position: vec4<f32>) -> Out {
     // Where a surface ends or folds, there is a line already.
     for (var n = 0; n < 9; n++) {
         let q = clamp(px + neighbour_offset(n), vec2(0), vec2<i32>(frame.size) - 1);
-        if region_at(q) != own || keys[q.y * i32(frame.size.x) + q.x] != 0u {
+        if region_at(q) != own || textureLoad(mark_tex, q, 0).x != 0u {
             discard;
         }
     }

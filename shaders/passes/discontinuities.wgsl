@@ -8,10 +8,11 @@
 #import common/edge_style.wgsl
 #import common/line_width.wgsl
 #import common/repeated.wgsl
+#import common/segment_point.wgsl
 
 @group(1) @binding(1) var region_tex: texture_2d<u32>;
-// Keys of segments; see common/segment_point.wgsl.
-@group(1) @binding(3) var<storage, read> keys: array<u32>;
+// What segments have; see common/segment_point.wgsl.
+@group(1) @binding(3) var mark_tex: texture_2d<u32>;
 
 // The regions of the two layers before this one, if it is a depth layer.
 @group(1) @binding(4) var before_tex: texture_2d<u32>;
@@ -31,14 +32,8 @@ fn region_at(px: vec2<i32>) -> u32 {
     return textureLoad(region_tex, clamp(px, vec2(0), vec2<i32>(frame.size) - 1), 0).x;
 }
 
-// What segments have in a pixel: no bit, `EXPLAINED`, or both bits.
-const EXPLAINED: u32 = 1u;
-const DRAWN: u32 = 2u;
-
 fn mark_at(px: vec2<i32>) -> u32 {
-    let q = clamp(px, vec2(0), vec2<i32>(frame.size) - 1);
-    let key = keys[q.y * i32(frame.size.x) + q.x];
-    return select(EXPLAINED | ((key & 1u) * DRAWN), 0u, key == 0u);
+    return textureLoad(mark_tex, clamp(px, vec2(0), vec2<i32>(frame.size) - 1), 0).x;
 }
 
 // Marks the pixels beside which another surface begins that no segment explains.

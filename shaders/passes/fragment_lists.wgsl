@@ -15,8 +15,8 @@ fn append(position: vec4<f32>, surface: u32, drawn: GBuffer) {
     let index = atomicAdd(&counted.fragments, 1u);
     if index < arrayLength(&links) {
         let next = atomicExchange(&heads[list_of(vec2<u32>(position.xy))], index + 1u);
-        links[index] = Link(next, bitcast<u32>(position.z), draw.first_surface + surface, drawn.geometry.w);
-        payloads[index] = Payload(drawn.geometry.x, drawn.geometry.y, drawn.geometry.z, drawn.region);
+        links[index] = Link(next, bitcast<u32>(position.z), draw.first_surface + surface);
+        payloads[index] = Payload(drawn.geometry.x, drawn.geometry.y, drawn.geometry.z);
         if WITH_COLOR {
             colors[index] = pack_color(drawn.base_color);
         }

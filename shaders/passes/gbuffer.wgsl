@@ -1,6 +1,7 @@
 // Every visible object into the G-buffer, in one traversal (edge-enhancement paper, section 4.1.1).
 #import common/frame.wgsl
 #import common/octahedral.wgsl
+#import common/region.wgsl
 #import common/material.wgsl
 
 // One part of one object. Uniform, not an element of a storage array: what is the same for a whole draw is read once
@@ -14,7 +15,7 @@ struct Draw {
     object: u32,
     // 1: the mesh has no normals, faces are flat.
     is_flat: u32,
-    // Number of its first surface among those of all draws, in the order of drawing.
+    // Order of its first surface among those of all draws.
     first_surface: u32,
 }
 
@@ -143,9 +144,8 @@ fn is_cut_off(pos_oriented: vec3<f32>) -> bool {
     return WITH_CUT && min(dot(frame.cut, pos_view), dot(frame.section, pos_view)) < 0.0;
 }
 
-// Tells the surfaces of all objects apart; 0 is the background. Twin: `region` in src/render/groups.rs.
 fn region(surface: u32) -> u32 {
-    return max((draw.object & 0x7fffffffu) * 2654435769u + surface, 1u);
+    return region_of(draw.object, surface);
 }
 
 // The opacity of a surface: 1 unless its material blends.

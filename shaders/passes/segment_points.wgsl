@@ -10,10 +10,15 @@
 @group(1) @binding(2) var<storage, read_write> winners: array<atomic<u32>>;
 @group(1) @binding(3) var edge_tex: texture_storage_2d<rgba32uint, write>;
 @group(1) @binding(4) var spine_tex: texture_storage_2d<r32uint, write>;
+@group(1) @binding(5) var mark_tex: texture_storage_2d<r32uint, write>;
 
 // Without repeated lines: the spines of all nearer layers, and to which of them those of this one are added.
-@group(1) @binding(5) var seen_tex: texture_2d<u32>;
-@group(1) @binding(6) var now_seen_tex: texture_storage_2d<r32uint, write>;
+@group(1) @binding(6) var seen_tex: texture_2d<u32>;
+@group(1) @binding(7) var now_seen_tex: texture_storage_2d<r32uint, write>;
+
+fn pixel_of(point: SegmentPoint) -> vec2<i32> {
+    return vec2<i32>(vec2(point.px & 0xffffu, point.px >> 16u));
+}
 
 fn index_of(point: SegmentPoint) -> u32 {
     return (point.px >> 16u) * u32(frame.size.x) + (point.px & 0xffffu);
@@ -31,13 +36,17 @@ fn is_winner(point: SegmentPoint, number: u32) -> bool {
     return point.key != 0u && atomicLoad(&winners[index_of(point)]) == ~number;
 }
 
+fn put(point: SegmentPoint, px: vec2<i32>, spine: u32) {
+    textureStore(edge_tex, px, point.edge);
+    textureStore(spine_tex, px, vec4(spine, 0u, 0u, 0u));
+    textureStore(mark_tex, px, vec4(mark_of(point.key), 0u, 0u, 0u));
+}
+
 @compute @workgroup_size(64)
 fn cs_put(@builtin(global_invocation_id) id: vec3<u32>) {
     let point = points[id.x];
     if is_winner(point, id.x) {
-        let px = vec2(point.px & 0xffffu, point.px >> 16u);
-        textureStore(edge_tex, px, point.edge);
-        textureStore(spine_tex, px, vec4(point.spine, 0u, 0u, 0u));
+        put(point, pixel_of(point), point.spine);
     }
 }
 
@@ -45,10 +54,9 @@ fn cs_put(@builtin(global_invocation_id) id: vec3<u32>) {
 fn cs_put_unseen(@builtin(global_invocation_id) id: vec3<u32>) {
     let point = points[id.x];
     if is_winner(point, id.x) {
-        let px = vec2<i32>(vec2(point.px & 0xffffu, point.px >> 16u));
+        let px = pixel_of(point);
         let seen = seen_at(seen_tex, px, point.spine);
-        textureStore(edge_tex, px, point.edge);
-        textureStore(spine_tex, px, vec4(seen.own, 0u, 0u, 0u));
+        put(point, px, seen.own);
         textureStore(now_seen_tex, px, vec4(seen.now, 0u, 0u, 0u));
     }
 }

@@ -11,7 +11,7 @@ use super::effects::toon::{ToonUniform, Toons};
 use super::frame_uniform::View;
 use super::gpu_scene::{GpuScene, Origin};
 use super::passes::edge_style::EdgeUniform;
-use super::passes::gbuffer::{Detail, DrawCall, DrawUniform};
+use super::passes::gbuffer::{Detail, DrawCall, DrawUniform, surface_bits};
 use super::style_images::StyleImages;
 use crate::document::{Document, Show};
 use crate::geometry::{Bounds, EdgeClass};
@@ -379,7 +379,7 @@ impl Group {
 
     /// What the G-buffer depends on: for each visible part its matrices, object and material, ordered by pipeline.
     pub fn draws(&self, scene: &GpuScene, view: &View) -> (Vec<DrawUniform>, Vec<DrawCall>) {
-        let mut draws: Vec<(DrawUniform, u32)> = Vec::new();
+        let mut draws = Vec::new();
         let mut calls = Vec::new();
         for part in self.parts(scene) {
             // Combined in double precision, so that models far from the origin do not jitter.
@@ -404,6 +404,7 @@ impl Group {
                 origin: part.origin,
                 first_index: part.first_index,
                 index_count: part.index_count,
+                surfaces: part.surfaces,
                 base_vertex: part.base_vertex,
                 material_group: scene.materials.group_index(part.material),
                 detail: if scene.geometry(part.origin).attributes.is_none() {
@@ -428,20 +429,23 @@ impl Group {
                 is_flat: u32::from(part.is_flat),
                 first_surface: 0,
             };
-            draws.push((draw, part.surfaces));
+            draws.push(draw);
         }
         // Near ones first: what lies behind them is then never shaded.
         calls.sort_by(|(a, _), (b, _)| a.total_cmp(b));
         calls.sort_by_key(|(_, c)| (c.origin, c.detail, c.hidden_side.map(|s| s as u32)));
+        let calls: Vec<DrawCall> = calls.into_iter().map(|(_, call)| call).collect();
+        let bits = surface_bits(&calls);
         // 0 is left for nothing.
-        let mut first_surface = 1_u32;
-        for (_, call) in &calls {
-            if let Some((draw, surfaces)) = draws.get_mut(call.draw as usize) {
+        let mut first_surface = 1_u32 << bits;
+        for call in &calls {
+            if let Some(draw) = draws.get_mut(call.draw as usize) {
                 draw.first_surface = first_surface;
-                first_surface = first_surface.saturating_add(*surfaces);
+                let surfaces = if bits == 0 { call.surfaces } else { 1 << bits };
+                first_surface = first_surface.saturating_add(surfaces);
             }
         }
-        (draws.into_iter().map(|(draw, _)| draw).collect(), calls.into_iter().map(|(_, call)| call).collect())
+        (draws, calls)
     }
 }
 

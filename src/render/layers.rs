@@ -56,8 +56,8 @@ pub struct LayerInputs<'a> {
     pub by: document::LayersBy,
     /// Whether their base colour is asked for.
     pub with_color: bool,
-    /// Whether their depth is asked for; see [`crate::render::passes::gbuffer::GBuffer::depth`].
-    pub with_depth: bool,
+    /// Whether their depth and order are asked for; see [`crate::render::passes::gbuffer::GBuffer::depth`].
+    pub with_order: bool,
 }
 
 /// What of the layers of a group lives across frames.
@@ -127,7 +127,7 @@ impl Layers {
         let mut gate = self.gate.take().unwrap_or_else(|| Gate::new(rec.gpu));
         gate.clear(rec.gpu, calls.len() + PASSES)?;
         if let Ok(room) = &mut recorded.fragments {
-            *room = gbuffer_pass.lists.begin(rec, *room)?;
+            *room = gbuffer_pass.lists.begin(rec, *room, (draws, calls))?;
             let parts = (draws, calls);
             gbuffer_pass.collect(rec, scene, &mut self.draws, parts, is_cut, with_color, &self.count)?;
         }
@@ -157,7 +157,7 @@ impl Layers {
         let mut last = None;
         for number in 0..recorded.layers {
             let layer = match &mut lists {
-                Some(lists) => lists.next(rec, with_color, inputs.with_depth || mask.is_some())?,
+                Some(lists) => lists.next(rec, with_color, inputs.with_order || mask.is_some())?,
                 None => {
                     let [last_depth, last_order] = &match last.take() {
                         Some(last) => last,
@@ -167,7 +167,7 @@ impl Layers {
                     let peel = Peel { last_depth, last_order, order: &order, with_color };
                     let gbuffer =
                         gbuffer_pass.run(rec, scene, &mut self.draws, (draws, calls), is_cut, Some(&peel))?;
-                    Layer { gbuffer, order }
+                    Layer { gbuffer, order: Some(order) }
                 }
             };
             self.count.count(rec, &layer, mask)?;
@@ -175,7 +175,7 @@ impl Layers {
             if let Some(mask) = mask {
                 self.count.end_where_uncovered(rec, &layer, mask)?;
             }
-            last = Some([layer.gbuffer.depth, layer.order]);
+            last = layer.order.map(|order| [layer.gbuffer.depth, order]);
         }
         Ok(())
     }

@@ -88,7 +88,7 @@ impl OneLayer {
                 // It cannot run out of room, which nobody would hear of.
                 by: LayersBy::Peeling,
                 with_color: true,
-                with_depth: true,
+                with_order: true,
             };
             let mut found = None;
             // A layer that has ended is empty, and nobody waits for the report about it.

@@ -55,7 +55,7 @@ fn layers(session: &mut Session, opened: &Opened, side: u32, by: &str) -> (Vec<T
             texels(session, &layer.gbuffer.base_color),
             texels(session, &layer.gbuffer.region),
             texels(session, &layer.gbuffer.depth),
-            texels(session, &layer.order),
+            texels(session, layer.order.as_ref().unwrap()),
         )
     });
     let layers = layers.collect();

@@ -152,7 +152,7 @@ impl Blended {
             fraction: 1.0,
             by: inputs.layers_by,
             with_color: true,
-            with_depth: true,
+            with_order: true,
         };
         let drawn = layers.each(rec, gbuffer_pass, &cut, |rec, _, layer, _| {
             front.get_or_insert_with(|| layer.gbuffer.geometry.clone());
@@ -188,7 +188,7 @@ impl Blended {
                 let pen = Pen {
                     file: "effects/blended.wgsl",
                     entry_point: "fs_lines",
-                    inputs: &pane.inputs(found.nearer.as_ref().unwrap_or(&layer.order)),
+                    inputs: &pane.inputs(found.nearer.as_ref().unwrap_or(&layer.gbuffer.region)),
                     switches: &[("AMONG_OTHERS", true), pane.with_cover()],
                     onto: Onto::Beneath,
                 };
@@ -252,13 +252,13 @@ fn lay_beneath(
     // Of the lines' bindings only the first is read: any texture of their kind.
     let mut inputs = vec![
         Input::Texture(&layer.gbuffer.geometry),
-        Input::Texture(&layer.order),
+        Input::Texture(&layer.gbuffer.region),
         Input::Texture(&layer.gbuffer.base_color),
-        Input::Texture(&layer.order),
-        Input::Texture(&layer.order),
+        Input::Texture(&layer.gbuffer.region),
+        Input::Texture(&layer.gbuffer.region),
         Input::Storage(edge_styles),
     ];
-    inputs.extend(pane.inputs(&layer.order));
+    inputs.extend(pane.inputs(&layer.gbuffer.region));
     rec.draw(Draw {
         label: "blended",
         program: Program {

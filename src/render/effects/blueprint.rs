@@ -245,7 +245,7 @@ impl Blueprints {
                 // Lines within images are found in it; those of a blueprint have a colour of their own.
                 with_color: asked.keeps_layers
                     || group.edge_styles.iter().any(|s| s.draws(EdgeClass::Texture)),
-                with_depth: asked.keeps_layers,
+                with_order: asked.keeps_layers,
             };
             let outer = rec.part.replace(group.part(inputs.scene, inputs.view));
             let drawn = layers.each(rec, gbuffer_pass, &cut, |rec, number, layer, count| {
@@ -267,7 +267,7 @@ impl Blueprints {
                     let pen = Pen {
                         file: "effects/blueprint.wgsl",
                         entry_point: "fs_lines",
-                        inputs: &sprite.inputs(found.nearer.as_ref().unwrap_or(&layer.order)),
+                        inputs: &sprite.inputs(found.nearer.as_ref().unwrap_or(&layer.gbuffer.region)),
                         switches: &[
                             ("WITHOUT_REPEATED", found.nearer.is_some()),
                             ("AMONG_OTHERS", true),
@@ -331,13 +331,13 @@ fn fill(
     // Of the lines' bindings only the first is read: any texture of their kind.
     let mut inputs = vec![
         Input::Texture(&layer.gbuffer.geometry),
-        Input::Texture(&layer.order),
+        Input::Texture(&layer.gbuffer.region),
         Input::Texture(&layer.gbuffer.base_color),
-        Input::Texture(&layer.order),
-        Input::Texture(&layer.order),
+        Input::Texture(&layer.gbuffer.region),
+        Input::Texture(&layer.gbuffer.region),
         Input::Storage(edge_styles),
     ];
-    inputs.extend(sprite.inputs(&layer.order));
+    inputs.extend(sprite.inputs(&layer.gbuffer.region));
     inputs.extend([Input::Texture(&layer.gbuffer.region), Input::Storage(caps.unwrap_or(edge_styles))]);
     rec.draw(Draw {
         label: "fill",

@@ -195,7 +195,7 @@ impl HiddenLines {
                 fraction: 1.0,
                 by: inputs.layers_by,
                 with_color: true,
-                with_depth: false,
+                with_order: false,
             };
             let mut before: Option<[Target; 2]> = None;
             layers.each(rec, gbuffer_pass, &cut, |rec, number, layer, _| {
@@ -215,7 +215,7 @@ impl HiddenLines {
                     repeated: false,
                 };
                 let found = band_lines.edges(rec, &edges, layer, &mut seen)?;
-                let nearer = found.nearer.as_ref().unwrap_or(&layer.order);
+                let nearer = found.nearer.as_ref().unwrap_or(&layer.gbuffer.region);
                 let pen = Pen {
                     file: "effects/hidden.wgsl",
                     entry_point: "fs_lines",

@@ -114,7 +114,7 @@ fn exact_edges(
         .chain(variation)
         .collect();
     let tested = SegmentInputs { gbuffer, edge_styles, switches: &switches };
-    segments.put(rec, &tested, edge_map, &spines, seen)?;
+    let marks = segments.put(rec, &tested, edge_map, &spines, seen)?;
     let outputs: Vec<_> = [edge_map, &spines].into_iter().chain(seen.map(|seen| &seen.now)).collect();
     let unseen = ("WITHOUT_REPEATED", seen.is_some());
     // Unread without.
@@ -124,7 +124,7 @@ fn exact_edges(
         Input::Texture(&gbuffer.geometry),
         Input::Texture(&gbuffer.region),
         Input::Storage(edge_styles),
-        Input::Storage(segments.keys()),
+        Input::Texture(&marks),
         // Unread unless it is a layer.
         Input::Texture(before.map_or(&gbuffer.region, |[before, _]| before)),
         Input::Texture(before.map_or(&gbuffer.region, |[_, before_that]| before_that)),
@@ -153,7 +153,7 @@ fn exact_edges(
                 Input::Texture(&gbuffer.geometry),
                 Input::Texture(&gbuffer.region),
                 Input::Storage(edge_styles),
-                Input::Storage(segments.keys()),
+                Input::Texture(&marks),
                 Input::Texture(&gbuffer.base_color),
                 // Unread without shadows.
                 Input::Texture(shadow_mask.unwrap_or(&gbuffer.base_color)),

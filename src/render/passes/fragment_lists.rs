@@ -4,14 +4,14 @@
 //! A list holds as many fragments as there is room for, and all are counted: who finds out later that there were more
 //! makes room and draws again. See `shaders/common/fragments.wgsl`.
 
-use super::gbuffer::{DEPTH, GBuffer, ORDER};
+use super::gbuffer::{DEPTH, DrawCall, DrawUniform, GBuffer, ORDER, surface_bits};
 use super::peel::{Layer, PeelCount};
 use crate::gpu::recorder::{Draw, Input, Onto};
-use crate::gpu::{DepthRule, Gpu, GpuError, Program, Recorder, Target};
+use crate::gpu::{DepthRule, Gpu, GpuError, Program, RecordBuffer, Recorder, Target};
 use crate::render::RenderError;
 
 /// Bytes of a fragment in each of the buffers: how it is linked, what it is, its base colour.
-const BYTES: [u64; 3] = [16, 16, 4];
+const BYTES: [u64; 3] = [12, 12, 4];
 
 /// As many layers are sorted at a time: a pass has no more targets.
 const SORTED: u32 = 8;
@@ -28,6 +28,8 @@ pub struct FragmentLists {
     heads: wgpu::Buffer,
     /// In the order of [`BYTES`].
     fragments: [wgpu::Buffer; BYTES.len()],
+    /// What orders mean.
+    draws: RecordBuffer,
     /// The most room that was asked for since the last [`Self::shrink`].
     asked: u64,
 }
@@ -52,6 +54,7 @@ impl FragmentLists {
             }),
             heads: create(gpu, "heads of lists", 4),
             fragments: BYTES.map(|bytes| create(gpu, "fragments", bytes)),
+            draws: RecordBuffer::new(gpu, "draws of lists"),
             asked: 0,
         }
     }
@@ -86,11 +89,17 @@ impl FragmentLists {
         })
     }
 
-    /// Empties all lists, for so many fragments; returns how many there is room for.
+    /// Empties all lists, for so many fragments of these draws; returns how many there is room for.
     ///
     /// # Errors
     /// [`GpuError::TooLarge`].
-    pub fn begin(&mut self, rec: &mut Recorder<'_>, fragments: u64) -> Result<u64, GpuError> {
+    pub fn begin(
+        &mut self,
+        rec: &mut Recorder<'_>,
+        fragments: u64,
+        (draws, calls): (&[DrawUniform], &[DrawCall]),
+    ) -> Result<u64, GpuError> {
+        self.draws.write(rec.gpu, &meanings(draws, calls))?;
         let [width, height] = rec.size().map(u64::from);
         let (gpu, heads) = (rec.gpu, width * height * 4);
         gpu.check_buffer_size("the lists of a picture", heads)?;
@@ -123,7 +132,7 @@ impl FragmentLists {
     /// [`RenderError`].
     pub fn cut(&self, rec: &mut Recorder<'_>, layers: u32) -> Result<CutLists, RenderError> {
         let [links, payloads, colors] = &self.fragments;
-        let buffers = [&self.heads, links, payloads, colors].map(wgpu::Buffer::clone);
+        let buffers = [&self.heads, links, payloads, colors, self.draws.buffer()].map(wgpu::Buffer::clone);
         let listed = rec.target("listed", DEPTH)?;
         let lists = CutLists { buffers, listed, numbers: Vec::new(), last: None, layers };
         let inputs = lists.inputs();
@@ -142,7 +151,7 @@ impl FragmentLists {
 /// The lists of one group while they are cut into layers.
 pub struct CutLists {
     /// The first bindings of `passes/cut.wgsl`.
-    buffers: [wgpu::Buffer; 4],
+    buffers: [wgpu::Buffer; 5],
     /// A depth buffer that is covered where there are any fragments.
     listed: Target,
     /// The fragments of the next layers, the nearest one last.
@@ -162,17 +171,18 @@ impl CutLists {
         &mut self,
         rec: &mut Recorder<'_>,
         with_color: bool,
-        with_depth: bool,
+        with_order: bool,
     ) -> Result<Layer, RenderError> {
         let numbers = match self.numbers.pop() {
             Some(numbers) => numbers,
             None => self.sort(rec)?,
         };
         self.layers = self.layers.saturating_sub(1);
-        let mut layer = Layer { gbuffer: GBuffer::new(rec)?, order: rec.target("order", ORDER)? };
+        let mut layer = Layer { gbuffer: GBuffer::new(rec)?, order: None };
         let inputs: Vec<_> = self.inputs().into_iter().chain([Input::Texture(&numbers)]).collect();
         let program = |entry_point| Program::new("passes/cut.wgsl", entry_point);
-        if with_depth {
+        if with_order {
+            layer.order = Some(rec.target("order", ORDER)?);
             rec.draw(Draw {
                 label: "depth of layer",
                 program: program("fs_depth"),
@@ -185,13 +195,14 @@ impl CutLists {
             layer.gbuffer.depth = self.listed.clone();
         }
         let GBuffer { geometry, base_color, region, depth } = &layer.gbuffer;
-        let outputs = [geometry, region, &layer.order, base_color];
-        let without_color = outputs.split_last().map_or(&outputs[..], |(_, others)| others);
+        let mut outputs = vec![geometry, region];
+        outputs.extend((with_color || with_order).then_some(base_color));
+        outputs.extend(&layer.order);
         rec.draw(Draw {
             label: "cut",
-            program: program("fs_layer"),
+            program: Program { switches: vec![("WITH_COLOR", with_color)], ..program("fs_layer") },
             inputs: &inputs,
-            outputs: if with_color { &outputs } else { without_color },
+            outputs: &outputs,
             onto: Onto::Nothing,
             depth: Some((depth, DepthRule::Covered)),
         })?;
@@ -227,9 +238,22 @@ impl CutLists {
         Ok(nearest)
     }
 
-    fn inputs(&self) -> [Input<'_>; 4] {
+    fn inputs(&self) -> [Input<'_>; 5] {
         self.buffers.each_ref().map(Input::Storage)
     }
+}
+
+/// For each order without the bits that tell the surfaces of a draw apart: object id with the enhanced flag, and order of the
+/// draw's first surface; in the first place, which no order has, the number of those bits.
+fn meanings(draws: &[DrawUniform], calls: &[DrawCall]) -> Vec<[u32; 2]> {
+    let bits = surface_bits(calls);
+    let mut meanings = vec![[bits, 0]];
+    for call in calls {
+        let meaning = draws.get(call.draw as usize).map_or([0; 2], |draw| [draw.object, draw.first_surface]);
+        let times = if bits == 0 { call.surfaces as usize } else { 1 };
+        meanings.resize(meanings.len() + times, meaning);
+    }
+    meanings
 }
 
 fn create(gpu: &Gpu, label: &str, size: u64) -> wgpu::Buffer {

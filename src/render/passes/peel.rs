@@ -22,8 +22,8 @@ const GROUP: u32 = 64;
 pub struct Layer {
     /// Its surfaces.
     pub gbuffer: GBuffer,
-    /// The draw and surface of each pixel, which tells coplanar ones apart; see `passes/peel.wgsl`.
-    pub order: Target,
+    /// The draw and surface of each pixel, which tells coplanar ones apart; see `passes/peel.wgsl`. `None`: nobody asked.
+    pub order: Option<Target>,
 }
 
 /// What a layer lies behind, and where its own order goes.
@@ -316,7 +316,7 @@ impl PeelCount {
     fn counted<'a>(&'a self, layer: &'a Layer, mask: Option<&'a DepthMask>) -> [Input<'a>; 4] {
         let depth = &layer.gbuffer.depth;
         [
-            Input::Texture(&layer.order),
+            Input::Texture(&layer.gbuffer.region),
             Input::Texture(depth),
             // Unread without a mask: any texture of its kind.
             Input::Texture(mask.map_or(depth, |mask| &mask.depth)),

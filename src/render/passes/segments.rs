@@ -20,6 +20,8 @@ const POINT_BYTES: u64 = 32;
 /// Steps per workgroup, as in `passes/segments.wgsl`.
 const GROUP: u32 = 64;
 
+const MARKS: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;
+
 /// Fills the last workgroup, as in `common/kept.wgsl`.
 const NO_STEP: [u32; 2] = [u32::MAX; 2];
 
@@ -107,12 +109,8 @@ impl Segments {
         self.winners.reserve(gpu, self.pixels)
     }
 
-    /// For each pixel the key of its segment in the edge map that was written last, see `shaders/common/segment_point.wgsl`.
-    pub fn keys(&self) -> &wgpu::Buffer {
-        self.keys.buffer()
-    }
-
-    /// Puts them into an edge map and its spines, over what is there, without those that have been `seen`.
+    /// Puts them into an edge map and its spines, over what is there, without those that have been `seen`. Returns what
+    /// they have in each pixel, see `shaders/common/segment_point.wgsl`.
     ///
     /// # Errors
     /// [`RenderError`].
@@ -123,7 +121,9 @@ impl Segments {
         edge_map: &Target,
         spines: &Target,
         seen: Option<&Seen>,
-    ) -> Result<(), RenderError> {
+    ) -> Result<Target, RenderError> {
+        let marks = rec.target("marks of segments", MARKS)?;
+        rec.clear("no segments", &marks);
         rec.encoder.clear_buffer(self.keys.buffer(), 0, Some(self.pixels));
         // Where the recorder's gate is shut nobody counts any.
         rec.encoder.clear_buffer(&self.workgroups, 0, None);
@@ -137,6 +137,7 @@ impl Segments {
                 Input::Written(self.winners.buffer()),
                 Input::Image(edge_map),
                 Input::Image(spines),
+                Input::Image(&marks),
             ];
             let program = |entry_point| Program {
                 file: "passes/segment_points.wgsl",
@@ -148,7 +149,7 @@ impl Segments {
             found.extend(seen.into_iter().flat_map(|s| [Input::Texture(&s.before), Input::Image(&s.now)]));
             rec.compute("put points", program(put), &found, &self.workgroups)?;
         }
-        Ok(())
+        Ok(marks)
     }
 
     /// Finds the points of these steps.
