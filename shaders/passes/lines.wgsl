@@ -13,7 +13,7 @@ override WITH_PAPER: bool = true;
 override WITH_EXACT: bool = true;
 override WITH_WIDTHS: bool = true;
 // Whether all lines are so thin that they reach no farther than to the next pixel: then nobody has looked for them yet,
-// and `farthest_tex` holds the spines.
+// and `farthest_tex` holds the spines, `nearest_tex` what passes/near_lines.wgsl finds.
 override NARROW: bool = false;
 override WITH_DASHES: bool = true;
 override WITH_SURFACE_COLOR: bool = true;
@@ -159,18 +159,6 @@ fn farthest_at(px: vec2<i32>) -> u32 {
     return textureLoad(farthest_tex, px, 0).x;
 }
 
-// Whether any line is in the neighbourhood.
-fn is_near_line(px: vec2<i32>) -> bool {
-    let last = vec2<i32>(frame.size) - 1;
-    var any_spine = 0u;
-    for (var y = -1; y <= 1; y++) {
-        for (var x = -1; x <= 1; x++) {
-            any_spine |= textureLoad(farthest_tex, clamp(px + vec2(x, y), vec2(0), last), 0).x;
-        }
-    }
-    return any_spine != 0u;
-}
-
 // How far a thin line shows inside a wide one: not at all where both run along one spine. Where widths differ less, other
 // objects' lines would come to depend on whether any are so different that they are looked for.
 fn apart(thin: u32, wide: u32) -> f32 {
@@ -194,14 +182,14 @@ fn over(front: vec4<f32>, back: vec4<f32>) -> vec4<f32> {
     return front + back * (1.0 - front.a);
 }
 
-// Marks the pixels that lines can reach.
+// Marks the pixels that lines can reach, and some beside them.
 @fragment
 fn fs_reached(@builtin(position) position: vec4<f32>) {
     let px = vec2<i32>(position.xy);
     var reached = 0u;
     if WITH_EXACT {
         if NARROW {
-            reached |= select(0u, 1u, is_near_line(px));
+            reached |= textureLoad(nearest_tex, px / 4, 0).x;
         } else {
             reached |= textureLoad(farthest_tex, px, 0).x;
         }

@@ -76,9 +76,9 @@ impl TargetPool {
         Ok(target)
     }
 
-    /// Forgets targets that nobody holds and that have another size than `size`.
-    pub fn shrink_to(&mut self, size: [u32; 2]) {
-        self.targets.retain(|t| Arc::strong_count(&t.0) > 1 || t.size() == size);
+    /// Forgets targets that nobody holds and that have none of these sizes.
+    pub fn shrink_to(&mut self, sizes: &[[u32; 2]]) {
+        self.targets.retain(|t| Arc::strong_count(&t.0) > 1 || sizes.contains(&t.size()));
     }
 }
 

@@ -12,6 +12,7 @@ use super::groups::{Objects, node_of};
 use super::layers::{LayersBy, Reported};
 use super::lights::Lights;
 use super::passes::accumulate::Subject;
+use super::passes::line_distance::BLOCK;
 use super::passes::peel::Peeled;
 use super::scale_bar::ScaleBar;
 use super::style_images::StyleImages;
@@ -319,7 +320,7 @@ impl Renderer {
         self.last = None;
         let picture = self.state.record(&mut recorder, &inputs)?;
         recorder.submit();
-        self.pool.shrink_to(size);
+        self.pool.shrink_to(&[size, size.map(|side| side.div_ceil(BLOCK))]);
         self.state.shrink(&self.gpu);
         self.last = Some((picture.clone(), view));
         self.note_reports();

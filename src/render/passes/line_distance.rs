@@ -9,6 +9,10 @@ const INDEX: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;
 /// Columns or rows per workgroup, as in `passes/line_distance.wgsl`.
 const GROUP: u32 = 64;
 
+/// Pixels per side of a block, and blocks per side of a workgroup, as in `passes/near_lines.wgsl`.
+pub const BLOCK: u32 = 4;
+const BLOCK_GROUP: u32 = 8;
+
 /// Lines with a greater radius than this (px) reach farther than to the next pixel.
 const NARROW: f32 = 0.95;
 
@@ -16,7 +20,12 @@ const NARROW: f32 = 0.95;
 #[derive(Debug, Clone)]
 pub enum Reach {
     /// All lines are thin: by looking at the spines in the neighbouring pixels.
-    Narrow(Target),
+    Narrow {
+        /// Where lines run.
+        spines: Target,
+        /// Not 0 for blocks of pixels that any of them can reach, see `passes/near_lines.wgsl`.
+        near: Target,
+    },
     /// Per pixel the pixel of the edge map that holds its line, plus 1 (column in the lower 16 bits, row in the upper
     /// ones); 0: none.
     Wide {
@@ -39,7 +48,12 @@ pub fn line_distance(
 ) -> Result<Reach, RenderError> {
     let greatest = styles.iter().map(EdgeUniform::greatest_radius).fold(0.0, f32::max);
     if greatest <= NARROW {
-        return Ok(Reach::Narrow(spines.clone()));
+        let blocks = rec.size().map(|side| side.div_ceil(BLOCK));
+        let near = rec.target_of("near lines", INDEX, blocks)?;
+        let program = Program::new("passes/near_lines.wgsl", "cs_main");
+        let inputs = [Input::Texture(spines), Input::Image(&near)];
+        rec.compute("near lines", program, &inputs, blocks.map(|side| side.div_ceil(BLOCK_GROUP)))?;
+        return Ok(Reach::Narrow { spines: spines.clone(), near });
     }
     radius.write(rec.gpu, &vec![greatest]);
     let farthest = transform(rec, spines, radius.buffer(), false)?;

@@ -61,7 +61,7 @@ pub fn lines(
 ) -> Result<(), RenderError> {
     let Lines { gbuffer, edge_map, reach, styles, edge_styles } = *lines;
     let (farthest, nearest) = match reach {
-        Some(Reach::Narrow(spines)) => (spines, spines),
+        Some(Reach::Narrow { spines, near }) => (spines, near),
         Some(Reach::Wide { farthest, nearest }) => (farthest, nearest.as_ref().unwrap_or(farthest)),
         // Unread: any texture of its kind.
         None => (&edge_map.edges, &edge_map.edges),
@@ -71,7 +71,7 @@ pub fn lines(
         ("WITH_PAPER", any(EdgeUniform::is_paper)),
         ("WITH_EXACT", reach.is_some()),
         ("WITH_WIDTHS", matches!(reach, Some(Reach::Wide { nearest: Some(_), .. }))),
-        ("NARROW", matches!(reach, Some(Reach::Narrow(_)))),
+        ("NARROW", matches!(reach, Some(Reach::Narrow { .. }))),
         ("WITH_DASHES", any(|s| s.drawn().any(|(_, l)| l.dashed == 1))),
         ("WITH_SURFACE_COLOR", any(|s| s.is_exact() && s.surface_color > 0.0)),
     ];

@@ -1,0 +1,21 @@
+// Whether any thin line can reach a block of 4 by 4 pixels: software devices shade whole ones.
+#import common/frame.wgsl
+
+@group(1) @binding(0) var spine_tex: texture_2d<u32>;
+@group(1) @binding(1) var near_tex: texture_storage_2d<r32uint, write>;
+
+@compute @workgroup_size(8, 8)
+fn cs_main(@builtin(global_invocation_id) id: vec3<u32>) {
+    let block = vec2<i32>(id.xy);
+    let last = vec2<i32>(frame.size) - 1;
+    if any(4 * block > last) {
+        return;
+    }
+    var any_spine = 0u;
+    for (var y = -1; y <= 4; y++) {
+        for (var x = -1; x <= 4; x++) {
+            any_spine |= textureLoad(spine_tex, clamp(4 * block + vec2(x, y), vec2(0), last), 0).x;
+        }
+    }
+    textureStore(near_tex, block, vec4(any_spine, 0u, 0u, 0u));
+}
