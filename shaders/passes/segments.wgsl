@@ -9,6 +9,7 @@
 #import common/line_width.wgsl
 #import common/segment_point.wgsl
 #import common/kept.wgsl
+#import common/records.wgsl
 
 // Whether any object has holes by alpha: there a line needs one of its own surfaces beside it.
 override WITH_HOLES: bool = true;
@@ -16,11 +17,10 @@ override WITH_HOLES: bool = true;
 override IN_LAYER: bool = false;
 
 @group(1) @binding(1) var region_tex: texture_2d<u32>;
-// Records of `LineSegment` in src/geometry/line_segments.rs.
-@group(1) @binding(3) var<storage, read> segments: array<u32>;
-// Number of a segment, and how many steps from its beginning; at the end `NO_STEP`.
-// Number of a segment, and how many steps from its beginning; at the end `NO_STEP`.
-@group(1) @binding(4) var<storage, read> steps: array<vec2<u32>>;
+// `LineSegment` of src/geometry/line_segments.rs, four texels each.
+@group(1) @binding(3) var segment_tex: texture_2d<u32>;
+// Number of a segment, and how many steps from its beginning, two in a texel; at the end `NO_STEP`.
+@group(1) @binding(4) var step_tex: texture_2d<u32>;
 // A bit for each step: whether it is looked at closely; see passes/gather.wgsl.
 @group(1) @binding(5) var<storage, read_write> sifted: array<atomic<u32>>;
 // The steps that are, then `NO_STEP`.
@@ -29,8 +29,6 @@ override IN_LAYER: bool = false;
 @group(1) @binding(7) var<storage, read_write> points: array<SegmentPoint>;
 // The greatest key of each pixel.
 @group(1) @binding(8) var<storage, read_write> keys: array<atomic<u32>>;
-
-const RECORD_WORDS: u32 = 13u;
 
 // So far, in pixels, may a surface lie before a line that is drawn on it.
 const SLACK: f32 = 0.4;
@@ -51,13 +49,19 @@ struct Segment {
 }
 
 fn segment_at(index: u32) -> Segment {
-    let r = index * RECORD_WORDS;
+    let ends = bitcast<vec4<f32>>(texel_at(segment_tex, 4u * index));
+    let others = texel_at(segment_tex, 4u * index + 2u);
     return Segment(
-        bitcast<vec4<f32>>(vec4(segments[r], segments[r + 1u], segments[r + 2u], segments[r + 3u])) + frame.jitter.xyxy,
-        bitcast<vec4<f32>>(vec4(segments[r + 4u], segments[r + 5u], segments[r + 6u], segments[r + 7u])),
-        bitcast<f32>(segments[r + 8u]),
-        vec4(segments[r + 9u], segments[r + 10u], segments[r + 11u], segments[r + 12u]),
+        ends + frame.jitter.xyxy,
+        bitcast<vec4<f32>>(texel_at(segment_tex, 4u * index + 1u)),
+        bitcast<f32>(others.x),
+        vec4(others.yzw, texel_at(segment_tex, 4u * index + 3u).x),
     );
+}
+
+fn step_at(number: u32) -> vec2<u32> {
+    let both = texel_at(step_tex, number / 2u);
+    return select(both.xy, both.zw, number % 2u == 1u);
 }
 
 // The pixel of a step along the longer side of a segment, which is half a pixel longer on both sides, so that every segment
@@ -243,7 +247,7 @@ fn point_at(v: Segment, px: vec2<f32>) -> SegmentPoint {
 
 @compute @workgroup_size(64)
 fn cs_sift(@builtin(global_invocation_id) id: vec3<u32>) {
-    let step = steps[id.x];
+    let step = step_at(id.x);
     let segment = segment_at(step.x);
     let place = place_of(segment.ends, step.y);
     if step.x != NO_STEP && place.is_on && is_worth_it(segment, place.px) {
@@ -258,7 +262,7 @@ fn cs_points(@builtin(global_invocation_id) id: vec3<u32>) {
         points[id.x] = NO_POINT;
         return;
     }
-    let step = steps[number];
+    let step = step_at(number);
     let segment = segment_at(step.x);
     let point = point_at(segment, place_of(segment.ends, step.y).px);
     points[id.x] = point;

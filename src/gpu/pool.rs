@@ -16,6 +16,11 @@ struct Inner {
 }
 
 impl Target {
+    pub(super) fn new(texture: wgpu::Texture) -> Self {
+        let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
+        Self(Arc::new(Inner { texture, view }))
+    }
+
     /// The texture.
     pub fn texture(&self) -> &wgpu::Texture {
         &self.0.texture
@@ -70,8 +75,7 @@ impl TargetPool {
             usage: usage(format),
             view_formats: &[],
         });
-        let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
-        let target = Target(Arc::new(Inner { texture, view }));
+        let target = Target::new(texture);
         self.targets.push(target.clone());
         Ok(target)
     }

@@ -10,7 +10,7 @@ use super::gbuffer::GBuffer;
 use super::repeated::Seen;
 use crate::geometry::LineSegment;
 use crate::gpu::recorder::Input;
-use crate::gpu::{Gpu, GpuError, Program, RecordBuffer, Recorder, Target};
+use crate::gpu::{Gpu, GpuError, Program, RecordBuffer, RecordTexture, Recorder, Target};
 use crate::render::RenderError;
 
 /// Pixels of segments that are tested in one go; each takes 36 bytes while it is.
@@ -27,9 +27,9 @@ const NO_STEP: [u32; 2] = [u32::MAX; 2];
 
 /// Segments on the device, ready to be put into the edge maps of several G-buffers.
 pub struct Segments {
-    records: RecordBuffer,
+    records: RecordTexture,
     /// Pixels of segments and how many there are, at most [`MOST_STEPS`] each.
-    steps: Vec<(RecordBuffer, u32)>,
+    steps: Vec<(RecordTexture, u32)>,
     /// A bit for each step: whether it is looked at closely.
     sifted: RecordBuffer,
     /// The steps that are.
@@ -58,7 +58,7 @@ impl Segments {
     /// None yet.
     pub fn new(gpu: &Gpu) -> Self {
         Self {
-            records: RecordBuffer::new(gpu, "segments"),
+            records: RecordTexture::new(gpu, "segments"),
             steps: Vec::new(),
             sifted: RecordBuffer::new(gpu, "sifted steps"),
             kept: RecordBuffer::new(gpu, "kept steps"),
@@ -93,12 +93,13 @@ impl Segments {
             .flat_map(|(number, segment)| (0..steps_of(segment)).map(move |step| [number, step]))
             .collect();
         let chunks = steps.len().div_ceil(MOST_STEPS);
-        self.steps.resize_with(chunks, || (RecordBuffer::new(gpu, "steps of segments"), 0));
-        for ((buffer, count), chunk) in self.steps.iter_mut().zip(steps.chunks(MOST_STEPS)) {
+        self.steps.resize_with(chunks, || (RecordTexture::new(gpu, "steps of segments"), 0));
+        for ((texture, count), chunk) in self.steps.iter_mut().zip(steps.chunks(MOST_STEPS)) {
             *count = chunk.len() as u32;
             let mut groups = chunk.to_vec();
             groups.resize(chunk.len().next_multiple_of(GROUP as usize), NO_STEP);
-            buffer.write(gpu, &groups)?;
+            let (pairs, _) = groups.as_chunks::<2>();
+            texture.write(gpu, pairs)?;
         }
         let most = (steps.len().min(MOST_STEPS) as u64).next_multiple_of(u64::from(GROUP));
         self.sifted.reserve(gpu, most / 8)?;
@@ -157,7 +158,7 @@ impl Segments {
         &self,
         rec: &mut Recorder<'_>,
         inputs: &SegmentInputs<'_>,
-        steps: &RecordBuffer,
+        steps: &RecordTexture,
         count: u32,
     ) -> Result<(), RenderError> {
         let program = |entry_point| Program {
@@ -169,8 +170,8 @@ impl Segments {
             Input::Texture(&inputs.gbuffer.geometry),
             Input::Texture(&inputs.gbuffer.region),
             Input::Storage(inputs.edge_styles),
-            Input::Storage(self.records.buffer()),
-            Input::Storage(steps.buffer()),
+            Input::Texture(self.records.target()),
+            Input::Texture(steps.target()),
             Input::Written(self.sifted.buffer()),
         ];
         rec.compute("sift segments", program("cs_sift"), &tested, [count.div_ceil(GROUP), 1])?;

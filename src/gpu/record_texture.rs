@@ -1,0 +1,71 @@
+//! Plain records in a texture. Where each invocation reads another record, software devices read textures many times faster
+//! than buffers.
+
+use super::{Gpu, GpuError, Target};
+
+/// Texels per row, as in `shaders/common/records.wgsl`.
+const COLUMNS: u32 = 2048;
+
+const TEXEL_WORDS: usize = 4;
+
+/// Records of 32-bit words, each from a texel of its own on; grows with their number.
+pub struct RecordTexture {
+    target: Target,
+    label: &'static str,
+}
+
+impl RecordTexture {
+    /// An empty one.
+    pub fn new(gpu: &Gpu, label: &'static str) -> Self {
+        Self { target: create(gpu, label, 1), label }
+    }
+
+    /// Writes all records.
+    ///
+    /// # Errors
+    /// [`GpuError::TooLarge`].
+    pub fn write<T: bytemuck::NoUninit>(&mut self, gpu: &Gpu, records: &[T]) -> Result<(), GpuError> {
+        let texels = size_of::<T>().div_ceil(4 * TEXEL_WORDS);
+        let rows = (records.len() * texels).div_ceil(COLUMNS as usize).max(1);
+        let rows = u32::try_from(rows).unwrap_or(u32::MAX);
+        gpu.check_texture_size(self.label, [COLUMNS, rows])?;
+        if self.target.size()[1] < rows {
+            let roomy = rows.next_power_of_two().min(gpu.device.limits().max_texture_dimension_2d);
+            self.target = create(gpu, self.label, roomy);
+        }
+        let mut words = vec![0_u32; COLUMNS as usize * rows as usize * TEXEL_WORDS];
+        for (record, place) in records.iter().zip(words.chunks_exact_mut(texels * TEXEL_WORDS)) {
+            let record: &[u8] = bytemuck::bytes_of(record);
+            bytemuck::cast_slice_mut(place)[..record.len()].copy_from_slice(record);
+        }
+        gpu.queue.write_texture(
+            self.target.texture().as_image_copy(),
+            bytemuck::cast_slice(&words),
+            wgpu::TexelCopyBufferLayout {
+                offset: 0,
+                bytes_per_row: Some(COLUMNS * 4 * TEXEL_WORDS as u32),
+                rows_per_image: Some(rows),
+            },
+            wgpu::Extent3d { width: COLUMNS, height: rows, depth_or_array_layers: 1 },
+        );
+        Ok(())
+    }
+
+    /// The texture.
+    pub fn target(&self) -> &Target {
+        &self.target
+    }
+}
+
+fn create(gpu: &Gpu, label: &str, rows: u32) -> Target {
+    Target::new(gpu.device.create_texture(&wgpu::TextureDescriptor {
+        label: Some(label),
+        size: wgpu::Extent3d { width: COLUMNS, height: rows, depth_or_array_layers: 1 },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: wgpu::TextureFormat::Rgba32Uint,
+        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+        view_formats: &[],
+    }))
+}
