@@ -1,7 +1,8 @@
 // Gathers the numbers of bits that are set, in their order: what comes of them is the same however busy the device is.
 #import common/kept.wgsl
 
-@group(1) @binding(0) var<storage, read> sifted: array<u32>;
+// Afterwards none is set.
+@group(1) @binding(0) var<storage, read_write> sifted: array<u32>;
 // The numbers, then `NO_STEP` up to a whole workgroup.
 @group(1) @binding(1) var<storage, read_write> kept: array<u32>;
 // Workgroups of the dispatches that they get.
@@ -37,6 +38,7 @@ fn cs_main(@builtin(local_invocation_index) index: u32) {
             kept[at] = 32u * word + firstTrailingBit(bits);
             at++;
         }
+        sifted[word] = 0u;
     }
     let groups = (all + GROUP - 1u) / GROUP;
     for (var rest = all + index; rest < groups * GROUP; rest += LANES) {

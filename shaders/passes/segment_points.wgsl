@@ -4,9 +4,9 @@
 #import common/repeated.wgsl
 
 @group(1) @binding(0) var<storage, read> points: array<SegmentPoint>;
-// The greatest key of each pixel.
-@group(1) @binding(1) var<storage, read> keys: array<u32>;
-// For each pixel the inverted number of its point: a greater one is an earlier one.
+// The greatest key of each pixel, and 0 again once it has been put.
+@group(1) @binding(1) var<storage, read_write> keys: array<u32>;
+// For each pixel the inverted number of its point, which is greater for earlier ones; 0 again once it has been put.
 @group(1) @binding(2) var<storage, read_write> winners: array<atomic<u32>>;
 @group(1) @binding(3) var edge_tex: texture_storage_2d<rgba32uint, write>;
 @group(1) @binding(4) var spine_tex: texture_storage_2d<r32uint, write>;
@@ -37,6 +37,8 @@ fn is_winner(point: SegmentPoint, number: u32) -> bool {
 }
 
 fn put(point: SegmentPoint, px: vec2<i32>, spine: u32) {
+    keys[index_of(point)] = 0u;
+    atomicStore(&winners[index_of(point)], 0u);
     textureStore(edge_tex, px, point.edge);
     textureStore(spine_tex, px, vec4(spine, 0u, 0u, 0u));
     textureStore(mark_tex, px, vec4(mark_of(point.key), 0u, 0u, 0u));

@@ -37,10 +37,9 @@ pub struct Segments {
     /// Workgroups that look at them.
     workgroups: wgpu::Buffer,
     points: RecordBuffer,
+    /// 0 between frames, as are winners and sifted bits: who reads the last of them clears them.
     keys: RecordBuffer,
     winners: RecordBuffer,
-    /// Bytes of the last two for all pixels.
-    pixels: u64,
 }
 
 /// What they are tested against.
@@ -73,7 +72,6 @@ impl Segments {
             points: RecordBuffer::new(gpu, "points of segments"),
             keys: RecordBuffer::new(gpu, "keys of segments"),
             winners: RecordBuffer::new(gpu, "points of pixels"),
-            pixels: 0,
         }
     }
 
@@ -105,9 +103,9 @@ impl Segments {
         self.sifted.reserve(gpu, most / 8)?;
         self.kept.reserve(gpu, most * 4)?;
         self.points.reserve(gpu, most * POINT_BYTES)?;
-        self.pixels = u64::from(width) * u64::from(height) * 4;
-        self.keys.reserve(gpu, self.pixels)?;
-        self.winners.reserve(gpu, self.pixels)
+        let pixels = u64::from(width) * u64::from(height) * 4;
+        self.keys.reserve(gpu, pixels)?;
+        self.winners.reserve(gpu, pixels)
     }
 
     /// Puts them into an edge map and its spines, over what is there, without those that have been `seen`. Returns what
@@ -125,16 +123,13 @@ impl Segments {
     ) -> Result<Target, RenderError> {
         let marks = rec.target("marks of segments", MARKS)?;
         rec.clear("no segments", &marks);
-        rec.encoder.clear_buffer(self.keys.buffer(), 0, Some(self.pixels));
         // Where the recorder's gate is shut nobody counts any.
         rec.encoder.clear_buffer(&self.workgroups, 0, None);
         for (steps, count) in &self.steps {
-            rec.encoder.clear_buffer(self.sifted.buffer(), 0, None);
-            rec.encoder.clear_buffer(self.winners.buffer(), 0, Some(self.pixels));
             self.find(rec, inputs, steps, *count)?;
             let mut found = vec![
                 Input::Storage(self.points.buffer()),
-                Input::Storage(self.keys.buffer()),
+                Input::Written(self.keys.buffer()),
                 Input::Written(self.winners.buffer()),
                 Input::Image(edge_map),
                 Input::Image(spines),
@@ -176,7 +171,7 @@ impl Segments {
         ];
         rec.compute("sift segments", program("cs_sift"), &tested, [count.div_ceil(GROUP), 1])?;
         let gathered = [
-            Input::Storage(self.sifted.buffer()),
+            Input::Written(self.sifted.buffer()),
             Input::Written(self.kept.buffer()),
             Input::Written(&self.workgroups),
         ];
