@@ -12,7 +12,7 @@ use common::{scene, session, set};
 use glam::{DMat4, DVec2, DVec3, Vec3};
 use hachure::export::Session;
 use hachure::export::session::Opened;
-use hachure::geometry::primitives::from_triangles;
+use hachure::geometry::primitives::{cube, from_triangles};
 use hachure::geometry::{EdgeClass, Mesh};
 use hachure::scene::{Camera, Projection};
 
@@ -244,5 +244,32 @@ fn a_large_picture_reduced_is_the_same() {
         let [all, inked] = reduced_difference(&mut session, name, 800);
         println!("{name}: mean difference {all:.4}, where there is ink {inked:.4}");
         assert!(all <= 0.01 && inked <= 0.06, "{name}: {all} {inked}");
+    }
+}
+
+/// However lines are looked for, which depends on the widest of them.
+#[test]
+fn thin_lines_do_not_swallow_others_beside_them() {
+    const SIDE: u32 = 160;
+    let mut session = session();
+    for beside in [1.6, 2.0, 2.4] {
+        let corners = [[-40.0, -60.0], [0.0, -60.0], [0.0, 60.0], [-40.0, 60.0]];
+        let sheet = flat(&corners.map(DVec2::from_array));
+        let turned = DMat4::from_translation(DVec3::new(beside, 0.0, -60.0))
+            * DMat4::from_rotation_y(std::f64::consts::FRAC_PI_4);
+        let scene = scene(vec![
+            ("sheet", sheet, DMat4::from_translation(DVec3::Z * 10.0), [0.7; 3]),
+            ("cube", cube(60.0), turned, [0.7; 3]),
+        ]);
+        let mut opened = line_drawing(&scene, camera(SIDE));
+        session.set_scene(&opened).unwrap();
+        for px in [1.7, 1.85, 1.95, 2.1] {
+            set_width(&mut opened, px, SIDE);
+            let ink = Ink::of(&mut session, &opened, [SIDE; 2]);
+            // Of both lines, in a row between the corners.
+            let drawn = (76..90).map(|x| ink.at(x, 80)).sum::<f64>();
+            let wanted = px + px.min(beside);
+            assert!(drawn > wanted - 0.3, "{px} px wide, {beside} px apart: {drawn:.3} of {wanted:.3}");
+        }
     }
 }
