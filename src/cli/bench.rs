@@ -61,7 +61,7 @@ pub(super) fn run(args: &BenchArgs) -> Result<(), CliError> {
     let mut bench = Bench::new(opened, args.resolution.0)?;
 
     let has_uvs = bench.opened.scene.meshes.iter().any(|mesh| !mesh.uvs.is_empty());
-    let mut looks = looks(has_uvs, bench.layers()?)?;
+    let mut looks = looks(has_uvs, &bench.layers()?, args.resolution.0)?;
     if let Some(only) = &args.only {
         let mut number = 0..;
         looks.retain(|look| number.next() == Some(0) || look.name.contains(only.as_str()));
@@ -111,6 +111,9 @@ const BEFORE: f64 = 0.5;
 
 /// The middle of all turns.
 const MIDDLE: f64 = 13.5;
+
+/// The last look.
+const MIRROR: &str = "before a mirror";
 
 /// Path of the node that stands behind the model.
 const WALL: &str = "/behind the model";
@@ -167,8 +170,8 @@ impl Bench {
         Ok(Self { session, opened, size, camera, topology_ms })
     }
 
-    /// How many depth layers the model has, up to as many as can be drawn.
-    fn layers(&mut self) -> Result<u32, CliError> {
+    /// How many pixels each depth layer of the model has.
+    fn layers(&mut self) -> Result<Vec<u32>, CliError> {
         let look = Look {
             name: "all layers",
             style: blueprint(MOST_LAYERS)?,
@@ -177,7 +180,9 @@ impl Bench {
             layers_by: LayersBy::Auto,
         };
         self.frame(&look, MIDDLE)?;
-        Ok(self.session.renderer().peeled()?.first().map_or(1, |peeled| peeled.layers.max(1)))
+        let peeled = self.session.renderer().peeled()?;
+        let pixels = peeled.first().map_or(&[][..], |p| p.pixels.get(..p.layers as usize).unwrap_or(&[]));
+        Ok(pixels.to_vec())
     }
 
     /// Draws everything in one look, turned by so many degrees; returns milliseconds.
@@ -212,19 +217,23 @@ fn blueprint(layers: u32) -> Result<Style, StyleError> {
     Ok(style)
 }
 
-/// Names of the blueprints in the table: one and five layers from lists, the same by peeling, as many as there are, and as many
-/// as there can be.
-const BLUEPRINTS: [&str; 6] = [
-    "blueprint, 1 layer",
-    "blueprint, 5 layers",
-    "blueprint, 1 peeled layer",
-    "blueprint, 5 peeled layers",
-    "blueprint, all layers",
-    "blueprint, up to 64 layers",
-];
+/// A blueprint that ends by itself after five layers, of which the sixth one has so few pixels; `None`: there are no more.
+fn ending(pixels: &[u32], [width, height]: [u32; 2]) -> Result<Option<Style>, StyleError> {
+    let [.., fifth, sixth] = pixels.get(..6).unwrap_or(&[]) else { return Ok(None) };
+    let mut style = blueprint(MOST_LAYERS)?;
+    style.blueprint.least = 50.0 * (*fifth as f32 + *sixth as f32) / (width as f32 * height as f32);
+    Ok(Some(style))
+}
 
-/// `layers`: how many the model has.
-fn looks(has_uvs: bool, layers: u32) -> Result<Vec<Look>, CliError> {
+const ONE: [&str; 2] = ["blueprint, 1 layer", "blueprint, 1 peeled layer"];
+const FIVE: [&str; 2] = ["blueprint, 5 layers", "blueprint, 5 peeled layers"];
+/// As many layers, but nobody has said that there are no more.
+const ENDING: [&str; 2] = ["blueprint, ends after 5", "blueprint, peeled, ends so"];
+/// In the same order.
+const WAYS: [LayersBy; 2] = [LayersBy::Lists, LayersBy::Peeling];
+
+/// `pixels`: how many each depth layer of the model has, in a picture of this size.
+fn looks(has_uvs: bool, pixels: &[u32], size: [u32; 2]) -> Result<Vec<Look>, CliError> {
     let gooch = preset::load("gooch")?.style;
     let mut diagonal = gooch.clone();
     diagonal.edges.mode = EdgeMode::Paper;
@@ -280,15 +289,6 @@ fn looks(has_uvs: bool, layers: u32) -> Result<Vec<Look>, CliError> {
         ("gooch + hidden lines, all", hidden(HiddenLayers::All)),
         ("lines", preset::load("lines")?.style),
     ];
-    let [one, five, one_peeled, five_peeled, all, up_to_64] = BLUEPRINTS;
-    let blueprints = [
-        (one, 1, LayersBy::Auto),
-        (five, 5, LayersBy::Auto),
-        (one_peeled, 1, LayersBy::Peeling),
-        (five_peeled, 5, LayersBy::Peeling),
-        (all, layers, LayersBy::Auto),
-        (up_to_64, MOST_LAYERS, LayersBy::Auto),
-    ];
     let look = |name, style, lighting: &Lighting| Look {
         name,
         style,
@@ -298,32 +298,41 @@ fn looks(has_uvs: bool, layers: u32) -> Result<Vec<Look>, CliError> {
     };
     let mut looks: Vec<Look> =
         styles.into_iter().chain(by_uv).map(|(name, style)| look(name, style, &unshadowed)).collect();
-    for (name, layers, layers_by) in blueprints {
-        looks.push(Look { layers_by, ..look(name, blueprint(layers)?, &unshadowed) });
-    }
     let mut as_in_paper = blueprint(5)?;
     as_in_paper.edges.mode = EdgeMode::Paper;
-    looks.push(look("blueprint, 5 layers, paper mode", as_in_paper, &unshadowed));
+    for (way, layers_by) in WAYS.into_iter().enumerate() {
+        let one = look(ONE[way], blueprint(1)?, &unshadowed);
+        let five = look(FIVE[way], blueprint(5)?, &unshadowed);
+        let ends = ending(pixels, size)?.map(|style| look(ENDING[way], style, &unshadowed));
+        looks.extend([one, five].into_iter().chain(ends).map(|look| Look { layers_by, ..look }));
+    }
+    looks.push(look("blueprint, 5, paper mode", as_in_paper, &unshadowed));
+    looks.push(look("blueprint, all layers", blueprint(MOST_LAYERS)?, &unshadowed));
     looks.push(look("plain, shadow", plain.clone(), &hard));
     looks.push(look("plain, soft shadow", plain, &soft));
-    for (name, behind) in [("before a wall", Behind::Wall), ("before a mirror", Behind::Mirror)] {
+    for (name, behind) in [("before a wall", Behind::Wall), (MIRROR, Behind::Mirror)] {
         looks.push(Look { behind, ..look(name, exact(2.0), &unshadowed) });
     }
     Ok(looks)
 }
 
-/// What a depth layer more costs from lists and by peeling, and what it costs to find out that there are no more; ms.
+/// What depth layers cost, ms, made in either way: each one more, to find out that there are no more, and for comparison to
+/// traverse the scene once.
 fn layer_costs(rows: &[Row]) -> Vec<(&'static str, f64)> {
-    let found: Vec<&Row> = BLUEPRINTS.iter().filter_map(|n| rows.iter().find(|row| row.name == *n)).collect();
-    let [one, five, one_peeled, five_peeled, all, up_to_64] = found.as_slice() else { return Vec::new() };
-    let more = |a: &Row, b: &Row| {
-        median(&a.frame_ms.iter().zip(&b.frame_ms).map(|(a, b)| b - a).collect::<Vec<_>>())
+    let find = |name: &str| rows.iter().find(|row| row.name == name);
+    let more = |a: &str, b: &str| {
+        let (a, b) = (find(a)?, find(b)?);
+        Some(median(&a.frame_ms.iter().zip(&b.frame_ms).map(|(a, b)| b - a).collect::<Vec<_>>()))
     };
-    vec![
-        ("each layer more, from lists", more(one, five) / 4.0),
-        ("each layer more, by peeling", more(one_peeled, five_peeled) / 4.0),
-        ("the end of the layers", more(all, up_to_64)),
-    ]
+    let traversal = |row: &Row| Some(median(&row.stages.iter().find(|(stage, _)| *stage == "peel")?.1));
+    let costs = [
+        ("each layer more, from lists", more(ONE[0], FIVE[0]).map(|ms| ms / 4.0)),
+        ("each layer more, by peeling", more(ONE[1], FIVE[1]).map(|ms| ms / 4.0)),
+        ("the end of the layers, from lists", more(FIVE[0], ENDING[0])),
+        ("the end of the layers, by peeling", more(FIVE[1], ENDING[1])),
+        ("one traversal of the scene", find(FIVE[1]).and_then(traversal)),
+    ];
+    costs.into_iter().filter_map(|(name, ms)| Some((name, ms?))).collect()
 }
 
 fn median(values: &[f64]) -> f64 {
@@ -338,7 +347,10 @@ fn report(args: &BenchArgs, bench: &mut Bench, load_ms: f64, rows: &[Row]) -> Re
     let triangles = bench.opened.scene.triangle_count();
     let plain = rows.first().map_or(0.0, |r| median(&r.frame_ms));
     let ratio = |row: &Row| rows.first().map_or(1.0, |plain| row.ratio_to(plain));
-    let mirror = if let [.., wall, mirror] = rows { mirror.ratio_to(wall) } else { 1.0 };
+    let mirror = match rows {
+        [.., wall, mirror] if mirror.name == MIRROR => Some(mirror.ratio_to(wall)),
+        _ => None,
+    };
     if args.json {
         let styles: Vec<_> = rows
             .iter()
@@ -368,7 +380,9 @@ fn report(args: &BenchArgs, bench: &mut Bench, load_ms: f64, rows: &[Row]) -> Re
             stages.join(", ")
         ))?;
     }
-    print_line(&format!("a mirror: × {mirror:.2} of the frame with a wall in its place"))?;
+    if let Some(mirror) = mirror {
+        print_line(&format!("a mirror: × {mirror:.2} of the frame with a wall in its place"))?;
+    }
     for (name, ms) in layer_costs(rows) {
         print_line(&format!("{name}: {ms:.1} ms, × {:.2} of plain", ms / plain.max(1e-9)))?;
     }

@@ -17,12 +17,13 @@ pub use self::room::{LayersBy, Reason, Reported};
 
 use self::room::{Recorded, Room};
 use crate::document;
-use crate::gpu::{ArrayBuffer, DynamicBuffer, Gate, Gpu, Recorder, Reports, Target};
+use crate::gpu::{ArrayBuffer, DynamicBuffer, Gate, Gpu, RecordBuffer, Recorder, Reports, Target};
 use crate::render::RenderError;
 use crate::render::gpu_scene::GpuScene;
 use crate::render::passes::depth_mask::DepthMask;
 use crate::render::passes::edge_map::{EdgeInputs, EdgeMap, edge_map};
 use crate::render::passes::edge_style::EdgeUniform;
+use crate::render::passes::fragment_lists::meanings;
 use crate::render::passes::gbuffer::{DrawCall, DrawUniform, GBufferPass};
 use crate::render::passes::line_distance::{Reach, line_distance};
 use crate::render::passes::lines::Lines;
@@ -63,6 +64,8 @@ pub struct LayerInputs<'a> {
 /// What of the layers of a group lives across frames.
 pub struct Layers {
     draws: DynamicBuffer,
+    /// What the orders of fragments mean.
+    orders: RecordBuffer,
     gate: Option<Gate>,
     count: PeelCount,
     reports: Reports<Recorded>,
@@ -76,6 +79,7 @@ impl Layers {
     pub fn new(gpu: &Gpu) -> Self {
         Self {
             draws: GBufferPass::draw_buffer(gpu),
+            orders: RecordBuffer::new(gpu, "orders"),
             gate: None,
             count: PeelCount::new(gpu),
             reports: Reports::default(),
@@ -127,7 +131,8 @@ impl Layers {
         let mut gate = self.gate.take().unwrap_or_else(|| Gate::new(rec.gpu));
         gate.clear(rec.gpu, calls.len() + PASSES)?;
         if let Ok(room) = &mut recorded.fragments {
-            *room = gbuffer_pass.lists.begin(rec, *room, (draws, calls))?;
+            *room = gbuffer_pass.lists.begin(rec, *room)?;
+            self.orders.write(rec.gpu, &meanings(draws, calls))?;
             let parts = (draws, calls);
             gbuffer_pass.collect(rec, scene, &mut self.draws, parts, is_cut, with_color, &self.count)?;
         }
@@ -151,7 +156,7 @@ impl Layers {
     ) -> Result<(), RenderError> {
         let LayerInputs { scene, draws, calls, is_cut, mask, with_color, .. } = *inputs;
         let mut lists = match recorded.by() {
-            LayersBy::Lists => Some(gbuffer_pass.lists.cut(rec, recorded.layers)?),
+            LayersBy::Lists => Some(gbuffer_pass.lists.cut(rec, recorded.layers, self.orders.buffer())?),
             LayersBy::Peeling(_) => None,
         };
         let mut last = None;

@@ -7,7 +7,7 @@
 use super::gbuffer::{DEPTH, DrawCall, DrawUniform, GBuffer, ORDER, surface_bits};
 use super::peel::{Layer, PeelCount};
 use crate::gpu::recorder::{Draw, Input, Onto};
-use crate::gpu::{DepthRule, Gpu, GpuError, Program, RecordBuffer, Recorder, Target};
+use crate::gpu::{DepthRule, Gpu, GpuError, Program, Recorder, Target};
 use crate::render::RenderError;
 
 /// Bytes of a fragment in each of the buffers: how it is linked, what it is, its base colour.
@@ -28,8 +28,6 @@ pub struct FragmentLists {
     heads: wgpu::Buffer,
     /// In the order of [`BYTES`].
     fragments: [wgpu::Buffer; BYTES.len()],
-    /// What orders mean.
-    draws: RecordBuffer,
     /// The most room that was asked for since the last [`Self::shrink`].
     asked: u64,
 }
@@ -54,7 +52,6 @@ impl FragmentLists {
             }),
             heads: create(gpu, "heads of lists", 4),
             fragments: BYTES.map(|bytes| create(gpu, "fragments", bytes)),
-            draws: RecordBuffer::new(gpu, "draws of lists"),
             asked: 0,
         }
     }
@@ -89,17 +86,11 @@ impl FragmentLists {
         })
     }
 
-    /// Empties all lists, for so many fragments of these draws; returns how many there is room for.
+    /// Empties all lists, for so many fragments; returns how many there is room for.
     ///
     /// # Errors
     /// [`GpuError::TooLarge`].
-    pub fn begin(
-        &mut self,
-        rec: &mut Recorder<'_>,
-        fragments: u64,
-        (draws, calls): (&[DrawUniform], &[DrawCall]),
-    ) -> Result<u64, GpuError> {
-        self.draws.write(rec.gpu, &meanings(draws, calls))?;
+    pub fn begin(&mut self, rec: &mut Recorder<'_>, fragments: u64) -> Result<u64, GpuError> {
         let [width, height] = rec.size().map(u64::from);
         let (gpu, heads) = (rec.gpu, width * height * 4);
         gpu.check_buffer_size("the lists of a picture", heads)?;
@@ -126,13 +117,18 @@ impl FragmentLists {
         }
     }
 
-    /// Begins to cut so many layers.
+    /// Begins to cut so many layers; `orders` on the device: [`meanings`].
     ///
     /// # Errors
     /// [`RenderError`].
-    pub fn cut(&self, rec: &mut Recorder<'_>, layers: u32) -> Result<CutLists, RenderError> {
+    pub fn cut(
+        &self,
+        rec: &mut Recorder<'_>,
+        layers: u32,
+        orders: &wgpu::Buffer,
+    ) -> Result<CutLists, RenderError> {
         let [links, payloads, colors] = &self.fragments;
-        let buffers = [&self.heads, links, payloads, colors, self.draws.buffer()].map(wgpu::Buffer::clone);
+        let buffers = [&self.heads, links, payloads, colors, orders].map(wgpu::Buffer::clone);
         let listed = rec.target("listed", DEPTH)?;
         let lists = CutLists { buffers, listed, numbers: Vec::new(), last: None, layers };
         let inputs = lists.inputs();
@@ -245,7 +241,7 @@ impl CutLists {
 
 /// For each order without the bits that tell the surfaces of a draw apart: object id with the enhanced flag, and order of the
 /// draw's first surface; in the first place, which no order has, the number of those bits.
-fn meanings(draws: &[DrawUniform], calls: &[DrawCall]) -> Vec<[u32; 2]> {
+pub fn meanings(draws: &[DrawUniform], calls: &[DrawCall]) -> Vec<[u32; 2]> {
     let bits = surface_bits(calls);
     let mut meanings = vec![[bits, 0]];
     for call in calls {
