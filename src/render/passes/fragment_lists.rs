@@ -19,7 +19,7 @@ const SORTED: u32 = 8;
 /// For each pixel the number of a fragment.
 const NUMBERS: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;
 
-/// More fragments are never kept: they take 320 MiB.
+/// More fragments are never kept: they take 224 MiB.
 const MOST_FRAGMENTS: u64 = 1 << 23;
 
 /// Room for the fragments of one group after the other.
@@ -59,7 +59,7 @@ impl FragmentLists {
     /// The most fragments that a device can keep; 0 where shaders of fragments cannot write.
     pub fn most(gpu: &Gpu) -> u64 {
         let limits = gpu.device.limits();
-        if !gpu.writes_in_fragments || limits.max_storage_buffers_per_shader_stage < 6 {
+        if !gpu.writes_in_fragments || limits.max_storage_buffers_per_shader_stage < 5 {
             return 0;
         }
         let bytes = limits.max_buffer_size.min(limits.max_storage_buffer_binding_size);
