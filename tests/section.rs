@@ -310,6 +310,8 @@ fn a_plane_that_leaves_nothing_leaves_paper_and_says_so() {
             .args(["--resolution", "64,64", "--output"])
             .arg(output)
             .args(args)
+            // Without it a library complains.
+            .env("XDG_RUNTIME_DIR", folder.path())
             .output()
             .unwrap()
     };
