@@ -10,7 +10,7 @@
 
 const LANES: u32 = 256u;
 // Numbers per workgroup, as in passes/segments.wgsl.
-const GROUP: u32 = 64u;
+const GROUP: u32 = 256u;
 
 var<workgroup> counts: array<u32, LANES>;
 

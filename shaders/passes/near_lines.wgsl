@@ -4,7 +4,7 @@
 @group(1) @binding(0) var spine_tex: texture_2d<u32>;
 @group(1) @binding(1) var near_tex: texture_storage_2d<r32uint, write>;
 
-@compute @workgroup_size(8, 8)
+@compute @workgroup_size(16, 16)
 fn cs_main(@builtin(global_invocation_id) id: vec3<u32>) {
     let block = vec2<i32>(id.xy);
     let last = vec2<i32>(frame.size) - 1;

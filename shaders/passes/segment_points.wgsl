@@ -24,7 +24,7 @@ fn index_of(point: SegmentPoint) -> u32 {
     return (point.px >> 16u) * u32(frame.size.x) + (point.px & 0xffffu);
 }
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(256)
 fn cs_compare(@builtin(global_invocation_id) id: vec3<u32>) {
     let point = points[id.x];
     if point.key != 0u && point.key == keys[index_of(point)] {
@@ -44,7 +44,7 @@ fn put(point: SegmentPoint, px: vec2<i32>, spine: u32) {
     textureStore(mark_tex, px, vec4(mark_of(point.key), 0u, 0u, 0u));
 }
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(256)
 fn cs_put(@builtin(global_invocation_id) id: vec3<u32>) {
     let point = points[id.x];
     if is_winner(point, id.x) {
@@ -52,7 +52,7 @@ fn cs_put(@builtin(global_invocation_id) id: vec3<u32>) {
     }
 }
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(256)
 fn cs_put_unseen(@builtin(global_invocation_id) id: vec3<u32>) {
     let point = points[id.x];
     if is_winner(point, id.x) {

@@ -245,7 +245,7 @@ fn point_at(v: Segment, px: vec2<f32>) -> SegmentPoint {
     return SegmentPoint(texel, packed, (bitcast<u32>(order) << 1u) | mark, u32(px.x) | (u32(px.y) << 16u));
 }
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(256)
 fn cs_sift(@builtin(global_invocation_id) id: vec3<u32>) {
     let step = step_at(id.x);
     let segment = segment_at(step.x);
@@ -255,7 +255,7 @@ fn cs_sift(@builtin(global_invocation_id) id: vec3<u32>) {
     }
 }
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(256)
 fn cs_points(@builtin(global_invocation_id) id: vec3<u32>) {
     let number = kept[id.x];
     if number == NO_STEP {

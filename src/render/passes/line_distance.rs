@@ -11,7 +11,7 @@ const GROUP: u32 = 64;
 
 /// Pixels per side of a block, and blocks per side of a workgroup, as in `passes/near_lines.wgsl`.
 pub const BLOCK: u32 = 4;
-const BLOCK_GROUP: u32 = 8;
+const BLOCK_GROUP: u32 = 16;
 
 /// Lines with a greater radius than this (px) reach farther than to the next pixel.
 const NARROW: f32 = 0.95;

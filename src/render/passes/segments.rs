@@ -18,7 +18,7 @@ const MOST_STEPS: usize = 1 << 20;
 /// Bytes of `SegmentPoint` in `shaders/common/segment_point.wgsl`.
 const POINT_BYTES: u64 = 32;
 /// Steps per workgroup, as in `passes/segments.wgsl`.
-const GROUP: u32 = 64;
+const GROUP: u32 = 256;
 
 const MARKS: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;
 
