@@ -16,6 +16,9 @@
 @group(1) @binding(6) var seen_tex: texture_2d<u32>;
 @group(1) @binding(7) var now_seen_tex: texture_storage_2d<r32uint, write>;
 
+// Whether more points follow that have to be compared with these.
+override KEEP_KEYS: bool = false;
+
 fn pixel_of(point: SegmentPoint) -> vec2<i32> {
     return vec2<i32>(vec2(point.px & 0xffffu, point.px >> 16u));
 }
@@ -37,7 +40,9 @@ fn is_winner(point: SegmentPoint, number: u32) -> bool {
 }
 
 fn put(point: SegmentPoint, px: vec2<i32>, spine: u32) {
-    keys[index_of(point)] = 0u;
+    if !KEEP_KEYS {
+        keys[index_of(point)] = 0u;
+    }
     atomicStore(&winners[index_of(point)], 0u);
     textureStore(edge_tex, px, point.edge);
     textureStore(spine_tex, px, vec4(spine, 0u, 0u, 0u));

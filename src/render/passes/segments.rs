@@ -125,6 +125,7 @@ impl Segments {
         rec.clear("no segments", &marks);
         // Where the recorder's gate is shut nobody counts any.
         rec.encoder.clear_buffer(&self.workgroups, 0, None);
+        let has_chunks = self.steps.len() > 1;
         for (steps, count) in &self.steps {
             self.find(rec, inputs, steps, *count)?;
             let mut found = vec![
@@ -138,12 +139,15 @@ impl Segments {
             let program = |entry_point| Program {
                 file: "passes/segment_points.wgsl",
                 entry_point,
-                switches: vec![("WITHOUT_REPEATED", seen.is_some())],
+                switches: vec![("WITHOUT_REPEATED", seen.is_some()), ("KEEP_KEYS", has_chunks)],
             };
             rec.compute("compare points", program("cs_compare"), &found, &self.workgroups)?;
             let put = if seen.is_some() { "cs_put_unseen" } else { "cs_put" };
             found.extend(seen.into_iter().flat_map(|s| [Input::Texture(&s.before), Input::Image(&s.now)]));
             rec.compute("put points", program(put), &found, &self.workgroups)?;
+        }
+        if has_chunks {
+            rec.encoder.clear_buffer(self.keys.buffer(), 0, None);
         }
         Ok(marks)
     }
