@@ -57,6 +57,8 @@ pub struct LayerInputs<'a> {
     pub by: document::LayersBy,
     /// Whether their base colour is asked for.
     pub with_color: bool,
+    /// Whether their shading normals are; otherwise they are those of the faces.
+    pub with_normals: bool,
     /// Whether their depth and order are asked for; see [`crate::render::passes::gbuffer::GBuffer::depth`].
     pub with_order: bool,
 }
@@ -125,7 +127,13 @@ impl Layers {
         inputs: &LayerInputs<'_>,
         draw: impl FnMut(&mut Recorder<'_>, u32, &Layer, &PeelCount) -> Result<(), RenderError>,
     ) -> Result<(), RenderError> {
-        let LayerInputs { scene, draws, calls, is_cut, with_color, .. } = *inputs;
+        let plain: Vec<DrawCall>;
+        let mut inputs = *inputs;
+        if !inputs.with_color && !inputs.with_normals {
+            plain = inputs.calls.iter().map(DrawCall::without_attributes).collect();
+            inputs.calls = &plain;
+        }
+        let LayerInputs { scene, draws, calls, is_cut, with_color, .. } = inputs;
         self.count.begin(rec.gpu, inputs.least.max(1), inputs.fraction);
         let mut recorded = self.room.plan(rec.gpu, rec.size(), inputs.most.min(MOST_LAYERS), inputs.by);
         let mut gate = self.gate.take().unwrap_or_else(|| Gate::new(rec.gpu));
@@ -137,7 +145,7 @@ impl Layers {
             gbuffer_pass.collect(rec, scene, &mut self.draws, parts, is_cut, with_color, &self.count)?;
         }
         rec.gate = Some(gate);
-        let drawn = self.draw_each(rec, gbuffer_pass, inputs, recorded, draw);
+        let drawn = self.draw_each(rec, gbuffer_pass, &inputs, recorded, draw);
         self.gate = rec.gate.take();
         self.reports.send(rec, self.count.buffer(), recorded);
         if let Some(gate) = &self.gate {

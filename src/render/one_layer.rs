@@ -88,6 +88,7 @@ impl OneLayer {
                 // It cannot run out of room, which nobody would hear of.
                 by: LayersBy::Peeling,
                 with_color: true,
+                with_normals: true,
                 with_order: true,
             };
             let mut found = None;

@@ -152,6 +152,7 @@ impl Blended {
             fraction: 1.0,
             by: inputs.layers_by,
             with_color: true,
+            with_normals: true,
             with_order: true,
         };
         let drawn = layers.each(rec, gbuffer_pass, &cut, |rec, _, layer, _| {

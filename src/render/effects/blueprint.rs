@@ -245,6 +245,7 @@ impl Blueprints {
                 // Lines within images are found in it; those of a blueprint have a colour of their own.
                 with_color: asked.keeps_layers
                     || group.edge_styles.iter().any(|s| s.draws(EdgeClass::Texture)),
+                with_normals: asked.keeps_layers || group.edge_styles.iter().any(|s| s.reads_normals()),
                 with_order: asked.keeps_layers,
             };
             let outer = rec.part.replace(group.part(inputs.scene, inputs.view));

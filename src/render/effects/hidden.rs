@@ -195,6 +195,7 @@ impl HiddenLines {
                 fraction: 1.0,
                 by: inputs.layers_by,
                 with_color: true,
+                with_normals: true,
                 with_order: false,
             };
             let mut before: Option<[Target; 2]> = None;

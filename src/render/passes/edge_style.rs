@@ -164,6 +164,11 @@ impl EdgeUniform {
         self.mode == EXACT && self.lines.iter().any(|l| l.strength > 0.0)
     }
 
+    /// Whether shading normals decide where its lines run or how wide they are.
+    pub fn reads_normals(&self) -> bool {
+        self.is_paper() || self.by_light > 0.0 || self.draws(EdgeClass::Relief)
+    }
+
     /// Whether the width of its lines varies.
     pub fn varies(&self) -> bool {
         self.by_distance > 0.0 || self.by_light > 0.0 || self.pressure > 0.0

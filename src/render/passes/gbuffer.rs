@@ -102,6 +102,15 @@ pub struct DrawCall {
     pub hidden_side: Option<wgpu::Face>,
 }
 
+impl DrawCall {
+    /// The same with no more than positions, where nobody asks for colours and shading normals. Holes need images.
+    #[must_use]
+    pub fn without_attributes(&self) -> Self {
+        let detail = if self.detail == Detail::Smooth { Detail::Lean } else { self.detail };
+        Self { detail, ..*self }
+    }
+}
+
 /// How many bits of an order tell the surfaces of a draw apart, and the other ones the draws, from 1 on; 0: orders count all
 /// surfaces of all draws from 1 on, of which there are too many.
 pub fn surface_bits(calls: &[DrawCall]) -> u32 {
