@@ -86,20 +86,19 @@ impl Segments {
         segments: &[LineSegment],
     ) -> Result<(), GpuError> {
         self.records.write(gpu, segments)?;
-        let steps: Vec<[u32; 2]> = (0..)
+        let mut steps: Vec<[u32; 2]> = (0..)
             .zip(segments)
             .flat_map(|(number, segment)| (0..steps_of(segment)).map(move |step| [number, step]))
             .collect();
+        steps.resize(steps.len().next_multiple_of(GROUP as usize), NO_STEP);
         let chunks = steps.len().div_ceil(MOST_STEPS);
         self.steps.resize_with(chunks, || (RecordTexture::new(gpu, "steps of segments"), 0));
         for ((texture, count), chunk) in self.steps.iter_mut().zip(steps.chunks(MOST_STEPS)) {
             *count = chunk.len() as u32;
-            let mut groups = chunk.to_vec();
-            groups.resize(chunk.len().next_multiple_of(GROUP as usize), NO_STEP);
-            let (pairs, _) = groups.as_chunks::<2>();
+            let (pairs, _) = chunk.as_chunks::<2>();
             texture.write(gpu, pairs)?;
         }
-        let most = (steps.len().min(MOST_STEPS) as u64).next_multiple_of(u64::from(GROUP));
+        let most = steps.len().min(MOST_STEPS) as u64;
         self.sifted.reserve(gpu, most / 8)?;
         self.kept.reserve(gpu, most * 4)?;
         self.points.reserve(gpu, most * POINT_BYTES)?;
