@@ -9,9 +9,11 @@ struct SegmentPoint {
     key: u32,
     // Column in the lower 16 bits, row in the upper ones.
     px: u32,
+    // Number of the segment.
+    segment: u32,
 }
 
-const NO_POINT: SegmentPoint = SegmentPoint(vec4<u32>(0u, 0u, 0u, 0u), 0u, 0u, 0u);
+const NO_POINT: SegmentPoint = SegmentPoint(vec4<u32>(0u, 0u, 0u, 0u), 0u, 0u, 0u, 0u);
 
 // What segments have in a pixel: 0, `EXPLAINED`, or both bits.
 const EXPLAINED: u32 = 1u;

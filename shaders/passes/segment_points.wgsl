@@ -1,4 +1,5 @@
-// Puts what passes/segments.wgsl found into the edge map. Where several points of one pixel are equal, the first one counts.
+// Puts what passes/segments.wgsl found into the edge map. Of equal points of one pixel that of the first
+// segment counts, so that it does not matter in which order they are found.
 #import common/frame.wgsl
 #import common/segment_point.wgsl
 #import common/repeated.wgsl
@@ -6,7 +7,7 @@
 @group(1) @binding(0) var<storage, read> points: array<SegmentPoint>;
 // The greatest key of each pixel, and 0 again once it has been put.
 @group(1) @binding(1) var<storage, read_write> keys: array<u32>;
-// For each pixel the inverted number of its point, which is greater for earlier ones; 0 again once it has been put.
+// For each pixel the inverted number of its point's segment; 0 again once it has been put.
 @group(1) @binding(2) var<storage, read_write> winners: array<atomic<u32>>;
 @group(1) @binding(3) var edge_tex: texture_storage_2d<rgba32uint, write>;
 @group(1) @binding(4) var spine_tex: texture_storage_2d<r32uint, write>;
@@ -31,12 +32,12 @@ fn index_of(point: SegmentPoint) -> u32 {
 fn cs_compare(@builtin(global_invocation_id) id: vec3<u32>) {
     let point = points[id.x];
     if point.key != 0u && point.key == keys[index_of(point)] {
-        atomicMax(&winners[index_of(point)], ~id.x);
+        atomicMax(&winners[index_of(point)], ~point.segment);
     }
 }
 
-fn is_winner(point: SegmentPoint, number: u32) -> bool {
-    return point.key != 0u && atomicLoad(&winners[index_of(point)]) == ~number;
+fn is_winner(point: SegmentPoint) -> bool {
+    return point.key != 0u && atomicLoad(&winners[index_of(point)]) == ~point.segment;
 }
 
 fn put(point: SegmentPoint, px: vec2<i32>, spine: u32) {
@@ -52,7 +53,7 @@ fn put(point: SegmentPoint, px: vec2<i32>, spine: u32) {
 @compute @workgroup_size(256)
 fn cs_put(@builtin(global_invocation_id) id: vec3<u32>) {
     let point = points[id.x];
-    if is_winner(point, id.x) {
+    if is_winner(point) {
         put(point, pixel_of(point), point.spine);
     }
 }
@@ -60,7 +61,7 @@ fn cs_put(@builtin(global_invocation_id) id: vec3<u32>) {
 @compute @workgroup_size(256)
 fn cs_put_unseen(@builtin(global_invocation_id) id: vec3<u32>) {
     let point = points[id.x];
-    if is_winner(point, id.x) {
+    if is_winner(point) {
         let px = pixel_of(point);
         let seen = seen_at(seen_tex, px, point.spine);
         put(point, px, seen.own);

@@ -8,7 +8,6 @@
 #import common/edge_style.wgsl
 #import common/line_width.wgsl
 #import common/segment_point.wgsl
-#import common/kept.wgsl
 #import common/records.wgsl
 
 // Whether any object has holes by alpha: there a line needs one of its own surfaces beside it.
@@ -21,14 +20,33 @@ override IN_LAYER: bool = false;
 @group(1) @binding(3) var segment_tex: texture_2d<u32>;
 // Number of a segment, and how many steps from its beginning, two in a texel; at the end `NO_STEP`.
 @group(1) @binding(4) var step_tex: texture_2d<u32>;
-// A bit for each step: whether it is looked at closely; see passes/gather.wgsl.
-@group(1) @binding(5) var<storage, read_write> sifted: array<atomic<u32>>;
-// The steps that are, then `NO_STEP`.
-@group(1) @binding(6) var<storage, read> kept: array<u32>;
+// While steps are sifted: those that are kept, in any order.
+@group(1) @binding(5) var<storage, read_write> keeping: Keeping;
+@group(1) @binding(6) var<storage, read_write> keeping_steps: array<u32>;
+// Afterwards the same.
+@group(1) @binding(5) var<storage, read> kept: Kept;
+@group(1) @binding(6) var<storage, read> kept_steps: array<u32>;
 // What is found of each.
 @group(1) @binding(7) var<storage, read_write> points: array<SegmentPoint>;
 // The greatest key of each pixel.
 @group(1) @binding(8) var<storage, read_write> keys: array<atomic<u32>>;
+
+// Steps per workgroup, as in src/render/passes/segments.rs.
+const GROUP: u32 = 256u;
+// Steps fill whole workgroups; this stands for none.
+const NO_STEP: u32 = 0xffffffffu;
+
+// How many workgroups look at steps closely, and at how many steps.
+struct Kept {
+    groups: vec3<u32>,
+    count: u32,
+}
+
+// The same while it is being counted.
+struct Keeping {
+    groups: array<atomic<u32>, 3>,
+    count: atomic<u32>,
+}
 
 // So far, in pixels, may a surface lie before a line that is drawn on it.
 const SLACK: f32 = 0.4;
@@ -170,7 +188,7 @@ fn is_worth_it(v: Segment, px: vec2<f32>) -> bool {
 }
 
 // What is found at a pixel of a segment.
-fn point_at(v: Segment, px: vec2<f32>) -> SegmentPoint {
+fn point_at(v: Segment, number: u32, px: vec2<f32>) -> SegmentPoint {
     let spine = spine_at(v, px);
     let depth = spine.depth;
     let regions = v.ids.zw;
@@ -242,29 +260,32 @@ fn point_at(v: Segment, px: vec2<f32>) -> SegmentPoint {
     let packed = spine_of(texel, halves_of(own), select(0.0, 1.0, is_profile), 1.0 - range_share(depth));
     let mark = select(0u, 1u, is_rim || !is_hidden);
     // Positive numbers have the order of their bits, and those below 1 leave two of them.
-    return SegmentPoint(texel, packed, (bitcast<u32>(order) << 1u) | mark, u32(px.x) | (u32(px.y) << 16u));
+    return SegmentPoint(texel, packed, (bitcast<u32>(order) << 1u) | mark, u32(px.x) | (u32(px.y) << 16u), number);
 }
 
-@compute @workgroup_size(256)
+@compute @workgroup_size(GROUP)
 fn cs_sift(@builtin(global_invocation_id) id: vec3<u32>) {
     let step = step_at(id.x);
     let segment = segment_at(step.x);
     let place = place_of(segment.ends, step.y);
     if step.x != NO_STEP && place.is_on && is_worth_it(segment, place.px) {
-        atomicOr(&sifted[id.x / 32u], 1u << (id.x % 32u));
+        let index = atomicAdd(&keeping.count, 1u);
+        keeping_steps[index] = id.x;
+        if index % GROUP == 0u {
+            atomicAdd(&keeping.groups[0], 1u);
+        }
     }
 }
 
-@compute @workgroup_size(256)
+@compute @workgroup_size(GROUP)
 fn cs_points(@builtin(global_invocation_id) id: vec3<u32>) {
-    let number = kept[id.x];
-    if number == NO_STEP {
+    if id.x >= kept.count {
         points[id.x] = NO_POINT;
         return;
     }
-    let step = step_at(number);
+    let step = step_at(kept_steps[id.x]);
     let segment = segment_at(step.x);
-    let point = point_at(segment, place_of(segment.ends, step.y).px);
+    let point = point_at(segment, step.x, place_of(segment.ends, step.y).px);
     points[id.x] = point;
     if point.key != 0u {
         atomicMax(&keys[(point.px >> 16u) * u32(frame.size.x) + (point.px & 0xffffu)], point.key);

@@ -2,9 +2,11 @@
 //! left is put into the edge map.
 //!
 //! ```text
-//! steps ─► sift ─► gather ─► points ─► compare ─► put ─► edge map, spines
-//!                              └─► keys: which of the points of a pixel counts
+//! steps ─► sift ─► points ─► compare ─► put ─► edge map, spines
+//!                    └─► keys: which of the points of a pixel counts
 //! ```
+
+use wgpu::util::{BufferInitDescriptor, DeviceExt};
 
 use super::gbuffer::GBuffer;
 use super::repeated::Seen;
@@ -20,9 +22,12 @@ const POINT_BYTES: u64 = 32;
 /// Steps per workgroup, as in `passes/segments.wgsl`.
 const GROUP: u32 = 256;
 
+/// No workgroups, and no steps.
+const NONE_KEPT: [u32; 4] = [0, 1, 1, 0];
+
 const MARKS: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;
 
-/// Fills the last workgroup, as in `common/kept.wgsl`.
+/// Fills the last workgroup, as in `passes/segments.wgsl`.
 const NO_STEP: [u32; 2] = [u32::MAX; 2];
 
 /// Segments on the device, ready to be put into the edge maps of several G-buffers.
@@ -30,14 +35,14 @@ pub struct Segments {
     records: RecordTexture,
     /// Pixels of segments and how many there are, at most [`MOST_STEPS`] each.
     steps: Vec<(RecordTexture, u32)>,
-    /// A bit for each step: whether it is looked at closely.
-    sifted: RecordBuffer,
-    /// The steps that are.
-    kept: RecordBuffer,
-    /// Workgroups that look at them.
-    workgroups: wgpu::Buffer,
+    /// The steps that are looked at closely.
+    kept_steps: RecordBuffer,
+    /// Workgroups that look at them, and how many they are: `Kept` in `passes/segments.wgsl`.
+    kept: wgpu::Buffer,
+    /// What it begins with.
+    none_kept: wgpu::Buffer,
     points: RecordBuffer,
-    /// 0 between frames, as are winners and sifted bits: who reads the last of them clears them.
+    /// 0 between frames, as winners are: who reads the last of them clears them.
     keys: RecordBuffer,
     winners: RecordBuffer,
 }
@@ -56,19 +61,17 @@ pub struct SegmentInputs<'a> {
 impl Segments {
     /// None yet.
     pub fn new(gpu: &Gpu) -> Self {
+        let kept = |label, usage| {
+            let contents = bytemuck::bytes_of(&NONE_KEPT);
+            gpu.device.create_buffer_init(&BufferInitDescriptor { label: Some(label), contents, usage })
+        };
+        let used = wgpu::BufferUsages::INDIRECT | wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST;
         Self {
             records: RecordTexture::new(gpu, "segments"),
             steps: Vec::new(),
-            sifted: RecordBuffer::new(gpu, "sifted steps"),
-            kept: RecordBuffer::new(gpu, "kept steps"),
-            workgroups: gpu.device.create_buffer(&wgpu::BufferDescriptor {
-                label: Some("workgroups of kept steps"),
-                size: 12,
-                usage: wgpu::BufferUsages::INDIRECT
-                    | wgpu::BufferUsages::STORAGE
-                    | wgpu::BufferUsages::COPY_DST,
-                mapped_at_creation: false,
-            }),
+            kept_steps: RecordBuffer::new(gpu, "kept steps"),
+            kept: kept("workgroups of kept steps", used),
+            none_kept: kept("no kept steps", wgpu::BufferUsages::COPY_SRC),
             points: RecordBuffer::new(gpu, "points of segments"),
             keys: RecordBuffer::new(gpu, "keys of segments"),
             winners: RecordBuffer::new(gpu, "points of pixels"),
@@ -99,8 +102,7 @@ impl Segments {
             texture.write(gpu, pairs)?;
         }
         let most = steps.len().min(MOST_STEPS) as u64;
-        self.sifted.reserve(gpu, most / 8)?;
-        self.kept.reserve(gpu, most * 4)?;
+        self.kept_steps.reserve(gpu, most * 4)?;
         self.points.reserve(gpu, most * POINT_BYTES)?;
         let pixels = u64::from(width) * u64::from(height) * 4;
         self.keys.reserve(gpu, pixels)?;
@@ -122,8 +124,6 @@ impl Segments {
     ) -> Result<Target, RenderError> {
         let marks = rec.target("marks of segments", MARKS)?;
         rec.clear("no segments", &marks);
-        // Where the recorder's gate is shut nobody counts any.
-        rec.encoder.clear_buffer(&self.workgroups, 0, None);
         let has_chunks = self.steps.len() > 1;
         for (steps, count) in &self.steps {
             self.find(rec, inputs, steps, *count)?;
@@ -140,10 +140,10 @@ impl Segments {
                 entry_point,
                 switches: vec![("WITHOUT_REPEATED", seen.is_some()), ("KEEP_KEYS", has_chunks)],
             };
-            rec.compute("compare points", program("cs_compare"), &found, &self.workgroups)?;
+            rec.compute("compare points", program("cs_compare"), &found, &self.kept)?;
             let put = if seen.is_some() { "cs_put_unseen" } else { "cs_put" };
             found.extend(seen.into_iter().flat_map(|s| [Input::Texture(&s.before), Input::Image(&s.now)]));
-            rec.compute("put points", program(put), &found, &self.workgroups)?;
+            rec.compute("put points", program(put), &found, &self.kept)?;
         }
         if has_chunks {
             rec.encoder.clear_buffer(self.keys.buffer(), 0, None);
@@ -164,27 +164,26 @@ impl Segments {
             entry_point,
             switches: inputs.switches.to_vec(),
         };
-        let mut tested = vec![
+        let tested = [
             Input::Texture(&inputs.gbuffer.geometry),
             Input::Texture(&inputs.gbuffer.region),
             Input::Storage(inputs.edge_styles),
             Input::Texture(self.records.target()),
             Input::Texture(steps.target()),
-            Input::Written(self.sifted.buffer()),
         ];
-        rec.compute("sift segments", program("cs_sift"), &tested, [count.div_ceil(GROUP), 1])?;
-        let gathered = [
-            Input::Written(self.sifted.buffer()),
-            Input::Written(self.kept.buffer()),
-            Input::Written(&self.workgroups),
-        ];
-        rec.compute("gather segments", Program::new("passes/gather.wgsl", "cs_main"), &gathered, [1, 1])?;
-        tested.extend([
-            Input::Storage(self.kept.buffer()),
+        // Where the recorder's gate is shut none are kept.
+        rec.encoder.copy_buffer_to_buffer(&self.none_kept, 0, &self.kept, 0, None);
+        let keeping = [Input::Written(&self.kept), Input::Written(self.kept_steps.buffer())];
+        let sifting = [&tested[..], &keeping].concat();
+        rec.compute("sift segments", program("cs_sift"), &sifting, [count.div_ceil(GROUP), 1])?;
+        let found = [
+            Input::Storage(&self.kept),
+            Input::Storage(self.kept_steps.buffer()),
             Input::Written(self.points.buffer()),
             Input::Written(self.keys.buffer()),
-        ]);
-        rec.compute("segments", program("cs_points"), &tested, &self.workgroups)?;
+        ];
+        let looking = [&tested[..], &found].concat();
+        rec.compute("segments", program("cs_points"), &looking, &self.kept)?;
         Ok(())
     }
 }

@@ -1,2 +1,0 @@
-// Steps fill whole workgroups; this stands for none.
-const NO_STEP: u32 = 0xffffffffu;
