@@ -48,19 +48,62 @@ pub enum Binding {
 
 /// How a pass uses its depth buffer (reversed, 0 where nothing is). What covers the picture lies at 1e-30: behind
 /// everything that is drawn, but before nothing.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum DepthRule {
     /// Draws only where something has been drawn.
     Covered,
     /// Notes where it draws.
     Mark,
-    /// Notes where it draws, which is only where something has been drawn; forgets the depth there.
+    /// Draws only where an entry point of the same program, which is run before it, does not discard.
+    Marked(&'static str),
+    /// The same, and only where something has been drawn; forgets the depth there.
+    MarkedCovered(&'static str),
+}
+
+/// What a draw does with a depth buffer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum DepthTest {
+    /// Passes where something has been drawn.
+    Covered,
+    /// Passes everywhere, and notes where.
+    Mark,
+    /// Passes where something has been drawn, and notes where.
     MarkCovered,
-    /// Draws only where [`Self::Mark`] or [`Self::MarkCovered`] did.
+    /// Passes where that was noted.
     Marked,
 }
 
 impl DepthRule {
+    /// What the draw itself does.
+    pub fn test(self) -> DepthTest {
+        match self {
+            Self::Covered => DepthTest::Covered,
+            Self::Mark => DepthTest::Mark,
+            Self::Marked(_) | Self::MarkedCovered(_) => DepthTest::Marked,
+        }
+    }
+
+    /// The entry point that is run before it, and what that does.
+    pub fn marker(self) -> Option<(&'static str, DepthTest)> {
+        match self {
+            Self::Covered | Self::Mark => None,
+            Self::Marked(entry_point) => Some((entry_point, DepthTest::Mark)),
+            Self::MarkedCovered(entry_point) => Some((entry_point, DepthTest::MarkCovered)),
+        }
+    }
+
+    /// What the pass does with what the buffer holds; `None`: it only reads it.
+    pub fn operations(self) -> Option<wgpu::Operations<f32>> {
+        let load = match self {
+            Self::Covered => return None,
+            Self::MarkedCovered(_) => wgpu::LoadOp::Load,
+            Self::Mark | Self::Marked(_) => wgpu::LoadOp::Clear(0.0),
+        };
+        Some(wgpu::Operations { load, store: wgpu::StoreOp::Store })
+    }
+}
+
+impl DepthTest {
     fn state(self, format: wgpu::TextureFormat) -> wgpu::DepthStencilState {
         let (compare, writes) = match self {
             Self::Covered => (wgpu::CompareFunction::Less, false),
@@ -76,16 +119,6 @@ impl DepthRule {
             bias: wgpu::DepthBiasState::default(),
         }
     }
-
-    /// What the pass does with what the buffer holds; `None`: it only reads it.
-    pub fn operations(self) -> Option<wgpu::Operations<f32>> {
-        let load = match self {
-            Self::Covered | Self::Marked => return None,
-            Self::MarkCovered => wgpu::LoadOp::Load,
-            Self::Mark => wgpu::LoadOp::Clear(0.0),
-        };
-        Some(wgpu::Operations { load, store: wgpu::StoreOp::Store })
-    }
 }
 
 /// Everything that a render pipeline depends on.
@@ -99,8 +132,10 @@ pub struct RasterKey {
     pub outputs: Vec<wgpu::TextureFormat>,
     /// How outputs are laid over what is there.
     pub blend: Option<wgpu::BlendState>,
+    /// Whether it has outputs at all; otherwise only the depth buffer knows of it.
+    pub writes: bool,
     /// Its depth buffer.
-    pub depth: Option<(wgpu::TextureFormat, DepthRule)>,
+    pub depth: Option<(wgpu::TextureFormat, DepthTest)>,
 }
 
 /// Everything that a compute pipeline depends on.
@@ -313,12 +348,11 @@ fn build_raster(
     let label = key.program.file;
     let inputs = layout_of(gpu, label, &key.inputs, wgpu::ShaderStages::FRAGMENT);
     let constants = key.program.constants();
+    let write_mask = if key.writes { wgpu::ColorWrites::ALL } else { wgpu::ColorWrites::empty() };
     let targets: Vec<_> = key
         .outputs
         .iter()
-        .map(|&format| {
-            Some(wgpu::ColorTargetState { format, blend: key.blend, write_mask: wgpu::ColorWrites::ALL })
-        })
+        .map(|&format| Some(wgpu::ColorTargetState { format, blend: key.blend, write_mask }))
         .collect();
     let pipeline = gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some(label),
@@ -330,7 +364,7 @@ fn build_raster(
             buffers: &[],
         },
         primitive: wgpu::PrimitiveState::default(),
-        depth_stencil: key.depth.map(|(format, rule)| rule.state(format)),
+        depth_stencil: key.depth.map(|(format, test)| test.state(format)),
         multisample: wgpu::MultisampleState::default(),
         fragment: Some(wgpu::FragmentState {
             module,

@@ -77,7 +77,7 @@ impl Onto {
     }
 }
 
-/// One render pass with one draw.
+/// One render pass with one draw, or two.
 pub struct Draw<'a> {
     /// Name, for timings.
     pub label: &'static str,
@@ -220,7 +220,7 @@ impl<'a> Recorder<'a> {
         self.draw(Draw { label, program, inputs, outputs, onto: Onto::Nothing, depth })
     }
 
-    /// Runs one render pass with one draw.
+    /// Runs one render pass.
     ///
     /// # Errors
     /// [`ShaderError::Missing`].
@@ -230,11 +230,19 @@ impl<'a> Recorder<'a> {
             inputs: draw.inputs.iter().map(Input::binding).collect(),
             outputs: draw.outputs.iter().map(|o| o.format()).collect(),
             blend: draw.onto.blend(),
-            depth: draw.depth.map(|(target, rule)| (target.format(), rule)),
+            writes: true,
+            depth: draw.depth.map(|(target, rule)| (target.format(), rule.test())),
         };
-        let made = self.pipelines.raster(self.gpu, &key)?;
-        let pipeline = made.pipeline.clone();
-        let group = inputs_group(self.gpu, draw.label, &made.inputs, draw.inputs);
+        let marker = draw.depth.and_then(|(target, rule)| {
+            let (entry_point, test) = rule.marker()?;
+            let program = Program { entry_point, ..key.program.clone() };
+            Some(RasterKey { program, blend: None, writes: false, depth: Some((target.format(), test)), ..key.clone() })
+        });
+        let mut draws = Vec::new();
+        for key in marker.iter().chain([&key]) {
+            let made = self.pipelines.raster(self.gpu, key)?;
+            draws.push((made.pipeline.clone(), inputs_group(self.gpu, draw.label, &made.inputs, draw.inputs)));
+        }
         let load = match draw.onto {
             Onto::Nothing => wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
             Onto::Old | Onto::Blended | Onto::Beneath => wgpu::LoadOp::Load,
@@ -247,11 +255,13 @@ impl<'a> Recorder<'a> {
         });
         let gated = self.gated([3, 1, 0, 0, 0]);
         let mut pass = self.pass(draw.label, &color, depth);
-        pass.set_pipeline(&pipeline);
-        pass.set_bind_group(1, &group, &[]);
-        match &gated {
-            Some((buffer, offset)) => pass.draw_indirect(buffer, *offset),
-            None => pass.draw(0..3, 0..1),
+        for (pipeline, group) in &draws {
+            pass.set_pipeline(pipeline);
+            pass.set_bind_group(1, group, &[]);
+            match &gated {
+                Some((buffer, offset)) => pass.draw_indirect(buffer, *offset),
+                None => pass.draw(0..3, 0..1),
+            }
         }
         Ok(())
     }
@@ -263,13 +273,11 @@ impl<'a> Recorder<'a> {
         Some((gate.buffer().clone(), offset))
     }
 
-    /// Clears a target.
-    pub fn clear(&mut self, label: &'static str, target: &Target) {
-        self.pass(
-            label,
-            &[Some(color_attachment(target, wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT)))],
-            None,
-        );
+    /// Clears targets.
+    pub fn clear(&mut self, label: &'static str, targets: &[&Target]) {
+        let cleared = wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT);
+        let color: Vec<_> = targets.iter().map(|target| Some(color_attachment(target, cleared))).collect();
+        self.pass(label, &color, None);
     }
 
     /// Copies a target into another one of the same size and format.

@@ -139,7 +139,7 @@ impl Blended {
         // Layers are drawn by the same pass.
         let mut coordinates_pass = std::mem::take(&mut gbuffer_pass.coordinates);
         let color = rec.target("blended", wgpu::TextureFormat::Rgba16Float)?;
-        rec.clear("blended", &color);
+        rec.clear("blended", &[&color]);
         let (mut seen, mut front) = (None, None);
         let cut = LayerInputs {
             scene: inputs.scene,

@@ -230,7 +230,7 @@ impl Blueprints {
                 repeated: params.repeated,
             };
             let color = rec.target("blueprint", wgpu::TextureFormat::Rgba16Float)?;
-            rec.clear("blueprint", &color);
+            rec.clear("blueprint", &[&color]);
             let (mut seen, mut front, mut kept) = (None, None, Vec::new());
             let cut = LayerInputs {
                 scene: inputs.scene,

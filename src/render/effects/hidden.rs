@@ -179,7 +179,7 @@ impl HiddenLines {
             let view = inputs.view.moved(glam::Vec2::ZERO);
             placed.write(rec.gpu, rec.size(), &segments(inputs.scene, &group, &view, inputs.crease_angle))?;
             let color = rec.target("hidden lines", wgpu::TextureFormat::Rgba16Float)?;
-            rec.clear("hidden lines", &color);
+            rec.clear("hidden lines", &[&color]);
             let mut seen = match visible {
                 Some(edges) => Some(seen_lines(rec, &edges.value)?),
                 None => None,

@@ -8,7 +8,7 @@ use super::edge_style::EdgeUniform;
 use super::gbuffer::GBuffer;
 use super::operators::paper_edges;
 use super::repeated::{Seen, add_ink};
-use super::segments::{SegmentInputs, Segments};
+use super::segments::{MARKS, SegmentInputs, Segments};
 use crate::geometry::EdgeClass;
 use crate::gpu::recorder::{Draw, Input, Onto};
 use crate::gpu::{DepthRule, Program, Recorder, Target};
@@ -105,16 +105,15 @@ fn exact_edges(
         [("WITH_VARIATION", any(EdgeUniform::varies)), ("WITH_PRESSURE", any(|s| s.pressure > 0.0))];
     let with_angles = any(|s| s.by_angle > 0.0);
     let spines = rec.target("spines", SPINES)?;
-    rec.clear("no spines", &spines);
-    if is_whole || styles.iter().any(EdgeUniform::is_paper) {
-        rec.clear("no edges", edge_map);
-    }
+    let marks = rec.target("marks of segments", MARKS)?;
+    let with_edges = (is_whole || styles.iter().any(EdgeUniform::is_paper)).then_some(edge_map);
+    rec.clear("no lines", &[&spines, &marks].into_iter().chain(with_edges).collect::<Vec<_>>());
     let switches: Vec<_> = [("WITH_HOLES", has_holes), ("IN_LAYER", is_layer), ("WITH_ANGLES", with_angles)]
         .into_iter()
         .chain(variation)
         .collect();
     let tested = SegmentInputs { gbuffer, edge_styles, switches: &switches };
-    let marks = segments.put(rec, &tested, edge_map, &spines, seen)?;
+    segments.put(rec, &tested, [edge_map, &spines, &marks], seen)?;
     let outputs: Vec<_> = [edge_map, &spines].into_iter().chain(seen.map(|seen| &seen.now)).collect();
     let unseen = ("WITHOUT_REPEATED", seen.is_some());
     // Unread without.
@@ -134,11 +133,6 @@ fn exact_edges(
         .into_iter()
         .chain(variation)
         .collect::<Vec<_>>();
-    let program = |entry_point| Program {
-        file: "passes/discontinuities.wgsl",
-        entry_point,
-        switches: switches.clone(),
-    };
     let [texture, relief, shadow] = [EdgeClass::Texture, EdgeClass::Relief, EdgeClass::Shadow]
         .map(|class| styles.iter().any(|s| s.is_exact() && s.draws(class)));
     let shadow = shadow && shadow_mask.is_some();
@@ -168,20 +162,12 @@ fn exact_edges(
     let borders = rec.target("surface borders", DEPTH)?;
     rec.copy(&gbuffer.depth, &borders);
     rec.draw(Draw {
-        label: "surface borders",
-        program: program("fs_borders"),
-        inputs: &inputs,
-        outputs: &[],
-        onto: Onto::Nothing,
-        depth: Some((&borders, DepthRule::MarkCovered)),
-    })?;
-    rec.draw(Draw {
         label: "discontinuities",
-        program: program("fs_main"),
+        program: Program { file: "passes/discontinuities.wgsl", entry_point: "fs_main", switches },
         inputs: &inputs,
         outputs: &outputs,
         onto: Onto::Old,
-        depth: Some((&borders, DepthRule::Marked)),
+        depth: Some((&borders, DepthRule::MarkedCovered("fs_borders"))),
     })?;
     Ok(spines)
 }

@@ -84,14 +84,6 @@ pub fn lines(
         Input::Storage(edge_styles),
     ];
     let reached = rec.target("reached by lines", wgpu::TextureFormat::Depth32Float)?;
-    rec.draw(Draw {
-        label: "reached by lines",
-        program: Program { file: "passes/lines.wgsl", entry_point: "fs_reached", switches: switches.clone() },
-        inputs: &inputs,
-        outputs: &[],
-        onto: Onto::Nothing,
-        depth: Some((&reached, DepthRule::Mark)),
-    })?;
     inputs.extend(pen.inputs);
     switches.extend(pen.switches);
     rec.draw(Draw {
@@ -100,7 +92,7 @@ pub fn lines(
         inputs: &inputs,
         outputs: &[color],
         onto: pen.onto,
-        depth: Some((&reached, DepthRule::Marked)),
+        depth: Some((&reached, DepthRule::Marked("fs_reached"))),
     })?;
     Ok(())
 }

@@ -32,7 +32,7 @@ impl Seen {
 
 fn none(rec: &mut Recorder<'_>) -> Result<Target, RenderError> {
     let seen = rec.target("seen lines", SPINES)?;
-    rec.clear("no line seen", &seen);
+    rec.clear("no line seen", &[&seen]);
     Ok(seen)
 }
 

@@ -25,7 +25,8 @@ const GROUP: u32 = 256;
 /// No workgroups, and no steps.
 const NONE_KEPT: [u32; 4] = [0, 1, 1, 0];
 
-const MARKS: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;
+/// What segments have in each pixel, see `shaders/common/segment_point.wgsl`.
+pub(super) const MARKS: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;
 
 /// Fills the last workgroup, as in `passes/segments.wgsl`.
 const NO_STEP: [u32; 2] = [u32::MAX; 2];
@@ -109,8 +110,7 @@ impl Segments {
         self.winners.reserve(gpu, pixels)
     }
 
-    /// Puts them into an edge map and its spines, over what is there, without those that have been `seen`. Returns what
-    /// they have in each pixel, see `shaders/common/segment_point.wgsl`.
+    /// Puts them into an edge map, its spines and [`MARKS`], over what is there, without those that have been `seen`.
     ///
     /// # Errors
     /// [`RenderError`].
@@ -118,12 +118,9 @@ impl Segments {
         &self,
         rec: &mut Recorder<'_>,
         inputs: &SegmentInputs<'_>,
-        edge_map: &Target,
-        spines: &Target,
+        [edge_map, spines, marks]: [&Target; 3],
         seen: Option<&Seen>,
-    ) -> Result<Target, RenderError> {
-        let marks = rec.target("marks of segments", MARKS)?;
-        rec.clear("no segments", &marks);
+    ) -> Result<(), RenderError> {
         let has_chunks = self.steps.len() > 1;
         for (steps, count) in &self.steps {
             self.find(rec, inputs, steps, *count)?;
@@ -133,7 +130,7 @@ impl Segments {
                 Input::Written(self.winners.buffer()),
                 Input::Image(edge_map),
                 Input::Image(spines),
-                Input::Image(&marks),
+                Input::Image(marks),
             ];
             let program = |entry_point| Program {
                 file: "passes/segment_points.wgsl",
@@ -148,7 +145,7 @@ impl Segments {
         if has_chunks {
             rec.encoder.clear_buffer(self.keys.buffer(), 0, None);
         }
-        Ok(marks)
+        Ok(())
     }
 
     /// Finds the points of these steps.
