@@ -1,4 +1,8 @@
 // Records in a texture; twin: src/gpu/record_texture.rs.
+fn texel_of_record(index: u32) -> vec2<u32> {
+    return vec2(index % 2048u, index / 2048u);
+}
+
 fn texel_at(records: texture_2d<u32>, index: u32) -> vec4<u32> {
-    return textureLoad(records, vec2(index % 2048u, index / 2048u), 0);
+    return textureLoad(records, texel_of_record(index), 0);
 }

@@ -20,9 +20,14 @@ override IN_LAYER: bool = false;
 @group(1) @binding(3) var segment_tex: texture_2d<u32>;
 // Number of a segment, and how many steps from its beginning, two in a texel; at the end `NO_STEP`.
 @group(1) @binding(4) var step_tex: texture_2d<u32>;
+// Where layers are asked about each step, once for all of them: its pixel (column in the lower 16 bits, row in the upper
+// ones; `NO_STEP`: nowhere), five pixels around it, of which each lies three bits (plus 4) farther in x and in y, and the
+// regions of its two sides.
+@group(1) @binding(5) var placed_tex: texture_storage_2d<rgba32uint, write>;
 // While steps are sifted: those that are kept, in any order.
 @group(1) @binding(5) var<storage, read_write> keeping: Keeping;
 @group(1) @binding(6) var<storage, read_write> keeping_steps: array<u32>;
+@group(1) @binding(7) var place_tex: texture_2d<u32>;
 // Afterwards the same.
 @group(1) @binding(5) var<storage, read> kept: Kept;
 @group(1) @binding(6) var<storage, read> kept_steps: array<u32>;
@@ -120,6 +125,13 @@ fn texel_of(at: vec2<f32>) -> vec2<i32> {
     return clamp(vec2<i32>(floor(at)), vec2(0), vec2<i32>(frame.size) - 1);
 }
 
+// How far along the normal of a spine pixels are asked for the surfaces that carry it, px.
+const PLACES: array<f32, 5> = array(-2.0 * BESIDE, -BESIDE, 0.0, BESIDE, 2.0 * BESIDE);
+
+fn texel_beside(spine: Spine, along: f32) -> vec2<i32> {
+    return texel_of(spine.at + along * spine.normal);
+}
+
 // What a pixel near the spine shows.
 struct Beside {
     surfel: Surfel,
@@ -132,7 +144,7 @@ struct Beside {
 
 // So far along the normal of the spine, px.
 fn beside(spine: Spine, along: f32, regions: vec2<u32>) -> Beside {
-    let px = texel_of(spine.at + along * spine.normal);
+    let px = texel_beside(spine, along);
     let s = unpack_surfel(textureLoad(geometry_tex, px, 0));
     let plane = plane_of(px, s.depth, s.face_normal);
     let lead = nearness_at(plane, spine.at - vec2<f32>(px) - 0.5) - spine.nearness;
@@ -170,30 +182,13 @@ fn spine_at(v: Segment, px: vec2<f32>) -> Spine {
     return Spine(at, t, tangent, vec2(tangent.y, -tangent.x), inverse_length, nearness, depth_of(nearness));
 }
 
-// Whether a pixel of a segment is worth a closer look: in a layer, if one of its surfaces is seen nearby, as few are;
-// otherwise, if no surface lies before it.
-fn is_worth_it(v: Segment, px: vec2<f32>) -> bool {
-    let spine = spine_at(v, px);
-    if IN_LAYER {
-        var is_seen = false;
-        for (var place = -2; place <= 2; place++) {
-            let q = texel_of(spine.at + f32(place) * BESIDE * spine.normal);
-            is_seen = is_seen || any(v.ids.zw == vec2(textureLoad(region_tex, q, 0).x));
-        }
-        return is_seen;
-    }
-    let left = beside(spine, BESIDE, v.ids.zw);
-    let right = beside(spine, -BESIDE, v.ids.zw);
-    return min(left.lead, right.lead) <= SLACK;
-}
-
 // What is found at a pixel of a segment.
 fn point_at(v: Segment, number: u32, px: vec2<f32>) -> SegmentPoint {
     let spine = spine_at(v, px);
     let depth = spine.depth;
     let regions = v.ids.zw;
-    let left = beside(spine, BESIDE, regions);
-    let right = beside(spine, -BESIDE, regions);
+    let left = beside(spine, PLACES[3], regions);
+    let right = beside(spine, PLACES[1], regions);
     let own = v.ids.y;
     var is_visible = min(left.lead, right.lead) <= SLACK;
     if WITH_HOLES {
@@ -201,9 +196,9 @@ fn point_at(v: Segment, number: u32, px: vec2<f32>) -> SegmentPoint {
     }
     if IN_LAYER {
         let is_carried = left.carries || right.carries
-            || beside(spine, 0.0, regions).carries
-            || beside(spine, 2.0 * BESIDE, regions).carries
-            || beside(spine, -2.0 * BESIDE, regions).carries;
+            || beside(spine, PLACES[2], regions).carries
+            || beside(spine, PLACES[4], regions).carries
+            || beside(spine, PLACES[0], regions).carries;
         is_visible = is_visible && is_carried;
     }
     if !is_visible {
@@ -264,16 +259,55 @@ fn point_at(v: Segment, number: u32, px: vec2<f32>) -> SegmentPoint {
 }
 
 @compute @workgroup_size(GROUP)
+fn cs_place(@builtin(global_invocation_id) id: vec3<u32>) {
+    let step = step_at(id.x);
+    let segment = segment_at(step.x);
+    let place = place_of(segment.ends, step.y);
+    let spine = spine_at(segment, place.px);
+    var around = 0u;
+    for (var i = 0u; i < 5u; i++) {
+        let away = vec2<u32>(texel_beside(spine, PLACES[i]) - vec2<i32>(place.px) + 4);
+        around |= ((away.x & 7u) | ((away.y & 7u) << 3u)) << (6u * i);
+    }
+    let is_on = step.x != NO_STEP && place.is_on;
+    let px = select(NO_STEP, u32(place.px.x) | (u32(place.px.y) << 16u), is_on);
+    textureStore(placed_tex, texel_of_record(id.x), vec4(px, around, segment.ids.zw));
+}
+
+fn keep(number: u32) {
+    let index = atomicAdd(&keeping.count, 1u);
+    keeping_steps[index] = number;
+    if index % GROUP == 0u {
+        atomicAdd(&keeping.groups[0], 1u);
+    }
+}
+
+// In a layer a step is worth a closer look if one of its surfaces is seen nearby, as few are.
+@compute @workgroup_size(GROUP)
+fn cs_sift_layer(@builtin(global_invocation_id) id: vec3<u32>) {
+    let place = texel_at(place_tex, id.x);
+    let px = vec2<i32>(vec2(place.x & 0xffffu, place.x >> 16u));
+    var is_seen = false;
+    for (var i = 0u; i < 5u; i++) {
+        let away = vec2<i32>(vec2(place.y >> (6u * i), place.y >> (6u * i + 3u)) & vec2(7u)) - 4;
+        is_seen = is_seen || any(place.zw == vec2(textureLoad(region_tex, px + away, 0).x));
+    }
+    if place.x != NO_STEP && is_seen {
+        keep(id.x);
+    }
+}
+
+// Otherwise, if no surface lies before it.
+@compute @workgroup_size(GROUP)
 fn cs_sift(@builtin(global_invocation_id) id: vec3<u32>) {
     let step = step_at(id.x);
     let segment = segment_at(step.x);
     let place = place_of(segment.ends, step.y);
-    if step.x != NO_STEP && place.is_on && is_worth_it(segment, place.px) {
-        let index = atomicAdd(&keeping.count, 1u);
-        keeping_steps[index] = id.x;
-        if index % GROUP == 0u {
-            atomicAdd(&keeping.groups[0], 1u);
-        }
+    let spine = spine_at(segment, place.px);
+    let left = beside(spine, BESIDE, segment.ids.zw);
+    let right = beside(spine, -BESIDE, segment.ids.zw);
+    if step.x != NO_STEP && place.is_on && min(left.lead, right.lead) <= SLACK {
+        keep(id.x);
     }
 }
 

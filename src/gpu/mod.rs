@@ -22,7 +22,7 @@ pub use geometry::GeometryBuffers;
 pub use material::MaterialBindings;
 pub use pipelines::{DepthRule, Pipelines, Program};
 pub use pool::{Target, TargetPool};
-pub use record_texture::RecordTexture;
+pub use record_texture::{RecordTexture, size_of_texels};
 pub use recorder::Recorder;
 pub use reports::Reports;
 pub use shader::{ShaderError, Shaders};

@@ -26,8 +26,7 @@ impl RecordTexture {
     /// [`GpuError::TooLarge`].
     pub fn write<T: bytemuck::NoUninit>(&mut self, gpu: &Gpu, records: &[T]) -> Result<(), GpuError> {
         let texels = size_of::<T>().div_ceil(4 * TEXEL_WORDS);
-        let rows = (records.len() * texels).div_ceil(COLUMNS as usize).max(1);
-        let rows = u32::try_from(rows).unwrap_or(u32::MAX);
+        let [_, rows] = size_of_texels(records.len() * texels);
         gpu.check_texture_size(self.label, [COLUMNS, rows])?;
         if self.target.size()[1] < rows {
             let roomy = rows.next_power_of_two().min(gpu.device.limits().max_texture_dimension_2d);
@@ -55,6 +54,12 @@ impl RecordTexture {
     pub fn target(&self) -> &Target {
         &self.target
     }
+}
+
+/// Width and height of a texture of so many texels.
+pub fn size_of_texels(texels: usize) -> [u32; 2] {
+    let rows = texels.div_ceil(COLUMNS as usize).max(1);
+    [COLUMNS, u32::try_from(rows).unwrap_or(u32::MAX)]
 }
 
 fn create(gpu: &Gpu, label: &str, rows: u32) -> Target {

@@ -236,12 +236,19 @@ impl<'a> Recorder<'a> {
         let marker = draw.depth.and_then(|(target, rule)| {
             let (entry_point, test) = rule.marker()?;
             let program = Program { entry_point, ..key.program.clone() };
-            Some(RasterKey { program, blend: None, writes: false, depth: Some((target.format(), test)), ..key.clone() })
+            Some(RasterKey {
+                program,
+                blend: None,
+                writes: false,
+                depth: Some((target.format(), test)),
+                ..key.clone()
+            })
         });
         let mut draws = Vec::new();
         for key in marker.iter().chain([&key]) {
             let made = self.pipelines.raster(self.gpu, key)?;
-            draws.push((made.pipeline.clone(), inputs_group(self.gpu, draw.label, &made.inputs, draw.inputs)));
+            draws
+                .push((made.pipeline.clone(), inputs_group(self.gpu, draw.label, &made.inputs, draw.inputs)));
         }
         let load = match draw.onto {
             Onto::Nothing => wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),

@@ -304,7 +304,7 @@ impl Drawing {
         let revisions = [begun.gbuffer.revision, shadow_mask.map_or(0, |mask| mask.revision)];
         let edges = (revisions, styles, begun.depth_range, light);
         self.edge_map.run(edges, |(_, styles, ..)| {
-            self.placed_segments.write(rec.gpu, rec.size(), &segments.value)?;
+            self.placed_segments.write(rec, &segments.value, false)?;
             edge_map(
                 rec,
                 &EdgeInputs {
@@ -316,7 +316,6 @@ impl Drawing {
                     segments: &self.placed_segments,
                     has_holes: inputs.objects.surfaces.has_holes,
                     is_cut: view.cut.is_some(),
-                    is_layer: false,
                     before: None,
                     shadow_mask: shadow_mask.map(|mask| &mask.value),
                 },

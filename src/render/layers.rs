@@ -291,7 +291,6 @@ impl LayerLines {
                 segments: inputs.segments,
                 has_holes: inputs.has_holes,
                 is_cut: inputs.is_cut,
-                is_layer: true,
                 before: inputs.before,
                 shadow_mask: None,
                 seen: own.as_ref(),

@@ -99,7 +99,7 @@ impl OneLayer {
             })?;
             let Some(layer) = found else { return Err(GpuError::Lost("no layer".to_owned()).into()) };
             lines.begin(rec.gpu, &group.edge_styles);
-            placed.write(rec.gpu, rec.size(), &segments(scene, &group, view, crease_angle))?;
+            placed.write(rec, &segments(scene, &group, view, crease_angle), true)?;
             let edges = LayerLinesInputs {
                 styles: &group.edge_styles,
                 is_whole: true,

@@ -119,7 +119,7 @@ impl Blended {
         let Self { layers, lines: layer_lines, segments: placed, draws: draw_buffer } = self;
         layer_lines.begin(rec.gpu, &group.edge_styles);
         let view = inputs.view.moved(glam::Vec2::ZERO);
-        placed.write(rec.gpu, rec.size(), &segments(inputs.scene, group, &view, inputs.crease_angle))?;
+        placed.write(rec, &segments(inputs.scene, group, &view, inputs.crease_angle), true)?;
         let cover = match opaque.lines {
             Some(opaque_lines) => Some(cover(rec, opaque_lines)?),
             None => None,

@@ -219,7 +219,7 @@ impl Blueprints {
             }
             layer_lines.begin(rec.gpu, &group.edge_styles);
             let view = inputs.view.moved(glam::Vec2::ZERO);
-            placed.write(rec.gpu, rec.size(), &segments(inputs.scene, group, &view, inputs.crease_angle))?;
+            placed.write(rec, &segments(inputs.scene, group, &view, inputs.crease_angle), true)?;
             let edges = LayerLinesInputs {
                 styles: &group.edge_styles,
                 is_whole: false,

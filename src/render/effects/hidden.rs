@@ -177,7 +177,7 @@ impl HiddenLines {
                 lines.begin(rec.gpu, &band.styles);
             }
             let view = inputs.view.moved(glam::Vec2::ZERO);
-            placed.write(rec.gpu, rec.size(), &segments(inputs.scene, &group, &view, inputs.crease_angle))?;
+            placed.write(rec, &segments(inputs.scene, &group, &view, inputs.crease_angle), true)?;
             let color = rec.target("hidden lines", wgpu::TextureFormat::Rgba16Float)?;
             rec.clear("hidden lines", &[&color]);
             let mut seen = match visible {

@@ -47,8 +47,6 @@ pub struct EdgeInputs<'a> {
     pub has_holes: bool,
     /// Whether what lies behind a mirror's plane is left out.
     pub is_cut: bool,
-    /// Whether the G-buffer is a depth layer, which may lie behind a segment that belongs to a nearer one.
-    pub is_layer: bool,
     /// Of a depth layer the regions of the last one before it and of that before that: what goes on there has no outline
     /// where it leaves the layer. `None`: it has.
     pub before: Option<[&'a Target; 2]>,
@@ -95,7 +93,6 @@ fn exact_edges(
         segments,
         has_holes,
         is_cut,
-        is_layer,
         before,
         shadow_mask,
         seen,
@@ -108,10 +105,8 @@ fn exact_edges(
     let marks = rec.target("marks of segments", MARKS)?;
     let with_edges = (is_whole || styles.iter().any(EdgeUniform::is_paper)).then_some(edge_map);
     rec.clear("no lines", &[&spines, &marks].into_iter().chain(with_edges).collect::<Vec<_>>());
-    let switches: Vec<_> = [("WITH_HOLES", has_holes), ("IN_LAYER", is_layer), ("WITH_ANGLES", with_angles)]
-        .into_iter()
-        .chain(variation)
-        .collect();
+    let switches: Vec<_> =
+        [("WITH_HOLES", has_holes), ("WITH_ANGLES", with_angles)].into_iter().chain(variation).collect();
     let tested = SegmentInputs { gbuffer, edge_styles, switches: &switches };
     segments.put(rec, &tested, [edge_map, &spines, &marks], seen)?;
     let outputs: Vec<_> = [edge_map, &spines].into_iter().chain(seen.map(|seen| &seen.now)).collect();

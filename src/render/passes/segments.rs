@@ -2,8 +2,8 @@
 //! left is put into the edge map.
 //!
 //! ```text
-//! steps ─► sift ─► points ─► compare ─► put ─► edge map, spines
-//!                    └─► keys: which of the points of a pixel counts
+//! steps (─► places, for layers) ─► sift ─► points ─► compare ─► put ─► edge map, spines
+//!                                            └─► keys: which of the points of a pixel counts
 //! ```
 
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
@@ -12,7 +12,7 @@ use super::gbuffer::GBuffer;
 use super::repeated::Seen;
 use crate::geometry::LineSegment;
 use crate::gpu::recorder::Input;
-use crate::gpu::{Gpu, GpuError, Program, RecordBuffer, RecordTexture, Recorder, Target};
+use crate::gpu::{Gpu, Program, RecordBuffer, RecordTexture, Recorder, Target, size_of_texels};
 use crate::render::RenderError;
 
 /// Pixels of segments that are tested in one go; each takes 36 bytes while it is.
@@ -21,6 +21,8 @@ const MOST_STEPS: usize = 1 << 20;
 const POINT_BYTES: u64 = 32;
 /// Steps per workgroup, as in `passes/segments.wgsl`.
 const GROUP: u32 = 256;
+
+const PLACES: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Uint;
 
 /// No workgroups, and no steps.
 const NONE_KEPT: [u32; 4] = [0, 1, 1, 0];
@@ -34,8 +36,8 @@ const NO_STEP: [u32; 2] = [u32::MAX; 2];
 /// Segments on the device, ready to be put into the edge maps of several G-buffers.
 pub struct Segments {
     records: RecordTexture,
-    /// Pixels of segments and how many there are, at most [`MOST_STEPS`] each.
-    steps: Vec<(RecordTexture, u32)>,
+    steps: Vec<Steps>,
+    for_layers: bool,
     /// The steps that are looked at closely.
     kept_steps: RecordBuffer,
     /// Workgroups that look at them, and how many they are: `Kept` in `passes/segments.wgsl`.
@@ -46,6 +48,21 @@ pub struct Segments {
     /// 0 between frames, as winners are: who reads the last of them clears them.
     keys: RecordBuffer,
     winners: RecordBuffer,
+}
+
+/// Pixels of segments.
+struct Steps {
+    steps: RecordTexture,
+    /// At most [`MOST_STEPS`].
+    count: u32,
+    /// For layers: `place_tex` in `passes/segments.wgsl`.
+    places: Option<Target>,
+}
+
+impl Steps {
+    fn new(gpu: &Gpu) -> Self {
+        Self { steps: RecordTexture::new(gpu, "steps of segments"), count: 0, places: None }
+    }
 }
 
 /// What they are tested against.
@@ -70,6 +87,7 @@ impl Segments {
         Self {
             records: RecordTexture::new(gpu, "segments"),
             steps: Vec::new(),
+            for_layers: false,
             kept_steps: RecordBuffer::new(gpu, "kept steps"),
             kept: kept("workgroups of kept steps", used),
             none_kept: kept("no kept steps", wgpu::BufferUsages::COPY_SRC),
@@ -79,16 +97,19 @@ impl Segments {
         }
     }
 
-    /// Uploads those of a view of a picture of `width` by `height` pixels, in place of the last ones.
+    /// Uploads those of a view, in place of the last ones; `for_layers`: they are put into the edge maps of depth layers,
+    /// which may lie behind a segment that belongs to a nearer one.
     ///
     /// # Errors
-    /// [`GpuError::TooLarge`].
+    /// [`RenderError`].
     pub fn write(
         &mut self,
-        gpu: &Gpu,
-        [width, height]: [u32; 2],
+        rec: &mut Recorder<'_>,
         segments: &[LineSegment],
-    ) -> Result<(), GpuError> {
+        for_layers: bool,
+    ) -> Result<(), RenderError> {
+        let gpu = rec.gpu;
+        self.for_layers = for_layers;
         self.records.write(gpu, segments)?;
         let mut steps: Vec<[u32; 2]> = (0..)
             .zip(segments)
@@ -96,18 +117,40 @@ impl Segments {
             .collect();
         steps.resize(steps.len().next_multiple_of(GROUP as usize), NO_STEP);
         let chunks = steps.len().div_ceil(MOST_STEPS);
-        self.steps.resize_with(chunks, || (RecordTexture::new(gpu, "steps of segments"), 0));
-        for ((texture, count), chunk) in self.steps.iter_mut().zip(steps.chunks(MOST_STEPS)) {
-            *count = chunk.len() as u32;
+        self.steps.resize_with(chunks, || Steps::new(gpu));
+        for (part, chunk) in self.steps.iter_mut().zip(steps.chunks(MOST_STEPS)) {
+            part.count = chunk.len() as u32;
             let (pairs, _) = chunk.as_chunks::<2>();
-            texture.write(gpu, pairs)?;
+            part.steps.write(gpu, pairs)?;
         }
         let most = steps.len().min(MOST_STEPS) as u64;
         self.kept_steps.reserve(gpu, most * 4)?;
         self.points.reserve(gpu, most * POINT_BYTES)?;
-        let pixels = u64::from(width) * u64::from(height) * 4;
-        self.keys.reserve(gpu, pixels)?;
-        self.winners.reserve(gpu, pixels)
+        let [width, height] = rec.size().map(u64::from);
+        self.keys.reserve(gpu, width * height * 4)?;
+        self.winners.reserve(gpu, width * height * 4)?;
+        for part in 0..self.steps.len() {
+            self.steps[part].places =
+                if for_layers { Some(self.place(rec, &self.steps[part])?) } else { None };
+        }
+        Ok(())
+    }
+
+    /// Finds for each of these steps, once for all layers, what they are asked.
+    fn place(&self, rec: &mut Recorder<'_>, part: &Steps) -> Result<Target, RenderError> {
+        let size = size_of_texels(part.count as usize).map(u32::next_power_of_two);
+        let places = rec.target_of("places of steps", PLACES, size)?;
+        let unread = Input::Texture(self.records.target());
+        let inputs = [
+            unread,
+            unread,
+            Input::Storage(&self.kept),
+            Input::Texture(self.records.target()),
+            Input::Texture(part.steps.target()),
+            Input::Image(&places),
+        ];
+        rec.compute("place segments", program("cs_place", &[]), &inputs, [part.count.div_ceil(GROUP), 1])?;
+        Ok(places)
     }
 
     /// Puts them into an edge map, its spines and [`MARKS`], over what is there, without those that have been `seen`.
@@ -122,8 +165,8 @@ impl Segments {
         seen: Option<&Seen>,
     ) -> Result<(), RenderError> {
         let has_chunks = self.steps.len() > 1;
-        for (steps, count) in &self.steps {
-            self.find(rec, inputs, steps, *count)?;
+        for part in &self.steps {
+            self.find(rec, inputs, part)?;
             let mut found = vec![
                 Input::Storage(self.points.buffer()),
                 Input::Written(self.keys.buffer()),
@@ -153,26 +196,24 @@ impl Segments {
         &self,
         rec: &mut Recorder<'_>,
         inputs: &SegmentInputs<'_>,
-        steps: &RecordTexture,
-        count: u32,
+        part: &Steps,
     ) -> Result<(), RenderError> {
-        let program = |entry_point| Program {
-            file: "passes/segments.wgsl",
-            entry_point,
-            switches: inputs.switches.to_vec(),
-        };
+        let switches: Vec<_> =
+            inputs.switches.iter().copied().chain([("IN_LAYER", self.for_layers)]).collect();
         let tested = [
             Input::Texture(&inputs.gbuffer.geometry),
             Input::Texture(&inputs.gbuffer.region),
             Input::Storage(inputs.edge_styles),
             Input::Texture(self.records.target()),
-            Input::Texture(steps.target()),
+            Input::Texture(part.steps.target()),
         ];
         // Where the recorder's gate is shut none are kept.
         rec.encoder.copy_buffer_to_buffer(&self.none_kept, 0, &self.kept, 0, None);
         let keeping = [Input::Written(&self.kept), Input::Written(self.kept_steps.buffer())];
-        let sifting = [&tested[..], &keeping].concat();
-        rec.compute("sift segments", program("cs_sift"), &sifting, [count.div_ceil(GROUP), 1])?;
+        let mut sifting = [&tested[..], &keeping].concat();
+        sifting.extend(part.places.as_ref().map(Input::Texture));
+        let sift = if part.places.is_some() { "cs_sift_layer" } else { "cs_sift" };
+        rec.compute("sift segments", program(sift, &switches), &sifting, [part.count.div_ceil(GROUP), 1])?;
         let found = [
             Input::Storage(&self.kept),
             Input::Storage(self.kept_steps.buffer()),
@@ -180,9 +221,13 @@ impl Segments {
             Input::Written(self.keys.buffer()),
         ];
         let looking = [&tested[..], &found].concat();
-        rec.compute("segments", program("cs_points"), &looking, &self.kept)?;
+        rec.compute("segments", program("cs_points", &switches), &looking, &self.kept)?;
         Ok(())
     }
+}
+
+fn program(entry_point: &'static str, switches: &[(&'static str, bool)]) -> Program {
+    Program { file: "passes/segments.wgsl", entry_point, switches: switches.to_vec() }
 }
 
 /// At most so many pixels has a segment that is half a pixel longer on both sides; see `place_of` in
