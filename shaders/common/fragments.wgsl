@@ -1,6 +1,7 @@
 // Fragment lists: all that the objects of a group cover, as linked lists, one per pixel. A fragment's number is its index
 // plus 1; 0 is none. Twin: `FragmentLists` in src/render/passes/fragment_lists.rs.
 #import common/frame.wgsl
+#import common/records.wgsl
 
 // How fragments lie behind each other: what the order of their layers depends on.
 struct Link {
@@ -8,16 +9,35 @@ struct Link {
     next: u32,
     // Bits of the reversed depth: what is nearer is greater, as a number too.
     depth: u32,
-    // Of which draw and surface it is: this tells its object and its region too.
+    // Of which draw and surface it is.
     order: u32,
+    // The shading normal, as in common/gbuffer.wgsl, which sorting has room for.
+    normal: u32,
 }
 
 // What else a fragment is, as in common/gbuffer.wgsl.
 struct Payload {
-    normal: u32,
     face: u32,
     // Bits of the linear depth.
     depth: u32,
+    object: u32,
+    region: u32,
+}
+
+fn texel_of_link(link: Link) -> vec4<u32> {
+    return vec4(link.next, link.depth, link.order, link.normal);
+}
+
+fn texel_of_payload(payload: Payload) -> vec4<u32> {
+    return vec4(payload.face, payload.depth, payload.object, payload.region);
+}
+
+fn link_of(texel: vec4<u32>) -> Link {
+    return Link(texel.x, texel.y, texel.z, texel.w);
+}
+
+fn payload_of(texel: vec4<u32>) -> Payload {
+    return Payload(texel.x, texel.y, texel.z, texel.w);
 }
 
 // Index of a pixel among the lists.

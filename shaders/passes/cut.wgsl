@@ -3,23 +3,27 @@
 #import common/fragments.wgsl
 #import common/fullscreen.wgsl
 #import common/layer_color.wgsl
-#import common/region.wgsl
 
 // The fragment of each pixel that was drawn last.
 @group(1) @binding(0) var<storage, read> heads: array<u32>;
-@group(1) @binding(1) var<storage, read> links: array<Link>;
-@group(1) @binding(2) var<storage, read> payloads: array<Payload>;
+@group(1) @binding(1) var link_tex: texture_2d<u32>;
+@group(1) @binding(2) var payload_tex: texture_2d<u32>;
 @group(1) @binding(3) var<storage, read> colors: array<u32>;
-// By orders without the bits that tell the surfaces of a draw apart: object id with the enhanced flag, and the order of the
-// first surface. The first one holds how many bits that are.
-@group(1) @binding(4) var<storage, read> draws: array<vec2<u32>>;
 // The numbers of the fragments of a layer, plus 1; 0: none. Sorting: that which was sorted last; cutting: that which is cut.
-@group(1) @binding(5) var number_tex: texture_2d<u32>;
+@group(1) @binding(4) var number_tex: texture_2d<u32>;
 
 // Whether so many are sorted.
 override THREE_OR_MORE: bool = true;
 override FIVE_OR_MORE: bool = true;
 override SEVEN_OR_MORE: bool = true;
+
+// Whether anybody asks for shading normals and orders.
+override WITH_NORMALS: bool = true;
+override WITH_ORDER: bool = true;
+
+fn link_at(number: u32) -> Link {
+    return link_of(texel_at(link_tex, number - 1u));
+}
 
 fn number_at(position: vec4<f32>) -> u32 {
     return textureLoad(number_tex, vec2<i32>(position.xy), 0).x;
@@ -93,7 +97,7 @@ fn sorted(position: vec4<f32>, last: Sorted) -> Numbers {
     var h = NONE;
     var number = heads[list_of(vec2<u32>(position.xy))];
     while number != 0u {
-        let link = links[number - 1u];
+        let link = link_at(number);
         var own = Sorted(link.depth, link.order, number);
         if !is_before(last, own) || own.depth == 0u {
             own = NONE;
@@ -126,7 +130,7 @@ fn fs_sort(@builtin(position) position: vec4<f32>) -> Numbers {
 @fragment
 fn fs_sort_behind(@builtin(position) position: vec4<f32>) -> Numbers {
     let number = number_at(position);
-    let link = links[max(number, 1u) - 1u];
+    let link = link_at(max(number, 1u));
     // Behind none there are none.
     return sorted(position, Sorted(select(link.depth, 0u, number == 0u), link.order, number));
 }
@@ -137,7 +141,7 @@ fn fs_depth(@builtin(position) position: vec4<f32>) -> Depth {
     if number == 0u {
         discard;
     }
-    return Depth(bitcast<f32>(links[number - 1u].depth));
+    return Depth(bitcast<f32>(link_at(number).depth));
 }
 
 struct Layer {
@@ -153,15 +157,18 @@ fn fs_layer(@builtin(position) position: vec4<f32>) -> Layer {
     if number == 0u {
         return Layer(vec4(0u), 0u, vec4(0.0), 0u);
     }
-    let order = links[number - 1u].order;
-    let payload = payloads[number - 1u];
-    let drawn = draws[order >> draws[0].x];
+    let payload = payload_of(texel_at(payload_tex, number - 1u));
+    var normal = payload.face;
+    var order = 0u;
+    if WITH_NORMALS || WITH_ORDER {
+        let link = link_at(number);
+        normal = select(payload.face, link.normal, WITH_NORMALS);
+        order = link.order;
+    }
     var color = 0u;
     if WITH_COLOR {
         color = colors[number - 1u];
     }
-    return Layer(
-        vec4(payload.normal, payload.face, payload.depth, drawn.x), region_of(drawn.x, order - drawn.y),
-        unpack_color(color), order,
-    );
+    let geometry = vec4(normal, payload.face, payload.depth, payload.object);
+    return Layer(geometry, payload.region, unpack_color(color), order);
 }

@@ -7,16 +7,20 @@
 @group(3) @binding(0) var<storage, read_write> counted: Counted;
 // The last fragment so far of each pixel.
 @group(3) @binding(1) var<storage, read_write> heads: array<atomic<u32>>;
-@group(3) @binding(2) var<storage, read_write> links: array<Link>;
-@group(3) @binding(3) var<storage, read_write> payloads: array<Payload>;
+// Fragments in textures: software devices read and write their records faster than those of buffers.
+@group(3) @binding(2) var link_tex: texture_storage_2d<rgba32uint, write>;
+@group(3) @binding(3) var payload_tex: texture_storage_2d<rgba32uint, write>;
 @group(3) @binding(4) var<storage, read_write> colors: array<u32>;
 
 fn append(position: vec4<f32>, surface: u32, drawn: GBuffer) {
     let index = atomicAdd(&counted.fragments, 1u);
-    if index < arrayLength(&links) {
+    let room = textureDimensions(link_tex);
+    if index < room.x * room.y {
         let next = atomicExchange(&heads[list_of(vec2<u32>(position.xy))], index + 1u);
-        links[index] = Link(next, bitcast<u32>(position.z), draw.first_surface + surface);
-        payloads[index] = Payload(drawn.geometry.x, drawn.geometry.y, drawn.geometry.z);
+        let link = Link(next, bitcast<u32>(position.z), draw.first_surface + surface, drawn.geometry.x);
+        let payload = Payload(drawn.geometry.y, drawn.geometry.z, drawn.geometry.w, drawn.region);
+        textureStore(link_tex, texel_of_record(index), texel_of_link(link));
+        textureStore(payload_tex, texel_of_record(index), texel_of_payload(payload));
         if WITH_COLOR {
             colors[index] = pack_color(drawn.base_color);
         }

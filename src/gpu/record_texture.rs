@@ -27,11 +27,7 @@ impl RecordTexture {
     pub fn write<T: bytemuck::NoUninit>(&mut self, gpu: &Gpu, records: &[T]) -> Result<(), GpuError> {
         let texels = size_of::<T>().div_ceil(4 * TEXEL_WORDS);
         let [_, rows] = size_of_texels(records.len() * texels);
-        gpu.check_texture_size(self.label, [COLUMNS, rows])?;
-        if self.target.size()[1] < rows {
-            let roomy = rows.next_power_of_two().min(gpu.device.limits().max_texture_dimension_2d);
-            self.target = create(gpu, self.label, roomy);
-        }
+        self.reserve(gpu, records.len() * texels)?;
         let mut words = vec![0_u32; COLUMNS as usize * rows as usize * TEXEL_WORDS];
         for (record, place) in records.iter().zip(words.chunks_exact_mut(texels * TEXEL_WORDS)) {
             let record: &[u8] = bytemuck::bytes_of(record);
@@ -48,6 +44,35 @@ impl RecordTexture {
             wgpu::Extent3d { width: COLUMNS, height: rows, depth_or_array_layers: 1 },
         );
         Ok(())
+    }
+
+    /// Makes room for so many texels that shaders write; what is in it is lost if it has to grow.
+    ///
+    /// # Errors
+    /// [`GpuError::TooLarge`].
+    pub fn reserve(&mut self, gpu: &Gpu, texels: usize) -> Result<(), GpuError> {
+        let [_, rows] = size_of_texels(texels);
+        gpu.check_texture_size(self.label, [COLUMNS, rows])?;
+        if self.target.size()[1] < rows {
+            let roomy = rows.next_power_of_two().min(gpu.device.limits().max_texture_dimension_2d);
+            self.target = create(gpu, self.label, roomy);
+        }
+        Ok(())
+    }
+
+    /// The most texels that a device can keep.
+    pub fn most_texels(gpu: &Gpu) -> u64 {
+        u64::from(COLUMNS) * u64::from(gpu.device.limits().max_texture_dimension_2d)
+    }
+
+    /// Gives its room back.
+    pub fn clear(&mut self, gpu: &Gpu) {
+        self.target = create(gpu, self.label, 1);
+    }
+
+    /// How many texels there is room for.
+    pub fn room(&self) -> u64 {
+        self.target.size().map(u64::from).iter().product()
     }
 
     /// The texture.
@@ -70,7 +95,9 @@ fn create(gpu: &Gpu, label: &str, rows: u32) -> Target {
         sample_count: 1,
         dimension: wgpu::TextureDimension::D2,
         format: wgpu::TextureFormat::Rgba32Uint,
-        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+        usage: wgpu::TextureUsages::TEXTURE_BINDING
+            | wgpu::TextureUsages::STORAGE_BINDING
+            | wgpu::TextureUsages::COPY_DST,
         view_formats: &[],
     }))
 }

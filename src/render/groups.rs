@@ -11,7 +11,7 @@ use super::effects::toon::{ToonUniform, Toons};
 use super::frame_uniform::View;
 use super::gpu_scene::{GpuScene, Origin};
 use super::passes::edge_style::EdgeUniform;
-use super::passes::gbuffer::{Detail, DrawCall, DrawUniform, surface_bits};
+use super::passes::gbuffer::{Detail, DrawCall, DrawUniform};
 use super::style_images::StyleImages;
 use crate::document::{Document, Show};
 use crate::geometry::{Bounds, EdgeClass};
@@ -435,14 +435,12 @@ impl Group {
         calls.sort_by(|(a, _), (b, _)| a.total_cmp(b));
         calls.sort_by_key(|(_, c)| (c.origin, c.detail, c.hidden_side.map(|s| s as u32)));
         let calls: Vec<DrawCall> = calls.into_iter().map(|(_, call)| call).collect();
-        let bits = surface_bits(&calls);
         // 0 is left for nothing.
-        let mut first_surface = 1_u32 << bits;
+        let mut first_surface = 1_u32;
         for call in &calls {
             if let Some(draw) = draws.get_mut(call.draw as usize) {
                 draw.first_surface = first_surface;
-                let surfaces = if bits == 0 { call.surfaces } else { 1 << bits };
-                first_surface = first_surface.saturating_add(surfaces);
+                first_surface = first_surface.saturating_add(call.surfaces);
             }
         }
         (draws, calls)

@@ -17,13 +17,12 @@ pub use self::room::{LayersBy, Reason, Reported};
 
 use self::room::{Recorded, Room};
 use crate::document;
-use crate::gpu::{ArrayBuffer, DynamicBuffer, Gate, Gpu, RecordBuffer, Recorder, Reports, Target};
+use crate::gpu::{ArrayBuffer, DynamicBuffer, Gate, Gpu, Recorder, Reports, Target};
 use crate::render::RenderError;
 use crate::render::gpu_scene::GpuScene;
 use crate::render::passes::depth_mask::DepthMask;
 use crate::render::passes::edge_map::{EdgeInputs, EdgeMap, edge_map};
 use crate::render::passes::edge_style::EdgeUniform;
-use crate::render::passes::fragment_lists::meanings;
 use crate::render::passes::gbuffer::{DrawCall, DrawUniform, GBufferPass};
 use crate::render::passes::line_distance::{Reach, line_distance};
 use crate::render::passes::lines::Lines;
@@ -66,8 +65,6 @@ pub struct LayerInputs<'a> {
 /// What of the layers of a group lives across frames.
 pub struct Layers {
     draws: DynamicBuffer,
-    /// What the orders of fragments mean.
-    orders: RecordBuffer,
     gate: Option<Gate>,
     count: PeelCount,
     reports: Reports<Recorded>,
@@ -81,7 +78,6 @@ impl Layers {
     pub fn new(gpu: &Gpu) -> Self {
         Self {
             draws: GBufferPass::draw_buffer(gpu),
-            orders: RecordBuffer::new(gpu, "orders"),
             gate: None,
             count: PeelCount::new(gpu),
             reports: Reports::default(),
@@ -140,7 +136,6 @@ impl Layers {
         gate.clear(rec.gpu, calls.len() + PASSES)?;
         if let Ok(room) = &mut recorded.fragments {
             *room = gbuffer_pass.lists.begin(rec, *room)?;
-            self.orders.write(rec.gpu, &meanings(draws, calls))?;
             let parts = (draws, calls);
             gbuffer_pass.collect(rec, scene, &mut self.draws, parts, is_cut, with_color, &self.count)?;
         }
@@ -164,13 +159,13 @@ impl Layers {
     ) -> Result<(), RenderError> {
         let LayerInputs { scene, draws, calls, is_cut, mask, with_color, .. } = *inputs;
         let mut lists = match recorded.by() {
-            LayersBy::Lists => Some(gbuffer_pass.lists.cut(rec, recorded.layers, self.orders.buffer())?),
+            LayersBy::Lists => Some(gbuffer_pass.lists.cut(rec, recorded.layers)?),
             LayersBy::Peeling(_) => None,
         };
         let mut last = None;
         for number in 0..recorded.layers {
             let layer = match &mut lists {
-                Some(lists) => lists.next(rec, with_color, inputs.with_order || mask.is_some())?,
+                Some(lists) => lists.next(rec, &inputs)?,
                 None => {
                     let [last_depth, last_order] = &match last.take() {
                         Some(last) => last,

@@ -4,14 +4,15 @@
 //! A list holds as many fragments as there is room for, and all are counted: who finds out later that there were more
 //! makes room and draws again. See `shaders/common/fragments.wgsl`.
 
-use super::gbuffer::{DEPTH, DrawCall, DrawUniform, GBuffer, ORDER, surface_bits};
+use super::gbuffer::{DEPTH, GBuffer, ORDER};
 use super::peel::{Layer, PeelCount};
 use crate::gpu::recorder::{Draw, Input, Onto};
-use crate::gpu::{DepthRule, Gpu, GpuError, Program, Recorder, Target};
+use crate::gpu::{DepthRule, Gpu, GpuError, Program, RecordTexture, Recorder, Target};
 use crate::render::RenderError;
+use crate::render::layers::LayerInputs;
 
-/// Bytes of a fragment in each of the buffers: how it is linked, what it is, its base colour.
-const BYTES: [u64; 3] = [12, 12, 4];
+/// Bytes of a fragment's base colour. How it is linked and what it is take a texel each.
+const COLOR_BYTES: u64 = 4;
 
 /// As many layers are sorted at a time: a pass has no more targets.
 const SORTED: u32 = 8;
@@ -19,15 +20,16 @@ const SORTED: u32 = 8;
 /// For each pixel the number of a fragment.
 const NUMBERS: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;
 
-/// More fragments are never kept: they take 224 MiB.
+/// More fragments are never kept: they take 288 MiB.
 const MOST_FRAGMENTS: u64 = 1 << 23;
 
 /// Room for the fragments of one group after the other.
 pub struct FragmentLists {
     layout: wgpu::BindGroupLayout,
     heads: wgpu::Buffer,
-    /// In the order of [`BYTES`].
-    fragments: [wgpu::Buffer; BYTES.len()],
+    links: RecordTexture,
+    payloads: RecordTexture,
+    colors: wgpu::Buffer,
     /// The most room that was asked for since the last [`Self::shrink`].
     asked: u64,
 }
@@ -35,23 +37,31 @@ pub struct FragmentLists {
 impl FragmentLists {
     /// Without room for anything.
     pub fn new(gpu: &Gpu) -> Self {
-        let written = |binding| wgpu::BindGroupLayoutEntry {
+        let buffer = wgpu::BindingType::Buffer {
+            ty: wgpu::BufferBindingType::Storage { read_only: false },
+            has_dynamic_offset: false,
+            min_binding_size: None,
+        };
+        let texture = wgpu::BindingType::StorageTexture {
+            access: wgpu::StorageTextureAccess::WriteOnly,
+            format: wgpu::TextureFormat::Rgba32Uint,
+            view_dimension: wgpu::TextureViewDimension::D2,
+        };
+        let written = |(binding, ty)| wgpu::BindGroupLayoutEntry {
             binding,
             visibility: wgpu::ShaderStages::FRAGMENT,
-            ty: wgpu::BindingType::Buffer {
-                ty: wgpu::BufferBindingType::Storage { read_only: false },
-                has_dynamic_offset: false,
-                min_binding_size: None,
-            },
+            ty,
             count: None,
         };
         Self {
             layout: gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
                 label: Some("fragment lists"),
-                entries: &[0, 1, 2, 3, 4].map(written),
+                entries: &[(0, buffer), (1, buffer), (2, texture), (3, texture), (4, buffer)].map(written),
             }),
             heads: create(gpu, "heads of lists", 4),
-            fragments: BYTES.map(|bytes| create(gpu, "fragments", bytes)),
+            links: RecordTexture::new(gpu, "links of fragments"),
+            payloads: RecordTexture::new(gpu, "fragments"),
+            colors: create(gpu, "colours of fragments", COLOR_BYTES),
             asked: 0,
         }
     }
@@ -59,11 +69,14 @@ impl FragmentLists {
     /// The most fragments that a device can keep; 0 where shaders of fragments cannot write.
     pub fn most(gpu: &Gpu) -> u64 {
         let limits = gpu.device.limits();
-        if !gpu.writes_in_fragments || limits.max_storage_buffers_per_shader_stage < 5 {
+        if !gpu.writes_in_fragments
+            || limits.max_storage_buffers_per_shader_stage < 3
+            || limits.max_storage_textures_per_shader_stage < 2
+        {
             return 0;
         }
         let bytes = limits.max_buffer_size.min(limits.max_storage_buffer_binding_size);
-        MOST_FRAGMENTS.min(bytes / BYTES[0])
+        MOST_FRAGMENTS.min(bytes / COLOR_BYTES).min(RecordTexture::most_texels(gpu))
     }
 
     /// Layout of the bind group that fragments are written through.
@@ -72,12 +85,19 @@ impl FragmentLists {
     }
 
     /// The bind group that fragments are written through; `count` counts them.
-    pub(super) fn group(&self, gpu: &Gpu, count: &PeelCount) -> wgpu::BindGroup {
-        let [links, payloads, colors] = &self.fragments;
-        let buffers = [count.buffer(), &self.heads, links, payloads, colors];
+    pub(super) fn group<'a>(&'a self, gpu: &Gpu, count: &'a PeelCount) -> wgpu::BindGroup {
+        let texture =
+            |texture: &'a RecordTexture| wgpu::BindingResource::TextureView(texture.target().view());
+        let resources = [
+            count.buffer().as_entire_binding(),
+            self.heads.as_entire_binding(),
+            texture(&self.links),
+            texture(&self.payloads),
+            self.colors.as_entire_binding(),
+        ];
         let entries: Vec<_> = (0..)
-            .zip(buffers)
-            .map(|(binding, b)| wgpu::BindGroupEntry { binding, resource: b.as_entire_binding() })
+            .zip(resources)
+            .map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource })
             .collect();
         gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("fragment lists"),
@@ -99,38 +119,44 @@ impl FragmentLists {
         }
         rec.encoder.clear_buffer(&self.heads, 0, None);
         self.asked = self.asked.max(fragments);
-        if self.room() < fragments {
-            self.fragments = BYTES.map(|bytes| create(gpu, "fragments", bytes * fragments));
-        }
-        Ok(self.room())
+        self.reserve(gpu, fragments)?;
+        Ok(self.links.room())
     }
 
-    fn room(&self) -> u64 {
-        self.fragments[0].size() / BYTES[0]
+    fn reserve(&mut self, gpu: &Gpu, fragments: u64) -> Result<(), GpuError> {
+        self.links.reserve(gpu, fragments as usize)?;
+        self.payloads.reserve(gpu, fragments as usize)?;
+        let bytes = self.links.room() * COLOR_BYTES;
+        if self.colors.size() < bytes {
+            self.colors = create(gpu, "colours of fragments", bytes);
+        }
+        Ok(())
     }
 
     /// Gives memory back of which the last frame that used any needed little.
     pub fn shrink(&mut self, gpu: &Gpu) {
         let asked = std::mem::take(&mut self.asked);
-        if asked > 0 && self.room() > 4 * asked {
-            self.fragments = BYTES.map(|bytes| create(gpu, "fragments", bytes * asked));
+        if asked > 0 && self.links.room() > 4 * asked.next_power_of_two() {
+            self.links.clear(gpu);
+            self.payloads.clear(gpu);
+            self.colors = create(gpu, "colours of fragments", COLOR_BYTES);
         }
     }
 
-    /// Begins to cut so many layers; `orders` on the device: [`meanings`].
+    /// Begins to cut so many layers.
     ///
     /// # Errors
     /// [`RenderError`].
-    pub fn cut(
-        &self,
-        rec: &mut Recorder<'_>,
-        layers: u32,
-        orders: &wgpu::Buffer,
-    ) -> Result<CutLists, RenderError> {
-        let [links, payloads, colors] = &self.fragments;
-        let buffers = [&self.heads, links, payloads, colors, orders].map(wgpu::Buffer::clone);
-        let listed = rec.target("listed", DEPTH)?;
-        let lists = CutLists { buffers, listed, numbers: Vec::new(), last: None, layers };
+    pub fn cut(&self, rec: &mut Recorder<'_>, layers: u32) -> Result<CutLists, RenderError> {
+        let lists = CutLists {
+            heads: self.heads.clone(),
+            fragments: [&self.links, &self.payloads].map(|texture| texture.target().clone()),
+            colors: self.colors.clone(),
+            listed: rec.target("listed", DEPTH)?,
+            numbers: Vec::new(),
+            last: None,
+            layers,
+        };
         let inputs = lists.inputs();
         rec.draw(Draw {
             label: "listed",
@@ -146,8 +172,10 @@ impl FragmentLists {
 
 /// The lists of one group while they are cut into layers.
 pub struct CutLists {
-    /// The first bindings of `passes/cut.wgsl`.
-    buffers: [wgpu::Buffer; 5],
+    heads: wgpu::Buffer,
+    /// Links and payloads.
+    fragments: [Target; 2],
+    colors: wgpu::Buffer,
     /// A depth buffer that is covered where there are any fragments.
     listed: Target,
     /// The fragments of the next layers, the nearest one last.
@@ -159,16 +187,13 @@ pub struct CutLists {
 }
 
 impl CutLists {
-    /// The next layer. It has a base colour if the fragments have been collected with it.
+    /// The next layer, of fragments that were collected for the same `asked`.
     ///
     /// # Errors
     /// [`RenderError`].
-    pub fn next(
-        &mut self,
-        rec: &mut Recorder<'_>,
-        with_color: bool,
-        with_order: bool,
-    ) -> Result<Layer, RenderError> {
+    pub fn next(&mut self, rec: &mut Recorder<'_>, asked: &LayerInputs<'_>) -> Result<Layer, RenderError> {
+        let LayerInputs { with_color, with_normals, .. } = *asked;
+        let with_order = asked.with_order || asked.mask.is_some();
         let numbers = match self.numbers.pop() {
             Some(numbers) => numbers,
             None => self.sort(rec)?,
@@ -196,7 +221,14 @@ impl CutLists {
         outputs.extend(&layer.order);
         rec.draw(Draw {
             label: "cut",
-            program: Program { switches: vec![("WITH_COLOR", with_color)], ..program("fs_layer") },
+            program: Program {
+                switches: vec![
+                    ("WITH_COLOR", with_color),
+                    ("WITH_NORMALS", with_normals),
+                    ("WITH_ORDER", with_order),
+                ],
+                ..program("fs_layer")
+            },
             inputs: &inputs,
             outputs: &outputs,
             onto: Onto::Nothing,
@@ -234,22 +266,16 @@ impl CutLists {
         Ok(nearest)
     }
 
-    fn inputs(&self) -> [Input<'_>; 5] {
-        self.buffers.each_ref().map(Input::Storage)
+    /// The first bindings of `passes/cut.wgsl`.
+    fn inputs(&self) -> [Input<'_>; 4] {
+        let [links, payloads] = &self.fragments;
+        [
+            Input::Storage(&self.heads),
+            Input::Texture(links),
+            Input::Texture(payloads),
+            Input::Storage(&self.colors),
+        ]
     }
-}
-
-/// For each order without the bits that tell the surfaces of a draw apart: object id with the enhanced flag, and order of the
-/// draw's first surface; in the first place, which no order has, the number of those bits.
-pub fn meanings(draws: &[DrawUniform], calls: &[DrawCall]) -> Vec<[u32; 2]> {
-    let bits = surface_bits(calls);
-    let mut meanings = vec![[bits, 0]];
-    for call in calls {
-        let meaning = draws.get(call.draw as usize).map_or([0; 2], |draw| [draw.object, draw.first_surface]);
-        let times = if bits == 0 { call.surfaces as usize } else { 1 };
-        meanings.resize(meanings.len() + times, meaning);
-    }
-    meanings
 }
 
 fn create(gpu: &Gpu, label: &str, size: u64) -> wgpu::Buffer {

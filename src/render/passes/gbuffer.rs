@@ -64,7 +64,7 @@ pub struct DrawUniform {
     pub object: u32,
     /// 1: no normals, faces are flat.
     pub is_flat: u32,
-    /// Order of its first surface among those of all draws, see [`surface_bits`]; at least 1.
+    /// Order of its first surface among those of all draws; at least 1.
     pub first_surface: u32,
 }
 
@@ -109,15 +109,6 @@ impl DrawCall {
         let detail = if self.detail == Detail::Smooth { Detail::Lean } else { self.detail };
         Self { detail, ..*self }
     }
-}
-
-/// How many bits of an order tell the surfaces of a draw apart, and the other ones the draws, from 1 on; 0: orders count all
-/// surfaces of all draws from 1 on, of which there are too many.
-pub fn surface_bits(calls: &[DrawCall]) -> u32 {
-    let most = calls.iter().map(|call| call.surfaces).max().unwrap_or(0);
-    let bits = most.saturating_sub(1).checked_ilog2().map_or(1, |log| log + 1);
-    let orders = (calls.len() as u64 + 1) << bits;
-    if orders <= 1 << 32 { bits } else { 0 }
 }
 
 /// The pipelines of the pass, made when first needed.
