@@ -26,10 +26,12 @@ struct Blueprint {
 @group(1) @binding(9) var seen_tex: texture_2d<u32>;
 @group(1) @binding(10) var<storage, read> mask: Masked;
 
-// What tells caps of a section, and those by object id.
+// What tells where the layer has anything, and caps of a section, which lie here by object id.
 @group(1) @binding(11) var region_tex: texture_2d<u32>;
 @group(1) @binding(12) var<storage, read> caps: array<Cap>;
 
+// Whether there are any opaque surfaces.
+override WITH_SURFACES: bool = true;
 // Whether any object has a cap.
 override WITH_CAPS: bool = false;
 // Whether what lies farther than the depth mask is left out.
@@ -54,6 +56,9 @@ fn is_beyond(depth: f32) -> bool {
 }
 
 fn surface_at(px: vec2<i32>) -> Surfel {
+    if !WITH_SURFACES {
+        return unpack_surfel(vec4(0u));
+    }
     return unpack_surfel(textureLoad(surface_tex, px, 0));
 }
 
@@ -83,13 +88,13 @@ fn fs_fill(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     let px = vec2<i32>(position.xy);
     let surface = surface_at(px);
     let layer = unpack_surfel(geometry_at(px));
+    let region = textureLoad(region_tex, px, 0).x;
     let is_hidden = surface.object != 0u && surface.depth < layer.depth;
-    if layer.object == 0u || is_hidden || is_beyond(layer.depth) {
+    if region == 0u || is_hidden || is_beyond(layer.depth) {
         discard;
     }
     let fill = vec4(blueprints[0].fill, 1.0) * blueprints[0].opacity;
-    if !WITH_CAPS || caps[layer.object].region == 0u
-        || textureLoad(region_tex, px, 0).x != caps[layer.object].region {
+    if !WITH_CAPS || caps[layer.object].region == 0u || region != caps[layer.object].region {
         return fill;
     }
     let cap = caps[layer.object];

@@ -1,21 +1,23 @@
 // Puts what passes/segments.wgsl found into the edge map. Of equal points of one pixel that of the first
 // segment counts, so that it does not matter in which order they are found.
 #import common/frame.wgsl
+#import common/kept.wgsl
 #import common/segment_point.wgsl
 #import common/repeated.wgsl
 
 @group(1) @binding(0) var<storage, read> points: array<SegmentPoint>;
+@group(1) @binding(1) var<storage, read> found: Kept;
 // The greatest key of each pixel, and 0 again once it has been put.
-@group(1) @binding(1) var<storage, read_write> keys: array<u32>;
+@group(1) @binding(2) var<storage, read_write> keys: array<u32>;
 // For each pixel the inverted number of its point's segment; 0 again once it has been put.
-@group(1) @binding(2) var<storage, read_write> winners: array<atomic<u32>>;
-@group(1) @binding(3) var edge_tex: texture_storage_2d<rgba32uint, write>;
-@group(1) @binding(4) var spine_tex: texture_storage_2d<r32uint, write>;
-@group(1) @binding(5) var mark_tex: texture_storage_2d<r32uint, write>;
+@group(1) @binding(3) var<storage, read_write> winners: array<atomic<u32>>;
+@group(1) @binding(4) var edge_tex: texture_storage_2d<rgba32uint, write>;
+@group(1) @binding(5) var spine_tex: texture_storage_2d<r32uint, write>;
+@group(1) @binding(6) var mark_tex: texture_storage_2d<r32uint, write>;
 
 // Without repeated lines: the spines of all nearer layers, and to which of them those of this one are added.
-@group(1) @binding(6) var seen_tex: texture_2d<u32>;
-@group(1) @binding(7) var now_seen_tex: texture_storage_2d<r32uint, write>;
+@group(1) @binding(7) var seen_tex: texture_2d<u32>;
+@group(1) @binding(8) var now_seen_tex: texture_storage_2d<r32uint, write>;
 
 // Whether more points follow that have to be compared with these.
 override KEEP_KEYS: bool = false;
@@ -31,13 +33,13 @@ fn index_of(point: SegmentPoint) -> u32 {
 @compute @workgroup_size(256)
 fn cs_compare(@builtin(global_invocation_id) id: vec3<u32>) {
     let point = points[id.x];
-    if point.key != 0u && point.key == keys[index_of(point)] {
+    if id.x < found.count && point.key == keys[index_of(point)] {
         atomicMax(&winners[index_of(point)], ~point.segment);
     }
 }
 
-fn is_winner(point: SegmentPoint) -> bool {
-    return point.key != 0u && atomicLoad(&winners[index_of(point)]) == ~point.segment;
+fn is_winner(point: SegmentPoint, number: u32) -> bool {
+    return number < found.count && atomicLoad(&winners[index_of(point)]) == ~point.segment;
 }
 
 fn put(point: SegmentPoint, px: vec2<i32>, spine: u32) {
@@ -53,7 +55,7 @@ fn put(point: SegmentPoint, px: vec2<i32>, spine: u32) {
 @compute @workgroup_size(256)
 fn cs_put(@builtin(global_invocation_id) id: vec3<u32>) {
     let point = points[id.x];
-    if is_winner(point) {
+    if is_winner(point, id.x) {
         put(point, pixel_of(point), point.spine);
     }
 }
@@ -61,7 +63,7 @@ fn cs_put(@builtin(global_invocation_id) id: vec3<u32>) {
 @compute @workgroup_size(256)
 fn cs_put_unseen(@builtin(global_invocation_id) id: vec3<u32>) {
     let point = points[id.x];
-    if is_winner(point) {
+    if is_winner(point, id.x) {
         let px = pixel_of(point);
         let seen = seen_at(seen_tex, px, point.spine);
         put(point, px, seen.own);

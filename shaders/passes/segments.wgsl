@@ -7,6 +7,7 @@
 #import common/edge_map.wgsl
 #import common/edge_style.wgsl
 #import common/line_width.wgsl
+#import common/kept.wgsl
 #import common/segment_point.wgsl
 #import common/records.wgsl
 
@@ -25,30 +26,25 @@ override IN_LAYER: bool = false;
 // regions of its two sides.
 @group(1) @binding(5) var placed_tex: texture_storage_2d<rgba32uint, write>;
 // While steps are sifted: those that are kept, in any order.
-@group(1) @binding(5) var<storage, read_write> keeping: Keeping;
+@group(1) @binding(5) var<storage, read_write> keeping: Counting;
 @group(1) @binding(6) var<storage, read_write> keeping_steps: array<u32>;
 @group(1) @binding(7) var place_tex: texture_2d<u32>;
 // Afterwards the same.
 @group(1) @binding(5) var<storage, read> kept: Kept;
 @group(1) @binding(6) var<storage, read> kept_steps: array<u32>;
-// What is found of each.
+// What is found of them, in any order.
 @group(1) @binding(7) var<storage, read_write> points: array<SegmentPoint>;
 // The greatest key of each pixel.
 @group(1) @binding(8) var<storage, read_write> keys: array<atomic<u32>>;
+@group(1) @binding(9) var<storage, read_write> finding: Counting;
 
 // Steps per workgroup, as in src/render/passes/segments.rs.
 const GROUP: u32 = 256u;
 // Steps fill whole workgroups; this stands for none.
 const NO_STEP: u32 = 0xffffffffu;
 
-// How many workgroups look at steps closely, and at how many steps.
-struct Kept {
-    groups: vec3<u32>,
-    count: u32,
-}
-
-// The same while it is being counted.
-struct Keeping {
+// `Kept` while it is being counted.
+struct Counting {
     groups: array<atomic<u32>, 3>,
     count: atomic<u32>,
 }
@@ -314,14 +310,17 @@ fn cs_sift(@builtin(global_invocation_id) id: vec3<u32>) {
 @compute @workgroup_size(GROUP)
 fn cs_points(@builtin(global_invocation_id) id: vec3<u32>) {
     if id.x >= kept.count {
-        points[id.x] = NO_POINT;
         return;
     }
     let step = step_at(kept_steps[id.x]);
     let segment = segment_at(step.x);
     let point = point_at(segment, step.x, place_of(segment.ends, step.y).px);
-    points[id.x] = point;
     if point.key != 0u {
+        let index = atomicAdd(&finding.count, 1u);
+        points[index] = point;
+        if index % GROUP == 0u {
+            atomicAdd(&finding.groups[0], 1u);
+        }
         atomicMax(&keys[(point.px >> 16u) * u32(frame.size.x) + (point.px & 0xffffu)], point.key);
     }
 }

@@ -279,6 +279,11 @@ impl Group {
         Self { edge_styles: edge_styles.to_vec(), shows_hidden: true, ..self.clone() }
     }
 
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.visible.is_empty()
+    }
+
     /// Whether any of them has lines.
     pub fn have_lines(&self) -> bool {
         self.edge_styles.iter().any(|s| s.is_exact() || s.is_paper())

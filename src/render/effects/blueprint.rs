@@ -259,6 +259,7 @@ impl Blueprints {
                 front.get_or_insert_with(|| layer.gbuffer.geometry.clone());
                 let sprite = Sprite {
                     surfaces: &surfaces.value,
+                    has_surfaces: !inputs.objects.surfaces.is_empty(),
                     style: style.buffer(),
                     count,
                     mask: mask.map(|mask| &mask.value).filter(|_| !params.beyond),
@@ -270,10 +271,10 @@ impl Blueprints {
                         entry_point: "fs_lines",
                         inputs: &sprite.inputs(found.nearer.as_ref().unwrap_or(&layer.gbuffer.region)),
                         switches: &[
-                            ("WITHOUT_REPEATED", found.nearer.is_some()),
-                            ("AMONG_OTHERS", true),
-                            sprite.without_beyond(),
-                        ],
+                            &[("WITHOUT_REPEATED", found.nearer.is_some()), ("AMONG_OTHERS", true)][..],
+                            &sprite.switches(),
+                        ]
+                        .concat(),
                         onto: Onto::Beneath,
                     };
                     lines(rec, &found.lines(layer, layer_lines, edges.styles), &pen, &color)?;
@@ -295,6 +296,8 @@ impl Blueprints {
 #[derive(Clone, Copy)]
 struct Sprite<'a> {
     surfaces: &'a GBuffer,
+    /// Whether there is anything in it.
+    has_surfaces: bool,
     style: &'a wgpu::Buffer,
     count: &'a PeelCount,
     /// Nothing is drawn beyond it.
@@ -302,9 +305,9 @@ struct Sprite<'a> {
 }
 
 impl<'a> Sprite<'a> {
-    /// Whether what lies beyond the depth mask is left out.
-    fn without_beyond(&self) -> (&'static str, bool) {
-        ("WITHOUT_BEYOND", self.mask.is_some())
+    /// Whether it is tested against anything, and whether what lies beyond the depth mask is left out.
+    fn switches(&self) -> [(&'static str, bool); 2] {
+        [("WITH_SURFACES", self.has_surfaces), ("WITHOUT_BEYOND", self.mask.is_some())]
     }
 
     /// What the shader of the effect reads from binding 6 on.
@@ -345,7 +348,7 @@ fn fill(
         program: Program {
             file: "effects/blueprint.wgsl",
             entry_point: "fs_fill",
-            switches: vec![("WITH_CAPS", caps.is_some()), sprite.without_beyond()],
+            switches: [&[("WITH_CAPS", caps.is_some())][..], &sprite.switches()].concat(),
         },
         inputs: &inputs,
         outputs: &[color],

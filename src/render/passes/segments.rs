@@ -25,7 +25,7 @@ const GROUP: u32 = 256;
 const PLACES: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Uint;
 
 /// No workgroups, and no steps.
-const NONE_KEPT: [u32; 4] = [0, 1, 1, 0];
+const NONE: [u32; 4] = [0, 1, 1, 0];
 
 /// What segments have in each pixel, see `shaders/common/segment_point.wgsl`.
 pub(super) const MARKS: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;
@@ -40,11 +40,14 @@ pub struct Segments {
     for_layers: bool,
     /// The steps that are looked at closely.
     kept_steps: RecordBuffer,
-    /// Workgroups that look at them, and how many they are: `Kept` in `passes/segments.wgsl`.
+    /// Workgroups that look at them, and how many they are: `Kept` in `common/kept.wgsl`.
     kept: wgpu::Buffer,
-    /// What it begins with.
-    none_kept: wgpu::Buffer,
+    /// What is found of them.
     points: RecordBuffer,
+    /// As `kept`.
+    found: wgpu::Buffer,
+    /// What both begin with.
+    none: wgpu::Buffer,
     /// 0 between frames, as winners are: who reads the last of them clears them.
     keys: RecordBuffer,
     winners: RecordBuffer,
@@ -80,7 +83,7 @@ impl Segments {
     /// None yet.
     pub fn new(gpu: &Gpu) -> Self {
         let kept = |label, usage| {
-            let contents = bytemuck::bytes_of(&NONE_KEPT);
+            let contents = bytemuck::bytes_of(&NONE);
             gpu.device.create_buffer_init(&BufferInitDescriptor { label: Some(label), contents, usage })
         };
         let used = wgpu::BufferUsages::INDIRECT | wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST;
@@ -90,8 +93,9 @@ impl Segments {
             for_layers: false,
             kept_steps: RecordBuffer::new(gpu, "kept steps"),
             kept: kept("workgroups of kept steps", used),
-            none_kept: kept("no kept steps", wgpu::BufferUsages::COPY_SRC),
             points: RecordBuffer::new(gpu, "points of segments"),
+            found: kept("workgroups of points", used),
+            none: kept("no workgroups", wgpu::BufferUsages::COPY_SRC),
             keys: RecordBuffer::new(gpu, "keys of segments"),
             winners: RecordBuffer::new(gpu, "points of pixels"),
         }
@@ -169,6 +173,7 @@ impl Segments {
             self.find(rec, inputs, part)?;
             let mut found = vec![
                 Input::Storage(self.points.buffer()),
+                Input::Storage(&self.found),
                 Input::Written(self.keys.buffer()),
                 Input::Written(self.winners.buffer()),
                 Input::Image(edge_map),
@@ -180,10 +185,10 @@ impl Segments {
                 entry_point,
                 switches: vec![("WITHOUT_REPEATED", seen.is_some()), ("KEEP_KEYS", has_chunks)],
             };
-            rec.compute("compare points", program("cs_compare"), &found, &self.kept)?;
+            rec.compute("compare points", program("cs_compare"), &found, &self.found)?;
             let put = if seen.is_some() { "cs_put_unseen" } else { "cs_put" };
             found.extend(seen.into_iter().flat_map(|s| [Input::Texture(&s.before), Input::Image(&s.now)]));
-            rec.compute("put points", program(put), &found, &self.kept)?;
+            rec.compute("put points", program(put), &found, &self.found)?;
         }
         if has_chunks {
             rec.encoder.clear_buffer(self.keys.buffer(), 0, None);
@@ -207,8 +212,10 @@ impl Segments {
             Input::Texture(self.records.target()),
             Input::Texture(part.steps.target()),
         ];
-        // Where the recorder's gate is shut none are kept.
-        rec.encoder.copy_buffer_to_buffer(&self.none_kept, 0, &self.kept, 0, None);
+        // Where the recorder's gate is shut nobody counts any.
+        for counted in [&self.kept, &self.found] {
+            rec.encoder.copy_buffer_to_buffer(&self.none, 0, counted, 0, None);
+        }
         let keeping = [Input::Written(&self.kept), Input::Written(self.kept_steps.buffer())];
         let mut sifting = [&tested[..], &keeping].concat();
         sifting.extend(part.places.as_ref().map(Input::Texture));
@@ -219,6 +226,7 @@ impl Segments {
             Input::Storage(self.kept_steps.buffer()),
             Input::Written(self.points.buffer()),
             Input::Written(self.keys.buffer()),
+            Input::Written(&self.found),
         ];
         let looking = [&tested[..], &found].concat();
         rec.compute("segments", program("cs_points", &switches), &looking, &self.kept)?;
