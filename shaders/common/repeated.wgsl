@@ -1,5 +1,7 @@
 // Lines of a layer that a nearer layer has at the same place (blueprints paper, section 4.1, Fig. 5).
 
+#import common/neighbours.wgsl
+
 // Whether they are left out.
 override WITHOUT_REPEATED: bool = false;
 
@@ -12,15 +14,13 @@ fn offset_in(spine: u32) -> vec2<f32> {
 
 // Whether a spine is repeated; `seen_tex` holds the spines of all nearer layers.
 fn is_repeated(seen_tex: texture_2d<u32>, px: vec2<i32>, spine: u32) -> bool {
-    let last = vec2<i32>(textureDimensions(seen_tex)) - 1;
-    var nearest = 1e9;
+    var others = nine_at(seen_tex, px);
+    var least = 1e9;
     for (var i = 0; i < 9; i++) {
-        let q = clamp(px + vec2(i % 3, i / 3) - 1, vec2(0), last);
-        let other = textureLoad(seen_tex, q, 0).x;
-        let apart = vec2<f32>(q - px) + offset_in(other) - offset_in(spine);
-        nearest = select(nearest, min(nearest, dot(apart, apart)), other != 0u);
+        let apart = vec2<f32>(vec2(i % 3, i / 3) - 1) + offset_in(others[i]) - offset_in(spine);
+        least = select(least, min(least, dot(apart, apart)), others[i] != 0u);
     }
-    return nearest < SAME * SAME;
+    return least < SAME * SAME;
 }
 
 // The spines of a pixel, without repeated ones, and all of them so far.

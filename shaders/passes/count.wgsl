@@ -2,6 +2,7 @@
 // paper, sections 4.2 and 4.3): occlusion queries would count overdraw, and only the processor could act on them.
 #import common/frame.wgsl
 #import common/counted.wgsl
+#import common/neighbours.wgsl
 #import common/depth_mask.wgsl
 
 // Whether there is a depth mask.
@@ -27,7 +28,7 @@ fn is_uncovered(px: vec2<u32>) -> bool {
     return depth > 0.0 && depth >= textureLoad(layer_depth_tex, px, 0);
 }
 
-// Each invocation counts every sixteenth pixel of every sixteenth row of a square of 64 by 64.
+// Each invocation counts four squares of four pixels, of a square of 64 by 64.
 @compute @workgroup_size(16, 16)
 fn cs_count(
     @builtin(workgroup_id) group: vec3<u32>,
@@ -35,11 +36,14 @@ fn cs_count(
     @builtin(local_invocation_index) index: u32,
 ) {
     var own = vec2(0u);
-    for (var i = 0u; i < 16u; i++) {
-        let px = 64u * group.xy + 16u * vec2(i % 4u, i / 4u) + id.xy;
-        if all(px < vec2<u32>(frame.size)) {
-            own.x += select(0u, 1u, textureLoad(region_tex, px, 0).x != 0u);
-            if WITH_MASK {
+    for (var i = 0u; i < 4u; i++) {
+        let first = 64u * group.xy + 32u * vec2(i % 2u, i / 2u) + 2u * id.xy;
+        var regions = four_at(region_tex, vec2<i32>(first));
+        for (var j = 0u; j < 4u; j++) {
+            let px = first + vec2(j % 2u, j / 2u);
+            let is_in = all(px < vec2<u32>(frame.size));
+            own.x += select(0u, 1u, is_in && regions[j] != 0u);
+            if WITH_MASK && is_in {
                 own.y += select(0u, 1u, is_uncovered(px));
             }
         }

@@ -28,24 +28,30 @@ override WITH_CUT: bool = false;
 // A step in depth, in pixels, from which two surfaces do not touch.
 const STEP: f32 = 2.0;
 
-fn region_at(px: vec2<i32>) -> u32 {
-    return textureLoad(region_tex, clamp(px, vec2(0), vec2<i32>(frame.size) - 1), 0).x;
+// The regions of a pixel and of those beside it.
+struct Regions {
+    own: u32,
+    left: u32,
+    right: u32,
+    above: u32,
+    below: u32,
 }
 
-fn mark_at(px: vec2<i32>) -> u32 {
-    return textureLoad(mark_tex, clamp(px, vec2(0), vec2<i32>(frame.size) - 1), 0).x;
+fn regions_at(px: vec2<i32>) -> Regions {
+    let before = four_at(region_tex, px - 1);
+    let after = four_at(region_tex, px);
+    return Regions(after.x, before.z, after.y, before.y, after.z);
 }
 
 // Marks the pixels beside which another surface begins that no segment explains.
 @fragment
 fn fs_borders(@builtin(position) position: vec4<f32>) {
     let px = vec2<i32>(position.xy);
-    let own = region_at(px);
-    let differs = (region_at(px + vec2(1, 0)) ^ own) | (region_at(px - vec2(1, 0)) ^ own)
-        | (region_at(px + vec2(0, 1)) ^ own) | (region_at(px - vec2(0, 1)) ^ own);
-    // The corners are looked at later, of the few that are left.
-    let marks = mark_at(px) | mark_at(px + vec2(1, 0)) | mark_at(px - vec2(1, 0))
-        | mark_at(px + vec2(0, 1)) | mark_at(px - vec2(0, 1));
+    let regions = regions_at(px);
+    let own = regions.own;
+    let differs = (regions.left ^ own) | (regions.right ^ own) | (regions.above ^ own) | (regions.below ^ own);
+    // The other corners are looked at later, of the few that are left.
+    let marks = any_of(four_at(mark_tex, px - 1)) | any_of(four_at(mark_tex, px));
     if own == 0u || differs == 0u || (marks & DRAWN) != 0u {
         discard;
     }
@@ -73,11 +79,10 @@ fn goes_on_nearer(px: vec2<i32>, region: u32) -> bool {
     return textureLoad(before_tex, q, 0).x == region || textureLoad(before_that_tex, q, 0).x == region;
 }
 
-// What lies between pixel `px` (surface `x`) and its neighbour; class 0: nothing that `x` has to draw.
-fn between(px: vec2<i32>, x: Surfel, own: u32, plane: Plane, towards: vec2<i32>) -> Spine {
+// What lies between pixel `px` (surface `x`) and its neighbour of a `region`; class 0: nothing that `x` has to draw.
+fn between(px: vec2<i32>, x: Surfel, own: u32, plane: Plane, towards: vec2<i32>, region: u32) -> Spine {
     let q = px + towards;
     let none = Spine(NO_EDGE, vec2(0.0), vec2(1.0, 0.0), false);
-    let region = region_at(q);
     if region == own {
         return none;
     }
@@ -144,12 +149,11 @@ struct Out {
 fn fs_main(@builtin(position) position: vec4<f32>) -> Out {
     let px = vec2<i32>(position.xy);
     let x = unpack_surfel(geometry_at(px));
-    let own = region_at(px);
+    let regions = regions_at(px);
+    let own = regions.own;
     // An edge near a segment is the segment's; where the near plane cuts, there is no edge.
-    var marks = 0u;
-    for (var i = 0; i < 9; i++) {
-        marks |= mark_at(px + vec2(i % 3, i / 3) - 1);
-    }
+    let marks = any_of(four_at(mark_tex, px - 1)) | any_of(four_at(mark_tex, px + vec2(0, -1)))
+        | any_of(four_at(mark_tex, px + vec2(-1, 0))) | any_of(four_at(mark_tex, px));
     if !x.enhanced || (marks & DRAWN) != 0u || x.depth < 1.5 * frame.cut_depth {
         discard;
     }
@@ -157,10 +161,10 @@ fn fs_main(@builtin(position) position: vec4<f32>) -> Out {
         discard;
     }
     let plane = plane_of(px, x.depth, x.face_normal);
-    let right = between(px, x, own, plane, vec2(1, 0));
-    let left = between(px, x, own, plane, vec2(-1, 0));
-    let below = between(px, x, own, plane, vec2(0, 1));
-    let above = between(px, x, own, plane, vec2(0, -1));
+    let right = between(px, x, own, plane, vec2(1, 0), regions.right);
+    let left = between(px, x, own, plane, vec2(-1, 0), regions.left);
+    let below = between(px, x, own, plane, vec2(0, 1), regions.below);
+    let above = between(px, x, own, plane, vec2(0, -1), regions.above);
     // The line nearest to the centre; between two neighbours it runs aslant.
     var spine = right;
     if is_nearer(left, spine) {

@@ -6,6 +6,7 @@
 #import common/edge_map.wgsl
 #import common/edge_style.wgsl
 #import common/coverage.wgsl
+#import common/neighbours.wgsl
 
 // Whether any object is drawn in paper or exact mode, whether widths differ, whether anything is dashed, and whether a
 // line takes its colour from the surface.
@@ -135,19 +136,19 @@ fn line_around(px: vec2<i32>, g: Surfel, hidden: u32) -> Line {
 
 // As `cs_rows` in passes/line_distance.wgsl finds it, among the neighbours.
 fn found_nearby(px: vec2<i32>) -> u32 {
-    let last = vec2<i32>(frame.size) - 1;
+    var spines = nine_at(farthest_tex, px);
     var best = 0.0;
     var found = 0u;
-    for (var y = -1; y <= 1; y++) {
-        for (var x = -1; x <= 1; x++) {
-            let q = clamp(px + vec2(x, y), vec2(0), last);
-            let spine = textureLoad(farthest_tex, q, 0).x;
-            let r = unpack2x16float(spine >> 16u).x + 1.25;
-            let d = vec2<f32>(q - px) + vec2(f32((spine >> 8u) & 255u), f32(spine & 255u)) / 127.0 - 1.0;
-            let power = select(0.0, dot(d, d) - r * r, spine != 0u);
-            found = select(found, ((u32(q.y) << 16u) | u32(q.x)) + 1u, power < best);
-            best = min(best, power);
-        }
+    for (var i = 0; i < 9; i++) {
+        let away = vec2(i % 3, i / 3) - 1;
+        let q = vec2<u32>(px + away);
+        let spine = spines[i];
+        let r = unpack2x16float(spine >> 16u).x + 1.25;
+        let d = vec2<f32>(away) + vec2(f32((spine >> 8u) & 255u), f32(spine & 255u)) / 127.0 - 1.0;
+        let is_there = spine != 0u && all(q < vec2<u32>(frame.size));
+        let power = select(0.0, dot(d, d) - r * r, is_there);
+        found = select(found, ((q.y << 16u) | q.x) + 1u, power < best);
+        best = min(best, power);
     }
     return found;
 }

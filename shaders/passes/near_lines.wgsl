@@ -1,5 +1,6 @@
 // Whether any thin line can reach a block of 4 by 4 pixels: software devices shade whole ones.
 #import common/frame.wgsl
+#import common/neighbours.wgsl
 
 @group(1) @binding(0) var spine_tex: texture_2d<u32>;
 @group(1) @binding(1) var near_tex: texture_storage_2d<r32uint, write>;
@@ -12,9 +13,9 @@ fn cs_main(@builtin(global_invocation_id) id: vec3<u32>) {
         return;
     }
     var any_spine = 0u;
-    for (var y = -1; y <= 4; y++) {
-        for (var x = -1; x <= 4; x++) {
-            any_spine |= textureLoad(spine_tex, clamp(4 * block + vec2(x, y), vec2(0), last), 0).x;
+    for (var y = -1; y <= 3; y += 2) {
+        for (var x = -1; x <= 3; x += 2) {
+            any_spine |= any_of(four_at(spine_tex, 4 * block + vec2(x, y)));
         }
     }
     textureStore(near_tex, block, vec4(any_spine, 0u, 0u, 0u));

@@ -7,6 +7,7 @@
 #import common/edge_map.wgsl
 #import common/edge_style.wgsl
 #import common/line_width.wgsl
+#import common/neighbours.wgsl
 #import common/kept.wgsl
 #import common/segment_point.wgsl
 #import common/records.wgsl
@@ -108,11 +109,10 @@ fn place_of(ends: vec4<f32>, step: u32) -> Place {
 
 // Whether a pixel or one of its neighbours shows one of these surfaces.
 fn is_beside(px: vec2<i32>, regions: vec2<u32>) -> bool {
-    let last = vec2<i32>(frame.size) - 1;
+    var around = nine_at(region_tex, px);
     var found = false;
     for (var i = 0; i < 9; i++) {
-        let q = clamp(px + vec2(i % 3, i / 3) - 1, vec2(0), last);
-        found = found || any(regions == vec2(textureLoad(region_tex, q, 0).x));
+        found = found || any(regions == vec2(around[i]));
     }
     return found;
 }

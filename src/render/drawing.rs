@@ -178,10 +178,16 @@ impl Drawing {
     /// Nothing drawn yet.
     pub fn new(gpu: &Gpu, frame_layout: &wgpu::BindGroupLayout) -> Self {
         let uniform = UniformBuffer::new(gpu, "frame");
+        let nearest = gpu
+            .device
+            .create_sampler(&wgpu::SamplerDescriptor { label: Some("nearest"), ..Default::default() });
         let frame_group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("frame"),
             layout: frame_layout,
-            entries: &[wgpu::BindGroupEntry { binding: 0, resource: uniform.buffer().as_entire_binding() }],
+            entries: &[
+                wgpu::BindGroupEntry { binding: 0, resource: uniform.buffer().as_entire_binding() },
+                wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::Sampler(&nearest) },
+            ],
         });
         Self {
             uniform,
