@@ -6,7 +6,7 @@ use super::{Gpu, GpuError, Target};
 /// Texels per row, as in `shaders/common/records.wgsl`.
 const COLUMNS: u32 = 2048;
 
-const TEXEL_WORDS: usize = 4;
+const TEXEL_BYTES: usize = 16;
 
 /// Records of 32-bit words, each from a texel of its own on; grows with their number.
 pub struct RecordTexture {
@@ -25,20 +25,22 @@ impl RecordTexture {
     /// # Errors
     /// [`GpuError::TooLarge`].
     pub fn write<T: bytemuck::NoUninit>(&mut self, gpu: &Gpu, records: &[T]) -> Result<(), GpuError> {
-        let texels = size_of::<T>().div_ceil(4 * TEXEL_WORDS);
+        let texels = size_of::<T>().div_ceil(TEXEL_BYTES);
         let [_, rows] = size_of_texels(records.len() * texels);
         self.reserve(gpu, records.len() * texels)?;
-        let mut words = vec![0_u32; COLUMNS as usize * rows as usize * TEXEL_WORDS];
-        for (record, place) in records.iter().zip(words.chunks_exact_mut(texels * TEXEL_WORDS)) {
-            let record: &[u8] = bytemuck::bytes_of(record);
-            bytemuck::cast_slice_mut(place)[..record.len()].copy_from_slice(record);
+        let size = COLUMNS as usize * rows as usize * TEXEL_BYTES;
+        let mut bytes = Vec::with_capacity(size);
+        for (number, record) in (1..).zip(records) {
+            bytes.extend_from_slice(bytemuck::bytes_of(record));
+            bytes.resize(number * texels * TEXEL_BYTES, 0);
         }
+        bytes.resize(size, 0);
         gpu.queue.write_texture(
             self.target.texture().as_image_copy(),
-            bytemuck::cast_slice(&words),
+            &bytes,
             wgpu::TexelCopyBufferLayout {
                 offset: 0,
-                bytes_per_row: Some(COLUMNS * 4 * TEXEL_WORDS as u32),
+                bytes_per_row: Some(COLUMNS * TEXEL_BYTES as u32),
                 rows_per_image: Some(rows),
             },
             wgpu::Extent3d { width: COLUMNS, height: rows, depth_or_array_layers: 1 },
