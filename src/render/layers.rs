@@ -165,7 +165,7 @@ impl Layers {
         let mut last = None;
         for number in 0..recorded.layers {
             let layer = match &mut lists {
-                Some(lists) => lists.next(rec, &inputs)?,
+                Some(lists) => lists.next(rec, inputs)?,
                 None => {
                     let [last_depth, last_order] = &match last.take() {
                         Some(last) => last,

@@ -157,7 +157,7 @@ impl Segments {
         Ok(places)
     }
 
-    /// Puts them into an edge map, its spines and [`MARKS`], over what is there, without those that have been `seen`.
+    /// Puts them into an edge map, its spines and the marks of segments, over what is there, without those that have been `seen`.
     ///
     /// # Errors
     /// [`RenderError`].
