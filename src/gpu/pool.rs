@@ -36,11 +36,6 @@ impl Target {
         self.0.texture.format()
     }
 
-    /// Whether anybody holds it but its pool and who asks.
-    pub fn is_shared(&self) -> bool {
-        Arc::strong_count(&self.0) > 2
-    }
-
     /// Width and height in pixels.
     pub fn size(&self) -> [u32; 2] {
         [self.0.texture.width(), self.0.texture.height()]

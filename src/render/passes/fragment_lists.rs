@@ -155,7 +155,6 @@ impl FragmentLists {
             listed: rec.target("listed", DEPTH)?,
             numbers: Vec::new(),
             last: None,
-            spare: None,
             layers,
         };
         let inputs = lists.inputs();
@@ -183,8 +182,6 @@ pub struct CutLists {
     numbers: Vec<Target>,
     /// Those of the layer that was cut last.
     last: Option<Target>,
-    /// That layer, which holds nothing where there are no fragments.
-    spare: Option<GBuffer>,
     /// So many are left to be cut.
     layers: u32,
 }
@@ -202,12 +199,7 @@ impl CutLists {
             None => self.sort(rec)?,
         };
         self.layers = self.layers.saturating_sub(1);
-        // A layer that nobody has kept is overwritten wherever there are fragments: it need not be cleared.
-        let kept = |g: &GBuffer| [&g.geometry, &g.base_color, &g.region].into_iter().any(Target::is_shared);
-        let spare = self.spare.take().filter(|last| !with_order && !kept(last));
-        let onto = if spare.is_some() { Onto::Old } else { Onto::Nothing };
-        let gbuffer = spare.map_or_else(|| GBuffer::new(rec), Ok)?;
-        let mut layer = Layer { gbuffer, order: None };
+        let mut layer = Layer { gbuffer: GBuffer::new(rec)?, order: None };
         let inputs: Vec<_> = self.inputs().into_iter().chain([Input::Texture(&numbers)]).collect();
         let program = |entry_point| Program::new("passes/cut.wgsl", entry_point);
         if with_order {
@@ -239,11 +231,10 @@ impl CutLists {
             },
             inputs: &inputs,
             outputs: &outputs,
-            onto,
+            onto: Onto::Nothing,
             depth: Some((depth, DepthRule::Covered)),
         })?;
         self.last = Some(numbers);
-        self.spare = Some(layer.gbuffer.clone());
         Ok(layer)
     }
 
