@@ -23,6 +23,7 @@ use crate::render::gpu_scene::GpuScene;
 use crate::render::passes::depth_mask::DepthMask;
 use crate::render::passes::edge_map::{EdgeInputs, EdgeMap, edge_map};
 use crate::render::passes::edge_style::EdgeUniform;
+use crate::render::passes::fragment_lists::Asked;
 use crate::render::passes::gbuffer::{DrawCall, DrawUniform, GBufferPass};
 use crate::render::passes::line_distance::{Reach, line_distance};
 use crate::render::passes::lines::Lines;
@@ -162,10 +163,12 @@ impl Layers {
             LayersBy::Lists => Some(gbuffer_pass.lists.cut(rec, recorded.layers)?),
             LayersBy::Peeling(_) => None,
         };
+        let with_order = inputs.with_order || mask.is_some();
+        let asked = Asked { with_color, with_normals: inputs.with_normals, with_order };
         let mut last = None;
         for number in 0..recorded.layers {
             let layer = match &mut lists {
-                Some(lists) => lists.next(rec, inputs)?,
+                Some(lists) => lists.next(rec, asked)?,
                 None => {
                     let [last_depth, last_order] = &match last.take() {
                         Some(last) => last,

@@ -9,7 +9,6 @@ use super::peel::{Layer, PeelCount};
 use crate::gpu::recorder::{Draw, Input, Onto};
 use crate::gpu::{DepthRule, Gpu, GpuError, Program, RecordTexture, Recorder, Target};
 use crate::render::RenderError;
-use crate::render::layers::LayerInputs;
 
 /// Bytes of a fragment's base colour. How it is linked and what it is take a texel each.
 const COLOR_BYTES: u64 = 4;
@@ -170,6 +169,17 @@ impl FragmentLists {
     }
 }
 
+/// What is asked of the layers of a group.
+#[derive(Debug, Clone, Copy)]
+pub struct Asked {
+    /// Their base colours.
+    pub with_color: bool,
+    /// Their shading normals; otherwise they are those of the faces.
+    pub with_normals: bool,
+    /// Their depth and order.
+    pub with_order: bool,
+}
+
 /// The lists of one group while they are cut into layers.
 pub struct CutLists {
     heads: wgpu::Buffer,
@@ -187,13 +197,12 @@ pub struct CutLists {
 }
 
 impl CutLists {
-    /// The next layer, of fragments that were collected for the same `asked`.
+    /// The next layer, of fragments that were collected for the same.
     ///
     /// # Errors
     /// [`RenderError`].
-    pub fn next(&mut self, rec: &mut Recorder<'_>, asked: &LayerInputs<'_>) -> Result<Layer, RenderError> {
-        let LayerInputs { with_color, with_normals, .. } = *asked;
-        let with_order = asked.with_order || asked.mask.is_some();
+    pub fn next(&mut self, rec: &mut Recorder<'_>, asked: Asked) -> Result<Layer, RenderError> {
+        let Asked { with_color, with_normals, with_order } = asked;
         let numbers = match self.numbers.pop() {
             Some(numbers) => numbers,
             None => self.sort(rec)?,

@@ -15,7 +15,7 @@ use crate::gpu::recorder::Input;
 use crate::gpu::{Gpu, Program, RecordBuffer, RecordTexture, Recorder, Target, size_of_texels};
 use crate::render::RenderError;
 
-/// Pixels of segments that are tested in one go; each takes 36 bytes while it is.
+/// Pixels of segments that are tested in one go; each takes 52 bytes while it is.
 const MOST_STEPS: usize = 1 << 20;
 /// Bytes of `SegmentPoint` in `shaders/common/segment_point.wgsl`.
 const POINT_BYTES: u64 = 32;
@@ -157,7 +157,8 @@ impl Segments {
         Ok(places)
     }
 
-    /// Puts them into an edge map, its spines and the marks of segments, over what is there, without those that have been `seen`.
+    /// Puts them into an edge map, its spines and the marks of segments, over what is there, without those that have been
+    /// `seen`.
     ///
     /// # Errors
     /// [`RenderError`].
