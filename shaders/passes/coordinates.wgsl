@@ -12,7 +12,7 @@ struct Draw {
     first_surface: u32,
 }
 
-@group(2) @binding(0) var<uniform> draw: Draw;
+@group(3) @binding(0) var<uniform> draw: Draw;
 
 struct Vertex {
     @builtin(position) @invariant position: vec4<f32>,

@@ -4,13 +4,13 @@
 #import common/counted.wgsl
 #import common/layer_color.wgsl
 
-@group(3) @binding(0) var<storage, read_write> counted: Counted;
+@group(1) @binding(0) var<storage, read_write> counted: Counted;
 // The last fragment so far of each pixel.
-@group(3) @binding(1) var<storage, read_write> heads: array<atomic<u32>>;
+@group(1) @binding(1) var<storage, read_write> heads: array<atomic<u32>>;
 // Fragments in textures: software devices read and write their records faster than those of buffers.
-@group(3) @binding(2) var link_tex: texture_storage_2d<rgba32uint, write>;
-@group(3) @binding(3) var payload_tex: texture_storage_2d<rgba32uint, write>;
-@group(3) @binding(4) var<storage, read_write> colors: array<u32>;
+@group(1) @binding(2) var link_tex: texture_storage_2d<rgba32uint, write>;
+@group(1) @binding(3) var payload_tex: texture_storage_2d<rgba32uint, write>;
+@group(1) @binding(4) var<storage, read_write> colors: array<u32>;
 
 fn append(position: vec4<f32>, surface: u32, drawn: GBuffer) {
     let index = atomicAdd(&counted.fragments, 1u);

@@ -22,12 +22,12 @@ struct Draw {
 // Whether what lies behind a plane is left out: that of a mirror, that of the section, or either.
 override WITH_CUT: bool = false;
 
-@group(1) @binding(0) var base_tex: texture_2d<f32>;
-@group(1) @binding(1) var base_sampler: sampler;
-@group(1) @binding(2) var normal_tex: texture_2d<f32>;
-@group(1) @binding(3) var normal_sampler: sampler;
+@group(2) @binding(0) var base_tex: texture_2d<f32>;
+@group(2) @binding(1) var base_sampler: sampler;
+@group(2) @binding(2) var normal_tex: texture_2d<f32>;
+@group(2) @binding(3) var normal_sampler: sampler;
 
-@group(2) @binding(0) var<uniform> draw: Draw;
+@group(3) @binding(0) var<uniform> draw: Draw;
 
 struct Lean {
     @builtin(position) @invariant position: vec4<f32>,

@@ -4,8 +4,8 @@
 #import common/layer_color.wgsl
 
 // The last layer; for the first one, depth 1 and order 0 everywhere.
-@group(3) @binding(0) var last_depth_tex: texture_depth_2d;
-@group(3) @binding(1) var last_order_tex: texture_2d<u32>;
+@group(1) @binding(0) var last_depth_tex: texture_depth_2d;
+@group(1) @binding(1) var last_order_tex: texture_2d<u32>;
 
 struct Layer {
     @location(0) geometry: vec4<u32>,

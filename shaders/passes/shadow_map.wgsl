@@ -10,10 +10,10 @@ struct ShadowDraw {
     section: vec4<f32>,
 }
 
-@group(1) @binding(0) var base_tex: texture_2d<f32>;
-@group(1) @binding(1) var base_sampler: sampler;
+@group(2) @binding(0) var base_tex: texture_2d<f32>;
+@group(2) @binding(1) var base_sampler: sampler;
 
-@group(2) @binding(0) var<uniform> draw: ShadowDraw;
+@group(3) @binding(0) var<uniform> draw: ShadowDraw;
 
 @vertex
 fn vs_main(@location(0) position: vec3<f32>) -> @builtin(position) @invariant vec4<f32> {

@@ -60,7 +60,7 @@ impl MaterialUniform {
     }
 }
 
-/// All materials of a scene: their numbers, and their images in one bind group (group 1) each.
+/// All materials of a scene: their numbers, and their images in one bind group (group 2) each.
 #[derive(Clone)]
 pub struct MaterialBindings {
     uniforms: Vec<MaterialUniform>,
@@ -71,7 +71,7 @@ pub struct MaterialBindings {
 }
 
 impl MaterialBindings {
-    /// The layout of bind group 1: base colour texture and sampler, normal texture and sampler.
+    /// The layout of bind group 2: base colour texture and sampler, normal texture and sampler.
     pub fn layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
         let texture = wgpu::BindingType::Texture {
             sample_type: wgpu::TextureSampleType::Float { filterable: true },

@@ -43,7 +43,7 @@ impl CoordinatesPass {
         for call in calls {
             if let Entry::Vacant(place) = self.pipelines.entry(call.hidden_side) {
                 let module = rec.pipelines.module(rec.gpu, "passes/coordinates.wgsl")?;
-                let layouts = [Some(rec.pipelines.frame_layout()), None, Some(draw_layout)];
+                let layouts = [Some(rec.pipelines.frame_layout()), None, None, Some(draw_layout)];
                 place.insert(build(rec.gpu, &module, &layouts, call.hidden_side));
             }
         }
@@ -67,7 +67,7 @@ impl CoordinatesPass {
             }
             let Some(pipeline) = self.pipelines.get(&call.hidden_side) else { continue };
             pass.set_pipeline(pipeline);
-            pass.set_bind_group(2, &group, &[draws.offset(call.draw)]);
+            pass.set_bind_group(3, &group, &[draws.offset(call.draw)]);
             let indices = call.first_index..call.first_index + call.index_count;
             pass.draw_indexed(indices, call.base_vertex, 0..1);
         }
@@ -79,7 +79,7 @@ impl CoordinatesPass {
 fn build(
     gpu: &Gpu,
     module: &wgpu::ShaderModule,
-    layouts: &[Option<&wgpu::BindGroupLayout>; 3],
+    layouts: &[Option<&wgpu::BindGroupLayout>],
     hidden_side: Option<wgpu::Face>,
 ) -> wgpu::RenderPipeline {
     let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {

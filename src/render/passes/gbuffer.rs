@@ -115,9 +115,10 @@ impl DrawCall {
 pub struct GBufferPass {
     pipelines: HashMap<Variant, wgpu::RenderPipeline>,
     generation: u64,
-    /// Layout of bind group 2.
+    /// Layout of bind group 3. It is the last, since whoever binds a group binds those behind it again, and software
+    /// devices end a scene for each that shaders of fragments write to.
     pub draw_layout: wgpu::BindGroupLayout,
-    /// Layout of bind group 1.
+    /// Layout of bind group 2.
     pub material_layout: wgpu::BindGroupLayout,
     layer_layout: wgpu::BindGroupLayout,
     /// Where the fragments of one group after the other are collected.
@@ -186,7 +187,7 @@ struct Traversal<'a> {
     with_color: bool,
     color: &'a [&'a Target],
     depth: &'a Target,
-    /// Bind group 3.
+    /// Bind group 1.
     group: Option<wgpu::BindGroup>,
 }
 
@@ -214,12 +215,13 @@ impl GBufferPass {
             return Ok(());
         }
         let module = pipelines.module(gpu, key.purpose.file())?;
-        let mut layouts = vec![pipelines.frame_layout(), &self.material_layout, &self.draw_layout];
-        layouts.extend(match key.purpose {
+        let own = match key.purpose {
             Purpose::Surfaces => None,
             Purpose::Layer => Some(&self.layer_layout),
             Purpose::Lists => Some(self.lists.layout()),
-        });
+        };
+        let frame = pipelines.frame_layout();
+        let layouts = [Some(frame), own, Some(&self.material_layout), Some(&self.draw_layout)];
         self.pipelines.insert(key, build(gpu, &module, &layouts, key));
         Ok(())
     }
@@ -310,7 +312,7 @@ impl GBufferPass {
         };
         let mut pass = rec.pass(label, &color, Some(depth));
         if let Some(own) = &own {
-            pass.set_bind_group(3, own, &[]);
+            pass.set_bind_group(1, own, &[]);
         }
         let (mut bound, mut material, mut origin) = (None, None, None);
         for (call, gated) in calls.iter().zip(&gated) {
@@ -328,11 +330,11 @@ impl GBufferPass {
                 bound = Some(key);
             }
             if material != Some(call.material_group) {
-                pass.set_bind_group(1, scene.materials.group(call.material_group), &[]);
+                pass.set_bind_group(2, scene.materials.group(call.material_group), &[]);
                 material = Some(call.material_group);
             }
             let indices = call.first_index..call.first_index + call.index_count;
-            pass.set_bind_group(2, &group, &[buffer.offset(call.draw)]);
+            pass.set_bind_group(3, &group, &[buffer.offset(call.draw)]);
             match gated {
                 Some((buffer, offset)) => pass.draw_indexed_indirect(buffer, *offset),
                 None => pass.draw_indexed(indices, call.base_vertex, 0..1),
@@ -359,12 +361,12 @@ pub(super) fn draw_group(
 fn build(
     gpu: &Gpu,
     module: &wgpu::ShaderModule,
-    layouts: &[&wgpu::BindGroupLayout],
+    layouts: &[Option<&wgpu::BindGroupLayout>],
     variant: Variant,
 ) -> wgpu::RenderPipeline {
     let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
         label: Some("g-buffer"),
-        bind_group_layouts: &layouts.iter().copied().map(Some).collect::<Vec<_>>(),
+        bind_group_layouts: layouts,
         immediate_size: 0,
     });
     let position = wgpu::VertexBufferLayout {

@@ -113,7 +113,8 @@ impl ShadowMapPass {
         }
         if !self.pipelines.contains_key(&key) {
             let module = pipelines.module(gpu, "passes/shadow_map.wgsl")?;
-            let layouts = [pipelines.frame_layout(), material_layout, &self.draw_layout];
+            let layouts =
+                [Some(pipelines.frame_layout()), None, Some(material_layout), Some(&self.draw_layout)];
             self.pipelines.insert(key, build(gpu, &module, &layouts, key));
         }
         Ok(())
@@ -167,11 +168,11 @@ impl ShadowMapPass {
                 view = Some(call.view);
             }
             if material != Some(call.material_group) {
-                pass.set_bind_group(1, scene.materials.group(call.material_group), &[]);
+                pass.set_bind_group(2, scene.materials.group(call.material_group), &[]);
                 material = Some(call.material_group);
             }
             let indices = call.first_index..call.first_index + call.index_count;
-            pass.set_bind_group(2, &group, &[self.draws.offset(call.draw)]);
+            pass.set_bind_group(3, &group, &[self.draws.offset(call.draw)]);
             pass.draw_indexed(indices, call.base_vertex, 0..1);
         }
         drop(pass);
@@ -182,12 +183,12 @@ impl ShadowMapPass {
 fn build(
     gpu: &Gpu,
     module: &wgpu::ShaderModule,
-    layouts: &[&wgpu::BindGroupLayout; 3],
+    layouts: &[Option<&wgpu::BindGroupLayout>],
     Key { has_holes, is_cut, hidden_side }: Key,
 ) -> wgpu::RenderPipeline {
     let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
         label: Some("shadow map"),
-        bind_group_layouts: &layouts.map(Some),
+        bind_group_layouts: layouts,
         immediate_size: 0,
     });
     let position = wgpu::VertexBufferLayout {
