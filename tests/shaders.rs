@@ -16,7 +16,6 @@ use hachure::render::effects::toon::ToonUniform;
 use hachure::render::frame_uniform::{FrameUniform, LightUniform};
 use hachure::render::passes::depth_mask::Masked;
 use hachure::render::passes::edge_style::{EdgeUniform, LineUniform};
-use hachure::render::passes::gbuffer::DrawUniform;
 use hachure::render::passes::peel::Peeled;
 use hachure::render::passes::shadow::{LightViewUniform, ShadowLightUniform};
 use hachure::render::passes::shadow_map::ShadowDraw;
@@ -45,7 +44,6 @@ fn rust_and_wgsl_agree_on_every_uniform() {
     same_layout!(FrameUniform, 17, "passes/resolve.wgsl", "Frame");
     same_layout!(ScaleBarUniform, 3, "passes/resolve.wgsl", "ScaleBar");
     same_layout!(LightUniform, 3, "passes/resolve.wgsl", "Light");
-    same_layout!(DrawUniform, 6, "passes/gbuffer.wgsl", "Draw");
     same_layout!(BlueprintUniform, 6, "effects/blueprint.wgsl", "Blueprint");
     same_layout!(Peeled, 12, "effects/blueprint.wgsl", "Peeled");
     same_layout!(Peeled, 12, "passes/count.wgsl", "Counted");
@@ -63,5 +61,4 @@ fn rust_and_wgsl_agree_on_every_uniform() {
     same_layout!(LightViewUniform, 8, "passes/shadow.wgsl", "LightView");
     same_layout!(ToonUniform, 11, "effects/toon.wgsl", "ToonStyle");
     same_layout!(HalftoneUniform, 15, "effects/halftone.wgsl", "HalftoneStyle");
-    same_layout!(DrawUniform, 6, "passes/coordinates.wgsl", "Draw");
 }

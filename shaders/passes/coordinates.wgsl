@@ -1,18 +1,6 @@
 // Coordinates on the surfaces of the objects whose style asks for them, drawn over the G-buffer's own depth.
 #import common/frame.wgsl
-#import common/material.wgsl
-
-// As in shaders/passes/gbuffer.wgsl.
-struct Draw {
-    view_from_local: mat4x4<f32>,
-    normal_from_local: mat3x3<f32>,
-    material: Material,
-    object: u32,
-    is_flat: u32,
-    first_surface: u32,
-}
-
-@group(3) @binding(0) var<uniform> draw: Draw;
+#import common/instance.wgsl
 
 struct Vertex {
     @builtin(position) @invariant position: vec4<f32>,
@@ -20,8 +8,8 @@ struct Vertex {
 }
 
 @vertex
-fn vs_main(@location(0) position: vec3<f32>, @location(4) uv: vec2<f32>) -> Vertex {
-    let pos_view = draw.view_from_local * vec4(position, 1.0);
+fn vs_main(instance: Instance, @location(0) position: vec3<f32>, @location(4) uv: vec2<f32>) -> Vertex {
+    let pos_view = view_from_local(instance) * vec4(position, 1.0);
     return Vertex(frame.clip_from_view * pos_view, uv);
 }
 

@@ -12,12 +12,12 @@
 @group(1) @binding(3) var payload_tex: texture_storage_2d<rgba32uint, write>;
 @group(1) @binding(4) var<storage, read_write> colors: array<u32>;
 
-fn append(position: vec4<f32>, surface: u32, drawn: GBuffer) {
+fn append(position: vec4<f32>, ids: vec4<u32>, drawn: GBuffer) {
     let index = atomicAdd(&counted.fragments, 1u);
     let room = textureDimensions(link_tex);
     if index < room.x * room.y {
         let next = atomicExchange(&heads[list_of(vec2<u32>(position.xy))], index + 1u);
-        let link = Link(next, bitcast<u32>(position.z), draw.first_surface + surface, drawn.geometry.x);
+        let link = Link(next, bitcast<u32>(position.z), order_of(ids), drawn.geometry.x);
         let payload = Payload(drawn.geometry.y, drawn.geometry.z, drawn.geometry.w, drawn.region);
         textureStore(link_tex, texel_of_record(index), texel_of_link(link));
         textureStore(payload_tex, texel_of_record(index), texel_of_payload(payload));
@@ -29,15 +29,15 @@ fn append(position: vec4<f32>, surface: u32, drawn: GBuffer) {
 
 @fragment
 fn fs_lean_list(v: Lean) {
-    append(v.position, v.surface, lean(v));
+    append(v.position, v.ids, lean(v));
 }
 
 @fragment
 fn fs_smooth_list(v: Smooth) {
-    append(v.position, v.surface, smooth_surface(v));
+    append(v.position, v.ids, smooth_surface(v));
 }
 
 @fragment
 fn fs_full_list(v: Full) {
-    append(v.position, v.surface, full(v));
+    append(v.position, v.ids, full(v));
 }

@@ -3,58 +3,47 @@
 #import common/octahedral.wgsl
 #import common/region.wgsl
 #import common/material.wgsl
-
-// One part of one object. Uniform, not an element of a storage array: what is the same for a whole draw is read once
-// per draw and not once per vertex. Twin: `DrawUniform` in src/render/passes/gbuffer.rs.
-struct Draw {
-    view_from_local: mat4x4<f32>,
-    // Inverse transpose of its linear part.
-    normal_from_local: mat3x3<f32>,
-    material: Material,
-    // Object id with the enhanced flag as the highest bit.
-    object: u32,
-    // 1: the mesh has no normals, faces are flat.
-    is_flat: u32,
-    // Order of its first surface among those of all draws.
-    first_surface: u32,
-}
+#import common/instance.wgsl
 
 // Whether what lies behind a plane is left out: that of a mirror, that of the section, or either.
 override WITH_CUT: bool = false;
 
+// What draws with images have beside their instance.
 @group(2) @binding(0) var base_tex: texture_2d<f32>;
 @group(2) @binding(1) var base_sampler: sampler;
 @group(2) @binding(2) var normal_tex: texture_2d<f32>;
 @group(2) @binding(3) var normal_sampler: sampler;
-
-@group(3) @binding(0) var<uniform> draw: Draw;
+@group(3) @binding(0) var<uniform> material: Material;
 
 struct Lean {
     @builtin(position) @invariant position: vec4<f32>,
     // View-oriented, but about the object's own origin, so that derivatives keep their digits far from the eye.
     @location(0) pos_oriented: vec3<f32>,
-    @location(1) depth: f32,
-    @location(2) @interpolate(flat, first) surface: u32,
+    // Linear depth, and how far in front of the planes of `WITH_CUT` it lies.
+    @location(1) depths: vec3<f32>,
+    // Surface, object, order of its first surface, whether it is flat.
+    @location(2) @interpolate(flat, first) ids: vec4<u32>,
+    @location(3) @interpolate(flat, first) color: vec4<f32>,
 }
 
 struct Smooth {
     @builtin(position) @invariant position: vec4<f32>,
     @location(0) pos_oriented: vec3<f32>,
-    @location(1) depth: f32,
-    @location(2) @interpolate(flat, first) surface: u32,
-    @location(3) normal: vec3<f32>,
-    @location(4) color: vec3<f32>,
+    @location(1) depths: vec3<f32>,
+    @location(2) @interpolate(flat, first) ids: vec4<u32>,
+    @location(3) color: vec3<f32>,
+    @location(4) normal: vec3<f32>,
 }
 
 struct Full {
     @builtin(position) @invariant position: vec4<f32>,
     @location(0) pos_oriented: vec3<f32>,
-    @location(1) depth: f32,
-    @location(2) @interpolate(flat, first) surface: u32,
-    @location(3) normal: vec3<f32>,
-    @location(4) tangent: vec4<f32>,
-    @location(5) uv: vec2<f32>,
-    @location(6) color: vec4<f32>,
+    @location(1) depths: vec3<f32>,
+    @location(2) @interpolate(flat, first) ids: vec4<u32>,
+    @location(3) color: vec4<f32>,
+    @location(4) normal: vec3<f32>,
+    @location(5) tangent: vec4<f32>,
+    @location(6) uv: vec2<f32>,
 }
 
 struct GBuffer {
@@ -63,37 +52,48 @@ struct GBuffer {
     @location(2) region: u32,
 }
 
-fn pos_view_of_vertex(position: vec3<f32>) -> vec4<f32> {
-    return draw.view_from_local * vec4(position, 1.0);
+fn depths(pos_view: vec4<f32>) -> vec3<f32> {
+    let planes = vec2(dot(frame.cut, pos_view), dot(frame.section, pos_view));
+    return vec3(-pos_view.z, select(vec2(0.0), planes, WITH_CUT));
+}
+
+fn ids(instance: Instance, surface: u32) -> vec4<u32> {
+    return vec4(surface, instance.ids);
 }
 
 @vertex
 fn vs_lean(
+    instance: Instance,
     @location(0) position: vec3<f32>,
     @location(1) surface: u32,
 ) -> Lean {
-    let pos_view = pos_view_of_vertex(position);
-    let pos_oriented = pos_view.xyz - draw.view_from_local[3].xyz;
-    return Lean(frame.clip_from_view * pos_view, pos_oriented, -pos_view.z, surface);
+    let local = view_from_local(instance);
+    let pos_view = local * vec4(position, 1.0);
+    return Lean(
+        frame.clip_from_view * pos_view, pos_view.xyz - local[3].xyz, depths(pos_view), ids(instance, surface),
+        instance.base_color,
+    );
 }
 
 @vertex
 fn vs_smooth(
+    instance: Instance,
     @location(0) position: vec3<f32>,
     @location(1) surface: u32,
     @location(2) normal: vec2<f32>,
     @location(5) color: vec4<f32>,
 ) -> Smooth {
-    let pos_view = pos_view_of_vertex(position);
-    let pos_oriented = pos_view.xyz - draw.view_from_local[3].xyz;
-    let normal_view = draw.normal_from_local * octahedral_decode(normal);
+    let local = view_from_local(instance);
+    let pos_view = local * vec4(position, 1.0);
     return Smooth(
-        frame.clip_from_view * pos_view, pos_oriented, -pos_view.z, surface, normal_view, color.rgb,
+        frame.clip_from_view * pos_view, pos_view.xyz - local[3].xyz, depths(pos_view), ids(instance, surface),
+        instance.base_color.rgb * color.rgb, normal_from_local(instance) * octahedral_decode(normal),
     );
 }
 
 @vertex
 fn vs_full(
+    instance: Instance,
     @location(0) position: vec3<f32>,
     @location(1) surface: u32,
     @location(2) normal: vec2<f32>,
@@ -101,13 +101,13 @@ fn vs_full(
     @location(4) uv: vec2<f32>,
     @location(5) color: vec4<f32>,
 ) -> Full {
-    let pos_view = pos_view_of_vertex(position);
-    let local = draw.view_from_local;
-    let normal_view = draw.normal_from_local * octahedral_decode(normal);
+    let local = view_from_local(instance);
+    let pos_view = local * vec4(position, 1.0);
     let tangent_view = (local * vec4(octahedral_decode(tangent.xy), 0.0)).xyz;
     return Full(
-        frame.clip_from_view * pos_view, pos_view.xyz - local[3].xyz, -pos_view.z, surface,
-        normal_view, vec4(tangent_view, sign(tangent.z)), uv, color,
+        frame.clip_from_view * pos_view, pos_view.xyz - local[3].xyz, depths(pos_view), ids(instance, surface),
+        color, normal_from_local(instance) * octahedral_decode(normal),
+        vec4(tangent_view, sign(tangent.z)), uv,
     );
 }
 
@@ -139,27 +139,26 @@ fn pack(normal: vec3<f32>, face: vec3<f32>, depth: f32, object: u32) -> vec4<u32
     );
 }
 
-fn is_cut_off(pos_oriented: vec3<f32>) -> bool {
-    let pos_view = vec4(pos_oriented + draw.view_from_local[3].xyz, 1.0);
-    return WITH_CUT && min(dot(frame.cut, pos_view), dot(frame.section, pos_view)) < 0.0;
+fn is_cut_off(depths: vec3<f32>) -> bool {
+    return WITH_CUT && min(depths.y, depths.z) < 0.0;
 }
 
-fn region(surface: u32) -> u32 {
-    return region_of(draw.object, surface);
+fn region(ids: vec4<u32>) -> u32 {
+    return region_of(ids.y, ids.x);
 }
 
-// The opacity of a surface: 1 unless its material blends.
-fn opacity(alpha: f32) -> f32 {
-    return select(1.0, alpha, draw.material.blends == 1u);
+// What lies equally deep is ordered as it is drawn: by its draw, then by its surface, of which the triangles are drawn in
+// order (`by_surface` in src/gpu/geometry.rs). So coplanar objects are neither lost nor repeated.
+fn order_of(ids: vec4<u32>) -> u32 {
+    return ids.z + ids.x;
 }
 
 fn lean(v: Lean) -> GBuffer {
     let face = face_normal(v.pos_oriented);
-    if is_cut_off(v.pos_oriented) {
+    if is_cut_off(v.depths) {
         discard;
     }
-    let color = vec4(draw.material.base_color.rgb, opacity(draw.material.base_color.a));
-    return GBuffer(pack(face, face, v.depth, draw.object), color, region(v.surface));
+    return GBuffer(pack(face, face, v.depths.x, v.ids.y), v.color, region(v.ids));
 }
 
 // Seen from behind, a surface is shaded as if it were two-sided.
@@ -174,12 +173,11 @@ fn fs_lean(v: Lean) -> GBuffer {
 
 fn smooth_surface(v: Smooth) -> GBuffer {
     let face = face_normal(v.pos_oriented);
-    if is_cut_off(v.pos_oriented) {
+    if is_cut_off(v.depths) {
         discard;
     }
-    let color = draw.material.base_color.rgb * v.color;
-    let normal = select(turned_to(face, normalize(v.normal)), face, draw.is_flat == 1u);
-    return GBuffer(pack(normal, face, v.depth, draw.object), vec4(color, 1.0), region(v.surface));
+    let normal = select(turned_to(face, normalize(v.normal)), face, v.ids.w == 1u);
+    return GBuffer(pack(normal, face, v.depths.x, v.ids.y), vec4(v.color, 1.0), region(v.ids));
 }
 
 @fragment
@@ -191,26 +189,26 @@ fn full(v: Full) -> GBuffer {
     let face = face_normal(v.pos_oriented);
     // Derivatives of the varying itself: loads from buffers are undefined in the helper lanes of a pixel quad.
     let uv = Footprint(v.uv, dpdx(v.uv), dpdy(v.uv));
-    let base = transformed(uv, draw.material.base_uv);
-    let color = textureSampleGrad(base_tex, base_sampler, base.uv, base.dx, base.dy) * draw.material.base_color * v.color;
-    let fine = transformed(uv, draw.material.normal_uv);
+    let base = transformed(uv, material.base_uv);
+    let color = textureSampleGrad(base_tex, base_sampler, base.uv, base.dx, base.dy) * material.base_color * v.color;
+    let fine = transformed(uv, material.normal_uv);
     let bump = textureSampleGrad(normal_tex, normal_sampler, fine.uv, fine.dx, fine.dy).xyz * 2.0 - 1.0;
-    if color.a < draw.material.alpha_cutoff || is_cut_off(v.pos_oriented) {
+    if color.a < material.alpha_cutoff || is_cut_off(v.depths) {
         discard;
     }
     var normal = face;
-    if draw.is_flat == 0u {
+    if v.ids.w == 0u {
         normal = normalize(v.normal);
-        if draw.material.has_normal_texture == 1u && v.tangent.w != 0.0 {
+        if material.has_normal_texture == 1u && v.tangent.w != 0.0 {
             let tangent = normalize(v.tangent.xyz - normal * dot(normal, v.tangent.xyz));
             let bitangent = cross(normal, tangent) * sign(v.tangent.w);
-            let scale = draw.material.normal_scale;
+            let scale = material.normal_scale;
             normal = normalize(mat3x3(tangent, bitangent, normal) * (bump * vec3(scale, scale, 1.0)));
         }
         normal = turned_to(face, normal);
     }
-    let base_color = vec4(color.rgb, opacity(color.a));
-    return GBuffer(pack(normal, face, v.depth, draw.object), base_color, region(v.surface));
+    let base_color = vec4(color.rgb, select(1.0, color.a, material.blends == 1u));
+    return GBuffer(pack(normal, face, v.depths.x, v.ids.y), base_color, region(v.ids));
 }
 
 @fragment

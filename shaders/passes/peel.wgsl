@@ -15,12 +15,10 @@ struct Layer {
     @location(3) order: u32,
 }
 
-// What lies equally deep is ordered as it is drawn: by its draw, then by its surface, of which the triangles are drawn in
-// order (`by_surface` in src/gpu/geometry.rs). So coplanar objects are neither lost nor repeated.
-fn layer(position: vec4<f32>, surface: u32, drawn: GBuffer) -> Layer {
+fn layer(position: vec4<f32>, ids: vec4<u32>, drawn: GBuffer) -> Layer {
     let px = vec2<i32>(position.xy);
     let depth = textureLoad(last_depth_tex, px, 0);
-    let order = draw.first_surface + surface;
+    let order = order_of(ids);
     let is_behind = position.z < depth
         || (position.z == depth && order > textureLoad(last_order_tex, px, 0).x);
     if !is_behind {
@@ -31,15 +29,15 @@ fn layer(position: vec4<f32>, surface: u32, drawn: GBuffer) -> Layer {
 
 @fragment
 fn fs_lean_layer(v: Lean) -> Layer {
-    return layer(v.position, v.surface, lean(v));
+    return layer(v.position, v.ids, lean(v));
 }
 
 @fragment
 fn fs_smooth_layer(v: Smooth) -> Layer {
-    return layer(v.position, v.surface, smooth_surface(v));
+    return layer(v.position, v.ids, smooth_surface(v));
 }
 
 @fragment
 fn fs_full_layer(v: Full) -> Layer {
-    return layer(v.position, v.surface, full(v));
+    return layer(v.position, v.ids, full(v));
 }

@@ -160,7 +160,7 @@ impl ArrayBuffer {
     }
 }
 
-/// A storage buffer of plain records, which shaders read word by word; grows with their number.
+/// A buffer of plain records, which shaders read word by word or as vertices; grows with their number.
 pub struct RecordBuffer {
     buffer: wgpu::Buffer,
     label: &'static str,
@@ -176,7 +176,7 @@ impl RecordBuffer {
         gpu.device.create_buffer(&wgpu::BufferDescriptor {
             label: Some(label),
             size,
-            usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST,
+            usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::COPY_DST,
             mapped_at_creation: false,
         })
     }

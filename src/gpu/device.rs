@@ -161,11 +161,13 @@ pub fn instance_descriptor() -> wgpu::InstanceDescriptor {
     descriptor
 }
 
-/// What is asked of a device: all that the adapter can do in size, and timers where it has them.
+/// What is asked of a device: all that the adapter can do in size, and timers and
+/// instances in indirect draws where it has them.
 pub fn device_descriptor(adapter: &wgpu::Adapter) -> wgpu::DeviceDescriptor<'static> {
     wgpu::DeviceDescriptor {
         label: Some("hachure"),
-        required_features: adapter.features() & wgpu::Features::TIMESTAMP_QUERY,
+        required_features: adapter.features()
+            & (wgpu::Features::TIMESTAMP_QUERY | wgpu::Features::INDIRECT_FIRST_INSTANCE),
         required_limits: adapter.limits(),
         ..Default::default()
     }

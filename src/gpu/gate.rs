@@ -12,7 +12,7 @@ const WORDS: usize = 5;
 pub struct Gate {
     buffer: wgpu::Buffer,
     args: Vec<[u32; WORDS]>,
-    offsets: HashMap<[u32; WORDS], u64>,
+    offsets: HashMap<Vec<[u32; WORDS]>, u64>,
 }
 
 impl Gate {
@@ -36,17 +36,17 @@ impl Gate {
         Ok(())
     }
 
-    /// Where these arguments lie; `None` if there is no room: then they cannot be stopped.
-    pub(super) fn offset(&mut self, args: [u32; WORDS]) -> Option<u64> {
-        if let Some(offset) = self.offsets.get(&args) {
+    /// Where these arguments lie, one after the other; `None` if there is no room: then they cannot be stopped.
+    pub(super) fn offset(&mut self, args: &[[u32; WORDS]]) -> Option<u64> {
+        if let Some(offset) = self.offsets.get(args) {
             return Some(*offset);
         }
         let offset = (self.args.len() * WORDS * 4) as u64;
-        if offset + (WORDS * 4) as u64 > self.buffer.size() {
+        if offset + size_of_val(args) as u64 > self.buffer.size() {
             return None;
         }
-        self.args.push(args);
-        self.offsets.insert(args, offset);
+        self.args.extend(args);
+        self.offsets.insert(args.to_vec(), offset);
         Some(offset)
     }
 

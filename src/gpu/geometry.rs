@@ -32,6 +32,20 @@ pub struct MeshRange {
     pub first_index: u32,
 }
 
+/// The layout of positions, shader location 0.
+pub const POSITIONS: wgpu::VertexBufferLayout<'static> = wgpu::VertexBufferLayout {
+    array_stride: 12,
+    step_mode: wgpu::VertexStepMode::Vertex,
+    attributes: &wgpu::vertex_attr_array![0 => Float32x3],
+};
+
+/// The layout of surfaces, shader location 1.
+pub const SURFACES: wgpu::VertexBufferLayout<'static> = wgpu::VertexBufferLayout {
+    array_stride: 4,
+    step_mode: wgpu::VertexStepMode::Vertex,
+    attributes: &wgpu::vertex_attr_array![1 => Uint32],
+};
+
 /// A mesh together with what topology found out about it.
 #[derive(Clone, Copy)]
 pub struct MeshSource<'a> {
@@ -54,7 +68,7 @@ pub struct Attributes {
 }
 
 impl Attributes {
-    /// Their layout in vertex buffer 2, shader locations 2 to 5.
+    /// Their layout, shader locations 2 to 5.
     pub const LAYOUT: wgpu::VertexBufferLayout<'static> = wgpu::VertexBufferLayout {
         array_stride: size_of::<Self>() as u64,
         step_mode: wgpu::VertexStepMode::Vertex,
@@ -88,9 +102,9 @@ fn octahedral(v: Vec3) -> [i16; 2] {
 }
 
 impl GeometryBuffers {
-    /// Binds its indices, and those of its vertex buffers that a pass reads, each in its slot.
-    pub fn bind(&self, pass: &mut wgpu::RenderPass<'_>, vertices: &[Option<&wgpu::Buffer>]) {
-        for (slot, buffer) in (0..).zip(vertices) {
+    /// Binds its indices, and those of its vertex buffers that a pass reads, from a slot on.
+    pub fn bind(&self, pass: &mut wgpu::RenderPass<'_>, slot: u32, vertices: &[Option<&wgpu::Buffer>]) {
+        for (slot, buffer) in (slot..).zip(vertices) {
             if let Some(buffer) = buffer {
                 pass.set_vertex_buffer(slot, buffer.slice(..));
             }

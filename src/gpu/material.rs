@@ -53,6 +53,11 @@ impl From<&Material> for MaterialUniform {
 }
 
 impl MaterialUniform {
+    /// Its base colour, linear, and its opacity.
+    pub fn base_color(&self) -> Vec4 {
+        self.base_color.truncate().extend(if self.blends == 1 { self.base_color.w } else { 1.0 })
+    }
+
     /// The same in another colour, linear.
     #[must_use]
     pub fn with_color(self, color: Vec3) -> Self {

@@ -260,7 +260,7 @@ impl<'a> Recorder<'a> {
             depth_ops: rule.operations(),
             stencil_ops: None,
         });
-        let gated = self.gated([3, 1, 0, 0, 0]);
+        let gated = self.gated(&[[3, 1, 0, 0, 0]]);
         let mut pass = self.pass(draw.label, &color, depth);
         for (pipeline, group) in &draws {
             pass.set_pipeline(pipeline);
@@ -273,8 +273,8 @@ impl<'a> Recorder<'a> {
         Ok(())
     }
 
-    /// Where the arguments of a draw or dispatch lie that the gate may stop; `None`: it is not to be stopped.
-    pub fn gated(&mut self, args: [u32; 5]) -> Option<(wgpu::Buffer, u64)> {
+    /// Where the arguments of draws or dispatches lie that the gate may stop; `None`: they are not to be stopped.
+    pub fn gated(&mut self, args: &[[u32; 5]]) -> Option<(wgpu::Buffer, u64)> {
         let gate = self.gate.as_mut()?;
         let offset = gate.offset(args)?;
         Some((gate.buffer().clone(), offset))
@@ -313,7 +313,7 @@ impl<'a> Recorder<'a> {
         let group = inputs_group(self.gpu, label, &made.inputs, inputs);
         let workgroups = workgroups.into();
         let gated = match workgroups {
-            Workgroups::Counted([columns, rows]) => self.gated([columns, rows, 1, 0, 0]),
+            Workgroups::Counted([columns, rows]) => self.gated(&[[columns, rows, 1, 0, 0]]),
             Workgroups::Written(_) => None,
         };
         let timestamp_writes = self.timers.as_mut().and_then(|t| t.pass(label));

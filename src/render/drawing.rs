@@ -31,7 +31,8 @@ use super::lights::Lights;
 use super::passes::depth_mask::DepthMaskPass;
 use super::passes::edge_map::{EdgeInputs, EdgeMap, edge_map};
 use super::passes::edge_style::EdgeUniform;
-use super::passes::gbuffer::{DrawCall, DrawUniform, GBuffer, GBufferPass};
+use super::passes::gbuffer::{GBuffer, GBufferPass};
+use super::passes::instances::{DrawCall, Instance, Instances};
 use super::passes::line_distance::{Reach, line_distance};
 use super::passes::lines::{Lines, Pen, lines};
 use super::passes::overlay::overlay;
@@ -43,7 +44,7 @@ use super::shadows::{ShadowMap, ShadowMask};
 use super::stage::{Output, Stage};
 use crate::document;
 use crate::geometry::{EdgeClass, LineSegment};
-use crate::gpu::{ArrayBuffer, DynamicBuffer, Gpu, Recorder, Target, UniformBuffer};
+use crate::gpu::{ArrayBuffer, Gpu, Recorder, Target, UniformBuffer};
 
 /// What is to be drawn, and from where.
 #[derive(Clone, Copy)]
@@ -124,7 +125,7 @@ impl Shared {
 pub struct Drawing {
     uniform: UniformBuffer<FrameUniform>,
     frame_group: wgpu::BindGroup,
-    draws: DynamicBuffer,
+    draws: Instances,
     placed_segments: Segments,
     greatest_radius: ArrayBuffer,
     edge_styles: ArrayBuffer,
@@ -133,7 +134,7 @@ pub struct Drawing {
     toon_bands: ArrayBuffer,
     halftone_styles: ArrayBuffer,
     caps: ArrayBuffer,
-    gbuffer: Stage<(u64, u64, View, Vec<DrawUniform>, Vec<DrawCall>), GBuffer>,
+    gbuffer: Stage<(u64, u64, View, Vec<Instance>, Vec<DrawCall>), GBuffer>,
     segments: Stage<(u64, View, Vec<EdgeUniform>, f32), Arc<Vec<LineSegment>>>,
     edge_map: Stage<([u64; 2], Vec<EdgeUniform>, Vec2, Option<FrameUniform>), EdgeMap>,
     reach: Stage<u64, Reach>,
@@ -192,7 +193,7 @@ impl Drawing {
         Self {
             uniform,
             frame_group,
-            draws: GBufferPass::draw_buffer(gpu),
+            draws: Instances::new(gpu),
             placed_segments: Segments::new(gpu),
             greatest_radius: ArrayBuffer::new(gpu, "greatest radius"),
             edge_styles: ArrayBuffer::new(gpu, "edge styles"),

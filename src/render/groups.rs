@@ -11,7 +11,7 @@ use super::effects::toon::{ToonUniform, Toons};
 use super::frame_uniform::View;
 use super::gpu_scene::{GpuScene, Origin};
 use super::passes::edge_style::EdgeUniform;
-use super::passes::gbuffer::{Detail, DrawCall, DrawUniform};
+use super::passes::instances::{Detail, DrawCall, Instance};
 use super::style_images::StyleImages;
 use crate::document::{Document, Show};
 use crate::geometry::{Bounds, EdgeClass};
@@ -383,7 +383,7 @@ impl Group {
     }
 
     /// What the G-buffer depends on: for each visible part its matrices, object and material, ordered by pipeline.
-    pub fn draws(&self, scene: &GpuScene, view: &View) -> (Vec<DrawUniform>, Vec<DrawCall>) {
+    pub fn draws(&self, scene: &GpuScene, view: &View) -> (Vec<Instance>, Vec<DrawCall>) {
         let mut draws = Vec::new();
         let mut calls = Vec::new();
         for part in self.parts(scene) {
@@ -426,12 +426,12 @@ impl Group {
                 },
             };
             calls.push((depth, call));
-            let draw = DrawUniform {
+            let draw = Instance {
                 view_from_local: view_from_local.as_mat4(),
                 normal_from_local: normal_matrix(&view_from_local),
                 object: object_id(part.node) | if part.enhanced { ENHANCED } else { 0 },
                 material: part.material(scene),
-                is_flat: u32::from(part.is_flat),
+                is_flat: part.is_flat,
                 first_surface: 0,
             };
             draws.push(draw);

@@ -17,14 +17,15 @@ pub use self::room::{LayersBy, Reason, Reported};
 
 use self::room::{Recorded, Room};
 use crate::document;
-use crate::gpu::{ArrayBuffer, DynamicBuffer, Gate, Gpu, Recorder, Reports, Target};
+use crate::gpu::{ArrayBuffer, Gate, Gpu, Recorder, Reports, Target};
 use crate::render::RenderError;
 use crate::render::gpu_scene::GpuScene;
 use crate::render::passes::depth_mask::DepthMask;
 use crate::render::passes::edge_map::{EdgeInputs, EdgeMap, edge_map};
 use crate::render::passes::edge_style::EdgeUniform;
 use crate::render::passes::fragment_lists::Asked;
-use crate::render::passes::gbuffer::{DrawCall, DrawUniform, GBufferPass};
+use crate::render::passes::gbuffer::GBufferPass;
+use crate::render::passes::instances::{DrawCall, Instance, Instances};
 use crate::render::passes::line_distance::{Reach, line_distance};
 use crate::render::passes::lines::Lines;
 use crate::render::passes::peel::{Layer, MOST_LAYERS, Peel, PeelCount, Peeled, before_all};
@@ -40,7 +41,7 @@ pub struct LayerInputs<'a> {
     /// The scene on the device.
     pub scene: &'a GpuScene,
     /// The uniforms of all draws.
-    pub draws: &'a [DrawUniform],
+    pub draws: &'a [Instance],
     /// The draws.
     pub calls: &'a [DrawCall],
     /// Whether what lies behind a plane is left out.
@@ -65,7 +66,7 @@ pub struct LayerInputs<'a> {
 
 /// What of the layers of a group lives across frames.
 pub struct Layers {
-    draws: DynamicBuffer,
+    draws: Instances,
     gate: Option<Gate>,
     count: PeelCount,
     reports: Reports<Recorded>,
@@ -78,7 +79,7 @@ impl Layers {
     /// Nothing drawn yet.
     pub fn new(gpu: &Gpu) -> Self {
         Self {
-            draws: GBufferPass::draw_buffer(gpu),
+            draws: Instances::new(gpu),
             gate: None,
             count: PeelCount::new(gpu),
             reports: Reports::default(),
@@ -130,18 +131,12 @@ impl Layers {
             plain = inputs.calls.iter().map(DrawCall::without_attributes).collect();
             inputs.calls = &plain;
         }
-        let LayerInputs { scene, draws, calls, is_cut, with_color, .. } = inputs;
         self.count.begin(rec.gpu, inputs.least.max(1), inputs.fraction);
         let mut recorded = self.room.plan(rec.gpu, rec.size(), inputs.most.min(MOST_LAYERS), inputs.by);
         let mut gate = self.gate.take().unwrap_or_else(|| Gate::new(rec.gpu));
-        gate.clear(rec.gpu, calls.len() + PASSES)?;
-        if let Ok(room) = &mut recorded.fragments {
-            *room = gbuffer_pass.lists.begin(rec, *room)?;
-            let parts = (draws, calls);
-            gbuffer_pass.collect(rec, scene, &mut self.draws, parts, is_cut, with_color, &self.count)?;
-        }
+        gate.clear(rec.gpu, inputs.calls.len() + PASSES)?;
         rec.gate = Some(gate);
-        let drawn = self.draw_each(rec, gbuffer_pass, &inputs, recorded, draw);
+        let drawn = self.draw_each(rec, gbuffer_pass, &inputs, &mut recorded, draw);
         self.gate = rec.gate.take();
         self.reports.send(rec, self.count.buffer(), recorded);
         if let Some(gate) = &self.gate {
@@ -155,10 +150,15 @@ impl Layers {
         rec: &mut Recorder<'_>,
         gbuffer_pass: &mut GBufferPass,
         inputs: &LayerInputs<'_>,
-        recorded: Recorded,
+        recorded: &mut Recorded,
         mut draw: impl FnMut(&mut Recorder<'_>, u32, &Layer, &PeelCount) -> Result<(), RenderError>,
     ) -> Result<(), RenderError> {
         let LayerInputs { scene, draws, calls, is_cut, mask, with_color, .. } = *inputs;
+        if let Ok(room) = &mut recorded.fragments {
+            *room = gbuffer_pass.lists.begin(rec, *room)?;
+            let parts = (draws, calls);
+            gbuffer_pass.collect(rec, scene, &mut self.draws, parts, is_cut, with_color, &self.count)?;
+        }
         let mut lists = match recorded.by() {
             LayersBy::Lists => Some(gbuffer_pass.lists.cut(rec, recorded.layers)?),
             LayersBy::Peeling(_) => None,

@@ -7,7 +7,8 @@ use super::drawing::DrawingInputs;
 use super::frame_uniform::View;
 use super::layers::{LayerInputs, LayerLines, LayerLinesInputs, Layers};
 use super::passes::edge_style::EdgeUniform;
-use super::passes::gbuffer::{DrawCall, DrawUniform, GBuffer, GBufferPass};
+use super::passes::gbuffer::{GBuffer, GBufferPass};
+use super::passes::instances::{DrawCall, Instance};
 use super::passes::segments::Segments;
 use super::segments::segments;
 use super::stage::{Output, Stage};
@@ -28,7 +29,7 @@ struct Inputs {
     scene_revision: u64,
     number: u32,
     view: View,
-    draws: Vec<DrawUniform>,
+    draws: Vec<Instance>,
     calls: Vec<DrawCall>,
     edge_styles: Vec<EdgeUniform>,
     depth_range: Vec2,

@@ -4,8 +4,11 @@ use std::path::Path;
 
 use glam::{DMat4, DQuat, DVec3, Vec3};
 use hachure::document::Role;
+use hachure::export::Session;
 use hachure::export::session::{Opened, open};
 use hachure::geometry::{Mesh, primitives};
+use hachure::gpu::Gpu;
+use hachure::gpu::device::{device_descriptor, instance_descriptor};
 use hachure::import::Progress;
 use hachure::render::{LayersBy, Reason};
 use hachure::scene::{AlphaMode, Scene, Texture, TextureRef};
@@ -48,6 +51,29 @@ fn lists_give_the_layers_that_peeling_gives() {
     for (name, least) in [("crank", 8), ("ogre", 4), ("still_life", 4), ("temple", 8)] {
         let count = check_same_layers(name, &sample(name), 160);
         assert!(count >= least, "{name}: {count}");
+    }
+}
+
+/// A device with no more than the features that every device has.
+fn featureless() -> Session {
+    let instance = wgpu::Instance::new(instance_descriptor());
+    let adapter =
+        pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions::default())).unwrap();
+    let descriptor =
+        wgpu::DeviceDescriptor { required_features: wgpu::Features::empty(), ..device_descriptor(&adapter) };
+    let (device, queue) = pollster::block_on(adapter.request_device(&descriptor)).unwrap();
+    Session::new(Gpu::new(&adapter, device, queue))
+}
+
+#[test]
+fn a_device_without_optional_features_gives_the_same_layers() {
+    for name in ["crank", "still_life"] {
+        let opened = sample(name);
+        let [all, least] = [session(), featureless()].map(|mut session| {
+            session.set_scene(&opened).unwrap();
+            ["auto", "peeling"].map(|by| layers(&mut session, &opened, 160, by))
+        });
+        assert!(all == least, "{name}");
     }
 }
 

@@ -19,8 +19,7 @@ impl Drawing {
         }
         let asked = (begun.gbuffer.revision, begun.with_coordinates.clone());
         let coordinates = self.coordinates.run(asked, |(_, calls)| {
-            let draws = (&shared.gbuffer.draw_layout, &self.draws);
-            shared.gbuffer.coordinates.run(rec, inputs.scene, &begun.gbuffer.value, draws, calls)
+            shared.gbuffer.coordinates.run(rec, inputs.scene, &begun.gbuffer.value, &self.draws, calls)
         })?;
         Ok(Some(coordinates.value))
     }

@@ -10,14 +10,15 @@
 
 use crate::document::LayersBy;
 use crate::gpu::recorder::{Draw, Input, Onto};
-use crate::gpu::{DepthRule, DynamicBuffer, Gpu, Program, Recorder, Target};
+use crate::gpu::{DepthRule, Gpu, Program, Recorder, Target};
 use crate::render::RenderError;
 use crate::render::drawing::DrawingInputs;
 use crate::render::effects::surface::{Shading, surface};
 use crate::render::effects::toon::cartoon_map;
 use crate::render::groups::Group;
 use crate::render::layers::{LayerInputs, LayerLines, LayerLinesInputs, Layers, Reported};
-use crate::render::passes::gbuffer::{DrawCall, DrawUniform, GBuffer, GBufferPass};
+use crate::render::passes::gbuffer::{GBuffer, GBufferPass};
+use crate::render::passes::instances::{DrawCall, Instance, Instances};
 use crate::render::passes::lines::{Lines, Pen, lines};
 use crate::render::passes::peel::Layer;
 use crate::render::passes::segments::Segments;
@@ -35,7 +36,7 @@ const COVER: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Uint;
 pub struct Blend {
     scene_revision: u64,
     group: Group,
-    draws: Vec<DrawUniform>,
+    draws: Vec<Instance>,
     calls: Vec<DrawCall>,
     crease_angle: f32,
     layers_by: LayersBy,
@@ -83,7 +84,7 @@ pub struct Blended {
     layers: Layers,
     lines: LayerLines,
     segments: Segments,
-    draws: DynamicBuffer,
+    draws: Instances,
 }
 
 impl Blended {
@@ -93,7 +94,7 @@ impl Blended {
             layers: Layers::new(gpu),
             lines: LayerLines::new(gpu),
             segments: Segments::new(gpu),
-            draws: GBufferPass::draw_buffer(gpu),
+            draws: Instances::new(gpu),
         }
     }
 
@@ -135,7 +136,6 @@ impl Blended {
         if !with_coordinates.is_empty() {
             draw_buffer.write(rec.gpu, draws)?;
         }
-        let draw_layout = gbuffer_pass.draw_layout.clone();
         // Layers are drawn by the same pass.
         let mut coordinates_pass = std::mem::take(&mut gbuffer_pass.coordinates);
         let color = rec.target("blended", wgpu::TextureFormat::Rgba16Float)?;
@@ -167,8 +167,13 @@ impl Blended {
             let coordinates = if with_coordinates.is_empty() {
                 None
             } else {
-                let draws = (&draw_layout, &*draw_buffer);
-                Some(coordinates_pass.run(rec, inputs.scene, &layer.gbuffer, draws, &with_coordinates)?)
+                Some(coordinates_pass.run(
+                    rec,
+                    inputs.scene,
+                    &layer.gbuffer,
+                    draw_buffer,
+                    &with_coordinates,
+                )?)
             };
             let mut own =
                 Shading { shadow_mask: mask.as_ref(), cartoon_map: bands.as_ref(), blends: true, ..*shading };

@@ -22,7 +22,8 @@ use crate::render::frame_uniform::FrameUniform;
 use crate::render::groups::Group;
 use crate::render::layers::{LayerInputs, LayerLines, LayerLinesInputs, Layers, LayersBy, Reported};
 use crate::render::passes::depth_mask::DepthMask;
-use crate::render::passes::gbuffer::{DrawCall, DrawUniform, GBuffer, GBufferPass};
+use crate::render::passes::gbuffer::{GBuffer, GBufferPass};
+use crate::render::passes::instances::{DrawCall, Instance};
 use crate::render::passes::lines::{Pen, lines};
 use crate::render::passes::peel::{Layer, MOST_LAYERS, PeelCount, Peeled};
 use crate::render::passes::segments::Segments;
@@ -118,7 +119,7 @@ struct Inputs {
     surfaces: u64,
     mask: Option<u64>,
     blueprint: Blueprint,
-    draws: Vec<DrawUniform>,
+    draws: Vec<Instance>,
     calls: Vec<DrawCall>,
     uniform: FrameUniform,
     part: Option<[u32; 4]>,

@@ -16,7 +16,8 @@ use crate::render::frame_uniform::FrameUniform;
 use crate::render::layers::{LayerInputs, LayerLines, LayerLinesInputs, Layers, Reported};
 use crate::render::passes::edge_map::EdgeMap;
 use crate::render::passes::edge_style::EdgeUniform;
-use crate::render::passes::gbuffer::{DrawCall, DrawUniform, GBufferPass};
+use crate::render::passes::gbuffer::GBufferPass;
+use crate::render::passes::instances::{DrawCall, Instance};
 use crate::render::passes::lines::{Pen, lines};
 use crate::render::passes::peel::PeelCount;
 use crate::render::passes::repeated::seen_lines;
@@ -95,7 +96,7 @@ struct Inputs {
     scene_revision: u64,
     hidden: Hidden,
     visible: Option<u64>,
-    draws: Vec<DrawUniform>,
+    draws: Vec<Instance>,
     calls: Vec<DrawCall>,
     uniform: FrameUniform,
     part: Option<[u32; 4]>,

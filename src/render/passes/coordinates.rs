@@ -4,10 +4,11 @@
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 
-use super::gbuffer::{DEPTH, DrawCall, GBuffer, draw_group};
-use crate::gpu::geometry::Attributes;
+use super::gbuffer::{DEPTH, GBuffer};
+use super::instances::{DrawCall, INSTANCES, Instances, runs};
+use crate::gpu::geometry::{Attributes, POSITIONS};
 use crate::gpu::recorder::color_attachment;
-use crate::gpu::{DynamicBuffer, Gpu, Recorder, Target};
+use crate::gpu::{Gpu, Recorder, Target};
 use crate::render::RenderError;
 use crate::render::gpu_scene::GpuScene;
 
@@ -22,7 +23,7 @@ pub struct CoordinatesPass {
 }
 
 impl CoordinatesPass {
-    /// Draws parts of the scene of which a G-buffer was made from the same `draws`; 0 elsewhere. Their meshes must have
+    /// Draws parts of the scene of which a G-buffer was made from the same instances; 0 elsewhere. Their meshes must have
     /// texture coordinates.
     ///
     /// # Errors
@@ -32,7 +33,7 @@ impl CoordinatesPass {
         rec: &mut Recorder<'_>,
         scene: &GpuScene,
         gbuffer: &GBuffer,
-        (draw_layout, draws): (&wgpu::BindGroupLayout, &DynamicBuffer),
+        instances: &Instances,
         calls: &[DrawCall],
     ) -> Result<Target, RenderError> {
         let target = rec.target("coordinates", COORDINATES)?;
@@ -43,11 +44,10 @@ impl CoordinatesPass {
         for call in calls {
             if let Entry::Vacant(place) = self.pipelines.entry(call.hidden_side) {
                 let module = rec.pipelines.module(rec.gpu, "passes/coordinates.wgsl")?;
-                let layouts = [Some(rec.pipelines.frame_layout()), None, None, Some(draw_layout)];
-                place.insert(build(rec.gpu, &module, &layouts, call.hidden_side));
+                place.insert(build(rec.gpu, &module, rec.pipelines.frame_layout(), call.hidden_side));
             }
         }
-        let group = draw_group(rec.gpu, draw_layout, draws);
+        let runs = runs(rec, calls);
         let color = [Some(color_attachment(&target, wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT)))];
         let depth = wgpu::RenderPassDepthStencilAttachment {
             view: gbuffer.depth.view(),
@@ -56,20 +56,19 @@ impl CoordinatesPass {
         };
         let mut pass = rec.pass("coordinates", &color, Some(depth));
         let mut origin = None;
-        for call in calls {
+        for run in &runs {
+            let call = &run.call;
             let geometry = scene.geometry(call.origin);
             if geometry.attributes.is_none() {
                 continue;
             }
             if origin != Some(call.origin) {
-                geometry.bind(&mut pass, &[Some(&geometry.positions), geometry.attributes.as_ref()]);
+                geometry.bind(&mut pass, 1, &[Some(&geometry.positions), geometry.attributes.as_ref()]);
                 origin = Some(call.origin);
             }
             let Some(pipeline) = self.pipelines.get(&call.hidden_side) else { continue };
             pass.set_pipeline(pipeline);
-            pass.set_bind_group(3, &group, &[draws.offset(call.draw)]);
-            let indices = call.first_index..call.first_index + call.index_count;
-            pass.draw_indexed(indices, call.base_vertex, 0..1);
+            instances.draw(&mut pass, run);
         }
         drop(pass);
         Ok(target)
@@ -79,19 +78,14 @@ impl CoordinatesPass {
 fn build(
     gpu: &Gpu,
     module: &wgpu::ShaderModule,
-    layouts: &[Option<&wgpu::BindGroupLayout>],
+    frame_layout: &wgpu::BindGroupLayout,
     hidden_side: Option<wgpu::Face>,
 ) -> wgpu::RenderPipeline {
     let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
         label: Some("coordinates"),
-        bind_group_layouts: layouts,
+        bind_group_layouts: &[Some(frame_layout)],
         immediate_size: 0,
     });
-    let position = wgpu::VertexBufferLayout {
-        array_stride: 12,
-        step_mode: wgpu::VertexStepMode::Vertex,
-        attributes: &wgpu::vertex_attr_array![0 => Float32x3],
-    };
     gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some("coordinates"),
         layout: Some(&layout),
@@ -99,7 +93,7 @@ fn build(
             module,
             entry_point: Some("vs_main"),
             compilation_options: wgpu::PipelineCompilationOptions::default(),
-            buffers: &[Some(position), Some(Attributes::LAYOUT)],
+            buffers: &[Some(INSTANCES), Some(POSITIONS), Some(Attributes::LAYOUT)],
         },
         primitive: wgpu::PrimitiveState { cull_mode: hidden_side, ..Default::default() },
         // What the G-buffer shows lies exactly there; holes by alpha too are none of it.

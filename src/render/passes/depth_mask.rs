@@ -7,9 +7,10 @@
 
 use encase::ShaderType;
 
-use super::gbuffer::{DrawCall, DrawUniform, GBuffer, GBufferPass};
+use super::gbuffer::{GBuffer, GBufferPass};
+use super::instances::{DrawCall, Instance, Instances};
 use crate::gpu::recorder::Input;
-use crate::gpu::{DynamicBuffer, Gpu, Program, Recorder, Target};
+use crate::gpu::{Gpu, Program, Recorder, Target};
 use crate::render::RenderError;
 use crate::render::drawing::DrawingInputs;
 use crate::render::frame_uniform::View;
@@ -40,9 +41,9 @@ pub struct DepthMask {
 
 /// What of the depth mask lives across frames.
 pub struct DepthMaskPass {
-    draws: DynamicBuffer,
+    draws: Instances,
     count: wgpu::Buffer,
-    stage: Stage<(u64, u64, View, Vec<DrawUniform>, Vec<DrawCall>, u64), DepthMask>,
+    stage: Stage<(u64, u64, View, Vec<Instance>, Vec<DrawCall>, u64), DepthMask>,
 }
 
 impl DepthMaskPass {
@@ -50,7 +51,7 @@ impl DepthMaskPass {
     pub fn new(gpu: &Gpu) -> Self {
         let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST;
         Self {
-            draws: GBufferPass::draw_buffer(gpu),
+            draws: Instances::new(gpu),
             count: gpu.device.create_buffer(&wgpu::BufferDescriptor {
                 label: Some("depth mask"),
                 size: Masked::min_size().get(),

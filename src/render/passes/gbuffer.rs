@@ -2,18 +2,15 @@
 
 use std::collections::HashMap;
 
-use encase::ShaderType;
-use glam::{Mat3, Mat4};
-
 use super::coordinates::CoordinatesPass;
 use super::fragment_lists::FragmentLists;
+use super::instances::{Detail, DrawCall, INSTANCES, Instance, Instances, runs};
 use super::peel::{Peel, PeelCount};
-use crate::gpu::geometry::Attributes;
-use crate::gpu::material::MaterialUniform;
+use crate::gpu::geometry::{Attributes, POSITIONS, SURFACES};
 use crate::gpu::recorder::color_attachment;
-use crate::gpu::{DynamicBuffer, Gpu, MaterialBindings, Pipelines, Recorder, Target};
+use crate::gpu::{Gpu, MaterialBindings, Pipelines, Recorder, Target};
 use crate::render::RenderError;
-use crate::render::gpu_scene::{GpuScene, Origin};
+use crate::render::gpu_scene::GpuScene;
 
 /// Shading and face normal, linear depth, object id: see `shaders/common/gbuffer.wgsl`.
 const GEOMETRY: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Uint;
@@ -51,75 +48,14 @@ impl GBuffer {
     }
 }
 
-/// One draw; twin of `Draw` in `shaders/passes/gbuffer.wgsl`.
-#[derive(Debug, Clone, Copy, PartialEq, ShaderType)]
-pub struct DrawUniform {
-    /// Local to view space.
-    pub view_from_local: Mat4,
-    /// Inverse transpose of its linear part, up to a positive factor.
-    pub normal_from_local: Mat3,
-    /// What it is made of.
-    pub material: MaterialUniform,
-    /// Object id with the enhanced flag.
-    pub object: u32,
-    /// 1: no normals, faces are flat.
-    pub is_flat: u32,
-    /// Order of its first surface among those of all draws; at least 1.
-    pub first_surface: u32,
-}
-
-/// How much the shaders of a draw have to read; less is faster.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Detail {
-    /// Positions only: no mesh of the scene has anything more.
-    Lean,
-    /// Normals and colours.
-    Smooth,
-    /// Images too, and holes.
-    Full,
-}
-
-/// One draw call.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct DrawCall {
-    /// Index of its uniform.
-    pub draw: u32,
-    /// The buffers that hold it.
-    pub origin: Origin,
-    /// Range of the index buffer.
-    pub first_index: u32,
-    /// Number of indices.
-    pub index_count: u32,
-    /// Number of its surfaces.
-    pub surfaces: u32,
-    /// First vertex of the mesh.
-    pub base_vertex: i32,
-    /// Bind group of the material.
-    pub material_group: usize,
-    /// Which vertex and fragment shader it needs.
-    pub detail: Detail,
-    /// The side of its triangles that is left out.
-    pub hidden_side: Option<wgpu::Face>,
-}
-
-impl DrawCall {
-    /// The same with no more than positions, where nobody asks for colours and shading normals. Holes need images.
-    #[must_use]
-    pub fn without_attributes(&self) -> Self {
-        let detail = if self.detail == Detail::Smooth { Detail::Lean } else { self.detail };
-        Self { detail, ..*self }
-    }
-}
-
 /// The pipelines of the pass, made when first needed.
 pub struct GBufferPass {
     pipelines: HashMap<Variant, wgpu::RenderPipeline>,
     generation: u64,
-    /// Layout of bind group 3. It is the last, since whoever binds a group binds those behind it again, and software
-    /// devices end a scene for each that shaders of fragments write to.
-    pub draw_layout: wgpu::BindGroupLayout,
-    /// Layout of bind group 2.
+    /// Layout of bind group 2: images.
     pub material_layout: wgpu::BindGroupLayout,
+    /// Layout of bind group 3: the material of an instance.
+    instance_layout: wgpu::BindGroupLayout,
     layer_layout: wgpu::BindGroupLayout,
     /// Where the fragments of one group after the other are collected.
     pub lists: FragmentLists,
@@ -194,12 +130,11 @@ struct Traversal<'a> {
 impl GBufferPass {
     /// Compiles nothing yet.
     pub fn new(gpu: &Gpu) -> Self {
-        let draw_layout = DynamicBuffer::layout::<DrawUniform>(gpu, "draw");
         Self {
             pipelines: HashMap::new(),
             generation: 0,
-            draw_layout,
             material_layout: MaterialBindings::layout(gpu),
+            instance_layout: Instances::material_layout(gpu),
             layer_layout: Peel::layout(gpu),
             lists: FragmentLists::new(gpu),
             coordinates: CoordinatesPass::default(),
@@ -221,17 +156,13 @@ impl GBufferPass {
             Purpose::Lists => Some(self.lists.layout()),
         };
         let frame = pipelines.frame_layout();
-        let layouts = [Some(frame), own, Some(&self.material_layout), Some(&self.draw_layout)];
-        self.pipelines.insert(key, build(gpu, &module, &layouts, key));
+        let layouts = [Some(frame), own, Some(&self.material_layout), Some(&self.instance_layout)];
+        let bound = if key.detail == Detail::Full { &layouts[..] } else { &layouts[..2] };
+        self.pipelines.insert(key, build(gpu, &module, bound, key));
         Ok(())
     }
 
-    /// A buffer for the uniforms of draws.
-    pub fn draw_buffer(gpu: &Gpu) -> DynamicBuffer {
-        DynamicBuffer::new::<DrawUniform>(gpu, "draws")
-    }
-
-    /// Draws the given parts of a scene, whose uniforms go to `buffer`; of a layer only what lies behind the last one.
+    /// Draws the given parts of a scene, which go to `instances`; of a layer only what lies behind the last one.
     ///
     /// # Errors
     /// [`RenderError`].
@@ -239,8 +170,8 @@ impl GBufferPass {
         &mut self,
         rec: &mut Recorder<'_>,
         scene: &GpuScene,
-        buffer: &mut DynamicBuffer,
-        parts: (&[DrawUniform], &[DrawCall]),
+        instances: &mut Instances,
+        parts: (&[Instance], &[DrawCall]),
         is_cut: bool,
         peel: Option<&Peel<'_>>,
     ) -> Result<GBuffer, RenderError> {
@@ -253,7 +184,7 @@ impl GBufferPass {
         let color: Vec<_> = [geometry, base_color, region].into_iter().chain(peel.map(|p| p.order)).collect();
         let group = peel.map(|peel| peel.group(rec.gpu, &self.layer_layout));
         let traversal = Traversal { label, purpose, with_color, color: &color, depth, group };
-        self.traverse(rec, scene, buffer, parts, is_cut, traversal)?;
+        self.traverse(rec, scene, instances, parts, is_cut, traversal)?;
         Ok(gbuffer)
     }
 
@@ -265,8 +196,8 @@ impl GBufferPass {
         &mut self,
         rec: &mut Recorder<'_>,
         scene: &GpuScene,
-        buffer: &mut DynamicBuffer,
-        parts: (&[DrawUniform], &[DrawCall]),
+        instances: &mut Instances,
+        parts: (&[Instance], &[DrawCall]),
         is_cut: bool,
         with_color: bool,
         count: &PeelCount,
@@ -276,15 +207,15 @@ impl GBufferPass {
         let depth = &rec.target("depth", DEPTH)?;
         let (label, purpose) = ("fragment lists", Purpose::Lists);
         let traversal = Traversal { label, purpose, with_color, color: &[], depth, group };
-        self.traverse(rec, scene, buffer, parts, is_cut, traversal)
+        self.traverse(rec, scene, instances, parts, is_cut, traversal)
     }
 
     fn traverse(
         &mut self,
         rec: &mut Recorder<'_>,
         scene: &GpuScene,
-        buffer: &mut DynamicBuffer,
-        (draws, calls): (&[DrawUniform], &[DrawCall]),
+        instances: &mut Instances,
+        (drawn, calls): (&[Instance], &[DrawCall]),
         is_cut: bool,
         traversal: Traversal<'_>,
     ) -> Result<(), RenderError> {
@@ -297,14 +228,11 @@ impl GBufferPass {
         for call in calls {
             self.prepare(gpu, rec.pipelines, variant(call))?;
         }
-        buffer.write(gpu, draws)?;
-        let group = draw_group(gpu, &self.draw_layout, buffer);
+        instances.write(gpu, drawn)?;
+        let materials = instances.material_group(gpu, &self.instance_layout);
+        let runs = runs(rec, calls);
         let clear = wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT);
         let color: Vec<_> = color.iter().map(|target| Some(color_attachment(target, clear))).collect();
-        let gated: Vec<_> = calls
-            .iter()
-            .map(|c| rec.gated([c.index_count, 1, c.first_index, c.base_vertex as u32, 0]))
-            .collect();
         let depth = wgpu::RenderPassDepthStencilAttachment {
             view: depth.view(),
             depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Store }),
@@ -314,13 +242,14 @@ impl GBufferPass {
         if let Some(own) = &own {
             pass.set_bind_group(1, own, &[]);
         }
-        let (mut bound, mut material, mut origin) = (None, None, None);
-        for (call, gated) in calls.iter().zip(&gated) {
+        let (mut bound, mut images, mut origin) = (None, None, None);
+        for run in &runs {
+            let call = &run.call;
             if origin != Some(call.origin) {
                 let geometry = scene.geometry(call.origin);
                 let buffers =
                     [Some(&geometry.positions), Some(&geometry.surfaces), geometry.attributes.as_ref()];
-                geometry.bind(&mut pass, &buffers);
+                geometry.bind(&mut pass, 1, &buffers);
                 origin = Some(call.origin);
             }
             let key = variant(call);
@@ -329,33 +258,18 @@ impl GBufferPass {
                 pass.set_pipeline(pipeline);
                 bound = Some(key);
             }
-            if material != Some(call.material_group) {
-                pass.set_bind_group(2, scene.materials.group(call.material_group), &[]);
-                material = Some(call.material_group);
+            if call.detail == Detail::Full {
+                if images != Some(call.material_group) {
+                    pass.set_bind_group(2, scene.materials.group(call.material_group), &[]);
+                    images = Some(call.material_group);
+                }
+                pass.set_bind_group(3, &materials, &[instances.material_of(call)]);
             }
-            let indices = call.first_index..call.first_index + call.index_count;
-            pass.set_bind_group(3, &group, &[buffer.offset(call.draw)]);
-            match gated {
-                Some((buffer, offset)) => pass.draw_indexed_indirect(buffer, *offset),
-                None => pass.draw_indexed(indices, call.base_vertex, 0..1),
-            }
+            instances.draw(&mut pass, run);
         }
         drop(pass);
         Ok(())
     }
-}
-
-/// The uniforms of all draws, of which each sees its own by a dynamic offset.
-pub(super) fn draw_group(
-    gpu: &Gpu,
-    layout: &wgpu::BindGroupLayout,
-    draws: &DynamicBuffer,
-) -> wgpu::BindGroup {
-    gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-        label: Some("draws"),
-        layout,
-        entries: &[wgpu::BindGroupEntry { binding: 0, resource: draws.binding::<DrawUniform>() }],
-    })
 }
 
 fn build(
@@ -369,22 +283,13 @@ fn build(
         bind_group_layouts: layouts,
         immediate_size: 0,
     });
-    let position = wgpu::VertexBufferLayout {
-        array_stride: 12,
-        step_mode: wgpu::VertexStepMode::Vertex,
-        attributes: &wgpu::vertex_attr_array![0 => Float32x3],
-    };
-    let surface = wgpu::VertexBufferLayout {
-        array_stride: 4,
-        step_mode: wgpu::VertexStepMode::Vertex,
-        attributes: &wgpu::vertex_attr_array![1 => Uint32],
-    };
-    let buffers = [Some(position), Some(surface), Some(Attributes::LAYOUT)];
+    let buffers = [Some(INSTANCES), Some(POSITIONS), Some(SURFACES), Some(Attributes::LAYOUT)];
     let (vertex, fragment) = variant.purpose.entry_points(variant.detail);
     let targets: Vec<_> = variant.purpose.outputs().iter().map(|&format| Some(format.into())).collect();
     let mut constants = vec![("WITH_CUT", variant.is_cut)];
     constants.extend((variant.purpose != Purpose::Surfaces).then_some(("WITH_COLOR", variant.with_color)));
     let constants: Vec<_> = constants.into_iter().map(|(name, on)| (name, f64::from(u8::from(on)))).collect();
+    let options = wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
     // Lists take all fragments.
     let is_list = variant.purpose == Purpose::Lists;
     let depth_compare = if is_list { wgpu::CompareFunction::Always } else { wgpu::CompareFunction::Greater };
@@ -394,8 +299,8 @@ fn build(
         vertex: wgpu::VertexState {
             module,
             entry_point: Some(vertex),
-            compilation_options: wgpu::PipelineCompilationOptions::default(),
-            buffers: if variant.detail == Detail::Lean { &buffers[..2] } else { &buffers },
+            compilation_options: options.clone(),
+            buffers: if variant.detail == Detail::Lean { &buffers[..3] } else { &buffers },
         },
         // Unless a mesh is known to be solid, both sides are drawn: flipped or mixed winding is common in files.
         primitive: wgpu::PrimitiveState { cull_mode: variant.hidden_side, ..Default::default() },
@@ -410,10 +315,7 @@ fn build(
         fragment: Some(wgpu::FragmentState {
             module,
             entry_point: Some(fragment),
-            compilation_options: wgpu::PipelineCompilationOptions {
-                constants: &constants,
-                ..Default::default()
-            },
+            compilation_options: options,
             targets: &targets,
         }),
         multiview_mask: None,

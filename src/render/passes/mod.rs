@@ -8,6 +8,7 @@ pub mod edge_style;
 pub mod fragment_lists;
 pub mod front;
 pub mod gbuffer;
+pub mod instances;
 pub mod line_distance;
 pub mod lines;
 pub mod operators;

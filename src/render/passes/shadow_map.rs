@@ -6,7 +6,7 @@ use std::collections::HashMap;
 use encase::ShaderType;
 use glam::{Mat4, Vec4};
 
-use crate::gpu::geometry::Attributes;
+use crate::gpu::geometry::{Attributes, POSITIONS};
 use crate::gpu::material::MaterialUniform;
 use crate::gpu::{DynamicBuffer, Gpu, Pipelines, Recorder, Target};
 use crate::render::RenderError;
@@ -152,7 +152,7 @@ impl ShadowMapPass {
         for call in &seen.calls {
             if origin != Some(call.origin) {
                 let geometry = scene.geometry(call.origin);
-                geometry.bind(&mut pass, &[Some(&geometry.positions), geometry.attributes.as_ref()]);
+                geometry.bind(&mut pass, 0, &[Some(&geometry.positions), geometry.attributes.as_ref()]);
                 origin = Some(call.origin);
             }
             let key = Key::from(call);
@@ -191,12 +191,7 @@ fn build(
         bind_group_layouts: layouts,
         immediate_size: 0,
     });
-    let position = wgpu::VertexBufferLayout {
-        array_stride: 12,
-        step_mode: wgpu::VertexStepMode::Vertex,
-        attributes: &wgpu::vertex_attr_array![0 => Float32x3],
-    };
-    let buffers = [Some(position), Some(Attributes::LAYOUT)];
+    let buffers = [Some(POSITIONS), Some(Attributes::LAYOUT)];
     gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some("shadow map"),
         layout: Some(&layout),

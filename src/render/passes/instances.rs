@@ -1,0 +1,216 @@
+//! What is drawn: instances, and the draw calls that draw them. All consecutive calls that need nothing else bound are
+//! recorded as one: software devices rasterise what is recorded so in one go, and every device is spared their number.
+
+use bytemuck::{Pod, Zeroable};
+use glam::{Mat3, Mat4};
+
+use crate::gpu::material::MaterialUniform;
+use crate::gpu::{DynamicBuffer, Gpu, GpuError, RecordBuffer, Recorder};
+use crate::render::gpu_scene::Origin;
+
+/// One part of one object, as it is drawn.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Instance {
+    /// Local to view space.
+    pub view_from_local: Mat4,
+    /// Inverse transpose of its linear part, up to a positive factor.
+    pub normal_from_local: Mat3,
+    /// What it is made of.
+    pub material: MaterialUniform,
+    /// Object id with the enhanced flag.
+    pub object: u32,
+    /// It has no normals, faces are flat.
+    pub is_flat: bool,
+    /// Order of its first surface among those of all draws; at least 1.
+    pub first_surface: u32,
+}
+
+/// An instance as a vertex shader reads it; twin of `Instance` in `shaders/common/instance.wgsl`.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+struct Record {
+    view_from_local: [[f32; 4]; 4],
+    normal_from_local: [[f32; 3]; 3],
+    base_color: [f32; 4],
+    ids: [u32; 3],
+}
+
+impl From<&Instance> for Record {
+    fn from(instance: &Instance) -> Self {
+        Self {
+            view_from_local: instance.view_from_local.to_cols_array_2d(),
+            normal_from_local: instance.normal_from_local.to_cols_array_2d(),
+            base_color: instance.material.base_color().to_array(),
+            ids: [instance.object, instance.first_surface, u32::from(instance.is_flat)],
+        }
+    }
+}
+
+/// How much the shaders of a draw have to read; less is faster.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Detail {
+    /// Positions only: no mesh of the scene has anything more.
+    Lean,
+    /// Normals and colours.
+    Smooth,
+    /// Images too, and holes.
+    Full,
+}
+
+/// One draw call.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DrawCall {
+    /// Index of its instance.
+    pub draw: u32,
+    /// The buffers that hold it.
+    pub origin: Origin,
+    /// Range of the index buffer.
+    pub first_index: u32,
+    /// Number of indices.
+    pub index_count: u32,
+    /// Number of its surfaces.
+    pub surfaces: u32,
+    /// First vertex of the mesh.
+    pub base_vertex: i32,
+    /// Bind group of the material.
+    pub material_group: usize,
+    /// Which vertex and fragment shader it needs.
+    pub detail: Detail,
+    /// The side of its triangles that is left out.
+    pub hidden_side: Option<wgpu::Face>,
+}
+
+impl DrawCall {
+    /// The same with no more than positions, where nobody asks for colours and shading normals. Holes need images.
+    #[must_use]
+    pub fn without_attributes(&self) -> Self {
+        let detail = if self.detail == Detail::Smooth { Detail::Lean } else { self.detail };
+        Self { detail, ..*self }
+    }
+
+    /// Whether another one needs nothing else bound.
+    fn joins(&self, other: &Self) -> bool {
+        self.detail != Detail::Full
+            && (self.detail, self.origin, self.hidden_side) == (other.detail, other.origin, other.hidden_side)
+    }
+}
+
+const RECORD_BYTES: u64 = size_of::<Record>() as u64;
+
+/// The layout of instances, which lie in the first vertex buffer.
+pub const INSTANCES: wgpu::VertexBufferLayout<'static> = wgpu::VertexBufferLayout {
+    array_stride: RECORD_BYTES,
+    step_mode: wgpu::VertexStepMode::Instance,
+    attributes: &wgpu::vertex_attr_array![
+        6 => Float32x4, 7 => Float32x4, 8 => Float32x4, 9 => Float32x4,
+        10 => Float32x3, 11 => Float32x3, 12 => Float32x3, 13 => Float32x4, 14 => Uint32x3,
+    ],
+};
+
+/// Instances on the device.
+pub struct Instances {
+    records: RecordBuffer,
+    materials: DynamicBuffer,
+}
+
+/// Calls that are recorded as one.
+pub struct Run {
+    /// The first of them.
+    pub call: DrawCall,
+    /// Where in the buffer of instances their own begin to be counted.
+    first: u32,
+    /// Arguments of each as the device reads them.
+    args: Vec<[u32; 5]>,
+    /// Where they lie if the gate may stop them.
+    gated: Option<(wgpu::Buffer, u64)>,
+}
+
+impl Instances {
+    /// Without any.
+    pub fn new(gpu: &Gpu) -> Self {
+        Self {
+            records: RecordBuffer::new(gpu, "instances"),
+            materials: DynamicBuffer::new::<MaterialUniform>(gpu, "materials"),
+        }
+    }
+
+    /// The layout of the bind group of the material of an instance.
+    pub fn material_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
+        DynamicBuffer::layout::<MaterialUniform>(gpu, "material")
+    }
+
+    /// Writes all of them.
+    ///
+    /// # Errors
+    /// [`GpuError::TooLarge`].
+    pub fn write(&mut self, gpu: &Gpu, instances: &[Instance]) -> Result<(), GpuError> {
+        let records: Vec<Record> = instances.iter().map(Record::from).collect();
+        let materials: Vec<MaterialUniform> = instances.iter().map(|instance| instance.material).collect();
+        self.records.write(gpu, &records)?;
+        self.materials.write(gpu, &materials)
+    }
+
+    /// The bind group of their materials, of which a draw of full detail binds its own.
+    pub fn material_group(&self, gpu: &Gpu, layout: &wgpu::BindGroupLayout) -> wgpu::BindGroup {
+        gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("material"),
+            layout,
+            entries: &[wgpu::BindGroupEntry {
+                binding: 0,
+                resource: self.materials.binding::<MaterialUniform>(),
+            }],
+        })
+    }
+
+    /// The offset of the material of a call in that group.
+    pub fn material_of(&self, call: &DrawCall) -> u32 {
+        self.materials.offset(call.draw)
+    }
+
+    /// Records a run. Its vertices are bound already.
+    pub fn draw(&self, pass: &mut wgpu::RenderPass<'_>, run: &Run) {
+        pass.set_vertex_buffer(0, self.records.buffer().slice(u64::from(run.first) * RECORD_BYTES..));
+        if let Some((buffer, offset)) = &run.gated {
+            pass.multi_draw_indexed_indirect(buffer, *offset, run.args.len() as u32);
+            return;
+        }
+        for [count, _, first, base, instance] in run.args.iter().copied() {
+            pass.draw_indexed(first..first + count, base as i32, instance..instance + 1);
+        }
+    }
+}
+
+/// Cuts draw calls into runs. Where the device cannot choose instances in indirect draws, each call is one.
+pub fn runs(rec: &mut Recorder<'_>, calls: &[DrawCall]) -> Vec<Run> {
+    let chooses = rec.gpu.device.features().contains(wgpu::Features::INDIRECT_FIRST_INSTANCE);
+    calls
+        .chunk_by(|a, b| chooses && a.joins(b))
+        .filter_map(|calls| {
+            let call = *calls.first()?;
+            let first = if chooses { 0 } else { call.draw };
+            let args: Vec<_> = calls
+                .iter()
+                .map(|c| [c.index_count, 1, c.first_index, c.base_vertex as u32, c.draw - first])
+                .collect();
+            let gated = rec.gated(&args);
+            Some(Run { call, first, args, gated })
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn attributes_lie_where_records_have_them() {
+        let offsets: Vec<u64> = INSTANCES.attributes.iter().map(|attribute| attribute.offset).collect();
+        let columns = |first: usize, bytes: usize, count: usize| (0..count).map(move |i| first + i * bytes);
+        let fields = columns(std::mem::offset_of!(Record, view_from_local), 16, 4)
+            .chain(columns(std::mem::offset_of!(Record, normal_from_local), 12, 3))
+            .chain([std::mem::offset_of!(Record, base_color), std::mem::offset_of!(Record, ids)]);
+        assert_eq!(offsets, fields.map(|at| at as u64).collect::<Vec<_>>());
+        let last = INSTANCES.attributes.last().unwrap();
+        assert_eq!(last.offset + last.format.size(), RECORD_BYTES);
+    }
+}
