@@ -113,6 +113,9 @@ pub struct Instances {
     materials: DynamicBuffer,
 }
 
+/// A run of so many indices is not made longer: software devices rasterise it while they place the next one.
+const ENOUGH: u32 = 3 << 12;
+
 /// Calls that are recorded as one.
 pub struct Run {
     /// The first of them.
@@ -183,19 +186,22 @@ impl Instances {
 /// Cuts draw calls into runs. Where the device cannot choose instances in indirect draws, each call is one.
 pub fn runs(rec: &mut Recorder<'_>, calls: &[DrawCall]) -> Vec<Run> {
     let chooses = rec.gpu.device.features().contains(wgpu::Features::INDIRECT_FIRST_INSTANCE);
-    calls
-        .chunk_by(|a, b| chooses && a.joins(b))
-        .filter_map(|calls| {
-            let call = *calls.first()?;
-            let first = if chooses { 0 } else { call.draw };
-            let args: Vec<_> = calls
-                .iter()
-                .map(|c| [c.index_count, 1, c.first_index, c.base_vertex as u32, c.draw - first])
-                .collect();
-            let gated = rec.gated(&args);
-            Some(Run { call, first, args, gated })
-        })
-        .collect()
+    let mut runs: Vec<Run> = Vec::new();
+    let mut indices = 0;
+    for call in calls {
+        let joined = runs.last_mut().filter(|run| chooses && indices < ENOUGH && run.call.joins(call));
+        indices = if joined.is_some() { indices + call.index_count } else { call.index_count };
+        let first = if chooses { 0 } else { call.draw };
+        let args = [call.index_count, 1, call.first_index, call.base_vertex as u32, call.draw - first];
+        match joined {
+            Some(run) => run.args.push(args),
+            None => runs.push(Run { call: *call, first, args: vec![args], gated: None }),
+        }
+    }
+    for run in &mut runs {
+        run.gated = rec.gated(&run.args);
+    }
+    runs
 }
 
 #[cfg(test)]
