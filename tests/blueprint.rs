@@ -527,6 +527,24 @@ fn a_click_means_the_nearest_of_blueprints_and_surfaces() {
     assert_eq!(session.renderer().poll_pick().unwrap().node, Some(0));
 }
 
+#[test]
+fn a_click_on_layers_that_have_ended_means_nothing() {
+    let mut session = session();
+    let mut opened = blueprint(opened(&scene(vec![object("cube", primitives::cube(0.6), at(0.0))]), DVec3::Z));
+    session.set_scene(&opened).unwrap();
+    for by in ["auto", "peeling"] {
+        set(&mut opened, "view.layers", by);
+        // A cube has two; what is drawn before leaves something in the memory that the next picture uses.
+        for (from, expected) in [("1", Some(0)), ("2", Some(0)), ("3", None), ("1", Some(0)), ("3", None)] {
+            set(&mut opened, "blueprint.from", from);
+            session.draw(&opened, [64; 2], false).unwrap();
+            session.renderer().start_pick([32, 32]).unwrap();
+            session.renderer().gpu().wait().unwrap();
+            assert_eq!(session.renderer().poll_pick().unwrap().node, expected, "{by}, from {from}");
+        }
+    }
+}
+
 /// A cube alone, its lines black on white without fading, without fill.
 fn outlined() -> Opened {
     let mut opened = blueprint(opened(
