@@ -530,7 +530,8 @@ fn a_click_means_the_nearest_of_blueprints_and_surfaces() {
 #[test]
 fn a_click_on_layers_that_have_ended_means_nothing() {
     let mut session = session();
-    let mut opened = blueprint(opened(&scene(vec![object("cube", primitives::cube(0.6), at(0.0))]), DVec3::Z));
+    let mut opened =
+        blueprint(opened(&scene(vec![object("cube", primitives::cube(0.6), at(0.0))]), DVec3::Z));
     session.set_scene(&opened).unwrap();
     for by in ["auto", "peeling"] {
         set(&mut opened, "view.layers", by);
