@@ -18,7 +18,7 @@ const GEOMETRY: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Uint;
 const BASE_COLOR: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
 /// Which surface of which object.
 const REGION: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;
-/// Of a layer: which draw and surface each pixel is of, see [`DrawUniform::first_surface`].
+/// Of a layer: which draw and surface each pixel is of, see [`Instance::first_surface`].
 pub(super) const ORDER: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;
 /// Reversed: 1 at the near plane.
 pub(super) const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
