@@ -161,8 +161,8 @@ pub fn instance_descriptor() -> wgpu::InstanceDescriptor {
     descriptor
 }
 
-/// What is asked of a device: all that the adapter can do in size, and timers and
-/// instances in indirect draws where it has them.
+/// What is asked of a device: all that the adapter can do in size, and timers and the choice of instances in indirect draws
+/// where it has them.
 pub fn device_descriptor(adapter: &wgpu::Adapter) -> wgpu::DeviceDescriptor<'static> {
     wgpu::DeviceDescriptor {
         label: Some("hachure"),

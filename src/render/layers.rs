@@ -134,7 +134,8 @@ impl Layers {
         self.count.begin(rec.gpu, inputs.least.max(1), inputs.fraction);
         let mut recorded = self.room.plan(rec.gpu, rec.size(), inputs.most.min(MOST_LAYERS), inputs.by);
         let mut gate = self.gate.take().unwrap_or_else(|| Gate::new(rec.gpu));
-        gate.clear(rec.gpu, inputs.calls.len() + PASSES)?;
+        // Objects may be drawn once more, for their coordinates.
+        gate.clear(rec.gpu, 2 * inputs.calls.len() + PASSES)?;
         rec.gate = Some(gate);
         let drawn = self.draw_each(rec, gbuffer_pass, &inputs, &mut recorded, draw);
         self.gate = rec.gate.take();

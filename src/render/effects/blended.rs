@@ -134,7 +134,7 @@ impl Blended {
             .copied()
             .collect();
         if !with_coordinates.is_empty() {
-            draw_buffer.write(rec.gpu, draws)?;
+            draw_buffer.write(rec.gpu, draws, &[])?;
         }
         // Layers are drawn by the same pass.
         let mut coordinates_pass = std::mem::take(&mut gbuffer_pass.coordinates);

@@ -228,7 +228,7 @@ impl GBufferPass {
         for call in calls {
             self.prepare(gpu, rec.pipelines, variant(call))?;
         }
-        instances.write(gpu, drawn)?;
+        instances.write(gpu, drawn, calls)?;
         let materials = instances.material_group(gpu, &self.instance_layout);
         let runs = runs(rec, calls);
         let clear = wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT);

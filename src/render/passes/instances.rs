@@ -142,15 +142,19 @@ impl Instances {
         DynamicBuffer::layout::<MaterialUniform>(gpu, "material")
     }
 
-    /// Writes all of them.
+    /// Writes all of them; their materials only where one of these calls reads its own.
     ///
     /// # Errors
     /// [`GpuError::TooLarge`].
-    pub fn write(&mut self, gpu: &Gpu, instances: &[Instance]) -> Result<(), GpuError> {
+    pub fn write(&mut self, gpu: &Gpu, instances: &[Instance], calls: &[DrawCall]) -> Result<(), GpuError> {
         let records: Vec<Record> = instances.iter().map(Record::from).collect();
-        let materials: Vec<MaterialUniform> = instances.iter().map(|instance| instance.material).collect();
         self.records.write(gpu, &records)?;
-        self.materials.write(gpu, &materials)
+        if calls.iter().any(|call| call.detail == Detail::Full) {
+            let materials: Vec<MaterialUniform> =
+                instances.iter().map(|instance| instance.material).collect();
+            self.materials.write(gpu, &materials)?;
+        }
+        Ok(())
     }
 
     /// The bind group of their materials, of which a draw of full detail binds its own.
