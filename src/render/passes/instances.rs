@@ -1,5 +1,5 @@
-//! What is drawn: instances, and the draw calls that draw them. All consecutive calls that need nothing else bound are
-//! recorded as one: software devices rasterise what is recorded so in one go, and every device is spared their number.
+//! What is drawn: instances, and the draw calls that draw them. Consecutive calls that need nothing else bound make up runs;
+//! one that the gate may stop is recorded as one call, which software devices rasterise in one go.
 
 use bytemuck::{Pod, Zeroable};
 use glam::{Mat3, Mat4};
@@ -116,7 +116,7 @@ pub struct Instances {
 /// A run of so many indices is not made longer: software devices rasterise it while they place the next one.
 const ENOUGH: u32 = 3 << 12;
 
-/// Calls that are recorded as one.
+/// Calls that need nothing bound between them.
 pub struct Run {
     /// The first of them.
     pub call: DrawCall,
