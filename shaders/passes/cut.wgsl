@@ -9,7 +9,8 @@
 @group(1) @binding(1) var link_tex: texture_2d<u32>;
 @group(1) @binding(2) var payload_tex: texture_2d<u32>;
 @group(1) @binding(3) var<storage, read> colors: array<u32>;
-// The numbers of the fragments of a layer, plus 1; 0: none. Sorting: that which was sorted last; cutting: that which is cut.
+// The numbers of the fragments of a layer, plus 1; 0: none; undefined where nothing is listed. Sorting: that which was sorted
+// last; cutting: that which is cut.
 @group(1) @binding(4) var number_tex: texture_2d<u32>;
 
 // Whether so many are sorted.
@@ -138,7 +139,7 @@ fn fs_sort_behind(@builtin(position) position: vec4<f32>) -> Numbers {
 @fragment
 fn fs_depth(@builtin(position) position: vec4<f32>) -> Depth {
     let number = number_at(position);
-    if number == 0u {
+    if heads[list_of(vec2<u32>(position.xy))] == 0u || number == 0u {
         discard;
     }
     return Depth(bitcast<f32>(link_at(number).depth));

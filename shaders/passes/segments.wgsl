@@ -141,13 +141,20 @@ struct Beside {
 // So far along the normal of the spine, px.
 fn beside(spine: Spine, along: f32, regions: vec2<u32>) -> Beside {
     let px = texel_beside(spine, along);
-    let s = unpack_surfel(textureLoad(geometry_tex, px, 0));
+    var region = 0u;
+    var texel = textureLoad(geometry_tex, px, 0);
+    if IN_LAYER {
+        region = textureLoad(region_tex, px, 0).x;
+        // Where a layer has nothing its geometry is undefined.
+        texel = select(texel, vec4(0u), region == 0u);
+    }
+    let s = unpack_surfel(texel);
     let plane = plane_of(px, s.depth, s.face_normal);
     let lead = nearness_at(plane, spine.at - vec2<f32>(px) - 0.5) - spine.nearness;
     var carries = false;
     if IN_LAYER {
         let miss = abs(lead) - length(plane.slope);
-        carries = any(regions == vec2(textureLoad(region_tex, px, 0).x)) && step_px(miss, spine.depth) <= 2.0;
+        carries = any(regions == vec2(region)) && step_px(miss, spine.depth) <= 2.0;
     }
     return Beside(s, select(step_px(lead, spine.depth), -1e9, s.object == 0u), carries && s.object != 0u);
 }

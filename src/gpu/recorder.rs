@@ -54,6 +54,8 @@ impl Input<'_> {
 pub enum Onto {
     /// They are cleared to 0.
     Nothing,
+    /// All but the first one are cleared to 0: that holds anything where nothing is drawn.
+    Anything,
     /// What is not drawn over stays.
     Old,
     /// Drawn over it with premultiplied alpha.
@@ -63,6 +65,16 @@ pub enum Onto {
 }
 
 impl Onto {
+    /// Targets as outputs of a pass.
+    pub fn attachments<'t>(self, outputs: &[&'t Target]) -> Vec<Option<wgpu::RenderPassColorAttachment<'t>>> {
+        let load = |number| match self {
+            Self::Anything if number == 0 => wgpu::LoadOp::Load,
+            Self::Nothing | Self::Anything => wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
+            Self::Old | Self::Blended | Self::Beneath => wgpu::LoadOp::Load,
+        };
+        (0..).zip(outputs).map(|(number, output)| Some(color_attachment(output, load(number)))).collect()
+    }
+
     fn blend(self) -> Option<wgpu::BlendState> {
         let under = wgpu::BlendComponent {
             src_factor: wgpu::BlendFactor::OneMinusDstAlpha,
@@ -70,7 +82,7 @@ impl Onto {
             operation: wgpu::BlendOperation::Add,
         };
         match self {
-            Self::Nothing | Self::Old => None,
+            Self::Nothing | Self::Anything | Self::Old => None,
             Self::Blended => Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING),
             Self::Beneath => Some(wgpu::BlendState { color: under, alpha: under }),
         }
@@ -250,11 +262,7 @@ impl<'a> Recorder<'a> {
             draws
                 .push((made.pipeline.clone(), inputs_group(self.gpu, draw.label, &made.inputs, draw.inputs)));
         }
-        let load = match draw.onto {
-            Onto::Nothing => wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
-            Onto::Old | Onto::Blended | Onto::Beneath => wgpu::LoadOp::Load,
-        };
-        let color: Vec<_> = draw.outputs.iter().map(|o| Some(color_attachment(o, load))).collect();
+        let color = draw.onto.attachments(draw.outputs);
         let depth = draw.depth.map(|(target, rule)| wgpu::RenderPassDepthStencilAttachment {
             view: target.view(),
             depth_ops: rule.operations(),
@@ -282,9 +290,7 @@ impl<'a> Recorder<'a> {
 
     /// Clears targets.
     pub fn clear(&mut self, label: &'static str, targets: &[&Target]) {
-        let cleared = wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT);
-        let color: Vec<_> = targets.iter().map(|target| Some(color_attachment(target, cleared))).collect();
-        self.pass(label, &color, None);
+        self.pass(label, &Onto::Nothing.attachments(targets), None);
     }
 
     /// Copies a target into another one of the same size and format.
@@ -359,11 +365,7 @@ fn inputs_group(
     gpu.device.create_bind_group(&wgpu::BindGroupDescriptor { label: Some(label), layout, entries: &entries })
 }
 
-/// A target as an output of a pass.
-pub fn color_attachment(
-    target: &Target,
-    load: wgpu::LoadOp<wgpu::Color>,
-) -> wgpu::RenderPassColorAttachment<'_> {
+fn color_attachment(target: &Target, load: wgpu::LoadOp<wgpu::Color>) -> wgpu::RenderPassColorAttachment<'_> {
     wgpu::RenderPassColorAttachment {
         view: target.view(),
         depth_slice: None,

@@ -62,6 +62,8 @@ pub struct LayerInputs<'a> {
     pub with_normals: bool,
     /// Whether their depth and order are asked for; see [`crate::render::passes::gbuffer::GBuffer::depth`].
     pub with_order: bool,
+    /// The geometry of so many layers, the nearest ones, is 0 where they have nothing; of the others it is undefined there.
+    pub whole: u32,
 }
 
 /// What of the layers of a group lives across frames.
@@ -165,18 +167,21 @@ impl Layers {
             LayersBy::Peeling(_) => None,
         };
         let with_order = inputs.with_order || mask.is_some();
-        let asked = Asked { with_color, with_normals: inputs.with_normals, with_order };
         let mut last = None;
         for number in 0..recorded.layers {
+            let is_whole = number < inputs.whole;
             let layer = match &mut lists {
-                Some(lists) => lists.next(rec, asked)?,
+                Some(lists) => {
+                    let with_normals = inputs.with_normals;
+                    lists.next(rec, Asked { with_color, with_normals, with_order, is_whole })?
+                }
                 None => {
                     let [last_depth, last_order] = &match last.take() {
                         Some(last) => last,
                         None => before_all(rec)?,
                     };
                     let order = rec.target("order", last_order.format())?;
-                    let peel = Peel { last_depth, last_order, order: &order, with_color };
+                    let peel = Peel { last_depth, last_order, order: &order, with_color, is_whole };
                     let gbuffer =
                         gbuffer_pass.run(rec, scene, &mut self.draws, (draws, calls), is_cut, Some(&peel))?;
                     Layer { gbuffer, order: Some(order) }

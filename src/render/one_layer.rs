@@ -9,6 +9,7 @@ use super::layers::{LayerInputs, LayerLines, LayerLinesInputs, Layers};
 use super::passes::edge_style::EdgeUniform;
 use super::passes::gbuffer::{GBuffer, GBufferPass};
 use super::passes::instances::{DrawCall, Instance};
+use super::passes::peel::MOST_LAYERS;
 use super::passes::segments::Segments;
 use super::segments::segments;
 use super::stage::{Output, Stage};
@@ -91,6 +92,7 @@ impl OneLayer {
                 with_color: true,
                 with_normals: true,
                 with_order: true,
+                whole: MOST_LAYERS,
             };
             let mut found = None;
             // A layer that has ended is empty, and nobody waits for the report about it.

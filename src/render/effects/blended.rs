@@ -154,6 +154,7 @@ impl Blended {
             with_color: true,
             with_normals: true,
             with_order: true,
+            whole: MOST_LAYERS,
         };
         let drawn = layers.each(rec, gbuffer_pass, &cut, |rec, _, layer, _| {
             front.get_or_insert_with(|| layer.gbuffer.geometry.clone());

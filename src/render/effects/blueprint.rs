@@ -22,6 +22,7 @@ use crate::render::frame_uniform::FrameUniform;
 use crate::render::groups::Group;
 use crate::render::layers::{LayerInputs, LayerLines, LayerLinesInputs, Layers, LayersBy, Reported};
 use crate::render::passes::depth_mask::DepthMask;
+use crate::render::passes::edge_style::EdgeUniform;
 use crate::render::passes::gbuffer::{GBuffer, GBufferPass};
 use crate::render::passes::instances::{DrawCall, Instance};
 use crate::render::passes::lines::{Pen, lines};
@@ -248,6 +249,12 @@ impl Blueprints {
                     || group.edge_styles.iter().any(|s| s.draws(EdgeClass::Texture)),
                 with_normals: asked.keeps_layers || group.edge_styles.iter().any(|s| s.reads_normals()),
                 with_order: asked.keeps_layers,
+                // The first one that is drawn is what a click means.
+                whole: if asked.keeps_layers || group.edge_styles.iter().any(EdgeUniform::compares_geometry) {
+                    MOST_LAYERS
+                } else {
+                    params.from
+                },
             };
             let outer = rec.part.replace(group.part(inputs.scene, inputs.view));
             let drawn = layers.each(rec, gbuffer_pass, &cut, |rec, number, layer, count| {

@@ -19,7 +19,7 @@ use crate::render::passes::edge_style::EdgeUniform;
 use crate::render::passes::gbuffer::GBufferPass;
 use crate::render::passes::instances::{DrawCall, Instance};
 use crate::render::passes::lines::{Pen, lines};
-use crate::render::passes::peel::PeelCount;
+use crate::render::passes::peel::{MOST_LAYERS, PeelCount};
 use crate::render::passes::repeated::seen_lines;
 use crate::render::passes::segments::Segments;
 use crate::render::segments::segments;
@@ -185,6 +185,8 @@ impl HiddenLines {
                 Some(edges) => Some(seen_lines(rec, &edges.value)?),
                 None => None,
             };
+            let compares_geometry =
+                bands.iter().any(|band| band.styles.iter().any(EdgeUniform::compares_geometry));
             let cut = LayerInputs {
                 scene: inputs.scene,
                 draws: &asked.draws,
@@ -198,6 +200,7 @@ impl HiddenLines {
                 with_color: true,
                 with_normals: true,
                 with_order: false,
+                whole: if compares_geometry { MOST_LAYERS } else { 0 },
             };
             let mut before: Option<[Target; 2]> = None;
             layers.each(rec, gbuffer_pass, &cut, |rec, number, layer, _| {

@@ -7,7 +7,7 @@ use std::collections::hash_map::Entry;
 use super::gbuffer::{DEPTH, GBuffer};
 use super::instances::{DrawCall, INSTANCES, Instances, runs};
 use crate::gpu::geometry::{Attributes, POSITIONS};
-use crate::gpu::recorder::color_attachment;
+use crate::gpu::recorder::Onto;
 use crate::gpu::{Gpu, Recorder, Target};
 use crate::render::RenderError;
 use crate::render::gpu_scene::GpuScene;
@@ -48,7 +48,7 @@ impl CoordinatesPass {
             }
         }
         let runs = runs(rec, calls);
-        let color = [Some(color_attachment(&target, wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT)))];
+        let color = Onto::Nothing.attachments(&[&target]);
         let depth = wgpu::RenderPassDepthStencilAttachment {
             view: gbuffer.depth.view(),
             depth_ops: None,

@@ -178,6 +178,8 @@ pub struct Asked {
     pub with_normals: bool,
     /// Their depth and order.
     pub with_order: bool,
+    /// Whether their geometry is 0 where they have nothing; otherwise it is undefined there.
+    pub is_whole: bool,
 }
 
 /// The lists of one group while they are cut into layers.
@@ -202,7 +204,7 @@ impl CutLists {
     /// # Errors
     /// [`RenderError`].
     pub fn next(&mut self, rec: &mut Recorder<'_>, asked: Asked) -> Result<Layer, RenderError> {
-        let Asked { with_color, with_normals, with_order } = asked;
+        let Asked { with_color, with_normals, with_order, is_whole } = asked;
         let numbers = match self.numbers.pop() {
             Some(numbers) => numbers,
             None => self.sort(rec)?,
@@ -240,14 +242,14 @@ impl CutLists {
             },
             inputs: &inputs,
             outputs: &outputs,
-            onto: Onto::Nothing,
+            onto: if is_whole { Onto::Nothing } else { Onto::Anything },
             depth: Some((depth, DepthRule::Covered)),
         })?;
         self.last = Some(numbers);
         Ok(layer)
     }
 
-    /// Sorts the next layers, and returns the fragments of the nearest one.
+    /// Sorts the next layers, and returns the fragments of the nearest one; they are undefined where nothing is listed.
     fn sort(&mut self, rec: &mut Recorder<'_>) -> Result<Target, RenderError> {
         let layers = self.layers.clamp(1, SORTED);
         let nearest = rec.target("fragments of layer", NUMBERS)?;
@@ -268,7 +270,7 @@ impl CutLists {
             },
             inputs: &inputs,
             outputs: &std::iter::once(&nearest).chain(&self.numbers).collect::<Vec<_>>(),
-            onto: Onto::Nothing,
+            onto: Onto::Old,
             depth: Some((&self.listed, DepthRule::Covered)),
         })?;
         self.numbers.reverse();

@@ -7,7 +7,7 @@ use super::fragment_lists::FragmentLists;
 use super::instances::{Detail, DrawCall, INSTANCES, Instance, Instances, runs};
 use super::peel::{Peel, PeelCount};
 use crate::gpu::geometry::{Attributes, POSITIONS, SURFACES};
-use crate::gpu::recorder::color_attachment;
+use crate::gpu::recorder::Onto;
 use crate::gpu::{Gpu, MaterialBindings, Pipelines, Recorder, Target};
 use crate::render::RenderError;
 use crate::render::gpu_scene::GpuScene;
@@ -121,6 +121,8 @@ struct Traversal<'a> {
     label: &'static str,
     purpose: Purpose,
     with_color: bool,
+    /// Whether all of `color` is cleared, or all but the first one.
+    is_whole: bool,
     color: &'a [&'a Target],
     depth: &'a Target,
     /// Bind group 1.
@@ -177,13 +179,13 @@ impl GBufferPass {
     ) -> Result<GBuffer, RenderError> {
         let gbuffer = GBuffer::new(rec)?;
         let GBuffer { geometry, base_color, region, depth } = &gbuffer;
-        let (label, purpose, with_color) = match peel {
-            Some(peel) => ("peel", Purpose::Layer, peel.with_color),
-            None => ("g-buffer", Purpose::Surfaces, true),
+        let (label, purpose, with_color, is_whole) = match peel {
+            Some(peel) => ("peel", Purpose::Layer, peel.with_color, peel.is_whole),
+            None => ("g-buffer", Purpose::Surfaces, true, true),
         };
         let color: Vec<_> = [geometry, base_color, region].into_iter().chain(peel.map(|p| p.order)).collect();
         let group = peel.map(|peel| peel.group(rec.gpu, &self.layer_layout));
-        let traversal = Traversal { label, purpose, with_color, color: &color, depth, group };
+        let traversal = Traversal { label, purpose, with_color, is_whole, color: &color, depth, group };
         self.traverse(rec, scene, instances, parts, is_cut, traversal)?;
         Ok(gbuffer)
     }
@@ -206,7 +208,7 @@ impl GBufferPass {
         // A pass has to have an output.
         let depth = &rec.target("depth", DEPTH)?;
         let (label, purpose) = ("fragment lists", Purpose::Lists);
-        let traversal = Traversal { label, purpose, with_color, color: &[], depth, group };
+        let traversal = Traversal { label, purpose, with_color, is_whole: true, color: &[], depth, group };
         self.traverse(rec, scene, instances, parts, is_cut, traversal)
     }
 
@@ -219,7 +221,7 @@ impl GBufferPass {
         is_cut: bool,
         traversal: Traversal<'_>,
     ) -> Result<(), RenderError> {
-        let Traversal { label, purpose, with_color, color, depth, group: own } = traversal;
+        let Traversal { label, purpose, with_color, is_whole, color, depth, group: own } = traversal;
         let gpu = rec.gpu;
         let variant = |call: &DrawCall| {
             let DrawCall { detail, hidden_side, .. } = *call;
@@ -231,8 +233,8 @@ impl GBufferPass {
         instances.write(gpu, drawn, calls)?;
         let materials = instances.material_group(gpu, &self.instance_layout);
         let runs = runs(rec, calls);
-        let clear = wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT);
-        let color: Vec<_> = color.iter().map(|target| Some(color_attachment(target, clear))).collect();
+        let onto = if is_whole { Onto::Nothing } else { Onto::Anything };
+        let color: Vec<_> = onto.attachments(color);
         let depth = wgpu::RenderPassDepthStencilAttachment {
             view: depth.view(),
             depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Store }),

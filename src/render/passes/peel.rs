@@ -7,7 +7,7 @@ use encase::{ShaderType, StorageBuffer};
 
 use super::depth_mask::DepthMask;
 use super::gbuffer::{DEPTH, GBuffer, ORDER};
-use crate::gpu::recorder::{Input, color_attachment};
+use crate::gpu::recorder::{Input, Onto};
 use crate::gpu::{Gpu, Program, Recorder, Target, readback};
 use crate::render::RenderError;
 
@@ -36,6 +36,8 @@ pub struct Peel<'a> {
     pub order: &'a Target,
     /// Whether it has a base colour.
     pub with_color: bool,
+    /// Whether its geometry is 0 where it has nothing; otherwise it is undefined there.
+    pub is_whole: bool,
 }
 
 impl Peel<'_> {
@@ -82,8 +84,7 @@ pub fn before_all(rec: &mut Recorder<'_>) -> Result<[Target; 2], RenderError> {
         depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(1.0), store: wgpu::StoreOp::Store }),
         stencil_ops: None,
     };
-    let color = [Some(color_attachment(order, wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT)))];
-    rec.pass("before all layers", &color, Some(depth));
+    rec.pass("before all layers", &Onto::Nothing.attachments(&[order]), Some(depth));
     Ok(targets)
 }
 
