@@ -12,7 +12,7 @@ mod tones;
 
 use std::sync::Arc;
 
-use glam::{Vec2, Vec4};
+use glam::{UVec2, Vec2, Vec4};
 
 use self::reflections::Reflection;
 use super::RenderError;
@@ -134,7 +134,7 @@ pub struct Drawing {
     toon_bands: ArrayBuffer,
     halftone_styles: ArrayBuffer,
     caps: ArrayBuffer,
-    gbuffer: Stage<(u64, u64, View, Vec<Instance>, Vec<DrawCall>), GBuffer>,
+    gbuffer: Stage<(u64, u64, UVec2, Option<View>, Vec<Instance>, Vec<DrawCall>), GBuffer>,
     segments: Stage<(u64, View, Vec<EdgeUniform>, f32), Arc<Vec<LineSegment>>>,
     edge_map: Stage<([u64; 2], Vec<EdgeUniform>, Vec2, Option<FrameUniform>), EdgeMap>,
     reach: Stage<u64, Reach>,
@@ -272,7 +272,10 @@ impl Drawing {
             })
             .copied()
             .collect();
-        let geometry = (rec.pipelines.generation(), inputs.scene_revision, *view, draws, calls);
+        // Nothing looks the same from everywhere.
+        let through = (!calls.is_empty()).then_some(*view);
+        let shaders = rec.pipelines.generation();
+        let geometry = (shaders, inputs.scene_revision, view.size, through, draws, calls);
         let gbuffer = self.gbuffer.run(geometry, |(.., draws, calls)| {
             shared.gbuffer.run(rec, scene, &mut self.draws, (draws, calls), view.has_cuts(), None)
         })?;
@@ -394,6 +397,10 @@ impl Drawing {
         );
         let drawn = self.surface.run(shading, |shading| {
             let (_, _, surfaces, toons, (halftones, _), styles, .., blend, _, caps) = shading;
+            let is_bare = inputs.objects.surfaces.is_empty() && blend.is_none();
+            if let ([(_, only)], true) = (&blueprints[..], is_bare) {
+                return Ok((only.value.color.clone(), None));
+            }
             self.surface_styles.write(rec.gpu, surfaces);
             if !caps.is_empty() {
                 self.caps.write(rec.gpu, caps);
