@@ -76,6 +76,9 @@ impl Gpu {
         let info = adapter.get_info();
         let flags = adapter.get_downlevel_capabilities().flags;
         let writes_in_fragments = flags.contains(wgpu::DownlevelFlags::FRAGMENT_WRITABLE_STORAGE);
+        if info.device_type == wgpu::DeviceType::Cpu {
+            keep_freed_memory();
+        }
         Self { device, queue, adapter_name: info.name, writes_in_fragments }
     }
 
@@ -171,4 +174,12 @@ pub fn device_descriptor(adapter: &wgpu::Adapter) -> wgpu::DeviceDescriptor<'sta
         required_limits: adapter.limits(),
         ..Default::default()
     }
+}
+
+/// Takes and frees a block of memory. A software driver takes megabytes for each frame; glibc gives what is freed back to the
+/// system, and a twentieth of a frame is spent on getting it again, unless as large a block has been freed before
+/// (`man mallopt`, `M_MMAP_THRESHOLD`). Where memory is managed otherwise it makes no difference.
+fn keep_freed_memory() {
+    // glibc takes no notice of 32 MiB and more.
+    drop(std::hint::black_box(Vec::<u8>::with_capacity(31 << 20)));
 }
