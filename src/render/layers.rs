@@ -188,6 +188,9 @@ impl Layers {
                 }
             };
             self.count.count(rec, &layer, mask)?;
+            if recorded.only_counts(number) {
+                break;
+            }
             draw(rec, number, &layer, &self.count)?;
             if let Some(mask) = mask {
                 self.count.end_where_uncovered(rec, &layer, mask)?;

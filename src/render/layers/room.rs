@@ -82,6 +82,11 @@ pub(super) struct Recorded {
 }
 
 impl Recorded {
+    /// Whether a layer is only asked whether it is there: then the picture is incomplete.
+    pub(super) fn only_counts(&self, layer: u32) -> bool {
+        layer + 1 == self.layers && self.layers < self.most
+    }
+
     pub(super) fn by(&self) -> LayersBy {
         self.fragments.map_or_else(LayersBy::Peeling, |_| LayersBy::Lists)
     }
@@ -90,12 +95,14 @@ impl Recorded {
 /// What reports have taught. It decides nothing: when it is wrong, the next report says so.
 #[derive(Debug, Default)]
 pub(super) struct Room {
-    /// Layers there were; `None`: nobody knows.
+    /// Layers there were, that which ended them included, or twice as many as were recorded where those were too few;
+    /// `None`: nobody knows.
     layers: Option<u32>,
     /// Fragments there were.
     fragments: Option<u64>,
     /// Guesses that were wrong: each doubles the reserve. Samples of one picture differ, and each wrong guess begins it
-    /// anew, so a reserve is kept at least until it is done.
+    /// anew, so a reserve is kept at least until it is done. Layers begin without one: each takes time though nothing is
+    /// in it.
     mistakes: u32,
     /// Complete pictures since the last wrong guess.
     calm: u32,
@@ -117,7 +124,7 @@ impl Room {
 
     fn plan_within(&self, bound: Result<u64, Reason>, [width, height]: [u32; 2], most: u32) -> Recorded {
         let first = FIRST_GUESS * u64::from(width) * u64::from(height);
-        // More than there were, as there may be more by now: a quarter, and one layer.
+        // More than there were, as there may be more by now: a quarter.
         let reserve = 1 << self.mistakes;
         let room = self.fragments.map_or(first, |counted| counted + counted / 4 * reserve);
         let fragments = bound.and_then(|bound| match self.fragments {
@@ -125,7 +132,7 @@ impl Room {
             _ => Ok(room.clamp(1, bound)),
         });
         Recorded {
-            layers: self.layers.map_or(most, |layers| (layers + reserve as u32).min(most)),
+            layers: self.layers.map_or(most, |layers| (layers + reserve as u32 - 1).min(most)),
             most,
             fragments,
         }
@@ -144,8 +151,11 @@ impl Room {
         } else {
             (self.mistakes, self.calm) = ((self.mistakes + 1).min(MOST_MISTAKES), 0);
         }
-        // That which ended it is recorded too.
-        self.layers = is_complete.then_some(peeled.layers + 1);
+        self.layers = match (is_complete, overflowed) {
+            (true, _) => Some(peeled.layers + 1),
+            (false, false) => Some(2 * recorded.layers),
+            (false, true) => None,
+        };
         if recorded.fragments.is_ok() {
             self.fragments = Some(fragments);
             self.peeled = None;
@@ -172,16 +182,17 @@ mod tests {
     }
 
     #[test]
-    fn without_a_report_all_layers_are_recorded_and_after_one_a_few_more_than_there_were() {
+    fn without_a_report_all_layers_are_recorded_and_after_one_as_many_as_there_were() {
         let mut room = Room::default();
         let first = room.plan_within(Ok(1000), [10, 10], 64);
         assert_eq!((first.layers, first.fragments), (64, Ok(400)));
         assert!(room.learn(&first, &peeled(5, true, 80)));
         let second = room.plan_within(Ok(1000), [10, 10], 64);
-        assert_eq!((second.layers, second.fragments), (7, Ok(100)));
-        // Two layers more: nobody reached their end.
-        assert!(!room.learn(&second, &peeled(7, false, 90)));
-        assert_eq!(room.plan_within(Ok(1000), [10, 10], 64).layers, 64);
+        assert_eq!((second.layers, second.fragments), (6, Ok(100)));
+        assert_eq!([4, 5].map(|layer| second.only_counts(layer)), [false, true]);
+        // A layer more: nobody reached their end.
+        assert!(!room.learn(&second, &peeled(6, false, 90)));
+        assert_eq!(room.plan_within(Ok(1000), [10, 10], 64).layers, 13);
         // As many as were asked for need no end.
         assert!(room.learn(&room.plan_within(Ok(1000), [10, 10], 7), &peeled(7, false, 90)));
     }
@@ -223,7 +234,7 @@ mod tests {
             let recorded = room.plan_within(Ok(100_000), [10, 10], 64);
             assert!(room.learn(&recorded, &peeled(9, true, 300)));
         }
-        assert_eq!(room.plan_within(Ok(100_000), [10, 10], 64).layers, 11);
+        assert_eq!(room.plan_within(Ok(100_000), [10, 10], 64).layers, 10);
     }
 
     #[test]
