@@ -152,7 +152,8 @@ impl Room {
             (self.mistakes, self.calm) = ((self.mistakes + 1).min(MOST_MISTAKES), 0);
         }
         self.layers = match (is_complete, overflowed) {
-            (true, _) => Some(peeled.layers + 1),
+            // As many as were asked for may not be all.
+            (true, _) => (peeled.has_ended == 1).then_some(peeled.layers + 1),
             (false, false) => Some(2 * recorded.layers),
             (false, true) => None,
         };
@@ -193,8 +194,9 @@ mod tests {
         // A layer more: nobody reached their end.
         assert!(!room.learn(&second, &peeled(6, false, 90)));
         assert_eq!(room.plan_within(Ok(1000), [10, 10], 64).layers, 13);
-        // As many as were asked for need no end.
+        // As many as were asked for need no end, and say nothing about it.
         assert!(room.learn(&room.plan_within(Ok(1000), [10, 10], 7), &peeled(7, false, 90)));
+        assert_eq!(room.plan_within(Ok(1000), [10, 10], 64).layers, 64);
     }
 
     #[test]
