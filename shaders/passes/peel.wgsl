@@ -9,10 +9,11 @@
 
 struct Layer {
     @location(0) geometry: vec4<u32>,
-    @location(1) base_color: vec4<f32>,
-    @location(2) region: u32,
+    @location(1) region: u32,
     // Of which draw and surface it is; 0: nothing.
-    @location(3) order: u32,
+    @location(2) order: u32,
+    // Where it is asked for.
+    @location(3) base_color: vec4<f32>,
 }
 
 fn layer(position: vec4<f32>, ids: vec4<u32>, drawn: GBuffer) -> Layer {
@@ -24,7 +25,7 @@ fn layer(position: vec4<f32>, ids: vec4<u32>, drawn: GBuffer) -> Layer {
     if !is_behind {
         discard;
     }
-    return Layer(drawn.geometry, unpack_color(pack_color(drawn.base_color)), drawn.region, order);
+    return Layer(drawn.geometry, drawn.region, order, unpack_color(pack_color(drawn.base_color)));
 }
 
 @fragment

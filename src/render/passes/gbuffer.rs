@@ -104,17 +104,15 @@ impl Purpose {
         (vertex, fragments[self as usize])
     }
 
-    fn outputs(self) -> &'static [wgpu::TextureFormat] {
+    fn outputs(self, with_color: bool) -> &'static [wgpu::TextureFormat] {
         match self {
-            Self::Surfaces => &LAYER[..3],
-            Self::Layer => LAYER,
+            Self::Surfaces => &[GEOMETRY, BASE_COLOR, REGION],
+            Self::Layer if with_color => &[GEOMETRY, REGION, ORDER, BASE_COLOR],
+            Self::Layer => &[GEOMETRY, REGION, ORDER],
             Self::Lists => &[],
         }
     }
 }
-
-/// What a layer consists of beside its depth; a G-buffer lacks the last one.
-const LAYER: &[wgpu::TextureFormat] = &[GEOMETRY, BASE_COLOR, REGION, ORDER];
 
 /// A traversal of the scene.
 struct Traversal<'a> {
@@ -183,7 +181,11 @@ impl GBufferPass {
             Some(peel) => ("peel", Purpose::Layer, peel.with_color, peel.is_whole),
             None => ("g-buffer", Purpose::Surfaces, true, true),
         };
-        let color: Vec<_> = [geometry, base_color, region].into_iter().chain(peel.map(|p| p.order)).collect();
+        let color = match peel {
+            Some(Peel { order, with_color: true, .. }) => vec![geometry, region, order, base_color],
+            Some(Peel { order, .. }) => vec![geometry, region, order],
+            None => vec![geometry, base_color, region],
+        };
         let group = peel.map(|peel| peel.group(rec.gpu, &self.layer_layout));
         let traversal = Traversal { label, purpose, with_color, is_whole, color: &color, depth, group };
         self.traverse(rec, scene, instances, parts, is_cut, traversal)?;
@@ -287,7 +289,7 @@ fn build(
     });
     let buffers = [Some(INSTANCES), Some(POSITIONS), Some(SURFACES), Some(Attributes::LAYOUT)];
     let (vertex, fragment) = variant.purpose.entry_points(variant.detail);
-    let targets: Vec<_> = variant.purpose.outputs().iter().map(|&format| Some(format.into())).collect();
+    let targets: Vec<_> = variant.purpose.outputs(variant.with_color).iter().map(|&format| Some(format.into())).collect();
     let mut constants = vec![("WITH_CUT", variant.is_cut)];
     constants.extend((variant.purpose != Purpose::Surfaces).then_some(("WITH_COLOR", variant.with_color)));
     let constants: Vec<_> = constants.into_iter().map(|(name, on)| (name, f64::from(u8::from(on)))).collect();
