@@ -11,7 +11,7 @@ struct Counted {
     has_uncovered: u32,
     masked: u32,
     hidden: u32,
-    fragments: atomic<u32>,
+    fragments: array<atomic<u32>, 64>,
     pixels: array<u32, 64>,
     passed: array<u32, 64>,
 }

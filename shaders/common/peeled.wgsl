@@ -16,8 +16,8 @@ struct Peeled {
     // Pixels of the depth mask, and those of them behind opaque surfaces.
     masked: u32,
     hidden: u32,
-    // Fragments of all lists, those for which there was no room included; 0 without lists.
-    fragments: u32,
+    // Of the lists of each part of the picture, see passes/fragment_lists.wgsl; 0 without lists.
+    fragments: array<u32, 64>,
     // Of each layer: its pixels, and those of the mask that pass.
     pixels: array<u32, 64>,
     passed: array<u32, 64>,

@@ -12,8 +12,20 @@
 @group(1) @binding(3) var payload_tex: texture_storage_2d<rgba32uint, write>;
 @group(1) @binding(4) var<storage, read_write> colors: array<u32>;
 
+// Software devices draw each tile of 64 by 64 pixels on one processor. So that adjacent ones do not wait for each other's
+// memory, they count for themselves, in so many parts, and write runs of their own. Twins: in src/render/passes/peel.rs.
+const PARTS: u32 = 4u;
+const RUN: u32 = 1024u;
+
+fn next_index(px: vec2<u32>) -> u32 {
+    let tile = px / 64u % 2u;
+    let part = 2u * tile.y + tile.x;
+    let number = atomicAdd(&counted.fragments[part * 64u / PARTS], 1u);
+    return (number / RUN * PARTS + part) * RUN + number % RUN;
+}
+
 fn append(position: vec4<f32>, ids: vec4<u32>, drawn: GBuffer) {
-    let index = atomicAdd(&counted.fragments, 1u);
+    let index = next_index(vec2<u32>(position.xy));
     let room = textureDimensions(link_tex);
     if index < room.x * room.y {
         let next = atomicExchange(&heads[list_of(vec2<u32>(position.xy))], index + 1u);

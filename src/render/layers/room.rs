@@ -8,6 +8,9 @@ use crate::render::passes::peel::Peeled;
 /// Fragments per pixel of the picture, as long as nobody has counted them.
 const FIRST_GUESS: u64 = 4;
 
+/// A square with sides of so many pixels has a tile for each part that counts fragments; see [`Peeled::room`].
+const TILES: u32 = 128;
+
 /// After so many complete pictures in a row, more than one has samples, guesses may be tight again.
 const CALM: u32 = 2 * crate::render::sample::MAX_SAMPLES;
 
@@ -43,7 +46,7 @@ pub enum Reason {
     Single,
     /// The device cannot do otherwise.
     Device,
-    /// So many fragments are more than are ever kept.
+    /// Room for so many fragments is more than there ever is.
     TooMany(u64),
 }
 
@@ -56,7 +59,7 @@ impl LayersBy {
                 "layers are peeled, as fragment shaders cannot write with this graphics driver".to_owned(),
             ),
             Self::Peeling(Reason::TooMany(fragments)) => Some(format!(
-                "layers are peeled, as lists of {fragments} fragments would take too much memory"
+                "layers are peeled, as lists with room for {fragments} fragments would take too much memory"
             )),
         }
     }
@@ -98,7 +101,7 @@ pub(super) struct Room {
     /// Layers there were, that which ended them included, or twice as many as were recorded where those were too few;
     /// `None`: nobody knows.
     layers: Option<u32>,
-    /// Fragments there were.
+    /// Fragments there had to be room for.
     fragments: Option<u64>,
     /// Guesses that were wrong: each doubles the reserve. Samples of one picture differ, and each wrong guess begins it
     /// anew, so a reserve is kept at least until it is done. Layers begin without one: each takes time though nothing is
@@ -106,7 +109,7 @@ pub(super) struct Room {
     mistakes: u32,
     /// Complete pictures since the last wrong guess.
     calm: u32,
-    /// Since lists had more fragments than there can be room for: pixels of all layers when it was first peeled.
+    /// Since lists needed more room than there can be: pixels of all layers when it was first peeled.
     peeled: Option<u64>,
 }
 
@@ -122,8 +125,9 @@ impl Room {
         self.plan_within(bound, size, most)
     }
 
-    fn plan_within(&self, bound: Result<u64, Reason>, [width, height]: [u32; 2], most: u32) -> Recorded {
-        let first = FIRST_GUESS * u64::from(width) * u64::from(height);
+    fn plan_within(&self, bound: Result<u64, Reason>, size: [u32; 2], most: u32) -> Recorded {
+        let [width, height] = size.map(|side| u64::from(side.next_multiple_of(TILES)));
+        let first = FIRST_GUESS * width * height;
         // More than there were, as there may be more by now: a quarter.
         let reserve = 1 << self.mistakes;
         let room = self.fragments.map_or(first, |counted| counted + counted / 4 * reserve);
@@ -140,7 +144,7 @@ impl Room {
 
     /// Learns from a report; returns whether the picture was complete.
     pub(super) fn learn(&mut self, recorded: &Recorded, peeled: &Peeled) -> bool {
-        let fragments = u64::from(peeled.fragments);
+        let fragments = peeled.room();
         let overflowed = recorded.fragments.is_ok_and(|room| fragments > room);
         let is_complete = !overflowed && (peeled.has_ended == 1 || recorded.layers >= recorded.most);
         if is_complete {
@@ -176,44 +180,53 @@ impl Room {
 mod tests {
     use super::*;
 
-    fn peeled(layers: u32, has_ended: bool, fragments: u32) -> Peeled {
+    /// As much room as one fragment takes at least.
+    const RUN: u64 = 4096;
+    /// Of which the first guess is 400 times that much.
+    const SIZE: [u32; 2] = [640; 2];
+
+    /// With fragments that take so many times that much.
+    fn peeled(layers: u32, has_ended: bool, runs: u32) -> Peeled {
         let mut pixels = [0; 64];
         pixels[..layers as usize].fill(100);
-        Peeled { has_ended: u32::from(has_ended), layers, fragments, pixels, ..Peeled::begun(1, 1.0) }
+        let mut peeled = Peeled { layers, pixels, ..Peeled::begun(1, 1.0) };
+        (peeled.has_ended, peeled.fragments[0]) = (u32::from(has_ended), 1024 * runs);
+        assert_eq!(peeled.room(), RUN * u64::from(runs));
+        peeled
     }
 
     #[test]
     fn without_a_report_all_layers_are_recorded_and_after_one_as_many_as_there_were() {
         let mut room = Room::default();
-        let first = room.plan_within(Ok(1000), [10, 10], 64);
-        assert_eq!((first.layers, first.fragments), (64, Ok(400)));
+        let first = room.plan_within(Ok(1000 * RUN), SIZE, 64);
+        assert_eq!((first.layers, first.fragments), (64, Ok(400 * RUN)));
         assert!(room.learn(&first, &peeled(5, true, 80)));
-        let second = room.plan_within(Ok(1000), [10, 10], 64);
-        assert_eq!((second.layers, second.fragments), (6, Ok(100)));
+        let second = room.plan_within(Ok(1000 * RUN), SIZE, 64);
+        assert_eq!((second.layers, second.fragments), (6, Ok(100 * RUN)));
         assert_eq!([4, 5].map(|layer| second.only_counts(layer)), [false, true]);
         // A layer more: nobody reached their end.
         assert!(!room.learn(&second, &peeled(6, false, 90)));
-        assert_eq!(room.plan_within(Ok(1000), [10, 10], 64).layers, 13);
+        assert_eq!(room.plan_within(Ok(1000 * RUN), SIZE, 64).layers, 13);
         // As many as were asked for need no end, and say nothing about it.
-        assert!(room.learn(&room.plan_within(Ok(1000), [10, 10], 7), &peeled(7, false, 90)));
-        assert_eq!(room.plan_within(Ok(1000), [10, 10], 64).layers, 64);
+        assert!(room.learn(&room.plan_within(Ok(1000 * RUN), SIZE, 7), &peeled(7, false, 90)));
+        assert_eq!(room.plan_within(Ok(1000 * RUN), SIZE, 64).layers, 64);
     }
 
     #[test]
     fn fragments_without_room_get_it_or_are_peeled_until_there_are_far_fewer() {
         let mut room = Room::default();
-        let first = room.plan_within(Ok(1000), [10, 10], 8);
+        let first = room.plan_within(Ok(1000 * RUN), SIZE, 8);
         assert!(!room.learn(&first, &peeled(3, true, 700)));
-        let second = room.plan_within(Ok(1000), [10, 10], 8);
-        assert_eq!((second.fragments, second.by()), (Ok(1000), LayersBy::Lists));
+        let second = room.plan_within(Ok(1000 * RUN), SIZE, 8);
+        assert_eq!((second.fragments, second.by()), (Ok(1000 * RUN), LayersBy::Lists));
         assert!(!room.learn(&second, &peeled(3, true, 1001)));
-        let third = room.plan_within(Ok(1000), [10, 10], 8);
-        let peeling = LayersBy::Peeling(Reason::TooMany(1001));
+        let third = room.plan_within(Ok(1000 * RUN), SIZE, 8);
+        let peeling = LayersBy::Peeling(Reason::TooMany(1001 * RUN));
         assert_eq!(third.by(), peeling);
-        assert!(peeling.shortfall().is_some_and(|why| why.contains("1001")));
+        assert!(peeling.shortfall().is_some_and(|why| why.contains(&(1001 * RUN).to_string())));
         for (layers, by) in [(8, peeling), (4, peeling), (3, LayersBy::Lists)] {
-            assert!(room.learn(&room.plan_within(Ok(1000), [10, 10], 8), &peeled(layers, true, 0)));
-            assert_eq!(room.plan_within(Ok(1000), [10, 10], 8).by(), by, "{layers}");
+            assert!(room.learn(&room.plan_within(Ok(1000 * RUN), SIZE, 8), &peeled(layers, true, 0)));
+            assert_eq!(room.plan_within(Ok(1000 * RUN), SIZE, 8).by(), by, "{layers}");
         }
     }
 
@@ -222,7 +235,7 @@ mod tests {
         let mut room = Room::default();
         let (mut sample, mut drawn) = (0_u32, 0);
         while sample < 64 {
-            let recorded = room.plan_within(Ok(100_000), [10, 10], 64);
+            let recorded = room.plan_within(Ok(100_000 * RUN), SIZE, 64);
             // Each fifth sample has many more layers and fragments.
             let (layers, fragments) = if sample % 5 == 4 { (20, 900) } else { (9, 300) };
             let has_ended = recorded.layers > layers;
@@ -233,16 +246,16 @@ mod tests {
         }
         // Long after that it is guessed tightly again.
         for _ in 0..CALM {
-            let recorded = room.plan_within(Ok(100_000), [10, 10], 64);
+            let recorded = room.plan_within(Ok(100_000 * RUN), SIZE, 64);
             assert!(room.learn(&recorded, &peeled(9, true, 300)));
         }
-        assert_eq!(room.plan_within(Ok(100_000), [10, 10], 64).layers, 10);
+        assert_eq!(room.plan_within(Ok(100_000 * RUN), SIZE, 64).layers, 10);
     }
 
     #[test]
     fn a_device_without_lists_peels_and_says_so_unless_that_was_asked_for() {
         for (reason, is_said) in [(Reason::Device, true), (Reason::Asked, false)] {
-            let by = Room::default().plan_within(Err(reason), [10, 10], 8).by();
+            let by = Room::default().plan_within(Err(reason), SIZE, 8).by();
             assert_eq!((by, by.shortfall().is_some()), (LayersBy::Peeling(reason), is_said));
         }
     }

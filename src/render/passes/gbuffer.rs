@@ -289,7 +289,8 @@ fn build(
     });
     let buffers = [Some(INSTANCES), Some(POSITIONS), Some(SURFACES), Some(Attributes::LAYOUT)];
     let (vertex, fragment) = variant.purpose.entry_points(variant.detail);
-    let targets: Vec<_> = variant.purpose.outputs(variant.with_color).iter().map(|&format| Some(format.into())).collect();
+    let targets: Vec<_> =
+        variant.purpose.outputs(variant.with_color).iter().map(|&format| Some(format.into())).collect();
     let mut constants = vec![("WITH_CUT", variant.is_cut)];
     constants.extend((variant.purpose != Purpose::Surfaces).then_some(("WITH_COLOR", variant.with_color)));
     let constants: Vec<_> = constants.into_iter().map(|(name, on)| (name, f64::from(u8::from(on)))).collect();

@@ -14,6 +14,14 @@ use crate::render::RenderError;
 /// No object has more layers than this that are drawn.
 pub const MOST_LAYERS: u32 = 64;
 
+/// Parts of a picture that count fragments for themselves, and how many of one lie together, as in
+/// `passes/fragment_lists.wgsl`.
+const PARTS: u64 = 4;
+const RUN: u64 = 1024;
+
+/// Words of their counters: each has a line of the cache to itself.
+const COUNTERS: usize = 64;
+
 /// Pixels per side that a workgroup counts, as in `passes/count.wgsl`.
 const GROUP: u32 = 64;
 
@@ -109,8 +117,8 @@ pub struct Peeled {
     pub masked: u32,
     /// Those of them that opaque surfaces hide, which no peeling uncovers.
     pub hidden: u32,
-    /// Fragments of all lists, those for which there was no room included; 0 without lists.
-    pub fragments: u32,
+    /// Fragments of the lists of each part of the picture, those for which there was no room included; 0 without lists.
+    pub fragments: [u32; COUNTERS],
     /// Pixels of each layer, that which ended it included.
     pub pixels: [u32; MOST_LAYERS as usize],
     /// Pixels of the mask that pass the depth test against each layer, the paper's R.
@@ -152,7 +160,7 @@ impl Peeled {
             has_uncovered: 0,
             masked: 0,
             hidden: 0,
-            fragments: 0,
+            fragments: [0; COUNTERS],
             pixels: none,
             passed: none,
         }
@@ -172,10 +180,16 @@ impl Peeled {
             has_uncovered: next(),
             masked: next(),
             hidden: next(),
-            fragments: next(),
+            fragments: std::array::from_fn(|_| next()),
             pixels: std::array::from_fn(|_| next()),
             passed: std::array::from_fn(|_| next()),
         }
+    }
+
+    /// So many fragments there has to be room for: each part of the picture takes as much as the fullest one.
+    pub fn room(&self) -> u64 {
+        let fullest = self.fragments.iter().max().map_or(0, |&most| u64::from(most));
+        fullest.next_multiple_of(RUN) * PARTS
     }
 
     /// What ended it.
