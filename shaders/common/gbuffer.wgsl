@@ -3,7 +3,7 @@
 
 // x: shading normal, y: face normal (octahedral, 2 × 16-bit snorm, view space), z: linear depth (bits of a float),
 // w: object id (0: background) with the enhanced flag as the highest bit.
-@group(1) @binding(0) var geometry_tex: texture_2d<u32>;
+@group(1) @binding(0) var geometry_tex: texture_storage_2d<rgba32uint, read>;
 
 const ENHANCED: u32 = 0x80000000u;
 
@@ -19,7 +19,7 @@ struct Surfel {
 
 fn geometry_at(px: vec2<i32>) -> vec4<u32> {
     let last = vec2<i32>(textureDimensions(geometry_tex)) - 1;
-    return textureLoad(geometry_tex, clamp(px, vec2(0), last), 0);
+    return textureLoad(geometry_tex, clamp(px, vec2(0), last));
 }
 
 fn unpack_surfel(texel: vec4<u32>) -> Surfel {

@@ -3,6 +3,6 @@ fn texel_of_record(index: u32) -> vec2<u32> {
     return vec2(index % 2048u, index / 2048u);
 }
 
-fn texel_at(records: texture_2d<u32>, index: u32) -> vec4<u32> {
-    return textureLoad(records, texel_of_record(index), 0);
+fn texel_at(records: texture_storage_2d<rgba32uint, read>, index: u32) -> vec4<u32> {
+    return textureLoad(records, texel_of_record(index));
 }

@@ -2,9 +2,9 @@
 #import passes/lines.wgsl
 
 // The opaque surfaces, as `geometry_tex` has those of the layer.
-@group(1) @binding(6) var surface_tex: texture_2d<u32>;
+@group(1) @binding(6) var surface_tex: texture_storage_2d<rgba32uint, read>;
 // Their lines. x, y: linear colour times coverage, and coverage, as halves; z: linear depth (bits of a float).
-@group(1) @binding(7) var cover_tex: texture_2d<u32>;
+@group(1) @binding(7) var cover_tex: texture_storage_2d<rgba32uint, read>;
 // Where nearer layers have lines; see passes/repeated.wgsl.
 @group(1) @binding(8) var seen_tex: texture_2d<u32>;
 // Linear colour times opacity, and opacity.
@@ -17,7 +17,7 @@ const ON: f32 = 0.05;
 override WITH_COVER: bool = false;
 
 fn surface_at(px: vec2<i32>) -> Surfel {
-    return unpack_surfel(textureLoad(surface_tex, px, 0));
+    return unpack_surfel(textureLoad(surface_tex, px));
 }
 
 // What lies at a depth, with the opaque lines over it that are nearer: they reach beyond their objects. They lie beneath
@@ -26,7 +26,7 @@ fn beneath_lines(px: vec2<i32>, depth: f32, color: vec4<f32>) -> vec4<f32> {
     if !WITH_COVER {
         return color;
     }
-    let cover = textureLoad(cover_tex, px, 0);
+    let cover = textureLoad(cover_tex, px);
     if cover.z == 0u || bitcast<f32>(cover.z) >= depth {
         return color;
     }

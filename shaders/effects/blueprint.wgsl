@@ -19,7 +19,7 @@ struct Blueprint {
 }
 
 // The opaque surfaces, as `geometry_tex` has those of the layer.
-@group(1) @binding(6) var surface_tex: texture_2d<u32>;
+@group(1) @binding(6) var surface_tex: texture_storage_2d<rgba32uint, read>;
 @group(1) @binding(7) var<storage, read> blueprints: array<Blueprint>;
 @group(1) @binding(8) var<storage, read> peeled: Peeled;
 // Where nearer layers have lines; see passes/repeated.wgsl.
@@ -27,7 +27,7 @@ struct Blueprint {
 @group(1) @binding(10) var<storage, read> mask: Masked;
 
 // What tells where the layer has anything, and caps of a section, which lie here by object id.
-@group(1) @binding(11) var region_tex: texture_2d<u32>;
+@group(1) @binding(11) var region_tex: texture_storage_2d<r32uint, read>;
 @group(1) @binding(12) var<storage, read> caps: array<Cap>;
 
 // Whether there are any opaque surfaces.
@@ -59,7 +59,7 @@ fn surface_at(px: vec2<i32>) -> Surfel {
     if !WITH_SURFACES {
         return unpack_surfel(vec4(0u));
     }
-    return unpack_surfel(textureLoad(surface_tex, px, 0));
+    return unpack_surfel(textureLoad(surface_tex, px));
 }
 
 // Lines reach over the interior of their layer and beyond it: their depth is that of their spine.
@@ -88,7 +88,7 @@ fn fs_fill(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     let px = vec2<i32>(position.xy);
     let surface = surface_at(px);
     let layer = unpack_surfel(geometry_at(px));
-    let region = textureLoad(region_tex, px, 0).x;
+    let region = textureLoad(region_tex, px).x;
     let is_hidden = surface.object != 0u && surface.depth < layer.depth;
     if region == 0u || is_hidden || is_beyond(layer.depth) {
         discard;

@@ -47,7 +47,7 @@ struct HalftoneStyle {
 // For each map the threshold for each of `PLACES` in the octave, `SIZES` of a pixel and `TONES`.
 @group(1) @binding(11) var<storage, read> calibration: array<f32>;
 // Texture coordinates: see shaders/passes/coordinates.wgsl.
-@group(1) @binding(12) var coordinates_tex: texture_2d<u32>;
+@group(1) @binding(12) var coordinates_tex: texture_storage_2d<rgba32uint, read>;
 
 // As in src/render/effects/halftone/, threshold_map.rs and calibration.rs.
 const SIDE: f32 = 512.0;
@@ -176,7 +176,7 @@ fn screen_ink(object: u32, px: vec2<i32>, tone: f32) -> f32 {
 }
 
 fn uv_ink(object: u32, px: vec2<i32>, tone: f32) -> f32 {
-    let texel = textureLoad(coordinates_tex, px, 0);
+    let texel = textureLoad(coordinates_tex, px);
     let uv = bitcast<vec2<f32>>(texel.xy);
     let pattern = Patch(uv, unpack2x16float(texel.z) / 4096.0, unpack2x16float(texel.w) / 4096.0);
     return surface_ink(object, pattern, tone);

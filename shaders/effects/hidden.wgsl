@@ -6,7 +6,7 @@
 
 // Ink of the papers' operators has no spine of which the repeated ones could have been left out before.
 fn is_repeated(px: vec2<i32>) -> bool {
-    if class_of(textureLoad(edge_map_tex, px, 0)) != PAPER {
+    if class_of(textureLoad(edge_map_tex, px)) != PAPER {
         return false;
     }
     let last = vec2<i32>(frame.size) - 1;

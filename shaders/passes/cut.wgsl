@@ -6,12 +6,12 @@
 
 // The fragment of each pixel that was drawn last.
 @group(1) @binding(0) var<storage, read> heads: array<u32>;
-@group(1) @binding(1) var link_tex: texture_2d<u32>;
-@group(1) @binding(2) var payload_tex: texture_2d<u32>;
+@group(1) @binding(1) var link_tex: texture_storage_2d<rgba32uint, read>;
+@group(1) @binding(2) var payload_tex: texture_storage_2d<rgba32uint, read>;
 @group(1) @binding(3) var<storage, read> colors: array<u32>;
 // The numbers of the fragments of a layer, plus 1; 0: none; undefined where nothing is listed. Sorting: that which was sorted
 // last; cutting: that which is cut.
-@group(1) @binding(4) var number_tex: texture_2d<u32>;
+@group(1) @binding(4) var number_tex: texture_storage_2d<r32uint, read>;
 
 // Whether so many are sorted.
 override THREE_OR_MORE: bool = true;
@@ -27,7 +27,7 @@ fn link_at(number: u32) -> Link {
 }
 
 fn number_at(position: vec4<f32>) -> u32 {
-    return textureLoad(number_tex, vec2<i32>(position.xy), 0).x;
+    return textureLoad(number_tex, vec2<i32>(position.xy)).x;
 }
 
 // A fragment that is being sorted.

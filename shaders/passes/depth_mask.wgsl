@@ -11,7 +11,7 @@ struct Counted {
 }
 
 // The designated objects are `geometry_tex`; these are all that is opaque.
-@group(1) @binding(1) var surface_tex: texture_2d<u32>;
+@group(1) @binding(1) var surface_tex: texture_storage_2d<rgba32uint, read>;
 @group(1) @binding(2) var<storage, read_write> mask: Counted;
 
 var<workgroup> pixels: atomic<u32>;
@@ -28,7 +28,7 @@ fn cs_main(
         let designated = unpack_surfel(geometry_at(px));
         if designated.object != 0u {
             atomicAdd(&pixels, 1u);
-            let front = unpack_surfel(textureLoad(surface_tex, px, 0));
+            let front = unpack_surfel(textureLoad(surface_tex, px));
             atomicAdd(&hidden, select(0u, 1u, front.object != 0u && front.depth < designated.depth));
             atomicMax(&farthest, ordered(designated.depth));
         }

@@ -10,9 +10,9 @@
 #import common/repeated.wgsl
 #import common/segment_point.wgsl
 
-@group(1) @binding(1) var region_tex: texture_2d<u32>;
+@group(1) @binding(1) var region_tex: texture_storage_2d<r32uint, read>;
 // What segments have; see common/segment_point.wgsl.
-@group(1) @binding(3) var mark_tex: texture_2d<u32>;
+@group(1) @binding(3) var mark_tex: texture_storage_2d<r32uint, read>;
 
 // The regions of the two layers before this one, if it is a depth layer.
 @group(1) @binding(4) var before_tex: texture_2d<u32>;
@@ -38,9 +38,19 @@ struct Regions {
 }
 
 fn regions_at(px: vec2<i32>) -> Regions {
-    let before = four_at(region_tex, px - 1);
-    let after = four_at(region_tex, px);
-    return Regions(after.x, before.z, after.y, before.y, after.z);
+    let before = max(px - 1, vec2(0));
+    let after = min(px + 1, vec2<i32>(frame.size) - 1);
+    return Regions(
+        textureLoad(region_tex, px).x,
+        textureLoad(region_tex, vec2(before.x, px.y)).x,
+        textureLoad(region_tex, vec2(after.x, px.y)).x,
+        textureLoad(region_tex, vec2(px.x, before.y)).x,
+        textureLoad(region_tex, vec2(px.x, after.y)).x,
+    );
+}
+
+fn mark_at(px: vec2<i32>) -> u32 {
+    return textureLoad(mark_tex, clamp(px, vec2(0), vec2<i32>(frame.size) - 1)).x;
 }
 
 // Marks the pixels beside which another surface begins that no segment explains.
@@ -50,8 +60,9 @@ fn fs_borders(@builtin(position) position: vec4<f32>) {
     let regions = regions_at(px);
     let own = regions.own;
     let differs = (regions.left ^ own) | (regions.right ^ own) | (regions.above ^ own) | (regions.below ^ own);
-    // The other corners are looked at later, of the few that are left.
-    let marks = any_of(four_at(mark_tex, px - 1)) | any_of(four_at(mark_tex, px));
+    // The corners are looked at later, of the few that are left.
+    let marks = mark_at(px) | mark_at(px + vec2(1, 0)) | mark_at(px - vec2(1, 0)) | mark_at(px + vec2(0, 1))
+        | mark_at(px - vec2(0, 1));
     if own == 0u || differs == 0u || (marks & DRAWN) != 0u {
         discard;
     }
@@ -153,8 +164,10 @@ fn fs_main(@builtin(position) position: vec4<f32>) -> Out {
     let regions = regions_at(px);
     let own = regions.own;
     // An edge near a segment is the segment's; where the near plane cuts, there is no edge.
-    let marks = any_of(four_at(mark_tex, px - 1)) | any_of(four_at(mark_tex, px + vec2(0, -1)))
-        | any_of(four_at(mark_tex, px + vec2(-1, 0))) | any_of(four_at(mark_tex, px));
+    var marks = 0u;
+    for (var i = 0; i < 9; i++) {
+        marks |= mark_at(px + vec2(i % 3, i / 3) - 1);
+    }
     if !x.enhanced || (marks & DRAWN) != 0u || x.depth < 1.5 * frame.cut_depth {
         discard;
     }

@@ -21,11 +21,11 @@ override WITH_SURFACE_COLOR: bool = true;
 // Whether lines are tested against other surfaces than those that they were found among.
 override AMONG_OTHERS: bool = false;
 
-@group(1) @binding(1) var edge_map_tex: texture_2d<u32>;
+@group(1) @binding(1) var edge_map_tex: texture_storage_2d<rgba32uint, read>;
 @group(1) @binding(2) var base_color_tex: texture_2d<f32>;
 // As `found_tex` in passes/line_distance.wgsl: the line that reaches farthest, and the nearest one.
 @group(1) @binding(3) var farthest_tex: texture_2d<u32>;
-@group(1) @binding(4) var nearest_tex: texture_2d<u32>;
+@group(1) @binding(4) var nearest_tex: texture_storage_2d<r32uint, read>;
 @group(1) @binding(5) var<storage, read> edge_styles: array<EdgeStyle>;
 
 // A surface so far before a line, in pixels, hides it.
@@ -66,7 +66,7 @@ fn line_at(px: vec2<i32>, g: Surfel, found: u32) -> Line {
         return no_line();
     }
     let from_px = vec2<i32>(vec2((found - 1u) & 0xffffu, (found - 1u) >> 16u));
-    let edge = unpack_edge(textureLoad(edge_map_tex, from_px, 0));
+    let edge = unpack_edge(textureLoad(edge_map_tex, from_px));
     let spine = vec2<f32>(from_px) + 0.5 + edge.offset;
     let index = edge.class_of - 1u;
     let d = vec2<f32>(px) + 0.5 - spine;
@@ -168,8 +168,8 @@ fn apart(thin: u32, wide: u32) -> f32 {
     }
     let thin_px = vec2<i32>(vec2((thin - 1u) & 0xffffu, (thin - 1u) >> 16u));
     let wide_px = vec2<i32>(vec2((wide - 1u) & 0xffffu, (wide - 1u) >> 16u));
-    let a = unpack_edge(textureLoad(edge_map_tex, thin_px, 0));
-    let b = unpack_edge(textureLoad(edge_map_tex, wide_px, 0));
+    let a = unpack_edge(textureLoad(edge_map_tex, thin_px));
+    let b = unpack_edge(textureLoad(edge_map_tex, wide_px));
     if b.half_width - a.half_width <= 1.0 {
         return 0.0;
     }
@@ -190,16 +190,16 @@ fn fs_reached(@builtin(position) position: vec4<f32>) {
     var reached = 0u;
     if WITH_EXACT {
         if NARROW {
-            reached |= textureLoad(nearest_tex, px / 4, 0).x;
+            reached |= textureLoad(nearest_tex, px / 4).x;
         } else {
             reached |= textureLoad(farthest_tex, px, 0).x;
         }
         if WITH_WIDTHS {
-            reached |= textureLoad(nearest_tex, px, 0).x;
+            reached |= textureLoad(nearest_tex, px).x;
         }
     }
     if WITH_PAPER {
-        reached |= textureLoad(edge_map_tex, px, 0).x;
+        reached |= textureLoad(edge_map_tex, px).x;
     }
     if reached == 0u {
         discard;
@@ -217,7 +217,7 @@ fn lines_at(px: vec2<i32>, g: Surfel) -> Line {
         }
         if WITH_WIDTHS {
             // A thin line inside a wide one is the nearer one.
-            let nearest = textureLoad(nearest_tex, px, 0).x;
+            let nearest = textureLoad(nearest_tex, px).x;
             if nearest != farthest {
                 let thin = line_at(px, g, nearest);
                 let ink = thin.ink * apart(nearest, farthest);
@@ -227,7 +227,7 @@ fn lines_at(px: vec2<i32>, g: Surfel) -> Line {
         }
     }
     if WITH_PAPER {
-        let texel = textureLoad(edge_map_tex, px, 0);
+        let texel = textureLoad(edge_map_tex, px);
         let depth = bitcast<f32>(texel.z);
         let is_hidden = g.object != 0u && step_px(nearness_of(g.depth) - nearness_of(depth), depth) > slack();
         if class_of(texel) == PAPER && !is_hidden {

@@ -2,7 +2,7 @@
 #import common/fullscreen.wgsl
 #import common/edge_map.wgsl
 
-@group(1) @binding(0) var edge_map_tex: texture_2d<u32>;
+@group(1) @binding(0) var edge_map_tex: texture_storage_2d<rgba32uint, read>;
 @group(1) @binding(1) var spine_tex: texture_2d<u32>;
 
 // Stands for the ink of an operator: no radius, the middle of the pixel.
@@ -11,7 +11,7 @@ const INKED: u32 = 0x7f7fu;
 @fragment
 fn fs_ink(@builtin(position) position: vec4<f32>) -> @location(0) u32 {
     let px = vec2<i32>(position.xy);
-    if class_of(textureLoad(edge_map_tex, px, 0)) != PAPER || textureLoad(spine_tex, px, 0).x != 0u {
+    if class_of(textureLoad(edge_map_tex, px)) != PAPER || textureLoad(spine_tex, px, 0).x != 0u {
         discard;
     }
     return INKED;

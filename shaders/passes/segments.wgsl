@@ -7,7 +7,6 @@
 #import common/edge_map.wgsl
 #import common/edge_style.wgsl
 #import common/line_width.wgsl
-#import common/neighbours.wgsl
 #import common/kept.wgsl
 #import common/segment_point.wgsl
 #import common/records.wgsl
@@ -17,11 +16,11 @@ override WITH_HOLES: bool = true;
 // Whether the G-buffer is a depth layer: only what its own surfaces carry is a line of it.
 override IN_LAYER: bool = false;
 
-@group(1) @binding(1) var region_tex: texture_2d<u32>;
+@group(1) @binding(1) var region_tex: texture_storage_2d<r32uint, read>;
 // `LineSegment` of src/geometry/line_segments.rs, four texels each.
-@group(1) @binding(3) var segment_tex: texture_2d<u32>;
+@group(1) @binding(3) var segment_tex: texture_storage_2d<rgba32uint, read>;
 // Number of a segment, and how many steps from its beginning, two in a texel; at the end `NO_STEP`.
-@group(1) @binding(4) var step_tex: texture_2d<u32>;
+@group(1) @binding(4) var step_tex: texture_storage_2d<rgba32uint, read>;
 // Where layers are asked about each step, once for all of them: its pixel (column in the lower 16 bits, row in the upper
 // ones; `NO_STEP`: nowhere), five pixels around it, of which each lies three bits (plus 4) farther in x and in y, and the
 // regions of its two sides.
@@ -29,7 +28,7 @@ override IN_LAYER: bool = false;
 // While steps are sifted: those that are kept, in any order.
 @group(1) @binding(5) var<storage, read_write> keeping: Counting;
 @group(1) @binding(6) var<storage, read_write> keeping_steps: array<u32>;
-@group(1) @binding(7) var place_tex: texture_2d<u32>;
+@group(1) @binding(7) var place_tex: texture_storage_2d<rgba32uint, read>;
 // Afterwards the same.
 @group(1) @binding(5) var<storage, read> kept: Kept;
 @group(1) @binding(6) var<storage, read> kept_steps: array<u32>;
@@ -109,10 +108,9 @@ fn place_of(ends: vec4<f32>, step: u32) -> Place {
 
 // Whether a pixel or one of its neighbours shows one of these surfaces.
 fn is_beside(px: vec2<i32>, regions: vec2<u32>) -> bool {
-    var around = nine_at(region_tex, px);
     var found = false;
     for (var i = 0; i < 9; i++) {
-        found = found || any(regions == vec2(around[i]));
+        found = found || any(regions == vec2(textureLoad(region_tex, px + vec2(i % 3, i / 3) - 1).x));
     }
     return found;
 }
@@ -142,9 +140,9 @@ struct Beside {
 fn beside(spine: Spine, along: f32, regions: vec2<u32>) -> Beside {
     let px = texel_beside(spine, along);
     var region = 0u;
-    var texel = textureLoad(geometry_tex, px, 0);
+    var texel = textureLoad(geometry_tex, px);
     if IN_LAYER {
-        region = textureLoad(region_tex, px, 0).x;
+        region = textureLoad(region_tex, px).x;
         // Where a layer has nothing its geometry is undefined.
         texel = select(texel, vec4(0u), region == 0u);
     }
@@ -293,7 +291,7 @@ fn cs_sift_layer(@builtin(global_invocation_id) id: vec3<u32>) {
     var is_seen = false;
     for (var i = 0u; i < 5u; i++) {
         let away = vec2<i32>(vec2(place.y >> (6u * i), place.y >> (6u * i + 3u)) & vec2(7u)) - 4;
-        is_seen = is_seen || any(place.zw == vec2(textureLoad(region_tex, px + away, 0).x));
+        is_seen = is_seen || any(place.zw == vec2(textureLoad(region_tex, px + away).x));
     }
     if place.x != NO_STEP && is_seen {
         keep(id.x);

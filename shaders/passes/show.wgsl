@@ -15,7 +15,7 @@ const CLASS_COLORS = array<vec3<f32>, 10>(
 
 @group(1) @binding(1) var region_tex: texture_2d<u32>;
 @group(1) @binding(2) var base_color_tex: texture_2d<f32>;
-@group(1) @binding(3) var edge_map_tex: texture_2d<u32>;
+@group(1) @binding(3) var edge_map_tex: texture_storage_2d<rgba32uint, read>;
 @group(1) @binding(4) var operators_tex: texture_2d<f32>;
 
 fn surfel(px: vec2<i32>) -> Surfel {
@@ -91,7 +91,7 @@ fn fs_c1_operator(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f
 
 @fragment
 fn fs_edge_map(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
-    let texel = textureLoad(edge_map_tex, vec2<i32>(position.xy), 0);
+    let texel = textureLoad(edge_map_tex, vec2<i32>(position.xy));
     if class_of(texel) == PAPER {
         let ink = paper_ink(texel);
         return vec4(vec3(1.0 - max(ink.x, ink.y)), 1.0);

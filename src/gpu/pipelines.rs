@@ -32,6 +32,8 @@ impl Program {
 pub enum Binding {
     /// A texture, read by `textureLoad`.
     Texture(wgpu::TextureFormat),
+    /// A texture of whole numbers, read as a storage texture.
+    Texels(wgpu::TextureFormat),
     /// A texture that a compute shader writes.
     Image(wgpu::TextureFormat),
     /// A texture that a compute shader reads and writes.
@@ -313,6 +315,7 @@ fn layout_of(
                     view_dimension: wgpu::TextureViewDimension::D2,
                     multisampled: false,
                 },
+                Binding::Texels(format) => image(*format, wgpu::StorageTextureAccess::ReadOnly),
                 Binding::Image(format) => image(*format, wgpu::StorageTextureAccess::WriteOnly),
                 Binding::Scratch(format) => image(*format, wgpu::StorageTextureAccess::ReadWrite),
                 Binding::Storage | Binding::Written => wgpu::BindingType::Buffer {

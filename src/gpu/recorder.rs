@@ -10,6 +10,8 @@ use super::{Gate, Gpu, GpuError, ShaderError, Target, TargetPool, Timers};
 pub enum Input<'a> {
     /// A texture, read by `textureLoad`.
     Texture(&'a Target),
+    /// A texture of whole numbers, read as a storage texture, texel by texel: software devices do that faster.
+    Texels(&'a Target),
     /// A texture that a compute shader writes.
     Image(&'a Target),
     /// A texture that a compute shader reads and writes.
@@ -28,6 +30,7 @@ impl Input<'_> {
     fn binding(&self) -> Binding {
         match self {
             Self::Texture(target) => Binding::Texture(target.format()),
+            Self::Texels(target) => Binding::Texels(target.format()),
             Self::Image(target) => Binding::Image(target.format()),
             Self::Scratch(target) => Binding::Scratch(target.format()),
             Self::Storage(_) => Binding::Storage,
@@ -39,7 +42,7 @@ impl Input<'_> {
 
     fn resource(&self) -> wgpu::BindingResource<'_> {
         match self {
-            Self::Texture(target) | Self::Image(target) | Self::Scratch(target) => {
+            Self::Texture(target) | Self::Texels(target) | Self::Image(target) | Self::Scratch(target) => {
                 wgpu::BindingResource::TextureView(target.view())
             }
             Self::Storage(buffer) | Self::Written(buffer) => buffer.as_entire_binding(),

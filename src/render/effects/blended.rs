@@ -225,9 +225,9 @@ impl<'a> Pane<'a> {
     /// What the shader of the effect reads from binding 6 on.
     fn inputs(&self, seen: &'a Target) -> [Input<'a>; 4] {
         [
-            Input::Texture(&self.opaque.geometry),
+            Input::Texels(&self.opaque.geometry),
             // Unread without lines: any texture of its kind.
-            Input::Texture(self.cover.unwrap_or(&self.opaque.geometry)),
+            Input::Texels(self.cover.unwrap_or(&self.opaque.geometry)),
             Input::Texture(seen),
             Input::Texture(self.shaded),
         ]
@@ -258,7 +258,7 @@ fn lay_beneath(
 ) -> Result<(), RenderError> {
     // Of the lines' bindings only the first is read: any texture of their kind.
     let mut inputs = vec![
-        Input::Texture(&layer.gbuffer.geometry),
+        Input::Texels(&layer.gbuffer.geometry),
         Input::Texture(&layer.gbuffer.region),
         Input::Texture(&layer.gbuffer.base_color),
         Input::Texture(&layer.gbuffer.region),

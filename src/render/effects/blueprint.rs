@@ -321,7 +321,7 @@ impl<'a> Sprite<'a> {
     /// What the shader of the effect reads from binding 6 on.
     fn inputs(&self, seen: &'a Target) -> [Input<'a>; 5] {
         [
-            Input::Texture(&self.surfaces.geometry),
+            Input::Texels(&self.surfaces.geometry),
             Input::Storage(self.style),
             Input::Storage(self.count.buffer()),
             Input::Texture(seen),
@@ -342,7 +342,7 @@ fn fill(
 ) -> Result<(), RenderError> {
     // Of the lines' bindings only the first is read: any texture of their kind.
     let mut inputs = vec![
-        Input::Texture(&layer.gbuffer.geometry),
+        Input::Texels(&layer.gbuffer.geometry),
         Input::Texture(&layer.gbuffer.region),
         Input::Texture(&layer.gbuffer.base_color),
         Input::Texture(&layer.gbuffer.region),
@@ -350,7 +350,7 @@ fn fill(
         Input::Storage(edge_styles),
     ];
     inputs.extend(sprite.inputs(&layer.gbuffer.region));
-    inputs.extend([Input::Texture(&layer.gbuffer.region), Input::Storage(caps.unwrap_or(edge_styles))]);
+    inputs.extend([Input::Texels(&layer.gbuffer.region), Input::Storage(caps.unwrap_or(edge_styles))]);
     rec.draw(Draw {
         label: "fill",
         program: Program {

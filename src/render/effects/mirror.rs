@@ -128,7 +128,7 @@ pub fn mirror(
     rec.draw(Draw {
         label: "mirror",
         program: Program::new("effects/mirror.wgsl", "fs_main"),
-        inputs: &[Input::Texture(&gbuffer.geometry), Input::Texture(reflection), Input::Storage(uniform)],
+        inputs: &[Input::Texels(&gbuffer.geometry), Input::Texture(reflection), Input::Storage(uniform)],
         outputs: &[color],
         onto: Onto::Blended,
         depth: Some((&gbuffer.depth, DepthRule::Covered)),

@@ -96,7 +96,7 @@ pub fn section(
     rec.draw(Draw {
         label: "section",
         program: Program::new("effects/section.wgsl", "fs_main"),
-        inputs: &[Input::Texture(&gbuffer.geometry), Input::Texture(&gbuffer.region), Input::Storage(caps)],
+        inputs: &[Input::Texels(&gbuffer.geometry), Input::Texture(&gbuffer.region), Input::Storage(caps)],
         outputs: &[color],
         onto: Onto::Blended,
         depth: Some((&gbuffer.depth, DepthRule::Covered)),

@@ -103,7 +103,7 @@ pub fn surface(
         "surface",
         Program { file: "effects/surface.wgsl", entry_point: "fs_main", switches },
         &[
-            Input::Texture(&gbuffer.geometry),
+            Input::Texels(&gbuffer.geometry),
             // A shader that does not read one of these is given any texture of its kind.
             Input::Texture(shading.shadow_mask.unwrap_or(&gbuffer.base_color)),
             Input::Storage(shading.toon_buffers.styles),
@@ -116,7 +116,7 @@ pub fn surface(
             Input::Layers(shading.halftones.maps.thresholds()),
             Input::Sampler(shading.halftones.maps.sampler()),
             Input::Storage(shading.halftones.maps.calibration()),
-            Input::Texture(shading.halftones.coordinates.unwrap_or(&gbuffer.geometry)),
+            Input::Texels(shading.halftones.coordinates.unwrap_or(&gbuffer.geometry)),
         ],
         &[&color],
         Some(&gbuffer.depth),

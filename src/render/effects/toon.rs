@@ -158,7 +158,7 @@ pub fn cartoon_map(
             switches: vec![("WITH_SHADOWS", shadow_mask.is_some())],
         },
         &[
-            Input::Texture(&gbuffer.geometry),
+            Input::Texels(&gbuffer.geometry),
             // Unread without shadows.
             Input::Texture(shadow_mask.unwrap_or(&gbuffer.base_color)),
             Input::Storage(toon_styles),

@@ -95,8 +95,8 @@ impl DepthMaskPass {
                 "depth mask",
                 Program::new("passes/depth_mask.wgsl", "cs_main"),
                 &[
-                    Input::Texture(&designated.geometry),
-                    Input::Texture(&surfaces.value.geometry),
+                    Input::Texels(&designated.geometry),
+                    Input::Texels(&surfaces.value.geometry),
                     Input::Written(count),
                 ],
                 [width.div_ceil(GROUP), height.div_ceil(GROUP)],

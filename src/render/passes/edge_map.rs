@@ -115,10 +115,10 @@ fn exact_edges(
     let before_all = Input::Texture(seen.map_or(&gbuffer.region, |seen| &seen.before));
 
     let inputs = [
-        Input::Texture(&gbuffer.geometry),
-        Input::Texture(&gbuffer.region),
+        Input::Texels(&gbuffer.geometry),
+        Input::Texels(&gbuffer.region),
         Input::Storage(edge_styles),
-        Input::Texture(&marks),
+        Input::Texels(&marks),
         // Unread unless it is a layer.
         Input::Texture(before.map_or(&gbuffer.region, |[before, _]| before)),
         Input::Texture(before.map_or(&gbuffer.region, |[_, before_that]| before_that)),
@@ -139,7 +139,7 @@ fn exact_edges(
             label: "details",
             program: Program { file: "passes/details.wgsl", entry_point: "fs_main", switches },
             inputs: &[
-                Input::Texture(&gbuffer.geometry),
+                Input::Texels(&gbuffer.geometry),
                 Input::Texture(&gbuffer.region),
                 Input::Storage(edge_styles),
                 Input::Texture(&marks),

@@ -211,7 +211,7 @@ impl CutLists {
         };
         self.layers = self.layers.saturating_sub(1);
         let mut layer = Layer { gbuffer: GBuffer::new(rec)?, order: None };
-        let inputs: Vec<_> = self.inputs().into_iter().chain([Input::Texture(&numbers)]).collect();
+        let inputs: Vec<_> = self.inputs().into_iter().chain([Input::Texels(&numbers)]).collect();
         let program = |entry_point| Program::new("passes/cut.wgsl", entry_point);
         if with_order {
             layer.order = Some(rec.target("order", ORDER)?);
@@ -255,8 +255,7 @@ impl CutLists {
         let nearest = rec.target("fragments of layer", NUMBERS)?;
         self.numbers =
             (1..layers).map(|_| rec.target("fragments of layer", NUMBERS)).collect::<Result<_, _>>()?;
-        let inputs: Vec<_> =
-            self.inputs().into_iter().chain(self.last.as_ref().map(Input::Texture)).collect();
+        let inputs: Vec<_> = self.inputs().into_iter().chain(self.last.as_ref().map(Input::Texels)).collect();
         rec.draw(Draw {
             label: "sort",
             program: Program {
@@ -282,8 +281,8 @@ impl CutLists {
         let [links, payloads] = &self.fragments;
         [
             Input::Storage(&self.heads),
-            Input::Texture(links),
-            Input::Texture(payloads),
+            Input::Texels(links),
+            Input::Texels(payloads),
             Input::Storage(&self.colors),
         ]
     }

@@ -23,7 +23,7 @@ impl Front {
         let mut nearest = self.surfaces.clone();
         for layer in &self.layers {
             let both = rec.target("front", nearest.format())?;
-            let inputs = [Input::Texture(&nearest), Input::Texture(layer)];
+            let inputs = [Input::Texels(&nearest), Input::Texels(layer)];
             rec.fullscreen("front", Program::new("passes/front.wgsl", "fs_main"), &inputs, &[&both], None)?;
             nearest = both;
         }

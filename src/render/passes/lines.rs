@@ -64,7 +64,7 @@ pub fn lines(
         Some(Reach::Narrow { spines, near }) => (spines, near),
         Some(Reach::Wide { farthest, nearest }) => (farthest, nearest.as_ref().unwrap_or(farthest)),
         // Unread: any texture of its kind.
-        None => (&edge_map.edges, &edge_map.edges),
+        None => (&gbuffer.region, &gbuffer.region),
     };
     let any = |has: fn(&EdgeUniform) -> bool| styles.iter().any(has);
     let mut switches = vec![
@@ -76,11 +76,11 @@ pub fn lines(
         ("WITH_SURFACE_COLOR", any(|s| s.is_exact() && s.surface_color > 0.0)),
     ];
     let mut inputs = vec![
-        Input::Texture(&gbuffer.geometry),
-        Input::Texture(&edge_map.edges),
+        Input::Texels(&gbuffer.geometry),
+        Input::Texels(&edge_map.edges),
         Input::Texture(&gbuffer.base_color),
         Input::Texture(farthest),
-        Input::Texture(nearest),
+        Input::Texels(nearest),
         Input::Storage(edge_styles),
     ];
     let reached = rec.target("reached by lines", wgpu::TextureFormat::Depth32Float)?;

@@ -25,7 +25,7 @@ pub fn paper_edges(
     rec.draw(Draw {
         label: "operators",
         program: program("fs_main", styles.iter().any(|s| s.is_paper() && s.use_c1 == 1)),
-        inputs: &[Input::Texture(&gbuffer.geometry), Input::Storage(edge_styles)],
+        inputs: &[Input::Texels(&gbuffer.geometry), Input::Storage(edge_styles)],
         outputs: &[edge_map],
         onto,
         depth: Some((&gbuffer.depth, DepthRule::Covered)),
@@ -43,7 +43,7 @@ pub fn operators(
     edge_styles: &wgpu::Buffer,
 ) -> Result<Target, RenderError> {
     let out = rec.target("operators", wgpu::TextureFormat::Rgba32Float)?;
-    let inputs = [Input::Texture(&gbuffer.geometry), Input::Storage(edge_styles)];
+    let inputs = [Input::Texels(&gbuffer.geometry), Input::Storage(edge_styles)];
     rec.fullscreen("operators", program("fs_operators", true), &inputs, &[&out], None)?;
     Ok(out)
 }

@@ -61,7 +61,7 @@ pub(super) fn add_ink(
     rec.draw(Draw {
         label: "seen ink",
         program: Program::new("passes/repeated.wgsl", "fs_ink"),
-        inputs: &[Input::Texture(edges), Input::Texture(spines)],
+        inputs: &[Input::Texels(edges), Input::Texture(spines)],
         outputs: &[seen],
         onto: Onto::Old,
         depth: None,

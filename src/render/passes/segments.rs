@@ -144,13 +144,13 @@ impl Segments {
     fn place(&self, rec: &mut Recorder<'_>, part: &Steps) -> Result<Target, RenderError> {
         let size = size_of_texels(part.count as usize).map(u32::next_power_of_two);
         let places = rec.target_of("places of steps", PLACES, size)?;
-        let unread = Input::Texture(self.records.target());
+        let unread = Input::Texels(self.records.target());
         let inputs = [
             unread,
             unread,
             Input::Storage(&self.kept),
-            Input::Texture(self.records.target()),
-            Input::Texture(part.steps.target()),
+            Input::Texels(self.records.target()),
+            Input::Texels(part.steps.target()),
             Input::Image(&places),
         ];
         rec.compute("place segments", program("cs_place", &[]), &inputs, [part.count.div_ceil(GROUP), 1])?;
@@ -207,11 +207,11 @@ impl Segments {
         let switches: Vec<_> =
             inputs.switches.iter().copied().chain([("IN_LAYER", self.for_layers)]).collect();
         let tested = [
-            Input::Texture(&inputs.gbuffer.geometry),
-            Input::Texture(&inputs.gbuffer.region),
+            Input::Texels(&inputs.gbuffer.geometry),
+            Input::Texels(&inputs.gbuffer.region),
             Input::Storage(inputs.edge_styles),
-            Input::Texture(self.records.target()),
-            Input::Texture(part.steps.target()),
+            Input::Texels(self.records.target()),
+            Input::Texels(part.steps.target()),
         ];
         // Where the recorder's gate is shut nobody counts any.
         for counted in [&self.kept, &self.found] {
@@ -219,7 +219,7 @@ impl Segments {
         }
         let keeping = [Input::Written(&self.kept), Input::Written(self.kept_steps.buffer())];
         let mut sifting = [&tested[..], &keeping].concat();
-        sifting.extend(part.places.as_ref().map(Input::Texture));
+        sifting.extend(part.places.as_ref().map(Input::Texels));
         let sift = if part.places.is_some() { "cs_sift_layer" } else { "cs_sift" };
         rec.compute("sift segments", program(sift, &switches), &sifting, [part.count.div_ceil(GROUP), 1])?;
         let found = [

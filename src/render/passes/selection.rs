@@ -31,7 +31,7 @@ pub fn selection(
     selected: &wgpu::Buffer,
 ) -> Result<Target, RenderError> {
     let out = rec.target("selection", FINAL)?;
-    let inputs = [Input::Texture(geometry), Input::Storage(selected)];
+    let inputs = [Input::Texels(geometry), Input::Storage(selected)];
     rec.fullscreen("selection", Program::new("passes/selection.wgsl", "fs_main"), &inputs, &[&out], None)?;
     Ok(out)
 }

@@ -103,7 +103,7 @@ impl ShadowPass {
                 ],
             },
             &[
-                Input::Texture(&gbuffer.geometry),
+                Input::Texels(&gbuffer.geometry),
                 Input::Storage(self.lights.buffer()),
                 Input::Storage(self.views.buffer()),
                 map(0),

@@ -32,10 +32,10 @@ pub fn show(
     };
     let image = rec.target("final image", FINAL)?;
     let inputs = [
-        Input::Texture(&gbuffer.geometry),
+        Input::Texels(&gbuffer.geometry),
         Input::Texture(&gbuffer.region),
         Input::Texture(&gbuffer.base_color),
-        Input::Texture(edge_map),
+        Input::Texels(edge_map),
         Input::Texture(operators),
     ];
     rec.fullscreen("show", Program::new("passes/show.wgsl", entry_point), &inputs, &[&image], None)?;
