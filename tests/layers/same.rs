@@ -28,7 +28,7 @@ fn check_same_layers(name: &str, opened: &Opened, side: u32) -> u32 {
     let mut counted_too = session.renderer().peeled().unwrap().remove(0);
     let fragments: u32 = std::mem::replace(&mut counted_too.fragments, counted.fragments).iter().sum();
     assert!(fragments >= counted.pixels.iter().sum());
-    assert!(counted.room() == 0 && counted_too.room() == 0);
+    assert_eq!(counted.room(), 0);
     assert_eq!(counted, counted_too, "{name}");
     let drawn = counted.layers as usize;
     assert!(drawn > 0, "{name}");
