@@ -10,6 +10,7 @@
 #import common/kept.wgsl
 #import common/segment_point.wgsl
 #import common/records.wgsl
+#import common/repeated.wgsl
 
 // Whether any object has holes by alpha: there a line needs one of its own surfaces beside it.
 override WITH_HOLES: bool = true;
@@ -29,6 +30,9 @@ override IN_LAYER: bool = false;
 @group(1) @binding(5) var<storage, read_write> keeping: Counting;
 @group(1) @binding(6) var<storage, read_write> keeping_steps: array<u32>;
 @group(1) @binding(7) var place_tex: texture_storage_2d<rgba32uint, read>;
+// See common/segment_point.wgsl, and without repeated lines the spines of all nearer layers.
+@group(1) @binding(8) var mark_tex: texture_storage_2d<r32uint, write>;
+@group(1) @binding(9) var seen_tex: texture_2d<u32>;
 // Afterwards the same.
 @group(1) @binding(5) var<storage, read> kept: Kept;
 @group(1) @binding(6) var<storage, read> kept_steps: array<u32>;
@@ -283,7 +287,8 @@ fn keep(number: u32) {
     }
 }
 
-// In a layer a step is worth a closer look if one of its surfaces is seen nearby, as few are.
+// In a layer a step is worth a closer look if one of its surfaces is seen nearby, as few are. Where a nearer layer has a line
+// in this very pixel, as it has of every outline, it is repeated, and only explains what is there.
 @compute @workgroup_size(GROUP)
 fn cs_sift_layer(@builtin(global_invocation_id) id: vec3<u32>) {
     let place = texel_at(place_tex, id.x);
@@ -293,7 +298,12 @@ fn cs_sift_layer(@builtin(global_invocation_id) id: vec3<u32>) {
         let away = vec2<i32>(vec2(place.y >> (6u * i), place.y >> (6u * i + 3u)) & vec2(7u)) - 4;
         is_seen = is_seen || any(place.zw == vec2(textureLoad(region_tex, px + away).x));
     }
-    if place.x != NO_STEP && is_seen {
+    if place.x == NO_STEP || !is_seen {
+        return;
+    }
+    if WITHOUT_REPEATED && textureLoad(seen_tex, px, 0).x != 0u {
+        textureStore(mark_tex, px, vec4(EXPLAINED | DRAWN, 0u, 0u, 0u));
+    } else {
         keep(id.x);
     }
 }

@@ -171,7 +171,7 @@ impl Segments {
     ) -> Result<(), RenderError> {
         let has_chunks = self.steps.len() > 1;
         for part in &self.steps {
-            self.find(rec, inputs, part)?;
+            self.find(rec, inputs, part, marks, seen)?;
             let mut found = vec![
                 Input::Storage(self.points.buffer()),
                 Input::Storage(&self.found),
@@ -197,12 +197,14 @@ impl Segments {
         Ok(())
     }
 
-    /// Finds the points of these steps.
+    /// Finds the points of these steps, without those that a nearer layer has in the same pixel.
     fn find(
         &self,
         rec: &mut Recorder<'_>,
         inputs: &SegmentInputs<'_>,
         part: &Steps,
+        marks: &Target,
+        seen: Option<&Seen>,
     ) -> Result<(), RenderError> {
         let switches: Vec<_> =
             inputs.switches.iter().copied().chain([("IN_LAYER", self.for_layers)]).collect();
@@ -219,9 +221,15 @@ impl Segments {
         }
         let keeping = [Input::Written(&self.kept), Input::Written(self.kept_steps.buffer())];
         let mut sifting = [&tested[..], &keeping].concat();
-        sifting.extend(part.places.as_ref().map(Input::Texels));
-        let sift = if part.places.is_some() { "cs_sift_layer" } else { "cs_sift" };
-        rec.compute("sift segments", program(sift, &switches), &sifting, [part.count.div_ceil(GROUP), 1])?;
+        let (mut sift, mut sift_switches) = ("cs_sift", switches.clone());
+        if let Some(places) = &part.places {
+            // Unread where all are drawn.
+            let before = seen.map_or(&inputs.gbuffer.region, |seen| &seen.before);
+            sifting.extend([Input::Texels(places), Input::Image(marks), Input::Texture(before)]);
+            sift = "cs_sift_layer";
+            sift_switches.push(("WITHOUT_REPEATED", seen.is_some()));
+        }
+        rec.compute("sift segments", program(sift, &sift_switches), &sifting, [part.count.div_ceil(GROUP), 1])?;
         let found = [
             Input::Storage(&self.kept),
             Input::Storage(self.kept_steps.buffer()),
