@@ -59,11 +59,17 @@ fn fs_borders(@builtin(position) position: vec4<f32>) {
     let px = vec2<i32>(position.xy);
     let regions = regions_at(px);
     let own = regions.own;
-    let differs = (regions.left ^ own) | (regions.right ^ own) | (regions.above ^ own) | (regions.below ^ own);
+    let mark = mark_at(px);
+    let left = mark_at(px - vec2(1, 0));
+    let right = mark_at(px + vec2(1, 0));
+    let above = mark_at(px - vec2(0, 1));
+    let below = mark_at(px + vec2(0, 1));
+    // An edge between two pixels runs through one of them.
+    let differs = select(regions.left ^ own, 0u, left == REPEATED) | select(regions.right ^ own, 0u, right == REPEATED)
+        | select(regions.above ^ own, 0u, above == REPEATED) | select(regions.below ^ own, 0u, below == REPEATED);
     // The corners are looked at later, of the few that are left.
-    let marks = mark_at(px) | mark_at(px + vec2(1, 0)) | mark_at(px - vec2(1, 0)) | mark_at(px + vec2(0, 1))
-        | mark_at(px - vec2(0, 1));
-    if own == 0u || differs == 0u || (marks & DRAWN) != 0u {
+    let marks = mark | left | right | above | below;
+    if own == 0u || differs == 0u || mark == REPEATED || (marks & DRAWN) != 0u {
         discard;
     }
 }
@@ -197,7 +203,7 @@ fn fs_main(@builtin(position) position: vec4<f32>) -> Out {
         spine = other;
     }
     // A crease that is not drawn explains what is inside its object, but not where another one ends.
-    let is_explained = marks != 0u && !spine.ends_object;
+    let is_explained = (marks & EXPLAINED) != 0u && !spine.ends_object;
     if spine.class_of == NO_EDGE || is_explained {
         discard;
     }

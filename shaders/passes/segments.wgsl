@@ -287,8 +287,8 @@ fn keep(number: u32) {
     }
 }
 
-// In a layer a step is worth a closer look if one of its surfaces is seen nearby, as few are. Where a nearer layer has a line
-// in this very pixel, as it has of every outline, it is repeated, and only explains what is there.
+// In a layer a step is worth a closer look if one of its surfaces is seen nearby, as few are, and no nearer layer has a line in
+// this very pixel, as one has of every outline.
 @compute @workgroup_size(GROUP)
 fn cs_sift_layer(@builtin(global_invocation_id) id: vec3<u32>) {
     let place = texel_at(place_tex, id.x);
@@ -298,12 +298,12 @@ fn cs_sift_layer(@builtin(global_invocation_id) id: vec3<u32>) {
         let away = vec2<i32>(vec2(place.y >> (6u * i), place.y >> (6u * i + 3u)) & vec2(7u)) - 4;
         is_seen = is_seen || any(place.zw == vec2(textureLoad(region_tex, px + away).x));
     }
-    if place.x == NO_STEP || !is_seen {
+    if place.x == NO_STEP {
         return;
     }
     if WITHOUT_REPEATED && textureLoad(seen_tex, px, 0).x != 0u {
-        textureStore(mark_tex, px, vec4(EXPLAINED | DRAWN, 0u, 0u, 0u));
-    } else {
+        textureStore(mark_tex, px, vec4(REPEATED, 0u, 0u, 0u));
+    } else if is_seen {
         keep(id.x);
     }
 }
