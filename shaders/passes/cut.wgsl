@@ -152,12 +152,17 @@ struct Layer {
     @location(3) order: u32,
 }
 
+// Covers pixels that have no fragment in this layer.
+@fragment
+fn fs_ended(@builtin(position) position: vec4<f32>) {
+    if number_at(position) != 0u {
+        discard;
+    }
+}
+
 @fragment
 fn fs_layer(@builtin(position) position: vec4<f32>) -> Layer {
     let number = number_at(position);
-    if number == 0u {
-        return Layer(vec4(0u), 0u, vec4(0.0), 0u);
-    }
     let payload = payload_of(texel_at(payload_tex, number - 1u));
     var normal = payload.face;
     var order = 0u;

@@ -58,9 +58,16 @@ pub enum DepthRule {
     Mark,
     /// Draws only where an entry point of the same program, which is run before it, does not discard.
     Marked(&'static str),
-    /// The same, and only where something has been drawn; forgets the depth there.
-    MarkedCovered(&'static str),
+    /// The same, and only where something has been drawn, of which the depth is forgotten there. A buffer can be marked so up
+    /// to [`MOST_ROUNDS`] times; the number is that of the times before.
+    MarkedCovered(&'static str, u32),
+    /// Draws where something has been drawn, but not where an entry point of the same program, which is run before it, does
+    /// not discard: there nothing has been drawn any more.
+    Left(&'static str),
 }
+
+/// How often what is covered can be marked in one buffer.
+pub const MOST_ROUNDS: u32 = 4096;
 
 /// What a draw does with a depth buffer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -73,15 +80,17 @@ pub enum DepthTest {
     MarkCovered,
     /// Passes where that was noted.
     Marked,
+    /// Passes where something has been drawn, and forgets it.
+    Uncover,
 }
 
 impl DepthRule {
     /// What the draw itself does.
     pub fn test(self) -> DepthTest {
         match self {
-            Self::Covered => DepthTest::Covered,
+            Self::Covered | Self::Left(_) => DepthTest::Covered,
             Self::Mark => DepthTest::Mark,
-            Self::Marked(_) | Self::MarkedCovered(_) => DepthTest::Marked,
+            Self::Marked(_) | Self::MarkedCovered(..) => DepthTest::Marked,
         }
     }
 
@@ -90,7 +99,21 @@ impl DepthRule {
         match self {
             Self::Covered | Self::Mark => None,
             Self::Marked(entry_point) => Some((entry_point, DepthTest::Mark)),
-            Self::MarkedCovered(entry_point) => Some((entry_point, DepthTest::MarkCovered)),
+            Self::MarkedCovered(entry_point, _) => Some((entry_point, DepthTest::MarkCovered)),
+            Self::Left(entry_point) => Some((entry_point, DepthTest::Uncover)),
+        }
+    }
+
+    /// The depths at which a test of it draws what covers the picture: the least and the greatest one of the viewport.
+    pub fn depths(self, test: DepthTest) -> [f32; 2] {
+        match (self, test) {
+            (Self::MarkedCovered(_, rounds), _) => {
+                // Before what covers the picture, behind all that is drawn, and a hair behind the last marks.
+                let depth = (1.0 - (rounds % MOST_ROUNDS) as f32 / (2 * MOST_ROUNDS) as f32) * 1e-9;
+                [depth, depth]
+            }
+            (_, DepthTest::Uncover) => [0.0, 0.0],
+            _ => [0.0, 1.0],
         }
     }
 
@@ -98,7 +121,7 @@ impl DepthRule {
     pub fn operations(self) -> Option<wgpu::Operations<f32>> {
         let load = match self {
             Self::Covered => return None,
-            Self::MarkedCovered(_) => wgpu::LoadOp::Load,
+            Self::MarkedCovered(..) | Self::Left(_) => wgpu::LoadOp::Load,
             Self::Mark | Self::Marked(_) => wgpu::LoadOp::Clear(0.0),
         };
         Some(wgpu::Operations { load, store: wgpu::StoreOp::Store })
@@ -110,7 +133,7 @@ impl DepthTest {
         let (compare, writes) = match self {
             Self::Covered => (wgpu::CompareFunction::Less, false),
             Self::Mark => (wgpu::CompareFunction::Always, true),
-            Self::MarkCovered => (wgpu::CompareFunction::Less, true),
+            Self::MarkCovered | Self::Uncover => (wgpu::CompareFunction::Less, true),
             Self::Marked => (wgpu::CompareFunction::Equal, false),
         };
         wgpu::DepthStencilState {

@@ -262,8 +262,11 @@ impl<'a> Recorder<'a> {
         let mut draws = Vec::new();
         for key in marker.iter().chain([&key]) {
             let made = self.pipelines.raster(self.gpu, key)?;
-            draws
-                .push((made.pipeline.clone(), inputs_group(self.gpu, draw.label, &made.inputs, draw.inputs)));
+            let group = inputs_group(self.gpu, draw.label, &made.inputs, draw.inputs);
+            let viewport = draw.depth.zip(key.depth).map(|((target, rule), (_, test))| {
+                (target.size().map(|side| side as f32), rule.depths(test))
+            });
+            draws.push((made.pipeline.clone(), group, viewport));
         }
         let color = draw.onto.attachments(draw.outputs);
         let depth = draw.depth.map(|(target, rule)| wgpu::RenderPassDepthStencilAttachment {
@@ -273,9 +276,12 @@ impl<'a> Recorder<'a> {
         });
         let gated = self.gated(&[[3, 1, 0, 0, 0]]);
         let mut pass = self.pass(draw.label, &color, depth);
-        for (pipeline, group) in &draws {
+        for (pipeline, group, viewport) in &draws {
             pass.set_pipeline(pipeline);
             pass.set_bind_group(1, group, &[]);
+            if let Some(([width, height], [least, greatest])) = *viewport {
+                pass.set_viewport(0.0, 0.0, width, height, least, greatest);
+            }
             match &gated {
                 Some((buffer, offset)) => pass.draw_indirect(buffer, *offset),
                 None => pass.draw(0..3, 0..1),

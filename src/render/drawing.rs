@@ -323,6 +323,7 @@ impl Drawing {
                     edge_styles: self.edge_styles.buffer(),
                     is_whole: true,
                     seen: None,
+                    marked: None,
                     segments: &self.placed_segments,
                     has_holes: inputs.objects.surfaces.has_holes,
                     is_cut: view.cut.is_some(),

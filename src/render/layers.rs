@@ -184,7 +184,7 @@ impl Layers {
                     let peel = Peel { last_depth, last_order, order: &order, with_color, is_whole };
                     let gbuffer =
                         gbuffer_pass.run(rec, scene, &mut self.draws, (draws, calls), is_cut, Some(&peel))?;
-                    Layer { gbuffer, order: Some(order) }
+                    Layer { gbuffer, order: Some(order), marked: None }
                 }
             };
             self.count.count(rec, &layer, mask)?;
@@ -301,6 +301,7 @@ impl LayerLines {
                 before: inputs.before,
                 shadow_mask: None,
                 seen: own.as_ref(),
+                marked: layer.marked,
             },
         )?;
         let (before, now) = own.map(|Seen { before, now }| (before, now)).unzip();

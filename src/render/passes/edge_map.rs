@@ -54,6 +54,8 @@ pub struct EdgeInputs<'a> {
     pub shadow_mask: Option<&'a Target>,
     /// The lines of nearer layers, which are left out, and to which these are added; `None`: all are drawn.
     pub seen: Option<&'a Seen>,
+    /// The depth of the G-buffer only tells where it has anything, and has been marked so often; `None`: it is asked for.
+    pub marked: Option<u32>,
 }
 
 /// Makes the edge map: exact edges first, then those of the papers' operators.
@@ -96,6 +98,7 @@ fn exact_edges(
         before,
         shadow_mask,
         seen,
+        marked,
     } = *inputs;
     let any = |has: fn(&EdgeUniform) -> bool| styles.iter().any(|s| s.is_exact() && has(s));
     let variation =
@@ -154,15 +157,21 @@ fn exact_edges(
         })?;
     }
 
-    let borders = rec.target("surface borders", DEPTH)?;
-    rec.copy(&gbuffer.depth, &borders);
+    let (borders, rounds) = match marked {
+        Some(rounds) => (gbuffer.depth.clone(), rounds),
+        None => {
+            let borders = rec.target("surface borders", DEPTH)?;
+            rec.copy(&gbuffer.depth, &borders);
+            (borders, 0)
+        }
+    };
     rec.draw(Draw {
         label: "discontinuities",
         program: Program { file: "passes/discontinuities.wgsl", entry_point: "fs_main", switches },
         inputs: &inputs,
         outputs: &outputs,
         onto: Onto::Old,
-        depth: Some((&borders, DepthRule::MarkedCovered("fs_borders"))),
+        depth: Some((&borders, DepthRule::MarkedCovered("fs_borders", rounds))),
     })?;
     Ok(spines)
 }

@@ -155,6 +155,7 @@ impl FragmentLists {
             numbers: Vec::new(),
             last: None,
             layers,
+            done: 0,
         };
         let inputs = lists.inputs();
         rec.draw(Draw {
@@ -188,7 +189,7 @@ pub struct CutLists {
     /// Links and payloads.
     fragments: [Target; 2],
     colors: wgpu::Buffer,
-    /// A depth buffer that is covered where there are any fragments.
+    /// A depth buffer that is covered where there are any fragments, of the layer that was cut last or of those behind it.
     listed: Target,
     /// The fragments of the next layers, the nearest one last.
     numbers: Vec<Target>,
@@ -196,6 +197,8 @@ pub struct CutLists {
     last: Option<Target>,
     /// So many are left to be cut.
     layers: u32,
+    /// So many have been.
+    done: u32,
 }
 
 impl CutLists {
@@ -210,7 +213,8 @@ impl CutLists {
             None => self.sort(rec)?,
         };
         self.layers = self.layers.saturating_sub(1);
-        let mut layer = Layer { gbuffer: GBuffer::new(rec)?, order: None };
+        let mut layer = Layer { gbuffer: GBuffer::new(rec)?, order: None, marked: None };
+        let mut rule = DepthRule::Covered;
         let inputs: Vec<_> = self.inputs().into_iter().chain([Input::Texels(&numbers)]).collect();
         let program = |entry_point| Program::new("passes/cut.wgsl", entry_point);
         if with_order {
@@ -225,6 +229,11 @@ impl CutLists {
             })?;
         } else {
             layer.gbuffer.depth = self.listed.clone();
+            layer.marked = Some(self.done);
+            // All that is listed has a first layer.
+            if self.done > 0 {
+                rule = DepthRule::Left("fs_ended");
+            }
         }
         let GBuffer { geometry, base_color, region, depth } = &layer.gbuffer;
         let mut outputs = vec![geometry, region];
@@ -243,9 +252,10 @@ impl CutLists {
             inputs: &inputs,
             outputs: &outputs,
             onto: if is_whole { Onto::Nothing } else { Onto::Anything },
-            depth: Some((depth, DepthRule::Covered)),
+            depth: Some((depth, rule)),
         })?;
         self.last = Some(numbers);
+        self.done += 1;
         Ok(layer)
     }
 

@@ -32,6 +32,9 @@ pub struct Layer {
     pub gbuffer: GBuffer,
     /// The draw and surface of each pixel, which tells coplanar ones apart; see `passes/peel.wgsl`. `None`: nobody asked.
     pub order: Option<Target>,
+    /// Its depth only tells where it has anything, and those behind it take it over: so often has that buffer been marked;
+    /// see [`super::edge_map::EdgeInputs::marked`].
+    pub marked: Option<u32>,
 }
 
 /// What a layer lies behind, and where its own order goes.

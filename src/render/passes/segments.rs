@@ -229,7 +229,12 @@ impl Segments {
             sift = "cs_sift_layer";
             sift_switches.push(("WITHOUT_REPEATED", seen.is_some()));
         }
-        rec.compute("sift segments", program(sift, &sift_switches), &sifting, [part.count.div_ceil(GROUP), 1])?;
+        rec.compute(
+            "sift segments",
+            program(sift, &sift_switches),
+            &sifting,
+            [part.count.div_ceil(GROUP), 1],
+        )?;
         let found = [
             Input::Storage(&self.kept),
             Input::Storage(self.kept_steps.buffer()),
