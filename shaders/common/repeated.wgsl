@@ -1,7 +1,5 @@
 // Lines of a layer that a nearer layer has at the same place (blueprints paper, section 4.1, Fig. 5).
 
-#import common/neighbours.wgsl
-
 // Whether they are left out.
 override WITHOUT_REPEATED: bool = false;
 
@@ -13,12 +11,13 @@ fn offset_in(spine: u32) -> vec2<f32> {
 }
 
 // Whether a spine is repeated; `seen_tex` holds the spines of all nearer layers.
-fn is_repeated(seen_tex: texture_2d<u32>, px: vec2<i32>, spine: u32) -> bool {
-    var others = nine_at(seen_tex, px);
+fn is_repeated(seen_tex: texture_storage_2d<r32uint, read>, px: vec2<i32>, spine: u32) -> bool {
     var least = 1e9;
     for (var i = 0; i < 9; i++) {
-        let apart = vec2<f32>(vec2(i % 3, i / 3) - 1) + offset_in(others[i]) - offset_in(spine);
-        least = select(least, min(least, dot(apart, apart)), others[i] != 0u);
+        let away = vec2(i % 3, i / 3) - 1;
+        let other = textureLoad(seen_tex, px + away).x;
+        let apart = vec2<f32>(away) + offset_in(other) - offset_in(spine);
+        least = select(least, min(least, dot(apart, apart)), other != 0u);
     }
     return least < SAME * SAME;
 }
@@ -29,10 +28,10 @@ struct Seen {
     now: u32,
 }
 
-fn seen_at(seen_tex: texture_2d<u32>, px: vec2<i32>, spine: u32) -> Seen {
+fn seen_at(seen_tex: texture_storage_2d<r32uint, read>, px: vec2<i32>, spine: u32) -> Seen {
     if !WITHOUT_REPEATED {
         return Seen(spine, spine);
     }
-    let before = textureLoad(seen_tex, px, 0).x;
+    let before = textureLoad(seen_tex, px).x;
     return Seen(select(spine, 0u, is_repeated(seen_tex, px, spine)), select(spine, before, spine == 0u));
 }

@@ -15,10 +15,9 @@ struct SegmentPoint {
 
 const NO_POINT: SegmentPoint = SegmentPoint(vec4<u32>(0u, 0u, 0u, 0u), 0u, 0u, 0u, 0u);
 
-// What segments have in a pixel: 0, `EXPLAINED`, this and `DRAWN`, or `REPEATED` where a nearer layer has a line.
+// What segments have in a pixel: 0, `EXPLAINED`, or both bits.
 const EXPLAINED: u32 = 1u;
 const DRAWN: u32 = 2u;
-const REPEATED: u32 = 4u;
 
 fn mark_of(key: u32) -> u32 {
     return EXPLAINED | ((key & 1u) * DRAWN);

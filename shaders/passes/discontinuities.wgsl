@@ -18,7 +18,7 @@
 @group(1) @binding(4) var before_tex: texture_2d<u32>;
 @group(1) @binding(5) var before_that_tex: texture_2d<u32>;
 // Without repeated lines: the spines of all nearer layers.
-@group(1) @binding(6) var seen_tex: texture_2d<u32>;
+@group(1) @binding(6) var seen_tex: texture_storage_2d<r32uint, read>;
 
 // Whether a surface that goes on in one of them ends in this layer only because something before it does.
 override WITH_LAYERS_BEFORE: bool = false;
@@ -53,23 +53,28 @@ fn mark_at(px: vec2<i32>) -> u32 {
     return textureLoad(mark_tex, clamp(px, vec2(0), vec2<i32>(frame.size) - 1)).x;
 }
 
+// Whether (not 0) another surface begins towards a neighbour of this region, where no nearer layer has a line: an edge between
+// two pixels runs through one of them.
+fn begins_at(px: vec2<i32>, towards: vec2<i32>, region: u32, own: u32) -> u32 {
+    if !WITHOUT_REPEATED {
+        return region ^ own;
+    }
+    return select(region ^ own, 0u, textureLoad(seen_tex, px + towards).x != 0u);
+}
+
 // Marks the pixels beside which another surface begins that no segment explains.
 @fragment
 fn fs_borders(@builtin(position) position: vec4<f32>) {
     let px = vec2<i32>(position.xy);
     let regions = regions_at(px);
     let own = regions.own;
-    let mark = mark_at(px);
-    let left = mark_at(px - vec2(1, 0));
-    let right = mark_at(px + vec2(1, 0));
-    let above = mark_at(px - vec2(0, 1));
-    let below = mark_at(px + vec2(0, 1));
-    // An edge between two pixels runs through one of them.
-    let differs = select(regions.left ^ own, 0u, left == REPEATED) | select(regions.right ^ own, 0u, right == REPEATED)
-        | select(regions.above ^ own, 0u, above == REPEATED) | select(regions.below ^ own, 0u, below == REPEATED);
+    let begins = begins_at(px, vec2(-1, 0), regions.left, own) | begins_at(px, vec2(1, 0), regions.right, own)
+        | begins_at(px, vec2(0, -1), regions.above, own) | begins_at(px, vec2(0, 1), regions.below, own);
     // The corners are looked at later, of the few that are left.
-    let marks = mark | left | right | above | below;
-    if own == 0u || differs == 0u || mark == REPEATED || (marks & DRAWN) != 0u {
+    let marks = mark_at(px) | mark_at(px + vec2(1, 0)) | mark_at(px - vec2(1, 0)) | mark_at(px + vec2(0, 1))
+        | mark_at(px - vec2(0, 1));
+    let is_repeated = WITHOUT_REPEATED && textureLoad(seen_tex, px).x != 0u;
+    if own == 0u || begins == 0u || is_repeated || (marks & DRAWN) != 0u {
         discard;
     }
 }

@@ -16,7 +16,7 @@
 @group(1) @binding(6) var mark_tex: texture_storage_2d<r32uint, write>;
 
 // Without repeated lines: the spines of all nearer layers, and to which of them those of this one are added.
-@group(1) @binding(7) var seen_tex: texture_2d<u32>;
+@group(1) @binding(7) var seen_tex: texture_storage_2d<r32uint, read>;
 @group(1) @binding(8) var now_seen_tex: texture_storage_2d<r32uint, write>;
 
 // Whether more points follow that have to be compared with these.

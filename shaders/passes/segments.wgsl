@@ -30,9 +30,8 @@ override IN_LAYER: bool = false;
 @group(1) @binding(5) var<storage, read_write> keeping: Counting;
 @group(1) @binding(6) var<storage, read_write> keeping_steps: array<u32>;
 @group(1) @binding(7) var place_tex: texture_storage_2d<rgba32uint, read>;
-// See common/segment_point.wgsl, and without repeated lines the spines of all nearer layers.
-@group(1) @binding(8) var mark_tex: texture_storage_2d<r32uint, write>;
-@group(1) @binding(9) var seen_tex: texture_2d<u32>;
+// Without repeated lines: the spines of all nearer layers.
+@group(1) @binding(8) var seen_tex: texture_storage_2d<r32uint, read>;
 // Afterwards the same.
 @group(1) @binding(5) var<storage, read> kept: Kept;
 @group(1) @binding(6) var<storage, read> kept_steps: array<u32>;
@@ -298,12 +297,8 @@ fn cs_sift_layer(@builtin(global_invocation_id) id: vec3<u32>) {
         let away = vec2<i32>(vec2(place.y >> (6u * i), place.y >> (6u * i + 3u)) & vec2(7u)) - 4;
         is_seen = is_seen || any(place.zw == vec2(textureLoad(region_tex, px + away).x));
     }
-    if place.x == NO_STEP {
-        return;
-    }
-    if WITHOUT_REPEATED && textureLoad(seen_tex, px, 0).x != 0u {
-        textureStore(mark_tex, px, vec4(REPEATED, 0u, 0u, 0u));
-    } else if is_seen {
+    let is_repeated = WITHOUT_REPEATED && textureLoad(seen_tex, px).x != 0u;
+    if place.x != NO_STEP && is_seen && !is_repeated {
         keep(id.x);
     }
 }

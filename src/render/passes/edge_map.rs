@@ -115,7 +115,7 @@ fn exact_edges(
     let outputs: Vec<_> = [edge_map, &spines].into_iter().chain(seen.map(|seen| &seen.now)).collect();
     let unseen = ("WITHOUT_REPEATED", seen.is_some());
     // Unread without.
-    let before_all = Input::Texture(seen.map_or(&gbuffer.region, |seen| &seen.before));
+    let before_all = Input::Texels(seen.map_or(&gbuffer.region, |seen| &seen.before));
 
     let inputs = [
         Input::Texels(&gbuffer.geometry),

@@ -171,7 +171,7 @@ impl Segments {
     ) -> Result<(), RenderError> {
         let has_chunks = self.steps.len() > 1;
         for part in &self.steps {
-            self.find(rec, inputs, part, marks, seen)?;
+            self.find(rec, inputs, part, seen)?;
             let mut found = vec![
                 Input::Storage(self.points.buffer()),
                 Input::Storage(&self.found),
@@ -188,7 +188,7 @@ impl Segments {
             };
             rec.compute("compare points", program("cs_compare"), &found, &self.found)?;
             let put = if seen.is_some() { "cs_put_unseen" } else { "cs_put" };
-            found.extend(seen.into_iter().flat_map(|s| [Input::Texture(&s.before), Input::Image(&s.now)]));
+            found.extend(seen.into_iter().flat_map(|s| [Input::Texels(&s.before), Input::Image(&s.now)]));
             rec.compute("put points", program(put), &found, &self.found)?;
         }
         if has_chunks {
@@ -203,7 +203,6 @@ impl Segments {
         rec: &mut Recorder<'_>,
         inputs: &SegmentInputs<'_>,
         part: &Steps,
-        marks: &Target,
         seen: Option<&Seen>,
     ) -> Result<(), RenderError> {
         let switches: Vec<_> =
@@ -225,7 +224,7 @@ impl Segments {
         if let Some(places) = &part.places {
             // Unread where all are drawn.
             let before = seen.map_or(&inputs.gbuffer.region, |seen| &seen.before);
-            sifting.extend([Input::Texels(places), Input::Image(marks), Input::Texture(before)]);
+            sifting.extend([Input::Texels(places), Input::Texels(before)]);
             sift = "cs_sift_layer";
             sift_switches.push(("WITHOUT_REPEATED", seen.is_some()));
         }
