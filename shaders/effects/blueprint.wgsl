@@ -14,13 +14,13 @@ struct Blueprint {
     fill: vec3<f32>,
     opacity: f32,
     by_distance: f32,
-    // Ink below it is left out, and all other is full; 0: ink stays as it is.
+    // Ink below it is left out, and all other is full, `WITH_THRESHOLD`.
     threshold: f32,
 }
 
 // The opaque surfaces, as `geometry_tex` has those of the layer.
 @group(1) @binding(6) var surface_tex: texture_storage_2d<rgba32uint, read>;
-@group(1) @binding(7) var<storage, read> blueprints: array<Blueprint>;
+@group(1) @binding(7) var<uniform> blueprint: Blueprint;
 @group(1) @binding(8) var<storage, read> peeled: Peeled;
 // Where nearer layers have lines; see passes/repeated.wgsl.
 @group(1) @binding(9) var seen_tex: texture_2d<u32>;
@@ -36,6 +36,8 @@ override WITH_SURFACES: bool = true;
 override WITH_CAPS: bool = false;
 // Whether what lies farther than the depth mask is left out.
 override WITHOUT_BEYOND: bool = false;
+// Whether ink below a threshold is left out.
+override WITH_THRESHOLD: bool = true;
 // Whether ink of the papers' operators is left out where nearer layers have some.
 override WITHOUT_REPEATED: bool = false;
 
@@ -45,7 +47,7 @@ fn faded(depth: f32) -> f32 {
     let distance = clamp((depth - range.x) / max(range.y - range.x, 1e-20), 0.0, 1.0);
     let before = f32(peeled.layers) - 1.0;
     // A power of 0 is undefined.
-    let left = pow(max(1.0 - blueprints[0].by_layer, 1e-6), before) * (1.0 - blueprints[0].by_distance * distance);
+    let left = pow(max(1.0 - blueprint.by_layer, 1e-6), before) * (1.0 - blueprint.by_distance * distance);
     return 1.0 - left;
 }
 
@@ -74,13 +76,13 @@ fn fs_lines(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
         return vec4(0.0);
     }
     var ink = line.ink;
-    if blueprints[0].threshold > 0.0 {
-        if line.strength < blueprints[0].threshold {
+    if WITH_THRESHOLD {
+        if line.strength < blueprint.threshold {
             return vec4(0.0);
         }
         ink *= min(1.0 / line.strength, 1.0 / max(ink.a, 1e-6));
     }
-    return vec4(mix(ink.rgb, blueprints[0].far * ink.a, faded(line.depth)), ink.a);
+    return vec4(mix(ink.rgb, blueprint.far * ink.a, faded(line.depth)), ink.a);
 }
 
 @fragment
@@ -93,12 +95,12 @@ fn fs_fill(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     if region == 0u || is_hidden || is_beyond(layer.depth) {
         discard;
     }
-    let fill = vec4(blueprints[0].fill, 1.0) * blueprints[0].opacity;
+    let fill = vec4(blueprint.fill, 1.0) * blueprint.opacity;
     if !WITH_CAPS || caps[layer.object].region == 0u || region != caps[layer.object].region {
         return fill;
     }
     let cap = caps[layer.object];
     let ink = select(hatched_share(cap, px), 1.0, cap.width <= 0.0);
     let near = edge_styles[layer.object].lines[SECTION - 1u].color;
-    return over(vec4(mix(near, blueprints[0].far, faded(layer.depth)), 1.0) * ink, fill);
+    return over(vec4(mix(near, blueprint.far, faded(layer.depth)), 1.0) * ink, fill);
 }

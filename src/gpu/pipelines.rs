@@ -38,6 +38,8 @@ pub enum Binding {
     Image(wgpu::TextureFormat),
     /// A texture that a compute shader reads and writes.
     Scratch(wgpu::TextureFormat),
+    /// A uniform buffer.
+    Uniform,
     /// A read-only storage buffer.
     Storage,
     /// A storage buffer that a compute shader reads and writes.
@@ -341,6 +343,11 @@ fn layout_of(
                 Binding::Texels(format) => image(*format, wgpu::StorageTextureAccess::ReadOnly),
                 Binding::Image(format) => image(*format, wgpu::StorageTextureAccess::WriteOnly),
                 Binding::Scratch(format) => image(*format, wgpu::StorageTextureAccess::ReadWrite),
+                Binding::Uniform => wgpu::BindingType::Buffer {
+                    ty: wgpu::BufferBindingType::Uniform,
+                    has_dynamic_offset: false,
+                    min_binding_size: None,
+                },
                 Binding::Storage | Binding::Written => wgpu::BindingType::Buffer {
                     ty: wgpu::BufferBindingType::Storage { read_only: *kind == Binding::Storage },
                     has_dynamic_offset: false,

@@ -16,6 +16,8 @@ pub enum Input<'a> {
     Image(&'a Target),
     /// A texture that a compute shader reads and writes.
     Scratch(&'a Target),
+    /// A uniform buffer, which software devices read faster than others where all invocations read the same of it.
+    Uniform(&'a wgpu::Buffer),
     /// A read-only storage buffer.
     Storage(&'a wgpu::Buffer),
     /// A storage buffer that a compute shader reads and writes.
@@ -33,6 +35,7 @@ impl Input<'_> {
             Self::Texels(target) => Binding::Texels(target.format()),
             Self::Image(target) => Binding::Image(target.format()),
             Self::Scratch(target) => Binding::Scratch(target.format()),
+            Self::Uniform(_) => Binding::Uniform,
             Self::Storage(_) => Binding::Storage,
             Self::Written(_) => Binding::Written,
             Self::Layers(_) => Binding::Layers,
@@ -45,7 +48,9 @@ impl Input<'_> {
             Self::Texture(target) | Self::Texels(target) | Self::Image(target) | Self::Scratch(target) => {
                 wgpu::BindingResource::TextureView(target.view())
             }
-            Self::Storage(buffer) | Self::Written(buffer) => buffer.as_entire_binding(),
+            Self::Uniform(buffer) | Self::Storage(buffer) | Self::Written(buffer) => {
+                buffer.as_entire_binding()
+            }
             Self::Layers(view) => wgpu::BindingResource::TextureView(view),
             Self::Sampler(sampler) => wgpu::BindingResource::Sampler(sampler),
         }

@@ -14,7 +14,7 @@ use glam::Vec3;
 use crate::document;
 use crate::geometry::EdgeClass;
 use crate::gpu::recorder::{Draw, Input, Onto};
-use crate::gpu::{ArrayBuffer, DepthRule, Gpu, Program, Recorder, Target};
+use crate::gpu::{ArrayBuffer, DepthRule, Gpu, Program, Recorder, Target, UniformBuffer};
 use crate::render::RenderError;
 use crate::render::drawing::{Begun, DrawingInputs};
 use crate::render::effects::section::{CapUniform, caps};
@@ -135,7 +135,7 @@ pub struct Blueprints {
     layers: Layers,
     lines: LayerLines,
     segments: Segments,
-    style: ArrayBuffer,
+    style: UniformBuffer<BlueprintUniform>,
     caps: ArrayBuffer,
     stage: Stage<Inputs, Peels>,
 }
@@ -147,7 +147,7 @@ impl Blueprints {
             layers: Layers::new(gpu),
             lines: LayerLines::new(gpu),
             segments: Segments::new(gpu),
-            style: ArrayBuffer::new(gpu, "blueprint"),
+            style: UniformBuffer::new(gpu, "blueprint"),
             caps: ArrayBuffer::new(gpu, "caps"),
             stage: Stage::default(),
         }
@@ -214,7 +214,7 @@ impl Blueprints {
         let Self { layers, lines: layer_lines, segments: placed, style, caps, stage } = self;
         stage.run(asked, |asked| {
             let Blueprint { group, style: params, .. } = blueprint;
-            style.write(rec.gpu, &vec![BlueprintUniform::from(params)]);
+            style.write(rec.gpu, &BlueprintUniform::from(params));
             let has_caps = !asked.caps.is_empty();
             if has_caps {
                 caps.write(rec.gpu, &asked.caps);
@@ -269,6 +269,7 @@ impl Blueprints {
                     surfaces: &surfaces.value,
                     has_surfaces: !inputs.objects.surfaces.is_empty(),
                     style: style.buffer(),
+                    has_threshold: params.threshold > 0.0,
                     count,
                     mask: mask.map(|mask| &mask.value).filter(|_| !params.beyond),
                 };
@@ -307,26 +308,32 @@ struct Sprite<'a> {
     /// Whether there is anything in it.
     has_surfaces: bool,
     style: &'a wgpu::Buffer,
+    /// Whether ink below a threshold is left out.
+    has_threshold: bool,
     count: &'a PeelCount,
     /// Nothing is drawn beyond it.
     mask: Option<&'a DepthMask>,
 }
 
 impl<'a> Sprite<'a> {
-    /// Whether it is tested against anything, and whether what lies beyond the depth mask is left out.
-    fn switches(&self) -> [(&'static str, bool); 2] {
-        [("WITH_SURFACES", self.has_surfaces), ("WITHOUT_BEYOND", self.mask.is_some())]
+    /// Whether it is tested against anything, whether what lies beyond the depth mask is left out, and so on.
+    fn switches(&self) -> [(&'static str, bool); 3] {
+        [
+            ("WITH_SURFACES", self.has_surfaces),
+            ("WITHOUT_BEYOND", self.mask.is_some()),
+            ("WITH_THRESHOLD", self.has_threshold),
+        ]
     }
 
     /// What the shader of the effect reads from binding 6 on.
     fn inputs(&self, seen: &'a Target) -> [Input<'a>; 5] {
         [
             Input::Texels(&self.surfaces.geometry),
-            Input::Storage(self.style),
+            Input::Uniform(self.style),
             Input::Storage(self.count.buffer()),
             Input::Texture(seen),
             // Unread without a mask: any buffer.
-            Input::Storage(self.mask.map_or(self.style, |mask| &mask.count)),
+            Input::Storage(self.mask.map_or(self.count.buffer(), |mask| &mask.count)),
         ]
     }
 }
