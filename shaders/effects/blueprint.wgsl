@@ -26,7 +26,7 @@ struct Blueprint {
 @group(1) @binding(9) var seen_tex: texture_2d<u32>;
 @group(1) @binding(10) var<storage, read> mask: Masked;
 
-// What tells where the layer has anything, and caps of a section, which lie here by object id.
+// The regions of the layer, and caps of a section, which lie here by object id.
 @group(1) @binding(11) var region_tex: texture_storage_2d<r32uint, read>;
 @group(1) @binding(12) var<storage, read> caps: array<Cap>;
 
@@ -90,13 +90,16 @@ fn fs_fill(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     let px = vec2<i32>(position.xy);
     let surface = surface_at(px);
     let layer = unpack_surfel(geometry_at(px));
-    let region = textureLoad(region_tex, px).x;
     let is_hidden = surface.object != 0u && surface.depth < layer.depth;
-    if region == 0u || is_hidden || is_beyond(layer.depth) {
+    if is_hidden || is_beyond(layer.depth) {
         discard;
     }
     let fill = vec4(blueprint.fill, 1.0) * blueprint.opacity;
-    if !WITH_CAPS || caps[layer.object].region == 0u || region != caps[layer.object].region {
+    if !WITH_CAPS {
+        return fill;
+    }
+    let region = textureLoad(region_tex, px).x;
+    if caps[layer.object].region == 0u || region != caps[layer.object].region {
         return fill;
     }
     let cap = caps[layer.object];
