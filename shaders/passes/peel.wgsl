@@ -42,3 +42,20 @@ fn fs_smooth_layer(v: Smooth) -> Layer {
 fn fs_full_layer(v: Full) -> Layer {
     return layer(v.position, v.ids, full(v));
 }
+
+// Where a layer has anything, and nothing else of it.
+
+@fragment
+fn fs_lean_counted(v: Lean) -> @location(0) u32 {
+    return layer(v.position, v.ids, lean(v)).region;
+}
+
+@fragment
+fn fs_smooth_counted(v: Smooth) -> @location(0) u32 {
+    return layer(v.position, v.ids, smooth_surface(v)).region;
+}
+
+@fragment
+fn fs_full_counted(v: Full) -> @location(0) u32 {
+    return layer(v.position, v.ids, full(v)).region;
+}

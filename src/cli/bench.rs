@@ -71,7 +71,7 @@ pub(super) fn run(args: &BenchArgs) -> Result<(), CliError> {
     // The looks take turns, so that a slow moment of the machine hits all of them alike.
     for frame in 0..args.frames + WARM_UP {
         for (i, (row, look)) in rows.iter_mut().zip(&looks).enumerate() {
-            bench.frame(look, turn(frame, i) - BEFORE)?;
+            bench.get_ready(look, turn(frame, i))?;
             let ms = bench.frame(look, turn(frame, i))?;
             if frame >= WARM_UP {
                 row.frame_ms.push(ms);
@@ -82,7 +82,7 @@ pub(super) fn run(args: &BenchArgs) -> Result<(), CliError> {
     bench.session.renderer().enable_timers();
     for frame in 0..args.frames.min(10) + WARM_UP {
         for (i, (row, look)) in rows.iter_mut().zip(&looks).enumerate() {
-            bench.frame(look, turn(frame, i) - BEFORE)?;
+            bench.get_ready(look, turn(frame, i))?;
             bench.session.renderer().timings()?;
             bench.frame(look, turn(frame, i))?;
             for (label, ms) in bench.session.renderer().timings()?.into_iter().filter(|_| frame >= WARM_UP) {
@@ -105,9 +105,9 @@ fn turn(frame: u32, row: usize) -> f64 {
     f64::from(frame % 10) * 3.0 + row as f64 * 0.01
 }
 
-/// So many degrees before each of these directions a frame is drawn that does not count: whoever turns a model has just seen
-/// it from a little farther on, and what there was to learn of it is known.
-const BEFORE: f64 = 0.5;
+/// So many degrees before each of these directions frames are drawn that do not count: whoever turns a model has just seen it
+/// from a little farther on, what there was to learn of it is known, and the first frame, which knew nothing, is forgotten.
+const BEFORE: [f64; 2] = [1.0, 0.5];
 
 /// The middle of all turns.
 const MIDDLE: f64 = 13.5;
@@ -183,6 +183,14 @@ impl Bench {
         let peeled = self.session.renderer().peeled()?;
         let pixels = peeled.first().map_or(&[][..], |p| p.pixels.get(..p.layers as usize).unwrap_or(&[]));
         Ok(pixels.to_vec())
+    }
+
+    /// Draws what comes before a frame that counts.
+    fn get_ready(&mut self, look: &Look, turn: f64) -> Result<(), CliError> {
+        for degrees in BEFORE {
+            self.frame(look, turn - degrees)?;
+        }
+        Ok(())
     }
 
     /// Draws everything in one look, turned by so many degrees; returns milliseconds.

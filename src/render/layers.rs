@@ -180,11 +180,14 @@ impl Layers {
                         Some(last) => last,
                         None => before_all(rec)?,
                     };
-                    let order = rec.target("order", last_order.format())?;
-                    let peel = Peel { last_depth, last_order, order: &order, with_color, is_whole };
+                    let order = match recorded.only_counts(number) {
+                        true => None,
+                        false => Some(rec.target("order", last_order.format())?),
+                    };
+                    let peel = Peel { last_depth, last_order, order: order.as_ref(), with_color, is_whole };
                     let gbuffer =
                         gbuffer_pass.run(rec, scene, &mut self.draws, (draws, calls), is_cut, Some(&peel))?;
-                    Layer { gbuffer, order: Some(order), marked: None }
+                    Layer { gbuffer, order, marked: None }
                 }
             };
             self.count.count(rec, &layer, mask)?;

@@ -82,6 +82,8 @@ enum Purpose {
     Surfaces,
     /// What lies behind another layer.
     Layer,
+    /// Where anything does.
+    Counted,
     /// All fragments, as lists.
     Lists,
 }
@@ -90,16 +92,18 @@ impl Purpose {
     fn file(self) -> &'static str {
         match self {
             Self::Surfaces => "passes/gbuffer.wgsl",
-            Self::Layer => "passes/peel.wgsl",
+            Self::Layer | Self::Counted => "passes/peel.wgsl",
             Self::Lists => "passes/fragment_lists.wgsl",
         }
     }
 
     fn entry_points(self, detail: Detail) -> (&'static str, &'static str) {
         let (vertex, fragments) = match detail {
-            Detail::Lean => ("vs_lean", ["fs_lean", "fs_lean_layer", "fs_lean_list"]),
-            Detail::Smooth => ("vs_smooth", ["fs_smooth", "fs_smooth_layer", "fs_smooth_list"]),
-            Detail::Full => ("vs_full", ["fs_full", "fs_full_layer", "fs_full_list"]),
+            Detail::Lean => ("vs_lean", ["fs_lean", "fs_lean_layer", "fs_lean_counted", "fs_lean_list"]),
+            Detail::Smooth => {
+                ("vs_smooth", ["fs_smooth", "fs_smooth_layer", "fs_smooth_counted", "fs_smooth_list"])
+            }
+            Detail::Full => ("vs_full", ["fs_full", "fs_full_layer", "fs_full_counted", "fs_full_list"]),
         };
         (vertex, fragments[self as usize])
     }
@@ -109,6 +113,7 @@ impl Purpose {
             Self::Surfaces => &[GEOMETRY, BASE_COLOR, REGION],
             Self::Layer if with_color => &[GEOMETRY, REGION, ORDER, BASE_COLOR],
             Self::Layer => &[GEOMETRY, REGION, ORDER],
+            Self::Counted => &[REGION],
             Self::Lists => &[],
         }
     }
@@ -152,7 +157,7 @@ impl GBufferPass {
         let module = pipelines.module(gpu, key.purpose.file())?;
         let own = match key.purpose {
             Purpose::Surfaces => None,
-            Purpose::Layer => Some(&self.layer_layout),
+            Purpose::Layer | Purpose::Counted => Some(&self.layer_layout),
             Purpose::Lists => Some(self.lists.layout()),
         };
         let frame = pipelines.frame_layout();
@@ -178,12 +183,16 @@ impl GBufferPass {
         let gbuffer = GBuffer::new(rec)?;
         let GBuffer { geometry, base_color, region, depth } = &gbuffer;
         let (label, purpose, with_color, is_whole) = match peel {
+            Some(Peel { order: None, .. }) => ("peel", Purpose::Counted, false, true),
             Some(peel) => ("peel", Purpose::Layer, peel.with_color, peel.is_whole),
             None => ("g-buffer", Purpose::Surfaces, true, true),
         };
         let color = match peel {
-            Some(Peel { order, with_color: true, .. }) => vec![geometry, region, order, base_color],
-            Some(Peel { order, .. }) => vec![geometry, region, order],
+            Some(Peel { order: None, .. }) => vec![region],
+            Some(Peel { order: Some(order), with_color: true, .. }) => {
+                vec![geometry, region, *order, base_color]
+            }
+            Some(Peel { order: Some(order), .. }) => vec![geometry, region, *order],
             None => vec![geometry, base_color, region],
         };
         let group = peel.map(|peel| peel.group(rec.gpu, &self.layer_layout));

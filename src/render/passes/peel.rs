@@ -43,8 +43,8 @@ pub struct Peel<'a> {
     pub last_depth: &'a Target,
     /// Order of the layer before.
     pub last_order: &'a Target,
-    /// Order of the layer that is drawn.
-    pub order: &'a Target,
+    /// Order of the layer that is drawn; `None`: it is only counted, and nothing is known of it but its regions and depth.
+    pub order: Option<&'a Target>,
     /// Whether it has a base colour.
     pub with_color: bool,
     /// Whether its geometry is 0 where it has nothing; otherwise it is undefined there.
