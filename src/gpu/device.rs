@@ -165,7 +165,7 @@ pub fn instance_descriptor() -> wgpu::InstanceDescriptor {
 }
 
 /// So many textures of whole numbers the shader that reads most of them takes.
-const STORAGE_TEXTURES: u32 = 5;
+const STORAGE_TEXTURES: u32 = 6;
 
 /// What is asked of a device: all that the adapter can do in size, and timers and the choice of instances in indirect draws
 /// where it has them.
