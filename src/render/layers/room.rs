@@ -156,8 +156,9 @@ impl Room {
             (self.mistakes, self.calm) = ((self.mistakes + 1).min(MOST_MISTAKES), 0);
         }
         self.layers = match (is_complete, overflowed) {
-            // As many as were asked for may not be all.
-            (true, _) => (peeled.has_ended == 1).then_some(peeled.layers + 1),
+            (true, _) if peeled.has_ended == 1 => Some(peeled.layers + 1),
+            // As many as were asked for may not be all: what is known of those behind them is still the best guess.
+            (true, _) => self.layers.filter(|&layers| layers > peeled.layers),
             (false, false) => Some(2 * recorded.layers),
             (false, true) => None,
         };
@@ -207,8 +208,11 @@ mod tests {
         // A layer more: nobody reached their end.
         assert!(!room.learn(&second, &peeled(6, false, 90)));
         assert_eq!(room.plan_within(Ok(1000 * RUN), SIZE, 64).layers, 13);
-        // As many as were asked for need no end, and say nothing about it.
+        // As many as were asked for need no end, and say nothing about it,
         assert!(room.learn(&room.plan_within(Ok(1000 * RUN), SIZE, 7), &peeled(7, false, 90)));
+        assert_eq!(room.plan_within(Ok(1000 * RUN), SIZE, 64).layers, 13);
+        // unless there were more than were ever seen.
+        assert!(room.learn(&room.plan_within(Ok(1000 * RUN), SIZE, 12), &peeled(12, false, 90)));
         assert_eq!(room.plan_within(Ok(1000 * RUN), SIZE, 64).layers, 64);
     }
 
