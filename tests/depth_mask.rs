@@ -135,7 +135,7 @@ fn counts_equal_a_recount_and_peeling_ends_with_the_first_layer_that_uncovers_en
             // What comes after the last layer was never drawn.
             let left = &picture.layers[0][drawn..];
             assert!(left.iter().all(|layer| {
-                texels::<u32>(&mut session, layer.order.as_ref().unwrap()).iter().all(|o| *o == 0)
+                texels::<u32>(&mut session, &layer.gbuffer.region).iter().all(|region| *region == 0)
             }));
             ends.push(expected);
         }

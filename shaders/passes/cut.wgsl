@@ -18,9 +18,8 @@ override THREE_OR_MORE: bool = true;
 override FIVE_OR_MORE: bool = true;
 override SEVEN_OR_MORE: bool = true;
 
-// Whether anybody asks for shading normals and orders.
+// Whether anybody asks for shading normals.
 override WITH_NORMALS: bool = true;
-override WITH_ORDER: bool = true;
 
 fn link_at(number: u32) -> Link {
     return link_of(texel_at(link_tex, number - 1u));
@@ -149,7 +148,6 @@ struct Layer {
     @location(0) geometry: vec4<u32>,
     @location(1) region: u32,
     @location(2) base_color: vec4<f32>,
-    @location(3) order: u32,
 }
 
 // Covers pixels that have no fragment in this layer.
@@ -165,16 +163,13 @@ fn fs_layer(@builtin(position) position: vec4<f32>) -> Layer {
     let number = number_at(position);
     let payload = payload_of(texel_at(payload_tex, number - 1u));
     var normal = payload.face;
-    var order = 0u;
-    if WITH_NORMALS || WITH_ORDER {
-        let link = link_at(number);
-        normal = select(payload.face, link.normal, WITH_NORMALS);
-        order = link.order;
+    if WITH_NORMALS {
+        normal = link_at(number).normal;
     }
     var color = 0u;
     if WITH_COLOR {
         color = colors[number - 1u];
     }
     let geometry = vec4(normal, payload.face, payload.depth, payload.object);
-    return Layer(geometry, payload.region, unpack_color(color), order);
+    return Layer(geometry, payload.region, unpack_color(color));
 }

@@ -3,29 +3,27 @@
 #import passes/gbuffer.wgsl
 #import common/layer_color.wgsl
 
-// The last layer; for the first one, depth 1 and order 0 everywhere.
-@group(1) @binding(0) var last_depth_tex: texture_depth_2d;
-@group(1) @binding(1) var last_order_tex: texture_2d<u32>;
+// Where the last layer lies; before the first one, depth 1 and order 0 everywhere.
+@group(1) @binding(0) var last_tex: texture_storage_2d<rg32uint, read>;
 
 struct Layer {
     @location(0) geometry: vec4<u32>,
     @location(1) region: u32,
-    // Of which draw and surface it is; 0: nothing.
-    @location(2) order: u32,
+    // Reversed depth, as bits, and of which draw and surface it is; 0: nothing.
+    @location(2) place: vec2<u32>,
     // Where it is asked for.
     @location(3) base_color: vec4<f32>,
 }
 
 fn layer(position: vec4<f32>, ids: vec4<u32>, drawn: GBuffer) -> Layer {
-    let px = vec2<i32>(position.xy);
-    let depth = textureLoad(last_depth_tex, px, 0);
-    let order = order_of(ids);
-    let is_behind = position.z < depth
-        || (position.z == depth && order > textureLoad(last_order_tex, px, 0).x);
+    let last = textureLoad(last_tex, vec2<i32>(position.xy)).xy;
+    let place = vec2(bitcast<u32>(position.z), order_of(ids));
+    // Bits of positive numbers are ordered as these are.
+    let is_behind = place.x < last.x || (place.x == last.x && place.y > last.y);
     if !is_behind {
         discard;
     }
-    return Layer(drawn.geometry, drawn.region, order, unpack_color(pack_color(drawn.base_color)));
+    return Layer(drawn.geometry, drawn.region, place, unpack_color(pack_color(drawn.base_color)));
 }
 
 @fragment

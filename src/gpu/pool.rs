@@ -95,7 +95,9 @@ fn usage(format: wgpu::TextureFormat) -> wgpu::TextureUsages {
         wgpu::TextureFormat::R32Uint => {
             usage | wgpu::TextureUsages::STORAGE_BINDING | wgpu::TextureUsages::COPY_DST
         }
-        wgpu::TextureFormat::Rgba32Uint => usage | wgpu::TextureUsages::STORAGE_BINDING,
+        wgpu::TextureFormat::Rg32Uint | wgpu::TextureFormat::Rgba32Uint => {
+            usage | wgpu::TextureUsages::STORAGE_BINDING
+        }
         wgpu::TextureFormat::Depth32Float => usage | wgpu::TextureUsages::COPY_DST,
         _ => usage,
     }

@@ -60,8 +60,8 @@ pub struct LayerInputs<'a> {
     pub with_color: bool,
     /// Whether their shading normals are; otherwise they are those of the faces.
     pub with_normals: bool,
-    /// Whether their depth and order are asked for; see [`crate::render::passes::gbuffer::GBuffer::depth`].
-    pub with_order: bool,
+    /// Whether their depth is; see [`crate::render::passes::gbuffer::GBuffer::depth`].
+    pub with_depth: bool,
     /// The geometry of so many layers, the nearest ones, is 0 where they have nothing; of the others it is undefined there.
     pub whole: u32,
 }
@@ -166,28 +166,28 @@ impl Layers {
             LayersBy::Lists => Some(gbuffer_pass.lists.cut(rec, recorded.layers)?),
             LayersBy::Peeling(_) => None,
         };
-        let with_order = inputs.with_order || mask.is_some();
+        let with_depth = inputs.with_depth || mask.is_some();
         let mut last = None;
         for number in 0..recorded.layers {
             let is_whole = number < inputs.whole;
             let layer = match &mut lists {
                 Some(lists) => {
                     let with_normals = inputs.with_normals;
-                    lists.next(rec, Asked { with_color, with_normals, with_order, is_whole })?
+                    lists.next(rec, Asked { with_color, with_normals, with_depth, is_whole })?
                 }
                 None => {
-                    let [last_depth, last_order] = &match last.take() {
+                    let before = match last.take() {
                         Some(last) => last,
                         None => before_all(rec)?,
                     };
-                    let order = match recorded.only_counts(number) {
+                    last = match recorded.only_counts(number) {
                         true => None,
-                        false => Some(rec.target("order", last_order.format())?),
+                        false => Some(rec.target("places", before.format())?),
                     };
-                    let peel = Peel { last_depth, last_order, order: order.as_ref(), with_color, is_whole };
+                    let peel = Peel { last: &before, places: last.as_ref(), with_color, is_whole };
                     let gbuffer =
                         gbuffer_pass.run(rec, scene, &mut self.draws, (draws, calls), is_cut, Some(&peel))?;
-                    Layer { gbuffer, order, marked: None }
+                    Layer { gbuffer, marked: None }
                 }
             };
             self.count.count(rec, &layer, mask)?;
@@ -198,7 +198,6 @@ impl Layers {
             if let Some(mask) = mask {
                 self.count.end_where_uncovered(rec, &layer, mask)?;
             }
-            last = layer.order.map(|order| [layer.gbuffer.depth, order]);
         }
         Ok(())
     }

@@ -91,7 +91,7 @@ impl OneLayer {
                 by: LayersBy::Peeling,
                 with_color: true,
                 with_normals: true,
-                with_order: true,
+                with_depth: true,
                 whole: MOST_LAYERS,
             };
             let mut found = None;

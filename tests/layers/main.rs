@@ -40,7 +40,7 @@ fn render(session: &mut Session, opened: &Opened, size: [u32; 2]) {
 }
 
 /// What a layer consists of, texel by texel.
-type Texels = (Vec<[u32; 4]>, Vec<u32>, Vec<u32>, Vec<u32>, Vec<u32>);
+type Texels = (Vec<[u32; 4]>, Vec<u32>, Vec<u32>, Vec<u32>);
 
 /// All layers of the only group, and how they were made.
 fn layers(session: &mut Session, opened: &Opened, side: u32, by: &str) -> (Vec<Texels>, LayersBy) {
@@ -55,7 +55,6 @@ fn layers(session: &mut Session, opened: &Opened, side: u32, by: &str) -> (Vec<T
             texels(session, &layer.gbuffer.base_color),
             texels(session, &layer.gbuffer.region),
             texels(session, &layer.gbuffer.depth),
-            texels(session, layer.order.as_ref().unwrap()),
         )
     });
     let layers = layers.collect();

@@ -33,7 +33,6 @@ fn check_same_layers(name: &str, opened: &Opened, side: u32) -> u32 {
     let drawn = counted.layers as usize;
     assert!(drawn > 0, "{name}");
     for (number, (a, b)) in peeled.iter().zip(&cut).enumerate().take(drawn) {
-        assert!(a.4 == b.4, "{name}: order of layer {number}");
         assert!(a.3 == b.3, "{name}: depth of layer {number}");
         assert!(a.0 == b.0, "{name}: geometry of layer {number}");
         assert!(a.2 == b.2, "{name}: regions of layer {number}");

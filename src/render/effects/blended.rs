@@ -153,7 +153,7 @@ impl Blended {
             by: inputs.layers_by,
             with_color: true,
             with_normals: true,
-            with_order: true,
+            with_depth: true,
             whole: MOST_LAYERS,
         };
         let drawn = layers.each(rec, gbuffer_pass, &cut, |rec, _, layer, _| {

@@ -248,7 +248,7 @@ impl Blueprints {
                 with_color: asked.keeps_layers
                     || group.edge_styles.iter().any(|s| s.draws(EdgeClass::Texture)),
                 with_normals: asked.keeps_layers || group.edge_styles.iter().any(|s| s.reads_normals()),
-                with_order: asked.keeps_layers,
+                with_depth: asked.keeps_layers,
                 // The first one that is drawn is what a click means.
                 whole: if asked.keeps_layers || group.edge_styles.iter().any(EdgeUniform::compares_geometry) {
                     MOST_LAYERS

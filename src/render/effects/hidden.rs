@@ -199,7 +199,7 @@ impl HiddenLines {
                 by: inputs.layers_by,
                 with_color: true,
                 with_normals: true,
-                with_order: false,
+                with_depth: false,
                 whole: if compares_geometry { MOST_LAYERS } else { 0 },
             };
             let mut before: Option<[Target; 2]> = None;

@@ -4,7 +4,7 @@
 //! A list holds as many fragments as there is room for, and all are counted: who finds out later that there were more
 //! makes room and draws again. See `shaders/common/fragments.wgsl`.
 
-use super::gbuffer::{DEPTH, GBuffer, ORDER};
+use super::gbuffer::{DEPTH, GBuffer};
 use super::peel::{Layer, PeelCount};
 use crate::gpu::recorder::{Draw, Input, Onto};
 use crate::gpu::{DepthRule, Gpu, GpuError, Program, RecordTexture, Recorder, Target};
@@ -177,8 +177,8 @@ pub struct Asked {
     pub with_color: bool,
     /// Their shading normals; otherwise they are those of the faces.
     pub with_normals: bool,
-    /// Their depth and order.
-    pub with_order: bool,
+    /// Their depth.
+    pub with_depth: bool,
     /// Whether their geometry is 0 where they have nothing; otherwise it is undefined there.
     pub is_whole: bool,
 }
@@ -207,18 +207,17 @@ impl CutLists {
     /// # Errors
     /// [`RenderError`].
     pub fn next(&mut self, rec: &mut Recorder<'_>, asked: Asked) -> Result<Layer, RenderError> {
-        let Asked { with_color, with_normals, with_order, is_whole } = asked;
+        let Asked { with_color, with_normals, with_depth, is_whole } = asked;
         let numbers = match self.numbers.pop() {
             Some(numbers) => numbers,
             None => self.sort(rec)?,
         };
         self.layers = self.layers.saturating_sub(1);
-        let mut layer = Layer { gbuffer: GBuffer::new(rec)?, order: None, marked: None };
+        let mut layer = Layer { gbuffer: GBuffer::new(rec)?, marked: None };
         let mut rule = DepthRule::Covered;
         let inputs: Vec<_> = self.inputs().into_iter().chain([Input::Texels(&numbers)]).collect();
         let program = |entry_point| Program::new("passes/cut.wgsl", entry_point);
-        if with_order {
-            layer.order = Some(rec.target("order", ORDER)?);
+        if with_depth {
             rec.draw(Draw {
                 label: "depth of layer",
                 program: program("fs_depth"),
@@ -237,16 +236,11 @@ impl CutLists {
         }
         let GBuffer { geometry, base_color, region, depth } = &layer.gbuffer;
         let mut outputs = vec![geometry, region];
-        outputs.extend((with_color || with_order).then_some(base_color));
-        outputs.extend(&layer.order);
+        outputs.extend(with_color.then_some(base_color));
         rec.draw(Draw {
             label: "cut",
             program: Program {
-                switches: vec![
-                    ("WITH_COLOR", with_color),
-                    ("WITH_NORMALS", with_normals),
-                    ("WITH_ORDER", with_order),
-                ],
+                switches: vec![("WITH_COLOR", with_color), ("WITH_NORMALS", with_normals)],
                 ..program("fs_layer")
             },
             inputs: &inputs,

@@ -18,8 +18,8 @@ const GEOMETRY: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Uint;
 const BASE_COLOR: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
 /// Which surface of which object.
 const REGION: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;
-/// Of a layer: which draw and surface each pixel is of, see [`Instance::first_surface`].
-pub(super) const ORDER: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;
+/// Of a layer that was peeled: depth of each pixel, and which draw and surface it is of, see [`Instance::first_surface`].
+pub(super) const PLACES: wgpu::TextureFormat = wgpu::TextureFormat::Rg32Uint;
 /// Reversed: 1 at the near plane.
 pub(super) const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 
@@ -111,8 +111,8 @@ impl Purpose {
     fn outputs(self, with_color: bool) -> &'static [wgpu::TextureFormat] {
         match self {
             Self::Surfaces => &[GEOMETRY, BASE_COLOR, REGION],
-            Self::Layer if with_color => &[GEOMETRY, REGION, ORDER, BASE_COLOR],
-            Self::Layer => &[GEOMETRY, REGION, ORDER],
+            Self::Layer if with_color => &[GEOMETRY, REGION, PLACES, BASE_COLOR],
+            Self::Layer => &[GEOMETRY, REGION, PLACES],
             Self::Counted => &[REGION],
             Self::Lists => &[],
         }
@@ -183,16 +183,16 @@ impl GBufferPass {
         let gbuffer = GBuffer::new(rec)?;
         let GBuffer { geometry, base_color, region, depth } = &gbuffer;
         let (label, purpose, with_color, is_whole) = match peel {
-            Some(Peel { order: None, .. }) => ("peel", Purpose::Counted, false, true),
+            Some(Peel { places: None, .. }) => ("peel", Purpose::Counted, false, true),
             Some(peel) => ("peel", Purpose::Layer, peel.with_color, peel.is_whole),
             None => ("g-buffer", Purpose::Surfaces, true, true),
         };
         let color = match peel {
-            Some(Peel { order: None, .. }) => vec![region],
-            Some(Peel { order: Some(order), with_color: true, .. }) => {
-                vec![geometry, region, *order, base_color]
+            Some(Peel { places: None, .. }) => vec![region],
+            Some(Peel { places: Some(places), with_color: true, .. }) => {
+                vec![geometry, region, *places, base_color]
             }
-            Some(Peel { order: Some(order), .. }) => vec![geometry, region, *order],
+            Some(Peel { places: Some(places), .. }) => vec![geometry, region, *places],
             None => vec![geometry, base_color, region],
         };
         let group = peel.map(|peel| peel.group(rec.gpu, &self.layer_layout));

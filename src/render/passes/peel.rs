@@ -6,8 +6,8 @@ use std::fmt;
 use encase::{ShaderType, StorageBuffer};
 
 use super::depth_mask::DepthMask;
-use super::gbuffer::{DEPTH, GBuffer, ORDER};
-use crate::gpu::recorder::{Input, Onto};
+use super::gbuffer::{GBuffer, PLACES};
+use crate::gpu::recorder::Input;
 use crate::gpu::{Gpu, Program, Recorder, Target, readback};
 use crate::render::RenderError;
 
@@ -30,21 +30,18 @@ const GROUP: u32 = 64;
 pub struct Layer {
     /// Its surfaces.
     pub gbuffer: GBuffer,
-    /// The draw and surface of each pixel, which tells coplanar ones apart; see `passes/peel.wgsl`. `None`: nobody asked.
-    pub order: Option<Target>,
     /// Its depth only tells where it has anything, and those behind it take it over: so often has that buffer been marked;
     /// see [`super::edge_map::EdgeInputs::marked`].
     pub marked: Option<u32>,
 }
 
-/// What a layer lies behind, and where its own order goes.
+/// What a layer lies behind, and what others lie behind. The place of a pixel is its depth, and the draw and surface of it,
+/// which tell coplanar ones apart; see `passes/peel.wgsl`.
 pub struct Peel<'a> {
-    /// Depth of the layer before.
-    pub last_depth: &'a Target,
-    /// Order of the layer before.
-    pub last_order: &'a Target,
-    /// Order of the layer that is drawn; `None`: it is only counted, and nothing is known of it but its regions and depth.
-    pub order: Option<&'a Target>,
+    /// Places of the layer before.
+    pub last: &'a Target,
+    /// Those of the layer that is drawn; `None`: it is only counted, and nothing is known of it but its regions and depth.
+    pub places: Option<&'a Target>,
     /// Whether it has a base colour.
     pub with_color: bool,
     /// Whether its geometry is 0 where it has nothing; otherwise it is undefined there.
@@ -54,19 +51,19 @@ pub struct Peel<'a> {
 impl Peel<'_> {
     /// Layout of the bind group that holds the layer before.
     pub fn layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
-        let texture = |binding, sample_type| wgpu::BindGroupLayoutEntry {
-            binding,
-            visibility: wgpu::ShaderStages::FRAGMENT,
-            ty: wgpu::BindingType::Texture {
-                sample_type,
-                view_dimension: wgpu::TextureViewDimension::D2,
-                multisampled: false,
-            },
-            count: None,
-        };
         gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some("last layer"),
-            entries: &[texture(0, wgpu::TextureSampleType::Depth), texture(1, wgpu::TextureSampleType::Uint)],
+            entries: &[wgpu::BindGroupLayoutEntry {
+                binding: 0,
+                visibility: wgpu::ShaderStages::FRAGMENT,
+                // Software devices read those faster than others.
+                ty: wgpu::BindingType::StorageTexture {
+                    access: wgpu::StorageTextureAccess::ReadOnly,
+                    format: PLACES,
+                    view_dimension: wgpu::TextureViewDimension::D2,
+                },
+                count: None,
+            }],
         })
     }
 
@@ -75,28 +72,29 @@ impl Peel<'_> {
         gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("last layer"),
             layout,
-            entries: &[(0, self.last_depth), (1, self.last_order)].map(|(binding, target)| {
-                let resource = wgpu::BindingResource::TextureView(target.view());
-                wgpu::BindGroupEntry { binding, resource }
-            }),
+            entries: &[wgpu::BindGroupEntry {
+                binding: 0,
+                resource: wgpu::BindingResource::TextureView(self.last.view()),
+            }],
         })
     }
 }
 
-/// Depth and order that everything lies behind.
+/// Places that everything lies behind.
 ///
 /// # Errors
 /// [`RenderError`].
-pub fn before_all(rec: &mut Recorder<'_>) -> Result<[Target; 2], RenderError> {
-    let targets = [rec.target("nearest depth", DEPTH)?, rec.target("no order", ORDER)?];
-    let [depth, order] = &targets;
-    let depth = wgpu::RenderPassDepthStencilAttachment {
-        view: depth.view(),
-        depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(1.0), store: wgpu::StoreOp::Store }),
-        stencil_ops: None,
+pub fn before_all(rec: &mut Recorder<'_>) -> Result<Target, RenderError> {
+    let places = rec.target("before all layers", PLACES)?;
+    let nearest = wgpu::Color { r: f64::from(1.0_f32.to_bits()), ..wgpu::Color::TRANSPARENT };
+    let cleared = wgpu::RenderPassColorAttachment {
+        view: places.view(),
+        depth_slice: None,
+        resolve_target: None,
+        ops: wgpu::Operations { load: wgpu::LoadOp::Clear(nearest), store: wgpu::StoreOp::Store },
     };
-    rec.pass("before all layers", &Onto::Nothing.attachments(&[order]), Some(depth));
-    Ok(targets)
+    rec.pass("before all layers", &[Some(cleared)], None);
+    Ok(places)
 }
 
 /// How far peeling has come. Twin of `Peeled` in `shaders/common/peeled.wgsl`.
