@@ -74,7 +74,7 @@ fn fs_borders(@builtin(position) position: vec4<f32>) {
     let marks = mark_at(px) | mark_at(px + vec2(1, 0)) | mark_at(px - vec2(1, 0)) | mark_at(px + vec2(0, 1))
         | mark_at(px - vec2(0, 1));
     let is_repeated = WITHOUT_REPEATED && textureLoad(seen_tex, px).x != 0u;
-    if own == 0u || begins == 0u || is_repeated || (marks & DRAWN) != 0u {
+    if begins == 0u || is_repeated || (marks & DRAWN) != 0u {
         discard;
     }
 }
