@@ -1,17 +1,24 @@
 // How far layers have come, while it is being counted. Twin: `Peeled` in src/render/passes/peel.rs.
 
-// As in common/peeled.wgsl, but for what several invocations count.
 struct Counted {
+    // A layer with fewer pixels ends it.
     least: u32,
+    // 1: it has ended.
     has_ended: u32,
+    // Layers so far.
     layers: u32,
+    // Pixels of the layer that is counted, and of the depth mask that pass the depth test against it.
     covered: atomic<u32>,
     uncovered: atomic<u32>,
+    // A layer that leaves this share of the depth mask uncovered, 0 to 1, ends it too; 1: one has.
     fraction: f32,
     has_uncovered: u32,
+    // Pixels of the depth mask, and those of them behind opaque surfaces.
     masked: u32,
     hidden: u32,
+    // Of the lists of each part of the picture, see passes/fragment_lists.wgsl; 0 without lists.
     fragments: array<atomic<u32>, 64>,
+    // Of each layer: its pixels, and those of the mask that pass.
     pixels: array<u32, 64>,
     passed: array<u32, 64>,
 }

@@ -21,7 +21,7 @@ struct Blueprint {
 // The opaque surfaces, as `geometry_tex` has those of the layer.
 @group(1) @binding(6) var surface_tex: texture_storage_2d<rgba32uint, read>;
 @group(1) @binding(7) var<uniform> blueprint: Blueprint;
-@group(1) @binding(8) var<storage, read> peeled: Peeled;
+@group(1) @binding(8) var<uniform> peeled: Peeled;
 // Where nearer layers have lines; see passes/repeated.wgsl.
 @group(1) @binding(9) var seen_tex: texture_2d<u32>;
 @group(1) @binding(10) var<storage, read> mask: Masked;

@@ -330,7 +330,7 @@ impl<'a> Sprite<'a> {
         [
             Input::Texels(&self.surfaces.geometry),
             Input::Uniform(self.style),
-            Input::Storage(self.count.buffer()),
+            Input::Uniform(self.count.buffer()),
             Input::Texture(seen),
             // Unread without a mask: any buffer.
             Input::Storage(self.mask.map_or(self.count.buffer(), |mask| &mask.count)),

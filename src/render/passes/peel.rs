@@ -97,7 +97,7 @@ pub fn before_all(rec: &mut Recorder<'_>) -> Result<Target, RenderError> {
     Ok(places)
 }
 
-/// How far peeling has come. Twin of `Peeled` in `shaders/common/peeled.wgsl`.
+/// How far peeling has come. Twin of `Counted` in `shaders/common/counted.wgsl`.
 #[derive(Debug, Clone, PartialEq, ShaderType)]
 pub struct Peeled {
     /// A layer with fewer pixels ends it, before it is drawn.
@@ -258,7 +258,10 @@ pub struct PeelCount {
 impl PeelCount {
     /// Undefined until [`Self::begin`].
     pub fn new(gpu: &Gpu) -> Self {
-        let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::COPY_SRC;
+        let usage = wgpu::BufferUsages::STORAGE
+            | wgpu::BufferUsages::UNIFORM
+            | wgpu::BufferUsages::COPY_DST
+            | wgpu::BufferUsages::COPY_SRC;
         Self {
             buffer: gpu.device.create_buffer(&wgpu::BufferDescriptor {
                 label: Some("peeled"),
