@@ -619,6 +619,29 @@ fn a_class_with_a_colour_of_its_own_keeps_it_in_a_blueprint() {
 }
 
 #[test]
+fn lines_of_all_layers_take_the_colour_of_their_surfaces() {
+    let mut session = session();
+    let red = ("red", primitives::cube(1.0), DMat4::IDENTITY, [1.0, 0.0, 0.0]);
+    let green = ("green", primitives::cube(0.4), DMat4::IDENTITY, [0.0, 1.0, 0.0]);
+    let two = opened(&scene(vec![red, green]), DVec3::new(0.5, 0.4, 1.0));
+    let mut opened = Opened { scene: two.scene, document: outlined().document };
+    opened.document.camera = two.document.camera;
+    set(&mut opened, "edges.surface_color", "1");
+    set(&mut opened, "edges.darken", "0");
+    for by in ["lists", "peeling"] {
+        set(&mut opened, "view.layers", by);
+        let image = common::image(&mut session, &opened, 96);
+        let count = |of: usize| {
+            let others = move |p: &image::Rgba<u8>| (0..3).filter(|c| *c != of).all(|c| p.0[c] < 60);
+            image.pixels().filter(|p| p.0[of] > 200 && others(p)).count()
+        };
+        let (red, green) = (count(0), count(1));
+        assert!(red > 200 && green > 60, "by {by}: {red} red, {green} green");
+        assert!(image.pixels().all(|p| p.0[..2].iter().any(|c| *c > 120)), "by {by}: none is black");
+    }
+}
+
+#[test]
 fn the_paper_is_that_of_the_whole_drawings_style_unless_the_view_has_its_own() {
     let mut session = session();
     let mut opened = outlined();

@@ -318,6 +318,21 @@ fn mirrors_show_them() {
 }
 
 #[test]
+fn hidden_lines_take_the_colour_of_their_surfaces() {
+    let mut session = session();
+    let outer = ("outer", primitives::cube(2.0), DMat4::IDENTITY, [1.0; 3]);
+    let inner = ("inner", primitives::cube(0.8), DMat4::IDENTITY, [1.0, 0.0, 0.0]);
+    let mut opened = red_hidden(&scene(vec![outer, inner]), DVec3::new(0.5, 0.4, 1.0));
+    set(&mut opened, "edges.hidden.mode", "faint");
+    set(&mut opened, "edges.hidden.layers", "all");
+    set(&mut opened, "edges.darken", "0");
+    let of_style = red(&image(&mut session, &opened, 192));
+    set(&mut opened, "edges.surface_color", "1");
+    let of_surface = red(&image(&mut session, &opened, 192));
+    assert!(of_style == 0 && of_surface > 200, "{of_style}, {of_surface}");
+}
+
+#[test]
 fn the_order_of_objects_changes_no_pixel() {
     let mut session = session();
     let shapes =

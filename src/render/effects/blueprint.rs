@@ -12,7 +12,6 @@ use encase::ShaderType;
 use glam::Vec3;
 
 use crate::document;
-use crate::geometry::EdgeClass;
 use crate::gpu::recorder::{Draw, Input, Onto};
 use crate::gpu::{ArrayBuffer, DepthRule, Gpu, Program, Recorder, Target, UniformBuffer};
 use crate::render::RenderError;
@@ -244,10 +243,8 @@ impl Blueprints {
                 mask: mask.map(|mask| &mask.value),
                 fraction: params.fraction,
                 by: inputs.layers_by,
-                // Lines within images are found in it; those of a blueprint have a colour of their own.
-                with_color: asked.keeps_layers
-                    || group.edge_styles.iter().any(|s| s.draws(EdgeClass::Texture)),
-                with_normals: asked.keeps_layers || group.edge_styles.iter().any(|s| s.reads_normals()),
+                with_color: asked.keeps_layers || group.edge_styles.iter().any(EdgeUniform::reads_color),
+                with_normals: asked.keeps_layers || group.edge_styles.iter().any(EdgeUniform::reads_normals),
                 with_depth: asked.keeps_layers,
                 // The first one that is drawn is what a click means.
                 whole: if asked.keeps_layers || group.edge_styles.iter().any(EdgeUniform::compares_geometry) {

@@ -185,8 +185,7 @@ impl HiddenLines {
                 Some(edges) => Some(seen_lines(rec, &edges.value)?),
                 None => None,
             };
-            let compares_geometry =
-                bands.iter().any(|band| band.styles.iter().any(EdgeUniform::compares_geometry));
+            let any = |has: fn(&EdgeUniform) -> bool| bands.iter().any(|band| band.styles.iter().any(has));
             let cut = LayerInputs {
                 scene: inputs.scene,
                 draws: &asked.draws,
@@ -197,10 +196,10 @@ impl HiddenLines {
                 mask: None,
                 fraction: 1.0,
                 by: inputs.layers_by,
-                with_color: true,
-                with_normals: true,
+                with_color: any(EdgeUniform::reads_color),
+                with_normals: any(EdgeUniform::reads_normals),
                 with_depth: false,
-                whole: if compares_geometry { MOST_LAYERS } else { 0 },
+                whole: if any(EdgeUniform::compares_geometry) { MOST_LAYERS } else { 0 },
             };
             let mut before: Option<[Target; 2]> = None;
             layers.each(rec, gbuffer_pass, &cut, |rec, number, layer, _| {

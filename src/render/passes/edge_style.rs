@@ -169,6 +169,16 @@ impl EdgeUniform {
         self.is_paper() || self.by_light > 0.0 || self.draws(EdgeClass::Relief)
     }
 
+    /// Whether its lines take the colour of the surface beside them.
+    pub fn takes_surface_color(&self) -> bool {
+        self.is_exact() && self.surface_color > 0.0
+    }
+
+    /// Whether base colours decide where its lines run or what colour they have.
+    pub fn reads_color(&self) -> bool {
+        self.takes_surface_color() || self.draws(EdgeClass::Texture)
+    }
+
     /// Whether its lines are found by comparing the geometry of all pixels around: the papers' operators and details do.
     pub fn compares_geometry(&self) -> bool {
         let details = [EdgeClass::Texture, EdgeClass::Relief, EdgeClass::Shadow];

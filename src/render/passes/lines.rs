@@ -73,7 +73,7 @@ pub fn lines(
         ("WITH_WIDTHS", matches!(reach, Some(Reach::Wide { nearest: Some(_), .. }))),
         ("NARROW", matches!(reach, Some(Reach::Narrow { .. }))),
         ("WITH_DASHES", any(|s| s.drawn().any(|(_, l)| l.dashed == 1))),
-        ("WITH_SURFACE_COLOR", any(|s| s.is_exact() && s.surface_color > 0.0)),
+        ("WITH_SURFACE_COLOR", any(EdgeUniform::takes_surface_color)),
     ];
     let mut inputs = vec![
         Input::Texels(&gbuffer.geometry),
