@@ -3,27 +3,27 @@
 #import passes/gbuffer.wgsl
 #import common/layer_color.wgsl
 
-// Where the last layer lies; before the first one, depth 1 and order 0 everywhere.
-@group(1) @binding(0) var last_tex: texture_storage_2d<rg32uint, read>;
+// Sort keys of the last layer; before the first one, depth 1 and order 0 everywhere.
+@group(1) @binding(0) var last_key_tex: texture_storage_2d<rg32uint, read>;
 
 struct Layer {
     @location(0) geometry: vec4<u32>,
     @location(1) region: u32,
     // Reversed depth, as bits, and of which draw and surface it is; 0: nothing.
-    @location(2) place: vec2<u32>,
+    @location(2) sort_key: vec2<u32>,
     // Where it is asked for.
     @location(3) base_color: vec4<f32>,
 }
 
 fn layer(position: vec4<f32>, ids: vec4<u32>, drawn: GBuffer) -> Layer {
-    let last = textureLoad(last_tex, vec2<i32>(position.xy)).xy;
-    let place = vec2(bitcast<u32>(position.z), order_of(ids));
+    let last = textureLoad(last_key_tex, vec2<i32>(position.xy)).xy;
+    let sort_key = vec2(bitcast<u32>(position.z), order_of(ids));
     // Bits of positive numbers are ordered as these are.
-    let is_behind = place.x < last.x || (place.x == last.x && place.y > last.y);
+    let is_behind = sort_key.x < last.x || (sort_key.x == last.x && sort_key.y > last.y);
     if !is_behind {
         discard;
     }
-    return Layer(drawn.geometry, drawn.region, place, unpack_color(pack_color(drawn.base_color)));
+    return Layer(drawn.geometry, drawn.region, sort_key, unpack_color(pack_color(drawn.base_color)));
 }
 
 @fragment

@@ -182,9 +182,9 @@ impl Layers {
                     };
                     last = match recorded.only_counts(number) {
                         true => None,
-                        false => Some(rec.target("places", before.format())?),
+                        false => Some(rec.target("sort keys", before.format())?),
                     };
-                    let peel = Peel { last: &before, places: last.as_ref(), with_color, is_whole };
+                    let peel = Peel { last: &before, sort_keys: last.as_ref(), with_color, is_whole };
                     let gbuffer =
                         gbuffer_pass.run(rec, scene, &mut self.draws, (draws, calls), is_cut, Some(&peel))?;
                     Layer { gbuffer, marked: None }

@@ -19,7 +19,7 @@ const BASE_COLOR: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
 /// Which surface of which object.
 const REGION: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;
 /// Of a layer that was peeled: depth of each pixel, and which draw and surface it is of, see [`Instance::first_surface`].
-pub(super) const PLACES: wgpu::TextureFormat = wgpu::TextureFormat::Rg32Uint;
+pub(super) const SORT_KEYS: wgpu::TextureFormat = wgpu::TextureFormat::Rg32Uint;
 /// Reversed: 1 at the near plane.
 pub(super) const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 
@@ -111,8 +111,8 @@ impl Purpose {
     fn outputs(self, with_color: bool) -> &'static [wgpu::TextureFormat] {
         match self {
             Self::Surfaces => &[GEOMETRY, BASE_COLOR, REGION],
-            Self::Layer if with_color => &[GEOMETRY, REGION, PLACES, BASE_COLOR],
-            Self::Layer => &[GEOMETRY, REGION, PLACES],
+            Self::Layer if with_color => &[GEOMETRY, REGION, SORT_KEYS, BASE_COLOR],
+            Self::Layer => &[GEOMETRY, REGION, SORT_KEYS],
             Self::Counted => &[REGION],
             Self::Lists => &[],
         }
@@ -182,18 +182,14 @@ impl GBufferPass {
     ) -> Result<GBuffer, RenderError> {
         let gbuffer = GBuffer::new(rec)?;
         let GBuffer { geometry, base_color, region, depth } = &gbuffer;
-        let (label, purpose, with_color, is_whole) = match peel {
-            Some(Peel { places: None, .. }) => ("peel", Purpose::Counted, false, true),
-            Some(peel) => ("peel", Purpose::Layer, peel.with_color, peel.is_whole),
-            None => ("g-buffer", Purpose::Surfaces, true, true),
-        };
-        let color = match peel {
-            Some(Peel { places: None, .. }) => vec![region],
-            Some(Peel { places: Some(places), with_color: true, .. }) => {
-                vec![geometry, region, *places, base_color]
+        let (label, purpose, with_color, is_whole, color) = match peel {
+            None => ("g-buffer", Purpose::Surfaces, true, true, vec![geometry, base_color, region]),
+            Some(Peel { sort_keys: None, .. }) => ("peel", Purpose::Counted, false, true, vec![region]),
+            Some(Peel { sort_keys: Some(sort_keys), with_color, is_whole, .. }) => {
+                let mut color = vec![geometry, region, *sort_keys];
+                color.extend(with_color.then_some(base_color));
+                ("peel", Purpose::Layer, *with_color, *is_whole, color)
             }
-            Some(Peel { places: Some(places), .. }) => vec![geometry, region, *places],
-            None => vec![geometry, base_color, region],
         };
         let group = peel.map(|peel| peel.group(rec.gpu, &self.layer_layout));
         let traversal = Traversal { label, purpose, with_color, is_whole, color: &color, depth, group };

@@ -6,7 +6,7 @@ use std::fmt;
 use encase::{ShaderType, StorageBuffer};
 
 use super::depth_mask::DepthMask;
-use super::gbuffer::{GBuffer, PLACES};
+use super::gbuffer::{GBuffer, SORT_KEYS};
 use crate::gpu::recorder::Input;
 use crate::gpu::{Gpu, Program, Recorder, Target, readback};
 use crate::render::RenderError;
@@ -35,13 +35,13 @@ pub struct Layer {
     pub marked: Option<u32>,
 }
 
-/// What a layer lies behind, and what others lie behind. The place of a pixel is its depth, and the draw and surface of it,
-/// which tell coplanar ones apart; see `passes/peel.wgsl`.
+/// What a layer lies behind, and what others lie behind. The sort key of a fragment is its depth, and the draw and surface it
+/// is of, which tell coplanar ones apart; see `passes/peel.wgsl`.
 pub struct Peel<'a> {
-    /// Places of the layer before.
+    /// Sort keys of the layer before.
     pub last: &'a Target,
     /// Those of the layer that is drawn; `None`: it is only counted, and nothing is known of it but its regions and depth.
-    pub places: Option<&'a Target>,
+    pub sort_keys: Option<&'a Target>,
     /// Whether it has a base colour.
     pub with_color: bool,
     /// Whether its geometry is 0 where it has nothing; otherwise it is undefined there.
@@ -59,7 +59,7 @@ impl Peel<'_> {
                 // Software devices read those faster than others.
                 ty: wgpu::BindingType::StorageTexture {
                     access: wgpu::StorageTextureAccess::ReadOnly,
-                    format: PLACES,
+                    format: SORT_KEYS,
                     view_dimension: wgpu::TextureViewDimension::D2,
                 },
                 count: None,
@@ -80,21 +80,21 @@ impl Peel<'_> {
     }
 }
 
-/// Places that everything lies behind.
+/// Sort keys that everything lies behind.
 ///
 /// # Errors
 /// [`RenderError`].
 pub fn before_all(rec: &mut Recorder<'_>) -> Result<Target, RenderError> {
-    let places = rec.target("before all layers", PLACES)?;
+    let sort_keys = rec.target("before all layers", SORT_KEYS)?;
     let nearest = wgpu::Color { r: f64::from(1.0_f32.to_bits()), ..wgpu::Color::TRANSPARENT };
     let cleared = wgpu::RenderPassColorAttachment {
-        view: places.view(),
+        view: sort_keys.view(),
         depth_slice: None,
         resolve_target: None,
         ops: wgpu::Operations { load: wgpu::LoadOp::Clear(nearest), store: wgpu::StoreOp::Store },
     };
     rec.pass("before all layers", &[Some(cleared)], None);
-    Ok(places)
+    Ok(sort_keys)
 }
 
 /// How far peeling has come. Twin of `Counted` in `shaders/common/counted.wgsl`.
