@@ -20,12 +20,11 @@ use hachure::render::passes::peel::Peeled;
 use hachure::render::passes::shadow::{LightViewUniform, ShadowLightUniform};
 use hachure::render::passes::shadow_map::ShadowDraw;
 use hachure::render::scale_bar::ScaleBarUniform;
-use wgpu::naga::{TypeInner, front::wgsl};
+use wgpu::naga::TypeInner;
 
 /// Byte offsets of a WGSL struct's members and its size.
 fn layout(file: &str, name: &str) -> (Vec<u64>, u64) {
-    let text = Shaders::default().compose(file).unwrap().text;
-    let module = wgsl::parse_str(&text).unwrap();
+    let module = Shaders::default().validate(file).unwrap();
     let (_, found) = module.types.iter().find(|(_, t)| t.name.as_deref() == Some(name)).unwrap();
     let TypeInner::Struct { members, span } = &found.inner else { panic!("{name} is no struct") };
     (members.iter().map(|m| u64::from(m.offset)).collect(), u64::from(*span))

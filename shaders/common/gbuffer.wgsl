@@ -1,9 +1,9 @@
-// Reading the G-buffer. `geometry_tex` is always the first input of a pass that imports this.
+// Reading the G-buffer.
 #import common/octahedral.wgsl
 
 // x: shading normal, y: face normal (octahedral, 2 × 16-bit snorm, view space), z: linear depth (bits of a float),
 // w: object id (0: background) with the enhanced flag as the highest bit.
-@group(1) @binding(0) var geometry_tex: texture_storage_2d<rgba32uint, read>;
+var geometry_tex: texture_storage_2d<rgba32uint, read>;
 
 const ENHANCED: u32 = 0x80000000u;
 

@@ -5,7 +5,7 @@
 override WITH_SHADOWS: bool = true;
 
 // Of passes/shadow.wgsl. Always the second input of a pass that imports this.
-@group(1) @binding(1) var shadow_mask_tex: texture_2d<f32>;
+var shadow_mask_tex: texture_2d<f32>;
 
 // 1: lit, 0: nothing of the light is left.
 fn visibility(px: vec2<i32>, light: u32) -> f32 {

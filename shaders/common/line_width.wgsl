@@ -2,9 +2,9 @@
 #import common/frame.wgsl
 #import common/edge_style.wgsl
 
-// Always the third input of a pass that imports this. Single fields are read, never whole structs, which software
+// Single fields are read, never whole structs, which software
 // devices would copy.
-@group(1) @binding(2) var<storage, read> edge_styles: array<EdgeStyle>;
+var<storage, read> edge_styles: array<EdgeStyle>;
 
 // Whether any object's lines vary in width, and whether by hand pressure.
 override WITH_VARIATION: bool = true;

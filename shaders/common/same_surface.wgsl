@@ -1,8 +1,8 @@
-// Whether neighbouring pixels show one surface. `region_tex` is always the sixth input of a pass that imports this.
+// Whether neighbouring pixels show one surface.
 #import common/gbuffer.wgsl
 #import common/plane.wgsl
 
-@group(1) @binding(5) var region_tex: texture_2d<u32>;
+var region_tex: texture_2d<u32>;
 
 // A step in depth of so many pixels' widths parts a surface from itself.
 const DEPTH_STEP: f32 = 2.0;

@@ -2,13 +2,13 @@
 #import passes/lines.wgsl
 
 // The opaque surfaces, as `geometry_tex` has those of the layer.
-@group(1) @binding(6) var surface_tex: texture_storage_2d<rgba32uint, read>;
+var surface_tex: texture_storage_2d<rgba32uint, read>;
 // Their lines. x, y: linear colour times coverage, and coverage, as halves; z: linear depth (bits of a float).
-@group(1) @binding(7) var cover_tex: texture_storage_2d<rgba32uint, read>;
+var cover_tex: texture_storage_2d<rgba32uint, read>;
 // Where nearer layers have lines; see passes/repeated.wgsl.
-@group(1) @binding(8) var seen_tex: texture_2d<u32>;
+var seen_tex: texture_2d<u32>;
 // Linear colour times opacity, and opacity.
-@group(1) @binding(9) var shaded_tex: texture_2d<f32>;
+var shaded_tex: texture_2d<f32>;
 
 // What lies so little behind an opaque surface, px, lies on it.
 const ON: f32 = 0.05;

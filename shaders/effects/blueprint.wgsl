@@ -19,16 +19,16 @@ struct Blueprint {
 }
 
 // The opaque surfaces, as `geometry_tex` has those of the layer.
-@group(1) @binding(6) var surface_tex: texture_storage_2d<rgba32uint, read>;
-@group(1) @binding(7) var<uniform> blueprint: Blueprint;
-@group(1) @binding(8) var<uniform> peeled: Peeled;
+var surface_tex: texture_storage_2d<rgba32uint, read>;
+var<uniform> blueprint: Blueprint;
+var<uniform> peeled: Peeled;
 // Where nearer layers have lines; see passes/repeated.wgsl.
-@group(1) @binding(9) var seen_tex: texture_2d<u32>;
-@group(1) @binding(10) var<storage, read> mask: Masked;
+var seen_tex: texture_2d<u32>;
+var<storage, read> mask: Masked;
 
 // The regions of the layer, and caps of a section, which lie here by object id.
-@group(1) @binding(11) var region_tex: texture_storage_2d<r32uint, read>;
-@group(1) @binding(12) var<storage, read> caps: array<Cap>;
+var region_tex: texture_storage_2d<r32uint, read>;
+var<storage, read> caps: array<Cap>;
 
 // Whether there are any opaque surfaces.
 override WITH_SURFACES: bool = true;

@@ -40,14 +40,14 @@ struct HalftoneStyle {
     space: u32,
 }
 
-@group(1) @binding(8) var<storage, read> halftone_styles: array<HalftoneStyle>;
+var<storage, read> halftone_styles: array<HalftoneStyle>;
 // Mean threshold and twice its standard deviation; see src/render/effects/halftone/threshold_map.rs.
-@group(1) @binding(9) var thresholds: texture_2d_array<f32>;
-@group(1) @binding(10) var threshold_sampler: sampler;
+var thresholds: texture_2d_array<f32>;
+var threshold_sampler: sampler;
 // For each map the threshold for each of `PLACES` in the octave, `SIZES` of a pixel and `TONES`.
-@group(1) @binding(11) var<storage, read> calibration: array<f32>;
+var<storage, read> calibration: array<f32>;
 // Texture coordinates: see shaders/passes/coordinates.wgsl.
-@group(1) @binding(12) var coordinates_tex: texture_storage_2d<rgba32uint, read>;
+var coordinates_tex: texture_storage_2d<rgba32uint, read>;
 
 // As in src/render/effects/halftone/, threshold_map.rs and calibration.rs.
 const SIDE: f32 = 512.0;

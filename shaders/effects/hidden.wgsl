@@ -2,7 +2,7 @@
 #import passes/lines.wgsl
 
 // Where nearer layers have lines; see passes/repeated.wgsl.
-@group(1) @binding(6) var seen_tex: texture_2d<u32>;
+var seen_tex: texture_2d<u32>;
 
 // Ink of the papers' operators has no spine of which the repeated ones could have been left out before.
 fn is_repeated(px: vec2<i32>) -> bool {

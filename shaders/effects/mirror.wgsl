@@ -13,8 +13,8 @@ struct Mirror {
 }
 
 // Linear colour times opacity, and opacity; flipped left to right.
-@group(1) @binding(1) var reflection_tex: texture_2d<f32>;
-@group(1) @binding(2) var<storage, read> mirrors: array<Mirror>;
+var reflection_tex: texture_2d<f32>;
+var<storage, read> mirrors: array<Mirror>;
 
 // Schlick 1994, weighed by a style.
 fn opacity_of(mirror: Mirror, cosine: f32) -> f32 {

@@ -4,9 +4,9 @@
 #import common/gbuffer.wgsl
 #import common/cap.wgsl
 
-@group(1) @binding(1) var region_tex: texture_2d<u32>;
+var region_tex: texture_2d<u32>;
 // By object id.
-@group(1) @binding(2) var<storage, read> caps: array<Cap>;
+var<storage, read> caps: array<Cap>;
 
 @fragment
 fn fs_main(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {

@@ -33,8 +33,8 @@ struct SurfaceStyle {
     technique: u32,
 }
 
-@group(1) @binding(6) var base_color_tex: texture_2d<f32>;
-@group(1) @binding(7) var<storage, read> surface_styles: array<SurfaceStyle>;
+var base_color_tex: texture_2d<f32>;
+var<storage, read> surface_styles: array<SurfaceStyle>;
 
 // Linear colour times opacity, and opacity.
 @fragment

@@ -36,11 +36,11 @@ struct ToonStyle {
     border: u32,
 }
 
-@group(1) @binding(2) var<storage, read> toon_styles: array<ToonStyle>;
+var<storage, read> toon_styles: array<ToonStyle>;
 // Linear colours of all ramps.
-@group(1) @binding(3) var<storage, read> toon_bands: array<vec4<f32>>;
+var<storage, read> toon_bands: array<vec4<f32>>;
 // The bands of the objects whose borders are smoothed by it.
-@group(1) @binding(4) var cartoon_map_tex: texture_2d<u32>;
+var cartoon_map_tex: texture_2d<u32>;
 
 // x: place on the ramp, in bands: its beginning in shadow; y: N·H past the highlight's border; z: N·V past the rim's
 // border; w: N·L, negative in shadow.

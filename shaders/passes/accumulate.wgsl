@@ -2,8 +2,8 @@
 #import common/frame.wgsl
 #import common/fullscreen.wgsl
 
-@group(1) @binding(0) var mean_tex: texture_2d<f32>;
-@group(1) @binding(1) var color_tex: texture_2d<f32>;
+var mean_tex: texture_2d<f32>;
+var color_tex: texture_2d<f32>;
 
 @fragment
 fn fs_main(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {

@@ -9,14 +9,14 @@
 override WITH_MASK: bool = false;
 
 // 0 where the layer has nothing.
-@group(1) @binding(0) var region_tex: texture_2d<u32>;
+var region_tex: texture_2d<u32>;
 // Depths of the layer and of the mask, reversed.
-@group(1) @binding(1) var layer_depth_tex: texture_depth_2d;
-@group(1) @binding(2) var mask_depth_tex: texture_depth_2d;
-@group(1) @binding(3) var<storage, read_write> peeled: Counted;
+var layer_depth_tex: texture_depth_2d;
+var mask_depth_tex: texture_depth_2d;
+var<storage, read_write> peeled: Counted;
 // Arguments of the draws and dispatches that stop with it.
-@group(1) @binding(4) var<storage, read_write> gate: array<u32>;
-@group(1) @binding(5) var<storage, read> mask: Masked;
+var<storage, read_write> gate: array<u32>;
+var<storage, read> mask: Masked;
 
 var<workgroup> covered: atomic<u32>;
 var<workgroup> uncovered: atomic<u32>;

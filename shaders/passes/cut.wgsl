@@ -5,13 +5,13 @@
 #import common/layer_color.wgsl
 
 // The fragment of each pixel that was drawn last.
-@group(1) @binding(0) var<storage, read> heads: array<u32>;
-@group(1) @binding(1) var link_tex: texture_storage_2d<rgba32uint, read>;
-@group(1) @binding(2) var payload_tex: texture_storage_2d<rgba32uint, read>;
-@group(1) @binding(3) var<storage, read> colors: array<u32>;
+var<storage, read> heads: array<u32>;
+var link_tex: texture_storage_2d<rgba32uint, read>;
+var payload_tex: texture_storage_2d<rgba32uint, read>;
+var<storage, read> colors: array<u32>;
 // The numbers of the fragments of a layer, plus 1; 0: none; undefined where nothing is listed. Sorting: that which was sorted
 // last; cutting: that which is cut.
-@group(1) @binding(4) var number_tex: texture_storage_2d<r32uint, read>;
+var number_tex: texture_storage_2d<r32uint, read>;
 
 // Whether so many are sorted.
 override THREE_OR_MORE: bool = true;

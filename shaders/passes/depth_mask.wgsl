@@ -11,8 +11,8 @@ struct Counted {
 }
 
 // The designated objects are `geometry_tex`; these are all that is opaque.
-@group(1) @binding(1) var surface_tex: texture_storage_2d<rgba32uint, read>;
-@group(1) @binding(2) var<storage, read_write> mask: Counted;
+var surface_tex: texture_storage_2d<rgba32uint, read>;
+var<storage, read_write> mask: Counted;
 
 var<workgroup> pixels: atomic<u32>;
 var<workgroup> hidden: atomic<u32>;

@@ -13,14 +13,14 @@ override WITH_TEXTURE: bool = true;
 override WITH_RELIEF: bool = true;
 override WITH_SHADOW: bool = true;
 
-@group(1) @binding(1) var region_tex: texture_2d<u32>;
+var region_tex: texture_2d<u32>;
 // What segments have; see common/segment_point.wgsl.
-@group(1) @binding(3) var mark_tex: texture_2d<u32>;
-@group(1) @binding(4) var base_color_tex: texture_2d<f32>;
+var mark_tex: texture_2d<u32>;
+var base_color_tex: texture_2d<f32>;
 // Of passes/shadow.wgsl.
-@group(1) @binding(5) var shadow_mask_tex: texture_2d<f32>;
+var shadow_mask_tex: texture_2d<f32>;
 // Without repeated lines: the spines of all nearer layers.
-@group(1) @binding(6) var seen_tex: texture_storage_2d<r32uint, read>;
+var seen_tex: texture_storage_2d<r32uint, read>;
 
 fn region_at(px: vec2<i32>) -> u32 {
     return textureLoad(region_tex, clamp(px, vec2(0), vec2<i32>(frame.size) - 1), 0).x;

@@ -10,15 +10,15 @@
 #import common/repeated.wgsl
 #import common/segment_point.wgsl
 
-@group(1) @binding(1) var region_tex: texture_storage_2d<r32uint, read>;
+var region_tex: texture_storage_2d<r32uint, read>;
 // What segments have; see common/segment_point.wgsl.
-@group(1) @binding(3) var mark_tex: texture_storage_2d<r32uint, read>;
+var mark_tex: texture_storage_2d<r32uint, read>;
 
 // The regions of the two layers before this one, if it is a depth layer.
-@group(1) @binding(4) var before_tex: texture_2d<u32>;
-@group(1) @binding(5) var before_that_tex: texture_2d<u32>;
+var before_tex: texture_2d<u32>;
+var before_that_tex: texture_2d<u32>;
 // Without repeated lines: the spines of all nearer layers.
-@group(1) @binding(6) var seen_tex: texture_storage_2d<r32uint, read>;
+var seen_tex: texture_storage_2d<r32uint, read>;
 
 // Whether a surface that goes on in one of them ends in this layer only because something before it does.
 override WITH_LAYERS_BEFORE: bool = false;

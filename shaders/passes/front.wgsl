@@ -2,7 +2,7 @@
 #import common/fullscreen.wgsl
 #import common/gbuffer.wgsl
 
-@group(1) @binding(1) var other_tex: texture_storage_2d<rgba32uint, read>;
+var other_tex: texture_storage_2d<rgba32uint, read>;
 
 @fragment
 fn fs_main(@builtin(position) position: vec4<f32>) -> @location(0) vec4<u32> {

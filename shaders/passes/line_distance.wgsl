@@ -10,16 +10,16 @@
 // farthest.
 override NEAREST: bool = false;
 
-@group(1) @binding(0) var spine_tex: texture_2d<u32>;
+var spine_tex: texture_2d<u32>;
 // Greatest radius of any line, px.
-@group(1) @binding(1) var<storage, read> greatest_radius: array<f32>;
+var<storage, read> greatest_radius: array<f32>;
 // Per pixel the row of the best spine point of its column, plus 1; 0: none.
-@group(1) @binding(2) var column_tex: texture_storage_2d<r32uint, read_write>;
+var column_tex: texture_storage_2d<r32uint, read_write>;
 // Per pixel the pixel of its line, plus 1 (column in the lower 16 bits, row in the upper ones); 0: none.
-@group(1) @binding(3) var found_tex: texture_storage_2d<r32uint, write>;
+var found_tex: texture_storage_2d<r32uint, write>;
 // The envelope of each row as a stack: the first pixel where a column wins in the lower 16 bits, the column in the
 // upper ones.
-@group(1) @binding(4) var stack_tex: texture_storage_2d<r32uint, read_write>;
+var stack_tex: texture_storage_2d<r32uint, read_write>;
 
 // A parabola: (p − apex)² + height.
 struct Parabola {

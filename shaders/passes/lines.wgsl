@@ -21,12 +21,12 @@ override WITH_SURFACE_COLOR: bool = true;
 // Whether lines are tested against other surfaces than those that they were found among.
 override AMONG_OTHERS: bool = false;
 
-@group(1) @binding(1) var edge_map_tex: texture_storage_2d<rgba32uint, read>;
-@group(1) @binding(2) var base_color_tex: texture_2d<f32>;
+var edge_map_tex: texture_storage_2d<rgba32uint, read>;
+var base_color_tex: texture_2d<f32>;
 // As `found_tex` in passes/line_distance.wgsl: the line that reaches farthest, and the nearest one.
-@group(1) @binding(3) var farthest_tex: texture_2d<u32>;
-@group(1) @binding(4) var nearest_tex: texture_storage_2d<r32uint, read>;
-@group(1) @binding(5) var<storage, read> edge_styles: array<EdgeStyle>;
+var farthest_tex: texture_2d<u32>;
+var nearest_tex: texture_storage_2d<r32uint, read>;
+var<storage, read> edge_styles: array<EdgeStyle>;
 
 // A surface so far before a line, in pixels, hides it.
 fn slack() -> f32 {

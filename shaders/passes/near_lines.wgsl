@@ -2,8 +2,8 @@
 #import common/frame.wgsl
 #import common/neighbours.wgsl
 
-@group(1) @binding(0) var spine_tex: texture_2d<u32>;
-@group(1) @binding(1) var near_tex: texture_storage_2d<r32uint, write>;
+var spine_tex: texture_2d<u32>;
+var near_tex: texture_storage_2d<r32uint, write>;
 
 @compute @workgroup_size(16, 16)
 fn cs_main(@builtin(global_invocation_id) id: vec3<u32>) {

@@ -8,7 +8,7 @@
 // Whether any object uses the C1 operator.
 override WITH_C1: bool = true;
 
-@group(1) @binding(1) var<storage, read> edge_styles: array<EdgeStyle>;
+var<storage, read> edge_styles: array<EdgeStyle>;
 
 // One texel as the operators see it.
 struct Sample {

@@ -2,7 +2,7 @@
 #import common/fullscreen.wgsl
 
 // Linear colour times opacity, and opacity.
-@group(1) @binding(0) var overlay_tex: texture_2d<f32>;
+var overlay_tex: texture_2d<f32>;
 
 @fragment
 fn fs_main(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {

@@ -2,8 +2,8 @@
 #import common/fullscreen.wgsl
 #import common/edge_map.wgsl
 
-@group(1) @binding(0) var edge_map_tex: texture_storage_2d<rgba32uint, read>;
-@group(1) @binding(1) var spine_tex: texture_2d<u32>;
+var edge_map_tex: texture_storage_2d<rgba32uint, read>;
+var spine_tex: texture_2d<u32>;
 
 // Stands for the ink of an operator: no radius, the middle of the pixel.
 const INKED: u32 = 0x7f7fu;

@@ -13,8 +13,8 @@ struct ScaleBar {
     mask: array<u32>,
 }
 
-@group(1) @binding(0) var color_tex: texture_2d<f32>;
-@group(1) @binding(1) var<storage, read> scale_bar: ScaleBar;
+var color_tex: texture_2d<f32>;
+var<storage, read> scale_bar: ScaleBar;
 
 override WITH_SCALE_BAR: bool = false;
 

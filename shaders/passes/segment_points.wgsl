@@ -5,19 +5,19 @@
 #import common/segment_point.wgsl
 #import common/repeated.wgsl
 
-@group(1) @binding(0) var<storage, read> points: array<SegmentPoint>;
-@group(1) @binding(1) var<storage, read> found: Kept;
+var<storage, read> points: array<SegmentPoint>;
+var<storage, read> found: Kept;
 // The greatest key of each pixel, and 0 again once it has been put.
-@group(1) @binding(2) var<storage, read_write> keys: array<u32>;
+var<storage, read_write> keys: array<u32>;
 // For each pixel the inverted number of its point's segment; 0 again once it has been put.
-@group(1) @binding(3) var<storage, read_write> winners: array<atomic<u32>>;
-@group(1) @binding(4) var edge_tex: texture_storage_2d<rgba32uint, write>;
-@group(1) @binding(5) var spine_tex: texture_storage_2d<r32uint, write>;
-@group(1) @binding(6) var mark_tex: texture_storage_2d<r32uint, write>;
+var<storage, read_write> winners: array<atomic<u32>>;
+var edge_tex: texture_storage_2d<rgba32uint, write>;
+var spine_tex: texture_storage_2d<r32uint, write>;
+var mark_tex: texture_storage_2d<r32uint, write>;
 
 // Without repeated lines: the spines of all nearer layers, and to which of them those of this one are added.
-@group(1) @binding(7) var seen_tex: texture_storage_2d<r32uint, read>;
-@group(1) @binding(8) var now_seen_tex: texture_storage_2d<r32uint, write>;
+var seen_tex: texture_storage_2d<r32uint, read>;
+var now_seen_tex: texture_storage_2d<r32uint, write>;
 
 // Whether more points follow that have to be compared with these.
 override KEEP_KEYS: bool = false;

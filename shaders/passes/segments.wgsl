@@ -17,29 +17,29 @@ override WITH_HOLES: bool = true;
 // Whether the G-buffer is a depth layer: only what its own surfaces carry is a line of it.
 override IN_LAYER: bool = false;
 
-@group(1) @binding(1) var region_tex: texture_storage_2d<r32uint, read>;
+var region_tex: texture_storage_2d<r32uint, read>;
 // `LineSegment` of src/geometry/line_segments.rs, four texels each.
-@group(1) @binding(3) var segment_tex: texture_storage_2d<rgba32uint, read>;
+var segment_tex: texture_storage_2d<rgba32uint, read>;
 // Number of a segment, and how many steps from its beginning, two in a texel; at the end `NO_STEP`.
-@group(1) @binding(4) var step_tex: texture_storage_2d<rgba32uint, read>;
+var step_tex: texture_storage_2d<rgba32uint, read>;
 // Where layers are asked about each step, once for all of them: its pixel (column in the lower 16 bits, row in the upper
 // ones; `NO_STEP`: nowhere), five pixels around it, of which each lies three bits (plus 4) farther in x and in y, and the
 // regions of its two sides.
-@group(1) @binding(5) var placed_tex: texture_storage_2d<rgba32uint, write>;
+var placed_tex: texture_storage_2d<rgba32uint, write>;
 // While steps are sifted: those that are kept, in any order.
-@group(1) @binding(5) var<storage, read_write> keeping: Counting;
-@group(1) @binding(6) var<storage, read_write> keeping_steps: array<u32>;
-@group(1) @binding(7) var place_tex: texture_storage_2d<rgba32uint, read>;
+var<storage, read_write> keeping: Counting;
+var<storage, read_write> keeping_steps: array<u32>;
+var place_tex: texture_storage_2d<rgba32uint, read>;
 // Without repeated lines: the spines of all nearer layers.
-@group(1) @binding(8) var seen_tex: texture_storage_2d<r32uint, read>;
+var seen_tex: texture_storage_2d<r32uint, read>;
 // Afterwards the same.
-@group(1) @binding(5) var<storage, read> kept: Kept;
-@group(1) @binding(6) var<storage, read> kept_steps: array<u32>;
+var<storage, read> kept: Kept;
+var<storage, read> kept_steps: array<u32>;
 // What is found of them, in any order.
-@group(1) @binding(7) var<storage, read_write> points: array<SegmentPoint>;
+var<storage, read_write> points: array<SegmentPoint>;
 // The greatest key of each pixel.
-@group(1) @binding(8) var<storage, read_write> keys: array<atomic<u32>>;
-@group(1) @binding(9) var<storage, read_write> finding: Counting;
+var<storage, read_write> keys: array<atomic<u32>>;
+var<storage, read_write> finding: Counting;
 
 // Steps per workgroup, as in src/render/passes/segments.rs.
 const GROUP: u32 = 256u;

@@ -5,7 +5,7 @@
 #import common/gbuffer.wgsl
 
 // One bit per object id.
-@group(1) @binding(1) var<storage, read> selected: array<u32>;
+var<storage, read> selected: array<u32>;
 
 const ORANGE = vec3(1.0, 0.55, 0.1);
 

@@ -39,12 +39,12 @@ struct ShadowLight {
     spread: f32,
 }
 
-@group(1) @binding(1) var<storage, read> shadow_lights: array<ShadowLight>;
-@group(1) @binding(2) var<storage, read> light_views: array<LightView>;
-@group(1) @binding(3) var map_0: texture_depth_2d;
-@group(1) @binding(4) var map_1: texture_depth_2d;
-@group(1) @binding(5) var map_2: texture_depth_2d;
-@group(1) @binding(6) var map_3: texture_depth_2d;
+var<storage, read> shadow_lights: array<ShadowLight>;
+var<storage, read> light_views: array<LightView>;
+var map_0: texture_depth_2d;
+var map_1: texture_depth_2d;
+var map_2: texture_depth_2d;
+var map_3: texture_depth_2d;
 
 // How far something must stand out of the receiver's plane to shadow it, in texels' widths: at least, and for each
 // texel of distance in the map, so that the far side of a valley does not shadow this one.

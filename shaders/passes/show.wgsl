@@ -13,10 +13,10 @@ const CLASS_COLORS = array<vec3<f32>, 10>(
     vec3(0.6, 0.3, 0.5), vec3(0.35, 0.35, 0.45),
 );
 
-@group(1) @binding(1) var region_tex: texture_2d<u32>;
-@group(1) @binding(2) var base_color_tex: texture_2d<f32>;
-@group(1) @binding(3) var edge_map_tex: texture_storage_2d<rgba32uint, read>;
-@group(1) @binding(4) var operators_tex: texture_2d<f32>;
+var region_tex: texture_2d<u32>;
+var base_color_tex: texture_2d<f32>;
+var edge_map_tex: texture_storage_2d<rgba32uint, read>;
+var operators_tex: texture_2d<f32>;
 
 fn surfel(px: vec2<i32>) -> Surfel {
     return unpack_surfel(geometry_at(px));

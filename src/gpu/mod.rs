@@ -1,6 +1,7 @@
 //! The device and what every pass needs from it: shaders, pipelines, textures from a pool, uploads, read-back, timers.
 //! Knows no style.
 
+pub mod bindings;
 pub mod buffer;
 pub mod device;
 pub mod gate;
@@ -15,6 +16,7 @@ pub mod reports;
 pub mod shader;
 pub mod timer;
 
+pub use bindings::{Inputs, inputs};
 pub use buffer::{ArrayBuffer, DynamicBuffer, RecordBuffer, UniformBuffer};
 pub use device::{Gpu, GpuError};
 pub use gate::Gate;

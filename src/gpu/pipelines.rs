@@ -1,8 +1,11 @@
 //! Shader modules and pipelines, made when first used and kept.
 
+use std::borrow::Cow;
 use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 
-use super::{Gpu, ShaderError, Shaders};
+use super::bindings::{Bindings, Placeholders};
+use super::{Gpu, Inputs, ShaderError, Shaders};
 
 /// A shader of a file below `shaders/`, specialised: switches are its `override` constants, and what is switched off is
 /// compiled away. Software devices run both sides of a branch, so this is what makes an unused feature free.
@@ -25,29 +28,6 @@ impl Program {
     fn constants(&self) -> Vec<(&'static str, f64)> {
         self.switches.iter().map(|(name, on)| (*name, f64::from(u8::from(*on)))).collect()
     }
-}
-
-/// What a binding of group 1 is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Binding {
-    /// A texture, read by `textureLoad`.
-    Texture(wgpu::TextureFormat),
-    /// A texture of whole numbers, read as a storage texture.
-    Texels(wgpu::TextureFormat),
-    /// A texture that a compute shader writes.
-    Image(wgpu::TextureFormat),
-    /// A texture that a compute shader reads and writes.
-    Scratch(wgpu::TextureFormat),
-    /// A uniform buffer.
-    Uniform,
-    /// A read-only storage buffer.
-    Storage,
-    /// A storage buffer that a compute shader reads and writes.
-    Written,
-    /// An array of images of one size, read through a sampler.
-    Layers,
-    /// A sampler that filters.
-    Sampler,
 }
 
 /// How a pass uses its depth buffer (reversed, 0 where nothing is). What covers the picture lies at 1e-30: behind
@@ -153,8 +133,6 @@ impl DepthTest {
 pub struct RasterKey {
     /// Its fragment shader.
     pub program: Program,
-    /// Bindings of group 1.
-    pub inputs: Vec<Binding>,
     /// Formats of its outputs.
     pub outputs: Vec<wgpu::TextureFormat>,
     /// How outputs are laid over what is there.
@@ -165,31 +143,36 @@ pub struct RasterKey {
     pub depth: Option<(wgpu::TextureFormat, DepthTest)>,
 }
 
-/// Everything that a compute pipeline depends on.
-#[derive(Debug, Clone, PartialEq, Eq, Hash)]
-pub struct ComputeKey {
-    /// Its shader.
-    pub program: Program,
-    /// Bindings of group 1.
-    pub inputs: Vec<Binding>,
-}
-
 /// A pipeline and the layout of its group 1.
 #[derive(Clone)]
-pub struct Made<P> {
+struct Made<P> {
+    pipeline: P,
+    inputs: wgpu::BindGroupLayout,
+}
+
+/// A pipeline with what it reads and writes.
+pub struct Bound<P> {
     /// The pipeline.
     pub pipeline: P,
-    /// Layout of bind group 1.
-    pub inputs: wgpu::BindGroupLayout,
+    /// Bind group 1.
+    pub inputs: wgpu::BindGroup,
+}
+
+/// A compiled shader.
+#[derive(Clone)]
+struct Shader {
+    module: wgpu::ShaderModule,
+    bindings: Bindings,
 }
 
 /// Shader modules and pipelines, made when first used and kept.
 #[derive(Clone)]
 pub struct Pipelines {
     shaders: Shaders,
-    modules: HashMap<&'static str, wgpu::ShaderModule>,
+    compiled: HashMap<&'static str, Shader>,
+    placeholders: Placeholders,
     raster: HashMap<RasterKey, Made<wgpu::RenderPipeline>>,
-    compute: HashMap<ComputeKey, Made<wgpu::ComputePipeline>>,
+    compute: HashMap<Program, Made<wgpu::ComputePipeline>>,
     frame_layout: wgpu::BindGroupLayout,
     generation: u64,
 }
@@ -222,7 +205,8 @@ impl Pipelines {
         });
         let pipelines = Self {
             shaders,
-            modules: HashMap::new(),
+            compiled: HashMap::new(),
+            placeholders: Placeholders::default(),
             raster: HashMap::new(),
             compute: HashMap::new(),
             frame_layout,
@@ -239,7 +223,7 @@ impl Pipelines {
         let shaders = Shaders::from_environment();
         validate_all(&shaders)?;
         self.shaders = shaders;
-        self.modules.clear();
+        self.compiled.clear();
         self.raster.clear();
         self.compute.clear();
         self.generation += 1;
@@ -256,52 +240,85 @@ impl Pipelines {
         &self.frame_layout
     }
 
-    /// The compiled shader of a file below `shaders/`.
+    /// The compiled shader of a file below `shaders/`, for a pipeline with bind groups of its own.
     ///
     /// # Errors
-    /// [`ShaderError::Missing`]; that texts are valid is checked when they are loaded.
+    /// [`ShaderError`]; that texts are valid is checked when they are loaded.
     pub fn module(&mut self, gpu: &Gpu, file: &'static str) -> Result<wgpu::ShaderModule, ShaderError> {
-        if let Some(module) = self.modules.get(file) {
-            return Ok(module.clone());
-        }
-        let composed = self.shaders.compose(file)?;
-        let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label: Some(file),
-            source: wgpu::ShaderSource::Wgsl(composed.text.into()),
-        });
-        self.modules.insert(file, module.clone());
-        Ok(module)
+        Ok(self.shader(gpu, file)?.module.clone())
     }
 
-    /// A render pipeline.
+    fn shader(&mut self, gpu: &Gpu, file: &'static str) -> Result<&Shader, ShaderError> {
+        match self.compiled.entry(file) {
+            Entry::Occupied(known) => Ok(known.into_mut()),
+            Entry::Vacant(place) => Ok(place.insert(compile(gpu, &self.shaders, file)?)),
+        }
+    }
+
+    /// A render pipeline, with what its shader reads.
     ///
     /// # Errors
-    /// [`ShaderError::Missing`].
-    pub fn raster(&mut self, gpu: &Gpu, key: &RasterKey) -> Result<&Made<wgpu::RenderPipeline>, ShaderError> {
+    /// [`ShaderError`].
+    pub fn raster(
+        &mut self,
+        gpu: &Gpu,
+        key: &RasterKey,
+        inputs: &Inputs<'_>,
+    ) -> Result<Bound<wgpu::RenderPipeline>, ShaderError> {
         if !self.raster.contains_key(key) {
-            let module = self.module(gpu, key.program.file)?;
-            let made = build_raster(gpu, &module, &self.frame_layout, key);
+            let frame = self.frame_layout.clone();
+            let made = build_raster(gpu, self.shader(gpu, key.program.file)?, &frame, key);
             self.raster.insert(key.clone(), made);
         }
-        self.raster.get(key).ok_or_else(|| missing(&key.program))
+        let made = self.raster.get(key).ok_or_else(|| missing(&key.program))?.clone();
+        let inputs = self.bind(gpu, &key.program, &made.inputs, inputs)?;
+        Ok(Bound { pipeline: made.pipeline, inputs })
     }
 
-    /// A compute pipeline.
+    /// A compute pipeline, with what its shader reads and writes.
     ///
     /// # Errors
-    /// [`ShaderError::Missing`].
+    /// [`ShaderError`].
     pub fn compute(
         &mut self,
         gpu: &Gpu,
-        key: &ComputeKey,
-    ) -> Result<&Made<wgpu::ComputePipeline>, ShaderError> {
-        if !self.compute.contains_key(key) {
-            let module = self.module(gpu, key.program.file)?;
-            let made = build_compute(gpu, &module, &self.frame_layout, key);
-            self.compute.insert(key.clone(), made);
+        program: &Program,
+        inputs: &Inputs<'_>,
+    ) -> Result<Bound<wgpu::ComputePipeline>, ShaderError> {
+        if !self.compute.contains_key(program) {
+            let frame = self.frame_layout.clone();
+            let made = build_compute(gpu, self.shader(gpu, program.file)?, &frame, program);
+            self.compute.insert(program.clone(), made);
         }
-        self.compute.get(key).ok_or_else(|| missing(&key.program))
+        let made = self.compute.get(program).ok_or_else(|| missing(program))?.clone();
+        let inputs = self.bind(gpu, program, &made.inputs, inputs)?;
+        Ok(Bound { pipeline: made.pipeline, inputs })
     }
+
+    fn bind(
+        &mut self,
+        gpu: &Gpu,
+        program: &Program,
+        layout: &wgpu::BindGroupLayout,
+        inputs: &Inputs<'_>,
+    ) -> Result<wgpu::BindGroup, ShaderError> {
+        let shader = self.compiled.get(program.file).ok_or_else(|| missing(program))?;
+        let place = (program.file, program.entry_point);
+        shader.bindings.group(gpu, &mut self.placeholders, place, layout, inputs)
+    }
+}
+
+fn compile(gpu: &Gpu, shaders: &Shaders, file: &'static str) -> Result<Shader, ShaderError> {
+    let (module, info) = shaders.module(file)?;
+    let bindings = Bindings::of(&module, &info).map_err(|name| ShaderError::Invalid {
+        file: file.to_owned(),
+        line: 0,
+        message: format!("no pass can give anything for {name}"),
+    })?;
+    let source = wgpu::ShaderSource::Naga(Cow::Owned(module));
+    let module =
+        gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor { label: Some(file), source });
+    Ok(Shader { module, bindings })
 }
 
 fn missing(program: &Program) -> ShaderError {
@@ -309,62 +326,7 @@ fn missing(program: &Program) -> ShaderError {
 }
 
 fn validate_all(shaders: &Shaders) -> Result<(), ShaderError> {
-    Shaders::embedded().iter().try_for_each(|file| shaders.validate(file).map(|_composed| ()))
-}
-
-fn layout_of(
-    gpu: &Gpu,
-    label: &str,
-    bindings: &[Binding],
-    visibility: wgpu::ShaderStages,
-) -> wgpu::BindGroupLayout {
-    let image = |format, access| wgpu::BindingType::StorageTexture {
-        access,
-        format,
-        view_dimension: wgpu::TextureViewDimension::D2,
-    };
-    let entries: Vec<_> = bindings
-        .iter()
-        .enumerate()
-        .map(|(binding, kind)| wgpu::BindGroupLayoutEntry {
-            binding: binding as u32,
-            visibility,
-            ty: match kind {
-                Binding::Texture(format) => wgpu::BindingType::Texture {
-                    sample_type: match format.sample_type(None, None) {
-                        Some(wgpu::TextureSampleType::Float { .. }) | None => {
-                            wgpu::TextureSampleType::Float { filterable: false }
-                        }
-                        Some(other) => other,
-                    },
-                    view_dimension: wgpu::TextureViewDimension::D2,
-                    multisampled: false,
-                },
-                Binding::Texels(format) => image(*format, wgpu::StorageTextureAccess::ReadOnly),
-                Binding::Image(format) => image(*format, wgpu::StorageTextureAccess::WriteOnly),
-                Binding::Scratch(format) => image(*format, wgpu::StorageTextureAccess::ReadWrite),
-                Binding::Uniform => wgpu::BindingType::Buffer {
-                    ty: wgpu::BufferBindingType::Uniform,
-                    has_dynamic_offset: false,
-                    min_binding_size: None,
-                },
-                Binding::Storage | Binding::Written => wgpu::BindingType::Buffer {
-                    ty: wgpu::BufferBindingType::Storage { read_only: *kind == Binding::Storage },
-                    has_dynamic_offset: false,
-                    min_binding_size: None,
-                },
-                Binding::Layers => wgpu::BindingType::Texture {
-                    sample_type: wgpu::TextureSampleType::Float { filterable: true },
-                    view_dimension: wgpu::TextureViewDimension::D2Array,
-                    multisampled: false,
-                },
-                Binding::Sampler => wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering),
-            },
-            count: None,
-        })
-        .collect();
-    gpu.device
-        .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some(label), entries: &entries })
+    Shaders::embedded().iter().try_for_each(|file| shaders.validate(file).map(|_module| ()))
 }
 
 fn pipeline_layout(
@@ -382,12 +344,12 @@ fn pipeline_layout(
 
 fn build_raster(
     gpu: &Gpu,
-    module: &wgpu::ShaderModule,
+    Shader { module, bindings }: &Shader,
     frame_layout: &wgpu::BindGroupLayout,
     key: &RasterKey,
 ) -> Made<wgpu::RenderPipeline> {
     let label = key.program.file;
-    let inputs = layout_of(gpu, label, &key.inputs, wgpu::ShaderStages::FRAGMENT);
+    let inputs = bindings.layout(gpu, label, key.program.entry_point, wgpu::ShaderStages::FRAGMENT);
     let constants = key.program.constants();
     let write_mask = if key.writes { wgpu::ColorWrites::ALL } else { wgpu::ColorWrites::empty() };
     let targets: Vec<_> = key
@@ -424,18 +386,18 @@ fn build_raster(
 
 fn build_compute(
     gpu: &Gpu,
-    module: &wgpu::ShaderModule,
+    Shader { module, bindings }: &Shader,
     frame_layout: &wgpu::BindGroupLayout,
-    key: &ComputeKey,
+    program: &Program,
 ) -> Made<wgpu::ComputePipeline> {
-    let label = key.program.file;
-    let inputs = layout_of(gpu, label, &key.inputs, wgpu::ShaderStages::COMPUTE);
-    let constants = key.program.constants();
+    let label = program.file;
+    let inputs = bindings.layout(gpu, label, program.entry_point, wgpu::ShaderStages::COMPUTE);
+    let constants = program.constants();
     let pipeline = gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
         label: Some(label),
         layout: Some(&pipeline_layout(gpu, label, frame_layout, &inputs)),
         module,
-        entry_point: Some(key.program.entry_point),
+        entry_point: Some(program.entry_point),
         compilation_options: wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() },
         cache: None,
     });

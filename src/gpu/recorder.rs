@@ -1,61 +1,10 @@
 //! Recording a frame: passes from textures to textures.
 //!
-//! Bind group 0 is the frame's uniform, group 1 the inputs of a pass in the order in which they are given.
+//! Bind group 0 is the frame's uniform, group 1 what a pass reads and writes: see [`super::bindings`].
 
-use super::pipelines::{Binding, ComputeKey, DepthRule, Pipelines, Program, RasterKey};
-use super::{Gate, Gpu, GpuError, ShaderError, Target, TargetPool, Timers};
-
-/// What a pass reads (or a compute pass writes), in the order of its bindings in group 1.
-#[derive(Clone, Copy)]
-pub enum Input<'a> {
-    /// A texture, read by `textureLoad`.
-    Texture(&'a Target),
-    /// A texture of whole numbers, read as a storage texture, texel by texel: software devices do that faster.
-    Texels(&'a Target),
-    /// A texture that a compute shader writes.
-    Image(&'a Target),
-    /// A texture that a compute shader reads and writes.
-    Scratch(&'a Target),
-    /// A uniform buffer, which software devices read faster than others where all invocations read the same of it.
-    Uniform(&'a wgpu::Buffer),
-    /// A read-only storage buffer.
-    Storage(&'a wgpu::Buffer),
-    /// A storage buffer that a compute shader reads and writes.
-    Written(&'a wgpu::Buffer),
-    /// Images of one size above each other, read through a sampler.
-    Layers(&'a wgpu::TextureView),
-    /// How they are read.
-    Sampler(&'a wgpu::Sampler),
-}
-
-impl Input<'_> {
-    fn binding(&self) -> Binding {
-        match self {
-            Self::Texture(target) => Binding::Texture(target.format()),
-            Self::Texels(target) => Binding::Texels(target.format()),
-            Self::Image(target) => Binding::Image(target.format()),
-            Self::Scratch(target) => Binding::Scratch(target.format()),
-            Self::Uniform(_) => Binding::Uniform,
-            Self::Storage(_) => Binding::Storage,
-            Self::Written(_) => Binding::Written,
-            Self::Layers(_) => Binding::Layers,
-            Self::Sampler(_) => Binding::Sampler,
-        }
-    }
-
-    fn resource(&self) -> wgpu::BindingResource<'_> {
-        match self {
-            Self::Texture(target) | Self::Texels(target) | Self::Image(target) | Self::Scratch(target) => {
-                wgpu::BindingResource::TextureView(target.view())
-            }
-            Self::Uniform(buffer) | Self::Storage(buffer) | Self::Written(buffer) => {
-                buffer.as_entire_binding()
-            }
-            Self::Layers(view) => wgpu::BindingResource::TextureView(view),
-            Self::Sampler(sampler) => wgpu::BindingResource::Sampler(sampler),
-        }
-    }
-}
+use super::bindings::INPUTS;
+use super::pipelines::{DepthRule, Pipelines, Program, RasterKey};
+use super::{Gate, Gpu, GpuError, Inputs, ShaderError, Target, TargetPool, Timers};
 
 /// What a pass does with what its outputs hold.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -103,8 +52,8 @@ pub struct Draw<'a> {
     pub label: &'static str,
     /// Its shader.
     pub program: Program,
-    /// Bindings of group 1.
-    pub inputs: &'a [Input<'a>],
+    /// What its shader reads.
+    pub inputs: &'a Inputs<'a>,
     /// Locations of the fragment shader.
     pub outputs: &'a [&'a Target],
     /// What becomes of what they hold.
@@ -223,16 +172,16 @@ impl<'a> Recorder<'a> {
         pass
     }
 
-    /// Runs a program once per pixel: `inputs` are its bindings in group 1, `outputs` its locations, which are cleared
+    /// Runs a program once per pixel: `outputs` its locations, which are cleared
     /// to 0. With a `covered` depth buffer it runs only where something was drawn.
     ///
     /// # Errors
-    /// [`ShaderError::Missing`].
+    /// [`ShaderError`].
     pub fn fullscreen(
         &mut self,
         label: &'static str,
         program: Program,
-        inputs: &[Input<'_>],
+        inputs: &Inputs<'_>,
         outputs: &[&Target],
         covered: Option<&Target>,
     ) -> Result<(), ShaderError> {
@@ -243,11 +192,10 @@ impl<'a> Recorder<'a> {
     /// Runs one render pass.
     ///
     /// # Errors
-    /// [`ShaderError::Missing`].
+    /// [`ShaderError`].
     pub fn draw(&mut self, draw: Draw<'_>) -> Result<(), ShaderError> {
         let key = RasterKey {
             program: draw.program,
-            inputs: draw.inputs.iter().map(Input::binding).collect(),
             outputs: draw.outputs.iter().map(|o| o.format()).collect(),
             blend: draw.onto.blend(),
             writes: true,
@@ -266,12 +214,11 @@ impl<'a> Recorder<'a> {
         });
         let mut draws = Vec::new();
         for key in marker.iter().chain([&key]) {
-            let made = self.pipelines.raster(self.gpu, key)?;
-            let group = inputs_group(self.gpu, draw.label, &made.inputs, draw.inputs);
+            let bound = self.pipelines.raster(self.gpu, key, draw.inputs)?;
             let viewport = draw.depth.zip(key.depth).map(|((target, rule), (_, test))| {
                 (target.size().map(|side| side as f32), rule.depths(test))
             });
-            draws.push((made.pipeline.clone(), group, viewport));
+            draws.push((bound, viewport));
         }
         let color = draw.onto.attachments(draw.outputs);
         let depth = draw.depth.map(|(target, rule)| wgpu::RenderPassDepthStencilAttachment {
@@ -281,9 +228,9 @@ impl<'a> Recorder<'a> {
         });
         let gated = self.gated(&[[3, 1, 0, 0, 0]]);
         let mut pass = self.pass(draw.label, &color, depth);
-        for (pipeline, group, viewport) in &draws {
-            pass.set_pipeline(pipeline);
-            pass.set_bind_group(1, group, &[]);
+        for (bound, viewport) in &draws {
+            pass.set_pipeline(&bound.pipeline);
+            pass.set_bind_group(INPUTS, &bound.inputs, &[]);
             if let Some(([width, height], [least, greatest])) = *viewport {
                 pass.set_viewport(0.0, 0.0, width, height, least, greatest);
             }
@@ -319,18 +266,15 @@ impl<'a> Recorder<'a> {
     /// Runs a compute program.
     ///
     /// # Errors
-    /// [`ShaderError::Missing`].
+    /// [`ShaderError`].
     pub fn compute<'w>(
         &mut self,
         label: &'static str,
         program: Program,
-        inputs: &[Input<'_>],
+        inputs: &Inputs<'_>,
         workgroups: impl Into<Workgroups<'w>>,
     ) -> Result<(), ShaderError> {
-        let key = ComputeKey { program, inputs: inputs.iter().map(Input::binding).collect() };
-        let made = self.pipelines.compute(self.gpu, &key)?;
-        let pipeline = made.pipeline.clone();
-        let group = inputs_group(self.gpu, label, &made.inputs, inputs);
+        let bound = self.pipelines.compute(self.gpu, &program, inputs)?;
         let workgroups = workgroups.into();
         let gated = match workgroups {
             Workgroups::Counted([columns, rows]) => self.gated(&[[columns, rows, 1, 0, 0]]),
@@ -345,9 +289,9 @@ impl<'a> Recorder<'a> {
                 end_of_pass_write_index: Some(t.end),
             }),
         });
-        pass.set_pipeline(&pipeline);
+        pass.set_pipeline(&bound.pipeline);
         pass.set_bind_group(0, &self.frame, &[]);
-        pass.set_bind_group(1, &group, &[]);
+        pass.set_bind_group(INPUTS, &bound.inputs, &[]);
         match (&gated, workgroups) {
             (Some((buffer, offset)), _) => pass.dispatch_workgroups_indirect(buffer, *offset),
             (None, Workgroups::Counted([columns, rows])) => pass.dispatch_workgroups(columns, rows, 1),
@@ -363,20 +307,6 @@ impl<'a> Recorder<'a> {
         }
         self.gpu.queue.submit([self.encoder.finish()]);
     }
-}
-
-fn inputs_group(
-    gpu: &Gpu,
-    label: &str,
-    layout: &wgpu::BindGroupLayout,
-    inputs: &[Input<'_>],
-) -> wgpu::BindGroup {
-    let entries: Vec<_> = inputs
-        .iter()
-        .enumerate()
-        .map(|(binding, input)| wgpu::BindGroupEntry { binding: binding as u32, resource: input.resource() })
-        .collect();
-    gpu.device.create_bind_group(&wgpu::BindGroupDescriptor { label: Some(label), layout, entries: &entries })
 }
 
 fn color_attachment(target: &Target, load: wgpu::LoadOp<wgpu::Color>) -> wgpu::RenderPassColorAttachment<'_> {

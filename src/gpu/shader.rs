@@ -8,6 +8,11 @@
 use std::path::PathBuf;
 
 use include_dir::{Dir, include_dir};
+use wgpu::naga::Module;
+use wgpu::naga::front::wgsl;
+use wgpu::naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
+
+use super::bindings;
 
 static SHADERS: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/shaders");
 
@@ -34,6 +39,18 @@ pub enum ShaderError {
         line: usize,
         /// What is wrong.
         message: String,
+    },
+    /// A pass does not give a shader what it reads.
+    #[error("shaders/{file}, {entry_point}, {name}: {problem}")]
+    Input {
+        /// Path below `shaders/`.
+        file: String,
+        /// The entry point that reads it.
+        entry_point: String,
+        /// Its variable.
+        name: String,
+        /// What is wrong with what is given.
+        problem: String,
     },
 }
 
@@ -120,26 +137,38 @@ impl Shaders {
         Ok(())
     }
 
-    /// The text of a shader, checked by naga; needs no device.
+    /// A shader, parsed, its variables numbered, and analysed as far as `checks` say; needs no device.
     ///
     /// # Errors
     /// [`ShaderError`] with the file and line of the mistake.
-    pub fn validate(&self, file: &str) -> Result<Composed, ShaderError> {
+    fn parse(&self, file: &str, checks: ValidationFlags) -> Result<(Module, ModuleInfo), ShaderError> {
         let composed = self.compose(file)?;
-        let module = wgpu::naga::front::wgsl::parse_str(&composed.text).map_err(|e| {
+        let mut module = wgsl::parse_str(&composed.text).map_err(|e| {
             let line = e.location(&composed.text).map_or(0, |l| l.line_number);
             composed.error(line as usize, e.emit_to_string_with_path(&composed.text, file))
         })?;
-        wgpu::naga::valid::Validator::new(
-            wgpu::naga::valid::ValidationFlags::all(),
-            wgpu::naga::valid::Capabilities::SHADER_FLOAT16_IN_FLOAT32,
-        )
-        .validate(&module)
-        .map_err(|e| {
+        bindings::number(&mut module);
+        let info = Validator::new(checks, Capabilities::SHADER_FLOAT16_IN_FLOAT32).validate(&module).map_err(|e| {
             let line = e.location(&composed.text).map_or(0, |l| l.line_number);
             composed.error(line as usize, e.emit_to_string_with_path(&composed.text, file))
         })?;
-        Ok(composed)
+        Ok((module, info))
+    }
+
+    /// A shader that was [validated](Self::validate), parsed, and which of its variables each entry point uses.
+    ///
+    /// # Errors
+    /// [`ShaderError`].
+    pub fn module(&self, file: &str) -> Result<(Module, ModuleInfo), ShaderError> {
+        self.parse(file, ValidationFlags::empty())
+    }
+
+    /// A shader, checked by naga.
+    ///
+    /// # Errors
+    /// [`ShaderError`] with the file and line of the mistake.
+    pub fn validate(&self, file: &str) -> Result<Module, ShaderError> {
+        self.parse(file, ValidationFlags::all()).map(|(module, _)| module)
     }
 }
 

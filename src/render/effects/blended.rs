@@ -9,8 +9,9 @@
 //! What is opaque hides what lies behind it, its lines too, which are wider than it: see `effects/blended.wgsl`.
 
 use crate::document::LayersBy;
-use crate::gpu::recorder::{Draw, Input, Onto};
-use crate::gpu::{DepthRule, Gpu, Program, Recorder, Target};
+use crate::gpu::bindings::NOTHING;
+use crate::gpu::recorder::{Draw, Onto};
+use crate::gpu::{DepthRule, Gpu, Inputs, Program, Recorder, Target, inputs};
 use crate::render::RenderError;
 use crate::render::drawing::DrawingInputs;
 use crate::render::effects::surface::{Shading, surface};
@@ -195,13 +196,13 @@ impl Blended {
                 let pen = Pen {
                     file: "effects/blended.wgsl",
                     entry_point: "fs_lines",
-                    inputs: &pane.inputs(found.nearer.as_ref().unwrap_or(&layer.gbuffer.region)),
+                    inputs: &pane.inputs().and(&inputs! { seen_tex: found.nearer.as_ref() }),
                     switches: &[("AMONG_OTHERS", true), pane.with_cover()],
                     onto: Onto::Beneath,
                 };
                 lines(rec, &found.lines(layer, layer_lines, edges.styles), &pen, &color)?;
             }
-            lay_beneath(rec, layer, layer_lines.edge_styles(), pane, &color)
+            lay_beneath(rec, layer, pane, &color)
         });
         gbuffer_pass.coordinates = coordinates_pass;
         drawn?;
@@ -222,15 +223,9 @@ impl<'a> Pane<'a> {
         ("WITH_COVER", self.cover.is_some())
     }
 
-    /// What the shader of the effect reads from binding 6 on.
-    fn inputs(&self, seen: &'a Target) -> [Input<'a>; 4] {
-        [
-            Input::Texels(&self.opaque.geometry),
-            // Unread without lines: any texture of its kind.
-            Input::Texels(self.cover.unwrap_or(&self.opaque.geometry)),
-            Input::Texture(seen),
-            Input::Texture(self.shaded),
-        ]
+    /// What the shader of the effect reads of it.
+    fn inputs(&self) -> Inputs<'a> {
+        inputs! { surface_tex: &self.opaque.geometry, cover_tex: self.cover, shaded_tex: self.shaded }
     }
 }
 
@@ -240,7 +235,7 @@ fn cover(rec: &mut Recorder<'_>, opaque: &Lines<'_>) -> Result<Target, RenderErr
     let pen = Pen {
         file: "effects/blended.wgsl",
         entry_point: "fs_cover",
-        inputs: &[],
+        inputs: &NOTHING,
         switches: &[],
         onto: Onto::Nothing,
     };
@@ -252,20 +247,10 @@ fn cover(rec: &mut Recorder<'_>, opaque: &Lines<'_>) -> Result<Target, RenderErr
 fn lay_beneath(
     rec: &mut Recorder<'_>,
     layer: &Layer,
-    edge_styles: &wgpu::Buffer,
     pane: Pane<'_>,
     color: &Target,
 ) -> Result<(), RenderError> {
-    // Of the lines' bindings only the first is read: any texture of their kind.
-    let mut inputs = vec![
-        Input::Texels(&layer.gbuffer.geometry),
-        Input::Texture(&layer.gbuffer.region),
-        Input::Texture(&layer.gbuffer.base_color),
-        Input::Texture(&layer.gbuffer.region),
-        Input::Texture(&layer.gbuffer.region),
-        Input::Storage(edge_styles),
-    ];
-    inputs.extend(pane.inputs(&layer.gbuffer.region));
+    let inputs = pane.inputs().and(&inputs! { geometry_tex: &layer.gbuffer.geometry });
     rec.draw(Draw {
         label: "blended",
         program: Program {

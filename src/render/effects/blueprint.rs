@@ -12,8 +12,8 @@ use encase::ShaderType;
 use glam::Vec3;
 
 use crate::document;
-use crate::gpu::recorder::{Draw, Input, Onto};
-use crate::gpu::{ArrayBuffer, DepthRule, Gpu, Program, Recorder, Target, UniformBuffer};
+use crate::gpu::recorder::{Draw, Onto};
+use crate::gpu::{ArrayBuffer, DepthRule, Gpu, Inputs, Program, Recorder, Target, UniformBuffer, inputs};
 use crate::render::RenderError;
 use crate::render::drawing::{Begun, DrawingInputs};
 use crate::render::effects::section::{CapUniform, caps};
@@ -113,7 +113,7 @@ pub struct Peels {
 
 /// What a group's picture depends on.
 #[derive(PartialEq)]
-struct Inputs {
+struct Key {
     shaders: u64,
     scene_revision: u64,
     surfaces: u64,
@@ -136,7 +136,7 @@ pub struct Blueprints {
     segments: Segments,
     style: UniformBuffer<BlueprintUniform>,
     caps: ArrayBuffer,
-    stage: Stage<Inputs, Peels>,
+    stage: Stage<Key, Peels>,
 }
 
 impl Blueprints {
@@ -195,7 +195,7 @@ impl Blueprints {
     ) -> Result<Output<Peels>, RenderError> {
         let Begun { uniform, gbuffer: surfaces, .. } = begun;
         let (draws, calls) = blueprint.group.draws(inputs.scene, inputs.view);
-        let asked = Inputs {
+        let asked = Key {
             shaders: rec.pipelines.generation(),
             scene_revision: inputs.scene_revision,
             surfaces: surfaces.revision,
@@ -275,7 +275,7 @@ impl Blueprints {
                     let pen = Pen {
                         file: "effects/blueprint.wgsl",
                         entry_point: "fs_lines",
-                        inputs: &sprite.inputs(found.nearer.as_ref().unwrap_or(&layer.gbuffer.region)),
+                        inputs: &sprite.inputs().and(&inputs! { seen_tex: found.nearer.as_ref() }),
                         switches: &[
                             &[("WITHOUT_REPEATED", found.nearer.is_some()), ("AMONG_OTHERS", true)][..],
                             &sprite.switches(),
@@ -322,16 +322,14 @@ impl<'a> Sprite<'a> {
         ]
     }
 
-    /// What the shader of the effect reads from binding 6 on.
-    fn inputs(&self, seen: &'a Target) -> [Input<'a>; 5] {
-        [
-            Input::Texels(&self.surfaces.geometry),
-            Input::Uniform(self.style),
-            Input::Uniform(self.count.buffer()),
-            Input::Texture(seen),
-            // Unread without a mask: any buffer.
-            Input::Storage(self.mask.map_or(self.count.buffer(), |mask| &mask.count)),
-        ]
+    /// What the shader of the effect reads of it.
+    fn inputs(&self) -> Inputs<'a> {
+        inputs! {
+            surface_tex: &self.surfaces.geometry,
+            blueprint: self.style,
+            peeled: self.count.buffer(),
+            mask: self.mask.map(|mask| &mask.count),
+        }
     }
 }
 
@@ -344,17 +342,12 @@ fn fill(
     caps: Option<&wgpu::Buffer>,
     color: &Target,
 ) -> Result<(), RenderError> {
-    // Of the lines' bindings only the first is read: any texture of their kind.
-    let mut inputs = vec![
-        Input::Texels(&layer.gbuffer.geometry),
-        Input::Texture(&layer.gbuffer.region),
-        Input::Texture(&layer.gbuffer.base_color),
-        Input::Texture(&layer.gbuffer.region),
-        Input::Texture(&layer.gbuffer.region),
-        Input::Storage(edge_styles),
-    ];
-    inputs.extend(sprite.inputs(&layer.gbuffer.region));
-    inputs.extend([Input::Texels(&layer.gbuffer.region), Input::Storage(caps.unwrap_or(edge_styles))]);
+    let inputs = sprite.inputs().and(&inputs! {
+        geometry_tex: &layer.gbuffer.geometry,
+        region_tex: &layer.gbuffer.region,
+        edge_styles: edge_styles,
+        caps: caps,
+    });
     rec.draw(Draw {
         label: "fill",
         program: Program {

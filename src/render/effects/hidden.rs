@@ -8,8 +8,8 @@
 //! ```
 
 use crate::document::LayersBy;
-use crate::gpu::recorder::{Input, Onto};
-use crate::gpu::{Gpu, Recorder, Target};
+use crate::gpu::recorder::Onto;
+use crate::gpu::{Gpu, Recorder, Target, inputs};
 use crate::render::RenderError;
 use crate::render::drawing::DrawingInputs;
 use crate::render::frame_uniform::FrameUniform;
@@ -219,11 +219,10 @@ impl HiddenLines {
                     repeated: false,
                 };
                 let found = band_lines.edges(rec, &edges, layer, &mut seen)?;
-                let nearer = found.nearer.as_ref().unwrap_or(&layer.gbuffer.region);
                 let pen = Pen {
                     file: "effects/hidden.wgsl",
                     entry_point: "fs_lines",
-                    inputs: &[Input::Texture(nearer)],
+                    inputs: &inputs! { seen_tex: found.nearer.as_ref() },
                     switches: &[],
                     onto: Onto::Beneath,
                 };

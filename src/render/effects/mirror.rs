@@ -5,8 +5,8 @@ use encase::ShaderType;
 use glam::{DVec2, DVec3, UVec2, Vec3};
 
 use crate::geometry::{Bounds, Plane};
-use crate::gpu::recorder::{Draw, Input, Onto};
-use crate::gpu::{DepthRule, Program, Recorder, Target};
+use crate::gpu::recorder::{Draw, Onto};
+use crate::gpu::{DepthRule, Program, Recorder, Target, inputs};
 use crate::render::RenderError;
 use crate::render::frame_uniform::View;
 use crate::render::passes::gbuffer::GBuffer;
@@ -128,7 +128,7 @@ pub fn mirror(
     rec.draw(Draw {
         label: "mirror",
         program: Program::new("effects/mirror.wgsl", "fs_main"),
-        inputs: &[Input::Texels(&gbuffer.geometry), Input::Texture(reflection), Input::Storage(uniform)],
+        inputs: &inputs! { geometry_tex: &gbuffer.geometry, reflection_tex: reflection, mirrors: uniform },
         outputs: &[color],
         onto: Onto::Blended,
         depth: Some((&gbuffer.depth, DepthRule::Covered)),

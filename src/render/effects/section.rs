@@ -4,8 +4,8 @@ use encase::ShaderType;
 use glam::{DVec2, DVec3, Vec2, Vec3};
 
 use crate::document::section::Fill;
-use crate::gpu::recorder::{Draw, Input, Onto};
-use crate::gpu::{DepthRule, Program, Recorder, Target};
+use crate::gpu::recorder::{Draw, Onto};
+use crate::gpu::{DepthRule, Program, Recorder, Target, inputs};
 use crate::render::RenderError;
 use crate::render::frame_uniform::View;
 use crate::render::gpu_scene::GpuScene;
@@ -96,7 +96,7 @@ pub fn section(
     rec.draw(Draw {
         label: "section",
         program: Program::new("effects/section.wgsl", "fs_main"),
-        inputs: &[Input::Texels(&gbuffer.geometry), Input::Texture(&gbuffer.region), Input::Storage(caps)],
+        inputs: &inputs! { geometry_tex: &gbuffer.geometry, region_tex: &gbuffer.region, caps: caps },
         outputs: &[color],
         onto: Onto::Blended,
         depth: Some((&gbuffer.depth, DepthRule::Covered)),

@@ -8,8 +8,7 @@ use super::gooch::GoochUniform;
 use super::halftone::{self, HalftoneInputs};
 use super::section::section;
 use super::toon::{self, ToonBuffers, Toons};
-use crate::gpu::recorder::Input;
-use crate::gpu::{Program, Recorder, Target};
+use crate::gpu::{Program, Recorder, Target, inputs};
 use crate::render::RenderError;
 use crate::render::passes::gbuffer::GBuffer;
 use crate::style::{Style, Technique};
@@ -102,22 +101,21 @@ pub fn surface(
     rec.fullscreen(
         "surface",
         Program { file: "effects/surface.wgsl", entry_point: "fs_main", switches },
-        &[
-            Input::Texels(&gbuffer.geometry),
-            // A shader that does not read one of these is given any texture of its kind.
-            Input::Texture(shading.shadow_mask.unwrap_or(&gbuffer.base_color)),
-            Input::Storage(shading.toon_buffers.styles),
-            Input::Storage(shading.toon_buffers.bands),
-            Input::Texture(shading.cartoon_map.unwrap_or(&gbuffer.region)),
-            Input::Texture(&gbuffer.region),
-            Input::Texture(&gbuffer.base_color),
-            Input::Storage(shading.surface_styles),
-            Input::Storage(shading.halftones.style_buffer),
-            Input::Layers(shading.halftones.maps.thresholds()),
-            Input::Sampler(shading.halftones.maps.sampler()),
-            Input::Storage(shading.halftones.maps.calibration()),
-            Input::Texels(shading.halftones.coordinates.unwrap_or(&gbuffer.geometry)),
-        ],
+        &inputs! {
+            geometry_tex: &gbuffer.geometry,
+            region_tex: &gbuffer.region,
+            base_color_tex: &gbuffer.base_color,
+            shadow_mask_tex: shading.shadow_mask,
+            surface_styles: shading.surface_styles,
+            toon_styles: shading.toon_buffers.styles,
+            toon_bands: shading.toon_buffers.bands,
+            cartoon_map_tex: shading.cartoon_map,
+            halftone_styles: shading.halftones.style_buffer,
+            thresholds: shading.halftones.maps.thresholds(),
+            threshold_sampler: shading.halftones.maps.sampler(),
+            calibration: shading.halftones.maps.calibration(),
+            coordinates_tex: shading.halftones.coordinates,
+        },
         &[&color],
         Some(&gbuffer.depth),
     )?;

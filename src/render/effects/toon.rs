@@ -7,8 +7,7 @@
 use encase::ShaderType;
 use glam::{Vec3, Vec4};
 
-use crate::gpu::recorder::Input;
-use crate::gpu::{Program, Recorder, Target};
+use crate::gpu::{Program, Recorder, Target, inputs};
 use crate::render::RenderError;
 use crate::render::passes::gbuffer::GBuffer;
 use crate::render::style_images::StyleImages;
@@ -157,12 +156,11 @@ pub fn cartoon_map(
             entry_point: "fs_cartoon_map",
             switches: vec![("WITH_SHADOWS", shadow_mask.is_some())],
         },
-        &[
-            Input::Texels(&gbuffer.geometry),
-            // Unread without shadows.
-            Input::Texture(shadow_mask.unwrap_or(&gbuffer.base_color)),
-            Input::Storage(toon_styles),
-        ],
+        &inputs! {
+            geometry_tex: &gbuffer.geometry,
+            shadow_mask_tex: shadow_mask,
+            toon_styles: toon_styles,
+        },
         &[&map],
         Some(&gbuffer.depth),
     )?;

@@ -1,8 +1,7 @@
 //! The mean of all samples of a picture.
 
 use crate::document::Document;
-use crate::gpu::recorder::Input;
-use crate::gpu::{Program, Recorder, Target};
+use crate::gpu::{Program, Recorder, Target, inputs};
 use crate::render::RenderError;
 use crate::render::sample::Sample;
 use crate::render::stage::Output;
@@ -74,7 +73,7 @@ fn averaged(rec: &mut Recorder<'_>, mean: &Target, color: &Target) -> Result<Tar
     rec.fullscreen(
         "accumulate",
         Program::new("passes/accumulate.wgsl", "fs_main"),
-        &[Input::Texture(mean), Input::Texture(color)],
+        &inputs! { mean_tex: mean, color_tex: color },
         &[&out],
         None,
     )?;

@@ -9,8 +9,7 @@ use encase::ShaderType;
 
 use super::gbuffer::{GBuffer, GBufferPass};
 use super::instances::{DrawCall, Instance, Instances};
-use crate::gpu::recorder::Input;
-use crate::gpu::{Gpu, Program, Recorder, Target};
+use crate::gpu::{Gpu, Program, Recorder, Target, inputs};
 use crate::render::RenderError;
 use crate::render::drawing::DrawingInputs;
 use crate::render::frame_uniform::View;
@@ -94,11 +93,11 @@ impl DepthMaskPass {
             rec.compute(
                 "depth mask",
                 Program::new("passes/depth_mask.wgsl", "cs_main"),
-                &[
-                    Input::Texels(&designated.geometry),
-                    Input::Texels(&surfaces.value.geometry),
-                    Input::Written(count),
-                ],
+                &inputs! {
+                    geometry_tex: &designated.geometry,
+                    surface_tex: &surfaces.value.geometry,
+                    mask: &*count,
+                },
                 [width.div_ceil(GROUP), height.div_ceil(GROUP)],
             )?;
             Ok::<_, RenderError>(DepthMask { depth: designated.depth, count: count.clone() })

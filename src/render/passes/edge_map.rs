@@ -10,8 +10,8 @@ use super::operators::paper_edges;
 use super::repeated::{Seen, add_ink};
 use super::segments::{MARKS, SegmentInputs, Segments};
 use crate::geometry::EdgeClass;
-use crate::gpu::recorder::{Draw, Input, Onto};
-use crate::gpu::{DepthRule, Program, Recorder, Target};
+use crate::gpu::recorder::{Draw, Onto};
+use crate::gpu::{DepthRule, Program, Recorder, Target, inputs};
 use crate::render::RenderError;
 
 const EDGE_MAP: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Uint;
@@ -114,19 +114,13 @@ fn exact_edges(
     segments.put(rec, &tested, [edge_map, &spines, &marks], seen)?;
     let outputs: Vec<_> = [edge_map, &spines].into_iter().chain(seen.map(|seen| &seen.now)).collect();
     let unseen = ("WITHOUT_REPEATED", seen.is_some());
-    // Unread without.
-    let before_all = Input::Texels(seen.map_or(&gbuffer.region, |seen| &seen.before));
-
-    let inputs = [
-        Input::Texels(&gbuffer.geometry),
-        Input::Texels(&gbuffer.region),
-        Input::Storage(edge_styles),
-        Input::Texels(&marks),
-        // Unread unless it is a layer.
-        Input::Texture(before.map_or(&gbuffer.region, |[before, _]| before)),
-        Input::Texture(before.map_or(&gbuffer.region, |[_, before_that]| before_that)),
-        before_all,
-    ];
+    let found = inputs! {
+        geometry_tex: &gbuffer.geometry,
+        region_tex: &gbuffer.region,
+        edge_styles: edge_styles,
+        mark_tex: &marks,
+        seen_tex: seen.map(|seen| &seen.before),
+    };
     let switches = [("WITH_CUT", is_cut), ("WITH_LAYERS_BEFORE", before.is_some()), unseen]
         .into_iter()
         .chain(variation)
@@ -141,16 +135,7 @@ fn exact_edges(
         rec.draw(Draw {
             label: "details",
             program: Program { file: "passes/details.wgsl", entry_point: "fs_main", switches },
-            inputs: &[
-                Input::Texels(&gbuffer.geometry),
-                Input::Texture(&gbuffer.region),
-                Input::Storage(edge_styles),
-                Input::Texture(&marks),
-                Input::Texture(&gbuffer.base_color),
-                // Unread without shadows.
-                Input::Texture(shadow_mask.unwrap_or(&gbuffer.base_color)),
-                before_all,
-            ],
+            inputs: &inputs! { base_color_tex: &gbuffer.base_color, shadow_mask_tex: shadow_mask }.and(&found),
             outputs: &outputs,
             onto: Onto::Old,
             depth: Some((&gbuffer.depth, DepthRule::Covered)),
@@ -168,7 +153,11 @@ fn exact_edges(
     rec.draw(Draw {
         label: "discontinuities",
         program: Program { file: "passes/discontinuities.wgsl", entry_point: "fs_main", switches },
-        inputs: &inputs,
+        inputs: &inputs! {
+            before_tex: before.map(|[before, _]| before),
+            before_that_tex: before.map(|[_, before_that]| before_that),
+        }
+        .and(&found),
         outputs: &outputs,
         onto: Onto::Old,
         depth: Some((&borders, DepthRule::MarkedCovered("fs_borders", rounds))),

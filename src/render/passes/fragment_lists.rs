@@ -6,8 +6,8 @@
 
 use super::gbuffer::{DEPTH, GBuffer};
 use super::peel::{Layer, PeelCount};
-use crate::gpu::recorder::{Draw, Input, Onto};
-use crate::gpu::{DepthRule, Gpu, GpuError, Program, RecordTexture, Recorder, Target};
+use crate::gpu::recorder::{Draw, Onto};
+use crate::gpu::{DepthRule, Gpu, GpuError, Inputs, Program, RecordTexture, Recorder, Target, inputs};
 use crate::render::RenderError;
 
 /// Bytes of a fragment's base colour. How it is linked and what it is take a texel each.
@@ -157,7 +157,7 @@ impl FragmentLists {
             layers,
             done: 0,
         };
-        let inputs = lists.inputs();
+        let inputs = lists.inputs(None);
         rec.draw(Draw {
             label: "listed",
             program: Program::new("passes/cut.wgsl", "fs_listed"),
@@ -215,7 +215,7 @@ impl CutLists {
         self.layers = self.layers.saturating_sub(1);
         let mut layer = Layer { gbuffer: GBuffer::new(rec)?, marked: None };
         let mut rule = DepthRule::Covered;
-        let inputs: Vec<_> = self.inputs().into_iter().chain([Input::Texels(&numbers)]).collect();
+        let inputs = self.inputs(Some(&numbers));
         let program = |entry_point| Program::new("passes/cut.wgsl", entry_point);
         if with_depth {
             rec.draw(Draw {
@@ -259,7 +259,7 @@ impl CutLists {
         let nearest = rec.target("fragments of layer", NUMBERS)?;
         self.numbers =
             (1..layers).map(|_| rec.target("fragments of layer", NUMBERS)).collect::<Result<_, _>>()?;
-        let inputs: Vec<_> = self.inputs().into_iter().chain(self.last.as_ref().map(Input::Texels)).collect();
+        let inputs = self.inputs(self.last.as_ref());
         rec.draw(Draw {
             label: "sort",
             program: Program {
@@ -280,15 +280,16 @@ impl CutLists {
         Ok(nearest)
     }
 
-    /// The first bindings of `passes/cut.wgsl`.
-    fn inputs(&self) -> [Input<'_>; 4] {
+    /// What `passes/cut.wgsl` reads.
+    fn inputs<'a>(&'a self, numbers: Option<&'a Target>) -> Inputs<'a> {
         let [links, payloads] = &self.fragments;
-        [
-            Input::Storage(&self.heads),
-            Input::Texels(links),
-            Input::Texels(payloads),
-            Input::Storage(&self.colors),
-        ]
+        inputs! {
+            heads: &self.heads,
+            link_tex: links,
+            payload_tex: payloads,
+            colors: &self.colors,
+            number_tex: numbers,
+        }
     }
 }
 

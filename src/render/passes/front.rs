@@ -1,8 +1,7 @@
 //! What is in front of all: opaque surfaces, and the first layers of blueprints before them. It is what a click means and
 //! what an outline is drawn around.
 
-use crate::gpu::recorder::Input;
-use crate::gpu::{Program, Recorder, Target};
+use crate::gpu::{Program, Recorder, Target, inputs};
 use crate::render::RenderError;
 
 /// Geometries (see `shaders/common/gbuffer.wgsl`) of which the nearest counts at each pixel.
@@ -23,7 +22,7 @@ impl Front {
         let mut nearest = self.surfaces.clone();
         for layer in &self.layers {
             let both = rec.target("front", nearest.format())?;
-            let inputs = [Input::Texels(&nearest), Input::Texels(layer)];
+            let inputs = inputs! { geometry_tex: &nearest, other_tex: layer };
             rec.fullscreen("front", Program::new("passes/front.wgsl", "fs_main"), &inputs, &[&both], None)?;
             nearest = both;
         }

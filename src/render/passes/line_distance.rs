@@ -1,8 +1,7 @@
 //! Which line each pixel belongs to: an exact distance transform whose cost does not depend on the lines' width.
 
 use super::edge_style::EdgeUniform;
-use crate::gpu::recorder::Input;
-use crate::gpu::{ArrayBuffer, Program, Recorder, Target};
+use crate::gpu::{ArrayBuffer, Program, Recorder, Target, inputs};
 use crate::render::RenderError;
 
 const INDEX: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;
@@ -51,7 +50,7 @@ pub fn line_distance(
         let blocks = rec.size().map(|side| side.div_ceil(BLOCK));
         let near = rec.target_of("near lines", INDEX, blocks)?;
         let program = Program::new("passes/near_lines.wgsl", "cs_main");
-        let inputs = [Input::Texture(spines), Input::Image(&near)];
+        let inputs = inputs! { spine_tex: spines, near_tex: &near };
         rec.compute("near lines", program, &inputs, blocks.map(|side| side.div_ceil(BLOCK_GROUP)))?;
         return Ok(Reach::Narrow { spines: spines.clone(), near });
     }
@@ -83,13 +82,13 @@ fn transform(
     let found = rec.target("line of pixel", INDEX)?;
     let stack = rec.target("envelopes", INDEX)?;
     let [width, height] = rec.size();
-    let inputs = [
-        Input::Texture(spines),
-        Input::Storage(radius),
-        Input::Scratch(&columns),
-        Input::Image(&found),
-        Input::Scratch(&stack),
-    ];
+    let inputs = inputs! {
+        spine_tex: spines,
+        greatest_radius: radius,
+        column_tex: &columns,
+        found_tex: &found,
+        stack_tex: &stack,
+    };
     let program = |entry_point| Program {
         file: "passes/line_distance.wgsl",
         entry_point,

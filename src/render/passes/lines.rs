@@ -4,8 +4,9 @@ use super::edge_map::EdgeMap;
 use super::edge_style::EdgeUniform;
 use super::gbuffer::GBuffer;
 use super::line_distance::Reach;
-use crate::gpu::recorder::{Draw, Input, Onto};
-use crate::gpu::{DepthRule, Program, Recorder, Target};
+use crate::gpu::bindings::NOTHING;
+use crate::gpu::recorder::{Draw, Onto};
+use crate::gpu::{DepthRule, Inputs, Program, Recorder, Target, inputs};
 use crate::render::RenderError;
 
 /// The lines of an edge map.
@@ -30,8 +31,8 @@ pub struct Pen<'a> {
     pub file: &'static str,
     /// Its entry point.
     pub entry_point: &'static str,
-    /// What it reads more than `passes/lines.wgsl`, from binding 6 on.
-    pub inputs: &'a [Input<'a>],
+    /// What it reads more than `passes/lines.wgsl`.
+    pub inputs: &'a Inputs<'a>,
     /// Switches of its own.
     pub switches: &'a [(&'static str, bool)],
     /// Where ink goes.
@@ -43,7 +44,7 @@ impl Pen<'_> {
     pub const PLAIN: Self = Self {
         file: "passes/lines.wgsl",
         entry_point: "fs_main",
-        inputs: &[],
+        inputs: &NOTHING,
         switches: &[],
         onto: Onto::Blended,
     };
@@ -61,10 +62,9 @@ pub fn lines(
 ) -> Result<(), RenderError> {
     let Lines { gbuffer, edge_map, reach, styles, edge_styles } = *lines;
     let (farthest, nearest) = match reach {
-        Some(Reach::Narrow { spines, near }) => (spines, near),
-        Some(Reach::Wide { farthest, nearest }) => (farthest, nearest.as_ref().unwrap_or(farthest)),
-        // Unread: any texture of its kind.
-        None => (&gbuffer.region, &gbuffer.region),
+        Some(Reach::Narrow { spines, near }) => (Some(spines), Some(near)),
+        Some(Reach::Wide { farthest, nearest }) => (Some(farthest), nearest.as_ref()),
+        None => (None, None),
     };
     let any = |has: fn(&EdgeUniform) -> bool| styles.iter().any(has);
     let mut switches = vec![
@@ -75,21 +75,20 @@ pub fn lines(
         ("WITH_DASHES", any(|s| s.drawn().any(|(_, l)| l.dashed == 1))),
         ("WITH_SURFACE_COLOR", any(EdgeUniform::takes_surface_color)),
     ];
-    let mut inputs = vec![
-        Input::Texels(&gbuffer.geometry),
-        Input::Texels(&edge_map.edges),
-        Input::Texture(&gbuffer.base_color),
-        Input::Texture(farthest),
-        Input::Texels(nearest),
-        Input::Storage(edge_styles),
-    ];
+    let inputs = inputs! {
+        geometry_tex: &gbuffer.geometry,
+        edge_map_tex: &edge_map.edges,
+        base_color_tex: &gbuffer.base_color,
+        farthest_tex: farthest,
+        nearest_tex: nearest,
+        edge_styles: edge_styles,
+    };
     let reached = rec.target("reached by lines", wgpu::TextureFormat::Depth32Float)?;
-    inputs.extend(pen.inputs);
     switches.extend(pen.switches);
     rec.draw(Draw {
         label: "lines",
         program: Program { file: pen.file, entry_point: pen.entry_point, switches },
-        inputs: &inputs,
+        inputs: &inputs.and(pen.inputs),
         outputs: &[color],
         onto: pen.onto,
         depth: Some((&reached, DepthRule::Marked("fs_reached"))),

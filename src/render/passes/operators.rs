@@ -2,8 +2,8 @@
 
 use super::edge_style::EdgeUniform;
 use super::gbuffer::GBuffer;
-use crate::gpu::recorder::{Draw, Input, Onto};
-use crate::gpu::{DepthRule, Program, Recorder, Target};
+use crate::gpu::recorder::{Draw, Onto};
+use crate::gpu::{DepthRule, Program, Recorder, Target, inputs};
 use crate::render::RenderError;
 
 fn program(entry_point: &'static str, with_c1: bool) -> Program {
@@ -25,7 +25,7 @@ pub fn paper_edges(
     rec.draw(Draw {
         label: "operators",
         program: program("fs_main", styles.iter().any(|s| s.is_paper() && s.use_c1 == 1)),
-        inputs: &[Input::Texels(&gbuffer.geometry), Input::Storage(edge_styles)],
+        inputs: &inputs! { geometry_tex: &gbuffer.geometry, edge_styles: edge_styles },
         outputs: &[edge_map],
         onto,
         depth: Some((&gbuffer.depth, DepthRule::Covered)),
@@ -43,7 +43,7 @@ pub fn operators(
     edge_styles: &wgpu::Buffer,
 ) -> Result<Target, RenderError> {
     let out = rec.target("operators", wgpu::TextureFormat::Rgba32Float)?;
-    let inputs = [Input::Texels(&gbuffer.geometry), Input::Storage(edge_styles)];
+    let inputs = inputs! { geometry_tex: &gbuffer.geometry, edge_styles: edge_styles };
     rec.fullscreen("operators", program("fs_operators", true), &inputs, &[&out], None)?;
     Ok(out)
 }

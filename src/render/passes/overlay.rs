@@ -1,7 +1,7 @@
 //! One picture over another.
 
-use crate::gpu::recorder::{Draw, Input, Onto};
-use crate::gpu::{Program, Recorder, Target};
+use crate::gpu::recorder::{Draw, Onto};
+use crate::gpu::{Program, Recorder, Target, inputs};
 use crate::render::RenderError;
 
 /// Lays a picture over `color`; both are linear and premultiplied.
@@ -12,7 +12,7 @@ pub fn overlay(rec: &mut Recorder<'_>, picture: &Target, color: &Target) -> Resu
     rec.draw(Draw {
         label: "overlay",
         program: Program::new("passes/overlay.wgsl", "fs_main"),
-        inputs: &[Input::Texture(picture)],
+        inputs: &inputs! { overlay_tex: picture },
         outputs: &[color],
         onto: Onto::Blended,
         depth: None,

@@ -7,8 +7,7 @@ use encase::{ShaderType, StorageBuffer};
 
 use super::depth_mask::DepthMask;
 use super::gbuffer::{GBuffer, SORT_KEYS};
-use crate::gpu::recorder::Input;
-use crate::gpu::{Gpu, Program, Recorder, Target, readback};
+use crate::gpu::{Gpu, Inputs, Program, Recorder, Target, inputs, readback};
 use crate::render::RenderError;
 
 /// No object has more layers than this that are drawn.
@@ -331,16 +330,14 @@ impl PeelCount {
         self.decide(rec, "cs_uncovered", layer, Some(mask))
     }
 
-    /// The first bindings of `passes/count.wgsl`.
-    fn counted<'a>(&'a self, layer: &'a Layer, mask: Option<&'a DepthMask>) -> [Input<'a>; 4] {
-        let depth = &layer.gbuffer.depth;
-        [
-            Input::Texture(&layer.gbuffer.region),
-            Input::Texture(depth),
-            // Unread without a mask: any texture of its kind.
-            Input::Texture(mask.map_or(depth, |mask| &mask.depth)),
-            Input::Written(&self.buffer),
-        ]
+    /// What `passes/count.wgsl` reads of a layer.
+    fn counted<'a>(&'a self, layer: &'a Layer, mask: Option<&'a DepthMask>) -> Inputs<'a> {
+        inputs! {
+            region_tex: &layer.gbuffer.region,
+            layer_depth_tex: &layer.gbuffer.depth,
+            mask_depth_tex: mask.map(|mask| &mask.depth),
+            peeled: &self.buffer,
+        }
     }
 
     fn decide(
@@ -352,9 +349,8 @@ impl PeelCount {
     ) -> Result<(), RenderError> {
         // What shuts the gate cannot stand behind it.
         let Some(gate) = rec.gate.take() else { return Ok(()) };
-        let mut inputs = self.counted(layer, mask).to_vec();
-        inputs.push(Input::Written(gate.buffer()));
-        inputs.extend(mask.map(|mask| Input::Storage(&mask.count)));
+        let gated = inputs! { gate: gate.buffer(), mask: mask.map(|mask| &mask.count) };
+        let inputs = self.counted(layer, mask).and(&gated);
         let decided = rec.compute("go on", Program::new("passes/count.wgsl", entry_point), &inputs, [1, 1]);
         rec.gate = Some(gate);
         Ok(decided?)

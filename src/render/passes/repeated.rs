@@ -1,8 +1,8 @@
 //! Which lines nearer layers have (blueprints paper, section 4.1, Fig. 5): those at the same place can be left out.
 
 use super::edge_map::{EdgeMap, SPINES};
-use crate::gpu::recorder::{Draw, Input, Onto};
-use crate::gpu::{Program, Recorder, Target};
+use crate::gpu::recorder::{Draw, Onto};
+use crate::gpu::{Program, Recorder, Target, inputs};
 use crate::render::RenderError;
 
 /// The lines of layers; see `shaders/common/repeated.wgsl`.
@@ -61,7 +61,7 @@ pub(super) fn add_ink(
     rec.draw(Draw {
         label: "seen ink",
         program: Program::new("passes/repeated.wgsl", "fs_ink"),
-        inputs: &[Input::Texels(edges), Input::Texture(spines)],
+        inputs: &inputs! { edge_map_tex: edges, spine_tex: spines },
         outputs: &[seen],
         onto: Onto::Old,
         depth: None,

@@ -1,7 +1,6 @@
 //! The final image.
 
-use crate::gpu::recorder::Input;
-use crate::gpu::{Program, Recorder, Target};
+use crate::gpu::{Program, Recorder, Target, inputs};
 use crate::render::RenderError;
 
 /// What the window, PNG files and tests see: sRGB with straight alpha.
@@ -22,6 +21,7 @@ pub fn resolve(
         entry_point: "fs_main",
         switches: vec![("WITH_SCALE_BAR", is_shown)],
     };
-    rec.fullscreen("resolve", program, &[Input::Texture(color), Input::Storage(scale_bar)], &[&image], None)?;
+    let inputs = inputs! { color_tex: color, scale_bar: scale_bar };
+    rec.fullscreen("resolve", program, &inputs, &[&image], None)?;
     Ok(image)
 }

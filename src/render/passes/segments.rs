@@ -11,8 +11,7 @@ use wgpu::util::{BufferInitDescriptor, DeviceExt};
 use super::gbuffer::GBuffer;
 use super::repeated::Seen;
 use crate::geometry::LineSegment;
-use crate::gpu::recorder::Input;
-use crate::gpu::{Gpu, Program, RecordBuffer, RecordTexture, Recorder, Target, size_of_texels};
+use crate::gpu::{Gpu, Program, RecordBuffer, RecordTexture, Recorder, Target, inputs, size_of_texels};
 use crate::render::RenderError;
 
 /// Pixels of segments that are tested in one go; each takes 52 bytes while it is.
@@ -144,15 +143,11 @@ impl Segments {
     fn place(&self, rec: &mut Recorder<'_>, part: &Steps) -> Result<Target, RenderError> {
         let size = size_of_texels(part.count as usize).map(u32::next_power_of_two);
         let places = rec.target_of("places of steps", PLACES, size)?;
-        let unread = Input::Texels(self.records.target());
-        let inputs = [
-            unread,
-            unread,
-            Input::Storage(&self.kept),
-            Input::Texels(self.records.target()),
-            Input::Texels(part.steps.target()),
-            Input::Image(&places),
-        ];
+        let inputs = inputs! {
+            segment_tex: self.records.target(),
+            step_tex: part.steps.target(),
+            placed_tex: &places,
+        };
         rec.compute("place segments", program("cs_place", &[]), &inputs, [part.count.div_ceil(GROUP), 1])?;
         Ok(places)
     }
@@ -172,15 +167,17 @@ impl Segments {
         let has_chunks = self.steps.len() > 1;
         for part in &self.steps {
             self.find(rec, inputs, part, seen)?;
-            let mut found = vec![
-                Input::Storage(self.points.buffer()),
-                Input::Storage(&self.found),
-                Input::Written(self.keys.buffer()),
-                Input::Written(self.winners.buffer()),
-                Input::Image(edge_map),
-                Input::Image(spines),
-                Input::Image(marks),
-            ];
+            let found = inputs! {
+                points: self.points.buffer(),
+                found: &self.found,
+                keys: self.keys.buffer(),
+                winners: self.winners.buffer(),
+                edge_tex: edge_map,
+                spine_tex: spines,
+                mark_tex: marks,
+                seen_tex: seen.map(|seen| &seen.before),
+                now_seen_tex: seen.map(|seen| &seen.now),
+            };
             let program = |entry_point| Program {
                 file: "passes/segment_points.wgsl",
                 entry_point,
@@ -188,7 +185,6 @@ impl Segments {
             };
             rec.compute("compare points", program("cs_compare"), &found, &self.found)?;
             let put = if seen.is_some() { "cs_put_unseen" } else { "cs_put" };
-            found.extend(seen.into_iter().flat_map(|s| [Input::Texels(&s.before), Input::Image(&s.now)]));
             rec.compute("put points", program(put), &found, &self.found)?;
         }
         if has_chunks {
@@ -207,42 +203,42 @@ impl Segments {
     ) -> Result<(), RenderError> {
         let switches: Vec<_> =
             inputs.switches.iter().copied().chain([("IN_LAYER", self.for_layers)]).collect();
-        let tested = [
-            Input::Texels(&inputs.gbuffer.geometry),
-            Input::Texels(&inputs.gbuffer.region),
-            Input::Storage(inputs.edge_styles),
-            Input::Texels(self.records.target()),
-            Input::Texels(part.steps.target()),
-        ];
+        let tested = inputs! {
+            geometry_tex: &inputs.gbuffer.geometry,
+            region_tex: &inputs.gbuffer.region,
+            edge_styles: inputs.edge_styles,
+            segment_tex: self.records.target(),
+            step_tex: part.steps.target(),
+        };
         // Where the recorder's gate is shut nobody counts any.
         for counted in [&self.kept, &self.found] {
             rec.encoder.copy_buffer_to_buffer(&self.none, 0, counted, 0, None);
         }
-        let keeping = [Input::Written(&self.kept), Input::Written(self.kept_steps.buffer())];
-        let mut sifting = [&tested[..], &keeping].concat();
+        let sifting = inputs! {
+            keeping: &self.kept,
+            keeping_steps: self.kept_steps.buffer(),
+            place_tex: part.places.as_ref(),
+            seen_tex: seen.map(|seen| &seen.before),
+        };
         let (mut sift, mut sift_switches) = ("cs_sift", switches.clone());
-        if let Some(places) = &part.places {
-            // Unread where all are drawn.
-            let before = seen.map_or(&inputs.gbuffer.region, |seen| &seen.before);
-            sifting.extend([Input::Texels(places), Input::Texels(before)]);
+        if part.places.is_some() {
             sift = "cs_sift_layer";
             sift_switches.push(("WITHOUT_REPEATED", seen.is_some()));
         }
         rec.compute(
             "sift segments",
             program(sift, &sift_switches),
-            &sifting,
+            &sifting.and(&tested),
             [part.count.div_ceil(GROUP), 1],
         )?;
-        let found = [
-            Input::Storage(&self.kept),
-            Input::Storage(self.kept_steps.buffer()),
-            Input::Written(self.points.buffer()),
-            Input::Written(self.keys.buffer()),
-            Input::Written(&self.found),
-        ];
-        let looking = [&tested[..], &found].concat();
-        rec.compute("segments", program("cs_points", &switches), &looking, &self.kept)?;
+        let found = inputs! {
+            kept: &self.kept,
+            kept_steps: self.kept_steps.buffer(),
+            points: self.points.buffer(),
+            keys: self.keys.buffer(),
+            finding: &self.found,
+        };
+        rec.compute("segments", program("cs_points", &switches), &tested.and(&found), &self.kept)?;
         Ok(())
     }
 }

@@ -1,8 +1,7 @@
 //! The outline around selected objects, as a picture of its own that the window lays over the drawing.
 
 use super::resolve::FINAL;
-use crate::gpu::recorder::Input;
-use crate::gpu::{Program, Recorder, Target};
+use crate::gpu::{Program, Recorder, Target, inputs};
 use crate::render::RenderError;
 use crate::render::groups::object_id;
 use crate::scene::{NodeId, Scene};
@@ -31,7 +30,7 @@ pub fn selection(
     selected: &wgpu::Buffer,
 ) -> Result<Target, RenderError> {
     let out = rec.target("selection", FINAL)?;
-    let inputs = [Input::Texels(geometry), Input::Storage(selected)];
+    let inputs = inputs! { geometry_tex: geometry, selected: selected };
     rec.fullscreen("selection", Program::new("passes/selection.wgsl", "fs_main"), &inputs, &[&out], None)?;
     Ok(out)
 }

@@ -4,8 +4,7 @@ use encase::ShaderType;
 use glam::{DMat4, Mat4, Vec2};
 
 use super::gbuffer::GBuffer;
-use crate::gpu::recorder::Input;
-use crate::gpu::{ArrayBuffer, Gpu, Program, Recorder, Target};
+use crate::gpu::{ArrayBuffer, Gpu, Program, Recorder, Target, inputs};
 use crate::render::RenderError;
 use crate::render::light_view::LightView;
 use crate::render::lights::MAX_SHADOWS;
@@ -76,7 +75,9 @@ impl ShadowPass {
         maps: &[(&[LightView], &Target)],
         spread: f32,
     ) -> Result<Option<Target>, RenderError> {
-        let Some((_, first)) = maps.first() else { return Ok(None) };
+        if maps.is_empty() {
+            return Ok(None);
+        }
         let mut views: Vec<LightViewUniform> = Vec::new();
         let mut lights = Vec::new();
         for (seen, _) in maps {
@@ -87,8 +88,7 @@ impl ShadowPass {
         self.views.write(rec.gpu, &views);
         let mask = rec.target("shadow mask", MASK)?;
         let any_central = views.iter().any(|v| v.is_central == 1);
-        // A light that there is not is given any map.
-        let map = |i: usize| Input::Texture(maps.get(i).map_or(*first, |(_, map)| *map));
+        let map = |i: usize| maps.get(i).map(|(_, map)| *map);
         rec.fullscreen(
             "shadow",
             Program {
@@ -102,15 +102,15 @@ impl ShadowPass {
                     ("WITH_SOFT", spread > 0.0),
                 ],
             },
-            &[
-                Input::Texels(&gbuffer.geometry),
-                Input::Storage(self.lights.buffer()),
-                Input::Storage(self.views.buffer()),
-                map(0),
-                map(1),
-                map(2),
-                map(MAX_SHADOWS - 1),
-            ],
+            &inputs! {
+                geometry_tex: &gbuffer.geometry,
+                shadow_lights: self.lights.buffer(),
+                light_views: self.views.buffer(),
+                map_0: map(0),
+                map_1: map(1),
+                map_2: map(2),
+                map_3: map(MAX_SHADOWS - 1),
+            },
             &[&mask],
             Some(&gbuffer.depth),
         )?;

@@ -3,8 +3,7 @@
 use super::gbuffer::GBuffer;
 use super::resolve::FINAL;
 use crate::document::Show;
-use crate::gpu::recorder::Input;
-use crate::gpu::{Program, Recorder, Target};
+use crate::gpu::{Program, Recorder, Target, inputs};
 use crate::render::RenderError;
 
 /// Draws one buffer as the final image.
@@ -31,13 +30,13 @@ pub fn show(
         Show::C1Operator => "fs_c1_operator",
     };
     let image = rec.target("final image", FINAL)?;
-    let inputs = [
-        Input::Texels(&gbuffer.geometry),
-        Input::Texture(&gbuffer.region),
-        Input::Texture(&gbuffer.base_color),
-        Input::Texels(edge_map),
-        Input::Texture(operators),
-    ];
+    let inputs = inputs! {
+        geometry_tex: &gbuffer.geometry,
+        region_tex: &gbuffer.region,
+        base_color_tex: &gbuffer.base_color,
+        edge_map_tex: edge_map,
+        operators_tex: operators,
+    };
     rec.fullscreen("show", Program::new("passes/show.wgsl", entry_point), &inputs, &[&image], None)?;
     Ok(image)
 }

@@ -1,0 +1,400 @@
+//! Bindings by name: what a pass gives to a shader finds its place by the name of the shader's variable, and is checked against
+//! that variable's type. Bind group 1 of every shader is numbered by [`number`]; its variables carry no numbers in WGSL.
+
+use std::collections::HashMap;
+
+use wgpu::naga::valid::ModuleInfo;
+use wgpu::naga::{
+    AddressSpace, GlobalVariable, ImageClass, ImageDimension, Module, ResourceBinding, ScalarKind,
+    StorageAccess, StorageFormat, TypeInner,
+};
+
+use super::{Gpu, ShaderError, Target};
+
+/// The bind group of what a pass reads and writes.
+pub const INPUTS: u32 = 1;
+
+/// What a variable of a shader can stand for.
+#[derive(Clone, Copy)]
+pub enum Resource<'a> {
+    /// A texture as large as a picture, read or written as the shader says.
+    Target(&'a Target),
+    /// A uniform or storage buffer.
+    Buffer(&'a wgpu::Buffer),
+    /// Images of one size above each other, read through a sampler.
+    Layers(&'a wgpu::TextureView),
+    /// How they are read.
+    Sampler(&'a wgpu::Sampler),
+}
+
+impl<'a> From<&'a Target> for Resource<'a> {
+    fn from(target: &'a Target) -> Self {
+        Self::Target(target)
+    }
+}
+
+impl<'a> From<&'a wgpu::Buffer> for Resource<'a> {
+    fn from(buffer: &'a wgpu::Buffer) -> Self {
+        Self::Buffer(buffer)
+    }
+}
+
+impl<'a> From<&'a wgpu::TextureView> for Resource<'a> {
+    fn from(layers: &'a wgpu::TextureView) -> Self {
+        Self::Layers(layers)
+    }
+}
+
+impl<'a> From<&'a wgpu::Sampler> for Resource<'a> {
+    fn from(sampler: &'a wgpu::Sampler) -> Self {
+        Self::Sampler(sampler)
+    }
+}
+
+/// A resource, or `None` of one: an input that there is not.
+pub trait IntoInput<'a> {
+    /// The resource, if there is one.
+    fn into_input(self) -> Option<Resource<'a>>;
+}
+
+impl<'a, R: Into<Resource<'a>>> IntoInput<'a> for R {
+    fn into_input(self) -> Option<Resource<'a>> {
+        Some(self.into())
+    }
+}
+
+impl<'a, R: Into<Resource<'a>>> IntoInput<'a> for Option<R> {
+    fn into_input(self) -> Option<Resource<'a>> {
+        self.map(Into::into)
+    }
+}
+
+/// What a pass reads and writes, by the names of the shader's variables. Made by [`crate::gpu::inputs!`]. What is `None` is
+/// replaced by a placeholder, for shaders that do not read it by the switches they are run with.
+#[derive(Clone, Default)]
+pub struct Inputs<'a>(Vec<(&'static str, Option<Resource<'a>>)>);
+
+/// No inputs.
+pub static NOTHING: Inputs<'static> = Inputs(Vec::new());
+
+impl<'a> Inputs<'a> {
+    /// Adds one, in place of an earlier one of that name.
+    pub fn set(&mut self, name: &'static str, input: impl IntoInput<'a>) {
+        self.0.retain(|(known, _)| *known != name);
+        self.0.push((name, input.into_input()));
+    }
+
+    /// Adds others, in place of earlier ones of the same names.
+    pub fn extend(&mut self, others: &Self) {
+        for (name, input) in &others.0 {
+            self.set(name, *input);
+        }
+    }
+
+    /// These and others.
+    #[must_use]
+    pub fn and(mut self, others: &Self) -> Self {
+        self.extend(others);
+        self
+    }
+
+    fn find(&self, name: &str) -> Option<Option<Resource<'a>>> {
+        self.0.iter().find(|(known, _)| *known == name).map(|(_, input)| *input)
+    }
+}
+
+/// [`Inputs`] by name: `inputs! { geometry_tex: &gbuffer.geometry, seen_tex: seen }`.
+#[macro_export]
+macro_rules! inputs {
+    ($($name:ident: $value:expr),* $(,)?) => {{
+        #[allow(unused_mut, reason = "there may be none")]
+        let mut inputs = $crate::gpu::Inputs::default();
+        $(inputs.set(stringify!($name), $value);)*
+        inputs
+    }};
+}
+pub use inputs;
+
+/// A variable of a shader that a pass has to give something to.
+#[derive(Debug, Clone)]
+pub struct Binding {
+    name: String,
+    number: u32,
+    ty: wgpu::BindingType,
+}
+
+/// The bindings of group 1 of a shader.
+#[derive(Debug, Clone, Default)]
+pub struct Bindings {
+    /// All of them.
+    all: Vec<Binding>,
+    /// Which of them an entry point uses.
+    used: HashMap<String, Vec<usize>>,
+}
+
+/// Gives the resources of a module that have no number yet theirs in group 1.
+pub fn number(module: &mut Module) {
+    let is_resource = |variable: &GlobalVariable| {
+        matches!(variable.space, AddressSpace::Uniform | AddressSpace::Storage { .. } | AddressSpace::Handle)
+    };
+    let mut next = 0;
+    for (_, variable) in module.global_variables.iter_mut() {
+        if variable.binding.is_none() && is_resource(variable) {
+            variable.binding = Some(ResourceBinding { group: INPUTS, binding: next });
+            next += 1;
+        }
+    }
+}
+
+impl Bindings {
+    /// Those of a module with numbers.
+    ///
+    /// # Errors
+    /// The name of a variable of a kind that no pass can give.
+    pub fn of(module: &Module, info: &ModuleInfo) -> Result<Self, String> {
+        let mut bindings = Self::default();
+        let mut handles = Vec::new();
+        for (handle, variable) in module.global_variables.iter() {
+            let Some(place) = variable.binding.as_ref().filter(|place| place.group == INPUTS) else { continue };
+            let name = variable.name.clone().unwrap_or_default();
+            let inner = &module.types[variable.ty].inner;
+            let ty = type_of(variable, inner).ok_or_else(|| name.clone())?;
+            bindings.all.push(Binding { name, number: place.binding, ty });
+            handles.push(handle);
+        }
+        for (number, entry_point) in module.entry_points.iter().enumerate() {
+            let uses = info.get_entry_point(number);
+            let used = (0..).zip(&handles).filter(|(_, handle)| !uses[**handle].is_empty());
+            bindings.used.insert(entry_point.name.clone(), used.map(|(index, _)| index).collect());
+        }
+        Ok(bindings)
+    }
+
+    /// Those that an entry point uses, whatever its switches.
+    fn used_by(&self, entry_point: &str) -> impl Iterator<Item = &Binding> {
+        let used = self.used.get(entry_point).map_or(&[][..], Vec::as_slice);
+        used.iter().filter_map(|&index| self.all.get(index))
+    }
+
+    /// The layout of what an entry point uses.
+    pub fn layout(
+        &self,
+        gpu: &Gpu,
+        label: &str,
+        entry_point: &str,
+        visibility: wgpu::ShaderStages,
+    ) -> wgpu::BindGroupLayout {
+        let entries: Vec<_> = self
+            .used_by(entry_point)
+            .map(|binding| wgpu::BindGroupLayoutEntry {
+                binding: binding.number,
+                visibility,
+                ty: binding.ty,
+                count: None,
+            })
+            .collect();
+        gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some(label),
+            entries: &entries,
+        })
+    }
+
+    /// The bind group of what an entry point of `file` uses.
+    ///
+    /// # Errors
+    /// [`ShaderError::Input`]: one is missing, of another type, or there is no such variable.
+    pub fn group(
+        &self,
+        gpu: &Gpu,
+        placeholders: &mut Placeholders,
+        (file, entry_point): (&str, &str),
+        layout: &wgpu::BindGroupLayout,
+        inputs: &Inputs<'_>,
+    ) -> Result<wgpu::BindGroup, ShaderError> {
+        let wrong = |name: &str, problem: String| ShaderError::Input {
+            file: file.to_owned(),
+            entry_point: entry_point.to_owned(),
+            name: name.to_owned(),
+            problem,
+        };
+        if let Some((name, _)) = inputs.0.iter().find(|(name, _)| !self.all.iter().any(|b| b.name == *name)) {
+            return Err(wrong(name, "the shader has no such variable".to_owned()));
+        }
+        for binding in self.used_by(entry_point) {
+            match inputs.find(&binding.name) {
+                None => return Err(wrong(&binding.name, "nothing is given for it".to_owned())),
+                Some(None) => placeholders.make(gpu, binding.ty),
+                Some(Some(resource)) => {
+                    if let Some(problem) = mismatch(binding.ty, resource) {
+                        return Err(wrong(&binding.name, problem));
+                    }
+                }
+            }
+        }
+        let placeholders = &*placeholders;
+        let entries: Vec<_> = self
+            .used_by(entry_point)
+            .filter_map(|binding| {
+                let resource = match inputs.find(&binding.name)? {
+                    Some(Resource::Target(target)) => wgpu::BindingResource::TextureView(target.view()),
+                    Some(Resource::Buffer(buffer)) => buffer.as_entire_binding(),
+                    Some(Resource::Layers(view)) => wgpu::BindingResource::TextureView(view),
+                    Some(Resource::Sampler(sampler)) => wgpu::BindingResource::Sampler(sampler),
+                    None => placeholders.find(binding.ty)?,
+                };
+                Some(wgpu::BindGroupEntry { binding: binding.number, resource })
+            })
+            .collect();
+        Ok(gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some(file),
+            layout,
+            entries: &entries,
+        }))
+    }
+}
+
+/// What a variable is bound as; `None`: as nothing that a pass can give.
+fn type_of(variable: &GlobalVariable, inner: &TypeInner) -> Option<wgpu::BindingType> {
+    let buffer = |ty| wgpu::BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: None };
+    Some(match (variable.space, inner) {
+        (AddressSpace::Uniform, _) => buffer(wgpu::BufferBindingType::Uniform),
+        (AddressSpace::Storage { access }, _) => buffer(wgpu::BufferBindingType::Storage {
+            read_only: !access.contains(StorageAccess::STORE),
+        }),
+        (_, TypeInner::Sampler { comparison: false }) => {
+            wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering)
+        }
+        (_, TypeInner::Image { dim: ImageDimension::D2, arrayed, class }) => {
+            image_type(*class, *arrayed)?
+        }
+        _ => return None,
+    })
+}
+
+fn image_type(class: ImageClass, arrayed: bool) -> Option<wgpu::BindingType> {
+    let view_dimension =
+        if arrayed { wgpu::TextureViewDimension::D2Array } else { wgpu::TextureViewDimension::D2 };
+    let sampled = |sample_type| wgpu::BindingType::Texture { sample_type, view_dimension, multisampled: false };
+    Some(match class {
+        // Arrays are read through samplers, other textures texel by texel.
+        ImageClass::Sampled { kind: ScalarKind::Float, multi: false } => {
+            sampled(wgpu::TextureSampleType::Float { filterable: arrayed })
+        }
+        ImageClass::Sampled { kind: ScalarKind::Uint, multi: false } => sampled(wgpu::TextureSampleType::Uint),
+        ImageClass::Depth { multi: false } => sampled(wgpu::TextureSampleType::Depth),
+        ImageClass::Storage { format, access } => wgpu::BindingType::StorageTexture {
+            access: match (access.contains(StorageAccess::LOAD), access.contains(StorageAccess::STORE)) {
+                (true, true) => wgpu::StorageTextureAccess::ReadWrite,
+                (true, false) => wgpu::StorageTextureAccess::ReadOnly,
+                _ => wgpu::StorageTextureAccess::WriteOnly,
+            },
+            format: match format {
+                StorageFormat::R32Uint => wgpu::TextureFormat::R32Uint,
+                StorageFormat::Rg32Uint => wgpu::TextureFormat::Rg32Uint,
+                StorageFormat::Rgba32Uint => wgpu::TextureFormat::Rgba32Uint,
+                _ => return None,
+            },
+            view_dimension,
+        },
+        _ => return None,
+    })
+}
+
+/// What is wrong with a resource for a variable of this type.
+fn mismatch(ty: wgpu::BindingType, resource: Resource<'_>) -> Option<String> {
+    let (kind, fits) = match (ty, resource) {
+        (wgpu::BindingType::Texture { sample_type, view_dimension, .. }, Resource::Target(target)) => {
+            let own = target.format().sample_type(None, None);
+            let same = match sample_type {
+                wgpu::TextureSampleType::Float { .. } => {
+                    matches!(own, Some(wgpu::TextureSampleType::Float { .. }))
+                }
+                other => own == Some(other),
+            };
+            (format!("{:?}", target.format()), same && view_dimension == wgpu::TextureViewDimension::D2)
+        }
+        (wgpu::BindingType::StorageTexture { format, .. }, Resource::Target(target)) => {
+            (format!("{:?}", target.format()), format == target.format())
+        }
+        (wgpu::BindingType::Texture { view_dimension, .. }, Resource::Layers(_)) => {
+            ("an array of images".to_owned(), view_dimension == wgpu::TextureViewDimension::D2Array)
+        }
+        (wgpu::BindingType::Buffer { .. }, Resource::Buffer(_))
+        | (wgpu::BindingType::Sampler(_), Resource::Sampler(_)) => return None,
+        (_, Resource::Target(target)) => (format!("{:?}", target.format()), false),
+        (_, Resource::Buffer(_)) => ("a buffer".to_owned(), false),
+        (_, Resource::Layers(_)) => ("an array of images".to_owned(), false),
+        (_, Resource::Sampler(_)) => ("a sampler".to_owned(), false),
+    };
+    (!fits).then(|| format!("it is given {kind}, and has the type {ty:?}"))
+}
+
+/// What stands for inputs that there are not.
+#[derive(Clone, Default)]
+pub struct Placeholders(HashMap<wgpu::BindingType, Placeholder>);
+
+#[derive(Clone)]
+enum Placeholder {
+    Texture(wgpu::TextureView),
+    Buffer(wgpu::Buffer),
+    Sampler(wgpu::Sampler),
+}
+
+/// More bytes than any struct or array element of a shader has.
+const PLACEHOLDER_BYTES: u64 = 1 << 14;
+
+impl Placeholders {
+    fn make(&mut self, gpu: &Gpu, ty: wgpu::BindingType) {
+        self.0.entry(ty).or_insert_with(|| placeholder(gpu, ty));
+    }
+
+    fn find(&self, ty: wgpu::BindingType) -> Option<wgpu::BindingResource<'_>> {
+        Some(match self.0.get(&ty)? {
+            Placeholder::Texture(view) => wgpu::BindingResource::TextureView(view),
+            Placeholder::Buffer(buffer) => buffer.as_entire_binding(),
+            Placeholder::Sampler(sampler) => wgpu::BindingResource::Sampler(sampler),
+        })
+    }
+}
+
+fn placeholder(gpu: &Gpu, ty: wgpu::BindingType) -> Placeholder {
+    let texture = |format, usage, view_dimension| {
+        let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
+            label: Some("placeholder"),
+            size: wgpu::Extent3d { width: 1, height: 1, depth_or_array_layers: 1 },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format,
+            usage,
+            view_formats: &[],
+        });
+        let dimension = Some(view_dimension);
+        Placeholder::Texture(
+            texture.create_view(&wgpu::TextureViewDescriptor { dimension, ..Default::default() }),
+        )
+    };
+    match ty {
+        wgpu::BindingType::Texture { sample_type, view_dimension, .. } => {
+            let format = match sample_type {
+                wgpu::TextureSampleType::Uint => wgpu::TextureFormat::R32Uint,
+                wgpu::TextureSampleType::Sint => wgpu::TextureFormat::R32Sint,
+                wgpu::TextureSampleType::Depth => wgpu::TextureFormat::Depth32Float,
+                wgpu::TextureSampleType::Float { .. } => wgpu::TextureFormat::Rgba8Unorm,
+            };
+            texture(format, wgpu::TextureUsages::TEXTURE_BINDING, view_dimension)
+        }
+        wgpu::BindingType::StorageTexture { format, view_dimension, .. } => {
+            texture(format, wgpu::TextureUsages::STORAGE_BINDING, view_dimension)
+        }
+        wgpu::BindingType::Sampler(_) => {
+            Placeholder::Sampler(gpu.device.create_sampler(&wgpu::SamplerDescriptor::default()))
+        }
+        _ => Placeholder::Buffer(gpu.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("placeholder"),
+            size: PLACEHOLDER_BYTES,
+            usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::UNIFORM,
+            mapped_at_creation: false,
+        })),
+    }
+}
