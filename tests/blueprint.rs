@@ -16,8 +16,8 @@ use hachure::export::session::{Opened, initial_camera, open};
 use hachure::geometry::bvh::Bvh;
 use hachure::geometry::{Mesh, primitives};
 use hachure::import::Progress;
-use hachure::render::frame_uniform::View;
-use hachure::render::groups::object_id;
+use hachure::render::View;
+use hachure::render::base::ids::object_id;
 use hachure::scene::Scene;
 use hachure::style::Value;
 

@@ -77,7 +77,7 @@ fn reach_of(technique: &str, pixels: &[bool]) -> Vec<bool> {
 /// Per pixel, whether it is the node's.
 fn pixels_of(session: &mut Session, opened: &Opened, node: NodeId) -> Vec<bool> {
     let picture = session.draw(opened, [SIDE; 2], false).unwrap();
-    let object = hachure::render::groups::object_id(node);
+    let object = hachure::render::base::ids::object_id(node);
     surfels(session, &picture).iter().map(|s| s.object == object).collect()
 }
 

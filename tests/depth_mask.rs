@@ -15,9 +15,9 @@ use hachure::export::session::Opened;
 use hachure::geometry::bvh::Bvh;
 use hachure::geometry::{Mesh, primitives};
 use hachure::render::Picture;
-use hachure::render::frame_uniform::View;
-use hachure::render::groups::object_id;
-use hachure::render::passes::peel::{Peeled, PeelingEnd};
+use hachure::render::View;
+use hachure::render::base::ids::object_id;
+use hachure::render::{Peeled, PeelingEnd};
 
 type Object = (&'static str, Mesh, DMat4, [f32; 3]);
 

@@ -135,7 +135,7 @@ fn a_checkerboard_is_drawn_in_perspective() {
     let opened = drawing(&scene, EdgeClass::Texture, 0.9, 1.0);
     let spines = spines(&mut session, &opened, EdgeClass::Texture);
     // Every spine lies on a line of the board.
-    let view = hachure::render::frame_uniform::View::new(
+    let view = hachure::render::View::new(
         &opened.document.camera.unwrap(),
         &opened.scene.bounds(),
         glam::UVec2::splat(SIDE),
@@ -204,7 +204,7 @@ fn the_border_of_a_cast_shadow_is_one_smooth_line_and_the_terminator_has_none() 
     common::set(&mut opened, "light.shadows", "true");
     let found = spines(&mut session, &opened, EdgeClass::Shadow);
     let view =
-        hachure::render::frame_uniform::View::new(&camera, &opened.scene.bounds(), glam::UVec2::splat(SIDE));
+        hachure::render::View::new(&camera, &opened.scene.bounds(), glam::UVec2::splat(SIDE));
     let (mut worst, mut sum) = (0.0_f64, 0.0);
     for spine in &found {
         let through = view.unproject(spine.as_vec2(), 1.0) - camera.position;

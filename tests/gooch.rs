@@ -13,7 +13,7 @@ use glam::{DMat4, DVec3, EulerRot, Mat3, UVec2, Vec2, Vec3, vec2};
 use hachure::export::Session;
 use hachure::export::session::Opened;
 use hachure::geometry::{Bounds, primitives};
-use hachure::render::frame_uniform::View;
+use hachure::render::View;
 use hachure::scene::Scene;
 use hachure::style::Color;
 use image::RgbaImage;

@@ -13,7 +13,7 @@ use hachure::export::Session;
 use hachure::export::session::Opened;
 use hachure::geometry::bvh::Bvh;
 use hachure::geometry::{Mesh, primitives};
-use hachure::render::frame_uniform::View;
+use hachure::render::View;
 use hachure::scene::Scene;
 use hachure::style::Value;
 use image::{Rgba, RgbaImage};

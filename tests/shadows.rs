@@ -16,7 +16,7 @@ use hachure::geometry::bvh::Bvh;
 use hachure::geometry::primitives;
 use hachure::import::Progress;
 use hachure::render::Request;
-use hachure::render::frame_uniform::View;
+use hachure::render::View;
 use hachure::scene::{Camera, Light, LightKind, Scene};
 
 /// As in `shaders/passes/shadow.wgsl`: light that grazes a surface at less than this cosine lights nothing.

@@ -13,7 +13,7 @@ use glam::{DMat4, DVec3, UVec2, Vec2, Vec3, vec3};
 use hachure::export::Session;
 use hachure::export::session::Opened;
 use hachure::geometry::{Bounds, primitives};
-use hachure::render::frame_uniform::View;
+use hachure::render::View;
 use hachure::scene::{Images, Scene, Texture};
 use hachure::style::{Color, Value};
 use image::RgbaImage;

@@ -1,6 +1,7 @@
 // A depth layer of a blueprint as a depth sprite: lines over a fill, tested against the surfaces that are opaque (blueprints
 // paper, section 4.2).
 #import passes/lines.wgsl
+#import common/composition.wgsl
 #import common/depth_mask.wgsl
 #import common/ordered.wgsl
 #import common/peeled.wgsl
@@ -18,8 +19,6 @@ struct Blueprint {
     threshold: f32,
 }
 
-// The opaque surfaces, as `geometry_tex` has those of the layer.
-var surface_tex: texture_storage_2d<rgba32uint, read>;
 var<uniform> blueprint: Blueprint;
 var<uniform> peeled: Peeled;
 // Where nearer layers have lines; see passes/repeated.wgsl.
@@ -30,8 +29,6 @@ var<storage, read> mask: Masked;
 var region_tex: texture_storage_2d<r32uint, read>;
 var<storage, read> caps: array<Cap>;
 
-// Whether there are any opaque surfaces.
-override WITH_SURFACES: bool = true;
 // Whether any object has a cap.
 override WITH_CAPS: bool = false;
 // Whether what lies farther than the depth mask is left out.
@@ -57,18 +54,8 @@ fn is_beyond(depth: f32) -> bool {
     return WITHOUT_BEYOND && mask.pixels != 0u && depth > unordered(mask.farthest);
 }
 
-fn surface_at(px: vec2<i32>) -> Surfel {
-    if !WITH_SURFACES {
-        return unpack_surfel(vec4(0u));
-    }
-    return unpack_surfel(textureLoad(surface_tex, px));
-}
-
 // Lines reach over the interior of their layer and beyond it: their depth is that of their spine.
-@fragment
-fn fs_lines(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
-    let px = vec2<i32>(position.xy);
-    let line = lines_at(px, surface_at(px));
+fn ink_of(px: vec2<i32>, line: Line) -> vec4<f32> {
     if WITH_PAPER && WITHOUT_REPEATED && textureLoad(seen_tex, px, 0).x != 0u {
         return vec4(0.0);
     }
@@ -82,28 +69,53 @@ fn fs_lines(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
         }
         ink *= min(1.0 / line.strength, 1.0 / max(ink.a, 1e-6));
     }
-    return vec4(mix(ink.rgb, blueprint.far * ink.a, faded(line.depth)), ink.a);
+    let color = vec4(mix(ink.rgb, blueprint.far * ink.a, faded(line.depth)), ink.a);
+    return beneath_opaque_ink(px, line.depth, color);
 }
 
 @fragment
-fn fs_fill(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
+fn fs_lines(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     let px = vec2<i32>(position.xy);
+    return ink_of(px, lines_at(px, surface_at(px)));
+}
+
+@fragment
+fn fs_lines_placed(@builtin(position) position: vec4<f32>) -> @location(0) vec4<u32> {
+    let px = vec2<i32>(position.xy);
+    let line = lines_at(px, surface_at(px));
+    return pack_placed(ink_of(px, line), line.depth);
+}
+
+fn fill_of(px: vec2<i32>, layer: Surfel) -> vec4<f32> {
     let surface = surface_at(px);
-    let layer = unpack_surfel(geometry_at(px));
     let is_hidden = surface.object != 0u && surface.depth < layer.depth;
     if is_hidden || is_beyond(layer.depth) {
         discard;
     }
     let fill = vec4(blueprint.fill, 1.0) * blueprint.opacity;
     if !WITH_CAPS {
-        return fill;
+        return beneath_opaque_ink(px, layer.depth, fill);
     }
     let region = textureLoad(region_tex, px).x;
     if caps[layer.object].region == 0u || region != caps[layer.object].region {
-        return fill;
+        return beneath_opaque_ink(px, layer.depth, fill);
     }
     let cap = caps[layer.object];
     let ink = select(hatched_share(cap, px), 1.0, cap.width <= 0.0);
     let near = edge_styles[layer.object].lines[SECTION - 1u].color;
-    return over(vec4(mix(near, blueprint.far, faded(layer.depth)), 1.0) * ink, fill);
+    let hatched = over(vec4(mix(near, blueprint.far, faded(layer.depth)), 1.0) * ink, fill);
+    return beneath_opaque_ink(px, layer.depth, hatched);
+}
+
+@fragment
+fn fs_fill(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
+    let px = vec2<i32>(position.xy);
+    return fill_of(px, unpack_surfel(geometry_at(px)));
+}
+
+@fragment
+fn fs_fill_placed(@builtin(position) position: vec4<f32>) -> @location(0) vec4<u32> {
+    let px = vec2<i32>(position.xy);
+    let layer = unpack_surfel(geometry_at(px));
+    return pack_placed(fill_of(px, layer), layer.depth);
 }

@@ -8,7 +8,10 @@
 const SHADE: f32 = 0.7;
 const TERMINATOR: f32 = 0.25;
 
-// Whether any object has stripes.
+const GOOCH: u32 = 3u;
+
+// Whether any object is drawn in this way, and whether any has stripes.
+override WITH_GOOCH: bool = true;
 override WITH_METAL: bool = true;
 
 // Twin: `GoochUniform` in src/render/effects/gooch.rs.
@@ -29,6 +32,9 @@ struct GoochStyle {
     stripes: f32,
     is_of_view: u32,
 }
+
+// By object id.
+var<storage, read> gooch_styles: array<GoochStyle>;
 
 const TAU: f32 = 6.28318530718;
 
@@ -117,7 +123,8 @@ fn metallic(px: vec2<i32>, s: Surfel, style: GoochStyle, shade: vec3<f32>, light
 }
 
 // cool + alpha · base to warm + beta · base by (1 + n·l) / 2, and a Phong highlight, with the first light as the key.
-fn gooch(px: vec2<i32>, s: Surfel, style: GoochStyle, base: vec3<f32>, pos_view: vec3<f32>) -> vec3<f32> {
+fn gooch(px: vec2<i32>, s: Surfel, base: vec3<f32>, pos_view: vec3<f32>) -> vec3<f32> {
+    let style = gooch_styles[s.object];
     let l = towards_light(frame.lights[0], pos_view);
     let cool = min(style.cool + style.alpha * base, vec3(1.0));
     let warm = min(style.warm + style.beta * base, vec3(1.0));

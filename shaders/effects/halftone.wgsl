@@ -4,6 +4,8 @@
 #import common/gbuffer.wgsl
 #import common/light.wgsl
 
+const HALFTONE: u32 = 5u;
+
 const SCREEN: u32 = 1u;
 const TRIPLANAR: u32 = 2u;
 const UV: u32 = 3u;

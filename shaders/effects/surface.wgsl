@@ -7,26 +7,23 @@
 #import effects/halftone.wgsl
 #import effects/toon.wgsl
 
+// In the order of `Technique` in src/style/mod.rs, as those of the techniques with files of their own.
 const BLANK: u32 = 0u;
 const PLAIN: u32 = 1u;
 const UNLIT: u32 = 2u;
-const GOOCH: u32 = 3u;
-const TOON: u32 = 4u;
-const HALFTONE: u32 = 5u;
-const DESIGNATED: u32 = 6u;
+// Only what is designated among blueprints is a surface.
+const BLUEPRINT: u32 = 6u;
 
 // A surface seen edge on has this share of its highlight colour: it is lit from the eye.
 const HIGHLIGHT_RIM: f32 = 0.55;
 
-// Which techniques any object uses.
+// Whether any object is drawn so.
 override WITH_PLAIN: bool = true;
-override WITH_GOOCH: bool = true;
 // Whether surfaces are as opaque as their materials.
 override WITH_OPACITY: bool = false;
 
 // Twin: `SurfaceUniform` in src/render/effects/surface.rs.
 struct SurfaceStyle {
-    gooch: GoochStyle,
     // Linear colour of what stands out among blueprints.
     highlight: vec3<f32>,
     ambient: f32,
@@ -44,22 +41,22 @@ fn fs_main(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     var color = vec4(0.0);
     if (texel.w & ~ENHANCED) != 0u {
         let s = unpack_surfel(texel);
-        let style = surface_styles[s.object];
-        if style.technique != BLANK {
+        let technique = surface_styles[s.object].technique;
+        if technique != BLANK {
             let base_color = textureLoad(base_color_tex, px, 0);
             let base = base_color.rgb;
             let pos_view = pos_view_of(px, s.depth);
             var shade = base;
-            if WITH_GOOCH && style.technique == GOOCH {
-                shade = gooch(px, s, style.gooch, base, pos_view);
-            } else if WITH_PLAIN && style.technique == PLAIN {
-                shade = base * (style.ambient + light_at(px, s.normal, pos_view));
-            } else if WITH_TOON && style.technique == TOON {
+            if WITH_GOOCH && technique == GOOCH {
+                shade = gooch(px, s, base, pos_view);
+            } else if WITH_PLAIN && technique == PLAIN {
+                shade = base * (surface_styles[s.object].ambient + light_at(px, s.normal, pos_view));
+            } else if WITH_TOON && technique == TOON {
                 shade = toon(px, s, base);
-            } else if WITH_HALFTONE && style.technique == HALFTONE {
+            } else if WITH_HALFTONE && technique == HALFTONE {
                 shade = halftone(px, s, base, pos_view);
-            } else if style.technique == DESIGNATED {
-                shade = style.highlight * mix(HIGHLIGHT_RIM, 1.0, max(dot(s.normal, towards_eye(pos_view)), 0.0));
+            } else if technique == BLUEPRINT {
+                shade = surface_styles[s.object].highlight * mix(HIGHLIGHT_RIM, 1.0, max(dot(s.normal, towards_eye(pos_view)), 0.0));
             }
             color = vec4(shade, 1.0) * select(1.0, base_color.a, WITH_OPACITY);
         }

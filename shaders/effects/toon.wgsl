@@ -5,6 +5,8 @@
 #import common/light.wgsl
 #import common/same_surface.wgsl
 
+const TOON: u32 = 4u;
+
 const NEAREST: u32 = 1u;
 const CARTOON_MAP: u32 = 2u;
 const ANALYTIC: u32 = 3u;

@@ -7,6 +7,7 @@
 #import common/edge_style.wgsl
 #import common/coverage.wgsl
 #import common/neighbours.wgsl
+#import common/placed.wgsl
 
 // Whether any object is drawn in paper or exact mode, whether widths differ, whether anything is dashed, and whether a
 // line takes its colour from the surface.
@@ -248,4 +249,12 @@ fn lines_at(px: vec2<i32>, g: Surfel) -> Line {
 fn fs_main(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     let px = vec2<i32>(position.xy);
     return lines_at(px, unpack_surfel(geometry_at(px))).ink;
+}
+
+// The same with the depth of the edge.
+@fragment
+fn fs_placed(@builtin(position) position: vec4<f32>) -> @location(0) vec4<u32> {
+    let px = vec2<i32>(position.xy);
+    let line = lines_at(px, unpack_surfel(geometry_at(px)));
+    return pack_placed(line.ink, line.depth);
 }

@@ -72,7 +72,7 @@ impl Viewer {
             let work = move |progress: &Progress| {
                 let cache = cache.read(&uses, progress)?;
                 let images = render::StyleImages::new(cache.images()).knowing(&known);
-                images.prepare(&uses);
+                render::prepare_images(&images, &uses);
                 Ok((cache, images))
             };
             self.jobs.images = Some(Job::start("reading images", context, work));

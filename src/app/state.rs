@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 
 use crate::document::Document;
-use crate::render::sample::MAX_SAMPLES;
+use crate::render::MAX_SAMPLES;
 use crate::scene::Up;
 
 /// How many files are remembered.

@@ -15,7 +15,7 @@ use super::refining::Refining;
 use super::screenshot::Shot;
 use crate::document::Document;
 use crate::gpu::{Gpu, Target};
-use crate::render::passes::peel::Peeled;
+use crate::render::Peeled;
 use crate::render::{
     GpuScene, LayersBy, Pick, RenderError, Renderer, Reported, Request, StyleImages, UploadedTopology,
     Uploader,

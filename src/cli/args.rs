@@ -8,7 +8,7 @@ use glam::DVec3;
 use strum::VariantNames as _;
 
 use crate::document::section::Axis;
-use crate::render::sample::MAX_SAMPLES;
+use crate::render::MAX_SAMPLES;
 use crate::scene::{Standard, Unit, Up};
 use crate::style::{Color, Value};
 

@@ -15,7 +15,7 @@ use crate::geometry::primitives;
 use crate::gpu::Gpu;
 use crate::import::Progress;
 use crate::render::Request;
-use crate::render::passes::peel::MOST_LAYERS;
+use crate::render::MOST_LAYERS;
 use crate::scene::{Camera, Material, Node, Scene};
 use crate::style::halftone::{Mapping, Space};
 use crate::style::hidden::HiddenLayers;

@@ -4,7 +4,7 @@ use serde_json::{Value, json};
 
 use crate::document::LayersBy;
 use crate::render;
-use crate::render::passes::peel::Peeled;
+use crate::render::Peeled;
 
 /// Exactly how far each blueprint was peeled, and how its layers were made.
 pub(super) fn as_json(peeled: &[(Peeled, render::LayersBy)]) -> Value {

@@ -2,6 +2,8 @@
 //!
 //! Bind group 0 is the frame's uniform, group 1 what a pass reads and writes: see [`super::bindings`].
 
+use std::collections::BTreeMap;
+
 use super::bindings::INPUTS;
 use super::pipelines::{DepthRule, Pipelines, Program, RasterKey};
 use super::{Gate, Gpu, GpuError, Inputs, ShaderError, Target, TargetPool, Timers};
@@ -102,7 +104,12 @@ pub struct Recorder<'a> {
     pool: &'a mut TargetPool,
     timers: Option<&'a mut Timers>,
     size: [u32; 2],
+    intermediates: &'a mut Intermediates,
 }
+
+/// Textures that a picture was made of, by name, for whoever looks at them: those under names that are entered here are kept.
+/// A name may stand for several.
+pub type Intermediates = BTreeMap<&'static str, Vec<Target>>;
 
 impl<'a> Recorder<'a> {
     /// Begins a frame of `size` pixels.
@@ -113,10 +120,44 @@ impl<'a> Recorder<'a> {
         timers: Option<&'a mut Timers>,
         frame: wgpu::BindGroup,
         size: [u32; 2],
+        intermediates: &'a mut Intermediates,
     ) -> Self {
-        let encoder =
-            gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("frame") });
-        Self { gpu, pipelines, encoder, frame, part: None, gate: None, pool, timers, size }
+        let encoder = encoder(gpu);
+        Self { gpu, pipelines, encoder, frame, part: None, gate: None, pool, timers, size, intermediates }
+    }
+
+    /// Whether anybody looks at what has this name.
+    pub fn keeps(&self, name: &str) -> bool {
+        self.intermediates.contains_key(name)
+    }
+
+    /// Keeps a texture under a name, in place of an earlier one, if anybody looks at it; `None`: there is none.
+    pub fn note(&mut self, name: &str, target: Option<&Target>) {
+        if let Some(kept) = self.intermediates.get_mut(name) {
+            kept.clear();
+            kept.extend(target.cloned());
+        }
+    }
+
+    /// The same beside earlier ones.
+    pub fn note_another(&mut self, name: &str, target: &Target) {
+        if let Some(kept) = self.intermediates.get_mut(name) {
+            kept.push(target.clone());
+        }
+    }
+
+    /// Records something of which nobody looks at intermediate textures.
+    pub fn unwatched<T>(&mut self, record: impl FnOnce(&mut Self) -> T) -> T {
+        let watched = std::mem::take(self.intermediates);
+        let recorded = record(self);
+        *self.intermediates = watched;
+        recorded
+    }
+
+    /// Submits what has been recorded so far: what is written to buffers from here on is for what follows.
+    pub fn flush(&mut self) {
+        let recorded = std::mem::replace(&mut self.encoder, encoder(self.gpu));
+        self.gpu.queue.submit([recorded.finish()]);
     }
 
     /// Width and height of the picture in pixels.
@@ -307,6 +348,10 @@ impl<'a> Recorder<'a> {
         }
         self.gpu.queue.submit([self.encoder.finish()]);
     }
+}
+
+fn encoder(gpu: &Gpu) -> wgpu::CommandEncoder {
+    gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("frame") })
 }
 
 fn color_attachment(target: &Target, load: wgpu::LoadOp<wgpu::Color>) -> wgpu::RenderPassColorAttachment<'_> {

@@ -1,29 +1,24 @@
-//! THE FRAME: from a scene to the final image, in the order of the edge-enhancement paper's pipeline.
+//! THE FRAME: from a scene to the final image, in the order of the edge-enhancement paper's pipeline. A frame is groups; a group
+//! is layers; each layer has geometry, shade and ink; all of them are placed into one composition by depth.
 //!
 //! ```text
-//! shadow maps ─► drawing (G-buffer ─► edges ─► surfaces + lines) ─► mean of the samples ─► resolve ─► final image
+//! shadow maps ─► drawing: groups ─► layers (geometry) ─┬─► shade ─┬─► composition ─► mean of the samples ─► resolve ─► final image
+//!                                                     └─► ink ───┘
 //! ```
 
-use glam::{Vec2, Vec4};
-
-use super::RenderError;
+use super::base::error::RenderError;
+use super::base::sample::Sample;
+use super::base::scale_bar::ScaleBar;
 use super::drawing::{Drawing, DrawingInputs, Shared};
-use super::layers::Reported;
-use super::one_layer::OneLayer;
 use super::passes::accumulate::{Accumulation, Subject};
 use super::passes::front::Front;
-use super::passes::gbuffer::GBuffer;
-use super::passes::operators::operators;
-use super::passes::peel::Layer;
-use super::passes::resolve::resolve;
-use super::passes::selection::{self, selection};
-use super::passes::show::show;
-use super::sample::Sample;
-use super::scale_bar::ScaleBar;
-use super::shadows::ShadowMaps;
-use super::stage::{Output, Stage};
+use super::passes::layers::Reported;
+use super::passes::resolve::Resolve;
+use super::passes::selection::Selection;
+use super::passes::shadows::{ShadowMap, ShadowMaps};
+use super::views::{View, Views};
 use crate::document::Show;
-use crate::gpu::{ArrayBuffer, Gpu, Recorder, Target};
+use crate::gpu::{Gpu, Recorder, Target};
 use crate::scene::NodeId;
 
 /// What one frame is to show.
@@ -32,9 +27,7 @@ pub struct FrameInputs<'a> {
     /// What is drawn, as the eye sees it; its sample is that of [`FrameState::next_sample`].
     pub drawing: DrawingInputs<'a>,
     /// The picture, or a buffer that it is made from.
-    pub show: Show,
-    /// Which depth layer such a buffer is of; 1: the nearest.
-    pub layer: u32,
+    pub view: View,
     /// Shown with the picture; `None`: none.
     pub scale_bar: Option<&'a ScaleBar>,
     /// Selected nodes; empty without a window.
@@ -52,25 +45,8 @@ pub struct Picture {
     pub sample: Sample,
     /// Outline of the selection, if anything is selected.
     pub selection: Option<Target>,
-    /// Per-pixel geometry of the surfaces, for tests.
-    pub gbuffer: GBuffer,
     /// What is in front, blueprints among it: for picking.
     pub front: Front,
-    /// Operators' values, if they were shown.
-    pub operators: Option<Target>,
-    /// See `shaders/common/edge_map.wgsl`; `None` when no object has lines.
-    pub edge_map: Option<Target>,
-    /// Channel i: how much of the light that throws shadows as number i reaches the pixel (1: all of it); `None` when
-    /// no light does.
-    pub shadow_mask: Option<Target>,
-    /// See `shaders/effects/toon.wgsl`; `None` when no object asks for it.
-    pub cartoon_map: Option<Target>,
-    /// See `shaders/passes/coordinates.wgsl`; `None` when no object asks for it.
-    pub coordinates: Option<Target>,
-    /// Reversed depth of the designated objects alone; `None` when no blueprint is peeled for them.
-    pub depth_mask: Option<Target>,
-    /// The layers of each blueprint, the farthest first; empty unless [`super::Renderer::keep_layers`] was called.
-    pub layers: Vec<Vec<Layer>>,
 }
 
 /// What lives across frames.
@@ -78,18 +54,13 @@ pub struct FrameState {
     shared: Shared,
     shadow_maps: ShadowMaps,
     drawing: Drawing,
-    one_layer: OneLayer,
-    operators: Stage<(u64, u32, Vec2), Target>,
+    views: Views,
     accumulation: Accumulation,
     /// What this one went on from: held, so that the other one's pool does not hand out its textures before they have
     /// been read.
     origin: Option<Accumulation>,
-    image: Stage<(u64, Show, [u64; 4], Vec4, Option<ScaleBar>), Target>,
-    scale_bar: ArrayBuffer,
-    /// The geometry of the picture's first sample: outlines do not follow the jitter.
-    unmoved: (u64, Vec<u64>),
-    selected: ArrayBuffer,
-    selection: Stage<((u64, Vec<u64>), Vec<u32>), Target>,
+    resolve: Resolve,
+    selection: Selection,
 }
 
 impl FrameState {
@@ -99,15 +70,11 @@ impl FrameState {
             shared: Shared::new(gpu),
             shadow_maps: ShadowMaps::new(gpu),
             drawing: Drawing::new(gpu, frame_layout),
-            one_layer: OneLayer::new(gpu),
-            operators: Stage::default(),
+            views: Views::new(gpu),
             accumulation: Accumulation::default(),
             origin: None,
-            image: Stage::default(),
-            scale_bar: ArrayBuffer::new(gpu, "scale bar"),
-            unmoved: (0, Vec::new()),
-            selected: ArrayBuffer::new(gpu, "selected"),
-            selection: Stage::default(),
+            resolve: Resolve::new(gpu),
+            selection: Selection::new(gpu),
         }
     }
 
@@ -133,9 +100,9 @@ impl FrameState {
 
     /// How often each stage has run, by name.
     pub fn runs(&self) -> Vec<(&'static str, u64)> {
-        let mut runs = self.drawing.runs().to_vec();
+        let mut runs = self.drawing.runs();
         runs.push(("shadow map", self.shadow_maps.runs()));
-        runs.push(("image", self.image.runs()));
+        runs.push(("image", self.resolve.runs() + self.views.runs()));
         runs
     }
 
@@ -160,122 +127,37 @@ impl FrameState {
         rec: &mut Recorder<'_>,
         inputs: &FrameInputs<'_>,
     ) -> Result<Picture, RenderError> {
-        let FrameInputs { drawing: eye, show: what, .. } = inputs;
-        let shaders = rec.pipelines.generation();
-        let shadow_maps = self.shadow_maps.run(rec, eye, &self.shared.gbuffer.material_layout)?;
-        let eye = &DrawingInputs { shadow_maps: &shadow_maps, ..*eye };
-        let begun = self.drawing.begin(rec, &mut self.shared, eye)?;
-        let edge_map = if *what != Show::Picture || eye.objects.surfaces.have_lines() {
-            Some(self.drawing.find_edges(rec, eye, &begun)?)
+        let FrameInputs { drawing: eye, view, scale_bar, selected } = *inputs;
+        let shadow_maps = self.draw_shadow_maps(rec, &eye)?;
+        let eye = DrawingInputs { shadow_maps: &shadow_maps, ..eye };
+        let (sample, background) = (eye.seen.sample, eye.seen.background);
+        let is_picture = view.show == Show::Picture;
+        let (image, front) = if is_picture {
+            self.views.forget();
+            let drawn = self.drawing.draw(rec, &mut self.shared, &eye)?;
+            let mean = self.accumulation.add(rec, sample, drawn.color)?;
+            (self.resolve.run(rec, &mean, background, scale_bar)?, drawn.front)
         } else {
-            self.drawing.forget_edges();
-            None
+            self.resolve.forget();
+            let viewed = self.views.draw(rec, &mut self.drawing, &mut self.shared, &eye, view)?;
+            (viewed.image, viewed.front)
         };
-        let is_deeper = *what != Show::Picture && inputs.layer > 1;
-        let deeper = if is_deeper {
-            let asked = (inputs.layer, begun.depth_range);
-            Some(self.one_layer.run(rec, &mut self.shared.gbuffer, eye, asked)?)
-        } else {
-            self.one_layer.forget();
-            None
-        };
-        let gbuffer = match &deeper {
-            Some(layer) => &Output { value: layer.value.0.clone(), revision: layer.revision },
-            None => &begun.gbuffer,
-        };
-        let operators = self.operators(rec, (*what, inputs.layer), gbuffer, begun.depth_range)?;
-
-        let (mut cartoon_map, mut coordinates, mut depth_mask, mut layers) = (None, None, None, Vec::new());
-        let mut fronts = (Vec::new(), Vec::new());
-        let image = if *what == Show::Picture {
-            let shaded = self.drawing.shade(rec, &mut self.shared, eye, &begun, edge_map.as_ref())?;
-            (cartoon_map, coordinates) = (shaded.cartoon_map, shaded.coordinates);
-            (depth_mask, layers, fronts) = (shaded.depth_mask, shaded.layers, shaded.fronts);
-            let color = self.accumulation.add(rec, eye.sample, shaded.color)?;
-            let asked =
-                (shaders, *what, [color.revision, 0, 0, 0], eye.background, inputs.scale_bar.cloned());
-            self.image.run(asked, |(.., bar)| {
-                let bar = bar.as_ref().and_then(ScaleBar::uniform);
-                if let Some(bar) = &bar {
-                    self.scale_bar.write(rec.gpu, bar);
-                }
-                resolve(rec, &color.value, (self.scale_bar.buffer(), bar.is_some()))
-            })?
-        } else {
-            self.drawing.forget_surfaces();
-            let revisions = [
-                u64::from(inputs.layer),
-                gbuffer.revision,
-                edge_map.as_ref().map_or(0, |e| e.revision),
-                operators.as_ref().map_or(0, |(revision, _)| *revision),
-            ];
-            // A shader that does not read these is given any texture of their kind.
-            let buffers = &gbuffer.value;
-            let visible = edge_map.as_ref().map_or(&buffers.geometry, |e| &e.value.edges);
-            let ink = deeper.as_ref().map_or(visible, |layer| &layer.value.1);
-            let values = operators.as_ref().map_or(&buffers.base_color, |(_, values)| values);
-            self.image.run((shaders, *what, revisions, Vec4::ZERO, None), |_| {
-                show(rec, *what, buffers, ink, values)
-            })?
-        };
-
-        let (revisions, layers_before) = fronts;
-        let front = Front { surfaces: begun.gbuffer.value.geometry.clone(), layers: layers_before };
-
-        Ok(Picture {
-            selection: self.outline(rec, inputs, &front, (begun.gbuffer.revision, revisions))?,
-            front,
-            image: image.value,
-            sample: eye.sample,
-            revision: image.revision,
-            gbuffer: begun.gbuffer.value,
-            operators: operators.map(|(_, values)| values),
-            edge_map: edge_map.map(|e| e.value.edges),
-            shadow_mask: begun.shadow_mask.map(|mask| mask.value),
-            cartoon_map,
-            coordinates,
-            depth_mask,
-            layers,
-        })
+        let (front, revisions) = front;
+        let selected = (selected, &*eye.seen.scene.scene);
+        let selection = self.selection.run(rec, (&front, revisions), selected, sample)?;
+        // Pictures and views count their revisions apart.
+        let revision = 2 * image.revision + u64::from(is_picture);
+        Ok(Picture { image: image.value, revision, sample, selection, front })
     }
 
-    fn operators(
+    fn draw_shadow_maps(
         &mut self,
         rec: &mut Recorder<'_>,
-        (what, layer): (Show, u32),
-        gbuffer: &Output<GBuffer>,
-        depth_range: Vec2,
-    ) -> Result<Option<(u64, Target)>, RenderError> {
-        if !matches!(what, Show::NormalOperator | Show::DepthOperator | Show::C1Operator) {
-            self.operators.clear();
-            return Ok(None);
-        }
-        let inputs = (gbuffer.revision, layer, depth_range);
-        let found =
-            self.operators.run(inputs, |_| operators(rec, &gbuffer.value, self.drawing.edge_styles()))?;
-        Ok(Some((found.revision, found.value)))
-    }
-
-    fn outline(
-        &mut self,
-        rec: &mut Recorder<'_>,
-        inputs: &FrameInputs<'_>,
-        front: &Front,
-        revisions: (u64, Vec<u64>),
-    ) -> Result<Option<Target>, RenderError> {
-        if inputs.selected.is_empty() {
-            self.selection.clear();
-            return Ok(None);
-        }
-        if inputs.drawing.sample.index == 0 {
-            self.unmoved = revisions;
-        }
-        let bits = selection::bits(inputs.selected, &inputs.drawing.scene.scene);
-        let outline = self.selection.run((self.unmoved.clone(), bits), |(_, bits)| {
-            self.selected.write(rec.gpu, bits);
-            let front = front.nearest(rec)?;
-            selection(rec, &front, self.selected.buffer())
-        })?;
-        Ok(Some(outline.value))
+        eye: &DrawingInputs<'_>,
+    ) -> Result<Vec<ShadowMap>, RenderError> {
+        let objects = eye.objects;
+        let fitted_to = objects.mirrors.is_empty().then_some(&objects.surfaces);
+        let groups = [&objects.surfaces, &objects.blended];
+        self.shadow_maps.run(rec, &eye.seen, &groups, fitted_to, &self.shared.gbuffer.material_layout)
     }
 }

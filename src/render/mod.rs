@@ -1,28 +1,22 @@
-//! One frame of one scene. Knows no window, no egui and no file.
+//! One frame of one scene. Knows no window, no egui and no file. Its floors, from top to bottom: the renderer, the frame, debug
+//! views, drawings, effects, passes, and what all of them share.
 
+pub mod base;
 pub mod drawing;
 pub mod effects;
 pub mod frame;
-pub mod frame_uniform;
-pub mod gpu_scene;
-pub mod groups;
-pub mod layers;
-pub mod light_view;
-pub mod lights;
-mod one_layer;
 pub mod passes;
 mod renderer;
-pub mod sample;
-pub mod scale_bar;
-pub mod section;
-mod segments;
-pub mod shadows;
-pub mod stage;
-mod style_images;
+pub mod views;
 
+pub use base::error::RenderError;
+pub use base::frame_uniform::View;
+pub use base::gpu_scene::{GpuScene, Origin, UploadedTopology, Uploader};
+pub use base::sample::{MAX_SAMPLES, Sample};
+pub use base::style_images::StyleImages;
+pub use effects::blueprint::LAYERS;
+pub use effects::techniques::prepare_images;
 pub use frame::Picture;
-pub use gpu_scene::{GpuScene, Origin, UploadedTopology, Uploader};
-pub use layers::{LayersBy, Reason, Reported};
-pub use renderer::{Pick, RenderError, Renderer, Request};
-pub use sample::Sample;
-pub use style_images::StyleImages;
+pub use passes::layers::{LayersBy, Reason, Reported};
+pub use passes::peel::{MOST_LAYERS, Peeled, PeelingEnd};
+pub use renderer::{Pick, Renderer, Request};

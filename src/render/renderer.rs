@@ -4,38 +4,29 @@ use std::sync::Arc;
 
 use glam::{DVec3, UVec2, Vec2};
 
+use super::base::error::RenderError;
+use super::base::frame_uniform::{REFERENCE_HEIGHT, View};
+use super::base::gpu_scene::{GpuScene, UploadedTopology, Uploader};
+use super::base::ids::node_of;
+use super::base::lights::Lights;
+use super::base::scale_bar::ScaleBar;
+use super::base::scene_view::SceneView;
+use super::base::style_images::StyleImages;
 use super::drawing::DrawingInputs;
+use super::drawing::objects::Objects;
 use super::frame::{FrameInputs, FrameState, Picture};
-use super::frame_uniform::View;
-use super::gpu_scene::{GpuScene, UploadedTopology, Uploader};
-use super::groups::{Objects, node_of};
-use super::layers::{LayersBy, Reported};
-use super::lights::Lights;
 use super::passes::accumulate::Subject;
+use super::passes::layers::{LayersBy, Reported};
 use super::passes::line_distance::BLOCK;
 use super::passes::peel::Peeled;
-use super::scale_bar::ScaleBar;
-use super::style_images::StyleImages;
+use super::views;
 use crate::document::{Document, Glyph};
 use crate::geometry::Topology;
 use crate::gpu::readback::Readback;
-use crate::gpu::{Gpu, GpuError, Pipelines, Recorder, ShaderError, Shaders, TargetPool, Timers};
+use crate::gpu::recorder::Intermediates;
+use crate::gpu::{Gpu, GpuError, Pipelines, Recorder, ShaderError, Shaders, Target, TargetPool, Timers};
 use crate::scene::{Addition, Camera, NodeId, Scene};
 use crate::style::{Color, Style};
-
-/// Height of the picture in reference pixels, in which widths and scales are given.
-pub(super) const REFERENCE_HEIGHT: f64 = 1080.0;
-
-/// Why there is no picture.
-#[derive(Debug, thiserror::Error)]
-pub enum RenderError {
-    /// The device cannot do it.
-    #[error(transparent)]
-    Gpu(#[from] GpuError),
-    /// A shader is missing.
-    #[error(transparent)]
-    Shader(#[from] ShaderError),
-}
 
 /// What to draw.
 #[derive(Clone, Copy)]
@@ -88,7 +79,7 @@ pub struct Renderer {
     last: Option<(Picture, View)>,
     pick: Option<PendingPick>,
     shader_error: Option<ShaderError>,
-    keeps_layers: bool,
+    intermediates: Intermediates,
     /// How often a picture turned out to be incomplete.
     incomplete: u64,
     /// Whether one did that nobody has been told of.
@@ -116,7 +107,7 @@ impl Renderer {
             last: None,
             pick: None,
             shader_error,
-            keeps_layers: false,
+            intermediates: Intermediates::new(),
             incomplete: 0,
             was_incomplete: false,
             is_settled: true,
@@ -229,9 +220,16 @@ impl Renderer {
         self.timers = Timers::new(&self.gpu);
     }
 
-    /// Keeps the layers of blueprints from now on, for a look at them; each takes memory.
-    pub fn keep_layers(&mut self) {
-        self.keeps_layers = true;
+    /// Keeps the textures that have a name from now on, among those that pictures are made of, for a look at them: `geometry`,
+    /// `regions`, `base color`, `depth` (see `passes/gbuffer.rs`), `edge map`, `shadow mask`, `cartoon map`, `coordinates`,
+    /// `operators`, `depth mask`, and of the layers of a blueprint [`crate::render::LAYERS`].
+    pub fn keep(&mut self, name: &'static str) {
+        self.intermediates.entry(name).or_default();
+    }
+
+    /// The textures of that name that the last picture was made of; none where it was made without.
+    pub fn kept(&self, name: &str) -> &[Target] {
+        self.intermediates.get(name).map_or(&[], Vec::as_slice)
     }
 
     /// How far peeling came in each blueprint of the last picture. Waits for it.
@@ -291,28 +289,37 @@ impl Renderer {
         let background = paper.extend(if request.transparent { 0.0 } else { 1.0 });
         let timers = self.timers.as_mut();
         let frame = self.state.drawing().frame_group().clone();
-        let mut recorder = Recorder::new(&self.gpu, &mut self.pipelines, &mut self.pool, timers, frame, size);
+        let mut recorder = Recorder::new(
+            &self.gpu,
+            &mut self.pipelines,
+            &mut self.pool,
+            timers,
+            frame,
+            size,
+            &mut self.intermediates,
+        );
         let lights = Lights::new(request.document, &scene.scene, &view.view_from_world);
         let metres = request.document.metres_per_unit(&scene.scene);
         let shows_bar = request.document.view.scale_bar;
         let bar = shows_bar.then(|| ScaleBar::new(request.camera, metres, size, scale, paper)).flatten();
         let inputs = FrameInputs {
             drawing: DrawingInputs {
-                scene,
-                scene_revision: self.scene_revision,
+                seen: SceneView {
+                    scene,
+                    scene_revision: self.scene_revision,
+                    view: &view,
+                    sample,
+                    lights: &lights,
+                    background,
+                    scale,
+                    crease_angle: request.document.view.crease_angle.to_radians(),
+                    layers_by: request.document.view.layers,
+                },
                 objects: &objects,
-                crease_angle: request.document.view.crease_angle.to_radians(),
-                lights: &lights,
                 shadow_maps: &[],
-                sample,
-                view: &view,
-                background,
-                keeps_layers: self.keeps_layers,
-                layers_by: request.document.view.layers,
                 reflections: request.document.view.reflections.round().clamp(0.0, 8.0) as u32,
             },
-            show: request.document.view.show,
-            layer: request.document.view.layer,
+            view: views::View { show: request.document.view.show, layer: request.document.view.layer },
             scale_bar: bar.as_ref(),
             selected: request.selected,
         };

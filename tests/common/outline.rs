@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3, UVec2};
 use hachure::export::session::Opened;
-use hachure::render::frame_uniform::View;
+use hachure::render::View;
 
 /// Area of a convex polygon within a unit pixel with its corner at `px`.
 pub fn coverage(polygon: &[DVec2], px: DVec2) -> f64 {

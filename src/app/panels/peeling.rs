@@ -6,7 +6,7 @@ use eframe::egui::{RichText, Ui};
 use super::row::capitalised;
 use super::status::grouped;
 use crate::render::LayersBy;
-use crate::render::passes::peel::Peeled;
+use crate::render::Peeled;
 
 /// The most that the list of layers is high, in points.
 const LIST_HEIGHT: f32 = 150.0;

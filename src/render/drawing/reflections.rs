@@ -2,9 +2,10 @@
 
 use super::{Drawing, DrawingInputs, Shared};
 use crate::gpu::{ArrayBuffer, Recorder, Target};
-use crate::render::RenderError;
+use crate::render::base::error::RenderError;
+use crate::render::base::scene_view::SceneView;
 use crate::render::effects::mirror::MirrorUniform;
-use crate::render::stage::Output;
+use crate::render::base::stage::Output;
 
 /// What a mirror shows.
 pub(super) struct Reflection {
@@ -34,7 +35,7 @@ impl Drawing {
         let margin = objects.greatest_radius();
         let seen: Vec<_> = mirrors
             .iter()
-            .filter_map(|m| Some((m, m.seen_from(inputs.view, &objects.visible_bounds, margin)?)))
+            .filter_map(|m| Some((m, m.seen_from(inputs.seen.view, &objects.visible_bounds, margin)?)))
             .collect();
         self.reflections.retain(|r| seen.iter().any(|(mirror, _)| mirror.object == r.object));
         if seen.is_empty() {
@@ -54,32 +55,20 @@ impl Drawing {
                 }
             };
             let Some(reflection) = self.reflections.get_mut(index) else { continue };
-            let inner =
-                DrawingInputs { view, reflections: inputs.reflections - 1, keeps_layers: false, ..*inputs };
+            let seen = SceneView { view, ..inputs.seen };
+            let inner = DrawingInputs { seen, reflections: inputs.reflections - 1, ..*inputs };
             let before = reflection.drawing.drawn();
-            let color = reflection.drawing.record(rec, shared, &inner)?;
+            // Whoever looks at what a picture is made of means that of the eye.
+            let color = rec.unwatched(|rec| reflection.drawing.draw(rec, shared, &inner))?.color;
             self.reflected += reflection.drawing.drawn() - before;
             reflected.push(Reflected { color, uniform: mirror.uniform(), index });
         }
-        self.look_through(rec, inputs.view);
+        self.look_through(rec, &inputs.seen);
         Ok(reflected)
     }
 
     /// How often it was drawn, with what is seen in its mirrors.
     fn drawn(&self) -> u64 {
-        self.surface.runs() + self.reflected
-    }
-
-    /// All of a drawing.
-    fn record(
-        &mut self,
-        rec: &mut Recorder<'_>,
-        shared: &mut Shared,
-        inputs: &DrawingInputs<'_>,
-    ) -> Result<Output<Target>, RenderError> {
-        let begun = self.begin(rec, shared, inputs)?;
-        let has_lines = inputs.objects.surfaces.have_lines();
-        let edge_map = if has_lines { Some(self.find_edges(rec, inputs, &begun)?) } else { None };
-        Ok(self.shade(rec, shared, inputs, &begun, edge_map.as_ref())?.color)
+        self.color.runs() + self.reflected
     }
 }

@@ -3,6 +3,10 @@
 use encase::ShaderType;
 use glam::{DMat4, DVec3, Vec3};
 
+use super::technique::{Styled, SurfaceTechnique};
+use crate::gpu::{ArrayBuffer, Gpu, Inputs};
+use crate::render::base::error::RenderError;
+use crate::style::Technique;
 use crate::style::gooch::{Gooch, MetalAxis};
 
 /// Twin of `GoochStyle` in `shaders/effects/gooch.wgsl`.
@@ -23,7 +27,7 @@ pub struct GoochUniform {
 
 impl GoochUniform {
     /// Of an object that lies at `world_from_local`.
-    pub fn new(gooch: &Gooch, world_from_local: &DMat4) -> Self {
+    fn new(gooch: &Gooch, world_from_local: &DMat4) -> Self {
         let [across, around] = directions(gooch.metal_axis, world_from_local);
         Self {
             cool: gooch.cool.to_linear(),
@@ -39,10 +43,47 @@ impl GoochUniform {
             is_of_view: u32::from(gooch.metal_axis == MetalAxis::View),
         }
     }
+}
 
-    /// Whether it has stripes.
-    pub fn has_metal(&self) -> bool {
-        self.metal > 0.0
+/// Gooch shading on the device.
+pub struct GoochShading {
+    styles: ArrayBuffer,
+}
+
+impl SurfaceTechnique for GoochShading {
+    /// By object id; empty when there are none.
+    type Styles = Vec<GoochUniform>;
+    type Shared = ();
+
+    fn shared(_gpu: &Gpu) {}
+
+    fn new(gpu: &Gpu) -> Self {
+        Self { styles: ArrayBuffer::new(gpu, "gooch styles") }
+    }
+
+    fn add(styles: &mut Self::Styles, object: &Styled<'_>) {
+        if object.style.technique == Technique::Gooch
+            && let Some(node) = object.scene.scene.nodes.get(object.node)
+            && let Some(entry) = object.entry(styles)
+        {
+            *entry = GoochUniform::new(&object.style.gooch, &node.world_from_local);
+        }
+    }
+
+    fn switches(styles: &Self::Styles) -> Vec<(&'static str, bool)> {
+        let has_metal = styles.iter().any(|style| style.metal > 0.0);
+        vec![("WITH_GOOCH", !styles.is_empty()), ("WITH_METAL", has_metal)]
+    }
+
+    fn upload(&mut self, (): &mut (), gpu: &Gpu, styles: &Self::Styles) -> Result<(), RenderError> {
+        if !styles.is_empty() {
+            self.styles.write(gpu, styles);
+        }
+        Ok(())
+    }
+
+    fn bind<'a>(&'a self, (): &'a (), inputs: &mut Inputs<'a>) {
+        inputs.set("gooch_styles", self.styles.buffer());
     }
 }
 

@@ -4,17 +4,23 @@ pub mod calibration;
 mod own_image;
 pub mod threshold_map;
 
+use std::path::Path;
 use std::sync::{Arc, OnceLock};
 
 use encase::ShaderType;
 use glam::{DMat4, DVec3, Mat4, Vec2, Vec3};
 
-use crate::gpu::{ArrayBuffer, Gpu, GpuError, Target};
-use crate::render::frame_uniform::View;
-use crate::render::gpu_scene::GpuScene;
-use crate::render::groups::node_of;
-use crate::render::style_images::StyleImages;
-use crate::style::Halftone;
+use super::technique::{Shaded, Styled, SurfaceTechnique};
+use crate::gpu::{ArrayBuffer, Gpu, GpuError, Inputs, Recorder, Target};
+use crate::render::base::error::RenderError;
+use crate::render::base::frame_uniform::View;
+use crate::render::base::gpu_scene::{GpuScene, Origin};
+use crate::render::base::ids::node_of;
+use crate::render::base::instances::DrawCall;
+use crate::render::base::stage::Stage;
+use crate::render::base::style_images::StyleImages;
+use crate::render::passes::coordinates::CoordinatesPass;
+use crate::style::Technique;
 use crate::style::halftone::{Mapping, Space, Texture};
 use threshold_map::{LAYERS, LEVELS, PERIODS, SIDE, ThresholdMap};
 
@@ -71,24 +77,18 @@ pub struct Halftones {
 }
 
 impl Halftones {
-    /// Adds the object `id` of `count`. `scale`: pixels per reference pixel.
-    pub fn add(
-        &mut self,
-        (count, id): (usize, usize),
-        style: &Halftone,
-        images: &StyleImages,
-        scale: f32,
-        has_uvs: bool,
-    ) {
-        let own = style.texture_image().and_then(|path| images.threshold_map(path));
+    /// Adds an object.
+    fn set(&mut self, object: &Styled<'_>) {
+        let (style, scale) = (&object.style.halftone, object.scale);
+        let has_uvs = object.scene.has_uvs(object.node);
+        let own = style.texture_image().and_then(|path| object.images.made(path, ThresholdMap::of_image));
         let map = own.map_or(Map::BuiltIn(style.texture), Map::Own);
         let map = self.maps.iter().position(|known| *known == map).unwrap_or_else(|| {
             self.maps.push(map);
             self.maps.len() - 1
         });
-        self.styles.resize(count, HalftoneUniform::default());
         let black = style.black.clamp(0.0, 1.0);
-        if let Some(slot) = self.styles.get_mut(id) {
+        if let Some(slot) = object.entry(&mut self.styles) {
             *slot = HalftoneUniform {
                 // Where it lies on the surface depends on the camera: see `placed`.
                 pattern_from_view: Mat4::IDENTITY,
@@ -116,18 +116,18 @@ impl Halftones {
     }
 
     /// Whether an object (by id, with or without flag) needs coordinates on its surface.
-    pub fn need_coordinates(&self, object: u32) -> bool {
+    fn need_coordinates(&self, object: u32) -> bool {
         let style = node_of(object).and_then(|node| self.styles.get(node + 1));
         style.is_some_and(|s| s.space == UV)
     }
 
-    /// The styles by object id, with the place of their patterns for a camera.
-    pub fn placed(&self, scene: &GpuScene, view: &View) -> Vec<HalftoneUniform> {
+    /// The same with the place of the patterns for a camera.
+    fn placed(&self, scene: &GpuScene, view: &View) -> Self {
         let placed = |(id, style): (usize, &HalftoneUniform)| {
             let place = (style.space == TRIPLANAR).then(|| pattern_from_view(scene, id, view)).flatten();
             HalftoneUniform { pattern_from_view: place.unwrap_or(Mat4::IDENTITY), ..*style }
         };
-        self.styles.iter().enumerate().map(placed).collect()
+        Self { styles: self.styles.iter().enumerate().map(placed).collect(), maps: self.maps.clone() }
     }
 }
 
@@ -146,28 +146,105 @@ fn pattern_from_view(scene: &GpuScene, id: usize, view: &View) -> Option<Mat4> {
     pattern.is_finite().then(|| pattern.as_mat4())
 }
 
-/// Which features of the shader any object uses; `styles` are those of all visible objects, or none.
-pub fn switches(styles: &[HalftoneUniform]) -> [(&'static str, bool); 4] {
-    let any = |space| styles.iter().any(|s| s.space == space);
-    [
-        ("WITH_HALFTONE", !styles.is_empty()),
-        ("WITH_SCREEN", any(SCREEN)),
-        ("WITH_TRIPLANAR", any(TRIPLANAR)),
-        ("WITH_UV", any(UV)),
-    ]
+/// What halftones of all cameras share.
+pub struct SharedHalftones {
+    maps: ThresholdMaps,
+    coordinates: CoordinatesPass,
 }
 
-/// What the surface pass is given for halftones.
-#[derive(Clone, Copy)]
-pub struct HalftoneInputs<'a> {
-    /// By object id; empty when there are none.
-    pub styles: &'a [HalftoneUniform],
-    /// `styles` on the device.
-    pub style_buffer: &'a wgpu::Buffer,
-    /// The textures of all objects.
-    pub maps: &'a ThresholdMaps,
-    /// See `shaders/passes/coordinates.wgsl`; `None` when no object asks for it.
-    pub coordinates: Option<&'a Target>,
+/// Halftones on the device.
+pub struct HalftoneShading {
+    styles: ArrayBuffer,
+    stage: Stage<(u64, Vec<DrawCall>), Target>,
+    /// Coordinates on the surfaces of the layer that is shaded; `None` when no object asks for them.
+    coordinates: Option<Target>,
+}
+
+impl SurfaceTechnique for HalftoneShading {
+    type Styles = Halftones;
+    type Shared = SharedHalftones;
+
+    fn shared(gpu: &Gpu) -> SharedHalftones {
+        SharedHalftones { maps: ThresholdMaps::new(gpu), coordinates: CoordinatesPass::default() }
+    }
+
+    fn new(gpu: &Gpu) -> Self {
+        Self { styles: ArrayBuffer::new(gpu, "halftone styles"), stage: Stage::default(), coordinates: None }
+    }
+
+    fn add(styles: &mut Halftones, object: &Styled<'_>) {
+        if object.style.technique == Technique::Halftone {
+            styles.set(object);
+        }
+    }
+
+    fn placed(styles: &Halftones, scene: &GpuScene, view: &View) -> Halftones {
+        styles.placed(scene, view)
+    }
+
+    fn prepare_image(images: &StyleImages, key: &str, path: &Path) {
+        if key == "halftone.image" {
+            images.made(path, ThresholdMap::of_image);
+        }
+    }
+
+    fn switches(halftones: &Halftones) -> Vec<(&'static str, bool)> {
+        let any = |space| halftones.styles.iter().any(|s| s.space == space);
+        vec![
+            ("WITH_HALFTONE", !halftones.styles.is_empty()),
+            ("WITH_SCREEN", any(SCREEN)),
+            ("WITH_TRIPLANAR", any(TRIPLANAR)),
+            ("WITH_UV", any(UV)),
+        ]
+    }
+
+    fn upload(
+        &mut self,
+        shared: &mut SharedHalftones,
+        gpu: &Gpu,
+        halftones: &Halftones,
+    ) -> Result<(), RenderError> {
+        if !halftones.styles.is_empty() {
+            self.styles.write(gpu, &halftones.styles);
+        }
+        Ok(shared.maps.prepare(gpu, halftones)?)
+    }
+
+    fn begin(
+        &mut self,
+        rec: &mut Recorder<'_>,
+        shared: &mut SharedHalftones,
+        halftones: &Halftones,
+        layer: &Shaded<'_>,
+    ) -> Result<(), RenderError> {
+        let asks = |call: &&DrawCall| {
+            let object = layer.draws.get(call.draw as usize).map(|draw| draw.object);
+            call.origin != Origin::Caps && object.is_some_and(|object| halftones.need_coordinates(object))
+        };
+        let calls: Vec<DrawCall> = layer.calls.iter().filter(asks).copied().collect();
+        let (scene, has_any) = (layer.seen.scene, !calls.is_empty());
+        let mut draw =
+            |calls: &[DrawCall]| shared.coordinates.run(rec, scene, layer.gbuffer, layer.instances, calls);
+        self.coordinates = match layer.revision {
+            Some(revision) if has_any => {
+                Some(self.stage.run((revision, calls), |(_, calls)| draw(calls))?.value)
+            }
+            None if has_any => Some(draw(&calls)?),
+            _ => None,
+        };
+        if layer.revision.is_some() {
+            rec.note("coordinates", self.coordinates.as_ref());
+        }
+        Ok(())
+    }
+
+    fn bind<'a>(&'a self, shared: &'a SharedHalftones, inputs: &mut Inputs<'a>) {
+        inputs.set("halftone_styles", self.styles.buffer());
+        inputs.set("thresholds", &shared.maps.thresholds);
+        inputs.set("threshold_sampler", &shared.maps.sampler);
+        inputs.set("calibration", shared.maps.calibration.buffer());
+        inputs.set("coordinates_tex", self.coordinates.as_ref());
+    }
 }
 
 /// A built-in texture, read when first asked for; strokes, where an image is missing. They are made by
@@ -250,21 +327,6 @@ impl ThresholdMaps {
         self.calibration.write(gpu, &calibration);
         self.uploaded.clone_from(&halftones.maps);
         Ok(())
-    }
-
-    /// All layers of all maps.
-    pub fn thresholds(&self) -> &wgpu::TextureView {
-        &self.thresholds
-    }
-
-    /// Reads them.
-    pub fn sampler(&self) -> &wgpu::Sampler {
-        &self.sampler
-    }
-
-    /// Thresholds for tones, one map after the other: see [`ThresholdMap::calibration`].
-    pub fn calibration(&self) -> &wgpu::Buffer {
-        self.calibration.buffer()
     }
 }
 

@@ -7,23 +7,20 @@
 //! visible edge map ──────────┘ no line twice
 //! ```
 
-use crate::document::LayersBy;
+use super::layered::{Layered, LayeredGroup, Visit, Wanted, WantedLines, least_pixels};
 use crate::gpu::recorder::Onto;
 use crate::gpu::{Gpu, Recorder, Target, inputs};
-use crate::render::RenderError;
-use crate::render::drawing::DrawingInputs;
-use crate::render::frame_uniform::FrameUniform;
-use crate::render::layers::{LayerInputs, LayerLines, LayerLinesInputs, Layers, Reported};
+use crate::render::base::edge_style::EdgeUniform;
+use crate::render::base::error::RenderError;
+use crate::render::base::frame_uniform::FrameUniform;
+use crate::render::base::group::Group;
+use crate::render::base::scene_view::SceneView;
+use crate::render::base::stage::{Output, Stage};
 use crate::render::passes::edge_map::EdgeMap;
-use crate::render::passes::edge_style::EdgeUniform;
-use crate::render::passes::gbuffer::GBufferPass;
-use crate::render::passes::instances::{DrawCall, Instance};
+use crate::render::passes::layers::Reported;
 use crate::render::passes::lines::{Pen, lines};
-use crate::render::passes::peel::{MOST_LAYERS, PeelCount};
-use crate::render::passes::repeated::seen_lines;
-use crate::render::passes::segments::Segments;
-use crate::render::segments::segments;
-use crate::render::stage::{Output, Stage};
+use crate::render::passes::peel::MOST_LAYERS;
+use crate::render::passes::traversal::GBufferPass;
 use crate::style;
 
 /// Which surfaces have hidden lines: nothing as long as none has.
@@ -81,52 +78,31 @@ impl Hidden {
         };
         lasts.into_iter().map(of).collect()
     }
-
-    /// A layer of fewer pixels ends them: an empty one at the latest.
-    fn least(&self, [width, height]: [u32; 2]) -> u32 {
-        let share = f64::from(self.least) / 100.0;
-        ((share * f64::from(width) * f64::from(height)).ceil() as u32).max(1)
-    }
 }
 
 /// What the picture of hidden lines depends on.
 #[derive(PartialEq)]
-struct Inputs {
-    shaders: u64,
-    scene_revision: u64,
+struct Key {
+    layered: LayeredGroup,
     hidden: Hidden,
     visible: Option<u64>,
-    draws: Vec<Instance>,
-    calls: Vec<DrawCall>,
-    uniform: FrameUniform,
-    part: Option<[u32; 4]>,
-    crease_angle: f32,
-    layers_by: LayersBy,
 }
 
 /// What of the drawing of hidden lines lives across frames.
 pub struct HiddenLines {
-    layers: Layers,
-    /// By band.
-    lines: Vec<LayerLines>,
-    segments: Segments,
-    stage: Stage<Inputs, Target>,
+    layered: Layered,
+    stage: Stage<Key, Target>,
 }
 
 impl HiddenLines {
     /// Nothing drawn yet.
     pub fn new(gpu: &Gpu) -> Self {
-        Self {
-            layers: Layers::new(gpu),
-            lines: Vec::new(),
-            segments: Segments::new(gpu),
-            stage: Stage::default(),
-        }
+        Self { layered: Layered::new(gpu), stage: Stage::default() }
     }
 
     /// What became of the last pictures; one that was incomplete is drawn again when it is asked for.
     pub fn take_reports(&mut self) -> Reported {
-        let reported = self.layers.take_reports();
+        let reported = self.layered.take_reports();
         if reported == Reported::Incomplete {
             self.stage.clear();
         }
@@ -138,11 +114,6 @@ impl HiddenLines {
         self.stage.runs()
     }
 
-    /// How far peeling came in the last picture; the visible layer counts.
-    pub fn count(&self) -> &PeelCount {
-        self.layers.count()
-    }
-
     /// The hidden lines of all surfaces: linear colour times opacity, and opacity. `visible`: the edges that are in sight.
     ///
     /// # Errors
@@ -151,82 +122,62 @@ impl HiddenLines {
         &mut self,
         rec: &mut Recorder<'_>,
         gbuffer_pass: &mut GBufferPass,
-        inputs: &DrawingInputs<'_>,
+        seen: &SceneView<'_>,
         uniform: &FrameUniform,
+        (surfaces, hidden): (&Group, &Hidden),
         visible: Option<&Output<EdgeMap>>,
     ) -> Result<Output<Target>, RenderError> {
-        let hidden = &inputs.objects.hidden;
-        let group = inputs.objects.surfaces.with_hidden_lines(&hidden.styles);
-        let (draws, calls) = group.draws(inputs.scene, inputs.view);
-        let asked = Inputs {
-            shaders: rec.pipelines.generation(),
-            scene_revision: inputs.scene_revision,
+        let group = surfaces.with_hidden_lines(&hidden.styles);
+        let asked = Key {
+            layered: LayeredGroup::new(rec, seen, uniform, group),
             hidden: hidden.clone(),
             visible: visible.map(|edges| edges.revision),
-            draws,
-            calls,
-            uniform: uniform.without_background(),
-            part: inputs.view.part,
-            crease_angle: inputs.crease_angle,
-            layers_by: inputs.layers_by,
         };
-        let Self { layers, lines: band_lines, segments: placed, stage } = self;
+        let Self { layered, stage } = self;
         stage.run(asked, |asked| {
             let bands = hidden.bands();
-            band_lines.resize_with(bands.len(), || LayerLines::new(rec.gpu));
-            for (lines, band) in band_lines.iter_mut().zip(&bands) {
-                lines.begin(rec.gpu, &band.styles);
-            }
-            let view = inputs.view.moved(glam::Vec2::ZERO);
-            placed.write(rec, &segments(inputs.scene, &group, &view, inputs.crease_angle), true)?;
             let color = rec.target("hidden lines", wgpu::TextureFormat::Rgba16Float)?;
             rec.clear("hidden lines", &[&color]);
-            let mut seen = match visible {
-                Some(edges) => Some(seen_lines(rec, &edges.value)?),
+            let visible = match visible {
+                Some(edges) => Some(edges.value.seen(rec)?),
                 None => None,
             };
             let any = |has: fn(&EdgeUniform) -> bool| bands.iter().any(|band| band.styles.iter().any(has));
-            let cut = LayerInputs {
-                scene: inputs.scene,
-                draws: &asked.draws,
-                calls: &asked.calls,
-                is_cut: inputs.view.has_cuts(),
+            let line_styles: Vec<_> = bands.iter().map(|band| &band.styles).collect();
+            let wanted = Wanted {
                 most: bands.last().map_or(0, |band| band.last) + 1,
-                least: hidden.least(rec.size()),
+                least: least_pixels(hidden.least, rec.size()),
                 mask: None,
-                fraction: 1.0,
-                by: inputs.layers_by,
+                by: None,
                 with_color: any(EdgeUniform::reads_color),
                 with_normals: any(EdgeUniform::reads_normals),
                 with_depth: false,
                 whole: if any(EdgeUniform::compares_geometry) { MOST_LAYERS } else { 0 },
+                line_styles: &line_styles,
+                seen: visible.as_ref(),
             };
             let mut before: Option<[Target; 2]> = None;
-            layers.each(rec, gbuffer_pass, &cut, |rec, number, layer, _| {
+            layered.walk(rec, gbuffer_pass, seen, &asked.layered, &wanted, |rec, mut visit: Visit<'_>| {
+                let number = visit.drawn.number;
+                let region = &visit.drawn.layer.gbuffer.region;
                 let regions = before.take();
-                let last = regions.as_ref().map_or(&layer.gbuffer.region, |[last, _]| last);
-                before = Some([layer.gbuffer.region.clone(), last.clone()]);
-                let band = bands.iter().zip(band_lines.iter_mut()).find(|(band, _)| band.last >= number);
+                let last = regions.as_ref().map_or(region, |[last, _]| last);
+                before = Some([region.clone(), last.clone()]);
                 // The nearest layer is in sight.
-                let Some((band, band_lines)) = band.filter(|_| number > 0) else { return Ok(()) };
-                let edges = LayerLinesInputs {
-                    styles: &band.styles,
-                    is_whole: false,
-                    segments: placed,
-                    has_holes: group.has_holes,
-                    is_cut: inputs.view.cut.is_some(),
-                    before: regions.as_ref().map(|[last, before_that]| [last, before_that]),
-                    repeated: false,
-                };
-                let found = band_lines.edges(rec, &edges, layer, &mut seen)?;
+                let band = bands.iter().position(|band| band.last >= number).filter(|_| number > 0);
+                let Some(style) = band else { return Ok(()) };
+                let before = regions.as_ref().map(|[last, before_that]| [last, before_that]);
+                let wanted = WantedLines { style, before, ..WantedLines::default() };
+                let Some(edges) = visit.edges(rec, wanted)? else { return Ok(()) };
+                let Some(drawn) = visit.lines(&edges, style) else { return Ok(()) };
                 let pen = Pen {
                     file: "effects/hidden.wgsl",
                     entry_point: "fs_lines",
-                    inputs: &inputs! { seen_tex: found.nearer.as_ref() },
+                    inputs: &inputs! { seen_tex: edges.nearer.as_ref() },
                     switches: &[],
                     onto: Onto::Beneath,
                 };
-                lines(rec, &found.lines(layer, band_lines, edges.styles), &pen, &color)
+                lines(rec, &drawn, &pen, &color)
             })?;
             Ok(color)
         })

@@ -2,13 +2,13 @@
 //! surface (edge-enhancement paper, section 5, Fig. 8). The paper's stencil is the G-buffer's object id.
 
 use encase::ShaderType;
-use glam::{DVec2, DVec3, UVec2, Vec3};
+use glam::{DVec3, Vec3};
 
 use crate::geometry::{Bounds, Plane};
 use crate::gpu::recorder::{Draw, Onto};
 use crate::gpu::{DepthRule, Program, Recorder, Target, inputs};
-use crate::render::RenderError;
-use crate::render::frame_uniform::View;
+use crate::render::base::error::RenderError;
+use crate::render::base::frame_uniform::View;
 use crate::render::passes::gbuffer::GBuffer;
 use crate::style;
 use crate::style::mirror::Side;
@@ -73,45 +73,10 @@ impl Mirror {
             Side::Back => lead < 0.0,
             Side::Both => lead != 0.0,
         };
-        let part = part_of(view, &self.corners, margin)?;
+        let part = view.part_of(&self.corners, margin)?;
         let facing = Plane { normal: self.plane.normal * lead.signum(), ..self.plane };
         is_seen.then(|| view.mirrored(&facing, visible, part))
     }
-}
-
-/// The part of the picture that a box covers at most, with a margin: left, top, right and bottom edge in pixels. `None`
-/// if it is empty. `corners`: world space, in the order of [`Bounds::corners`].
-pub fn part_of(view: &View, corners: &[DVec3; 8], margin: f32) -> Option<[u32; 4]> {
-    let projector = view.projector();
-    let [near, _] = view.clip_range;
-    let in_view = corners.map(|corner| view.view_from_world.transform_point3(corner));
-    let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
-    for (i, &from) in in_view.iter().enumerate() {
-        for to in [1, 2, 4].map(|bit| in_view[i ^ bit]) {
-            // Of each edge that begins before the near plane, its beginning, or where it ends there.
-            let (lead, other) = (-from.z - near, -to.z - near);
-            if !view.orthographic && lead < 0.0 {
-                continue;
-            }
-            let ends = !view.orthographic && other < 0.0;
-            let cut = if ends { from.lerp(to, lead / (lead - other)) } else { from };
-            for point in [from, cut] {
-                let px = projector.pixel(point);
-                (low, high) = (low.min(px), high.max(px));
-            }
-        }
-    }
-    let margin = f64::from(margin) + 2.0;
-    let (low, high) = (low - margin, high + margin);
-    let edge = |at: f64, size: u32| at.clamp(0.0, f64::from(size)) as u32;
-    let UVec2 { x: width, y: height } = view.size;
-    let part = [
-        edge(low.x.floor(), width),
-        edge(low.y.floor(), height),
-        edge(high.x.ceil(), width),
-        edge(high.y.ceil(), height),
-    ];
-    (part[0] < part[2] && part[1] < part[3]).then_some(part)
 }
 
 /// Lays what is seen in a mirror over its surface. `uniform`: an array of one [`MirrorUniform`].

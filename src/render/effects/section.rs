@@ -6,12 +6,12 @@ use glam::{DVec2, DVec3, Vec2, Vec3};
 use crate::document::section::Fill;
 use crate::gpu::recorder::{Draw, Onto};
 use crate::gpu::{DepthRule, Program, Recorder, Target, inputs};
-use crate::render::RenderError;
-use crate::render::frame_uniform::View;
-use crate::render::gpu_scene::GpuScene;
-use crate::render::groups::{object_id, region};
+use crate::render::base::error::RenderError;
+use crate::render::base::frame_uniform::View;
+use crate::render::base::gpu_scene::GpuScene;
+use crate::render::base::ids::{object_id, region};
 use crate::render::passes::gbuffer::GBuffer;
-use crate::render::section::Section;
+use crate::render::base::section::Section;
 
 /// How objects that touch each other are told apart: degrees by which the lines are turned, and how many times as far
 /// apart they are.

@@ -1,126 +1,158 @@
-//! The surface techniques (blank, plain, unlit, Gooch, toon, halftone), shaded from the G-buffer in one full-screen pass:
-//! the scene is traversed once, where the edge-enhancement paper's pipeline traverses it twice.
+//! Shading of a layer by the surface techniques, from its G-buffer in one full-screen pass: the scene is traversed once, where
+//! the edge-enhancement paper's pipeline traverses it twice. Opaque surfaces, what blends and whatever else has layers are
+//! shaded by this alone.
 
 use encase::ShaderType;
-use glam::{DMat4, Vec3};
+use glam::Vec3;
 
-use super::gooch::GoochUniform;
-use super::halftone::{self, HalftoneInputs};
-use super::section::section;
-use super::toon::{self, ToonBuffers, Toons};
-use crate::gpu::{Program, Recorder, Target, inputs};
-use crate::render::RenderError;
-use crate::render::passes::gbuffer::GBuffer;
+use super::section::{CapUniform, section};
+use super::technique::{Shaded, Styled};
+use super::techniques::{SharedTechniques, TechniqueStyles, Techniques};
+use crate::gpu::{ArrayBuffer, Gpu, Program, Recorder, Target, inputs};
+use crate::render::base::error::RenderError;
+use crate::render::base::scene_view::SceneView;
 use crate::style::{Style, Technique};
 
 /// Twin of `SurfaceStyle` in `shaders/effects/surface.wgsl`; by default paper only.
 #[derive(Debug, Clone, Copy, PartialEq, ShaderType, Default)]
 pub struct SurfaceUniform {
-    gooch: GoochUniform,
     highlight: Vec3,
     ambient: f32,
     technique: u32,
 }
 
-// As in `shaders/effects/surface.wgsl`.
-const BLANK: u32 = 0;
-const PLAIN: u32 = 1;
-const UNLIT: u32 = 2;
-const GOOCH: u32 = 3;
-const TOON: u32 = 4;
-const HALFTONE: u32 = 5;
-const DESIGNATED: u32 = 6;
-
 impl SurfaceUniform {
-    /// Of an object that lies at `world_from_local`.
-    pub fn new(style: &Style, world_from_local: &DMat4) -> Self {
+    fn new(style: &Style) -> Self {
         Self {
-            gooch: match style.technique {
-                Technique::Gooch => GoochUniform::new(&style.gooch, world_from_local),
-                _ => GoochUniform::default(),
-            },
             highlight: style.blueprint.highlight.to_linear(),
             ambient: style.plain.ambient.clamp(0.0, 1.0),
-            technique: match style.technique {
-                Technique::Blank => BLANK,
-                // Only what is designated is a surface.
-                Technique::Blueprint => DESIGNATED,
-                Technique::Plain => PLAIN,
-                Technique::Unlit => UNLIT,
-                Technique::Gooch => GOOCH,
-                Technique::Toon => TOON,
-                Technique::Halftone => HALFTONE,
-            },
+            // The shader's constants have the same order.
+            technique: style.technique as u32,
         }
     }
 }
 
-/// How all visible objects are shaded, and where the device has it.
-#[derive(Clone, Copy)]
-pub struct Shading<'a> {
+/// How all visible objects are shaded, by value.
+#[derive(Clone, PartialEq, Default)]
+pub struct SurfaceStyles {
     /// By object id.
-    pub surfaces: &'a [SurfaceUniform],
-    /// `surfaces` on the device.
-    pub surface_styles: &'a wgpu::Buffer,
-    /// Those that are toons.
-    pub toons: &'a Toons,
-    /// `toons` on the device.
-    pub toon_buffers: ToonBuffers<'a>,
-    /// See `shaders/common/light.wgsl`; `None` when no light throws shadows.
-    pub shadow_mask: Option<&'a Target>,
-    /// See [`toon::cartoon_map`]; `None` when no object asks for it.
-    pub cartoon_map: Option<&'a Target>,
-    /// What halftones need.
-    pub halftones: HalftoneInputs<'a>,
-    /// The caps of a section by object id; `None` when there are none.
-    pub caps: Option<&'a wgpu::Buffer>,
-    /// Whether materials blend: then colours are as opaque as they are.
-    pub blends: bool,
+    surfaces: Vec<SurfaceUniform>,
+    /// What their techniques ask for.
+    techniques: TechniqueStyles,
 }
 
-/// Linear colour times opacity, and opacity. Nothing where there is no object.
-///
-/// # Errors
-/// [`RenderError`].
-pub fn surface(
-    rec: &mut Recorder<'_>,
-    gbuffer: &GBuffer,
-    shading: &Shading<'_>,
-) -> Result<Target, RenderError> {
-    let color = rec.target("color", wgpu::TextureFormat::Rgba16Float)?;
-    let uses = |technique| shading.surfaces.iter().any(|s| s.technique == technique);
-    let mut switches = vec![
-        ("WITH_SHADOWS", shading.shadow_mask.is_some()),
-        ("WITH_OPACITY", shading.blends),
-        ("WITH_PLAIN", uses(PLAIN)),
-        ("WITH_GOOCH", uses(GOOCH)),
-        ("WITH_METAL", shading.surfaces.iter().any(|s| s.gooch.has_metal())),
-    ];
-    switches.extend(toon::switches(&shading.toons.styles));
-    switches.extend(halftone::switches(shading.halftones.styles));
-    rec.fullscreen(
-        "surface",
-        Program { file: "effects/surface.wgsl", entry_point: "fs_main", switches },
-        &inputs! {
+impl SurfaceStyles {
+    /// Nothing of a scene with so many object ids: what is not drawn, entry 0 (the background) included, is paper.
+    pub fn new(count: usize) -> Self {
+        Self { surfaces: vec![SurfaceUniform::default(); count], techniques: TechniqueStyles::default() }
+    }
+
+    /// Adds an object.
+    pub fn add(&mut self, object: &Styled<'_>) {
+        if let Some(surface) = object.entry(&mut self.surfaces) {
+            *surface = SurfaceUniform::new(object.style);
+        }
+        self.techniques.add(object);
+    }
+}
+
+/// Everything but the layer itself that shading depends on, for one camera.
+#[derive(Clone, PartialEq)]
+pub struct Look {
+    styles: SurfaceStyles,
+    /// The caps of a section by object id; empty when there are none.
+    caps: Vec<CapUniform>,
+}
+
+/// What of shading lives across frames, for one camera.
+pub struct Shading {
+    surfaces: ArrayBuffer,
+    caps: ArrayBuffer,
+    techniques: Techniques,
+}
+
+impl Shading {
+    /// Nothing drawn yet.
+    pub fn new(gpu: &Gpu) -> Self {
+        Self {
+            surfaces: ArrayBuffer::new(gpu, "surface styles"),
+            caps: ArrayBuffer::new(gpu, "caps"),
+            techniques: Techniques::new(gpu),
+        }
+    }
+
+    /// Names of the stages of techniques, and how often each has run.
+    pub fn runs(&self) -> Vec<(&'static str, u64)> {
+        self.techniques.runs()
+    }
+
+    /// Takes to the device what all layers of a picture read.
+    ///
+    /// # Errors
+    /// [`RenderError`].
+    pub fn upload(
+        &mut self,
+        shared: &mut SharedTechniques,
+        gpu: &Gpu,
+        look: &Look,
+    ) -> Result<(), RenderError> {
+        self.surfaces.write(gpu, &look.styles.surfaces);
+        if !look.caps.is_empty() {
+            self.caps.write(gpu, &look.caps);
+        }
+        self.techniques.upload(shared, gpu, &look.styles.techniques)
+    }
+
+    /// Shades a layer: linear colour times opacity, and opacity; nothing where there is no object. `by_opacity`: colours
+    /// are as opaque as the materials, otherwise fully.
+    ///
+    /// # Errors
+    /// [`RenderError`].
+    pub fn shade(
+        &mut self,
+        rec: &mut Recorder<'_>,
+        shared: &mut SharedTechniques,
+        look: &Look,
+        layer: &Shaded<'_>,
+        by_opacity: bool,
+    ) -> Result<Target, RenderError> {
+        let Look { styles: SurfaceStyles { surfaces, techniques }, caps } = look;
+        self.techniques.begin(rec, shared, techniques, layer)?;
+        let gbuffer = layer.gbuffer;
+        let color = rec.target("color", wgpu::TextureFormat::Rgba16Float)?;
+        let has_plain = surfaces.iter().any(|s| s.technique == Technique::Plain as u32);
+        let mut switches = vec![
+            ("WITH_SHADOWS", layer.shadow_mask.is_some()),
+            ("WITH_OPACITY", by_opacity),
+            ("WITH_PLAIN", has_plain),
+        ];
+        switches.extend(techniques.switches());
+        let mut inputs = inputs! {
             geometry_tex: &gbuffer.geometry,
             region_tex: &gbuffer.region,
             base_color_tex: &gbuffer.base_color,
-            shadow_mask_tex: shading.shadow_mask,
-            surface_styles: shading.surface_styles,
-            toon_styles: shading.toon_buffers.styles,
-            toon_bands: shading.toon_buffers.bands,
-            cartoon_map_tex: shading.cartoon_map,
-            halftone_styles: shading.halftones.style_buffer,
-            thresholds: shading.halftones.maps.thresholds(),
-            threshold_sampler: shading.halftones.maps.sampler(),
-            calibration: shading.halftones.maps.calibration(),
-            coordinates_tex: shading.halftones.coordinates,
-        },
-        &[&color],
-        Some(&gbuffer.depth),
-    )?;
-    if let Some(caps) = shading.caps {
-        section(rec, gbuffer, caps, &color)?;
+            shadow_mask_tex: layer.shadow_mask.map(|(mask, _)| mask),
+            surface_styles: self.surfaces.buffer(),
+        };
+        self.techniques.bind(shared, &mut inputs);
+        let program = Program { file: "effects/surface.wgsl", entry_point: "fs_main", switches };
+        rec.fullscreen("surface", program, &inputs, &[&color], Some(&gbuffer.depth))?;
+        if !caps.is_empty() {
+            section(rec, gbuffer, self.caps.buffer(), &color)?;
+        }
+        Ok(color)
     }
-    Ok(color)
+}
+
+impl Look {
+    /// The caps of a section by object id; empty when there are none.
+    pub fn caps(&self) -> &Vec<CapUniform> {
+        &self.caps
+    }
+
+    /// How objects of these styles look to a camera, with these caps.
+    pub fn new(styles: &SurfaceStyles, seen: &SceneView<'_>, caps: Vec<CapUniform>) -> Self {
+        let techniques = styles.techniques.placed(seen.scene, seen.view);
+        Self { styles: SurfaceStyles { surfaces: styles.surfaces.clone(), techniques }, caps }
+    }
 }

@@ -7,12 +7,16 @@
 use encase::ShaderType;
 use glam::{Vec3, Vec4};
 
-use crate::gpu::{Program, Recorder, Target, inputs};
-use crate::render::RenderError;
+use super::technique::{Shaded, Styled, SurfaceTechnique};
+use crate::gpu::{ArrayBuffer, Gpu, Inputs, Program, Recorder, Target, inputs};
+use crate::render::base::error::RenderError;
+use crate::render::base::frame_uniform::FrameUniform;
+use crate::render::base::stage::Stage;
+use crate::render::base::style_images::StyleImages;
 use crate::render::passes::gbuffer::GBuffer;
-use crate::render::style_images::StyleImages;
-use crate::style::Toon;
-use crate::style::toon::Border;
+use crate::scene::Texture;
+use crate::style::toon::{Border, MAX_RAMP};
+use crate::style::{Technique, Toon};
 
 /// 1 + band, 512: highlight, 1024: rim; 0 where no object asks for it.
 const BANDS: wgpu::TextureFormat = wgpu::TextureFormat::R16Uint;
@@ -83,6 +87,15 @@ pub struct Toons {
     ramps: Vec<PlacedRamp>,
 }
 
+/// An image as a ramp: linear colours along its longer side, from the left or the top, each the mean across the other side; at
+/// most [`MAX_RAMP`].
+struct Ramp(Vec<Vec4>);
+
+fn ramp(image: &Texture) -> Ramp {
+    let size = if image.width >= image.height { [MAX_RAMP, 1] } else { [1, MAX_RAMP] };
+    Ramp(image.averaged(size))
+}
+
 /// A ramp among [`Toons::bands`].
 #[derive(Debug, Clone, PartialEq)]
 struct PlacedRamp {
@@ -94,7 +107,7 @@ struct PlacedRamp {
 
 impl Toons {
     /// Makes one of `count` objects a toon.
-    pub fn set(&mut self, object: usize, count: usize, toon: &Toon, images: &StyleImages) {
+    fn set(&mut self, object: usize, count: usize, toon: &Toon, images: &StyleImages) {
         let known = self.ramps.iter().find(|known| known.toon.has_ramp_of(toon));
         let [first_band, bands] = match known {
             Some(known) => [known.first_band, known.bands],
@@ -108,8 +121,8 @@ impl Toons {
 
     fn place_ramp(&mut self, toon: &Toon, images: &StyleImages) -> [u32; 2] {
         let first_band = self.bands.len() as u32;
-        match toon.ramp_image().and_then(|path| images.ramp(path)) {
-            Some(image) => self.bands.extend(image.iter()),
+        match toon.ramp_image().and_then(|path| images.made(path, ramp)) {
+            Some(ramp) => self.bands.extend(&ramp.0),
             None => self.bands.extend(toon.colors().iter().map(|color| color.to_linear().extend(1.0))),
         }
         let bands = self.bands.len() as u32 - first_band;
@@ -118,31 +131,104 @@ impl Toons {
     }
 }
 
-/// The toons on the device.
-#[derive(Clone, Copy)]
-pub struct ToonBuffers<'a> {
-    /// [`Toons::styles`].
-    pub styles: &'a wgpu::Buffer,
-    /// [`Toons::bands`].
-    pub bands: &'a wgpu::Buffer,
+/// Toon shading on the device.
+pub struct ToonShading {
+    styles: ArrayBuffer,
+    bands: ArrayBuffer,
+    cartoon_map: Stage<MapKey, Target>,
+    /// That of the layer that is shaded; `None` when no object asks for it.
+    map: Option<Target>,
 }
 
-/// Which features of the shader any object uses; `styles` are those of all visible objects, or none.
-pub fn switches(styles: &[ToonUniform]) -> [(&'static str, bool); 4] {
-    let any = |border| styles.iter().any(|s| s.border == border);
-    [
-        ("WITH_TOON", styles.iter().any(|s| s.border != 0)),
-        ("WITH_NEAREST", any(NEAREST)),
-        ("WITH_CARTOON_MAP", any(CARTOON_MAP)),
-        ("WITH_ANALYTIC", any(ANALYTIC)),
-    ]
+/// What the cartoon map of a layer depends on.
+#[derive(Clone, PartialEq)]
+struct MapKey {
+    gbuffer: u64,
+    shadows: Option<u64>,
+    toons: Toons,
+    uniform: FrameUniform,
+}
+
+impl SurfaceTechnique for ToonShading {
+    type Styles = Toons;
+    type Shared = ();
+
+    fn shared(_gpu: &Gpu) {}
+
+    fn new(gpu: &Gpu) -> Self {
+        Self {
+            styles: ArrayBuffer::new(gpu, "toon styles"),
+            bands: ArrayBuffer::new(gpu, "toon bands"),
+            cartoon_map: Stage::default(),
+            map: None,
+        }
+    }
+
+    fn add(styles: &mut Toons, object: &Styled<'_>) {
+        if object.style.technique == Technique::Toon {
+            styles.set(object.id, object.count, &object.style.toon, object.images);
+        }
+    }
+
+    fn switches(toons: &Toons) -> Vec<(&'static str, bool)> {
+        let any = |border| toons.styles.iter().any(|s| s.border == border);
+        vec![
+            ("WITH_TOON", toons.styles.iter().any(|s| s.border != 0)),
+            ("WITH_NEAREST", any(NEAREST)),
+            ("WITH_CARTOON_MAP", any(CARTOON_MAP)),
+            ("WITH_ANALYTIC", any(ANALYTIC)),
+        ]
+    }
+
+    fn upload(&mut self, (): &mut (), gpu: &Gpu, toons: &Toons) -> Result<(), RenderError> {
+        if !toons.styles.is_empty() {
+            self.styles.write(gpu, &toons.styles);
+            self.bands.write(gpu, &toons.bands);
+        }
+        Ok(())
+    }
+
+    fn begin(
+        &mut self,
+        rec: &mut Recorder<'_>,
+        (): &mut (),
+        toons: &Toons,
+        layer: &Shaded<'_>,
+    ) -> Result<(), RenderError> {
+        let is_asked_for = toons.styles.iter().any(ToonUniform::has_cartoon_map);
+        let styles = self.styles.buffer();
+        let mut draw = || cartoon_map(rec, layer.gbuffer, styles, layer.shadow_mask.map(|(mask, _)| mask));
+        self.map = match layer.revision {
+            Some(gbuffer) if is_asked_for => {
+                let shadows = layer.shadow_mask.map(|(_, revision)| revision);
+                let key = MapKey { gbuffer, shadows, toons: toons.clone(), uniform: *layer.uniform };
+                Some(self.cartoon_map.run(key, |_| draw())?.value)
+            }
+            None if is_asked_for => Some(draw()?),
+            _ => None,
+        };
+        if layer.revision.is_some() {
+            rec.note("cartoon map", self.map.as_ref());
+        }
+        Ok(())
+    }
+
+    fn bind<'a>(&'a self, (): &'a (), inputs: &mut Inputs<'a>) {
+        inputs.set("toon_styles", self.styles.buffer());
+        inputs.set("toon_bands", self.bands.buffer());
+        inputs.set("cartoon_map_tex", self.map.as_ref());
+    }
+
+    fn runs(&self) -> Option<(&'static str, u64)> {
+        Some(("cartoon map", self.cartoon_map.runs()))
+    }
 }
 
 /// The cartoon map: which band each pixel is of. Nothing where there is no object that asks for it.
 ///
 /// # Errors
 /// [`RenderError`].
-pub fn cartoon_map(
+fn cartoon_map(
     rec: &mut Recorder<'_>,
     gbuffer: &GBuffer,
     toon_styles: &wgpu::Buffer,
@@ -165,4 +251,19 @@ pub fn cartoon_map(
         Some(&gbuffer.depth),
     )?;
     Ok(map)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_ramp_runs_along_the_longer_side_and_is_averaged_across() {
+        let rgba: Vec<u8> = [0_u8, 255, 0, 255, 255, 255].iter().flat_map(|v| [*v, *v, *v, 255]).collect();
+        let image = |width, height| Texture { name: String::new(), width, height, rgba: rgba.clone().into() };
+        let ramp = |width, height| ramp(&image(width, height)).0.iter().map(|c| c.x).collect::<Vec<_>>();
+        assert_eq!(ramp(6, 1), [0.0, 1.0, 0.0, 1.0, 1.0, 1.0]);
+        assert_eq!(ramp(3, 2), [0.5, 1.0, 0.5]);
+        assert_eq!(ramp(2, 3), [0.5, 0.5, 1.0]);
+    }
 }

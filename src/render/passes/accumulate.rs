@@ -2,9 +2,9 @@
 
 use crate::document::Document;
 use crate::gpu::{Program, Recorder, Target, inputs};
-use crate::render::RenderError;
-use crate::render::sample::Sample;
-use crate::render::stage::Output;
+use crate::render::base::error::RenderError;
+use crate::render::base::sample::Sample;
+use crate::render::base::stage::Output;
 use crate::scene::Camera;
 
 /// Wide enough for a thousand samples.

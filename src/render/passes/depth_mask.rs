@@ -5,38 +5,21 @@
 //! designated objects ─► depth mask ─► Q, farthest depth
 //! ```
 
-use encase::ShaderType;
+use encase::ShaderType as _;
 
-use super::gbuffer::{GBuffer, GBufferPass};
-use super::instances::{DrawCall, Instance, Instances};
-use crate::gpu::{Gpu, Program, Recorder, Target, inputs};
-use crate::render::RenderError;
-use crate::render::drawing::DrawingInputs;
-use crate::render::frame_uniform::View;
-use crate::render::stage::{Output, Stage};
+use super::designated::{DepthMask, Masked};
+use super::gbuffer::GBuffer;
+use super::traversal::GBufferPass;
+use crate::render::base::instances::{DrawCall, Instance, Instances};
+use crate::gpu::{Gpu, Program, Recorder, inputs};
+use crate::render::base::error::RenderError;
+use crate::render::base::frame_uniform::View;
+use crate::render::base::group::Group;
+use crate::render::base::scene_view::SceneView;
+use crate::render::base::stage::{Output, Stage};
 
 /// Pixels per side of a workgroup, as in `passes/depth_mask.wgsl`.
 const GROUP: u32 = 16;
-
-/// What is counted of a depth mask. Twin of `Masked` in `shaders/common/depth_mask.wgsl`.
-#[derive(Debug, Clone, Copy, PartialEq, ShaderType)]
-pub struct Masked {
-    /// Its pixels, the paper's Q; 0: nothing designated is in the picture.
-    pub pixels: u32,
-    /// Those of them that opaque surfaces hide, which no peeling uncovers.
-    pub hidden: u32,
-    /// Its greatest linear depth, as a number in the same order.
-    pub farthest: u32,
-}
-
-/// The depth texture of the designated objects, hidden by nothing but themselves.
-#[derive(Debug, Clone)]
-pub struct DepthMask {
-    /// Reversed depth; 0 where there is none of them.
-    pub depth: Target,
-    /// [`Masked`] on the device.
-    pub count: wgpu::Buffer,
-}
 
 /// What of the depth mask lives across frames.
 pub struct DepthMaskPass {
@@ -61,7 +44,12 @@ impl DepthMaskPass {
         }
     }
 
-    /// The mask of what is designated beside `surfaces`, which it is among; `None` where nobody asks for one.
+    /// Lets go of the last one.
+    pub fn forget(&mut self) {
+        self.stage.clear();
+    }
+
+    /// The mask of what is designated among what is opaque.
     ///
     /// # Errors
     /// [`RenderError`].
@@ -69,21 +57,18 @@ impl DepthMaskPass {
         &mut self,
         rec: &mut Recorder<'_>,
         gbuffer_pass: &mut GBufferPass,
-        inputs: &DrawingInputs<'_>,
-        surfaces: &Output<GBuffer>,
-    ) -> Result<Option<Output<DepthMask>>, RenderError> {
-        let DrawingInputs { scene, objects, view, .. } = *inputs;
-        if objects.blueprints.is_empty() || objects.masks.visible().is_empty() {
-            self.stage.clear();
-            return Ok(None);
-        }
-        let (draws, calls) = objects.masks.draws(scene, view);
+        seen: &SceneView<'_>,
+        designated: &Group,
+        (opaque, surfaces): (&Group, &Output<GBuffer>),
+    ) -> Result<Output<DepthMask>, RenderError> {
+        let SceneView { scene, view, .. } = *seen;
+        let (draws, calls) = designated.draws(scene, view);
         let shaders = rec.pipelines.generation();
-        let asked = (shaders, inputs.scene_revision, *view, draws, calls, surfaces.revision);
+        let asked = (shaders, seen.scene_revision, *view, draws, calls, surfaces.revision);
         let Self { draws: buffer, count, stage } = self;
-        let mask = stage.run(asked, |(_, _, view, draws, calls, _)| {
+        stage.run(asked, |(_, _, view, draws, calls, _)| {
             // Where nothing else is opaque, they have been drawn.
-            let designated = if objects.masks.visible() == objects.surfaces.visible() {
+            let designated = if designated.visible() == opaque.visible() {
                 surfaces.value.clone()
             } else {
                 gbuffer_pass.run(rec, scene, buffer, (draws, calls), view.has_cuts(), None)?
@@ -101,7 +86,6 @@ impl DepthMaskPass {
                 [width.div_ceil(GROUP), height.div_ceil(GROUP)],
             )?;
             Ok::<_, RenderError>(DepthMask { depth: designated.depth, count: count.clone() })
-        })?;
-        Ok(Some(mask))
+        })
     }
 }

@@ -4,19 +4,17 @@
 //! are tested against the G-buffer; what topology does not know (intersections, outlines of holes) is found where
 //! neighbouring pixels show different surfaces; details are found within surfaces. Paper mode is the papers' operators. See `common/edge_map.wgsl`.
 
-use super::edge_style::EdgeUniform;
+use crate::render::base::edge_style::EdgeUniform;
 use super::gbuffer::GBuffer;
 use super::operators::paper_edges;
-use super::repeated::{Seen, add_ink};
+use super::repeated::{SPINES, Seen, add_ink};
 use super::segments::{MARKS, SegmentInputs, Segments};
 use crate::geometry::EdgeClass;
 use crate::gpu::recorder::{Draw, Onto};
 use crate::gpu::{DepthRule, Program, Recorder, Target, inputs};
-use crate::render::RenderError;
+use crate::render::base::error::RenderError;
 
 const EDGE_MAP: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Uint;
-/// What the distance transform reads of it.
-pub(super) const SPINES: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;
 const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 
 /// The edge map, and of its lines what [`super::line_distance`] reads.
@@ -28,6 +26,20 @@ pub struct EdgeMap {
     pub spines: Option<Target>,
     /// Whether ink of the papers' operators may be in it.
     pub has_paper: bool,
+}
+
+impl EdgeMap {
+    /// Its lines, as those behind them see them.
+    ///
+    /// # Errors
+    /// [`RenderError`].
+    pub fn seen(&self, rec: &mut Recorder<'_>) -> Result<Target, RenderError> {
+        let seen = Seen::behind(rec, self.spines.clone())?;
+        if self.has_paper {
+            add_ink(rec, &self.edges, &seen.before, &seen.now)?;
+        }
+        Ok(seen.now)
+    }
 }
 
 /// What the edge map is made of.

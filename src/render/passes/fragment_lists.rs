@@ -8,7 +8,7 @@ use super::gbuffer::{DEPTH, GBuffer};
 use super::peel::{Layer, PeelCount};
 use crate::gpu::recorder::{Draw, Onto};
 use crate::gpu::{DepthRule, Gpu, GpuError, Inputs, Program, RecordTexture, Recorder, Target, inputs};
-use crate::render::RenderError;
+use crate::render::base::error::RenderError;
 
 /// Bytes of a fragment's base colour. How it is linked and what it is take a texel each.
 const COLOR_BYTES: u64 = 4;

@@ -2,7 +2,7 @@
 //! what an outline is drawn around.
 
 use crate::gpu::{Program, Recorder, Target, inputs};
-use crate::render::RenderError;
+use crate::render::base::error::RenderError;
 
 /// Geometries (see `shaders/common/gbuffer.wgsl`) of which the nearest counts at each pixel.
 #[derive(Debug, Clone)]

@@ -1,23 +1,28 @@
 //! What effects are made of: plain functions from textures to textures.
 
 pub mod accumulate;
+pub mod composition;
 pub mod coordinates;
 pub mod depth_mask;
+pub mod designated;
 pub mod edge_map;
-pub mod edge_style;
 pub mod fragment_lists;
 pub mod front;
 pub mod gbuffer;
-pub mod instances;
+pub mod layer_lists;
+pub mod layers;
 pub mod line_distance;
 pub mod lines;
 pub mod operators;
 pub mod overlay;
 pub mod peel;
+pub mod place;
 pub mod repeated;
 pub mod resolve;
 pub mod segments;
 pub mod selection;
 pub mod shadow;
 pub mod shadow_map;
+pub mod shadows;
 pub mod show;
+pub mod traversal;

@@ -2,7 +2,7 @@
 
 use crate::gpu::recorder::{Draw, Onto};
 use crate::gpu::{Program, Recorder, Target, inputs};
-use crate::render::RenderError;
+use crate::render::base::error::RenderError;
 
 /// Lays a picture over `color`; both are linear and premultiplied.
 ///

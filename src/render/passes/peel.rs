@@ -5,10 +5,10 @@ use std::fmt;
 
 use encase::{ShaderType, StorageBuffer};
 
-use super::depth_mask::DepthMask;
+use super::designated::DepthMask;
 use super::gbuffer::{GBuffer, SORT_KEYS};
 use crate::gpu::{Gpu, Inputs, Program, Recorder, Target, inputs, readback};
-use crate::render::RenderError;
+use crate::render::base::error::RenderError;
 
 /// No object has more layers than this that are drawn.
 pub const MOST_LAYERS: u32 = 64;

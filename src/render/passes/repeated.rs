@@ -1,9 +1,11 @@
 //! Which lines nearer layers have (blueprints paper, section 4.1, Fig. 5): those at the same place can be left out.
 
-use super::edge_map::{EdgeMap, SPINES};
 use crate::gpu::recorder::{Draw, Onto};
 use crate::gpu::{Program, Recorder, Target, inputs};
-use crate::render::RenderError;
+use crate::render::base::error::RenderError;
+
+/// What the distance transform reads of lines, see `spine_of` in `shaders/common/edge_map.wgsl`.
+pub(super) const SPINES: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;
 
 /// The lines of layers; see `shaders/common/repeated.wgsl`.
 #[derive(Debug, Clone)]
@@ -34,18 +36,6 @@ fn none(rec: &mut Recorder<'_>) -> Result<Target, RenderError> {
     let seen = rec.target("seen lines", SPINES)?;
     rec.clear("no line seen", &[&seen]);
     Ok(seen)
-}
-
-/// The lines of an edge map.
-///
-/// # Errors
-/// [`RenderError`].
-pub fn seen_lines(rec: &mut Recorder<'_>, edge_map: &EdgeMap) -> Result<Target, RenderError> {
-    let seen = Seen::behind(rec, edge_map.spines.clone())?;
-    if edge_map.has_paper {
-        add_ink(rec, &edge_map.edges, &seen.before, &seen.now)?;
-    }
-    Ok(seen.now)
 }
 
 /// Adds the ink of the papers' operators, where an edge map has no `spines`, to what has been seen.

@@ -12,7 +12,7 @@ use super::gbuffer::GBuffer;
 use super::repeated::Seen;
 use crate::geometry::LineSegment;
 use crate::gpu::{Gpu, Program, RecordBuffer, RecordTexture, Recorder, Target, inputs, size_of_texels};
-use crate::render::RenderError;
+use crate::render::base::error::RenderError;
 
 /// Pixels of segments that are tested in one go; each takes 52 bytes while it is.
 const MOST_STEPS: usize = 1 << 20;

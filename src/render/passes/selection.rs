@@ -1,13 +1,58 @@
 //! The outline around selected objects, as a picture of its own that the window lays over the drawing.
 
+use super::front::Front;
 use super::resolve::FINAL;
-use crate::gpu::{Program, Recorder, Target, inputs};
-use crate::render::RenderError;
-use crate::render::groups::object_id;
+use crate::gpu::{ArrayBuffer, Gpu, Program, Recorder, Target, inputs};
+use crate::render::base::error::RenderError;
+use crate::render::base::ids::object_id;
+use crate::render::base::sample::Sample;
+use crate::render::base::stage::Stage;
 use crate::scene::{NodeId, Scene};
 
+/// The outline across frames.
+pub struct Selection {
+    bits: ArrayBuffer,
+    /// The geometry of the picture's first sample: outlines do not follow the jitter.
+    unmoved: Vec<u64>,
+    stage: Stage<(Vec<u64>, Vec<u32>), Target>,
+}
+
+impl Selection {
+    /// Nothing drawn yet.
+    pub fn new(gpu: &Gpu) -> Self {
+        Self { bits: ArrayBuffer::new(gpu, "selected"), unmoved: Vec::new(), stage: Stage::default() }
+    }
+
+    /// The outline of what is selected in front, of which `revisions` change when it does; `None`: nothing is.
+    ///
+    /// # Errors
+    /// [`RenderError`].
+    pub fn run(
+        &mut self,
+        rec: &mut Recorder<'_>,
+        (front, revisions): (&Front, Vec<u64>),
+        (selected, scene): (&[NodeId], &Scene),
+        sample: Sample,
+    ) -> Result<Option<Target>, RenderError> {
+        if selected.is_empty() {
+            self.stage.clear();
+            return Ok(None);
+        }
+        if sample.index == 0 {
+            self.unmoved = revisions;
+        }
+        let Self { bits: buffer, unmoved, stage } = self;
+        let found = stage.run((unmoved.clone(), bits(selected, scene)), |(_, bits)| {
+            buffer.write(rec.gpu, bits);
+            let front = front.nearest(rec)?;
+            outline(rec, &front, buffer.buffer())
+        })?;
+        Ok(Some(found.value))
+    }
+}
+
 /// One bit per object id, as the shader reads it; what belongs to a selected node is selected with it.
-pub fn bits(selected: &[NodeId], scene: &Scene) -> Vec<u32> {
+fn bits(selected: &[NodeId], scene: &Scene) -> Vec<u32> {
     let mut bits = vec![0u32; (scene.nodes.len() + 1).div_ceil(32)];
     let added =
         (scene.own_nodes().len()..scene.nodes.len()).filter(|n| selected.contains(&scene.meant_by(*n)));
@@ -24,7 +69,7 @@ pub fn bits(selected: &[NodeId], scene: &Scene) -> Vec<u32> {
 ///
 /// # Errors
 /// [`RenderError`].
-pub fn selection(
+fn outline(
     rec: &mut Recorder<'_>,
     geometry: &Target,
     selected: &wgpu::Buffer,

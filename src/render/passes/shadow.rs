@@ -5,9 +5,9 @@ use glam::{DMat4, Mat4, Vec2};
 
 use super::gbuffer::GBuffer;
 use crate::gpu::{ArrayBuffer, Gpu, Program, Recorder, Target, inputs};
-use crate::render::RenderError;
-use crate::render::light_view::LightView;
-use crate::render::lights::MAX_SHADOWS;
+use crate::render::base::error::RenderError;
+use crate::render::base::light_view::LightView;
+use crate::render::base::lights::MAX_SHADOWS;
 
 /// A light per channel, 1: all of it reaches the pixel.
 const MASK: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;

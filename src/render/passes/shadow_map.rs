@@ -9,9 +9,9 @@ use glam::{Mat4, Vec4};
 use crate::gpu::geometry::{Attributes, POSITIONS};
 use crate::gpu::material::MaterialUniform;
 use crate::gpu::{DynamicBuffer, Gpu, Pipelines, Recorder, Target};
-use crate::render::RenderError;
-use crate::render::gpu_scene::{GpuScene, Origin};
-use crate::render::light_view::LightView;
+use crate::render::base::error::RenderError;
+use crate::render::base::gpu_scene::{GpuScene, Origin};
+use crate::render::base::light_view::LightView;
 
 /// Reversed: 1 nearest to the light, 0 where it meets nothing.
 const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;

@@ -4,19 +4,25 @@ use super::gbuffer::GBuffer;
 use super::resolve::FINAL;
 use crate::document::Show;
 use crate::gpu::{Program, Recorder, Target, inputs};
-use crate::render::RenderError;
+use crate::render::base::error::RenderError;
+
+/// The buffers that can be looked at.
+#[derive(Clone, Copy)]
+pub struct Shown<'a> {
+    /// Per-pixel geometry.
+    pub gbuffer: &'a GBuffer,
+    /// Its edge map.
+    pub edge_map: &'a Target,
+    /// The operators' values, where one of them is looked at.
+    pub operators: Option<&'a Target>,
+}
 
 /// Draws one buffer as the final image.
 ///
 /// # Errors
 /// [`RenderError`].
-pub fn show(
-    rec: &mut Recorder<'_>,
-    what: Show,
-    gbuffer: &GBuffer,
-    edge_map: &Target,
-    operators: &Target,
-) -> Result<Target, RenderError> {
+pub fn show(rec: &mut Recorder<'_>, what: Show, shown: Shown<'_>) -> Result<Target, RenderError> {
+    let Shown { gbuffer, edge_map, operators } = shown;
     let entry_point = match what {
         Show::Picture | Show::EdgeMap => "fs_edge_map",
         Show::Normals => "fs_normals",

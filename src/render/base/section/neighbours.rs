@@ -4,7 +4,7 @@
 use glam::DVec3;
 
 use crate::geometry::Bounds;
-use crate::render::gpu_scene::GpuScene;
+use crate::render::base::gpu_scene::GpuScene;
 use crate::scene::NodeId;
 
 /// What tells an object from those that touch it.

@@ -6,7 +6,7 @@ use glam::{Mat3, Mat4};
 
 use crate::gpu::material::MaterialUniform;
 use crate::gpu::{DynamicBuffer, Gpu, GpuError, RecordBuffer, Recorder};
-use crate::render::gpu_scene::Origin;
+use crate::render::base::gpu_scene::Origin;
 
 /// One part of one object, as it is drawn.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,14 +1,16 @@
 //! Bind group 0: camera, lights and paper.
 
 use encase::ShaderType;
-use glam::{DMat4, DVec3, DVec4, Mat4, UVec2, Vec2, Vec3, Vec4};
+use glam::{DMat4, DVec2, DVec3, DVec4, Mat4, UVec2, Vec2, Vec3, Vec4};
 
 use super::lights::{Lights, MAX_LIGHTS, WorldLight};
-use super::renderer::REFERENCE_HEIGHT;
 use super::sample::Sample;
 use crate::geometry::{Bounds, Lens, Plane, Projector};
 use crate::scene::additions::{Facing, LetterSize};
 use crate::scene::{Camera, LightKind, Projection};
+
+/// Height of the picture in reference pixels, in which widths and scales are given.
+pub const REFERENCE_HEIGHT: f64 = 1080.0;
 
 /// What lies this close before a mirror belongs to the mirror; share of the diagonal of everything visible.
 const CUT_MARGIN: f64 = 1e-5;
@@ -82,6 +84,41 @@ fn depth_range(bounds: &Bounds, view_from_world: &DMat4) -> Option<(f64, f64)> {
 }
 
 impl View {
+    /// The part of the picture that a box covers at most, with a margin: left, top, right and bottom edge in pixels. `None`
+    /// if it is empty. `corners`: world space, in the order of [`Bounds::corners`].
+    pub fn part_of(&self, corners: &[DVec3; 8], margin: f32) -> Option<[u32; 4]> {
+        let projector = self.projector();
+        let [near, _] = self.clip_range;
+        let in_view = corners.map(|corner| self.view_from_world.transform_point3(corner));
+        let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
+        for (i, &from) in in_view.iter().enumerate() {
+            for to in [1, 2, 4].map(|bit| in_view[i ^ bit]) {
+                // Of each edge that begins before the near plane, its beginning, or where it ends there.
+                let (lead, other) = (-from.z - near, -to.z - near);
+                if !self.orthographic && lead < 0.0 {
+                    continue;
+                }
+                let ends = !self.orthographic && other < 0.0;
+                let cut = if ends { from.lerp(to, lead / (lead - other)) } else { from };
+                for point in [from, cut] {
+                    let px = projector.pixel(point);
+                    (low, high) = (low.min(px), high.max(px));
+                }
+            }
+        }
+        let margin = f64::from(margin) + 2.0;
+        let (low, high) = (low - margin, high + margin);
+        let edge = |at: f64, size: u32| at.clamp(0.0, f64::from(size)) as u32;
+        let UVec2 { x: width, y: height } = self.size;
+        let part = [
+            edge(low.x.floor(), width),
+            edge(low.y.floor(), height),
+            edge(high.x.ceil(), width),
+            edge(high.y.ceil(), height),
+        ];
+        (part[0] < part[2] && part[1] < part[3]).then_some(part)
+    }
+
     /// The view of `camera` on a scene of which `visible` is the box around everything that is drawn.
     pub fn new(camera: &Camera, visible: &Bounds, size: UVec2) -> Self {
         Self::through(camera.view_from_world(), camera.projection, visible, size)

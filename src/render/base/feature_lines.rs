@@ -2,8 +2,9 @@
 
 use super::frame_uniform::View;
 use super::gpu_scene::GpuScene;
-use super::groups::{Group, object_id, region};
-use super::passes::edge_style::EdgeUniform;
+use super::edge_style::EdgeUniform;
+use super::group::Group;
+use super::ids::{object_id, region};
 use crate::geometry::line_segments::{
     Dashes, LineView, PlacedContours, PlacedEdges, Wanted, contour_segments,
 };
@@ -11,7 +12,7 @@ use crate::geometry::{ClassSet, EdgeClass, LineSegment, line_segments};
 
 /// Silhouettes, borders, creases and material boundaries of all objects of a group with exact lines, hidden ones included. Empty
 /// while topology is not known. `crease_angle` (radians): above it edges separate surfaces.
-pub(super) fn segments(scene: &GpuScene, group: &Group, view: &View, crease_angle: f32) -> Vec<LineSegment> {
+pub fn feature_lines(scene: &GpuScene, group: &Group, view: &View, crease_angle: f32) -> Vec<LineSegment> {
     let margin = group.greatest_radius() + 2.0;
     // The vertex shader adds the jitter.
     let view = LineView {

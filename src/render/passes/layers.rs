@@ -18,14 +18,14 @@ pub use self::room::{LayersBy, Reason, Reported};
 use self::room::{Recorded, Room};
 use crate::document;
 use crate::gpu::{ArrayBuffer, Gate, Gpu, Recorder, Reports, Target};
-use crate::render::RenderError;
-use crate::render::gpu_scene::GpuScene;
-use crate::render::passes::depth_mask::DepthMask;
+use crate::render::base::error::RenderError;
+use crate::render::base::gpu_scene::GpuScene;
+use crate::render::passes::designated::DepthMask;
 use crate::render::passes::edge_map::{EdgeInputs, EdgeMap, edge_map};
-use crate::render::passes::edge_style::EdgeUniform;
+use crate::render::base::edge_style::EdgeUniform;
 use crate::render::passes::fragment_lists::Asked;
-use crate::render::passes::gbuffer::GBufferPass;
-use crate::render::passes::instances::{DrawCall, Instance, Instances};
+use crate::render::passes::traversal::GBufferPass;
+use crate::render::base::instances::{DrawCall, Instance, Instances};
 use crate::render::passes::line_distance::{Reach, line_distance};
 use crate::render::passes::lines::Lines;
 use crate::render::passes::peel::{Layer, MOST_LAYERS, Peel, PeelCount, Peeled, before_all};
@@ -33,7 +33,7 @@ use crate::render::passes::repeated::Seen;
 use crate::render::passes::segments::Segments;
 
 /// Kinds of passes that a layer has beside the draws of its objects: room in the gate.
-const PASSES: usize = 24;
+const PASSES: usize = 32;
 
 /// What is cut into layers, and how far.
 #[derive(Clone, Copy)]
@@ -64,6 +64,19 @@ pub struct LayerInputs<'a> {
     pub with_depth: bool,
     /// The geometry of so many layers, the nearest ones, is 0 where they have nothing; of the others it is undefined there.
     pub whole: u32,
+}
+
+/// A layer that has been cut.
+#[derive(Clone, Copy)]
+pub struct DrawnLayer<'a> {
+    /// Its number, from 0 on.
+    pub number: u32,
+    /// Its surfaces.
+    pub layer: &'a Layer,
+    /// How far layers have come, this one included.
+    pub count: &'a PeelCount,
+    /// What was drawn.
+    pub instances: &'a Instances,
 }
 
 /// What of the layers of a group lives across frames.
@@ -115,8 +128,7 @@ impl Layers {
         &self.count
     }
 
-    /// Hands each layer to `draw`, the nearest first, with its number from 0 on and their count so far. What it
-    /// records is left out by the device once layers have ended.
+    /// Hands each layer to `draw`, the nearest first. What it records is left out by the device once layers have ended.
     ///
     /// # Errors
     /// [`RenderError`].
@@ -125,7 +137,7 @@ impl Layers {
         rec: &mut Recorder<'_>,
         gbuffer_pass: &mut GBufferPass,
         inputs: &LayerInputs<'_>,
-        draw: impl FnMut(&mut Recorder<'_>, u32, &Layer, &PeelCount) -> Result<(), RenderError>,
+        draw: impl FnMut(&mut Recorder<'_>, &DrawnLayer<'_>) -> Result<(), RenderError>,
     ) -> Result<(), RenderError> {
         let plain: Vec<DrawCall>;
         let mut inputs = *inputs;
@@ -154,7 +166,7 @@ impl Layers {
         gbuffer_pass: &mut GBufferPass,
         inputs: &LayerInputs<'_>,
         recorded: &mut Recorded,
-        mut draw: impl FnMut(&mut Recorder<'_>, u32, &Layer, &PeelCount) -> Result<(), RenderError>,
+        mut draw: impl FnMut(&mut Recorder<'_>, &DrawnLayer<'_>) -> Result<(), RenderError>,
     ) -> Result<(), RenderError> {
         let LayerInputs { scene, draws, calls, is_cut, mask, with_color, .. } = *inputs;
         if let Ok(room) = &mut recorded.fragments {
@@ -194,7 +206,8 @@ impl Layers {
             if recorded.only_counts(number) {
                 break;
             }
-            draw(rec, number, &layer, &self.count)?;
+            let Self { count, draws: instances, .. } = &*self;
+            draw(rec, &DrawnLayer { number, layer: &layer, count, instances })?;
             if let Some(mask) = mask {
                 self.count.end_where_uncovered(rec, &layer, mask)?;
             }

@@ -12,7 +12,7 @@ const FIRST_GUESS: u64 = 4;
 const TILES: u32 = 128;
 
 /// After so many complete pictures in a row, more than one has samples, guesses may be tight again.
-const CALM: u32 = 2 * crate::render::sample::MAX_SAMPLES;
+const CALM: u32 = 2 * crate::render::base::sample::MAX_SAMPLES;
 
 /// Wrong guesses after which room does not grow any more: then all layers are recorded.
 const MOST_MISTAKES: u32 = 6;

@@ -3,17 +3,17 @@
 
 use glam::{DMat4, Vec2, Vec4};
 
-use super::RenderError;
-use super::drawing::DrawingInputs;
-use super::gpu_scene::{GpuScene, Origin};
-use super::groups::{Objects, VisiblePart};
-use super::light_view::{LightView, LookedAt, light_views};
-use super::lights::{MAX_SHADOWS, WorldLight};
-use super::passes::gbuffer::GBuffer;
-use super::passes::shadow::ShadowPass;
-use super::passes::shadow_map::{ShadowCall, ShadowDraw, ShadowMapPass, ShadowScene};
-use super::stage::{Output, Stage};
+use super::gbuffer::GBuffer;
+use super::shadow::ShadowPass;
+use super::shadow_map::{ShadowCall, ShadowDraw, ShadowMapPass, ShadowScene};
 use crate::gpu::{Gpu, Recorder, Target};
+use crate::render::base::error::RenderError;
+use crate::render::base::gpu_scene::{GpuScene, Origin};
+use crate::render::base::group::{Group, VisiblePart};
+use crate::render::base::light_view::{LightView, LookedAt, light_views};
+use crate::render::base::lights::{MAX_SHADOWS, WorldLight};
+use crate::render::base::scene_view::SceneView;
+use crate::render::base::stage::{Output, Stage};
 use crate::scene::AlphaMode;
 
 /// The map of one light, and what it sees there.
@@ -21,6 +21,13 @@ use crate::scene::AlphaMode;
 pub struct ShadowMap {
     map: Output<Target>,
     views: Vec<LightView>,
+}
+
+impl ShadowMap {
+    /// Changes when it does.
+    pub fn revision(&self) -> u64 {
+        self.map.revision
+    }
 }
 
 /// The maps of all lights that throw shadows.
@@ -39,26 +46,29 @@ impl ShadowMaps {
         self.maps.iter().map(|(_, stage)| stage.runs()).sum()
     }
 
-    /// The maps of the lights that throw shadows, by channel.
+    /// The maps of the lights that throw shadows, by channel, of these groups; those that the eye sees only as far as
+    /// `fitted_to` lies, `None`: everywhere, as mirrors show what the eye does not see.
     ///
     /// # Errors
     /// [`RenderError`].
     pub fn run(
         &mut self,
         rec: &mut Recorder<'_>,
-        inputs: &DrawingInputs<'_>,
+        seen: &SceneView<'_>,
+        groups: &[&Group],
+        fitted_to: Option<&Group>,
         material_layout: &wgpu::BindGroupLayout,
     ) -> Result<Vec<ShadowMap>, RenderError> {
-        let DrawingInputs { scene, scene_revision, objects, lights, .. } = *inputs;
+        let SceneView { scene, scene_revision, lights, view, .. } = *seen;
         let shaders = rec.pipelines.generation();
         let [width, height] = rec.size();
         let limit = rec.gpu.device.limits().max_texture_dimension_2d.min(MOST_TEXELS);
-        // Mirrors show what the eye does not see.
-        let points = if objects.mirrors.is_empty() {
-            let depths = inputs.view.fitted_depth_range(objects.surfaces.boxes(scene));
-            inputs.view.moved(Vec2::ZERO).corners(depths).to_vec()
-        } else {
-            Vec::new()
+        let points = match fitted_to {
+            Some(group) => {
+                let depths = view.fitted_depth_range(group.boxes(scene));
+                view.moved(Vec2::ZERO).corners(depths).to_vec()
+            }
+            None => Vec::new(),
         };
         let looked_at = LookedAt { points, spread: f64::from(lights.spread) };
         let side = (lights.detail * width.max(height) as f32).round().max(LEAST_TEXELS as f32) as u32;
@@ -69,7 +79,7 @@ impl ShadowMaps {
                 stage.clear();
                 continue;
             };
-            let seen = seen_by(light, scene, objects, &looked_at, side.min(limit));
+            let seen = seen_by(light, scene, groups, &looked_at, side.min(limit));
             let views = seen.views.clone();
             let map = stage.run((shaders, scene_revision, seen), |(_, _, seen)| {
                 pass.run(rec, scene, material_layout, seen)
@@ -88,11 +98,10 @@ const LEAST_TEXELS: u32 = 256;
 fn seen_by(
     light: &WorldLight,
     scene: &GpuScene,
-    objects: &Objects,
+    groups: &[&Group],
     looked_at: &LookedAt,
     side: u32,
 ) -> ShadowScene {
-    let groups = [&objects.surfaces, &objects.blended];
     let boxes: Vec<_> = groups.iter().flat_map(|group| group.boxes(scene)).collect();
     let mut seen = ShadowScene {
         views: light_views(&light.kind, &boxes, looked_at, side),
@@ -167,10 +176,11 @@ impl ShadowMask {
         &mut self,
         rec: &mut Recorder<'_>,
         layer: &GBuffer,
-        drawing: &DrawingInputs<'_>,
+        seen: &SceneView<'_>,
+        maps: &[ShadowMap],
     ) -> Result<Option<Target>, RenderError> {
-        let maps: Vec<_> = drawing.shadow_maps.iter().map(|m| (m.views.as_slice(), &m.map.value)).collect();
-        self.pass.run(rec, layer, &drawing.view.view_from_world, &maps, drawing.lights.spread)
+        let maps: Vec<_> = maps.iter().map(|m| (m.views.as_slice(), &m.map.value)).collect();
+        self.pass.run(rec, layer, &seen.view.view_from_world, &maps, seen.lights.spread)
     }
 
     /// Channel i: how much of the light of channel i reaches each pixel; `None` when no light throws shadows.
@@ -181,10 +191,11 @@ impl ShadowMask {
         &mut self,
         rec: &mut Recorder<'_>,
         gbuffer: &Output<GBuffer>,
-        drawing: &DrawingInputs<'_>,
+        seen: &SceneView<'_>,
+        maps: &[ShadowMap],
     ) -> Result<Option<Output<Target>>, RenderError> {
-        let (maps, view_from_world) = (drawing.shadow_maps, &drawing.view.view_from_world);
-        let spread = drawing.lights.spread;
+        let view_from_world = &seen.view.view_from_world;
+        let spread = seen.lights.spread;
         if maps.is_empty() {
             self.stage.clear();
             return Ok(None);

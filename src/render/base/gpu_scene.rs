@@ -340,7 +340,7 @@ pub struct Uploader {
 
 impl Uploader {
     /// Uploads to this device, for pipelines with this layout of materials.
-    pub(super) fn new(gpu: &Gpu, material_layout: &wgpu::BindGroupLayout) -> Self {
+    pub fn new(gpu: &Gpu, material_layout: &wgpu::BindGroupLayout) -> Self {
         Self { gpu: gpu.clone(), material_layout: material_layout.clone() }
     }
 

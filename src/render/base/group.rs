@@ -1,41 +1,15 @@
-//! Which objects are drawn, how, and what of that each stage depends on.
+//! Objects that are drawn together, and the parts of them that are drawn.
 
 use glam::{DMat4, Mat3, Mat4};
 
-use super::effects::blueprint::Blueprint;
-use super::effects::halftone::Halftones;
-use super::effects::hidden::Hidden;
-use super::effects::mirror::{Mirror, part_of};
-use super::effects::surface::SurfaceUniform;
-use super::effects::toon::{ToonUniform, Toons};
+use super::edge_style::EdgeUniform;
 use super::frame_uniform::View;
 use super::gpu_scene::{GpuScene, Origin};
-use super::passes::edge_style::EdgeUniform;
-use super::passes::instances::{Detail, DrawCall, Instance};
-use super::style_images::StyleImages;
-use crate::document::{Document, Show};
-use crate::geometry::{Bounds, EdgeClass};
+use super::ids::{ENHANCED, object_id};
+use super::instances::{Detail, DrawCall, Instance};
+use crate::geometry::Bounds;
 use crate::gpu::material::MaterialUniform;
 use crate::scene::{AlphaMode, NodeId};
-use crate::style::Technique;
-
-/// Object ids are kept in 31 bits; the highest one is the enhanced flag.
-pub const ENHANCED: u32 = 0x8000_0000;
-
-/// The object id that pixels of a node carry; 0 is the background.
-pub fn object_id(node: NodeId) -> u32 {
-    node as u32 + 1
-}
-
-/// The node that an object id (with or without flag) stands for.
-pub fn node_of(object: u32) -> Option<NodeId> {
-    (object & !ENHANCED).checked_sub(1).map(|n| n as usize)
-}
-
-/// The number in the G-buffer for a surface of an object; twin of `region` in `shaders/passes/gbuffer.wgsl`.
-pub fn region(object: u32, surface: u32) -> u32 {
-    object.wrapping_mul(2_654_435_769).wrapping_add(surface).max(1)
-}
 
 /// A part of a visible object: what has one material.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -73,12 +47,14 @@ pub struct Visible {
     pub node: NodeId,
     /// Whether its edges are drawn.
     pub enhanced: bool,
-    parts: Parts,
+    /// Which of its parts are in the group.
+    pub parts: Parts,
 }
 
 /// Which parts of an object are in a group.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Parts {
+pub enum Parts {
+    /// All of them.
     All,
     /// Those through which nothing shows.
     Opaque,
@@ -139,134 +115,24 @@ pub struct Group {
     pub shows_hidden: bool,
 }
 
-/// Everything that is visible, resolved for one frame.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Objects {
-    /// The objects that hide what lies behind them: those of all surface techniques.
-    pub surfaces: Group,
-    /// Those of them that blueprints are peeled to uncover; they have no lines of their own here.
-    pub masks: Group,
-    /// Their hidden lines.
-    pub hidden: Hidden,
-    /// Parts of the same techniques through which something shows.
-    pub blended: Group,
-    /// The others, together where their style is equal.
-    pub blueprints: Vec<Blueprint>,
-    /// The box around everything visible, world space.
-    pub visible_bounds: Bounds,
-    /// Shading parameters by object id.
-    pub surface_styles: Vec<SurfaceUniform>,
-    /// Parameters of toon shading.
-    pub toons: Toons,
-    /// The objects that are halftones.
-    pub halftones: Halftones,
-    /// The mirrors among them.
-    pub mirrors: Vec<Mirror>,
-    /// Pixels per reference pixel.
-    pub scale: f32,
-}
-
-impl Objects {
-    /// Resolves styles and roles of a document for the nodes of a scene; `scale`: pixels per reference pixel.
-    pub fn new(document: &Document, scene: &GpuScene, images: &StyleImages, scale: f32) -> Self {
-        let resolved = document.resolve(&scene.scene);
-        let mut objects = Self { scale, ..Self::default() };
-        // What is not drawn, entry 0 (the background) included, has neither shading nor lines.
-        let count = resolved.len() + 1;
-        objects.surfaces.edge_styles = vec![EdgeUniform::default(); count];
-        objects.surface_styles = vec![SurfaceUniform::default(); count];
-        for (node, r) in resolved.iter().enumerate() {
-            if !r.visible || scene.scene.nodes[node].mesh.is_none() || scene.is_cut_away(node) {
-                continue;
-            }
-            let id = object_id(node) as usize;
-            objects.surface_styles[id] =
-                SurfaceUniform::new(r.style, &scene.scene.nodes[node].world_from_local);
-            if r.style.technique == Technique::Toon {
-                objects.toons.set(id, count, &r.style.toon, images);
-            }
-            if r.style.technique == Technique::Halftone {
-                let has_uvs = scene.has_uvs(node);
-                objects.halftones.add((count, id), &r.style.halftone, images, scale, has_uvs);
-            }
-            // A look at a buffer is one at that of surfaces, which every object then is.
-            let has_layers = r.style.technique == Technique::Blueprint && document.view.show == Show::Picture;
-            let is_blueprint = has_layers && !r.mask;
-            // Mirrors and masks show and hide as a whole.
-            let blends = document.view.show == Show::Picture && !has_layers && !r.mask && !r.mirror;
-            let is_blended = |alpha: AlphaMode| blends && alpha == AlphaMode::Blend;
-            let has_blended = scene.alphas(node).any(is_blended);
-            let is_opaque = !has_blended || !scene.alphas(node).all(is_blended);
-            if has_blended && objects.blended.visible.is_empty() {
-                objects.blended = Group::with_hidden(count);
-            }
-            // The width of lines that are nowhere would decide how all others are drawn.
-            let possible = |edges: EdgeUniform| {
-                if scene.is_cut_open(node) { edges } else { edges.without(EdgeClass::Section) }
-            };
-            let edges = possible(EdgeUniform::new(&r.style.edges, scale));
-            let edges = if has_layers { edges.inked(&r.style.edges, r.style.blueprint.near) } else { edges };
-            let whole = Visible { node, enhanced: r.enhanced, parts: Parts::All };
-            if is_blueprint {
-                let group = Blueprint::group_of(&mut objects.blueprints, r.style, count);
-                group.add(whole, edges, scene);
-            } else if is_opaque {
-                let parts = if has_blended { Parts::Opaque } else { Parts::All };
-                objects.surfaces.add(Visible { parts, ..whole }, edges, scene);
-                if r.enhanced && document.view.show == Show::Picture {
-                    let style = possible(EdgeUniform::hidden(&r.style.edges, scale));
-                    objects.hidden.add((count, id), style, &r.style.edges.hidden);
-                }
-            }
-            if has_blended {
-                let parts = if is_opaque { Parts::Blended } else { Parts::All };
-                objects.blended.add(Visible { parts, ..whole }, edges, scene);
-            }
-            if r.mask {
-                objects.masks.visible.push(whole);
-            }
-            if r.mirror
-                && !is_blueprint
-                && !scene.scene.is_added(node)
-                && let Ok(plane) = scene.plane_of(node)
-            {
-                objects.mirrors.push(Mirror::new(id as u32, plane, scene.corners_of(node), &r.style.mirror));
-            }
-            objects.visible_bounds = objects.visible_bounds.union(&scene.bounds_of(node));
-        }
-        objects
-    }
-
-    /// Whether any visible object needs the cartoon map.
-    pub fn have_cartoon_map(&self) -> bool {
-        self.toons.styles.iter().any(ToonUniform::has_cartoon_map)
-    }
-
-    /// All visible objects.
-    fn groups(&self) -> impl Iterator<Item = &Group> {
-        [&self.surfaces, &self.blended].into_iter().chain(self.blueprints.iter().map(|b| &b.group))
-    }
-
-    /// Greatest distance from its spine at which a line has ink, px.
-    pub fn greatest_radius(&self) -> f32 {
-        self.groups().map(Group::greatest_radius).fold(self.hidden.greatest_radius(), f32::max)
-    }
-
-    /// The boxes of the enhanced objects, each in its own space, and where that lies.
-    pub fn enhanced_boxes<'a>(&'a self, scene: &'a GpuScene) -> impl Iterator<Item = (Bounds, DMat4)> + 'a {
-        let enhanced = self.groups().flat_map(|group| &group.visible).filter(|object| object.enhanced);
-        enhanced.filter_map(|object| box_of(object.node, scene))
-    }
-}
-
 impl Group {
     /// Nothing of a scene with so many object ids; what is hidden is drawn too.
     pub fn with_hidden(count: usize) -> Self {
-        Self { edge_styles: vec![EdgeUniform::default(); count], shows_hidden: true, ..Self::default() }
+        Self { shows_hidden: true, ..Self::new(count) }
+    }
+
+    /// Nothing of a scene with so many object ids.
+    pub fn new(count: usize) -> Self {
+        Self { edge_styles: vec![EdgeUniform::default(); count], ..Self::default() }
+    }
+
+    /// Adds an object of which the lines are of no interest.
+    pub fn add_without_lines(&mut self, object: Visible) {
+        self.visible.push(object);
     }
 
     /// Adds an object with its lines.
-    fn add(&mut self, object: Visible, edges: EdgeUniform, scene: &GpuScene) {
+    pub fn add(&mut self, object: Visible, edges: EdgeUniform, scene: &GpuScene) {
         self.visible.push(object);
         if object.enhanced {
             self.edge_styles[object_id(object.node) as usize] = edges;
@@ -294,14 +160,6 @@ impl Group {
         self.edge_styles.iter().map(EdgeUniform::greatest_radius).fold(0.0, f32::max)
     }
 
-    /// Mean depth of the middles of the objects' boxes.
-    pub fn mean_depth(&self, scene: &GpuScene, view: &View) -> f64 {
-        let middle = |(bounds, place): (Bounds, DMat4)| {
-            -(view.view_from_world * place).transform_point3(bounds.center()).z
-        };
-        self.boxes(scene).map(middle).sum::<f64>() / self.visible.len().max(1) as f64
-    }
-
     /// The visible objects.
     pub fn visible(&self) -> &[Visible] {
         &self.visible
@@ -317,7 +175,7 @@ impl Group {
         let margin = self.greatest_radius();
         let boxes = self.boxes(scene).filter(|(bounds, _)| !bounds.is_empty());
         let parts = boxes.filter_map(|(bounds, place)| {
-            part_of(view, &bounds.corners().map(|corner| place.transform_point3(corner)), margin)
+            view.part_of(&bounds.corners().map(|corner| place.transform_point3(corner)), margin)
         });
         let [width, height] = view.size.to_array();
         let [left, top, right, bottom] = view.part.unwrap_or([0, 0, width, height]);
@@ -454,7 +312,7 @@ impl Group {
 
 /// The box of an object in its own space, and where that lies; `None` for what faces the eye, which lies elsewhere for
 /// each.
-fn box_of(node: NodeId, scene: &GpuScene) -> Option<(Bounds, DMat4)> {
+pub fn box_of(node: NodeId, scene: &GpuScene) -> Option<(Bounds, DMat4)> {
     if scene.scene.facing_of(node).is_some() {
         return None;
     }

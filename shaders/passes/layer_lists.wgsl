@@ -1,0 +1,172 @@
+// Layers of several groups in one list per pixel, put in order and blended.
+#import common/frame.wgsl
+#import common/fullscreen.wgsl
+#import common/placed.wgsl
+#import common/records.wgsl
+
+// The rows that have room now, for so many entries. Twin: `BandUniform` in src/render/passes/layer_lists.rs.
+struct Band {
+    first_row: u32,
+    end_row: u32,
+    room: u32,
+}
+
+// Appending.
+var<uniform> band: Band;
+// The entry of each pixel that was appended last, plus 1; 0: none.
+var<storage, read_write> heads: array<u32>;
+// Bits of the greatest depth so far of this group.
+var<storage, read_write> deepest: array<u32>;
+// Entries of this band, then those of each row, those without room included.
+var<storage, read_write> counts: array<atomic<u32>>;
+// x: the entry before it in its pixel, plus 1; y: depth (bits of a float); z, w: colour as in common/placed.wgsl.
+var new_entry_tex: texture_storage_2d<rgba32uint, write>;
+// A layer; see common/placed.wgsl.
+var ink_tex: texture_storage_2d<rgba32uint, read>;
+var fill_tex: texture_storage_2d<rgba32uint, read>;
+
+// Afterwards.
+var<storage, read> listed: array<u32>;
+var entry_tex: texture_storage_2d<rgba32uint, read>;
+
+// What the layer has.
+override WITH_INK: bool = true;
+override WITH_FILL: bool = true;
+
+const GROUP: u32 = 64u;
+
+var<workgroup> group_count: atomic<u32>;
+var<workgroup> group_first: u32;
+
+fn append(index: u32, pixel: u32, texel: vec4<u32>) {
+    // Depths are positive: their bits are in the same order.
+    let depth = max(deepest[pixel], texel.z);
+    deepest[pixel] = depth;
+    if index < band.room {
+        textureStore(new_entry_tex, texel_of_record(index), vec4(heads[pixel], depth, texel.xy));
+        heads[pixel] = index + 1u;
+    }
+}
+
+// A row of pixels per workgroup; in each pixel the ink comes before the fill.
+@compute @workgroup_size(GROUP)
+fn cs_append(@builtin(global_invocation_id) id: vec3<u32>, @builtin(local_invocation_index) local: u32) {
+    let size = vec2<u32>(frame.size);
+    let is_in = id.x < size.x && id.y >= band.first_row && id.y < min(band.end_row, size.y);
+    var ink = vec4(0u);
+    var fill = vec4(0u);
+    if is_in {
+        if WITH_INK {
+            ink = textureLoad(ink_tex, vec2<i32>(id.xy));
+        }
+        if WITH_FILL {
+            fill = textureLoad(fill_tex, vec2<i32>(id.xy));
+        }
+    }
+    let own = select(0u, 1u, ink.z != 0u) + select(0u, 1u, fill.z != 0u);
+    var offset = 0u;
+    if own != 0u {
+        offset = atomicAdd(&group_count, own);
+    }
+    workgroupBarrier();
+    if local == 0u {
+        let count = atomicLoad(&group_count);
+        if count != 0u {
+            group_first = atomicAdd(&counts[0], count);
+            atomicAdd(&counts[1u + id.y], count);
+        }
+    }
+    workgroupBarrier();
+    let pixel = id.y * size.x + id.x;
+    var index = group_first + offset;
+    if ink.z != 0u {
+        append(index, pixel, ink);
+        index += 1u;
+    }
+    if fill.z != 0u {
+        append(index, pixel, fill);
+    }
+}
+
+// An entry that is being put in order. What was appended first has a smaller number.
+struct Entry {
+    depth: u32,
+    number: u32,
+}
+
+// Behind everything.
+const NONE: Entry = Entry(0xffffffffu, 0xffffffffu);
+
+fn is_before(a: Entry, b: Entry) -> bool {
+    return a.depth < b.depth || (a.depth == b.depth && a.number < b.number);
+}
+
+// Keeps the first of two, and goes on with the other one.
+fn sort(kept: ptr<function, Entry>, other: ptr<function, Entry>) {
+    let a = *kept;
+    let b = *other;
+    let swaps = is_before(b, a);
+    *kept = Entry(select(a.depth, b.depth, swaps), select(a.number, b.number, swaps));
+    *other = Entry(select(b.depth, a.depth, swaps), select(b.number, a.number, swaps));
+}
+
+fn beneath(front: vec4<f32>, entry: Entry) -> vec4<f32> {
+    if entry.number == NONE.number {
+        return front;
+    }
+    let texel = textureLoad(entry_tex, texel_of_record(entry.number));
+    let color = vec4(unpack2x16float(texel.z), unpack2x16float(texel.w));
+    return front + color * (1.0 - front.a);
+}
+
+// Eight entries at a time, as many as registers hold well; the nearest ones first.
+@fragment
+fn fs_blend(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
+    let px = vec2<u32>(position.xy);
+    let head = listed[px.y * u32(frame.size.x) + px.x];
+    var color = vec4(0.0);
+    var last = Entry(0u, 0u);
+    var is_first = true;
+    loop {
+        var a = NONE;
+        var b = NONE;
+        var c = NONE;
+        var d = NONE;
+        var e = NONE;
+        var f = NONE;
+        var g = NONE;
+        var h = NONE;
+        var next = head;
+        while next != 0u {
+            let number = next - 1u;
+            let texel = textureLoad(entry_tex, texel_of_record(number));
+            var own = Entry(texel.y, number);
+            if !is_first && !is_before(last, own) {
+                own = NONE;
+            }
+            sort(&a, &own);
+            sort(&b, &own);
+            sort(&c, &own);
+            sort(&d, &own);
+            sort(&e, &own);
+            sort(&f, &own);
+            sort(&g, &own);
+            sort(&h, &own);
+            next = texel.x;
+        }
+        color = beneath(color, a);
+        color = beneath(color, b);
+        color = beneath(color, c);
+        color = beneath(color, d);
+        color = beneath(color, e);
+        color = beneath(color, f);
+        color = beneath(color, g);
+        color = beneath(color, h);
+        last = h;
+        is_first = false;
+        if h.number == NONE.number || color.a >= 0.9999 {
+            break;
+        }
+    }
+    return color;
+}

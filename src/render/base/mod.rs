@@ -1,0 +1,18 @@
+//! What all floors above share: the scene on the device, groups of its objects, what is drawn of them, and how a camera sees it.
+
+pub mod edge_style;
+pub mod error;
+pub mod feature_lines;
+pub mod frame_uniform;
+pub mod gpu_scene;
+pub mod group;
+pub mod ids;
+pub mod instances;
+pub mod light_view;
+pub mod lights;
+pub mod sample;
+pub mod scale_bar;
+pub mod scene_view;
+pub mod section;
+pub mod stage;
+pub mod style_images;

@@ -1,0 +1,121 @@
+//! Which objects are drawn, and in which groups: styles and roles of a document, resolved for one picture.
+
+use glam::DMat4;
+
+use crate::document::{Document, Show};
+use crate::geometry::{Bounds, EdgeClass};
+use crate::render::base::edge_style::EdgeUniform;
+use crate::render::base::gpu_scene::GpuScene;
+use crate::render::base::group::{Group, Parts, Visible, box_of};
+use crate::render::base::ids::object_id;
+use crate::render::base::style_images::StyleImages;
+use crate::render::effects::blueprint::Blueprint;
+use crate::render::effects::hidden::Hidden;
+use crate::render::effects::mirror::Mirror;
+use crate::render::effects::surface::SurfaceStyles;
+use crate::render::effects::technique::Styled;
+use crate::scene::AlphaMode;
+use crate::style::Technique;
+
+/// Everything that is visible, resolved for one frame.
+#[derive(Clone, PartialEq, Default)]
+pub struct Objects {
+    /// The objects that hide what lies behind them: those of all surface techniques.
+    pub surfaces: Group,
+    /// Those of them that blueprints are peeled to uncover; they have no lines of their own here.
+    pub masks: Group,
+    /// Their hidden lines.
+    pub hidden: Hidden,
+    /// Parts of the same techniques through which something shows.
+    pub blended: Group,
+    /// The others, together where their style is equal.
+    pub blueprints: Vec<Blueprint>,
+    /// The box around everything visible, world space.
+    pub visible_bounds: Bounds,
+    /// How surfaces are shaded.
+    pub styles: SurfaceStyles,
+    /// The mirrors among them.
+    pub mirrors: Vec<Mirror>,
+    /// Pixels per reference pixel.
+    pub scale: f32,
+}
+
+impl Objects {
+    /// Resolves styles and roles of a document for the nodes of a scene; `scale`: pixels per reference pixel.
+    pub fn new(document: &Document, scene: &GpuScene, images: &StyleImages, scale: f32) -> Self {
+        let resolved = document.resolve(&scene.scene);
+        // What is not drawn, entry 0 (the background) included, has neither shading nor lines.
+        let count = resolved.len() + 1;
+        let (surfaces, styles) = (Group::new(count), SurfaceStyles::new(count));
+        let mut objects = Self { scale, surfaces, styles, ..Self::default() };
+        for (node, r) in resolved.iter().enumerate() {
+            if !r.visible || scene.scene.nodes[node].mesh.is_none() || scene.is_cut_away(node) {
+                continue;
+            }
+            let id = object_id(node) as usize;
+            objects.styles.add(&Styled { id, count, node, style: r.style, scene, images, scale });
+            // A look at a buffer is one at that of surfaces, which every object then is.
+            let has_layers = r.style.technique == Technique::Blueprint && document.view.show == Show::Picture;
+            let is_blueprint = has_layers && !r.mask;
+            // Mirrors and masks show and hide as a whole.
+            let blends = document.view.show == Show::Picture && !has_layers && !r.mask && !r.mirror;
+            let is_blended = |alpha: AlphaMode| blends && alpha == AlphaMode::Blend;
+            let has_blended = scene.alphas(node).any(is_blended);
+            let is_opaque = !has_blended || !scene.alphas(node).all(is_blended);
+            if has_blended && objects.blended.is_empty() {
+                objects.blended = Group::with_hidden(count);
+            }
+            // The width of lines that are nowhere would decide how all others are drawn.
+            let possible = |edges: EdgeUniform| {
+                if scene.is_cut_open(node) { edges } else { edges.without(EdgeClass::Section) }
+            };
+            let edges = possible(EdgeUniform::new(&r.style.edges, scale));
+            let edges = if has_layers { edges.inked(&r.style.edges, r.style.blueprint.near) } else { edges };
+            let whole = Visible { node, enhanced: r.enhanced, parts: Parts::All };
+            if is_blueprint {
+                let group = Blueprint::group_of(&mut objects.blueprints, r.style, count);
+                group.add(whole, edges, scene);
+            } else if is_opaque {
+                let parts = if has_blended { Parts::Opaque } else { Parts::All };
+                objects.surfaces.add(Visible { parts, ..whole }, edges, scene);
+                if r.enhanced && document.view.show == Show::Picture {
+                    let style = possible(EdgeUniform::hidden(&r.style.edges, scale));
+                    objects.hidden.add((count, id), style, &r.style.edges.hidden);
+                }
+            }
+            if has_blended {
+                let parts = if is_opaque { Parts::Blended } else { Parts::All };
+                objects.blended.add(Visible { parts, ..whole }, edges, scene);
+            }
+            if r.mask {
+                objects.masks.add_without_lines(whole);
+            }
+            if r.mirror
+                && !is_blueprint
+                && !scene.scene.is_added(node)
+                && let Ok(plane) = scene.plane_of(node)
+            {
+                objects.mirrors.push(Mirror::new(id as u32, plane, scene.corners_of(node), &r.style.mirror));
+            }
+            objects.visible_bounds = objects.visible_bounds.union(&scene.bounds_of(node));
+        }
+        objects
+    }
+
+    /// All visible objects.
+    fn groups(&self) -> impl Iterator<Item = &Group> {
+        [&self.surfaces, &self.blended].into_iter().chain(self.blueprints.iter().map(|b| &b.group))
+    }
+
+    /// Greatest distance from its spine at which a line has ink, px.
+    pub fn greatest_radius(&self) -> f32 {
+        self.groups().map(Group::greatest_radius).fold(self.hidden.greatest_radius(), f32::max)
+    }
+
+    /// The boxes of the enhanced objects, each in its own space, and where that lies.
+    pub fn enhanced_boxes<'a>(&'a self, scene: &'a GpuScene) -> impl Iterator<Item = (Bounds, DMat4)> + 'a {
+        let enhanced = self.groups().flat_map(Group::visible).filter(|object| object.enhanced);
+        enhanced.filter_map(|object| box_of(object.node, scene))
+    }
+}
+

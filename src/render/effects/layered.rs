@@ -1,0 +1,232 @@
+//! A group that is cut into depth layers, each with lines of its own: the walk that glass, blueprints, hidden lines and looks
+//! at one layer have in common. They differ in what they ask of the layers, and in what they make of each.
+
+use glam::Vec2;
+
+use crate::document::LayersBy;
+use crate::gpu::{Gpu, Recorder, Target};
+use crate::render::base::edge_style::EdgeUniform;
+use crate::render::base::error::RenderError;
+use crate::render::base::feature_lines::feature_lines;
+use crate::render::base::frame_uniform::FrameUniform;
+use crate::render::base::group::Group;
+use crate::render::base::instances::{DrawCall, Instance};
+use crate::render::base::scene_view::SceneView;
+use crate::render::passes::designated::DepthMask;
+use crate::render::passes::layers::{
+    DrawnLayer, LayerEdges, LayerInputs, LayerLines, LayerLinesInputs, Layers, LayersBy as MadeBy, Reported,
+};
+use crate::render::passes::lines::Lines;
+use crate::render::passes::peel::{PeelCount, Peeled};
+use crate::render::passes::segments::Segments;
+use crate::render::passes::traversal::GBufferPass;
+
+/// A group as a camera sees it: what any picture of its layers depends on, by value.
+#[derive(Clone, PartialEq)]
+pub struct LayeredGroup {
+    shaders: u64,
+    scene_revision: u64,
+    /// The objects.
+    pub group: Group,
+    /// What is drawn of them.
+    pub draws: Vec<Instance>,
+    /// How.
+    pub calls: Vec<DrawCall>,
+    /// Bind group 0, without the paper.
+    pub uniform: FrameUniform,
+    part: Option<[u32; 4]>,
+    crease_angle: f32,
+    layers_by: LayersBy,
+}
+
+impl LayeredGroup {
+    /// A group as `seen`; `uniform`: bind group 0.
+    pub fn new(rec: &Recorder<'_>, seen: &SceneView<'_>, uniform: &FrameUniform, group: Group) -> Self {
+        let (draws, calls) = group.draws(seen.scene, seen.view);
+        Self {
+            shaders: rec.pipelines.generation(),
+            scene_revision: seen.scene_revision,
+            group,
+            draws,
+            calls,
+            uniform: uniform.without_background(),
+            part: seen.view.part,
+            crease_angle: seen.crease_angle,
+            layers_by: seen.layers_by,
+        }
+    }
+}
+
+/// What is asked of the layers of a group; see [`LayerInputs`].
+#[derive(Clone, Copy)]
+pub struct Wanted<'a> {
+    /// Most layers.
+    pub most: u32,
+    /// It ends before a layer of fewer pixels.
+    pub least: u32,
+    /// The designated objects, and the share of them that is to be uncovered.
+    pub mask: Option<(&'a DepthMask, f32)>,
+    /// How layers are to be made; `None`: as the document says.
+    pub by: Option<LayersBy>,
+    /// Whether their base colours are asked for.
+    pub with_color: bool,
+    /// Whether their shading normals are.
+    pub with_normals: bool,
+    /// Whether their depths are.
+    pub with_depth: bool,
+    /// The geometry of so many layers is 0 where they have nothing; of the others it is undefined there.
+    pub whole: u32,
+    /// How lines look, by object id; objects may differ from layer to layer, so there are as many as are told apart.
+    pub line_styles: &'a [&'a Vec<EdgeUniform>],
+    /// Lines before the first layer, which are not repeated.
+    pub seen: Option<&'a Target>,
+}
+
+/// What is asked of the lines of one layer; see [`LayerLinesInputs`].
+#[derive(Clone, Copy, Default)]
+pub struct WantedLines<'a> {
+    /// Index of [`Wanted::line_styles`].
+    pub style: usize,
+    /// Whether the edge map is looked at by itself.
+    pub is_whole: bool,
+    /// Regions of the last layer and of that before it, if what goes on there has no outline.
+    pub before: Option<[&'a Target; 2]>,
+    /// Whether a line is drawn again where a nearer layer has one.
+    pub repeated: bool,
+}
+
+/// One layer while it is being drawn.
+pub struct Visit<'w> {
+    /// The layer.
+    pub drawn: DrawnLayer<'w>,
+    lines: &'w mut [LayerLines],
+    line_styles: &'w [&'w Vec<EdgeUniform>],
+    segments: &'w Segments,
+    has_holes: bool,
+    is_cut: bool,
+    seen: &'w mut Option<Target>,
+}
+
+impl Visit<'_> {
+    /// The edges of the layer.
+    ///
+    /// # Errors
+    /// [`RenderError`].
+    pub fn edges(
+        &mut self,
+        rec: &mut Recorder<'_>,
+        wanted: WantedLines<'_>,
+    ) -> Result<Option<LayerEdges>, RenderError> {
+        let Some((lines, styles)) = self.lines.get_mut(wanted.style).zip(self.line_styles.get(wanted.style)) else {
+            return Ok(None);
+        };
+        let inputs = LayerLinesInputs {
+            styles,
+            is_whole: wanted.is_whole,
+            segments: self.segments,
+            has_holes: self.has_holes,
+            is_cut: self.is_cut,
+            before: wanted.before,
+            repeated: wanted.repeated,
+        };
+        lines.edges(rec, &inputs, self.drawn.layer, self.seen).map(Some)
+    }
+
+    /// What draws them.
+    pub fn lines<'a>(&'a self, edges: &'a LayerEdges, style: usize) -> Option<Lines<'a>> {
+        let (lines, styles) = self.lines.get(style).zip(self.line_styles.get(style))?;
+        Some(edges.lines(self.drawn.layer, lines, styles))
+    }
+
+    /// Edge styles by object id on the device.
+    pub fn edge_styles(&self, style: usize) -> Option<&wgpu::Buffer> {
+        self.lines.get(style).map(LayerLines::edge_styles)
+    }
+}
+
+/// What of the layers of a group lives across frames.
+pub struct Layered {
+    layers: Layers,
+    lines: Vec<LayerLines>,
+    segments: Segments,
+}
+
+impl Layered {
+    /// Nothing drawn yet.
+    pub fn new(gpu: &Gpu) -> Self {
+        Self { layers: Layers::new(gpu), lines: Vec::new(), segments: Segments::new(gpu) }
+    }
+
+    /// What has been reported about its layers. Never waits.
+    pub fn take_reports(&mut self) -> Reported {
+        self.layers.take_reports()
+    }
+
+    /// How far the last layers came of which that is known, and how they were made.
+    pub fn last(&self) -> Option<&(Peeled, MadeBy)> {
+        self.layers.last()
+    }
+
+    /// How far the last layers came, on the device.
+    pub fn count(&self) -> &PeelCount {
+        self.layers.count()
+    }
+
+    /// Cuts a group into layers, and hands each to `draw`, the nearest first.
+    ///
+    /// # Errors
+    /// [`RenderError`].
+    pub fn walk(
+        &mut self,
+        rec: &mut Recorder<'_>,
+        gbuffer_pass: &mut GBufferPass,
+        seen: &SceneView<'_>,
+        layered: &LayeredGroup,
+        wanted: &Wanted<'_>,
+        mut draw: impl FnMut(&mut Recorder<'_>, Visit<'_>) -> Result<(), RenderError>,
+    ) -> Result<(), RenderError> {
+        let Self { layers, lines, segments } = self;
+        let LayeredGroup { group, draws, calls, .. } = layered;
+        lines.resize_with(wanted.line_styles.len(), || LayerLines::new(rec.gpu));
+        for (lines, styles) in lines.iter_mut().zip(wanted.line_styles) {
+            lines.begin(rec.gpu, styles);
+        }
+        // Which edges are lines does not change from sample to sample.
+        let view = seen.view.moved(Vec2::ZERO);
+        segments.write(rec, &feature_lines(seen.scene, group, &view, seen.crease_angle), true)?;
+        let mut seen_lines = wanted.seen.cloned();
+        let inputs = LayerInputs {
+            scene: seen.scene,
+            draws,
+            calls,
+            is_cut: seen.view.has_cuts(),
+            most: wanted.most,
+            least: wanted.least,
+            mask: wanted.mask.map(|(mask, _)| mask),
+            fraction: wanted.mask.map_or(1.0, |(_, fraction)| fraction),
+            by: wanted.by.unwrap_or(seen.layers_by),
+            with_color: wanted.with_color,
+            with_normals: wanted.with_normals,
+            with_depth: wanted.with_depth,
+            whole: wanted.whole,
+        };
+        layers.each(rec, gbuffer_pass, &inputs, |rec, drawn| {
+            let visit = Visit {
+                drawn: *drawn,
+                lines: &mut *lines,
+                line_styles: wanted.line_styles,
+                segments,
+                has_holes: group.has_holes,
+                is_cut: seen.view.cut.is_some(),
+                seen: &mut seen_lines,
+            };
+            draw(rec, visit)
+        })
+    }
+}
+
+/// So many pixels are this share of a picture, percent: a layer of fewer ends layers, an empty one at the latest.
+pub fn least_pixels(percent: f32, [width, height]: [u32; 2]) -> u32 {
+    let share = f64::from(percent.clamp(0.0, 100.0)) / 100.0;
+    ((share * f64::from(width) * f64::from(height)).ceil() as u32).max(1)
+}

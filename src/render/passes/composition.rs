@@ -1,0 +1,116 @@
+//! The composition of a drawing: what is where so far, and the only place where it is decided what hides what.
+//!
+//! ```text
+//! nearest:  surfaces with their lines ─► geometry (object, depth, plane), ink (colour, depth of its edge)
+//! beneath:  what is seen through      ─► tested against both, each layer by its own depth, among all groups
+//! front:    the nearest of all        ─► what a click means and what an outline is drawn around
+//! ```
+
+use super::front::Front;
+use super::lines::{Lines, Pen, lines};
+use super::overlay::overlay;
+use crate::gpu::bindings::NOTHING;
+use crate::gpu::recorder::Onto;
+use crate::gpu::{Inputs, Recorder, Target, inputs};
+use crate::render::base::error::RenderError;
+use crate::render::base::stage::Output;
+
+/// Ink of lines and its depth; see `shaders/common/placed.wgsl`.
+pub const PLACED: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Uint;
+
+/// What has been placed so far.
+pub struct Composition {
+    /// Geometry of the opaque surface at each pixel; see `shaders/common/gbuffer.wgsl`.
+    pub surfaces: Output<Target>,
+    /// Whether there is any.
+    pub has_surfaces: bool,
+    /// Their ink, which reaches beyond them; `None` where nobody asks for it, or nothing has lines.
+    pub ink: Option<Output<Target>>,
+    /// Pictures of what is seen through, and the geometry of the nearest layer of each.
+    translucent: Vec<Output<Translucent>>,
+}
+
+/// What is seen through, drawn.
+#[derive(Debug, Clone)]
+pub struct Translucent {
+    /// Linear colour times opacity, and opacity.
+    pub color: Target,
+    /// Geometry of the nearest layer that is drawn, of each group; empty when none is.
+    pub fronts: Vec<Target>,
+}
+
+impl Composition {
+    /// Begins with what is opaque.
+    pub fn of_surfaces(surfaces: Output<Target>, has_surfaces: bool) -> Self {
+        Self { surfaces, has_surfaces, ink: None, translucent: Vec::new() }
+    }
+
+    /// Places the ink of what is opaque.
+    pub fn place_ink(&mut self, ink: Option<Output<Target>>) {
+        self.ink = ink;
+    }
+
+    /// Places groups that are seen through: those of one picture are in order among themselves, and overlap no others.
+    pub fn place_translucent(&mut self, picture: Output<Translucent>) {
+        self.translucent.push(picture);
+    }
+
+    /// Changes when what is opaque does, or its ink.
+    pub fn revisions(&self) -> [Option<u64>; 2] {
+        [Some(self.surfaces.revision), self.ink.as_ref().map(|ink| ink.revision)]
+    }
+
+    /// Changes when what is seen through does.
+    pub fn translucent_revisions(&self) -> Vec<u64> {
+        self.translucent.iter().map(|picture| picture.revision).collect()
+    }
+
+    /// The picture of what is seen through, if it is all there is.
+    pub fn only_translucent(&self) -> Option<&Target> {
+        match self.translucent.as_slice() {
+            [only] if !self.has_surfaces => Some(&only.value.color),
+            _ => None,
+        }
+    }
+
+    /// Lays what is seen through over what is opaque.
+    ///
+    /// # Errors
+    /// [`RenderError`].
+    pub fn lay_translucent(&self, rec: &mut Recorder<'_>, color: &Target) -> Result<(), RenderError> {
+        self.translucent.iter().try_for_each(|picture| overlay(rec, &picture.value.color, color))
+    }
+
+    /// What is in front.
+    pub fn front(&self) -> Front {
+        let layers = self.translucent.iter().flat_map(|picture| picture.value.fronts.clone()).collect();
+        Front { surfaces: self.surfaces.value.clone(), layers }
+    }
+
+    /// What the shaders of what is seen through test it against: `shaders/common/composition.wgsl`.
+    pub fn tested(&self) -> Inputs<'_> {
+        inputs! { surface_tex: &self.surfaces.value, opaque_ink_tex: self.ink.as_ref().map(|ink| &ink.value) }
+    }
+
+    /// The switches of that.
+    pub fn switches(&self) -> [(&'static str, bool); 2] {
+        [("WITH_SURFACES", self.has_surfaces), ("WITH_OPAQUE_INK", self.ink.is_some())]
+    }
+}
+
+/// The ink of lines, each pixel with the depth of the edge that it is of.
+///
+/// # Errors
+/// [`RenderError`].
+pub fn ink(rec: &mut Recorder<'_>, opaque: &Lines<'_>) -> Result<Target, RenderError> {
+    let ink = rec.target("ink", PLACED)?;
+    let pen = Pen {
+        file: "passes/lines.wgsl",
+        entry_point: "fs_placed",
+        inputs: &NOTHING,
+        switches: &[],
+        onto: Onto::Nothing,
+    };
+    lines(rec, opaque, &pen, &ink)?;
+    Ok(ink)
+}

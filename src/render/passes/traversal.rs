@@ -1,0 +1,296 @@
+//! One traversal of the scene (edge-enhancement paper, section 4.1.1): a G-buffer of the nearest surfaces or of what lies behind
+//! a layer, or all fragments as lists.
+
+use std::collections::HashMap;
+
+use super::fragment_lists::FragmentLists;
+use super::gbuffer::{BASE_COLOR, DEPTH, GBuffer, GEOMETRY, REGION, SORT_KEYS};
+use super::peel::{Peel, PeelCount};
+use crate::gpu::geometry::{Attributes, POSITIONS, SURFACES};
+use crate::gpu::recorder::Onto;
+use crate::gpu::{Gpu, MaterialBindings, Pipelines, Recorder, Target};
+use crate::render::base::error::RenderError;
+use crate::render::base::gpu_scene::GpuScene;
+use crate::render::base::instances::{Detail, DrawCall, INSTANCES, Instance, Instances, runs};
+
+/// The pipelines of the pass, made when first needed.
+pub struct GBufferPass {
+    pipelines: HashMap<Variant, wgpu::RenderPipeline>,
+    generation: u64,
+    /// Layout of bind group 2: images.
+    pub material_layout: wgpu::BindGroupLayout,
+    /// Layout of bind group 3: the material of an instance.
+    instance_layout: wgpu::BindGroupLayout,
+    layer_layout: wgpu::BindGroupLayout,
+    /// Where the fragments of one group after the other are collected.
+    pub lists: FragmentLists,
+}
+
+/// What tells the pipelines apart.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+struct Variant {
+    detail: Detail,
+    hidden_side: Option<wgpu::Face>,
+    /// Whether what lies behind a plane is left out.
+    is_cut: bool,
+    /// Whether layers have a base colour.
+    with_color: bool,
+    purpose: Purpose,
+}
+
+/// What objects are drawn for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+enum Purpose {
+    /// The nearest surfaces.
+    Surfaces,
+    /// What lies behind another layer.
+    Layer,
+    /// Where anything does.
+    Counted,
+    /// All fragments, as lists.
+    Lists,
+}
+
+impl Purpose {
+    fn file(self) -> &'static str {
+        match self {
+            Self::Surfaces => "passes/gbuffer.wgsl",
+            Self::Layer | Self::Counted => "passes/peel.wgsl",
+            Self::Lists => "passes/fragment_lists.wgsl",
+        }
+    }
+
+    fn entry_points(self, detail: Detail) -> (&'static str, &'static str) {
+        let (vertex, fragments) = match detail {
+            Detail::Lean => ("vs_lean", ["fs_lean", "fs_lean_layer", "fs_lean_counted", "fs_lean_list"]),
+            Detail::Smooth => {
+                ("vs_smooth", ["fs_smooth", "fs_smooth_layer", "fs_smooth_counted", "fs_smooth_list"])
+            }
+            Detail::Full => ("vs_full", ["fs_full", "fs_full_layer", "fs_full_counted", "fs_full_list"]),
+        };
+        (vertex, fragments[self as usize])
+    }
+
+    fn outputs(self, with_color: bool) -> &'static [wgpu::TextureFormat] {
+        match self {
+            Self::Surfaces => &[GEOMETRY, BASE_COLOR, REGION],
+            Self::Layer if with_color => &[GEOMETRY, REGION, SORT_KEYS, BASE_COLOR],
+            Self::Layer => &[GEOMETRY, REGION, SORT_KEYS],
+            Self::Counted => &[REGION],
+            Self::Lists => &[],
+        }
+    }
+}
+
+/// A traversal of the scene.
+struct Traversal<'a> {
+    label: &'static str,
+    purpose: Purpose,
+    with_color: bool,
+    /// Whether all of `color` is cleared, or all but the first one.
+    is_whole: bool,
+    color: &'a [&'a Target],
+    depth: &'a Target,
+    /// Bind group 1.
+    group: Option<wgpu::BindGroup>,
+}
+
+impl GBufferPass {
+    /// Compiles nothing yet.
+    pub fn new(gpu: &Gpu) -> Self {
+        Self {
+            pipelines: HashMap::new(),
+            generation: 0,
+            material_layout: MaterialBindings::layout(gpu),
+            instance_layout: Instances::material_layout(gpu),
+            layer_layout: Peel::layout(gpu),
+            lists: FragmentLists::new(gpu),
+        }
+    }
+
+    fn prepare(&mut self, gpu: &Gpu, pipelines: &mut Pipelines, key: Variant) -> Result<(), RenderError> {
+        if self.generation != pipelines.generation() {
+            self.pipelines.clear();
+            self.generation = pipelines.generation();
+        }
+        if self.pipelines.contains_key(&key) {
+            return Ok(());
+        }
+        let module = pipelines.module(gpu, key.purpose.file())?;
+        let own = match key.purpose {
+            Purpose::Surfaces => None,
+            Purpose::Layer | Purpose::Counted => Some(&self.layer_layout),
+            Purpose::Lists => Some(self.lists.layout()),
+        };
+        let frame = pipelines.frame_layout();
+        let layouts = [Some(frame), own, Some(&self.material_layout), Some(&self.instance_layout)];
+        let bound = if key.detail == Detail::Full { &layouts[..] } else { &layouts[..2] };
+        self.pipelines.insert(key, build(gpu, &module, bound, key));
+        Ok(())
+    }
+
+    /// Draws the given parts of a scene, which go to `instances`; of a layer only what lies behind the last one.
+    ///
+    /// # Errors
+    /// [`RenderError`].
+    pub fn run(
+        &mut self,
+        rec: &mut Recorder<'_>,
+        scene: &GpuScene,
+        instances: &mut Instances,
+        parts: (&[Instance], &[DrawCall]),
+        is_cut: bool,
+        peel: Option<&Peel<'_>>,
+    ) -> Result<GBuffer, RenderError> {
+        let gbuffer = GBuffer::new(rec)?;
+        let GBuffer { geometry, base_color, region, depth } = &gbuffer;
+        let (label, purpose, with_color, is_whole, color) = match peel {
+            None => ("g-buffer", Purpose::Surfaces, true, true, vec![geometry, base_color, region]),
+            Some(Peel { sort_keys: None, .. }) => ("peel", Purpose::Counted, false, true, vec![region]),
+            Some(Peel { sort_keys: Some(sort_keys), with_color, is_whole, .. }) => {
+                let mut color = vec![geometry, region, *sort_keys];
+                color.extend(with_color.then_some(base_color));
+                ("peel", Purpose::Layer, *with_color, *is_whole, color)
+            }
+        };
+        let group = peel.map(|peel| peel.group(rec.gpu, &self.layer_layout));
+        let traversal = Traversal { label, purpose, with_color, is_whole, color: &color, depth, group };
+        self.traverse(rec, scene, instances, parts, is_cut, traversal)?;
+        Ok(gbuffer)
+    }
+
+    /// Collects all fragments of the given parts of a scene in [`Self::lists`].
+    ///
+    /// # Errors
+    /// [`RenderError`].
+    pub fn collect(
+        &mut self,
+        rec: &mut Recorder<'_>,
+        scene: &GpuScene,
+        instances: &mut Instances,
+        parts: (&[Instance], &[DrawCall]),
+        is_cut: bool,
+        with_color: bool,
+        count: &PeelCount,
+    ) -> Result<(), RenderError> {
+        let group = Some(self.lists.group(rec.gpu, count));
+        // A pass has to have an output.
+        let depth = &rec.target("depth", DEPTH)?;
+        let (label, purpose) = ("fragment lists", Purpose::Lists);
+        let traversal = Traversal { label, purpose, with_color, is_whole: true, color: &[], depth, group };
+        self.traverse(rec, scene, instances, parts, is_cut, traversal)
+    }
+
+    fn traverse(
+        &mut self,
+        rec: &mut Recorder<'_>,
+        scene: &GpuScene,
+        instances: &mut Instances,
+        (drawn, calls): (&[Instance], &[DrawCall]),
+        is_cut: bool,
+        traversal: Traversal<'_>,
+    ) -> Result<(), RenderError> {
+        let Traversal { label, purpose, with_color, is_whole, color, depth, group: own } = traversal;
+        let gpu = rec.gpu;
+        let variant = |call: &DrawCall| {
+            let DrawCall { detail, hidden_side, .. } = *call;
+            Variant { detail, hidden_side, is_cut, with_color, purpose }
+        };
+        for call in calls {
+            self.prepare(gpu, rec.pipelines, variant(call))?;
+        }
+        instances.write(gpu, drawn, calls)?;
+        let materials = instances.material_group(gpu, &self.instance_layout);
+        let runs = runs(rec, calls);
+        let onto = if is_whole { Onto::Nothing } else { Onto::Anything };
+        let color: Vec<_> = onto.attachments(color);
+        let depth = wgpu::RenderPassDepthStencilAttachment {
+            view: depth.view(),
+            depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Store }),
+            stencil_ops: None,
+        };
+        let mut pass = rec.pass(label, &color, Some(depth));
+        if let Some(own) = &own {
+            pass.set_bind_group(1, own, &[]);
+        }
+        let (mut bound, mut images, mut origin) = (None, None, None);
+        for run in &runs {
+            let call = &run.call;
+            if origin != Some(call.origin) {
+                let geometry = scene.geometry(call.origin);
+                let buffers =
+                    [Some(&geometry.positions), Some(&geometry.surfaces), geometry.attributes.as_ref()];
+                geometry.bind(&mut pass, 1, &buffers);
+                origin = Some(call.origin);
+            }
+            let key = variant(call);
+            if bound != Some(key) {
+                let Some(pipeline) = self.pipelines.get(&key) else { continue };
+                pass.set_pipeline(pipeline);
+                bound = Some(key);
+            }
+            if call.detail == Detail::Full {
+                if images != Some(call.material_group) {
+                    pass.set_bind_group(2, scene.materials.group(call.material_group), &[]);
+                    images = Some(call.material_group);
+                }
+                pass.set_bind_group(3, &materials, &[instances.material_of(call)]);
+            }
+            instances.draw(&mut pass, run);
+        }
+        drop(pass);
+        Ok(())
+    }
+}
+
+fn build(
+    gpu: &Gpu,
+    module: &wgpu::ShaderModule,
+    layouts: &[Option<&wgpu::BindGroupLayout>],
+    variant: Variant,
+) -> wgpu::RenderPipeline {
+    let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        label: Some("g-buffer"),
+        bind_group_layouts: layouts,
+        immediate_size: 0,
+    });
+    let buffers = [Some(INSTANCES), Some(POSITIONS), Some(SURFACES), Some(Attributes::LAYOUT)];
+    let (vertex, fragment) = variant.purpose.entry_points(variant.detail);
+    let targets: Vec<_> =
+        variant.purpose.outputs(variant.with_color).iter().map(|&format| Some(format.into())).collect();
+    let mut constants = vec![("WITH_CUT", variant.is_cut)];
+    constants.extend((variant.purpose != Purpose::Surfaces).then_some(("WITH_COLOR", variant.with_color)));
+    let constants: Vec<_> = constants.into_iter().map(|(name, on)| (name, f64::from(u8::from(on)))).collect();
+    let options = wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
+    // Lists take all fragments.
+    let is_list = variant.purpose == Purpose::Lists;
+    let depth_compare = if is_list { wgpu::CompareFunction::Always } else { wgpu::CompareFunction::Greater };
+    gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some("g-buffer"),
+        layout: Some(&layout),
+        vertex: wgpu::VertexState {
+            module,
+            entry_point: Some(vertex),
+            compilation_options: options.clone(),
+            buffers: if variant.detail == Detail::Lean { &buffers[..3] } else { &buffers },
+        },
+        // Unless a mesh is known to be solid, both sides are drawn: flipped or mixed winding is common in files.
+        primitive: wgpu::PrimitiveState { cull_mode: variant.hidden_side, ..Default::default() },
+        depth_stencil: Some(wgpu::DepthStencilState {
+            format: DEPTH,
+            depth_write_enabled: Some(!is_list),
+            depth_compare: Some(depth_compare),
+            stencil: wgpu::StencilState::default(),
+            bias: wgpu::DepthBiasState::default(),
+        }),
+        multisample: wgpu::MultisampleState::default(),
+        fragment: Some(wgpu::FragmentState {
+            module,
+            entry_point: Some(fragment),
+            compilation_options: options,
+            targets: &targets,
+        }),
+        multiview_mask: None,
+        cache: None,
+    })
+}

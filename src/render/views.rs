@@ -1,0 +1,170 @@
+//! Debug views: looks at the buffers that a picture is made from, of any depth layer (blueprints paper, Fig. 4).
+
+use glam::Vec2;
+
+use super::base::error::RenderError;
+use super::base::stage::{Output, Stage};
+use super::drawing::{Drawing, DrawingInputs, Shared, Surfaces};
+use super::effects::layered::{Layered, LayeredGroup, Visit, Wanted, WantedLines};
+use super::passes::front::Front;
+use super::passes::gbuffer::GBuffer;
+use super::passes::operators::operators;
+use super::passes::peel::MOST_LAYERS;
+use super::passes::show::{Shown, show};
+use crate::document::{LayersBy, Show};
+use crate::gpu::{Gpu, GpuError, Recorder, Target};
+
+/// Which buffer is looked at.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct View {
+    /// The buffer.
+    pub show: Show,
+    /// The depth layer that it is of, from 1; 1: the nearest.
+    pub layer: u32,
+}
+
+/// A look at a buffer.
+pub struct Viewed {
+    /// The image.
+    pub image: Output<Target>,
+    /// What is in front, and what changes when it does.
+    pub front: (Front, Vec<u64>),
+}
+
+/// What of the views lives across frames.
+pub struct Views {
+    layered: Layered,
+    layer: Stage<(LayeredGroup, u32), (GBuffer, Target)>,
+    operators: Stage<(u64, u32, Vec2), Target>,
+    image: Stage<ImageKey, Target>,
+}
+
+/// What the image depends on.
+#[derive(PartialEq)]
+struct ImageKey {
+    shaders: u64,
+    view: View,
+    gbuffer: u64,
+    edges: u64,
+    operators: Option<u64>,
+}
+
+impl Views {
+    /// Nothing drawn yet.
+    pub fn new(gpu: &Gpu) -> Self {
+        Self {
+            layered: Layered::new(gpu),
+            layer: Stage::default(),
+            operators: Stage::default(),
+            image: Stage::default(),
+        }
+    }
+
+    /// How often an image was drawn.
+    pub fn runs(&self) -> u64 {
+        self.image.runs()
+    }
+
+    /// Lets go of the last one.
+    pub fn forget(&mut self) {
+        self.layer.clear();
+        self.operators.clear();
+        self.image.clear();
+    }
+
+    /// Draws one buffer as an image.
+    ///
+    /// # Errors
+    /// [`RenderError`].
+    pub fn draw(
+        &mut self,
+        rec: &mut Recorder<'_>,
+        drawing: &mut Drawing,
+        shared: &mut Shared,
+        inputs: &DrawingInputs<'_>,
+        view: View,
+    ) -> Result<Viewed, RenderError> {
+        drawing.forget_picture();
+        let surfaces = drawing.draw_surfaces(rec, shared, inputs)?;
+        let edges = drawing.find_edges(rec, inputs, &surfaces)?;
+        rec.note("edge map", Some(&edges.value.edges));
+        let visible = &surfaces.gbuffer;
+        let deeper = if view.layer > 1 {
+            Some(self.layer(rec, shared, inputs, &surfaces, view.layer)?)
+        } else {
+            self.layer.clear();
+            None
+        };
+        let (gbuffer, edge_map, revision) = match &deeper {
+            Some(Output { value: (gbuffer, edge_map), revision }) => (gbuffer, edge_map, *revision),
+            None => (&visible.value, &edges.value.edges, visible.revision),
+        };
+        let operators = match view.show {
+            Show::NormalOperator | Show::DepthOperator | Show::C1Operator => {
+                let key = (revision, view.layer, surfaces.depth_range);
+                Some(self.operators.run(key, |_| operators(rec, gbuffer, drawing.edge_styles()))?)
+            }
+            _ => {
+                self.operators.clear();
+                None
+            }
+        };
+        rec.note("operators", operators.as_ref().map(|operators| &operators.value));
+        let key = ImageKey {
+            shaders: rec.pipelines.generation(),
+            view,
+            gbuffer: revision,
+            edges: edges.revision,
+            operators: operators.as_ref().map(|operators| operators.revision),
+        };
+        let image = self.image.run(key, |_| {
+            let operators = operators.as_ref().map(|operators| &operators.value);
+            show(rec, view.show, Shown { gbuffer, edge_map, operators })
+        })?;
+        let front = Front { surfaces: visible.value.geometry.clone(), layers: Vec::new() };
+        Ok(Viewed { image, front: (front, vec![visible.revision]) })
+    }
+
+    /// The layer of that number and its edge map; both empty behind the last one.
+    fn layer(
+        &mut self,
+        rec: &mut Recorder<'_>,
+        shared: &mut Shared,
+        inputs: &DrawingInputs<'_>,
+        surfaces: &Surfaces,
+        number: u32,
+    ) -> Result<Output<(GBuffer, Target)>, RenderError> {
+        let mut group = inputs.objects.surfaces.clone();
+        group.shows_hidden = true;
+        let key = LayeredGroup::new(rec, &inputs.seen, &surfaces.uniform, group);
+        let Self { layered, layer, .. } = self;
+        layer.run((key, number), |(key, _)| {
+            let wanted = Wanted {
+                most: number,
+                least: 1,
+                mask: None,
+                // It cannot run out of room, which nobody would hear of.
+                by: Some(LayersBy::Peeling),
+                with_color: true,
+                with_normals: true,
+                with_depth: true,
+                whole: MOST_LAYERS,
+                line_styles: &[&key.group.edge_styles],
+                seen: None,
+            };
+            let mut found = None;
+            // A layer that has ended is empty, and nobody waits for the report about it.
+            layered.walk(rec, &mut shared.gbuffer, &inputs.seen, key, &wanted, |rec, mut visit: Visit<'_>| {
+                if visit.drawn.number + 1 < number {
+                    return Ok(());
+                }
+                let wanted = WantedLines { is_whole: true, repeated: true, ..WantedLines::default() };
+                let edges = visit.edges(rec, wanted)?;
+                let gbuffer = visit.drawn.layer.gbuffer.clone();
+                found = edges.map(|edges| (gbuffer, edges.edge_map.edges));
+                Ok(())
+            })?;
+            found.ok_or_else(|| GpuError::Lost("no layer".to_owned()).into())
+        })
+    }
+}
