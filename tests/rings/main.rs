@@ -21,7 +21,7 @@ use alone::Shot;
 use common::session;
 use hachure::export::Session;
 use hachure::scene::NodeId;
-use looks::{Look, layered, surfaces};
+use looks::{Look, layered, surface_techniques, surfaces};
 use rays::Hit;
 use report::Report;
 use stage::{CAMERAS, Stage};
@@ -143,4 +143,10 @@ fn blueprints_of_one_style_are_one_group_that_others_go_through() {
         check_all(&mut session, &mut report, name, &one_each(places::knot(3), &looks));
     }
     report.finish();
+}
+
+#[test]
+fn glass_of_each_technique_goes_through_others() {
+    let glass: Vec<_> = surface_techniques().map(Look::glass).collect();
+    check_pairs(&glass, &[Look::surface("gooch"), Look::glass("unlit"), Look::blueprint_a()]);
 }
