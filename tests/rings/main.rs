@@ -16,6 +16,7 @@ mod rays;
 mod report;
 mod stage;
 mod truth;
+mod wide;
 
 use alone::Shot;
 use common::session;
@@ -149,4 +150,30 @@ fn blueprints_of_one_style_are_one_group_that_others_go_through() {
 fn glass_of_each_technique_goes_through_others() {
     let glass: Vec<_> = surface_techniques().map(Look::glass).collect();
     check_pairs(&glass, &[Look::surface("gooch"), Look::glass("unlit"), Look::blueprint_a()]);
+}
+
+#[test]
+fn wide_lines_cover_what_is_farther_and_nothing_that_is_nearer() {
+    let inked: Vec<_> =
+        ["gooch", "unlit"].map(|name| Look::surface(name).with_width(2.0 * wide::RADIUS as f32)).into();
+    let others: Vec<_> = surfaces().into_iter().chain(layered()).collect();
+    let rings = inked.iter().map(|look| (look, 0)).chain(others.iter().map(|look| (look, 1)));
+    let stage = Stage::new(places::pair(), rings.map(|(look, place)| (look.clone(), place)).collect());
+    let mut report = Report::default();
+    let mut session = session();
+    stage.enter(&mut session);
+    for (number, camera) in CAMERAS.iter().enumerate() {
+        let mut shot = Shot::new(&stage, number);
+        for (wide, look) in inked.iter().enumerate() {
+            let alone = stage.picture(&mut session, shot.camera, &[wide], |look| look).colors;
+            for (i, other) in others.iter().enumerate() {
+                let other_node = inked.len() + i;
+                let expected = wide::truth(&mut session, &mut shot, wide, &[other_node], &alone);
+                let picture = stage.picture(&mut session, shot.camera, &[wide, other_node], |look| look);
+                let name = format!("wide {} and {}", look.name, other.name);
+                report.add(&name, camera, &expected, &picture);
+            }
+        }
+    }
+    report.finish();
 }
