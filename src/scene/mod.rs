@@ -5,6 +5,7 @@ pub mod camera;
 pub mod graph;
 pub mod light;
 pub mod material;
+pub mod mip_chain;
 pub mod standard;
 pub mod texture;
 pub mod unit;
