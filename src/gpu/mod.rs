@@ -3,6 +3,7 @@
 
 pub mod buffer;
 pub mod device;
+mod faults;
 pub mod gate;
 pub mod geometry;
 pub mod material;

@@ -130,6 +130,7 @@ impl Segments {
         let most = steps.len().min(MOST_STEPS) as u64;
         self.kept_steps.reserve(gpu, most * 4)?;
         self.points.reserve(gpu, most * POINT_BYTES)?;
+        gpu.check_bytes_of_pixels("with lines", rec.size(), 4)?;
         let [width, height] = rec.size().map(u64::from);
         self.keys.reserve(gpu, width * height * 4)?;
         self.winners.reserve(gpu, width * height * 4)?;
