@@ -14,7 +14,7 @@ use crate::app::theme;
 use crate::app::unsaved::Next;
 use crate::document::Glyph;
 use crate::document::glyph::Shape;
-use crate::scene::{NodeId, Projection, Standard};
+use crate::scene::{Extent, NodeId, Projection, Standard};
 
 impl Viewer {
     /// Whether a command can be carried out now.
@@ -214,7 +214,7 @@ impl Viewer {
         self.document.camera = Some(standard.camera(up, &extent, aspect, self.document.camera.as_ref()));
     }
 
-    fn frame(&mut self, extent: &[glam::DVec3]) {
+    fn frame(&mut self, extent: &Extent) {
         if let Some(camera) = &mut self.document.camera {
             *camera = camera.framing(extent, self.viewport.aspect());
         }
