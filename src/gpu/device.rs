@@ -358,28 +358,36 @@ mod tests {
 
     #[test]
     fn what_does_not_fit_into_memory_is_an_error() {
-        let mut descriptor = instance_descriptor();
-        descriptor.memory_budget_thresholds.for_resource_creation = Some(1);
-        let instance = wgpu::Instance::new(descriptor);
-        let adapter = pollster::block_on(instance.request_adapter(&Default::default())).unwrap();
-        let (device, queue) =
-            pollster::block_on(adapter.request_device(&device_descriptor(&adapter))).unwrap();
-        let gpu = Gpu::new(&adapter, device, queue);
+        let gpu = Gpu::headless().unwrap();
         let other = gpu.clone();
-        let descriptor = wgpu::BufferDescriptor {
+        // Terabytes.
+        let limits = gpu.device.limits();
+        let descriptor = wgpu::TextureDescriptor {
             label: None,
-            size: gpu.device.limits().max_buffer_size.min(1 << 40),
-            usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST,
-            mapped_at_creation: false,
+            size: wgpu::Extent3d {
+                width: limits.max_texture_dimension_2d,
+                height: limits.max_texture_dimension_2d,
+                depth_or_array_layers: limits.max_texture_array_layers,
+            },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: wgpu::TextureFormat::Rgba32Float,
+            usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_SRC,
+            view_formats: &[],
         };
-        let error = gpu.create_buffer("the lines", &descriptor).unwrap_err().to_string();
+        let error = gpu.create_texture("the lines", &descriptor).unwrap_err().to_string();
         assert!(error.contains("not enough memory left for the lines"), "{error}");
         gpu.check().unwrap();
 
         // Where nobody looks for it, it is told to whoever waits, and nothing panics.
-        let buffer = gpu.device.create_buffer(&descriptor);
+        let texture = gpu.device.create_texture(&descriptor);
         let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        encoder.clear_buffer(&buffer, 0, None);
+        encoder.copy_texture_to_texture(
+            texture.as_image_copy(),
+            texture.as_image_copy(),
+            wgpu::Extent3d { width: 1, height: 1, depth_or_array_layers: 1 },
+        );
         gpu.queue.submit([encoder.finish()]);
         assert!(matches!(gpu.wait(), Err(GpuError::OutOfMemory { .. })));
         assert!(matches!(other.check(), Err(GpuError::OutOfMemory { .. })));
