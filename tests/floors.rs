@@ -329,7 +329,7 @@ fn imports(sources: &BTreeMap<Module, String>) -> Imports {
     let tests: BTreeSet<Module> = read
         .iter()
         .flat_map(|(module, read)| {
-            read.test_modules.iter().map(|t| [module.as_slice(), &[t.clone()]].concat())
+            read.test_modules.iter().map(|t| [module.as_slice(), std::slice::from_ref(t)].concat())
         })
         .collect();
     let is_test = |module: &Module| (0..=module.len()).any(|n| tests.contains(&module[..n]));
