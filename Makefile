@@ -3,9 +3,6 @@
 SAMPLE := assets/models/crank.glb
 HACHURE := cargo run --quiet --release --
 
-# Silences a complaint of the Wayland client library on machines without a session.
-export XDG_RUNTIME_DIR ?= /tmp
-
 .PHONY: run test check bench quality gallery bless models strokes
 
 # Opens the viewer on the sample model; without a display draws it to a file.

@@ -351,3 +351,61 @@ fn how_far_blueprints_were_peeled_and_what_that_uncovered_is_printed() {
         "{text}"
     );
 }
+
+/// A name that is no Unicode, as old archives leave them.
+#[cfg(target_os = "linux")]
+#[test]
+fn names_that_are_no_text_are_printed_as_well_as_they_can_be() {
+    use std::os::unix::ffi::OsStrExt as _;
+    let folder = tempfile::tempdir().unwrap();
+    let name = |ending: &[u8]| {
+        folder.path().join(std::ffi::OsStr::from_bytes(&[b"k\xf6rper".as_slice(), ending].concat()))
+    };
+    let (model, picture) = (name(b".glb"), name(b".png"));
+    std::fs::copy(crank(), &model).unwrap();
+    let run = |arguments: &[&std::ffi::OsStr]| {
+        Command::new(env!("CARGO_BIN_EXE_hachure")).args(arguments).output().unwrap()
+    };
+    let (flag, model, picture) = ("--json".as_ref(), model.as_os_str(), picture.as_os_str());
+    let info = run(&["info".as_ref(), model, flag]);
+    assert!(info.status.success(), "{info:?}");
+    assert!(stdout(&info).contains("k\u{fffd}rper.glb"));
+    let rendered = run(&[
+        "render".as_ref(),
+        model,
+        flag,
+        "-o".as_ref(),
+        picture,
+        "--resolution".as_ref(),
+        "64,64".as_ref(),
+    ]);
+    assert!(rendered.status.success(), "{rendered:?}");
+    assert!(stdout(&rendered).contains("k\u{fffd}rper.png"));
+    assert!(Path::new(picture).exists());
+    for arguments in [
+        &["styles".as_ref(), flag, model] as &[&std::ffi::OsStr],
+        &["render".as_ref(), model, "-o".as_ref(), picture, "--style".as_ref(), model],
+        &["info".as_ref(), picture, flag],
+    ] {
+        let failed = run(arguments);
+        let said = String::from_utf8_lossy(&failed.stderr).into_owned();
+        assert!(matches!(failed.status.code(), Some(1 | 2)), "{failed:?}");
+        assert!(!said.contains("panicked") && !said.is_empty(), "{said}");
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_run_without_a_session_says_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = Command::new(env!("CARGO_BIN_EXE_hachure"))
+        .args(["render", &crank(), "--resolution", "64,64", "-o"])
+        .arg(folder.path().join("crank.png"))
+        .env_remove("XDG_RUNTIME_DIR")
+        .env_remove("DISPLAY")
+        .env_remove("WAYLAND_DISPLAY")
+        .output()
+        .unwrap();
+    assert!(output.status.success());
+    assert_eq!(String::from_utf8_lossy(&output.stderr), "");
+}

@@ -1,6 +1,6 @@
 //! Everything a person can ask the window to do, with its text, help and keys.
 //!
-//! Menus, keys, buttons and the list of keys all read this one enumeration; `execute.rs` carries commands out.
+//! Menus, keys, buttons and the list of keys all read this one enumeration; `viewer/execute.rs` carries commands out.
 
 use eframe::egui;
 use eframe::egui::{Key, KeyboardShortcut, Modifiers};

@@ -9,7 +9,7 @@ use crate::geometry::Bounds;
 use crate::gpu::GpuError;
 use crate::import::{ImportError, ImportOptions, Progress};
 use crate::render::{GpuScene, Uploader};
-use crate::scene::{NodeId, Scene, Warning};
+use crate::scene::{Extent, MeasuredMesh, Node, NodeId, Scene, Warning};
 use crate::style::Color;
 use glam::DVec3;
 
@@ -52,8 +52,8 @@ pub struct Model {
     pub glyph_warnings: Vec<Warning>,
     /// The box of each mesh of the files, local space.
     mesh_bounds: Vec<Bounds>,
-    /// The outermost points of each node's own mesh, world space ([`Scene::extent_of`]).
-    pub extents: Vec<Vec<DVec3>>,
+    /// How far each node's own mesh reaches, world space.
+    pub extents: Vec<Extent>,
     /// The box around everything, in units of the scene.
     pub bounds: Bounds,
     /// Its diagonal.
@@ -65,22 +65,19 @@ pub struct Model {
 impl Model {
     /// Measures a scene; takes a while for large ones.
     pub fn new(scene: Scene) -> Self {
-        let extremes: Vec<_> = scene.meshes.iter().map(|m| m.extremes()).collect();
-        let extents = scene
-            .nodes
-            .iter()
-            .map(|n| {
-                let own = n.mesh.and_then(|m| extremes.get(m)).map_or(&[][..], Vec::as_slice);
-                own.iter().map(|p| n.world_from_local.transform_point3(p.as_dvec3())).collect()
-            })
-            .collect();
+        let measured: Vec<_> = scene.meshes.iter().map(MeasuredMesh::new).collect();
+        let extent = |node: &Node| {
+            let own = node.mesh.and_then(|m| measured.get(m));
+            own.map_or_else(Extent::default, |mesh| Extent::of_mesh(mesh, node.world_from_local))
+        };
+        let extents = scene.nodes.iter().map(extent).collect();
         let triangles = scene
             .nodes
             .iter()
             .map(|n| n.mesh.and_then(|m| scene.meshes.get(m)).map_or(0, |m| m.triangle_count()))
             .collect();
         let bounds = scene.bounds();
-        let mesh_bounds = scene.meshes.iter().map(|m| m.bounds()).collect();
+        let mesh_bounds = measured.iter().map(|m| *m.bounds()).collect();
         let files = Arc::new(scene);
         let scene = Arc::clone(&files);
         Self {
@@ -108,13 +105,15 @@ impl Model {
         self.extents.truncate(own);
         self.triangles.truncate(own);
         for addition in &shapes.additions {
-            let place = |p: &glam::Vec3| addition.world_from_local.transform_point3(p.as_dvec3());
             // What faces the eye has no size of its own.
-            let is_flat = addition.facing.is_some();
-            let origin = addition.world_from_local.transform_point3(DVec3::ZERO);
-            let extent =
-                if is_flat { vec![origin] } else { addition.mesh.extremes().iter().map(place).collect() };
-            self.extents.push(extent);
+            self.extents.push(if addition.facing.is_some() {
+                Extent::of_point(addition.world_from_local.transform_point3(DVec3::ZERO))
+            } else {
+                Extent::of_mesh(
+                    &MeasuredMesh::new(&Arc::new(addition.mesh.clone())),
+                    addition.world_from_local,
+                )
+            });
             self.triangles.push(addition.mesh.triangle_count());
         }
         self.scene = Arc::new(self.files.with_additions(shapes.additions));
@@ -126,17 +125,17 @@ impl Model {
         nodes.into_iter().filter_map(|n| self.triangles.get(n)).sum()
     }
 
-    /// The outermost points of some nodes, world space: what a camera has to frame.
-    pub fn extent_of(&self, nodes: impl IntoIterator<Item = NodeId>) -> Vec<DVec3> {
-        nodes.into_iter().filter_map(|n| self.extents.get(n)).flatten().copied().collect()
+    /// How far some nodes reach, world space: what a camera has to frame.
+    pub fn extent_of(&self, nodes: impl IntoIterator<Item = NodeId>) -> Extent {
+        Extent::of_all(nodes.into_iter().filter_map(|n| self.extents.get(n)))
     }
 
     /// Those of everything that a document shows; of everything if it shows nothing.
-    pub fn visible_extent(&self, document: &Document) -> Vec<DVec3> {
+    pub fn visible_extent(&self, document: &Document) -> Extent {
         let resolved = document.resolve(&self.scene);
         let visible = resolved.iter().enumerate().filter(|(_, r)| r.visible).map(|(n, _)| n);
         let extent = self.extent_of(visible);
-        if extent.is_empty() { self.extents.concat() } else { extent }
+        if extent.is_empty() { Extent::of_all(&self.extents) } else { extent }
     }
 }
 

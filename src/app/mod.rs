@@ -2,16 +2,14 @@
 //!
 //! [`run`] opens it. [`viewer`] holds everything and runs a frame: keys and finished work first, then the panels and
 //! the picture, then what they asked for. Panels change the document in place; everything else is a
-//! [`command::Command`], carried out in `execute.rs`. Slow work is a [`jobs::Job`], answered in `background.rs`.
+//! [`command::Command`], carried out in `viewer/execute.rs`. Slow work is a [`jobs::Job`], answered in `viewer/background.rs`.
 //! A picture that rests gets smoother ([`refining`]); then an idle window draws nothing.
 
-mod background;
 pub mod command;
-mod execute;
+pub mod dialogs;
 pub mod gesture;
 mod images;
 pub mod jobs;
-mod leaving;
 pub mod loading;
 pub mod navigation;
 pub mod notices;
@@ -22,6 +20,7 @@ pub mod screenshot;
 pub mod selection;
 pub mod state;
 mod theme;
+mod unsaved;
 pub mod viewer;
 pub mod viewport;
 

@@ -1,13 +1,11 @@
-//! Glyphs that are being placed: the person clicks surfaces, one point after the other.
+//! Glyphs that are being placed: the person clicks surfaces, one point after the other (`viewer/placing.rs`).
 
 use eframe::egui;
-use eframe::egui::{Key, Modifiers, Pos2, Rect};
+use eframe::egui::{Pos2, Rect};
 use glam::DVec3;
 
-use super::viewer::Viewer;
 use crate::document::glyph::{Anchor, Shape};
 use crate::document::{Document, Glyph};
-use crate::render::Pick;
 use crate::scene::{Camera, Projection};
 
 /// What is being placed.
@@ -32,7 +30,8 @@ pub struct Placing {
 }
 
 impl Placing {
-    fn new(kind: Placed) -> Self {
+    /// Nothing has been placed yet.
+    pub(super) fn new(kind: Placed) -> Self {
         Self { kind, points: Vec::new(), glyph: None }
     }
 
@@ -53,12 +52,44 @@ impl Placing {
     }
 
     /// Whether it has all points that it can have.
-    fn is_complete(&self) -> bool {
+    pub(super) fn is_complete(&self) -> bool {
         match self.kind {
             Placed::Arrow => self.points.len() == 2,
             Placed::Path => false,
             Placed::Label => self.points.len() == 1,
         }
+    }
+
+    /// One point more; `diagonal` is the size of the model.
+    pub(super) fn add(&mut self, point: DVec3, document: &mut Document, diagonal: f64) {
+        // The second click of two is at the same place.
+        if self.points.last().is_none_or(|p| p.distance(point) > 1e-4 * diagonal) {
+            self.points.push(point);
+            self.show(document, diagonal);
+        }
+    }
+
+    /// Takes the last point back.
+    pub(super) fn take_back(&mut self, document: &mut Document, diagonal: f64) {
+        if self.points.pop().is_some() {
+            self.show(document, diagonal);
+        }
+    }
+
+    /// Leaves nothing of it.
+    pub(super) fn cancel(self, document: &mut Document) {
+        if let Some(index) = self.glyph {
+            document.remove_glyph(index);
+        }
+    }
+
+    /// Makes it a glyph like any other and returns its number; too few points make none.
+    pub(super) fn finish(self, document: &mut Document) -> Option<usize> {
+        if let (Placed::Label, Some(point)) = (self.kind, self.points.first()) {
+            let shape = Shape::label("Label".to_owned(), Anchor::Point(*point));
+            return Some(document.add_glyph(Glyph::new("label".to_owned(), shape)));
+        }
+        self.glyph
     }
 
     /// Shows in the document what there is so far.
@@ -116,82 +147,6 @@ fn on_screen(camera: &Camera, rect: Rect, point: DVec3) -> Option<Pos2> {
     };
     let scale = f64::from(rect.height()) * 0.5 / half;
     (half > 0.0).then(|| rect.center() + egui::vec2((local.x * scale) as f32, (-local.y * scale) as f32))
-}
-
-impl Viewer {
-    /// Lets the person place a glyph.
-    pub(super) fn begin_placing(&mut self, kind: Placed) {
-        self.cancel_placing();
-        self.placing = Some(Placing::new(kind));
-    }
-
-    /// Lets go of what was being placed.
-    pub(super) fn cancel_placing(&mut self) {
-        if let Some(index) = self.placing.take().and_then(|p| p.glyph) {
-            self.document.remove_glyph(index);
-        }
-    }
-
-    /// A surface was clicked; `is_last`: twice.
-    pub(super) fn place_point(&mut self, pick: &Pick, is_last: bool) {
-        let Some(placing) = &mut self.placing else { return };
-        let diagonal = self.model.diagonal;
-        match pick.point {
-            // The second click of two is at the same place.
-            Some(point) if placing.points.last().is_none_or(|p| p.distance(point) > 1e-4 * diagonal) => {
-                placing.points.push(point);
-                placing.show(&mut self.document, diagonal);
-            }
-            Some(_) => {}
-            None => self.notices.warning("There is no surface; points are placed on what is drawn"),
-        }
-        if is_last || self.placing.as_ref().is_some_and(Placing::is_complete) {
-            self.finish_placing();
-        }
-    }
-
-    /// Takes back the last point.
-    pub(super) fn take_point_back(&mut self) {
-        if let Some(placing) = &mut self.placing
-            && placing.points.pop().is_some()
-        {
-            placing.show(&mut self.document, self.model.diagonal);
-        }
-    }
-
-    /// What is placed is a glyph like any other from now on; too few points make none.
-    pub(super) fn finish_placing(&mut self) {
-        let Some(mut placing) = self.placing.take() else { return };
-        if let (Placed::Label, Some(point)) = (placing.kind, placing.points.first()) {
-            let shape = Shape::label("Label".to_owned(), Anchor::Point(*point));
-            placing.glyph = Some(self.document.add_glyph(Glyph::new("label".to_owned(), shape)));
-        }
-        if let Some(index) = placing.glyph {
-            self.select_glyph(index);
-        }
-    }
-
-    /// Selects a glyph and opens its page.
-    pub(super) fn select_glyph(&mut self, index: usize) {
-        self.model.show_glyphs(&self.document);
-        self.selection.set(self.model.files.nodes.len() + index);
-        self.state.page = super::state::Page::Glyphs;
-    }
-
-    /// The keys that mean something else while a glyph is being placed.
-    pub(super) fn take_placing_keys(&mut self, context: &egui::Context) {
-        if self.placing.is_none() || context.text_edit_focused() {
-            return;
-        }
-        let pressed = |key| context.input_mut(|i| i.consume_key(Modifiers::NONE, key));
-        if pressed(Key::Escape) {
-            self.cancel_placing();
-        } else if pressed(Key::Enter) {
-            self.finish_placing();
-        } else if pressed(Key::Backspace) {
-            self.take_point_back();
-        }
-    }
 }
 
 #[cfg(test)]

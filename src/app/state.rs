@@ -122,6 +122,10 @@ impl Default for AppState {
 impl AppState {
     /// Puts a file on top of the list.
     pub fn note_opened(&mut self, path: &Path) {
+        // One name that is no text would keep everything else from being remembered.
+        if path.to_str().is_none() {
+            return;
+        }
         let known = self.files.iter().position(|f| f.path == path).and_then(|i| self.files.remove(i));
         let memory = known.unwrap_or_else(|| FileMemory { path: path.to_owned(), ..FileMemory::default() });
         self.files.push_front(memory);

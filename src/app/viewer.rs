@@ -1,5 +1,11 @@
 //! The window: what it holds and how a frame of it runs.
 
+mod background;
+mod execute;
+mod images;
+mod leaving;
+mod placing;
+
 use std::collections::VecDeque;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -7,9 +13,9 @@ use std::sync::Arc;
 use eframe::egui;
 
 use super::command::Command;
+use super::dialogs::{self, Dialogs};
 use super::images::StyleImages;
 use super::jobs::Job;
-use super::leaving::{Leaving, is_changed};
 use super::loading::{Intent, LoadError, Loaded, Loader, Model};
 use super::notices::Notices;
 use super::panels::{
@@ -19,6 +25,7 @@ use super::placing::Placing;
 use super::screenshot::{Destination, ScreenshotError, Shot};
 use super::selection::Selection;
 use super::state::{AppState, Page, Samples};
+use super::unsaved::{Kept, Leaving};
 use super::viewport::Viewport;
 use super::{AppError, theme};
 use crate::document::{Document, DocumentError, History};
@@ -40,24 +47,31 @@ pub struct Launch {
     pub style: Option<Style>,
     /// What turns models into a scene.
     pub loader: Loader,
+    /// What asks for files.
+    pub dialogs: Dialogs,
 }
 
 impl Default for Launch {
     fn default() -> Self {
-        Self { files: Vec::new(), style: None, loader: Arc::new(import::load_all) }
+        Self {
+            files: Vec::new(),
+            style: None,
+            loader: Arc::new(import::load_all),
+            dialogs: Arc::new(dialogs::system),
+        }
     }
 }
 
 /// Which of the floating windows are open.
 #[derive(Debug, Default)]
-pub(super) struct Open {
-    pub(super) help: bool,
-    pub(super) warnings: bool,
+struct Open {
+    help: bool,
+    warnings: bool,
 }
 
 /// What a file dialog was opened for.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) enum DialogFor {
+enum DialogFor {
     Open,
     Add,
     Save,
@@ -66,51 +80,54 @@ pub(super) enum DialogFor {
 }
 
 /// Work that runs beside the window; see [`super::jobs`]. A new kind of work is a new field, started where it is asked
-/// for and answered in `background.rs`.
+/// for and answered in `viewer/background.rs`.
 #[derive(Default)]
-pub(super) struct Jobs {
-    pub(super) load: Option<Job<Result<Loaded, LoadError>>>,
-    pub(super) dialog: Option<(DialogFor, Job<Vec<PathBuf>>)>,
-    pub(super) topology: Option<Job<Result<UploadedTopology, GpuError>>>,
-    pub(super) save: Option<Job<Result<(PathBuf, Document), DocumentError>>>,
-    pub(super) images: Option<Job<Result<(ImageCache, crate::render::StyleImages), ImportError>>>,
-    pub(super) picture: Option<Job<Result<PathBuf, ScreenshotError>>>,
+struct Jobs {
+    load: Option<Job<Result<Loaded, LoadError>>>,
+    dialog: Option<(DialogFor, Job<Vec<PathBuf>>)>,
+    topology: Option<Job<Result<UploadedTopology, GpuError>>>,
+    save: Option<Job<Result<(PathBuf, Document), DocumentError>>>,
+    images: Option<Job<Result<(ImageCache, crate::render::StyleImages), ImportError>>>,
+    picture: Option<Job<Result<PathBuf, ScreenshotError>>>,
     /// Pictures that are taken after that one, so that no two of them get the same number.
-    pub(super) waiting: VecDeque<(Shot, Destination)>,
+    waiting: VecDeque<(Shot, Destination)>,
 }
 
 /// The window's application.
 pub struct Viewer {
-    pub(super) document: Document,
-    pub(super) history: History,
-    pub(super) model: Model,
-    pub(super) selection: Selection,
-    pub(super) viewport: Viewport,
-    pub(super) jobs: Jobs,
-    pub(super) notices: Notices,
-    pub(super) state: AppState,
-    pub(super) outliner: Outliner,
-    pub(super) presets: Vec<Preset>,
-    pub(super) commands: Vec<Command>,
-    pub(super) open: Open,
-    /// The document's file, once it has one, and what is in it.
-    pub(super) saved: Option<(PathBuf, Document)>,
+    document: Document,
+    history: History,
+    model: Model,
+    selection: Selection,
+    viewport: Viewport,
+    jobs: Jobs,
+    notices: Notices,
+    state: AppState,
+    outliner: Outliner,
+    presets: Vec<Preset>,
+    commands: Vec<Command>,
+    open: Open,
+    /// What would not be lost.
+    kept: Kept,
     /// The models that the scene was made of.
-    pub(super) loaded: Vec<PathBuf>,
+    loaded: Vec<PathBuf>,
     /// The crease angle of the topology that the renderer has or is about to get.
-    pub(super) topology_for: Option<f32>,
+    topology_for: Option<f32>,
     /// The images that the styles name.
-    pub(super) images: StyleImages,
-    pub(super) loader: Loader,
-    pub(super) start_style: Option<Style>,
-    pub(super) can_reload_shaders: bool,
-    pub(super) is_dark: bool,
-    pub(super) recent: Vec<(PathBuf, bool)>,
+    images: StyleImages,
+    loader: Loader,
+    dialogs: Dialogs,
+    start_style: Option<Style>,
+    can_reload_shaders: bool,
+    is_dark: bool,
+    recent: Vec<(PathBuf, bool)>,
     title: String,
     /// The glyph that is being placed.
-    pub(super) placing: Option<Placing>,
-    /// What closing the window waits for.
-    pub(super) leaving: Leaving,
+    placing: Option<Placing>,
+    /// Whether the drawing is on its way out.
+    leaving: Leaving,
+    /// The drawing that the person said need not be saved; after any change to it they are asked again.
+    given_up: Option<Document>,
 }
 
 impl Viewer {
@@ -142,11 +159,12 @@ impl Viewer {
             presets: preset::all(),
             commands: Vec::new(),
             open: Open::default(),
-            saved: None,
+            kept: Kept::default(),
             loaded: Vec::new(),
             topology_for: None,
             images: StyleImages::default(),
             loader: launch.loader,
+            dialogs: launch.dialogs,
             start_style: launch.style,
             can_reload_shaders,
             is_dark: false,
@@ -154,6 +172,7 @@ impl Viewer {
             title: String::new(),
             placing: None,
             leaving: Leaving::default(),
+            given_up: None,
             document,
         };
         viewer.history.restart(&viewer.document);
@@ -273,7 +292,7 @@ impl Viewer {
             let status = status::Status {
                 model: &self.model,
                 hint: self.hint(),
-                warnings: self.model.scene.warnings.len() + self.images.warnings().len(),
+                warnings: self.model.scene.warnings.len() + self.images.warnings.len(),
                 document: &self.document,
                 selection: &self.selection,
                 milliseconds,
@@ -326,6 +345,7 @@ impl Viewer {
         let up = self.document.up(&self.model.scene);
         let diagonal = self.model.diagonal;
         self.viewport.set_placing(self.placing.is_some());
+        self.viewport.set_covered(self.is_asking());
         let moved = self.viewport.input(ui, self.document.camera.as_ref(), up, diagonal);
         if let Some(camera) = moved.camera {
             self.document.camera = Some(camera);
@@ -354,6 +374,7 @@ impl Viewer {
             && empty::loading_ui(ui, area, load.progress().share())
         {
             self.jobs.load = None;
+            self.stay();
         }
         if ui.input(|i| !i.raw.hovered_files.is_empty()) {
             empty::hovering_ui(ui, area, ui.input(|i| i.modifiers.command));
@@ -411,14 +432,9 @@ impl Viewer {
     }
 
     fn show_title(&mut self, context: &egui::Context) {
-        let name = match (&self.saved, self.document.models.first()) {
-            (Some((path, saved)), _) => {
-                let mark = if is_changed(saved, &self.document) { "*" } else { "" };
-                path.file_name().map(|n| format!("{}{mark}", n.to_string_lossy()))
-            }
-            (None, Some(model)) => model.file_name().map(|n| n.to_string_lossy().into_owned()),
-            (None, None) => None,
-        };
+        let is_empty = self.kept.file.is_none() && self.document.models.is_empty();
+        let mark = if self.is_unsaved() { "*" } else { "" };
+        let name = (!is_empty).then(|| format!("{}{mark}", self.file_name()));
         let title = name.map_or_else(|| "Hachure".to_owned(), |name| format!("{name} - Hachure"));
         if title != self.title {
             context.send_viewport_cmd(egui::ViewportCommand::Title(title.clone()));
@@ -461,9 +477,12 @@ fn inspector_ui(
 
 impl eframe::App for Viewer {
     fn logic(&mut self, context: &egui::Context, _frame: &mut eframe::Frame) {
-        self.take_placing_keys(context);
-        self.commands.extend(Command::take_pressed(context));
-        self.take_dropped_files(context);
+        // While a question is on the screen, keys and files are not for what lies behind it.
+        if !self.is_asking() {
+            self.take_placing_keys(context);
+            self.commands.extend(Command::take_pressed(context));
+            self.take_dropped_files(context);
+        }
         self.answer_jobs(context);
         self.run_commands(context);
     }
@@ -477,11 +496,12 @@ impl eframe::App for Viewer {
             help::help_ui(&context, &mut self.open.help);
         }
         if self.open.warnings {
-            let warnings = [self.images.warnings(), &self.model.scene.warnings].concat();
+            let warnings = [self.images.warnings.as_slice(), &self.model.scene.warnings].concat();
             help::warnings_ui(&context, &mut self.open.warnings, &warnings);
         }
         self.notices.show(&context, self.viewport.rect());
-        self.leave(&context);
+        self.hold_open(&context);
+        self.question_ui(&context);
         self.run_commands(&context);
         self.note_change(&context);
         self.show_title(&context);

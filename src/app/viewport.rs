@@ -96,10 +96,12 @@ pub struct Viewport {
     gestures: Gestures,
     rect: Rect,
     size: [u32; 2],
+    is_laid_out: bool,
     measuring: Option<Job<f64>>,
     awaiting: Option<Job<()>>,
     is_paused: bool,
     is_placing: bool,
+    is_covered: bool,
     milliseconds: f64,
     pictures: u64,
 }
@@ -132,10 +134,12 @@ impl Viewport {
             gestures: Gestures::default(),
             rect: Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(16.0, 10.0)),
             size: [16, 10],
+            is_laid_out: false,
             measuring: None,
             awaiting: None,
             is_paused: false,
             is_placing: false,
+            is_covered: false,
             milliseconds: 0.0,
             pictures: 0,
         }
@@ -149,6 +153,11 @@ impl Viewport {
     /// Name of the graphics driver.
     pub fn adapter_name(&self) -> String {
         self.renderer.gpu().adapter_name.clone()
+    }
+
+    /// Whether its place in the window, and with it [`Self::aspect`], is known.
+    pub fn is_laid_out(&self) -> bool {
+        self.is_laid_out
     }
 
     /// Width by height.
@@ -177,6 +186,11 @@ impl Viewport {
     /// Whether clicks place points.
     pub fn set_placing(&mut self, is_placing: bool) {
         self.is_placing = is_placing;
+    }
+
+    /// Whether a question lies over the picture, so that the mouse does nothing to it.
+    pub fn set_covered(&mut self, is_covered: bool) {
+        self.is_covered = is_covered;
     }
 
     /// How many pictures have been drawn so far.
@@ -271,8 +285,14 @@ impl Viewport {
         let rect = ui.available_rect_before_wrap().round_to_pixels(pixels_per_point);
         self.rect = rect;
         self.size = [rect.width(), rect.height()].map(|s| (s * pixels_per_point).round().max(1.0) as u32);
+        self.is_laid_out = true;
         let response = ui.interact(rect, ui.scope_id().with("picture"), Sense::click_and_drag());
         response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Picture"));
+        if self.is_covered {
+            // A drag that was under way ends here.
+            self.gestures = Gestures::default();
+            return Moved::default();
+        }
         let Some(&camera) = camera else { return Moved { camera: None, response: Some(response) } };
         let mut moved = camera;
         let height = f64::from(rect.height().max(1.0));
@@ -397,6 +417,8 @@ impl Viewport {
             selected: &self.selected,
             samples: self.refining.samples(),
         });
+        // What the device could not make is not shown; the last picture stays.
+        let drawn = drawn.and_then(|picture| Ok(self.renderer.gpu().check().map(|()| picture)?));
         self.refining.note(drawn.as_ref().ok().map(|picture| picture.sample));
         let picture = drawn?;
         self.pictures += 1;

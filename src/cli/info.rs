@@ -94,7 +94,7 @@ fn as_json(opened: &Opened) -> Result<(), CliError> {
         .collect();
     let bounds = scene.bounds();
     print_json(&json!({
-        "models": document.models,
+        "models": document.models.iter().map(|path| path.to_string_lossy()).collect::<Vec<_>>(),
         "triangles": scene.triangle_count(),
         "bounds": (!bounds.is_empty()).then(|| json!({ "min": bounds.min.to_array(), "max": bounds.max.to_array() })),
         "up": document.up(scene).name(),

@@ -59,7 +59,7 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
         warnings.map(|w| w.to_string()).chain(peeling::warnings(&peeled, opened.document.view.layers));
     if args.json {
         print_json(&json!({
-            "output": args.output,
+            "output": args.output.to_string_lossy(),
             "resolution": size,
             "samples": args.samples,
             "adapter": session.renderer().gpu().adapter_name,

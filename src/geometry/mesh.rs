@@ -48,7 +48,8 @@ impl Mesh {
     }
 
     /// The outermost vertices in evenly spread directions, local space: together nearly the hull of the mesh. Of large
-    /// meshes a part of the vertices is looked at, so that it takes a few milliseconds at most.
+    /// meshes a part of the vertices is looked at, so that it takes a few milliseconds at most; what that misses,
+    /// framing finds.
     pub fn extremes(&self) -> Vec<Vec3> {
         const DIRECTIONS: usize = 96;
         const MOST_VERTICES: usize = 20_000;

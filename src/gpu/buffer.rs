@@ -169,11 +169,11 @@ pub struct RecordBuffer {
 impl RecordBuffer {
     /// An empty one.
     pub fn new(gpu: &Gpu, label: &'static str) -> Self {
-        Self { buffer: Self::create(gpu, label, 256), label }
+        Self { buffer: gpu.device.create_buffer(&Self::descriptor(label, 256)), label }
     }
 
-    fn create(gpu: &Gpu, label: &str, size: u64) -> wgpu::Buffer {
-        gpu.device.create_buffer(&wgpu::BufferDescriptor {
+    fn descriptor(label: &'static str, size: u64) -> wgpu::BufferDescriptor<'static> {
+        wgpu::BufferDescriptor {
             label: Some(label),
             size,
             usage: wgpu::BufferUsages::STORAGE
@@ -181,7 +181,7 @@ impl RecordBuffer {
                 | wgpu::BufferUsages::COPY_DST
                 | wgpu::BufferUsages::COPY_SRC,
             mapped_at_creation: false,
-        })
+        }
     }
 
     /// Writes all records.
@@ -200,9 +200,10 @@ impl RecordBuffer {
     /// # Errors
     /// [`GpuError::TooLarge`].
     pub fn reserve(&mut self, gpu: &Gpu, bytes: u64) -> Result<(), GpuError> {
-        gpu.check_buffer_size(self.label, bytes)?;
+        gpu.check_storage_size(self.label, bytes)?;
         if self.buffer.size() < bytes {
-            self.buffer = Self::create(gpu, self.label, bytes.next_power_of_two());
+            let roomy = bytes.next_power_of_two().min(gpu.most_storage());
+            self.buffer = gpu.create_buffer(self.label, &Self::descriptor(self.label, roomy))?;
         }
         Ok(())
     }

@@ -4,6 +4,8 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
+use super::faults::{Fault, Faults};
+
 /// Why there is no device to draw with, or why it could not do something.
 #[derive(Debug, thiserror::Error)]
 pub enum GpuError {
@@ -36,6 +38,33 @@ pub enum GpuError {
         /// Name of the adapter.
         adapter: String,
     },
+    /// A picture needs more than the device allows, although its sides are not too long.
+    #[error(
+        "a picture of {} × {} pixels {what} is too large for {adapter}: the largest one {what} has {} megapixels, for \
+         example {} × {} pixels", size[0], size[1], megapixels(*pixels), largest[0], largest[1]
+    )]
+    PictureTooLarge {
+        /// What is in it that needs so much: `with lines`.
+        what: &'static str,
+        /// Its size.
+        size: [u32; 2],
+        /// The most pixels that are possible.
+        pixels: u64,
+        /// The largest size of the same shape.
+        largest: [u32; 2],
+        /// Name of the adapter.
+        adapter: String,
+    },
+    /// The device has no memory left.
+    #[error(
+        "{adapter} has not enough memory left for {what}; a smaller picture, a smaller model or fewer layers need less"
+    )]
+    OutOfMemory {
+        /// The picture or buffer.
+        what: String,
+        /// Name of the adapter.
+        adapter: String,
+    },
     /// The device stopped working.
     #[error("the graphics device failed: {0}")]
     Lost(String),
@@ -52,6 +81,7 @@ pub struct Gpu {
     pub adapter_name: String,
     /// Whether fragment shaders can write into buffers.
     pub writes_in_fragments: bool,
+    faults: Faults,
 }
 
 impl Gpu {
@@ -79,7 +109,8 @@ impl Gpu {
         if info.device_type == wgpu::DeviceType::Cpu {
             keep_freed_memory();
         }
-        Self { device, queue, adapter_name: info.name, writes_in_fragments }
+        let faults = Faults::of(&device);
+        Self { device, queue, adapter_name: info.name, writes_in_fragments, faults }
     }
 
     /// Fails if a texture of this size cannot exist.
@@ -107,6 +138,97 @@ impl Gpu {
         Ok(())
     }
 
+    /// Fails if shaders cannot be given a buffer of this many bytes.
+    ///
+    /// # Errors
+    /// [`GpuError::TooLarge`].
+    pub fn check_storage_size(&self, what: &str, bytes: u64) -> Result<(), GpuError> {
+        let allowed = self.most_storage();
+        if bytes > allowed {
+            return Err(self.too_large(what, bytes, allowed));
+        }
+        Ok(())
+    }
+
+    /// Fails if shaders cannot be given a buffer with so many bytes for each pixel of a picture; `what` says which
+    /// pictures need one: `with lines`.
+    ///
+    /// # Errors
+    /// [`GpuError::PictureTooLarge`].
+    pub fn check_bytes_of_pixels(
+        &self,
+        what: &'static str,
+        size: [u32; 2],
+        bytes: u64,
+    ) -> Result<(), GpuError> {
+        let pixels = self.most_storage() / bytes.max(1);
+        match largest_of_shape(size, pixels) {
+            Some(largest) => Err(GpuError::PictureTooLarge {
+                what,
+                size,
+                pixels,
+                largest,
+                adapter: self.adapter_name.clone(),
+            }),
+            None => Ok(()),
+        }
+    }
+
+    /// The most bytes that shaders can be given in one buffer.
+    pub fn most_storage(&self) -> u64 {
+        let limits = self.device.limits();
+        limits.max_buffer_size.min(limits.max_storage_buffer_binding_size)
+    }
+
+    /// Makes a texture.
+    ///
+    /// # Errors
+    /// [`GpuError::OutOfMemory`].
+    pub fn create_texture(
+        &self,
+        what: &str,
+        descriptor: &wgpu::TextureDescriptor<'_>,
+    ) -> Result<wgpu::Texture, GpuError> {
+        self.within_memory(what, || self.device.create_texture(descriptor))
+    }
+
+    /// Makes a buffer.
+    ///
+    /// # Errors
+    /// [`GpuError::OutOfMemory`].
+    pub fn create_buffer(
+        &self,
+        what: &str,
+        descriptor: &wgpu::BufferDescriptor<'_>,
+    ) -> Result<wgpu::Buffer, GpuError> {
+        self.within_memory(what, || self.device.create_buffer(descriptor))
+    }
+
+    fn within_memory<T>(&self, what: &str, make: impl FnOnce() -> T) -> Result<T, GpuError> {
+        let scope = self.device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
+        let made = make();
+        match pollster::block_on(scope.pop()) {
+            Some(_) => Err(self.out_of_memory(what)),
+            None => Ok(made),
+        }
+    }
+
+    fn out_of_memory(&self, what: &str) -> GpuError {
+        GpuError::OutOfMemory { what: what.to_owned(), adapter: self.adapter_name.clone() }
+    }
+
+    /// Fails if the device could not do something since this was last asked.
+    ///
+    /// # Errors
+    /// [`GpuError::OutOfMemory`] or [`GpuError::Lost`].
+    pub fn check(&self) -> Result<(), GpuError> {
+        match self.faults.take() {
+            Some(Fault::OutOfMemory) => Err(self.out_of_memory("the picture")),
+            Some(Fault::Refused(words)) => Err(GpuError::Lost(words)),
+            None => Ok(()),
+        }
+    }
+
     fn too_large(&self, what: &str, needed: u64, allowed: u64) -> GpuError {
         GpuError::TooLarge { what: what.to_owned(), needed, allowed, adapter: self.adapter_name.clone() }
     }
@@ -120,12 +242,10 @@ impl Gpu {
     /// Waits until all submitted work is done.
     ///
     /// # Errors
-    /// [`GpuError::Lost`].
+    /// [`GpuError::Lost`], and what [`Self::check`] says.
     pub fn wait(&self) -> Result<(), GpuError> {
-        self.device
-            .poll(wgpu::PollType::wait_indefinitely())
-            .map(|_status| ())
-            .map_err(|e| GpuError::Lost(e.to_string()))
+        self.device.poll(wgpu::PollType::wait_indefinitely()).map_err(|e| GpuError::Lost(e.to_string()))?;
+        self.check()
     }
 
     /// All work submitted so far, to be waited for in another thread.
@@ -155,12 +275,32 @@ impl Submitted {
     }
 }
 
+/// The largest picture of the same shape with so many pixels at most; `None` if the picture itself has no more.
+fn largest_of_shape(size: [u32; 2], pixels: u64) -> Option<[u32; 2]> {
+    let needed = size.map(u64::from).iter().product::<u64>();
+    if needed <= pixels {
+        return None;
+    }
+    let shrink = (pixels as f64 / needed as f64).sqrt();
+    Some(size.map(|side| (f64::from(side) * shrink).floor().max(1.0) as u32))
+}
+
+/// Never more than there are.
+fn megapixels(pixels: u64) -> f64 {
+    (pixels as f64 * 1e-5).floor() * 0.1
+}
+
+/// How much of a device's memory is used before what is asked for is refused, in percent. A software device would take it
+/// until the system ends the program.
+const MOST_MEMORY: u8 = 95;
+
 /// How instances are made: native backends only, no validation layers unless `WGPU_*` variables ask for them.
 pub fn instance_descriptor() -> wgpu::InstanceDescriptor {
     let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
     descriptor.backends = wgpu::Backends::from_env()
         .unwrap_or(wgpu::Backends::VULKAN | wgpu::Backends::METAL | wgpu::Backends::DX12);
     descriptor.flags = wgpu::InstanceFlags::empty().with_env();
+    descriptor.memory_budget_thresholds.for_resource_creation = Some(MOST_MEMORY);
     descriptor
 }
 
@@ -191,4 +331,66 @@ pub fn device_descriptor(adapter: &wgpu::Adapter) -> wgpu::DeviceDescriptor<'sta
 fn keep_freed_memory() {
     // glibc takes no notice of 32 MiB and more.
     drop(std::hint::black_box(Vec::<u8>::with_capacity(31 << 20)));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_picture_that_is_too_large_is_told_how_large_it_may_be() {
+        assert_eq!(largest_of_shape([8192, 4096], 1 << 25), None);
+        let [width, height] = largest_of_shape([8192, 4320], 1 << 25).unwrap();
+        assert!(u64::from(width) * u64::from(height) <= 1 << 25);
+        assert!(u64::from(width + 2) * u64::from(height + 2) > 1 << 25, "{width} × {height}");
+        assert!((f64::from(width) / f64::from(height) - 8192.0 / 4320.0).abs() < 1e-3);
+        let error = GpuError::PictureTooLarge {
+            what: "with lines",
+            size: [8192, 4320],
+            pixels: 1 << 25,
+            largest: [width, height],
+            adapter: "llvmpipe".to_owned(),
+        };
+        let text = error.to_string();
+        assert!(text.contains("8192 × 4320 pixels with lines is too large for llvmpipe"), "{text}");
+        assert!(text.contains("has 33.5 megapixels, for example 79"), "{text}");
+    }
+
+    #[test]
+    fn what_does_not_fit_into_memory_is_an_error() {
+        let gpu = Gpu::headless().unwrap();
+        let other = gpu.clone();
+        // Terabytes.
+        let limits = gpu.device.limits();
+        let descriptor = wgpu::TextureDescriptor {
+            label: None,
+            size: wgpu::Extent3d {
+                width: limits.max_texture_dimension_2d,
+                height: limits.max_texture_dimension_2d,
+                depth_or_array_layers: limits.max_texture_array_layers,
+            },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: wgpu::TextureFormat::Rgba32Float,
+            usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_SRC,
+            view_formats: &[],
+        };
+        let error = gpu.create_texture("the lines", &descriptor).unwrap_err().to_string();
+        assert!(error.contains("not enough memory left for the lines"), "{error}");
+        gpu.check().unwrap();
+
+        // Where nobody looks for it, it is told to whoever waits, and nothing panics.
+        let texture = gpu.device.create_texture(&descriptor);
+        let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        encoder.copy_texture_to_texture(
+            texture.as_image_copy(),
+            texture.as_image_copy(),
+            wgpu::Extent3d { width: 1, height: 1, depth_or_array_layers: 1 },
+        );
+        gpu.queue.submit([encoder.finish()]);
+        assert!(matches!(gpu.wait(), Err(GpuError::OutOfMemory { .. })));
+        assert!(matches!(other.check(), Err(GpuError::OutOfMemory { .. })));
+        gpu.wait().unwrap();
+    }
 }

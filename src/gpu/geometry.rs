@@ -200,13 +200,12 @@ fn by_surface<'a>(mesh: &Mesh, surfaces: &'a Provoking) -> Cow<'a, [u32]> {
 
 fn mapped(gpu: &Gpu, label: &str, bytes: usize, usage: wgpu::BufferUsages) -> Result<wgpu::Buffer, GpuError> {
     let size = (bytes as u64).max(4).next_multiple_of(4);
-    gpu.check_buffer_size(&format!("the model ({label})"), size)?;
-    Ok(gpu.device.create_buffer(&wgpu::BufferDescriptor {
-        label: Some(label),
-        size,
-        usage,
-        mapped_at_creation: true,
-    }))
+    let what = format!("the model ({label})");
+    gpu.check_buffer_size(&what, size)?;
+    gpu.create_buffer(
+        &what,
+        &wgpu::BufferDescriptor { label: Some(label), size, usage, mapped_at_creation: true },
+    )
 }
 
 fn view(buffer: &wgpu::Buffer) -> Result<wgpu::BufferViewMut, GpuError> {

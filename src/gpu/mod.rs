@@ -4,6 +4,7 @@
 pub mod bindings;
 pub mod buffer;
 pub mod device;
+mod faults;
 pub mod gate;
 pub mod geometry;
 pub mod material;

@@ -65,7 +65,7 @@ impl TargetPool {
             return Ok(target.clone());
         }
         gpu.check_texture_size(&format!("the picture ({label})"), size)?;
-        let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
+        let descriptor = wgpu::TextureDescriptor {
             label: Some(label),
             size: wgpu::Extent3d { width: size[0], height: size[1], depth_or_array_layers: 1 },
             mip_level_count: 1,
@@ -74,7 +74,8 @@ impl TargetPool {
             format,
             usage: usage(format),
             view_formats: &[],
-        });
+        };
+        let texture = gpu.create_texture(&format!("the picture ({label})"), &descriptor)?;
         let target = Target::new(texture);
         self.targets.push(target.clone());
         Ok(target)

@@ -57,7 +57,7 @@ impl RecordTexture {
         gpu.check_texture_size(self.label, [COLUMNS, rows])?;
         if self.target.size()[1] < rows {
             let roomy = rows.next_power_of_two().min(gpu.device.limits().max_texture_dimension_2d);
-            self.target = create(gpu, self.label, roomy);
+            self.target = Target::new(gpu.create_texture(self.label, &descriptor(self.label, roomy))?);
         }
         Ok(())
     }
@@ -90,7 +90,11 @@ pub fn size_of_texels(texels: usize) -> [u32; 2] {
 }
 
 fn create(gpu: &Gpu, label: &str, rows: u32) -> Target {
-    Target::new(gpu.device.create_texture(&wgpu::TextureDescriptor {
+    Target::new(gpu.device.create_texture(&descriptor(label, rows)))
+}
+
+fn descriptor(label: &str, rows: u32) -> wgpu::TextureDescriptor<'_> {
+    wgpu::TextureDescriptor {
         label: Some(label),
         size: wgpu::Extent3d { width: COLUMNS, height: rows, depth_or_array_layers: 1 },
         mip_level_count: 1,
@@ -101,5 +105,5 @@ fn create(gpu: &Gpu, label: &str, rows: u32) -> Target {
             | wgpu::TextureUsages::STORAGE_BINDING
             | wgpu::TextureUsages::COPY_DST,
         view_formats: &[],
-    }))
+    }
 }

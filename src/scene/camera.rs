@@ -2,6 +2,7 @@
 
 use glam::{DMat4, DVec3};
 
+use super::extent::Framed;
 use super::graph::Up;
 use crate::geometry::Bounds;
 
@@ -33,6 +34,12 @@ pub enum Projection {
         view_height: f64,
     },
 }
+
+/// How much larger a picture is than what it frames.
+const MARGIN: f64 = 1.06;
+
+/// The same at least, where it was framed by some of its points.
+const LEAST_MARGIN: f64 = 1.02;
 
 /// The vertical view angle of a new camera, in degrees (as in F3D).
 pub const DEFAULT_VIEW_ANGLE: f64 = 30.0;
@@ -187,11 +194,43 @@ impl Camera {
         }
     }
 
-    /// The same direction and projection, moved so that `points` fill a picture of this aspect (width / height).
-    /// Points that are not finite are left out; without any the camera stays.
+    /// The same direction and projection, moved so that what it sees fills a picture of this aspect (width / height) and
+    /// all of it is inside. Points that are not finite are left out; without any the camera stays.
     #[must_use]
-    pub fn framing(&self, points: &[DVec3], aspect: f64) -> Self {
-        const MARGIN: f64 = 1.06;
+    pub fn framing(&self, seen: &(impl Framed + ?Sized), aspect: f64) -> Self {
+        let framed = self.framing_points(seen.points(), aspect);
+        let farthest = seen.farthest(&self.limits(aspect));
+        // Where next to nothing is missed, the margin has room for it.
+        if farthest.iter().all(|p| framed.has_inside(*p, aspect)) {
+            return framed;
+        }
+        self.framing_points(&[seen.points(), &farthest].concat(), aspect)
+    }
+
+    /// The directions in which a picture that is seen in this direction ends: what reaches farthest along each of them
+    /// is all that matters to [`Self::framing`].
+    fn limits(&self, aspect: f64) -> Vec<DVec3> {
+        let (r, u, f) = (self.right(), self.up(), self.forward());
+        let slope = match self.projection {
+            Projection::Perspective { view_angle } => (view_angle.to_radians() * 0.5).tan() / MARGIN,
+            Projection::Orthographic { .. } => 0.0,
+        };
+        let (x, y) = (f * (slope * aspect.max(1e-3)), f * slope);
+        vec![r - x, -r - x, u - y, -u - y, -f, f]
+    }
+
+    /// Whether a point is in the picture, not too near its rim.
+    fn has_inside(&self, point: DVec3, aspect: f64) -> bool {
+        let p = self.view_from_world().transform_point3(point);
+        let half_height = match self.projection {
+            Projection::Perspective { view_angle } => -p.z * (view_angle.to_radians() * 0.5).tan(),
+            Projection::Orthographic { view_height } => 0.5 * view_height,
+        };
+        let half = half_height / LEAST_MARGIN;
+        p.z < 0.0 && p.x.abs() <= half * aspect.max(1e-3) && p.y.abs() <= half
+    }
+
+    fn framing_points(&self, points: &[DVec3], aspect: f64) -> Self {
         let bounds = points
             .iter()
             .filter(|p| p.is_finite())
@@ -266,8 +305,8 @@ impl Camera {
         }
     }
 
-    /// A camera that looks at all of `points` from `direction` (towards the viewer), upright.
-    pub fn looking_from(direction: DVec3, up: DVec3, points: &[DVec3], aspect: f64) -> Self {
+    /// A camera that looks at all of `seen` from `direction` (towards the viewer), upright.
+    pub fn looking_from(direction: DVec3, up: DVec3, seen: &(impl Framed + ?Sized), aspect: f64) -> Self {
         let direction = direction.normalize_or(DVec3::Z);
         let view_up = if direction.dot(up).abs() > 0.999 {
             // Seen from above, the front of the model is at the bottom of the picture.
@@ -277,7 +316,7 @@ impl Camera {
             up
         };
         Self { position: direction, focal_point: DVec3::ZERO, view_up, ..Self::default() }
-            .framing(points, aspect)
+            .framing(seen, aspect)
     }
 }
 

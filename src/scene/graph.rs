@@ -2,9 +2,10 @@
 
 use std::sync::Arc;
 
-use glam::{DMat4, DVec3, Vec3};
+use glam::DMat4;
 
 use super::additions::Facing;
+use super::extent::{Extent, MeasuredMesh};
 use super::{Camera, Light, Material, Texture};
 use crate::geometry::{Bounds, Mesh};
 
@@ -113,26 +114,27 @@ impl Scene {
         self.bounds_of(0..self.nodes.len())
     }
 
-    /// Points whose hull is, within a few per mille, that of the given nodes: what a camera has to frame.
-    pub fn extent_of(&self, nodes: impl IntoIterator<Item = NodeId>) -> Vec<DVec3> {
+    /// How far the given nodes reach: what a camera has to frame.
+    pub fn extent_of(&self, nodes: impl IntoIterator<Item = NodeId>) -> Extent {
         let mut known = std::collections::HashMap::new();
-        nodes
+        let extents: Vec<_> = nodes
             .into_iter()
             .filter_map(|id| Some((id, self.nodes.get(id)?)))
             .filter_map(|(id, node)| Some((id, node, self.meshes.get(node.mesh?)?)))
-            .flat_map(|(id, node, mesh)| {
-                if let Some(facing) = self.facing_of(id) {
-                    return vec![facing.anchor];
+            .map(|(id, node, mesh)| match self.facing_of(id) {
+                // What faces the eye has no size of its own.
+                Some(facing) => Extent::of_point(facing.anchor),
+                None => {
+                    let measured = known.entry(Arc::as_ptr(mesh)).or_insert_with(|| MeasuredMesh::new(mesh));
+                    Extent::of_mesh(measured, node.world_from_local)
                 }
-                let extremes = known.entry(Arc::as_ptr(mesh)).or_insert_with(|| mesh.extremes());
-                let place = |p: &Vec3| node.world_from_local.transform_point3(p.as_dvec3());
-                extremes.iter().map(place).collect::<Vec<_>>()
             })
-            .collect()
+            .collect();
+        Extent::of_all(&extents)
     }
 
     /// [`Self::extent_of`] everything.
-    pub fn extent(&self) -> Vec<DVec3> {
+    pub fn extent(&self) -> Extent {
         self.extent_of(0..self.nodes.len())
     }
 

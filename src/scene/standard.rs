@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::{Camera, Projection, Up};
+use super::{Camera, Framed, Projection, Up};
 
 /// A standard direction to look from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, strum::EnumString, strum::VariantNames)]
@@ -49,7 +49,13 @@ impl Standard {
     }
 
     /// A camera that sees all of `extent` from there, in the projection of `like`.
-    pub fn camera(self, up: Up, extent: &[DVec3], aspect: f64, like: Option<&Camera>) -> Camera {
+    pub fn camera(
+        self,
+        up: Up,
+        extent: &(impl Framed + ?Sized),
+        aspect: f64,
+        like: Option<&Camera>,
+    ) -> Camera {
         let parallel = like.is_some_and(|c| matches!(c.projection, Projection::Orthographic { .. }));
         let mut camera = Camera::looking_from(self.direction(up), up.vector(), extent, aspect);
         if let Some(Camera { projection: Projection::Perspective { view_angle }, .. }) = like {

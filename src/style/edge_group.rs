@@ -2,7 +2,7 @@
 
 use super::Color;
 use super::edge_line::{Line, Places};
-use super::edges::{DepthOperator, EdgeMode};
+use super::edge_mode::{DepthOperator, EdgeMode};
 use super::param::Params;
 
 /// One of the two groups of edges.

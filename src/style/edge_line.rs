@@ -1,7 +1,7 @@
 //! The look of one class of lines, which it has from its group as far as it has none of its own.
 
 use super::Color;
-use super::edges::EdgeMode;
+use super::edge_mode::EdgeMode;
 use super::param::{Params, Place};
 use crate::geometry::EdgeClass;
 

@@ -2,9 +2,9 @@
 
 use super::edge_group::{EdgeGroup, Inner, Profile};
 use super::edge_line::{ClassStyle, Line};
+use super::edge_mode::{Alignment, DepthOperator, EdgeMode};
 use super::hidden::Hidden;
 use super::param::Params;
-use super::slot::choice;
 use crate::geometry::EdgeClass;
 
 /// How edges are found and drawn.
@@ -34,41 +34,6 @@ pub struct Edges {
     pub pressure: Pressure,
     /// Lines behind other surfaces.
     pub hidden: Hidden,
-}
-
-choice! {
-    /// How edges are found.
-    pub enum EdgeMode {
-        /// From the edges of the meshes and from what is in front of what.
-        #[default]
-        Exact,
-        /// With the operators of the edge-enhancement paper.
-        Paper,
-    }
-}
-
-choice! {
-    /// Where the width of a line lies.
-    pub enum Alignment {
-        /// Half on either side of the edge.
-        #[default]
-        Centered,
-        /// Outside of the object.
-        Outward,
-        /// On the object.
-        Inward,
-    }
-}
-
-choice! {
-    /// Operator on the depth buffer (paper, section 4.1.2).
-    pub enum DepthOperator {
-        /// Two diagonal pairs: finer edges, softer intensities.
-        #[default]
-        Diagonal,
-        /// Eight neighbours against the centre.
-        C1,
-    }
 }
 
 /// Dashes, in reference pixels, 1 to 512.

@@ -1,7 +1,7 @@
 //! Hidden lines: those of what lies behind, drawn over what hides it.
 
 use super::Color;
-use super::edges::EdgeMode;
+use super::edge_mode::EdgeMode;
 use super::param::Params;
 use super::slot::choice;
 

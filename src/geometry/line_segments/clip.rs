@@ -2,7 +2,7 @@
 
 use glam::{DMat4, DVec2, DVec3, DVec4, Vec3};
 
-use super::LineView;
+use super::segment::LineView;
 use crate::geometry::{Bounds, Lens};
 
 /// A point in the picture.

@@ -4,9 +4,9 @@ use std::f32::consts::FRAC_PI_2;
 
 use glam::{DMat4, DVec2, Vec3};
 
-use super::arcs::Scale;
 use super::clip::PictureMap;
-use super::{Dashes, LineSegment, LineView, NO_SURFACE, Wanted};
+use super::scale::Scale;
+use super::segment::{Dashes, LineSegment, LineView, NO_SURFACE, Wanted};
 use crate::geometry::section::Contour;
 use crate::geometry::{EdgeClass, FeatureEdges};
 

@@ -5,7 +5,7 @@
 
 use glam::DVec2;
 
-use super::arcs::Scale;
+use super::scale::Scale;
 
 /// A chain in the picture.
 pub(super) struct Outline {

@@ -2,6 +2,8 @@
 
 use std::time::Instant;
 
+use glam::DVec2;
+
 use super::tests::{EYE, LENSES, Subject, everything, look_from};
 use super::*;
 use crate::geometry::primitives;

@@ -1,8 +1,8 @@
-use glam::{DVec3, DVec4, Vec3};
+use glam::{DVec2, DVec3, DVec4, Vec3};
 
 use super::*;
 use crate::geometry::feature_edges::tests::junction;
-use crate::geometry::{Adjacency, Lens, primitives};
+use crate::geometry::{Adjacency, FeatureEdges, Lens, Mesh, Projector, primitives};
 
 pub(super) const LENSES: [Lens; 2] =
     [Lens::Perspective { tan_half_angle: 0.3 }, Lens::Orthographic { half_height: 1.5 }];

@@ -112,7 +112,7 @@ impl FragmentLists {
     pub fn begin(&mut self, rec: &mut Recorder<'_>, fragments: u64) -> Result<u64, GpuError> {
         let [width, height] = rec.size().map(u64::from);
         let (gpu, heads) = (rec.gpu, width * height * 4);
-        gpu.check_buffer_size("the lists of a picture", heads)?;
+        gpu.check_bytes_of_pixels("in which something is seen through", rec.size(), 4)?;
         if self.heads.size() != heads {
             self.heads = create(gpu, "heads of lists", heads);
         }

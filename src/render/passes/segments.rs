@@ -129,9 +129,13 @@ impl Segments {
         let most = steps.len().min(MOST_STEPS) as u64;
         self.kept_steps.reserve(gpu, most * 4)?;
         self.points.reserve(gpu, most * POINT_BYTES)?;
-        let [width, height] = rec.size().map(u64::from);
-        self.keys.reserve(gpu, width * height * 4)?;
-        self.winners.reserve(gpu, width * height * 4)?;
+        // Lines of images, as in paper mode, need none.
+        if chunks > 0 {
+            gpu.check_bytes_of_pixels("with lines", rec.size(), 4)?;
+            let [width, height] = rec.size().map(u64::from);
+            self.keys.reserve(gpu, width * height * 4)?;
+            self.winners.reserve(gpu, width * height * 4)?;
+        }
         for part in 0..self.steps.len() {
             self.steps[part].places =
                 if for_layers { Some(self.place(rec, &self.steps[part])?) } else { None };

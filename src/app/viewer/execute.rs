@@ -4,17 +4,17 @@ use std::collections::BTreeSet;
 
 use eframe::egui;
 
-use super::command::Command;
-use super::loading::Intent;
-use super::navigation::STEP;
-use super::placing::Placed;
-use super::screenshot::{self, Destination};
-use super::theme;
-use super::viewer::{DialogFor, Open, Viewer};
+use super::{DialogFor, Open, Viewer};
+use crate::app::command::Command;
+use crate::app::loading::Intent;
+use crate::app::navigation::STEP;
+use crate::app::placing::Placed;
+use crate::app::screenshot::{self, Destination};
+use crate::app::theme;
+use crate::app::unsaved::Next;
 use crate::document::Glyph;
 use crate::document::glyph::Shape;
-use crate::scene::{NodeId, Projection, Standard};
-use glam::DVec3;
+use crate::scene::{Extent, NodeId, Projection, Standard};
 
 impl Viewer {
     /// Whether a command can be carried out now.
@@ -22,7 +22,7 @@ impl Viewer {
         let (any, selected) = (!self.model.scene.nodes.is_empty(), !self.selection.is_empty());
         match command {
             Command::Reload => !self.document.models.is_empty(),
-            Command::Save => any || self.saved.is_some(),
+            Command::Save => any || self.kept.file.is_some(),
             Command::AddBox => self.selection.lead_object(&self.model.files).is_some(),
             Command::AddArrow | Command::AddPath | Command::AddLabel => any && self.document.camera.is_some(),
             Command::Delete => {
@@ -86,13 +86,13 @@ impl Viewer {
     /// Carries a command out.
     pub(super) fn execute(&mut self, context: &egui::Context, command: Command) {
         match command {
-            Command::Open => self.ask_for_file(context, DialogFor::Open),
+            Command::Open => self.leave_for(context, Next::Choose),
             Command::Add => self.ask_for_file(context, DialogFor::Add),
             Command::Reload => {
                 self.load(context, self.document.models.clone(), Intent::Reload);
                 self.images.look_again();
             }
-            Command::Save => match self.saved.as_ref().map(|(path, _)| path.clone()) {
+            Command::Save => match self.kept.file.clone() {
                 Some(path) => self.save_document(context, path),
                 None => self.ask_for_file(context, DialogFor::Save),
             },
@@ -100,7 +100,7 @@ impl Viewer {
             Command::Screenshot => self.capture(context, false, self.numbered()),
             Command::TransparentScreenshot => self.capture(context, true, self.numbered()),
             Command::ScreenshotAs => self.ask_for_file(context, DialogFor::Screenshot),
-            Command::Quit => context.send_viewport_cmd(egui::ViewportCommand::Close),
+            Command::Quit => self.leave_for(context, Next::Close),
             Command::AddBox => {
                 if let Some(node) = self.selection.lead_object(&self.model.files) {
                     let glyph = Glyph::new("box".to_owned(), Shape::around(node.path.clone()));
@@ -214,7 +214,7 @@ impl Viewer {
         self.document.camera = Some(standard.camera(up, &extent, aspect, self.document.camera.as_ref()));
     }
 
-    fn frame(&mut self, extent: &[DVec3]) {
+    fn frame(&mut self, extent: &Extent) {
         if let Some(camera) = &mut self.document.camera {
             *camera = camera.framing(extent, self.viewport.aspect());
         }

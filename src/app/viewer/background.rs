@@ -6,12 +6,14 @@ use std::time::Duration;
 
 use eframe::egui;
 
-use super::jobs::Job;
-use super::leaving::Leaving;
-use super::loading::{self, DOCUMENT_ENDING, IMAGE_ENDINGS, Intent, LoadError, Loaded, MODEL_ENDINGS};
-use super::screenshot::{self, Destination};
-use super::viewer::{DialogFor, Viewer};
-use super::viewport::PickFor;
+use super::{DialogFor, Viewer};
+use crate::app::dialogs::{Choice, Dialog};
+use crate::app::jobs::Job;
+use crate::app::loading::{self, DOCUMENT_ENDING, IMAGE_ENDINGS, Intent, LoadError, Loaded, MODEL_ENDINGS};
+use crate::app::navigation;
+use crate::app::screenshot::{self, Destination};
+use crate::app::unsaved::{Kept, Next};
+use crate::app::viewport::PickFor;
 use crate::document::Document;
 use crate::export::session::{self, is_document};
 use crate::import::{ImportError, Progress};
@@ -25,15 +27,25 @@ const PROGRESS: Duration = Duration::from_millis(100);
 const SAVING: Duration = Duration::from_millis(300);
 
 impl Viewer {
-    /// Starts to load files; a load that is still running is cancelled. The present scene stays until then.
+    /// Loads files; asks first if they take the place of a drawing that would be lost.
     pub fn load(&mut self, context: &egui::Context, files: Vec<PathBuf>, intent: Intent) {
-        let (mut paths, intent) = match intent {
-            // A drawing replaces, whatever the key.
-            Intent::Add if files.iter().any(|f| is_document(f)) => (Vec::new(), Intent::Open),
-            Intent::Add => (self.document.models.clone(), Intent::Add),
-            Intent::Open | Intent::Reload | Intent::Restore => (Vec::new(), intent),
-        };
+        // A drawing replaces, whatever the key.
+        let is_replaced =
+            intent == Intent::Open || intent == Intent::Add && files.iter().any(|f| is_document(f));
+        if is_replaced {
+            self.leave_for(context, Next::Open(files));
+        } else {
+            self.start_loading(context, files, intent);
+        }
+    }
+
+    /// Starts to load files; a load that is still running is cancelled. The present scene stays until then.
+    pub(super) fn start_loading(&mut self, context: &egui::Context, files: Vec<PathBuf>, intent: Intent) {
+        let mut paths = if intent == Intent::Add { self.document.models.clone() } else { Vec::new() };
         paths.extend(files);
+        if intent != Intent::Open {
+            self.given_up = None;
+        }
         let loader = self.loader.clone();
         let (uploader, angle) = (self.viewport.uploader(), self.document.view.crease_angle);
         let work =
@@ -54,11 +66,8 @@ impl Viewer {
                     self.notices.saved(path.clone());
                     self.state.note_opened(&path);
                     self.look_for_recent();
-                    self.saved = Some((path, document));
-                    if self.leaving == Leaving::AfterSaving {
-                        self.leaving = Leaving::Now;
-                        context.send_viewport_cmd(egui::ViewportCommand::Close);
-                    }
+                    self.kept = Kept::saved(path, document);
+                    self.go_on_after_saving(context);
                 }
                 Ok(Err(error)) => self.save_failed(&error.to_string()),
                 Err(error) => self.save_failed(&error.to_string()),
@@ -70,15 +79,25 @@ impl Viewer {
     }
 
     fn answer_load(&mut self, context: &egui::Context) {
-        let Some(job) = &self.jobs.load else { return };
+        // Two questions at a time would be one too many.
+        let Some(job) = self.jobs.load.as_ref().filter(|_| !self.is_asking()) else { return };
+        if !self.viewport.is_laid_out() {
+            // A model is framed for the picture as it is, and nobody has seen that yet.
+            context.request_repaint();
+            return;
+        }
         let Some(result) = job.poll() else {
             context.request_repaint_after(PROGRESS);
             return;
         };
         self.jobs.load = None;
         match result {
+            // The drawing may have been changed since it was left for this one.
+            Ok(Ok(loaded)) if loaded.intent == Intent::Open => {
+                self.leave_for(context, Next::Show(Box::new(loaded)));
+            }
             Ok(Ok(loaded)) => self.show_loaded(loaded),
-            Ok(Err(LoadError::Import(ImportError::Cancelled))) => {}
+            Ok(Err(LoadError::Import(ImportError::Cancelled))) => self.stay(),
             Ok(Err(error)) => self.load_failed(&error.to_string()),
             Err(error) => self.load_failed(&error.to_string()),
         }
@@ -86,16 +105,17 @@ impl Viewer {
 
     fn save_failed(&mut self, message: &str) {
         self.notices.error(message);
-        self.leaving = Leaving::No;
+        self.stay();
     }
 
     fn load_failed(&mut self, message: &str) {
         self.notices.error(message);
         // After an undo the list of models may say something else than the picture.
         self.document.models.clone_from(&self.loaded);
+        self.stay();
     }
 
-    fn show_loaded(&mut self, loaded: Loaded) {
+    pub(super) fn show_loaded(&mut self, loaded: Loaded) {
         let Loaded { model, on_device, models, document, intent } = loaded;
         self.viewport.show(on_device);
         self.cancel_placing();
@@ -116,12 +136,16 @@ impl Viewer {
                 if self.document.camera.is_none() {
                     self.look_from(Standard::Home);
                 }
+                // Added to nothing, they are as if opened.
+                if self.loaded.is_empty() && self.kept.file.is_none() {
+                    self.kept = Kept::models(&self.document);
+                }
             }
             Intent::Reload | Intent::Restore => {}
         }
         self.loaded = models;
         if intent != Intent::Restore {
-            for path in self.loaded.iter().rev().chain(self.saved.as_ref().map(|(path, _)| path)) {
+            for path in self.loaded.iter().rev().chain(&self.kept.file) {
                 self.state.note_opened(path);
             }
             self.look_for_recent();
@@ -173,11 +197,11 @@ impl Viewer {
 
     fn begin_document(&mut self, document: Option<(PathBuf, Document)>, models: &[PathBuf]) {
         let scene = &self.model.scene;
+        let is_saved = document.is_some();
         if let Some((path, document)) = document {
-            self.saved = Some((path, document.clone()));
+            self.kept = Kept::saved(path, document.clone());
             self.document = document;
         } else {
-            self.saved = None;
             let memory = models.first().and_then(|m| self.state.memory(m));
             // What was set by hand for everything goes on with the next model.
             self.document = Document {
@@ -194,6 +218,10 @@ impl Viewer {
         if let Some(style) = self.start_style.take() {
             self.document.style = style;
         }
+        if !is_saved {
+            self.kept = Kept::models(&self.document);
+        }
+        self.given_up = None;
         if self.document.camera.is_none() {
             self.look_from(Standard::Home);
         }
@@ -213,7 +241,7 @@ impl Viewer {
             (PickFor::Select { add: false }, ..) => self.selection.clear(),
             (PickFor::Center, _, Some(point)) => {
                 if let Some(camera) = &mut self.document.camera {
-                    *camera = super::navigation::moved(camera, point - camera.focal_point);
+                    *camera = navigation::moved(camera, point - camera.focal_point);
                 }
             }
             _ => {}
@@ -223,64 +251,58 @@ impl Viewer {
     /// Opens a file dialog beside the window.
     pub(super) fn ask_for_file(&mut self, context: &egui::Context, purpose: DialogFor) {
         if self.jobs.dialog.is_some() {
+            self.notices.warning("A dialog is open already; answer that one first");
+            self.stay();
             return;
         }
-        let mut dialog = rfd::AsyncFileDialog::new();
-        if let Some(folder) = &self.state.last_folder {
-            dialog = dialog.set_directory(folder);
-        }
-        let name = self.name();
-        let models_and_documents: Vec<_> = MODEL_ENDINGS.into_iter().chain([DOCUMENT_ENDING]).collect();
-        // Futures are made here because some systems open dialogs only from this thread.
-        let job = match &purpose {
-            DialogFor::Open | DialogFor::Add => {
-                if matches!(purpose, DialogFor::Open) {
-                    dialog = dialog
-                        .set_title("Open")
-                        .add_filter("All supported", &models_and_documents)
-                        .add_filter("Hachure drawing", &[DOCUMENT_ENDING]);
-                } else {
-                    dialog = dialog.set_title("Add").add_filter("All supported", &MODEL_ENDINGS);
-                }
-                let chosen = dialog
-                    .add_filter("glTF", &["glb", "gltf"])
-                    .add_filter("Wavefront OBJ", &["obj"])
-                    .add_filter("STL", &["stl"])
-                    .add_filter("PLY", &["ply"])
-                    .add_filter("All files", &["*"])
-                    .pick_files();
-                Job::start("file dialog", context, move |_| {
-                    let files = pollster::block_on(chosen).unwrap_or_default();
-                    files.iter().map(|f| f.path().to_owned()).collect()
-                })
+        let dialog = self.dialog(&purpose);
+        let ending = match &dialog.choice {
+            Choice::Name(_) => dialog.filters.first().and_then(|(_, endings)| endings.first().copied()),
+            Choice::File | Choice::Files => None,
+        };
+        let answer = (self.dialogs)(dialog);
+        let job = Job::start("file dialog", context, move |_| {
+            let files = pollster::block_on(answer);
+            files.into_iter().map(|f| ending.map_or(f.clone(), |ending| with_ending(&f, ending))).collect()
+        });
+        self.jobs.dialog = Some((purpose, job));
+    }
+
+    fn dialog(&self, purpose: &DialogFor) -> Dialog {
+        let models = MODEL_ENDINGS.to_vec();
+        let each = [
+            ("glTF", vec!["glb", "gltf"]),
+            ("Wavefront OBJ", vec!["obj"]),
+            ("STL", vec!["stl"]),
+            ("PLY", vec!["ply"]),
+        ];
+        let any = [("All files", vec!["*"])];
+        let (title, choice, filters) = match purpose {
+            DialogFor::Open => {
+                let supported = [models, vec![DOCUMENT_ENDING]].concat();
+                let first = vec![("All supported", supported), ("Hachure drawing", vec![DOCUMENT_ENDING])];
+                ("Open", Choice::Files, [first, each.into(), any.into()].concat())
+            }
+            DialogFor::Add => {
+                let first = vec![("All supported", models)];
+                ("Add", Choice::Files, [first, each.into(), any.into()].concat())
             }
             DialogFor::Image(_) => {
-                let chosen = dialog
-                    .set_title("Choose an image")
-                    .add_filter("Images", &IMAGE_ENDINGS)
-                    .add_filter("All files", &["*"])
-                    .pick_file();
-                Job::start("file dialog", context, move |_| {
-                    pollster::block_on(chosen).map(|f| f.path().to_owned()).into_iter().collect()
-                })
+                let images = vec![("Images", IMAGE_ENDINGS.to_vec())];
+                ("Choose an image", Choice::File, [images, any.into()].concat())
             }
-            DialogFor::Save | DialogFor::Screenshot => {
-                let (title, ending) = match purpose {
-                    DialogFor::Save => ("Save drawing", DOCUMENT_ENDING),
-                    _ => ("Save screenshot", "png"),
-                };
-                let chosen = dialog
-                    .set_title(title)
-                    .add_filter(title, &[ending])
-                    .set_file_name(format!("{name}.{ending}"))
-                    .save_file();
-                Job::start("file dialog", context, move |_| {
-                    let file = pollster::block_on(chosen);
-                    file.map(|f| with_ending(f.path(), ending)).into_iter().collect()
-                })
-            }
+            DialogFor::Save => (
+                "Save drawing",
+                self.proposed(DOCUMENT_ENDING),
+                vec![("Hachure drawing", vec![DOCUMENT_ENDING])],
+            ),
+            DialogFor::Screenshot => ("Save screenshot", self.proposed("png"), vec![("PNG", vec!["png"])]),
         };
-        self.jobs.dialog = Some((purpose, job));
+        Dialog { title, filters, folder: self.state.last_folder.clone(), choice }
+    }
+
+    fn proposed(&self, ending: &str) -> Choice {
+        Choice::Name(format!("{}.{ending}", self.name()))
     }
 
     fn answer_dialog(&mut self, context: &egui::Context) {
@@ -293,10 +315,14 @@ impl Viewer {
             Ok(paths) => paths,
             Err(error) => {
                 self.notices.error(error.to_string());
+                self.stay();
                 return;
             }
         };
-        let Some(first) = paths.first().cloned() else { return };
+        let Some(first) = paths.first().cloned() else {
+            self.stay();
+            return;
+        };
         self.state.last_folder = first.parent().map(Path::to_owned);
         match purpose {
             DialogFor::Open => self.load(context, paths, Intent::Open),
@@ -343,7 +369,7 @@ impl Viewer {
 
     /// The name that files made from this get: that of the document or of the first model.
     pub(super) fn name(&self) -> String {
-        let path = self.saved.as_ref().map(|(path, _)| path).or(self.document.models.first());
+        let path = self.kept.file.as_ref().or(self.document.models.first());
         let stem = path.and_then(|p| p.file_stem());
         stem.map_or_else(|| "drawing".to_owned(), |s| s.to_string_lossy().into_owned())
     }

@@ -2,6 +2,8 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
+mod leaving;
+
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -134,6 +136,17 @@ fn says(window: &Window, text: &str) -> bool {
 fn selected(window: &Window) -> Vec<&str> {
     let state = window.state();
     state.selection().iter().map(|n| state.model().scene.nodes[n].name.as_str()).collect()
+}
+
+#[test]
+fn a_model_is_framed_for_the_picture_as_it_is_in_the_window() {
+    // It is there before the window knows how large its picture is.
+    let mut window = window();
+    assert!(window.state().viewport().is_laid_out());
+    let first = window.state().document().camera.unwrap();
+    ask(&mut window, Command::Home);
+    let again = window.state().document().camera.unwrap();
+    assert!((again.position - first.position).length() < 1e-9, "{first:?} {again:?}");
 }
 
 #[test]
@@ -799,6 +812,7 @@ fn images_of_styles_are_read_beside_the_window_and_again_when_it_is_come_back_to
         files: vec!["/models/engine.glb".into()],
         style: Some(style),
         loader: Arc::new(|paths, _, _| Ok(engine(paths))),
+        ..Launch::default()
     };
     let mut window = window_of(launch);
     until(&mut window, "the missing image is told", |v| {

@@ -1,0 +1,38 @@
+//! How edges are found and where their lines lie: what the parameters of all lines ask for.
+
+use super::slot::choice;
+
+choice! {
+    /// How edges are found.
+    pub enum EdgeMode {
+        /// From the edges of the meshes and from what is in front of what.
+        #[default]
+        Exact,
+        /// With the operators of the edge-enhancement paper.
+        Paper,
+    }
+}
+
+choice! {
+    /// Where the width of a line lies.
+    pub enum Alignment {
+        /// Half on either side of the edge.
+        #[default]
+        Centered,
+        /// Outside of the object.
+        Outward,
+        /// On the object.
+        Inward,
+    }
+}
+
+choice! {
+    /// Operator on the depth buffer (paper, section 4.1.2).
+    pub enum DepthOperator {
+        /// Two diagonal pairs: finer edges, softer intensities.
+        #[default]
+        Diagonal,
+        /// Eight neighbours against the centre.
+        C1,
+    }
+}
