@@ -113,13 +113,13 @@ fn agree(drawn: &[Hit], cast: &[Hit], around: &[Vec<Hit>]) -> bool {
 
 /// Per pixel what the layers hold, nearest first.
 fn layers(session: &mut Session, opened: &Opened, side: u32) -> Vec<Vec<Hit>> {
-    session.renderer().keep_layers();
+    common::keep_layers(session);
     session.set_scene(opened).unwrap();
-    let picture = session.draw(opened, [side; 2], false).unwrap();
-    assert_eq!(picture.layers.len(), 1, "one group");
+    session.draw(opened, [side; 2], false).unwrap();
+    assert_eq!(session.renderer().last_peeled().len(), 1, "one group");
     let mut of_pixel = vec![Vec::new(); (side * side) as usize];
-    for layer in &picture.layers[0] {
-        let surfels = texels::<[u32; 4]>(session, &layer.gbuffer.geometry);
+    for geometry in common::kept_layers(session, "layer geometry") {
+        let surfels = texels::<[u32; 4]>(session, &geometry);
         for (hits, [_, _, depth, object]) in of_pixel.iter_mut().zip(surfels) {
             if object != 0 {
                 hits.push(Hit { object: object & 0x7fff_ffff, depth: f64::from(f32::from_bits(depth)) });

@@ -78,7 +78,7 @@ fn among_rings() -> Opened {
 }
 
 fn draw(session: &mut Session, opened: &Opened) -> (Picture, Peeled) {
-    session.renderer().keep_layers();
+    common::keep_layers(session);
     session.set_scene(opened).unwrap();
     let picture = session.draw(opened, [SIDE; 2], false).unwrap();
     let peeled = session.renderer().peeled().unwrap();
@@ -86,16 +86,22 @@ fn draw(session: &mut Session, opened: &Opened) -> (Picture, Peeled) {
     (picture, peeled[0].clone())
 }
 
+/// The depth mask of the last picture.
+fn mask_of(session: &mut Session) -> Vec<f32> {
+    let mask = common::kept(session, "depth mask").unwrap();
+    texels::<f32>(session, &mask)
+}
+
 /// What the processor counts in the textures: the mask's pixels, and those that pass against each layer that was peeled.
 fn recount(session: &mut Session, picture: &Picture) -> (u32, Vec<u32>) {
-    let mask = texels::<f32>(session, picture.depth_mask.as_ref().unwrap());
+    let mask = mask_of(session);
     let count = |passes: &dyn Fn(usize, f32) -> bool| {
         mask.iter().enumerate().filter(|(i, depth)| **depth > 0.0 && passes(*i, **depth)).count() as u32
     };
-    let passed = picture.layers[0]
+    let passed = common::kept_layers(session, "layer depth")
         .iter()
-        .map(|layer| {
-            let depths = texels::<f32>(session, &layer.gbuffer.depth);
+        .map(|depth| {
+            let depths = texels::<f32>(session, depth);
             count(&|i, depth| depth >= depths[i])
         })
         .collect();
@@ -133,10 +139,10 @@ fn counts_equal_a_recount_and_peeling_ends_with_the_first_layer_that_uncovers_en
             assert_eq!(peeled.uncovered(), passed[drawn - 1]);
             assert_eq!(peeled.shortfall(), None);
             // What comes after the last layer was never drawn.
-            let left = &picture.layers[0][drawn..];
-            assert!(left.iter().all(|layer| {
-                texels::<u32>(&mut session, &layer.gbuffer.region).iter().all(|region| *region == 0)
-            }));
+            let left = common::kept_layers(&mut session, "layer regions").split_off(drawn);
+            let is_empty =
+                |regions: &Target| texels::<u32>(&mut session, regions).iter().all(|region| *region == 0);
+            assert!(left.iter().all(is_empty));
             ends.push(expected);
         }
     }
@@ -196,11 +202,11 @@ fn away_from_edges_a_pixel_passes_with_the_layer_before_which_rays_meet_the_mask
         set(&mut all, "blueprint.fraction", "1");
         let (picture, peeled) = draw(&mut session, &all);
         let rays = Rays::new(&all);
-        let mask = texels::<f32>(&mut session, picture.depth_mask.as_ref().unwrap());
-        let layers: Vec<Vec<f32>> = picture.layers[0]
+        let mask = mask_of(&mut session);
+        let layers: Vec<Vec<f32>> = common::kept_layers(&mut session, "layer depth")
             .iter()
             .take(peeled.layers as usize)
-            .map(|layer| texels::<f32>(&mut session, &layer.gbuffer.depth))
+            .map(|depth| texels::<f32>(&mut session, depth))
             .collect();
         let (mut compared, mut deepest) = (0, 0);
         for i in 0..mask.len() {
@@ -239,12 +245,12 @@ fn a_designated_object_is_in_no_layer_and_stands_in_the_picture_in_its_own_style
         set(&mut scene, key, value);
     }
     let (picture, _) = draw(&mut session, &scene);
-    for layer in &picture.layers[0] {
-        let surfels = texels::<[u32; 4]>(&mut session, &layer.gbuffer.geometry);
+    for geometry in common::kept_layers(&mut session, "layer geometry") {
+        let surfels = texels::<[u32; 4]>(&mut session, &geometry);
         assert!(surfels.iter().all(|s| s[3] & 0x7fff_ffff != object_id(0)));
     }
     let image = |session: &mut Session, opened: &Opened| common::image(session, opened, SIDE);
-    let mask = texels::<f32>(&mut session, picture.depth_mask.as_ref().unwrap());
+    let mask = mask_of(&mut session);
     let middle = mask.chunks(SIDE as usize).nth(SIDE as usize / 2).unwrap();
     let x = middle.iter().rposition(|depth| *depth > 0.0).unwrap() as u32 - 3;
     let [r, g, b, _] = image(&mut session, &scene).get_pixel(x, SIDE / 2).0;
@@ -275,8 +281,9 @@ fn what_opaque_objects_hide_of_the_mask_is_counted_and_told() {
         .set_for(&nodes, &[4], "technique", &hachure::style::Value::Text("unlit".to_owned()))
         .unwrap();
     let (picture, peeled) = draw(&mut session, &scene);
-    let mask = texels::<f32>(&mut session, picture.depth_mask.as_ref().unwrap());
-    let front = texels::<[u32; 4]>(&mut session, &picture.gbuffer.geometry);
+    let mask = mask_of(&mut session);
+    let geometry = common::kept(&mut session, "geometry").unwrap();
+    let front = texels::<[u32; 4]>(&mut session, &geometry);
     let hidden =
         mask.iter().zip(&front).filter(|(m, f)| **m > 0.0 && f[3] & 0x7fff_ffff == object_id(4)).count();
     assert!(hidden > 100, "{hidden}");
@@ -316,13 +323,13 @@ fn without_a_mask_in_the_picture_the_plain_rules_hold() {
     };
     assert!(plain.document.role_faults(&plain.scene).is_empty());
     let (picture, peeled) = draw(&mut session, &plain);
-    assert!(picture.depth_mask.is_none());
+    assert!(common::kept(&mut session, "depth mask").is_none());
     assert_eq!((peeled.layers, peeled.masked), (4, 0));
 
     let mut hidden = behind_sheets();
     hidden.document.node_mut("/cube").visible = Some(false);
     let (picture, of_hidden) = draw(&mut session, &hidden);
-    assert!(picture.depth_mask.is_none());
+    assert!(common::kept(&mut session, "depth mask").is_none());
     assert_eq!(of_hidden.pixels, peeled.pixels);
     assert!(
         hidden.document.role_faults(&hidden.scene)[0].to_string().contains("/cube: is designated but hidden")
@@ -333,7 +340,7 @@ fn without_a_mask_in_the_picture_the_plain_rules_hold() {
         DMat4::from_translation(DVec3::new(90.0, 0.0, -1.0));
     set(&mut outside, "blueprint.fraction", "0");
     let (picture, of_outside) = draw(&mut session, &outside);
-    assert!(texels::<f32>(&mut session, &picture.depth_mask.unwrap()).iter().all(|d| *d == 0.0));
+    assert!(mask_of(&mut session).iter().all(|d| *d == 0.0));
     assert_eq!((of_outside.masked, of_outside.pixels), (0, peeled.pixels));
     assert_eq!((of_outside.ended(), of_outside.shortfall()), (PeelingEnd::TooFewPixels, None));
 

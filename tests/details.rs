@@ -65,7 +65,8 @@ fn spines(session: &mut Session, opened: &Opened, class: EdgeClass) -> Vec<DVec2
     session.set_scene(opened).unwrap();
     let picture = session.draw(opened, [SIDE; 2], false).unwrap();
     let classes = edge_classes(session, &picture);
-    let offsets = texels::<[u32; 4]>(session, picture.edge_map.as_ref().unwrap());
+    let edge_map = common::kept(session, "edge map").unwrap();
+    let offsets = texels::<[u32; 4]>(session, &edge_map);
     let offset = |texel: u32, shift: u32| f64::from(texel >> shift & 255) / 127.0 - 1.0;
     let found =
         classes.iter().zip(offsets).enumerate().filter(|(_, (found, _))| found.is_some_and(|f| f.0 == class));
@@ -203,8 +204,7 @@ fn the_border_of_a_cast_shadow_is_one_smooth_line_and_the_terminator_has_none() 
     assert!(spines(&mut session, &opened, EdgeClass::Shadow).is_empty());
     common::set(&mut opened, "light.shadows", "true");
     let found = spines(&mut session, &opened, EdgeClass::Shadow);
-    let view =
-        hachure::render::View::new(&camera, &opened.scene.bounds(), glam::UVec2::splat(SIDE));
+    let view = hachure::render::View::new(&camera, &opened.scene.bounds(), glam::UVec2::splat(SIDE));
     let (mut worst, mut sum) = (0.0_f64, 0.0);
     for spine in &found {
         let through = view.unproject(spine.as_vec2(), 1.0) - camera.position;

@@ -81,7 +81,8 @@ fn compare(towards_viewer: DVec3, orthographic: bool) {
         .unwrap();
     let range = [-fitted.max.z as f32, -fitted.min.z as f32];
 
-    let values = texels::<[f32; 4]>(&mut session, picture.operators.as_ref().unwrap());
+    let shown = common::kept(&mut session, "operators").unwrap();
+    let values = texels::<[f32; 4]>(&mut session, &shown);
     let ink = ink(&mut session, &picture);
     let (mut enhanced, mut edges) = (0, 0);
     for (i, (surfel, value)) in buffer.iter().zip(&values).enumerate() {

@@ -274,6 +274,7 @@ fn the_smooth_threshold_equals_its_twin() {
 
         fix(&mut opened, Fixed::Uv);
         let picture = draw(&mut session, &opened, SIDE);
+        let coordinates = common::kept(&mut session, "coordinates").unwrap();
         let drawn = inks(&mut session, &opened, SIDE);
         let halves = |packed: u32| {
             let half = |bits: u32| {
@@ -287,7 +288,7 @@ fn the_smooth_threshold_equals_its_twin() {
             };
             vec2(half(packed & 0xffff), half(packed >> 16)) / 4096.0
         };
-        let twins: Vec<f32> = texels::<[u32; 4]>(&mut session, &picture.coordinates.unwrap())
+        let twins: Vec<f32> = texels::<[u32; 4]>(&mut session, &coordinates)
             .into_iter()
             .map(|[u, v, dx, dy]| {
                 let uv = turn.rotate(vec2(f32::from_bits(u), f32::from_bits(v)));

@@ -104,7 +104,8 @@ fn turning_a_class_off_removes_its_lines_and_nobody_elses() {
     session.set_scene(&opened).unwrap();
     let mut lines = |opened: &Opened| {
         let picture = session.draw(opened, [SIDE; 2], false).unwrap();
-        let weights = texels::<[u32; 4]>(&mut session, picture.edge_map.as_ref().unwrap());
+        let edge_map = common::kept(&mut session, "edge map").unwrap();
+        let weights = texels::<[u32; 4]>(&mut session, &edge_map);
         let classes = edge_classes(&mut session, &picture);
         let drawn =
             classes.into_iter().zip(weights).map(|(edge, texel)| edge.filter(|_| texel[3] >> 26 != 0));
@@ -133,7 +134,8 @@ fn materials_have_no_lines_until_asked_for_and_classes_follow_their_group() {
     session.set_scene(&opened).unwrap();
     let mut drawn = |opened: &Opened| {
         let picture = session.draw(opened, [SIDE; 2], false).unwrap();
-        let edges = picture.edge_map.as_ref().map(|edges| texels::<[u32; 4]>(&mut session, edges));
+        let edges = common::kept(&mut session, "edge map");
+        let edges = edges.map(|edges| texels::<[u32; 4]>(&mut session, &edges));
         let found = edges.unwrap_or_default();
         let is_drawn =
             |class: EdgeClass| found.iter().any(|t| t[0] >> 28 == class as u32 + 1 && t[3] >> 26 != 0);
@@ -169,7 +171,8 @@ fn every_class_has_its_own_width() {
     }
     let picture = session.draw(&opened, [SIDE; 2], false).unwrap();
     let mut seen = [0; EdgeClass::ALL.len()];
-    for texel in texels::<[u32; 4]>(&mut session, picture.edge_map.as_ref().unwrap()) {
+    let edge_map = common::kept(&mut session, "edge map").unwrap();
+    for texel in texels::<[u32; 4]>(&mut session, &edge_map) {
         if texel[0] != 0 {
             let class = EdgeClass::ALL[(texel[0] >> 28) as usize - 1];
             let found = 2.0 * half(texel[3] & 0xffff);

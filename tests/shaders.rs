@@ -6,6 +6,10 @@ use encase::ShaderType;
 use encase::internal::SizeValue;
 use hachure::gpu::Shaders;
 use hachure::gpu::material::MaterialUniform;
+use hachure::render::Peeled;
+use hachure::render::base::edge_style::{EdgeUniform, LineUniform};
+use hachure::render::base::frame_uniform::{FrameUniform, LightUniform};
+use hachure::render::base::scale_bar::ScaleBarUniform;
 use hachure::render::effects::blueprint::BlueprintUniform;
 use hachure::render::effects::gooch::GoochUniform;
 use hachure::render::effects::halftone::HalftoneUniform;
@@ -13,13 +17,10 @@ use hachure::render::effects::mirror::MirrorUniform;
 use hachure::render::effects::section::CapUniform;
 use hachure::render::effects::surface::SurfaceUniform;
 use hachure::render::effects::toon::ToonUniform;
-use hachure::render::base::frame_uniform::{FrameUniform, LightUniform};
-use hachure::render::passes::depth_mask::Masked;
-use hachure::render::passes::edge_style::{EdgeUniform, LineUniform};
-use hachure::render::Peeled;
+use hachure::render::passes::designated::Masked;
+use hachure::render::passes::layer_lists::BandUniform;
 use hachure::render::passes::shadow::{LightViewUniform, ShadowLightUniform};
 use hachure::render::passes::shadow_map::ShadowDraw;
-use hachure::render::scale_bar::ScaleBarUniform;
 use wgpu::naga::TypeInner;
 
 /// Byte offsets of a WGSL struct's members and its size.
@@ -53,7 +54,8 @@ fn rust_and_wgsl_agree_on_every_uniform() {
     same_layout!(MaterialUniform, 7, "passes/gbuffer.wgsl", "Material");
     same_layout!(LineUniform, 5, "passes/lines.wgsl", "LineStyle");
     same_layout!(EdgeUniform, 22, "passes/lines.wgsl", "EdgeStyle");
-    same_layout!(SurfaceUniform, 4, "effects/surface.wgsl", "SurfaceStyle");
+    same_layout!(SurfaceUniform, 3, "effects/surface.wgsl", "SurfaceStyle");
+    same_layout!(BandUniform, 3, "passes/layer_lists.wgsl", "Band");
     same_layout!(GoochUniform, 11, "effects/surface.wgsl", "GoochStyle");
     same_layout!(CapUniform, 8, "effects/section.wgsl", "Cap");
     same_layout!(MirrorUniform, 4, "effects/mirror.wgsl", "Mirror");

@@ -92,7 +92,8 @@ impl Score {
 fn scores(session: &mut Session, opened: &Opened, bvh: &Bvh, side: u32) -> Vec<Score> {
     let picture = draw(session, opened, side);
     let surfels = surfels(session, &picture);
-    let mask: Vec<[u8; 4]> = texels(session, picture.shadow_mask.as_ref().unwrap());
+    let mask = common::kept(session, "shadow mask").unwrap();
+    let mask: Vec<[u8; 4]> = texels(session, &mask);
     let bounds = opened.scene.bounds();
     let view = View::new(&opened.document.camera.unwrap(), &bounds, UVec2::splat(side));
     let world_from_view = view.view_from_world.inverse();
@@ -303,7 +304,7 @@ fn only_the_shadows_that_changed_are_found_again() {
     off(&mut document);
     session.draw(&Opened { document, ..opened.clone() }, [64, 64], false).unwrap();
     let picture = session.draw(&Opened { document: Document::default(), ..opened }, [64, 64], false).unwrap();
-    assert!(picture.shadow_mask.is_none());
+    assert!(common::kept(&mut session, "shadow mask").is_none());
 }
 
 #[test]
@@ -337,7 +338,8 @@ fn light_falls_through_holes_and_past_what_is_hidden() {
     let dark = |session: &mut Session, opened: &Opened| {
         let picture = draw(session, opened, 128);
         let surfels = surfels(session, &picture);
-        let mask: Vec<[u8; 4]> = texels(session, picture.shadow_mask.as_ref().unwrap());
+        let mask = common::kept(session, "shadow mask").unwrap();
+        let mask: Vec<[u8; 4]> = texels(session, &mask);
         surfels.iter().zip(&mask).filter(|(s, m)| s.object == 1 && m[0] < 128).count()
     };
     assert!(dark(&mut session, &opened) > 100, "the floor has a shadow");
@@ -369,7 +371,8 @@ fn soft_borders_are_wider_the_farther_they_fall_and_smooth_in_the_mean() {
     lit_by(&mut opened, &[directional(-1.0, 1.0, 0.0)]);
     set(&mut opened, "light.shadow_softness", "4");
     let picture = draw(&mut session, &opened, 256);
-    let mask: Vec<[u8; 4]> = texels(&mut session, picture.shadow_mask.as_ref().unwrap());
+    let mask = common::kept(&mut session, "shadow mask").unwrap();
+    let mask: Vec<[u8; 4]> = texels(&mut session, &mask);
     // How wide the soft border along the shadow's side is in a column.
     let grey = |x: usize| (0..256).filter(|y| (16..240).contains(&mask[y * 256 + x][0])).count();
     let (near, far) = (grey(133), grey(180));

@@ -48,11 +48,13 @@ struct Drawn {
 
 fn drawn(session: &mut Session, opened: &Opened) -> Drawn {
     let picture = draw(session, opened, SIDE as u32);
+    let (regions, cartoon_map) =
+        (common::kept(session, "regions").unwrap(), common::kept(session, "cartoon map"));
     Drawn {
         image: RgbaImage::from_raw(SIDE as u32, SIDE as u32, texels::<u8>(session, &picture.image)).unwrap(),
         surfels: surfels(session, &picture),
-        regions: texels::<u32>(session, &picture.gbuffer.region),
-        cartoon_map: picture.cartoon_map.as_ref().map(|map| texels::<u16>(session, map)),
+        regions: texels::<u32>(session, &regions),
+        cartoon_map: cartoon_map.map(|map| texels::<u16>(session, &map)),
     }
 }
 

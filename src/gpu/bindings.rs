@@ -155,7 +155,9 @@ impl Bindings {
         let mut bindings = Self::default();
         let mut handles = Vec::new();
         for (handle, variable) in module.global_variables.iter() {
-            let Some(place) = variable.binding.as_ref().filter(|place| place.group == INPUTS) else { continue };
+            let Some(place) = variable.binding.as_ref().filter(|place| place.group == INPUTS) else {
+                continue;
+            };
             let name = variable.name.clone().unwrap_or_default();
             let inner = &module.types[variable.ty].inner;
             let ty = type_of(variable, inner).ok_or_else(|| name.clone())?;
@@ -258,15 +260,13 @@ fn type_of(variable: &GlobalVariable, inner: &TypeInner) -> Option<wgpu::Binding
     let buffer = |ty| wgpu::BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: None };
     Some(match (variable.space, inner) {
         (AddressSpace::Uniform, _) => buffer(wgpu::BufferBindingType::Uniform),
-        (AddressSpace::Storage { access }, _) => buffer(wgpu::BufferBindingType::Storage {
-            read_only: !access.contains(StorageAccess::STORE),
-        }),
+        (AddressSpace::Storage { access }, _) => {
+            buffer(wgpu::BufferBindingType::Storage { read_only: !access.contains(StorageAccess::STORE) })
+        }
         (_, TypeInner::Sampler { comparison: false }) => {
             wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering)
         }
-        (_, TypeInner::Image { dim: ImageDimension::D2, arrayed, class }) => {
-            image_type(*class, *arrayed)?
-        }
+        (_, TypeInner::Image { dim: ImageDimension::D2, arrayed, class }) => image_type(*class, *arrayed)?,
         _ => return None,
     })
 }
@@ -274,13 +274,16 @@ fn type_of(variable: &GlobalVariable, inner: &TypeInner) -> Option<wgpu::Binding
 fn image_type(class: ImageClass, arrayed: bool) -> Option<wgpu::BindingType> {
     let view_dimension =
         if arrayed { wgpu::TextureViewDimension::D2Array } else { wgpu::TextureViewDimension::D2 };
-    let sampled = |sample_type| wgpu::BindingType::Texture { sample_type, view_dimension, multisampled: false };
+    let sampled =
+        |sample_type| wgpu::BindingType::Texture { sample_type, view_dimension, multisampled: false };
     Some(match class {
         // Arrays are read through samplers, other textures texel by texel.
         ImageClass::Sampled { kind: ScalarKind::Float, multi: false } => {
             sampled(wgpu::TextureSampleType::Float { filterable: arrayed })
         }
-        ImageClass::Sampled { kind: ScalarKind::Uint, multi: false } => sampled(wgpu::TextureSampleType::Uint),
+        ImageClass::Sampled { kind: ScalarKind::Uint, multi: false } => {
+            sampled(wgpu::TextureSampleType::Uint)
+        }
         ImageClass::Depth { multi: false } => sampled(wgpu::TextureSampleType::Depth),
         ImageClass::Storage { format, access } => wgpu::BindingType::StorageTexture {
             access: match (access.contains(StorageAccess::LOAD), access.contains(StorageAccess::STORE)) {

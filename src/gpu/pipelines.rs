@@ -316,8 +316,7 @@ fn compile(gpu: &Gpu, shaders: &Shaders, file: &'static str) -> Result<Shader, S
         message: format!("no pass can give anything for {name}"),
     })?;
     let source = wgpu::ShaderSource::Naga(Cow::Owned(module));
-    let module =
-        gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor { label: Some(file), source });
+    let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor { label: Some(file), source });
     Ok(Shader { module, bindings })
 }
 

@@ -154,16 +154,23 @@ impl Views {
             };
             let mut found = None;
             // A layer that has ended is empty, and nobody waits for the report about it.
-            layered.walk(rec, &mut shared.gbuffer, &inputs.seen, key, &wanted, |rec, mut visit: Visit<'_>| {
-                if visit.drawn.number + 1 < number {
-                    return Ok(());
-                }
-                let wanted = WantedLines { is_whole: true, repeated: true, ..WantedLines::default() };
-                let edges = visit.edges(rec, wanted)?;
-                let gbuffer = visit.drawn.layer.gbuffer.clone();
-                found = edges.map(|edges| (gbuffer, edges.edge_map.edges));
-                Ok(())
-            })?;
+            layered.walk(
+                rec,
+                &mut shared.gbuffer,
+                &inputs.seen,
+                key,
+                &wanted,
+                |rec, mut visit: Visit<'_>| {
+                    if visit.drawn.number + 1 < number {
+                        return Ok(());
+                    }
+                    let wanted = WantedLines { is_whole: true, repeated: true, ..WantedLines::default() };
+                    let edges = visit.edges(rec, wanted)?;
+                    let gbuffer = visit.drawn.layer.gbuffer.clone();
+                    found = edges.map(|edges| (gbuffer, edges.edge_map.edges));
+                    Ok(())
+                },
+            )?;
             found.ok_or_else(|| GpuError::Lost("no layer".to_owned()).into())
         })
     }

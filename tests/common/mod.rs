@@ -16,15 +16,50 @@ use hachure::export::Session;
 use hachure::export::session::Opened;
 use hachure::geometry::Mesh;
 use hachure::gpu::{Gpu, Target, readback};
-use hachure::render::Picture;
+use hachure::render::{LAYERS, Picture};
 use hachure::scene::{Camera, Material, Node, Scene};
 use image::RgbaImage;
 
 /// A device; without one the test fails and says what to install.
 pub fn session() -> Session {
     match Gpu::headless() {
-        Ok(gpu) => Session::new(gpu),
+        Ok(gpu) => {
+            let mut session = Session::new(gpu);
+            for name in LOOKED_AT {
+                session.renderer().keep(name);
+            }
+            session
+        }
         Err(error) => panic!("{error}"),
+    }
+}
+
+/// What tests look at of the textures that pictures are made of, where they use [`session`].
+const LOOKED_AT: [&str; 8] = [
+    "geometry",
+    "regions",
+    "edge map",
+    "operators",
+    "shadow mask",
+    "cartoon map",
+    "coordinates",
+    "depth mask",
+];
+
+/// A texture that the last picture was made of, by its name; `None` if it was made without.
+pub fn kept(session: &mut Session, name: &str) -> Option<Target> {
+    session.renderer().kept(name).first().cloned()
+}
+
+/// The layers of the only blueprint, as they are kept under a name, the nearest first. They have to be asked for before.
+pub fn kept_layers(session: &mut Session, name: &str) -> Vec<Target> {
+    session.renderer().kept(name).to_vec()
+}
+
+/// Keeps the layers of blueprints from now on.
+pub fn keep_layers(session: &mut Session) {
+    for name in LAYERS {
+        session.renderer().keep(name);
     }
 }
 
@@ -110,7 +145,9 @@ pub fn objects_in_front(session: &mut Session, picture: &Picture) -> Vec<u32> {
 
 /// The G-buffer of a picture, row by row.
 pub fn surfels(session: &mut Session, picture: &Picture) -> Vec<Surfel> {
-    texels::<[u32; 4]>(session, &picture.gbuffer.geometry)
+    let geometry = kept(session, "geometry").unwrap();
+    assert_eq!(geometry.size(), picture.image.size());
+    texels::<[u32; 4]>(session, &geometry)
         .into_iter()
         .map(|[normal, face, depth, object]| Surfel {
             normal: octahedral(normal),
@@ -124,10 +161,10 @@ pub fn surfels(session: &mut Session, picture: &Picture) -> Vec<Surfel> {
 
 /// Inner and profile ink per pixel, 0 to 1, and whose it is. See `shaders/common/edge_map.wgsl`.
 pub fn ink(session: &mut Session, picture: &Picture) -> Vec<(f32, f32, u32)> {
-    let Some(edge_map) = &picture.edge_map else {
+    let Some(edge_map) = kept(session, "edge map") else {
         return vec![(0.0, 0.0, 0); (picture.image.size()[0] * picture.image.size()[1]) as usize];
     };
-    texels::<[u32; 4]>(session, edge_map)
+    texels::<[u32; 4]>(session, &edge_map)
         .into_iter()
         .map(|[class, object, _, ink]| match class >> 28 {
             0 => (0.0, 0.0, 0),

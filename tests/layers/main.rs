@@ -46,15 +46,18 @@ type Texels = (Vec<[u32; 4]>, Vec<u32>, Vec<u32>, Vec<u32>);
 fn layers(session: &mut Session, opened: &Opened, side: u32, by: &str) -> (Vec<Texels>, LayersBy) {
     let mut opened = opened.clone();
     set(&mut opened, "view.layers", by);
-    session.renderer().keep_layers();
-    let picture = session.draw(&opened, [side; 2], false).unwrap();
-    assert_eq!(picture.layers.len(), 1, "one group");
-    let layers = picture.layers[0].iter().map(|layer| {
+    common::keep_layers(session);
+    session.draw(&opened, [side; 2], false).unwrap();
+    assert_eq!(session.renderer().last_peeled().len(), 1, "one group");
+    let [geometry, colors, regions, depths] =
+        ["layer geometry", "layer base color", "layer regions", "layer depth"]
+            .map(|name| common::kept_layers(session, name));
+    let layers = (0..geometry.len()).map(|i| {
         (
-            texels(session, &layer.gbuffer.geometry),
-            texels(session, &layer.gbuffer.base_color),
-            texels(session, &layer.gbuffer.region),
-            texels(session, &layer.gbuffer.depth),
+            texels(session, &geometry[i]),
+            texels(session, &colors[i]),
+            texels(session, &regions[i]),
+            texels(session, &depths[i]),
         )
     });
     let layers = layers.collect();

@@ -1,8 +1,8 @@
 //! The lines that topology knows, for one view.
 
+use super::edge_style::EdgeUniform;
 use super::frame_uniform::View;
 use super::gpu_scene::GpuScene;
-use super::edge_style::EdgeUniform;
 use super::group::Group;
 use super::ids::{object_id, region};
 use crate::geometry::line_segments::{

@@ -27,7 +27,8 @@ impl StyleImages {
     #[must_use]
     pub fn knowing(self, before: &Self) -> Self {
         let known = before.made.lock().unwrap_or_else(PoisonError::into_inner);
-        let is_same = |path: &Path| self.images.contains_key(path) && self.images.get(path) == before.images.get(path);
+        let is_same =
+            |path: &Path| self.images.contains_key(path) && self.images.get(path) == before.images.get(path);
         let made = known.iter().filter(|((path, _), _)| is_same(path));
         let made = made.map(|(key, made)| (key.clone(), Arc::clone(made))).collect();
         Self { images: self.images, made: Arc::new(Mutex::new(made)) }
@@ -40,10 +41,15 @@ impl StyleImages {
 
     /// What `make` makes of one of them, if it could be loaded; what one effect makes of an image has a type of its own. Later
     /// calls find it ready.
-    pub fn made<T: Any + Send + Sync>(&self, path: &Path, make: impl FnOnce(&Texture) -> T) -> Option<Arc<T>> {
+    pub fn made<T: Any + Send + Sync>(
+        &self,
+        path: &Path,
+        make: impl FnOnce(&Texture) -> T,
+    ) -> Option<Arc<T>> {
         let image = self.images.get(path)?;
         let key = (path.to_owned(), TypeId::of::<T>());
-        let made = Arc::clone(self.made.lock().unwrap_or_else(PoisonError::into_inner).entry(key).or_default());
+        let made =
+            Arc::clone(self.made.lock().unwrap_or_else(PoisonError::into_inner).entry(key).or_default());
         // Outside of the lock: some take a second.
         let value = Arc::clone(made.get_or_init(|| Arc::new(make(image))));
         value.downcast().ok()

@@ -118,4 +118,3 @@ impl Objects {
         enhanced.filter_map(|object| box_of(object.node, scene))
     }
 }
-

@@ -4,8 +4,8 @@ use super::{Drawing, DrawingInputs, Shared};
 use crate::gpu::{ArrayBuffer, Recorder, Target};
 use crate::render::base::error::RenderError;
 use crate::render::base::scene_view::SceneView;
-use crate::render::effects::mirror::MirrorUniform;
 use crate::render::base::stage::Output;
+use crate::render::effects::mirror::MirrorUniform;
 
 /// What a mirror shows.
 pub(super) struct Reflection {

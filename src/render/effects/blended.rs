@@ -82,8 +82,7 @@ pub fn place_blended(
         {
             let switches = [&[("AMONG_OTHERS", true)][..], &switches].concat();
             let inputs = tested.clone().and(&inputs! { seen_tex: edges.nearer.as_ref() });
-            let shader =
-                LayerShader { file: "effects/blended.wgsl", inputs: &inputs, switches: &switches };
+            let shader = LayerShader { file: "effects/blended.wgsl", inputs: &inputs, switches: &switches };
             place.lines(rec, &mut pending, &lines, shader)?;
         }
         tested.set("geometry_tex", &gbuffer.geometry);

@@ -180,8 +180,7 @@ pub fn place_blueprint(
             let repeated = [("WITHOUT_REPEATED", edges.nearer.is_some()), ("AMONG_OTHERS", true)];
             let switches = [&repeated[..], &switches].concat();
             let inputs = own.clone().and(&inputs! { seen_tex: edges.nearer.as_ref() });
-            let shader =
-                LayerShader { file: "effects/blueprint.wgsl", inputs: &inputs, switches: &switches };
+            let shader = LayerShader { file: "effects/blueprint.wgsl", inputs: &inputs, switches: &switches };
             place.lines(rec, &mut pending, &lines, shader)?;
         }
         if params.opacity > 0.0 || has_caps {
@@ -191,8 +190,7 @@ pub fn place_blueprint(
                 caps: has_caps.then_some(buffers.caps.buffer()),
             });
             let switches = [&[("WITH_CAPS", has_caps)][..], &switches].concat();
-            let shader =
-                LayerShader { file: "effects/blueprint.wgsl", inputs: &inputs, switches: &switches };
+            let shader = LayerShader { file: "effects/blueprint.wgsl", inputs: &inputs, switches: &switches };
             place.fill(rec, &mut pending, drawn.layer, shader)?;
         }
         place.end(rec, &pending)

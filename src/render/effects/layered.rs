@@ -117,7 +117,8 @@ impl Visit<'_> {
         rec: &mut Recorder<'_>,
         wanted: WantedLines<'_>,
     ) -> Result<Option<LayerEdges>, RenderError> {
-        let Some((lines, styles)) = self.lines.get_mut(wanted.style).zip(self.line_styles.get(wanted.style)) else {
+        let Some((lines, styles)) = self.lines.get_mut(wanted.style).zip(self.line_styles.get(wanted.style))
+        else {
             return Ok(None);
         };
         let inputs = LayerLinesInputs {

@@ -10,8 +10,8 @@ use crate::render::base::error::RenderError;
 use crate::render::base::frame_uniform::View;
 use crate::render::base::gpu_scene::GpuScene;
 use crate::render::base::ids::{object_id, region};
-use crate::render::passes::gbuffer::GBuffer;
 use crate::render::base::section::Section;
+use crate::render::passes::gbuffer::GBuffer;
 
 /// How objects that touch each other are told apart: degrees by which the lines are turned, and how many times as far
 /// apart they are.

@@ -92,7 +92,12 @@ pub trait SurfaceTechnique: Sized {
     ///
     /// # Errors
     /// [`RenderError`].
-    fn upload(&mut self, shared: &mut Self::Shared, gpu: &Gpu, styles: &Self::Styles) -> Result<(), RenderError>;
+    fn upload(
+        &mut self,
+        shared: &mut Self::Shared,
+        gpu: &Gpu,
+        styles: &Self::Styles,
+    ) -> Result<(), RenderError>;
 
     /// Draws what it needs of a layer before that is shaded.
     ///

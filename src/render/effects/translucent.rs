@@ -249,9 +249,7 @@ impl GroupDrawing<'_> {
         let layered = (&mut *self.layered, &self.key.layered);
         let seen = inputs.seen;
         match self.blueprint {
-            None => {
-                place_blended(rec, gbuffer_pass, layered, &seen, composition, &mut inputs.shading, place)
-            }
+            None => place_blended(rec, gbuffer_pass, layered, &seen, composition, &mut inputs.shading, place),
             Some(blueprint) => {
                 let mask = inputs.mask.map(|mask| &mask.value);
                 let own = BlueprintInputs { blueprint, caps: inputs.caps, mask };
@@ -290,7 +288,9 @@ impl Key {
 fn overlaps_another(parts: &[[u32; 4]], number: usize) -> bool {
     let Some(&[left, top, right, bottom]) = parts.get(number) else { return false };
     let is_other = |(other, _): &(usize, &[u32; 4])| *other != number;
-    parts.iter().enumerate().filter(is_other).any(|(_, &[l, t, r, b])| {
-        left.max(l) < right.min(r) && top.max(t) < bottom.min(b)
-    })
+    parts
+        .iter()
+        .enumerate()
+        .filter(is_other)
+        .any(|(_, &[l, t, r, b])| left.max(l) < right.min(r) && top.max(t) < bottom.min(b))
 }

@@ -5,12 +5,12 @@ use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 
 use super::gbuffer::{DEPTH, GBuffer};
-use crate::render::base::instances::{DrawCall, INSTANCES, Instances, runs};
 use crate::gpu::geometry::{Attributes, POSITIONS};
 use crate::gpu::recorder::Onto;
 use crate::gpu::{Gpu, Recorder, Target};
 use crate::render::base::error::RenderError;
 use crate::render::base::gpu_scene::GpuScene;
+use crate::render::base::instances::{DrawCall, INSTANCES, Instances, runs};
 
 /// Texture coordinates and their change from pixel to pixel: see `shaders/passes/coordinates.wgsl`.
 const COORDINATES: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Uint;

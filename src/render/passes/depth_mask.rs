@@ -10,11 +10,11 @@ use encase::ShaderType as _;
 use super::designated::{DepthMask, Masked};
 use super::gbuffer::GBuffer;
 use super::traversal::GBufferPass;
-use crate::render::base::instances::{DrawCall, Instance, Instances};
 use crate::gpu::{Gpu, Program, Recorder, inputs};
 use crate::render::base::error::RenderError;
 use crate::render::base::frame_uniform::View;
 use crate::render::base::group::Group;
+use crate::render::base::instances::{DrawCall, Instance, Instances};
 use crate::render::base::scene_view::SceneView;
 use crate::render::base::stage::{Output, Stage};
 

@@ -4,7 +4,6 @@
 //! are tested against the G-buffer; what topology does not know (intersections, outlines of holes) is found where
 //! neighbouring pixels show different surfaces; details are found within surfaces. Paper mode is the papers' operators. See `common/edge_map.wgsl`.
 
-use crate::render::base::edge_style::EdgeUniform;
 use super::gbuffer::GBuffer;
 use super::operators::paper_edges;
 use super::repeated::{SPINES, Seen, add_ink};
@@ -12,6 +11,7 @@ use super::segments::{MARKS, SegmentInputs, Segments};
 use crate::geometry::EdgeClass;
 use crate::gpu::recorder::{Draw, Onto};
 use crate::gpu::{DepthRule, Program, Recorder, Target, inputs};
+use crate::render::base::edge_style::EdgeUniform;
 use crate::render::base::error::RenderError;
 
 const EDGE_MAP: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Uint;
@@ -147,7 +147,8 @@ fn exact_edges(
         rec.draw(Draw {
             label: "details",
             program: Program { file: "passes/details.wgsl", entry_point: "fs_main", switches },
-            inputs: &inputs! { base_color_tex: &gbuffer.base_color, shadow_mask_tex: shadow_mask }.and(&found),
+            inputs: &inputs! { base_color_tex: &gbuffer.base_color, shadow_mask_tex: shadow_mask }
+                .and(&found),
             outputs: &outputs,
             onto: Onto::Old,
             depth: Some((&gbuffer.depth, DepthRule::Covered)),

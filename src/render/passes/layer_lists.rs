@@ -101,14 +101,14 @@ impl LayerLists {
         let most = MOST_ENTRIES.min(RecordTexture::most_texels(gpu));
         let total: u64 = self.known.iter().map(|&row| u64::from(row)).sum();
         // A quarter more than there were, as there may be more by now.
-        let wanted =
-            if self.known.is_empty() { FIRST_GUESS * width * height } else { total + total / 4 + 1 };
+        let wanted = if self.known.is_empty() { FIRST_GUESS * width * height } else { total + total / 4 + 1 };
         let room = wanted.min(most);
         let bands = if total <= room {
             vec![0..size[1]]
         } else {
             // A row has fewer entries than there is room for.
-            bands_of(&self.known, room * 4 / 5).unwrap_or_else(|| (0..size[1]).map(|row| row..row + 1).collect())
+            bands_of(&self.known, room * 4 / 5)
+                .unwrap_or_else(|| (0..size[1]).map(|row| row..row + 1).collect())
         };
         self.entries.reserve(gpu, room as usize)?;
         self.heads.reserve(gpu, width * height * 4)?;
@@ -163,7 +163,12 @@ impl LayerLists {
     ///
     /// # Errors
     /// [`RenderError`].
-    pub fn blend(&self, rec: &mut Recorder<'_>, band: &Range<u32>, color: &Target) -> Result<(), RenderError> {
+    pub fn blend(
+        &self,
+        rec: &mut Recorder<'_>,
+        band: &Range<u32>,
+        color: &Target,
+    ) -> Result<(), RenderError> {
         let [width, _] = rec.size();
         let outer = rec.part.replace([0, band.start, width, band.end]);
         let inputs = inputs! { listed: self.heads.buffer(), entry_tex: self.entries.target() };

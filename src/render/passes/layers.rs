@@ -18,19 +18,19 @@ pub use self::room::{LayersBy, Reason, Reported};
 use self::room::{Recorded, Room};
 use crate::document;
 use crate::gpu::{ArrayBuffer, Gate, Gpu, Recorder, Reports, Target};
+use crate::render::base::edge_style::EdgeUniform;
 use crate::render::base::error::RenderError;
 use crate::render::base::gpu_scene::GpuScene;
+use crate::render::base::instances::{DrawCall, Instance, Instances};
 use crate::render::passes::designated::DepthMask;
 use crate::render::passes::edge_map::{EdgeInputs, EdgeMap, edge_map};
-use crate::render::base::edge_style::EdgeUniform;
 use crate::render::passes::fragment_lists::Asked;
-use crate::render::passes::traversal::GBufferPass;
-use crate::render::base::instances::{DrawCall, Instance, Instances};
 use crate::render::passes::line_distance::{Reach, line_distance};
 use crate::render::passes::lines::Lines;
 use crate::render::passes::peel::{Layer, MOST_LAYERS, Peel, PeelCount, Peeled, before_all};
 use crate::render::passes::repeated::Seen;
 use crate::render::passes::segments::Segments;
+use crate::render::passes::traversal::GBufferPass;
 
 /// Kinds of passes that a layer has beside the draws of its objects: room in the gate.
 const PASSES: usize = 32;

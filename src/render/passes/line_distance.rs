@@ -1,7 +1,7 @@
 //! Which line each pixel belongs to: an exact distance transform whose cost does not depend on the lines' width.
 
-use crate::render::base::edge_style::EdgeUniform;
 use crate::gpu::{ArrayBuffer, Program, Recorder, Target, inputs};
+use crate::render::base::edge_style::EdgeUniform;
 use crate::render::base::error::RenderError;
 
 const INDEX: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;

@@ -1,12 +1,12 @@
 //! Lines with their width and colour, over the shaded surfaces.
 
 use super::edge_map::EdgeMap;
-use crate::render::base::edge_style::EdgeUniform;
 use super::gbuffer::GBuffer;
 use super::line_distance::Reach;
 use crate::gpu::bindings::NOTHING;
 use crate::gpu::recorder::{Draw, Onto};
 use crate::gpu::{DepthRule, Inputs, Program, Recorder, Target, inputs};
+use crate::render::base::edge_style::EdgeUniform;
 use crate::render::base::error::RenderError;
 
 /// The lines of an edge map.

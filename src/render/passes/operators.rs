@@ -1,9 +1,9 @@
 //! The papers' operators: ink per pixel, and whose it is (edge-enhancement paper, section 4.1.2).
 
-use crate::render::base::edge_style::EdgeUniform;
 use super::gbuffer::GBuffer;
 use crate::gpu::recorder::{Draw, Onto};
 use crate::gpu::{DepthRule, Program, Recorder, Target, inputs};
+use crate::render::base::edge_style::EdgeUniform;
 use crate::render::base::error::RenderError;
 
 fn program(entry_point: &'static str, with_c1: bool) -> Program {
