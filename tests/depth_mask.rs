@@ -14,7 +14,6 @@ use hachure::export::Session;
 use hachure::export::session::Opened;
 use hachure::geometry::bvh::Bvh;
 use hachure::geometry::{Mesh, primitives};
-use hachure::render::Picture;
 use hachure::render::View;
 use hachure::render::base::ids::object_id;
 use hachure::render::{Peeled, PeelingEnd};
@@ -77,13 +76,13 @@ fn among_rings() -> Opened {
     )
 }
 
-fn draw(session: &mut Session, opened: &Opened) -> (Picture, Peeled) {
+fn draw(session: &mut Session, opened: &Opened) -> Peeled {
     common::keep_layers(session);
     session.set_scene(opened).unwrap();
-    let picture = session.draw(opened, [SIDE; 2], false).unwrap();
+    session.draw(opened, [SIDE; 2], false).unwrap();
     let peeled = session.renderer().peeled().unwrap();
     assert_eq!(peeled.len(), 1);
-    (picture, peeled[0].clone())
+    peeled[0].clone()
 }
 
 /// The depth mask of the last picture.
@@ -93,7 +92,7 @@ fn mask_of(session: &mut Session) -> Vec<f32> {
 }
 
 /// What the processor counts in the textures: the mask's pixels, and those that pass against each layer that was peeled.
-fn recount(session: &mut Session, picture: &Picture) -> (u32, Vec<u32>) {
+fn recount(session: &mut Session) -> (u32, Vec<u32>) {
     let mask = mask_of(session);
     let count = |passes: &dyn Fn(usize, f32) -> bool| {
         mask.iter().enumerate().filter(|(i, depth)| **depth > 0.0 && passes(*i, **depth)).count() as u32
@@ -119,14 +118,14 @@ fn counts_equal_a_recount_and_peeling_ends_with_the_first_layer_that_uncovers_en
     for scene in [behind_sheets(), among_rings()] {
         let mut all = scene.clone();
         set(&mut all, "blueprint.fraction", "1");
-        let (picture, whole) = draw(&mut session, &all);
-        let (masked, passed) = recount(&mut session, &picture);
+        let whole = draw(&mut session, &all);
+        let (masked, passed) = recount(&mut session);
         assert!(masked > 300, "{masked}");
         for fraction in ["0", "0.2", "0.35", "0.5", "0.8", "0.97", "1"] {
             let mut part = scene.clone();
             set(&mut part, "blueprint.fraction", fraction);
-            let (picture, peeled) = draw(&mut session, &part);
-            assert_eq!(recount(&mut session, &picture).0, masked);
+            let peeled = draw(&mut session, &part);
+            assert_eq!(recount(&mut session).0, masked);
             assert_eq!(peeled.masked, masked, "Q");
             let fraction: f32 = fraction.parse().unwrap();
             let expected = passed.iter().position(|r| is_enough(*r, fraction, masked)).unwrap() as u32 + 1;
@@ -140,8 +139,9 @@ fn counts_equal_a_recount_and_peeling_ends_with_the_first_layer_that_uncovers_en
             assert_eq!(peeled.shortfall(), None);
             // What comes after the last layer was never drawn.
             let left = common::kept_layers(&mut session, "layer regions").split_off(drawn);
-            let is_empty =
-                |regions: &Target| texels::<u32>(&mut session, regions).iter().all(|region| *region == 0);
+            let is_empty = |regions: &hachure::gpu::Target| {
+                texels::<u32>(&mut session, regions).iter().all(|region| *region == 0)
+            };
             assert!(left.iter().all(is_empty));
             ends.push(expected);
         }
@@ -200,7 +200,7 @@ fn away_from_edges_a_pixel_passes_with_the_layer_before_which_rays_meet_the_mask
     for scene in [behind_sheets(), among_rings()] {
         let mut all = scene;
         set(&mut all, "blueprint.fraction", "1");
-        let (picture, peeled) = draw(&mut session, &all);
+        let peeled = draw(&mut session, &all);
         let rays = Rays::new(&all);
         let mask = mask_of(&mut session);
         let layers: Vec<Vec<f32>> = common::kept_layers(&mut session, "layer depth")
@@ -244,7 +244,7 @@ fn a_designated_object_is_in_no_layer_and_stands_in_the_picture_in_its_own_style
     ] {
         set(&mut scene, key, value);
     }
-    let (picture, _) = draw(&mut session, &scene);
+    draw(&mut session, &scene);
     for geometry in common::kept_layers(&mut session, "layer geometry") {
         let surfels = texels::<[u32; 4]>(&mut session, &geometry);
         assert!(surfels.iter().all(|s| s[3] & 0x7fff_ffff != object_id(0)));
@@ -272,7 +272,7 @@ fn what_opaque_objects_hide_of_the_mask_is_counted_and_told() {
     let mut session = session();
     let mut scene = behind_sheets();
     set(&mut scene, "blueprint.fraction", "1");
-    let (_, peeled) = draw(&mut session, &scene);
+    let peeled = draw(&mut session, &scene);
     assert_eq!((peeled.hidden, peeled.shortfall()), (0, None));
     // The foremost sheet hides a strip on the left.
     let nodes = Arc::clone(&scene.scene);
@@ -280,7 +280,7 @@ fn what_opaque_objects_hide_of_the_mask_is_counted_and_told() {
         .document
         .set_for(&nodes, &[4], "technique", &hachure::style::Value::Text("unlit".to_owned()))
         .unwrap();
-    let (picture, peeled) = draw(&mut session, &scene);
+    let peeled = draw(&mut session, &scene);
     let mask = mask_of(&mut session);
     let geometry = common::kept(&mut session, "geometry").unwrap();
     let front = texels::<[u32; 4]>(&mut session, &geometry);
@@ -297,7 +297,7 @@ fn what_cannot_be_uncovered_is_told() {
     let mut scene = behind_sheets();
     set(&mut scene, "blueprint.fraction", "1");
     set(&mut scene, "blueprint.layers", "2");
-    let (_, peeled) = draw(&mut session, &scene);
+    let peeled = draw(&mut session, &scene);
     assert_eq!((peeled.layers, peeled.ended()), (2, PeelingEnd::MostLayers));
     let told = peeled.shortfall().unwrap();
     assert!(told.contains("after 2 layers, not 100 %") && told.contains("blueprint.layers"), "{told}");
@@ -306,7 +306,7 @@ fn what_cannot_be_uncovered_is_told() {
     // No layer has so many pixels: not even the first one is drawn, and R is that of the layer which ended it.
     set(&mut scene, "blueprint.layers", "64");
     set(&mut scene, "blueprint.least", "90");
-    let (_, peeled) = draw(&mut session, &scene);
+    let peeled = draw(&mut session, &scene);
     assert_eq!((peeled.layers, peeled.ended()), (0, PeelingEnd::TooFewPixels));
     assert!(peeled.passed[0] > 0 && peeled.uncovered() == peeled.passed[0]);
     assert!(peeled.shortfall().unwrap().contains("blueprint.least"));
@@ -322,13 +322,13 @@ fn without_a_mask_in_the_picture_the_plain_rules_hold() {
         scene
     };
     assert!(plain.document.role_faults(&plain.scene).is_empty());
-    let (picture, peeled) = draw(&mut session, &plain);
+    let peeled = draw(&mut session, &plain);
     assert!(common::kept(&mut session, "depth mask").is_none());
     assert_eq!((peeled.layers, peeled.masked), (4, 0));
 
     let mut hidden = behind_sheets();
     hidden.document.node_mut("/cube").visible = Some(false);
-    let (picture, of_hidden) = draw(&mut session, &hidden);
+    let of_hidden = draw(&mut session, &hidden);
     assert!(common::kept(&mut session, "depth mask").is_none());
     assert_eq!(of_hidden.pixels, peeled.pixels);
     assert!(
@@ -339,7 +339,7 @@ fn without_a_mask_in_the_picture_the_plain_rules_hold() {
     Arc::make_mut(&mut outside.scene).nodes[0].world_from_local =
         DMat4::from_translation(DVec3::new(90.0, 0.0, -1.0));
     set(&mut outside, "blueprint.fraction", "0");
-    let (picture, of_outside) = draw(&mut session, &outside);
+    let of_outside = draw(&mut session, &outside);
     assert!(mask_of(&mut session).iter().all(|d| *d == 0.0));
     assert_eq!((of_outside.masked, of_outside.pixels), (0, peeled.pixels));
     assert_eq!((of_outside.ended(), of_outside.shortfall()), (PeelingEnd::TooFewPixels, None));

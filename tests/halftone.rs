@@ -273,7 +273,7 @@ fn the_smooth_threshold_equals_its_twin() {
         assert_equal(&format!("{texture:?} on the screen"), &drawn, &twins);
 
         fix(&mut opened, Fixed::Uv);
-        let picture = draw(&mut session, &opened, SIDE);
+        draw(&mut session, &opened, SIDE);
         let coordinates = common::kept(&mut session, "coordinates").unwrap();
         let drawn = inks(&mut session, &opened, SIDE);
         let halves = |packed: u32| {

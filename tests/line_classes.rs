@@ -133,7 +133,7 @@ fn materials_have_no_lines_until_asked_for_and_classes_follow_their_group() {
     let mut opened = line_drawing(&scene, camera(&scene, DVec3::new(-0.5, 0.4, 1.0)));
     session.set_scene(&opened).unwrap();
     let mut drawn = |opened: &Opened| {
-        let picture = session.draw(opened, [SIDE; 2], false).unwrap();
+        session.draw(opened, [SIDE; 2], false).unwrap();
         let edges = common::kept(&mut session, "edge map");
         let edges = edges.map(|edges| texels::<[u32; 4]>(&mut session, &edges));
         let found = edges.unwrap_or_default();
@@ -169,7 +169,7 @@ fn every_class_has_its_own_width() {
         let reference = width(class) * 1080.0 / f64::from(SIDE);
         set(&mut opened, &format!("edges.{}.width", name(class)), &format!("{reference}"));
     }
-    let picture = session.draw(&opened, [SIDE; 2], false).unwrap();
+    session.draw(&opened, [SIDE; 2], false).unwrap();
     let mut seen = [0; EdgeClass::ALL.len()];
     let edge_map = common::kept(&mut session, "edge map").unwrap();
     for texel in texels::<[u32; 4]>(&mut session, &edge_map) {

@@ -303,7 +303,7 @@ fn only_the_shadows_that_changed_are_found_again() {
     let mut document = document.clone();
     off(&mut document);
     session.draw(&Opened { document, ..opened.clone() }, [64, 64], false).unwrap();
-    let picture = session.draw(&Opened { document: Document::default(), ..opened }, [64, 64], false).unwrap();
+    session.draw(&Opened { document: Document::default(), ..opened }, [64, 64], false).unwrap();
     assert!(common::kept(&mut session, "shadow mask").is_none());
 }
 
@@ -370,7 +370,7 @@ fn soft_borders_are_wider_the_farther_they_fall_and_smooth_in_the_mean() {
     opened.document.camera = opened.document.camera.map(|c| c.with_orthographic(true));
     lit_by(&mut opened, &[directional(-1.0, 1.0, 0.0)]);
     set(&mut opened, "light.shadow_softness", "4");
-    let picture = draw(&mut session, &opened, 256);
+    draw(&mut session, &opened, 256);
     let mask = common::kept(&mut session, "shadow mask").unwrap();
     let mask: Vec<[u8; 4]> = texels(&mut session, &mask);
     // How wide the soft border along the shadow's side is in a column.
