@@ -3,7 +3,7 @@
 SAMPLE := assets/models/crank.glb
 HACHURE := cargo run --quiet --release --
 
-.PHONY: run test check bench quality gallery bless models strokes
+.PHONY: run test check bench quality gallery bless models textures
 
 # Opens the viewer on the sample model; without a display draws it to a file.
 run:
@@ -43,10 +43,10 @@ models:
 	@sh .ci/packages build
 	cargo run --release --example models
 
-# The built-in halftone textures, from their generator.
-strokes:
+# The built-in textures of techniques, from their generator.
+textures:
 	@sh .ci/packages build
-	cargo run --release --example strokes
+	cargo run --release --example textures
 
 # Every picture under screenshots/, each by one command.
 gallery:

@@ -46,76 +46,76 @@ pub use toon::Toon;
 use param::Params;
 pub(crate) use slot::choice;
 
-choice! {
-    /// How a surface is shaded. The literal ids stand in files and on the command line.
-    pub enum Technique {
-        /// Paper only, for pure line drawings.
-        Blank,
-        /// Lit by the scene's lights.
-        Plain,
-        /// The base colour, unlit.
-        Unlit,
-        /// Cool-to-warm technical illustration.
-        #[default]
-        Gooch,
-        /// Flat shades from a ramp, as in a comic.
-        Toon,
-        /// Tones by the density of ink.
-        Halftone,
-        /// The lines of hidden layers too.
-        Blueprint,
-    }
+/// Makes the list of techniques, and a field of [`Style`] for the parameters of each that has any.
+macro_rules! techniques {
+    ($($(#[$about:meta])+ $technique:ident $(($field:ident: $parameters:ty))?,)+) => {
+        choice! {
+            /// How a surface is shaded. The literal ids stand in files and on the command line.
+            pub enum Technique {
+                $($(#[$about])+ $technique,)+
+            }
+        }
+
+        /// The complete look of one object.
+        #[derive(Debug, Clone, PartialEq, Default)]
+        pub struct Style {
+            /// How surfaces are shaded.
+            pub technique: Technique,
+            /// What it is drawn on, where it is the style of a whole document that does not say so itself.
+            pub paper: Paper,
+            $($(
+                #[doc = concat!("Parameters of [`Technique::", stringify!($technique), "`].")]
+                pub $field: $parameters,
+            )?)+
+            /// Lines.
+            pub edges: Edges,
+            /// What a mirror shows.
+            pub mirror: Mirror,
+        }
+
+        impl Style {
+            /// Declares the parameters of each technique, which matter only while it is chosen.
+            fn technique_params<'a>($($($field: &'a mut $parameters,)?)+ list: &mut Params<'a>) {
+                $($(
+                    list.when("technique", Technique::$technique, |list| {
+                        list.section(stringify!($field), |list| $field.params(list));
+                    });
+                )?)+
+            }
+
+            /// Every parameter, in the order of the panel, with a slot through which it is read and written.
+            pub fn params(&mut self) -> Vec<Param<'_>> {
+                let mut list = Params::default();
+                list.choice("technique", "Technique", "How surfaces are shaded.", &mut self.technique);
+                self.paper.params(&mut list);
+                Self::technique_params($($(&mut self.$field,)?)+ &mut list);
+                list.section("mirror", |list| self.mirror.params(list));
+                list.section("edges", |list| self.edges.params(list));
+                list.finish()
+            }
+        }
+    };
 }
 
-/// The complete look of one object.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Style {
-    /// How surfaces are shaded.
-    pub technique: Technique,
-    /// What it is drawn on, where it is the style of a whole document that does not say so itself.
-    pub paper: Paper,
-    /// Parameters of [`Technique::Plain`].
-    pub plain: Plain,
-    /// Parameters of [`Technique::Gooch`].
-    pub gooch: Gooch,
-    /// Parameters of [`Technique::Toon`].
-    pub toon: Toon,
-    /// Parameters of [`Technique::Halftone`].
-    pub halftone: Halftone,
-    /// Parameters of [`Technique::Blueprint`].
-    pub blueprint: Blueprint,
-    /// Lines.
-    pub edges: Edges,
-    /// What a mirror shows.
-    pub mirror: Mirror,
+techniques! {
+    /// Paper only, for pure line drawings.
+    Blank,
+    /// Lit by the scene's lights.
+    Plain(plain: Plain),
+    /// The base colour, unlit.
+    Unlit,
+    /// Cool-to-warm technical illustration.
+    #[default]
+    Gooch(gooch: Gooch),
+    /// Flat shades from a ramp, as in a comic.
+    Toon(toon: Toon),
+    /// Tones by the density of ink.
+    Halftone(halftone: Halftone),
+    /// The lines of hidden layers too.
+    Blueprint(blueprint: Blueprint),
 }
 
 impl Style {
-    /// Every parameter, in the order of the panel, with a slot through which it is read and written.
-    pub fn params(&mut self) -> Vec<Param<'_>> {
-        let mut list = Params::default();
-        list.choice("technique", "Technique", "How surfaces are shaded.", &mut self.technique);
-        self.paper.params(&mut list);
-        list.when("technique", Technique::Plain, |list| {
-            list.section("plain", |list| self.plain.params(list));
-        });
-        list.when("technique", Technique::Gooch, |list| {
-            list.section("gooch", |list| self.gooch.params(list));
-        });
-        list.when("technique", Technique::Toon, |list| {
-            list.section("toon", |list| self.toon.params(list));
-        });
-        list.when("technique", Technique::Halftone, |list| {
-            list.section("halftone", |list| self.halftone.params(list));
-        });
-        list.when("technique", Technique::Blueprint, |list| {
-            list.section("blueprint", |list| self.blueprint.params(list));
-        });
-        list.section("mirror", |list| self.mirror.params(list));
-        list.section("edges", |list| self.edges.params(list));
-        list.finish()
-    }
-
     /// The images that are needed with the choices as they are: keys of parameters, and the paths that they have.
     pub fn images(&self) -> Vec<(String, Option<PathBuf>)> {
         let mut style = self.clone();

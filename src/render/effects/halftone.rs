@@ -248,7 +248,7 @@ impl SurfaceTechnique for HalftoneShading {
 }
 
 /// A built-in texture, read when first asked for; strokes, where an image is missing. They are made by
-/// `assets/strokes/generator`.
+/// `assets/textures`.
 pub fn built_in(texture: Texture) -> &'static ThresholdMap {
     static MAPS: [OnceLock<ThresholdMap>; 4] = [const { OnceLock::new() }; 4];
     macro_rules! images {

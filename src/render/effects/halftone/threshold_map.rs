@@ -44,7 +44,7 @@ impl ThresholdMap {
         Self { calibration: calibration::measure(&layers), layers }
     }
 
-    /// Reads images that `assets/strokes/generator` made: all steps below each other, and the calibration.
+    /// Reads images that `assets/textures` made: all steps below each other, and the calibration.
     ///
     /// # Errors
     /// When these are no such images.
