@@ -10,7 +10,7 @@ use crate::{patterns, strokes, write};
 type Priority = Box<dyn Fn(f32) -> Vec<f32>>;
 
 /// Writes each texture and its calibration.
-pub fn write_all() {
+pub(crate) fn write_all() {
     let textures: [(&str, Priority); 4] = [
         ("strokes", Box::new(strokes::crossed_strokes())),
         ("stipple", Box::new(strokes::stipple())),
