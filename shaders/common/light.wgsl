@@ -17,6 +17,16 @@ fn visibility(px: vec2<i32>, light: u32) -> f32 {
     return 1.0 - frame.shadow_density * (1.0 - mask[channel - 1u]);
 }
 
+// Up to which N·L a form's own shadow reaches.
+const TERMINATOR: f32 = 0.25;
+
+// How much of a light is missing at a pixel, for techniques that do not go by N·L alone. Towards the terminator the form's own
+// shadow begins, softly where the surface is smooth: so that shadows neither end there nor show the facets of the mesh.
+fn shadow_at(px: vec2<i32>, light: u32, n_l: f32) -> f32 {
+    let own = frame.shadow_density * (1.0 - smoothstep(0.0, TERMINATOR, n_l));
+    return max(1.0 - visibility(px, light), own * f32(frame.lights[light].shadow != 0u));
+}
+
 // What reaches a surface from all lights together, as a factor of its colour.
 fn light_at(px: vec2<i32>, normal: vec3<f32>, pos_view: vec3<f32>) -> vec3<f32> {
     var light = vec3(0.0);

@@ -4,9 +4,8 @@
 #import common/light.wgsl
 #import common/same_surface.wgsl
 
-// How far shadows go to the cool end, and up to which N·L the form's own shadow reaches.
+// How far shadows go to the cool end.
 const SHADE: f32 = 0.7;
-const TERMINATOR: f32 = 0.25;
 
 const GOOCH: u32 = 3u;
 
@@ -132,10 +131,7 @@ fn gooch(px: vec2<i32>, s: Surfel, base: vec3<f32>, pos_view: vec3<f32>) -> vec3
     let lit = visibility(px, 0u);
     var warmth = 0.5 + 0.5 * n_l;
     if WITH_SHADOWS {
-        // Towards the terminator the form's own shadow begins, softly where the surface is smooth: so that shadows
-        // neither end there nor show the facets of the mesh.
-        let own = frame.shadow_density * (1.0 - smoothstep(0.0, TERMINATOR, n_l));
-        warmth *= 1.0 - SHADE * max(1.0 - lit, own * f32(frame.lights[0].shadow != 0u));
+        warmth *= 1.0 - SHADE * shadow_at(px, 0u, n_l);
     }
     var shade = mix(cool, warm, warmth);
     if WITH_METAL && style.metal > 0.0 {
