@@ -53,6 +53,8 @@ const PICTURES: &[(&str, &str, &[&str])] = &[
     ("line_drawing_ogre", "ogre", &["--style", "line-drawing"]),
     ("clay_with_ink_ogre", "ogre", &["--style", "clay-with-ink"]),
     ("milled_metal_crank", "crank", &["--style", "milled-metal"]),
+    ("matcap_ogre", "ogre", &["--style", "matcap", "--set", "light.shadows=on"]),
+    ("polished_steel_crank", "crank", &["--style", "polished-steel"]),
     ("engraving_ogre", "ogre", &["--style", "engraving"]),
     ("newspaper_ogre", "ogre", &["--style", "newspaper", "--set", "halftone.scale=30"]),
     (

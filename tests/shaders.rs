@@ -13,6 +13,7 @@ use hachure::render::base::scale_bar::ScaleBarUniform;
 use hachure::render::effects::blueprint::BlueprintUniform;
 use hachure::render::effects::gooch::GoochUniform;
 use hachure::render::effects::halftone::HalftoneUniform;
+use hachure::render::effects::matcap::MatcapUniform;
 use hachure::render::effects::mirror::MirrorUniform;
 use hachure::render::effects::section::CapUniform;
 use hachure::render::effects::surface::SurfaceUniform;
@@ -21,7 +22,9 @@ use hachure::render::passes::designated::Masked;
 use hachure::render::passes::layer_lists::BandUniform;
 use hachure::render::passes::shadow::{LightViewUniform, ShadowLightUniform};
 use hachure::render::passes::shadow_map::ShadowDraw;
-use wgpu::naga::TypeInner;
+use hachure::style::Technique;
+use strum::VariantNames as _;
+use wgpu::naga::{Expression, Literal, TypeInner};
 
 /// Byte offsets of a WGSL struct's members and its size.
 fn layout(file: &str, name: &str) -> (Vec<u64>, u64) {
@@ -63,5 +66,18 @@ fn rust_and_wgsl_agree_on_every_uniform() {
     same_layout!(ShadowLightUniform, 3, "passes/shadow.wgsl", "ShadowLight");
     same_layout!(LightViewUniform, 8, "passes/shadow.wgsl", "LightView");
     same_layout!(ToonUniform, 11, "effects/toon.wgsl", "ToonStyle");
+    same_layout!(MatcapUniform, 3, "effects/matcap.wgsl", "MatcapStyle");
     same_layout!(HalftoneUniform, 15, "effects/halftone.wgsl", "HalftoneStyle");
+}
+
+#[test]
+fn shaders_number_techniques_as_styles_do() {
+    let module = Shaders::default().validate("effects/surface.wgsl").unwrap();
+    for name in Technique::VARIANTS {
+        let number = name.parse::<Technique>().unwrap() as u32;
+        let upper = name.to_uppercase();
+        let (_, found) = module.constants.iter().find(|(_, c)| c.name.as_deref() == Some(&upper)).unwrap();
+        let value = &module.global_expressions[found.init];
+        assert!(matches!(value, Expression::Literal(Literal::U32(n)) if *n == number), "{upper}: {value:?}");
+    }
 }

@@ -7,6 +7,7 @@
 )]
 
 mod halftones;
+mod matcaps;
 mod patterns;
 mod strokes;
 
@@ -15,6 +16,7 @@ use image::{ExtendedColorType, ImageEncoder};
 
 fn main() {
     halftones::write_all();
+    matcaps::write(std::path::Path::new("assets/matcaps")).expect("run this in the repository's root");
 }
 
 /// Writes an image; `name`: its path below `assets/`, without ending.

@@ -13,6 +13,7 @@ pub mod edges;
 pub mod gooch;
 pub mod halftone;
 pub mod hidden;
+pub mod matcap;
 pub mod mirror;
 mod paper;
 pub mod param;
@@ -111,6 +112,8 @@ techniques! {
     Toon(toon: Toon),
     /// Tones by the density of ink.
     Halftone(halftone: Halftone),
+    /// The look of a lit sphere, of which there is a picture.
+    Matcap(matcap: matcap::Matcap),
     /// The lines of hidden layers too.
     Blueprint(blueprint: Blueprint),
 }

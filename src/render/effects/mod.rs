@@ -6,6 +6,7 @@ pub mod gooch;
 pub mod halftone;
 pub mod hidden;
 pub mod layered;
+pub mod matcap;
 pub mod mirror;
 pub mod section;
 pub mod surface;

@@ -115,4 +115,5 @@ techniques! {
     gooch: super::gooch::GoochShading,
     toon: super::toon::ToonShading,
     halftone: super::halftone::HalftoneShading,
+    matcap: super::matcap::MatcapShading,
 }
