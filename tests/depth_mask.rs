@@ -130,7 +130,7 @@ fn counts_equal_a_recount_and_peeling_ends_with_the_first_layer_that_uncovers_en
             let fraction: f32 = fraction.parse().unwrap();
             let expected = passed.iter().position(|r| is_enough(*r, fraction, masked)).unwrap() as u32 + 1;
             assert_eq!(peeled.layers, expected, "fraction {fraction} of {masked}: {passed:?}");
-            assert_eq!(peeled.ended(), PeelingEnd::MaskUncovered);
+            assert_eq!(peeled.ended, PeelingEnd::MaskUncovered);
             let drawn = expected as usize;
             assert_eq!(peeled.passed[..drawn], passed[..drawn], "R");
             assert_eq!(peeled.pixels[..drawn], whole.pixels[..drawn]);
@@ -298,7 +298,7 @@ fn what_cannot_be_uncovered_is_told() {
     set(&mut scene, "blueprint.fraction", "1");
     set(&mut scene, "blueprint.layers", "2");
     let peeled = draw(&mut session, &scene);
-    assert_eq!((peeled.layers, peeled.ended()), (2, PeelingEnd::MostLayers));
+    assert_eq!((peeled.layers, peeled.ended), (2, PeelingEnd::MostLayers));
     let told = peeled.shortfall().unwrap();
     assert!(told.contains("after 2 layers, not 100 %") && told.contains("blueprint.layers"), "{told}");
     assert!(peeled.share_uncovered() > 0.0 && peeled.share_uncovered() < 0.9);
@@ -307,7 +307,7 @@ fn what_cannot_be_uncovered_is_told() {
     set(&mut scene, "blueprint.layers", "64");
     set(&mut scene, "blueprint.least", "90");
     let peeled = draw(&mut session, &scene);
-    assert_eq!((peeled.layers, peeled.ended()), (0, PeelingEnd::TooFewPixels));
+    assert_eq!((peeled.layers, peeled.ended), (0, PeelingEnd::TooFewPixels));
     assert!(peeled.passed[0] > 0 && peeled.uncovered() == peeled.passed[0]);
     assert!(peeled.shortfall().unwrap().contains("blueprint.least"));
 }
@@ -341,8 +341,8 @@ fn without_a_mask_in_the_picture_the_plain_rules_hold() {
     set(&mut outside, "blueprint.fraction", "0");
     let of_outside = draw(&mut session, &outside);
     assert!(mask_of(&mut session).iter().all(|d| *d == 0.0));
-    assert_eq!((of_outside.masked, of_outside.pixels), (0, peeled.pixels));
-    assert_eq!((of_outside.ended(), of_outside.shortfall()), (PeelingEnd::TooFewPixels, None));
+    assert_eq!((of_outside.masked, &of_outside.pixels), (0, &peeled.pixels));
+    assert_eq!((of_outside.ended, of_outside.shortfall()), (PeelingEnd::TooFewPixels, None));
 
     let mut all = behind_sheets();
     designate(&mut all, &[0, 1, 2, 3, 4], true);

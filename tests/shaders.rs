@@ -6,7 +6,6 @@ use encase::ShaderType;
 use encase::internal::SizeValue;
 use hachure::gpu::Shaders;
 use hachure::gpu::material::MaterialUniform;
-use hachure::render::Peeled;
 use hachure::render::base::edge_style::{EdgeUniform, LineUniform};
 use hachure::render::base::frame_uniform::{FrameUniform, LightUniform};
 use hachure::render::base::scale_bar::ScaleBarUniform;
@@ -20,6 +19,7 @@ use hachure::render::effects::surface::SurfaceUniform;
 use hachure::render::effects::toon::ToonUniform;
 use hachure::render::passes::designated::Masked;
 use hachure::render::passes::layer_lists::BandUniform;
+use hachure::render::passes::peel::CountedUniform;
 use hachure::render::passes::shadow::{LightViewUniform, ShadowLightUniform};
 use hachure::render::passes::shadow_map::ShadowDraw;
 use hachure::style::Technique;
@@ -48,7 +48,7 @@ fn rust_and_wgsl_agree_on_every_uniform() {
     same_layout!(ScaleBarUniform, 3, "passes/resolve.wgsl", "ScaleBar");
     same_layout!(LightUniform, 3, "passes/resolve.wgsl", "Light");
     same_layout!(BlueprintUniform, 6, "effects/blueprint.wgsl", "Blueprint");
-    same_layout!(Peeled, 12, "passes/count.wgsl", "Counted");
+    same_layout!(CountedUniform, 12, "passes/count.wgsl", "Counted");
     let (whole, beginning) =
         (layout("passes/count.wgsl", "Counted").0, layout("effects/blueprint.wgsl", "Peeled").0);
     assert!(whole.starts_with(&beginning), "a blueprint reads the beginning of it");

@@ -18,7 +18,7 @@ fn blueprint((peeled, by): &(Peeled, render::LayersBy)) -> Value {
         "layers": drawn,
         "layers_by": by.to_string(),
         "pixels": of_layers(&peeled.pixels),
-        "ended_by": peeled.ended().to_string(),
+        "ended_by": peeled.ended.to_string(),
     });
     if peeled.masked > 0 {
         found["mask"] = json!({

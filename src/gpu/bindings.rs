@@ -401,3 +401,77 @@ fn placeholder(gpu: &Gpu, ty: wgpu::BindingType) -> Placeholder {
         })),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gpu::{Pipelines, Program, Shaders, TargetPool};
+
+    const SHADER: &str = "
+        override WITH_OTHER: bool = false;
+        var first_tex: texture_storage_2d<r32uint, read>;
+        var other_tex: texture_2d<f32>;
+        var<storage, read_write> sums: array<u32>;
+        @compute @workgroup_size(1)
+        fn cs_main() {
+            sums[0] = textureLoad(first_tex, vec2(0)).x;
+            if WITH_OTHER { sums[1] = u32(textureLoad(other_tex, vec2(0), 0).x); }
+        }
+        @compute @workgroup_size(1)
+        fn cs_sums() { sums[0] = 1u; }
+    ";
+
+    #[test]
+    fn inputs_find_their_variables_by_name_and_are_checked() {
+        let gpu = Gpu::headless().unwrap();
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join("a.wgsl"), SHADER).unwrap();
+        let shaders = Shaders::in_folder(folder.path());
+        shaders.validate("a.wgsl").unwrap();
+        let mut pipelines = Pipelines::of(&gpu, shaders);
+        let mut pool = TargetPool::default();
+        let mut target = |format| pool.get(&gpu, "test", [4, 4], format).unwrap();
+        let numbers = target(wgpu::TextureFormat::R32Uint);
+        let colors = target(wgpu::TextureFormat::Rgba16Float);
+        let sums = gpu.device.create_buffer(&wgpu::BufferDescriptor {
+            label: None,
+            size: 64,
+            usage: wgpu::BufferUsages::STORAGE,
+            mapped_at_creation: false,
+        });
+        let mut bind = |entry_point, inputs: Inputs<'_>| {
+            let bound = pipelines.compute(&gpu, &Program::new("a.wgsl", entry_point), &inputs);
+            bound.map(|_| ()).map_err(|error| error.to_string())
+        };
+        // In any order; what there is not is replaced where the shader allows for it.
+        let all = inputs! { sums: &sums, other_tex: &colors, first_tex: &numbers };
+        assert_eq!(bind("cs_main", all), Ok(()));
+        let none = inputs! { first_tex: &numbers, other_tex: None::<&Target>, sums: &sums };
+        assert_eq!(bind("cs_main", none), Ok(()));
+        // An entry point asks for no more than it reads.
+        assert_eq!(bind("cs_sums", inputs! { sums: &sums }), Ok(()));
+        let wrong = [
+            (inputs! { first_tex: &numbers, sums: &sums }, "other_tex: nothing is given for it"),
+            (inputs! { third_tex: &numbers }, "third_tex: the shader has no such variable"),
+            (
+                inputs! { first_tex: &colors, other_tex: &colors, sums: &sums },
+                "first_tex: it is given Rgba16Float",
+            ),
+            (
+                inputs! { first_tex: &numbers, other_tex: &numbers, sums: &sums },
+                "other_tex: it is given R32Uint",
+            ),
+            (
+                inputs! { first_tex: &sums, other_tex: &colors, sums: &sums },
+                "first_tex: it is given a buffer",
+            ),
+        ];
+        for (inputs, expected) in wrong {
+            let message = bind("cs_main", inputs).unwrap_err();
+            assert!(
+                message.starts_with("shaders/a.wgsl, cs_main, ") && message.contains(expected),
+                "{message}"
+            );
+        }
+    }
+}

@@ -70,6 +70,9 @@ pub enum GpuError {
     Lost(String),
 }
 
+/// See [`Gpu::most_listed`]: 64 MiB.
+const MOST_LISTED: u64 = 1 << 22;
+
 /// An open device with its queue. Clones share both.
 #[derive(Debug, Clone)]
 pub struct Gpu {
@@ -81,6 +84,8 @@ pub struct Gpu {
     pub adapter_name: String,
     /// Whether fragment shaders can write into buffers.
     pub writes_in_fragments: bool,
+    /// Most layers of groups, ink and fill of each pixel counted by itself, that are put in order at a time: 16 bytes each.
+    pub most_listed: u64,
     faults: Faults,
 }
 
@@ -110,7 +115,7 @@ impl Gpu {
             keep_freed_memory();
         }
         let faults = Faults::of(&device);
-        Self { device, queue, adapter_name: info.name, writes_in_fragments, faults }
+        Self { device, queue, adapter_name: info.name, writes_in_fragments, most_listed: MOST_LISTED, faults }
     }
 
     /// Fails if a texture of this size cannot exist.

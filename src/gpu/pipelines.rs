@@ -182,6 +182,11 @@ impl Pipelines {
     pub fn new(gpu: &Gpu, shaders: Shaders) -> (Self, Option<ShaderError>) {
         let error = if shaders.can_change() { validate_all(&shaders).err() } else { None };
         let shaders = if error.is_some() { Shaders::default() } else { shaders };
+        (Self::of(gpu, shaders), error)
+    }
+
+    /// No pipeline yet, of shaders that are known to be right.
+    pub(super) fn of(gpu: &Gpu, shaders: Shaders) -> Self {
         let frame_layout = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some("frame"),
             entries: &[
@@ -203,7 +208,7 @@ impl Pipelines {
                 },
             ],
         });
-        let pipelines = Self {
+        Self {
             shaders,
             compiled: HashMap::new(),
             placeholders: Placeholders::default(),
@@ -211,8 +216,7 @@ impl Pipelines {
             compute: HashMap::new(),
             frame_layout,
             generation: 0,
-        };
-        (pipelines, error)
+        }
     }
 
     /// Reads changed shaders again. When one of them is wrong, all pipelines stay as they are.

@@ -311,11 +311,11 @@ impl<'a> Recorder<'a> {
     pub fn compute<'w>(
         &mut self,
         label: &'static str,
-        program: Program,
+        program: &Program,
         inputs: &Inputs<'_>,
         workgroups: impl Into<Workgroups<'w>>,
     ) -> Result<(), ShaderError> {
-        let bound = self.pipelines.compute(self.gpu, &program, inputs)?;
+        let bound = self.pipelines.compute(self.gpu, program, inputs)?;
         let workgroups = workgroups.into();
         let gated = match workgroups {
             Workgroups::Counted([columns, rows]) => self.gated(&[[columns, rows, 1, 0, 0]]),

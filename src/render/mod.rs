@@ -18,5 +18,6 @@ pub use effects::blueprint::LAYERS;
 pub use effects::techniques::prepare_images;
 pub use frame::Picture;
 pub use passes::layers::{LayersBy, Reason, Reported};
-pub use passes::peel::{MOST_LAYERS, Peeled, PeelingEnd};
+pub use passes::peel::MOST_LAYERS;
+pub use passes::peeled::{Peeled, PeelingEnd};
 pub use renderer::{Pick, Renderer, Request};

@@ -18,7 +18,7 @@ use super::frame::{FrameInputs, FrameState, Picture};
 use super::passes::accumulate::Subject;
 use super::passes::layers::{LayersBy, Reported};
 use super::passes::line_distance::BLOCK;
-use super::passes::peel::Peeled;
+use super::passes::peeled::Peeled;
 use super::views;
 use crate::document::{Document, Glyph};
 use crate::geometry::Topology;

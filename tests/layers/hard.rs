@@ -1,7 +1,7 @@
 //! What is easily forgotten: nothing to draw, pictures that change their size, a great many layers.
 
 use hachure::geometry::Mesh;
-use hachure::render::Reported;
+use hachure::render::{PeelingEnd, Reported};
 
 use crate::common::{self, opened, scene, session, set};
 use crate::{blueprint, render, stack};
@@ -56,7 +56,7 @@ fn more_layers_than_can_be_recorded_end_with_the_last_of_them() {
         session.set_scene(&many).unwrap();
         session.draw(&many, [48; 2], false).unwrap();
         let counted = session.renderer().peeled().unwrap().remove(0);
-        assert_eq!((counted.layers, counted.has_ended), (64, 0), "{by}");
+        assert_eq!((counted.layers, counted.ended), (64, PeelingEnd::MostLayers), "{by}");
         assert!(counted.pixels.iter().all(|p| *p > 0), "{by}");
     }
 }

@@ -26,9 +26,10 @@ fn check_same_layers(name: &str, opened: &Opened, side: u32) -> u32 {
     let (cut, by) = layers(&mut session, opened, side, "auto");
     assert_eq!(by, LayersBy::Lists);
     let mut counted_too = session.renderer().peeled().unwrap().remove(0);
-    let fragments: u32 = std::mem::replace(&mut counted_too.fragments, counted.fragments).iter().sum();
-    assert!(fragments >= counted.pixels.iter().sum());
-    assert_eq!(counted.room(), 0);
+    let fragments = std::mem::replace(&mut counted_too.fragments, counted.fragments);
+    assert!(fragments >= counted.pixels.iter().copied().map(u64::from).sum());
+    assert!(std::mem::replace(&mut counted_too.room, counted.room) >= fragments);
+    assert_eq!(counted.room, 0);
     assert_eq!(counted, counted_too, "{name}");
     let drawn = counted.layers as usize;
     assert!(drawn > 0, "{name}");

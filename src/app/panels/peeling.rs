@@ -24,7 +24,7 @@ pub(super) fn peeling_ui(ui: &mut Ui, (peeled, by): &(Peeled, LayersBy)) {
             LayersBy::Lists => "from lists of fragments",
             LayersBy::Peeling(_) => "by peeling",
         };
-        let text = format!("Made {made}; ended by: {}", peeled.ended());
+        let text = format!("Made {made}; ended by: {}", peeled.ended);
         ui.add(egui::Label::new(RichText::new(text).weak().small()).wrap());
         if peeled.masked > 0 {
             let uncovered = format!(

@@ -38,7 +38,7 @@ use crate::render::passes::layers::{LayersBy, Reported};
 use crate::render::passes::line_distance::{Reach, line_distance};
 use crate::render::passes::lines::{Lines, Pen, lines};
 use crate::render::passes::overlay::overlay;
-use crate::render::passes::peel::Peeled;
+use crate::render::passes::peeled::Peeled;
 use crate::render::passes::segments::Segments;
 use crate::render::passes::shadows::{ShadowMap, ShadowMask};
 use crate::render::passes::traversal::GBufferPass;

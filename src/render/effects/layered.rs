@@ -17,7 +17,8 @@ use crate::render::passes::layers::{
     DrawnLayer, LayerEdges, LayerInputs, LayerLines, LayerLinesInputs, Layers, LayersBy as MadeBy, Reported,
 };
 use crate::render::passes::lines::Lines;
-use crate::render::passes::peel::{PeelCount, Peeled};
+use crate::render::passes::peel::PeelCount;
+use crate::render::passes::peeled::Peeled;
 use crate::render::passes::segments::Segments;
 use crate::render::passes::traversal::GBufferPass;
 

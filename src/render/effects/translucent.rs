@@ -17,7 +17,7 @@ use crate::render::passes::composition::{Composition, Translucent};
 use crate::render::passes::designated::DepthMask;
 use crate::render::passes::layer_lists::LayerLists;
 use crate::render::passes::layers::{LayersBy, Reported};
-use crate::render::passes::peel::Peeled;
+use crate::render::passes::peeled::Peeled;
 use crate::render::passes::place::Place;
 use crate::render::passes::traversal::GBufferPass;
 use crate::style::Style;
@@ -59,8 +59,8 @@ struct Key {
 /// How a group is drawn.
 #[derive(Clone, PartialEq)]
 enum Manner {
-    Blended { look: Look, shadows: Vec<u64> },
-    Blueprint { blueprint: Blueprint, caps: Vec<CapUniform>, mask: Option<u64>, is_kept: bool },
+    Blended { look: Box<Look>, shadows: Vec<u64> },
+    Blueprint { blueprint: Box<Blueprint>, caps: Vec<CapUniform>, mask: Option<u64>, is_kept: bool },
 }
 
 /// One group across frames.
@@ -272,9 +272,12 @@ impl Key {
             layered: LayeredGroup::new(rec, seen, uniform, group.clone()),
             opaque: composition.revisions(),
             manner: match blueprint {
-                None => Manner::Blended { look: shading.look.clone(), shadows: shadow_revisions.clone() },
+                None => Manner::Blended {
+                    look: Box::new(shading.look.clone()),
+                    shadows: shadow_revisions.clone(),
+                },
                 Some(blueprint) => Manner::Blueprint {
-                    blueprint: blueprint.clone(),
+                    blueprint: Box::new(blueprint.clone()),
                     caps: (*caps).clone(),
                     mask: mask.map(|mask| mask.revision),
                     is_kept: super::blueprint::LAYERS.into_iter().any(|name| rec.keeps(name)),

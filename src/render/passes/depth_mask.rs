@@ -77,7 +77,7 @@ impl DepthMaskPass {
             let [width, height] = rec.size();
             rec.compute(
                 "depth mask",
-                Program::new("passes/depth_mask.wgsl", "cs_main"),
+                &Program::new("passes/depth_mask.wgsl", "cs_main"),
                 &inputs! {
                     geometry_tex: &designated.geometry,
                     surface_tex: &surfaces.value.geometry,

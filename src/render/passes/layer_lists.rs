@@ -19,9 +19,6 @@ use crate::render::base::error::RenderError;
 /// Entries per pixel, as long as nobody has counted them.
 const FIRST_GUESS: u64 = 4;
 
-/// More entries are never kept: they take 64 MiB.
-const MOST_ENTRIES: u64 = 1 << 22;
-
 /// Pixels of a row per workgroup, as in `passes/layer_lists.wgsl`.
 const GROUP: u32 = 64;
 
@@ -98,13 +95,13 @@ impl LayerLists {
             (self.known, self.size) = (Vec::new(), size);
         }
         let [width, height] = size.map(u64::from);
-        let most = MOST_ENTRIES.min(RecordTexture::most_texels(gpu));
+        let most = gpu.most_listed.min(RecordTexture::most_texels(gpu));
         let total: u64 = self.known.iter().map(|&row| u64::from(row)).sum();
         // A quarter more than there were, as there may be more by now.
         let wanted = if self.known.is_empty() { FIRST_GUESS * width * height } else { total + total / 4 + 1 };
         let room = wanted.min(most);
         let bands = if total <= room {
-            vec![0..size[1]]
+            std::iter::once(0..size[1]).collect()
         } else {
             // A row has fewer entries than there is room for.
             bands_of(&self.known, room * 4 / 5)
@@ -156,7 +153,7 @@ impl LayerLists {
             fill_tex: fill,
         };
         let [width, height] = rec.size();
-        Ok(rec.compute("append layer", program, &inputs, [width.div_ceil(GROUP), height])?)
+        Ok(rec.compute("append layer", &program, &inputs, [width.div_ceil(GROUP), height])?)
     }
 
     /// Blends the layers of a band onto `color`, of which other rows stay as they are.
@@ -220,9 +217,12 @@ mod tests {
 
     #[test]
     fn bands_have_no_more_entries_than_room_and_leave_no_row_out() {
-        assert_eq!(bands_of(&[3, 3, 3], 9), Some(vec![0..3]));
-        assert_eq!(bands_of(&[3, 3, 3], 8), Some(vec![0..2, 2..3]));
-        assert_eq!(bands_of(&[5, 0, 0, 6, 2], 6), Some(vec![0..3, 3..4, 4..5]));
-        assert_eq!(bands_of(&[5, 7], 6), None);
+        let ends = |rows: &[u32], room| -> Option<Vec<[u32; 2]>> {
+            Some(bands_of(rows, room)?.iter().map(|band| [band.start, band.end]).collect())
+        };
+        assert_eq!(ends(&[3, 3, 3], 9), Some(vec![[0, 3]]));
+        assert_eq!(ends(&[3, 3, 3], 8), Some(vec![[0, 2], [2, 3]]));
+        assert_eq!(ends(&[5, 0, 0, 6, 2], 6), Some(vec![[0, 3], [3, 4], [4, 5]]));
+        assert_eq!(ends(&[5, 7], 6), None);
     }
 }

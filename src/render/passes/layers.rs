@@ -27,7 +27,8 @@ use crate::render::passes::edge_map::{EdgeInputs, EdgeMap, edge_map};
 use crate::render::passes::fragment_lists::Asked;
 use crate::render::passes::line_distance::{Reach, line_distance};
 use crate::render::passes::lines::Lines;
-use crate::render::passes::peel::{Layer, MOST_LAYERS, Peel, PeelCount, Peeled, before_all};
+use crate::render::passes::peel::{Layer, MOST_LAYERS, Peel, PeelCount, before_all, peeled_from_bytes};
+use crate::render::passes::peeled::Peeled;
 use crate::render::passes::repeated::Seen;
 use crate::render::passes::segments::Segments;
 use crate::render::passes::traversal::GBufferPass;
@@ -108,7 +109,7 @@ impl Layers {
         let Some((recorded, bytes)) = self.reports.take() else {
             return if self.reports.is_waiting() { Reported::Waiting } else { Reported::Complete };
         };
-        let peeled = Peeled::from_bytes(&bytes);
+        let peeled = peeled_from_bytes(&bytes);
         let is_complete = self.room.learn(&recorded, &peeled);
         self.last = Some((peeled, recorded.by()));
         match is_complete {

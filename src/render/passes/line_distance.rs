@@ -51,7 +51,7 @@ pub fn line_distance(
         let near = rec.target_of("near lines", INDEX, blocks)?;
         let program = Program::new("passes/near_lines.wgsl", "cs_main");
         let inputs = inputs! { spine_tex: spines, near_tex: &near };
-        rec.compute("near lines", program, &inputs, blocks.map(|side| side.div_ceil(BLOCK_GROUP)))?;
+        rec.compute("near lines", &program, &inputs, blocks.map(|side| side.div_ceil(BLOCK_GROUP)))?;
         return Ok(Reach::Narrow { spines: spines.clone(), near });
     }
     radius.write(rec.gpu, &vec![greatest]);
@@ -94,7 +94,7 @@ fn transform(
         entry_point,
         switches: vec![("NEAREST", nearest)],
     };
-    rec.compute("line columns", program("cs_columns"), &inputs, [width.div_ceil(GROUP), 1])?;
-    rec.compute("line rows", program("cs_rows"), &inputs, [height.div_ceil(GROUP), 1])?;
+    rec.compute("line columns", &program("cs_columns"), &inputs, [width.div_ceil(GROUP), 1])?;
+    rec.compute("line rows", &program("cs_rows"), &inputs, [height.div_ceil(GROUP), 1])?;
     Ok(found)
 }

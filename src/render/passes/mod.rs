@@ -16,6 +16,7 @@ pub mod lines;
 pub mod operators;
 pub mod overlay;
 pub mod peel;
+pub mod peeled;
 pub mod place;
 pub mod repeated;
 pub mod resolve;

@@ -1,12 +1,11 @@
 //! Depth peeling: what lies behind what has been drawn, layer by layer (blueprints paper, section 3, Fig. 2), and when it
 //! ends, which the device decides by itself (section 4.2).
 
-use std::fmt;
-
 use encase::{ShaderType, StorageBuffer};
 
 use super::designated::DepthMask;
 use super::gbuffer::{GBuffer, SORT_KEYS};
+use super::peeled::{Peeled, PeelingEnd};
 use crate::gpu::{Gpu, Inputs, Program, Recorder, Target, inputs, readback};
 use crate::render::base::error::RenderError;
 
@@ -96,9 +95,9 @@ pub fn before_all(rec: &mut Recorder<'_>) -> Result<Target, RenderError> {
     Ok(sort_keys)
 }
 
-/// How far peeling has come. Twin of `Counted` in `shaders/common/counted.wgsl`.
+/// How far peeling has come, as the device counts it. Twin of `Counted` in `shaders/common/counted.wgsl`.
 #[derive(Debug, Clone, PartialEq, ShaderType)]
-pub struct Peeled {
+pub struct CountedUniform {
     /// A layer with fewer pixels ends it, before it is drawn.
     pub least: u32,
     /// 1: it has ended.
@@ -125,30 +124,9 @@ pub struct Peeled {
     pub passed: [u32; MOST_LAYERS as usize],
 }
 
-/// What ends peeling.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum PeelingEnd {
-    /// Nothing did: as many layers were drawn as were asked for.
-    MostLayers,
-    /// The next layer has too few pixels, or none.
-    TooFewPixels,
-    /// So much of the depth mask is uncovered as was asked for.
-    MaskUncovered,
-}
-
-impl fmt::Display for PeelingEnd {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::MostLayers => "most layers",
-            Self::TooFewPixels => "too few pixels",
-            Self::MaskUncovered => "mask uncovered",
-        })
-    }
-}
-
-impl Peeled {
+impl CountedUniform {
     /// Nothing yet.
-    pub(in crate::render) fn begun(least: u32, fraction: f32) -> Self {
+    fn begun(least: u32, fraction: f32) -> Self {
         let none = [0; MOST_LAYERS as usize];
         Self {
             least,
@@ -167,7 +145,7 @@ impl Peeled {
     }
 
     /// As it comes back from the device.
-    pub fn from_bytes(bytes: &[u8]) -> Self {
+    fn from_bytes(bytes: &[u8]) -> Self {
         let mut words = bytes.chunks_exact(4).filter_map(|w| w.try_into().ok()).map(u32::from_le_bytes);
         let mut next = || words.next().unwrap_or(0);
         Self {
@@ -187,66 +165,34 @@ impl Peeled {
     }
 
     /// So many fragments there has to be room for: each part of the picture takes as much as the fullest one.
-    pub fn room(&self) -> u64 {
+    fn room(&self) -> u64 {
         let fullest = self.fragments.iter().max().map_or(0, |&most| u64::from(most));
         fullest.next_multiple_of(RUN) * PARTS
     }
 
-    /// What ended it.
-    pub fn ended(&self) -> PeelingEnd {
-        match (self.has_ended, self.has_uncovered) {
-            (0, _) => PeelingEnd::MostLayers,
-            (_, 0) => PeelingEnd::TooFewPixels,
-            _ => PeelingEnd::MaskUncovered,
+    /// What it says.
+    fn peeled(&self) -> Peeled {
+        Peeled {
+            layers: self.layers,
+            ended: match (self.has_ended, self.has_uncovered) {
+                (0, _) => PeelingEnd::MostLayers,
+                (_, 0) => PeelingEnd::TooFewPixels,
+                _ => PeelingEnd::MaskUncovered,
+            },
+            fraction: self.fraction,
+            masked: self.masked,
+            hidden: self.hidden,
+            fragments: self.fragments.iter().map(|&fragments| u64::from(fragments)).sum(),
+            room: self.room(),
+            pixels: self.pixels.to_vec(),
+            passed: self.passed.to_vec(),
         }
-    }
-
-    /// Pixels of the mask that pass the depth test against the layer that was peeled last, drawn or not.
-    pub fn uncovered(&self) -> u32 {
-        let last =
-            if self.ended() == PeelingEnd::TooFewPixels { self.layers } else { self.layers.max(1) - 1 };
-        self.passed.get(last as usize).copied().unwrap_or(0)
-    }
-
-    /// The same as a share of the mask, 0 to 1.
-    pub fn share_uncovered(&self) -> f64 {
-        f64::from(self.uncovered()) / f64::from(self.masked.max(1))
-    }
-
-    /// Why less of the mask is uncovered than was asked for, and what to do; `None` if there is no mask in the picture, or
-    /// enough of it.
-    pub fn shortfall(&self) -> Option<String> {
-        if self.masked == 0 {
-            return None;
-        }
-        let asked = f64::from(self.fraction);
-        let layers = self.layers;
-        let plural = if layers == 1 { "" } else { "s" };
-        let reached = percent(self.share_uncovered());
-        let hidden = f64::from(self.hidden) / f64::from(self.masked);
-        let remedy = match self.ended() {
-            PeelingEnd::MostLayers => "allow more layers (blueprint.layers, blueprint.to)",
-            PeelingEnd::TooFewPixels if self.share_uncovered() < asked => {
-                "allow smaller layers (blueprint.least)"
-            }
-            _ if 1.0 - hidden < asked => {
-                let hidden = percent(hidden);
-                return Some(format!(
-                    "opaque objects hide {hidden} of what is designated: hide them or make them blueprints"
-                ));
-            }
-            _ => return None,
-        };
-        let asked = format!("{} %", (asked * 100.0).round());
-        Some(format!(
-            "{reached} of what is designated is uncovered after {layers} layer{plural}, not {asked}: {remedy}"
-        ))
     }
 }
 
-/// In whole percent, rounded down: all is all.
-fn percent(share: f64) -> String {
-    format!("{} %", (share * 100.0 + 1e-6).floor())
+/// What the device reported, from its bytes.
+pub fn peeled_from_bytes(bytes: &[u8]) -> Peeled {
+    CountedUniform::from_bytes(bytes).peeled()
 }
 
 /// How far peeling has come, on the device.
@@ -264,14 +210,14 @@ impl PeelCount {
         Self {
             buffer: gpu.device.create_buffer(&wgpu::BufferDescriptor {
                 label: Some("peeled"),
-                size: Peeled::min_size().get(),
+                size: CountedUniform::min_size().get(),
                 usage,
                 mapped_at_creation: false,
             }),
         }
     }
 
-    /// [`Peeled`] on the device.
+    /// [`CountedUniform`] on the device.
     pub fn buffer(&self) -> &wgpu::Buffer {
         &self.buffer
     }
@@ -279,7 +225,7 @@ impl PeelCount {
     /// Begins anew, for what is submitted next; it ends before a layer of fewer than `least` pixels, and with one that
     /// leaves `fraction` of the depth mask uncovered.
     pub fn begin(&self, gpu: &Gpu, least: u32, fraction: f32) {
-        let begun = Peeled::begun(least, fraction);
+        let begun = CountedUniform::begun(least, fraction);
         let mut bytes = StorageBuffer::new(Vec::new());
         // Writing into a growing vector cannot fail.
         if bytes.write(&begun).is_ok() {
@@ -292,7 +238,7 @@ impl PeelCount {
     /// # Errors
     /// [`RenderError`].
     pub fn read(&self, gpu: &Gpu) -> Result<Peeled, RenderError> {
-        Ok(Peeled::from_bytes(&readback::read_buffer(gpu, &self.buffer)?))
+        Ok(peeled_from_bytes(&readback::read_buffer(gpu, &self.buffer)?))
     }
 
     /// Counts the pixels of a layer, and those of the depth mask that it leaves uncovered, and shuts the recorder's gate if
@@ -313,7 +259,7 @@ impl PeelCount {
             switches: vec![("WITH_MASK", mask.is_some())],
         };
         let groups = [width.div_ceil(GROUP), height.div_ceil(GROUP)];
-        rec.compute("count", program, &self.counted(layer, mask), groups)?;
+        rec.compute("count", &program, &self.counted(layer, mask), groups)?;
         self.decide(rec, "cs_decide", layer, mask)
     }
 
@@ -351,7 +297,7 @@ impl PeelCount {
         let Some(gate) = rec.gate.take() else { return Ok(()) };
         let gated = inputs! { gate: gate.buffer(), mask: mask.map(|mask| &mask.count) };
         let inputs = self.counted(layer, mask).and(&gated);
-        let decided = rec.compute("go on", Program::new("passes/count.wgsl", entry_point), &inputs, [1, 1]);
+        let decided = rec.compute("go on", &Program::new("passes/count.wgsl", entry_point), &inputs, [1, 1]);
         rec.gate = Some(gate);
         Ok(decided?)
     }

@@ -152,7 +152,7 @@ impl Segments {
             step_tex: part.steps.target(),
             placed_tex: &places,
         };
-        rec.compute("place segments", program("cs_place", &[]), &inputs, [part.count.div_ceil(GROUP), 1])?;
+        rec.compute("place segments", &program("cs_place", &[]), &inputs, [part.count.div_ceil(GROUP), 1])?;
         Ok(places)
     }
 
@@ -187,9 +187,9 @@ impl Segments {
                 entry_point,
                 switches: vec![("WITHOUT_REPEATED", seen.is_some()), ("KEEP_KEYS", has_chunks)],
             };
-            rec.compute("compare points", program("cs_compare"), &found, &self.found)?;
+            rec.compute("compare points", &program("cs_compare"), &found, &self.found)?;
             let put = if seen.is_some() { "cs_put_unseen" } else { "cs_put" };
-            rec.compute("put points", program(put), &found, &self.found)?;
+            rec.compute("put points", &program(put), &found, &self.found)?;
         }
         if has_chunks {
             rec.encoder.clear_buffer(self.keys.buffer(), 0, None);
@@ -231,7 +231,7 @@ impl Segments {
         }
         rec.compute(
             "sift segments",
-            program(sift, &sift_switches),
+            &program(sift, &sift_switches),
             &sifting.and(&tested),
             [part.count.div_ceil(GROUP), 1],
         )?;
@@ -242,7 +242,7 @@ impl Segments {
             keys: self.keys.buffer(),
             finding: &self.found,
         };
-        rec.compute("segments", program("cs_points", &switches), &tested.and(&found), &self.kept)?;
+        rec.compute("segments", &program("cs_points", &switches), &tested.and(&found), &self.kept)?;
         Ok(())
     }
 }

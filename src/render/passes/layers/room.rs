@@ -3,12 +3,12 @@
 use crate::document;
 use crate::gpu::Gpu;
 use crate::render::passes::fragment_lists::FragmentLists;
-use crate::render::passes::peel::Peeled;
+use crate::render::passes::peeled::{Peeled, PeelingEnd};
 
 /// Fragments per pixel of the picture, as long as nobody has counted them.
 const FIRST_GUESS: u64 = 4;
 
-/// A square with sides of so many pixels has a tile for each part that counts fragments; see [`Peeled::room`].
+/// A square with sides of so many pixels has a tile for each part that counts fragments; see `passes/peel.rs`.
 const TILES: u32 = 128;
 
 /// After so many complete pictures in a row, more than one has samples, guesses may be tight again.
@@ -144,9 +144,10 @@ impl Room {
 
     /// Learns from a report; returns whether the picture was complete.
     pub(super) fn learn(&mut self, recorded: &Recorded, peeled: &Peeled) -> bool {
-        let fragments = peeled.room();
+        let fragments = peeled.room;
         let overflowed = recorded.fragments.is_ok_and(|room| fragments > room);
-        let is_complete = !overflowed && (peeled.has_ended == 1 || recorded.layers >= recorded.most);
+        let is_complete =
+            !overflowed && (peeled.ended != PeelingEnd::MostLayers || recorded.layers >= recorded.most);
         if is_complete {
             self.calm += 1;
             if self.calm >= CALM {
@@ -156,7 +157,7 @@ impl Room {
             (self.mistakes, self.calm) = ((self.mistakes + 1).min(MOST_MISTAKES), 0);
         }
         self.layers = match (is_complete, overflowed) {
-            (true, _) if peeled.has_ended == 1 => Some(peeled.layers + 1),
+            (true, _) if peeled.ended != PeelingEnd::MostLayers => Some(peeled.layers + 1),
             // As many as were asked for may not be all: what is known of those behind them is still the best guess.
             (true, _) => self.layers.filter(|&layers| layers > peeled.layers),
             (false, false) => Some(2 * recorded.layers),
@@ -188,12 +189,11 @@ mod tests {
 
     /// With fragments that take so many times that much.
     fn peeled(layers: u32, has_ended: bool, runs: u32) -> Peeled {
-        let mut pixels = [0; 64];
+        let mut pixels = vec![0; 64];
         pixels[..layers as usize].fill(100);
-        let mut peeled = Peeled { layers, pixels, ..Peeled::begun(1, 1.0) };
-        (peeled.has_ended, peeled.fragments[0]) = (u32::from(has_ended), 1024 * runs);
-        assert_eq!(peeled.room(), RUN * u64::from(runs));
-        peeled
+        let ended = if has_ended { PeelingEnd::TooFewPixels } else { PeelingEnd::MostLayers };
+        let (passed, room) = (vec![0; 64], RUN * u64::from(runs));
+        Peeled { layers, ended, fraction: 1.0, masked: 0, hidden: 0, fragments: room, room, pixels, passed }
     }
 
     #[test]
