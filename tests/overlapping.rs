@@ -43,6 +43,8 @@ fn rings(order: [usize; 4]) -> Opened {
         }
     }
     set(&mut opened, "blueprint.layers", "32");
+    // The range of distances is that of all objects.
+    set(&mut opened, "blueprint.by_distance", "0");
     opened
 }
 

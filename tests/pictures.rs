@@ -55,6 +55,8 @@ const PICTURES: &[(&str, &str, &[&str])] = &[
     ("milled_metal_crank", "crank", &["--style", "milled-metal"]),
     ("matcap_ogre", "ogre", &["--style", "matcap", "--set", "light.shadows=on"]),
     ("polished_steel_crank", "crank", &["--style", "polished-steel"]),
+    ("porcelain_crank", "crank", &["--style", "porcelain"]),
+    ("jade_ogre", "ogre", &["--style", "jade"]),
     ("engraving_ogre", "ogre", &["--style", "engraving"]),
     ("newspaper_ogre", "ogre", &["--style", "newspaper", "--set", "halftone.scale=30"]),
     (
