@@ -69,6 +69,7 @@ pub struct Shading {
     surfaces: ArrayBuffer,
     caps: ArrayBuffer,
     techniques: Techniques,
+    uploaded: Option<Look>,
 }
 
 impl Shading {
@@ -78,6 +79,7 @@ impl Shading {
             surfaces: ArrayBuffer::new(gpu, "surface styles"),
             caps: ArrayBuffer::new(gpu, "caps"),
             techniques: Techniques::new(gpu),
+            uploaded: None,
         }
     }
 
@@ -86,7 +88,7 @@ impl Shading {
         self.techniques.runs()
     }
 
-    /// Takes to the device what all layers of a picture read.
+    /// Takes to the device what all layers of a picture read, unless it is there.
     ///
     /// # Errors
     /// [`RenderError`].
@@ -96,11 +98,17 @@ impl Shading {
         gpu: &Gpu,
         look: &Look,
     ) -> Result<(), RenderError> {
+        if self.uploaded.as_ref() == Some(look) {
+            return Ok(());
+        }
+        self.uploaded = None;
         self.surfaces.write(gpu, &look.styles.surfaces);
         if !look.caps.is_empty() {
             self.caps.write(gpu, &look.caps);
         }
-        self.techniques.upload(shared, gpu, &look.styles.techniques)
+        self.techniques.upload(shared, gpu, &look.styles.techniques)?;
+        self.uploaded = Some(look.clone());
+        Ok(())
     }
 
     /// Shades a layer: linear colour times opacity, and opacity; nothing where there is no object. `by_opacity`: colours
