@@ -20,6 +20,8 @@ pub(super) fn apply(context: &egui::Context) {
         ]
         .into();
         style.spacing.item_spacing = egui::vec2(6.0, 4.0);
+        // No menu is cut off before the window ends.
+        style.spacing.default_area_size.y = 800.0;
         style.spacing.button_padding = egui::vec2(7.0, 2.0);
         style.spacing.interact_size.y = 20.0;
         style.spacing.tooltip_width = 320.0;

@@ -13,7 +13,7 @@ use crate::scene::{Node, NodeId, Scene};
 use crate::style::{Style, StyleError, Value, param};
 
 /// The most that the list of presets is high, in points: all of them are seen at once.
-const PRESETS_HEIGHT: f32 = 480.0;
+const PRESETS_HEIGHT: f32 = 720.0;
 
 /// Parameters that matter only while objects are designated.
 const FOR_MASKS: [&str; 3] = ["blueprint.fraction", "blueprint.beyond", "blueprint.highlight"];

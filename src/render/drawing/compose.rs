@@ -83,7 +83,7 @@ impl Drawing {
                 let Some(reflection) = self.reflections.get_mut(seen.index) else { continue };
                 reflection.uniform.write(rec.gpu, &vec![seen.uniform]);
                 let uniform = reflection.uniform.buffer();
-                mirror(rec, &gbuffer.value, &seen.color.value, uniform, &color)?;
+                mirror(rec, &composition.surfaces.value, &seen.color.value, uniform, &color)?;
             }
             if let Some(hidden) = &hidden {
                 overlay(rec, &hidden.value, &color)?;
@@ -168,7 +168,7 @@ impl Drawing {
         composition: &mut Composition,
     ) -> Result<(), RenderError> {
         let DrawingInputs { seen, objects, shadow_maps, .. } = *inputs;
-        let mask = self.draw_mask(rec, shared, inputs, surfaces)?;
+        let mask = self.draw_mask(rec, shared, inputs, surfaces, composition)?;
         let no_caps = Vec::new();
         let caps = if objects.blueprints.is_empty() { &no_caps } else { look.caps() };
         let shading = BlendedShading {
@@ -198,14 +198,24 @@ impl Drawing {
         shared: &mut Shared,
         inputs: &DrawingInputs<'_>,
         surfaces: &Surfaces,
+        composition: &Composition,
     ) -> Result<Option<Output<DepthMask>>, RenderError> {
         let objects = inputs.objects;
         let mask = if objects.blueprints.is_empty() || objects.masks.is_empty() {
             self.depth_mask.forget();
             None
         } else {
-            let opaque = (&objects.surfaces, &surfaces.gbuffer);
-            Some(self.depth_mask.run(rec, &mut shared.gbuffer, &inputs.seen, &objects.masks, opaque)?)
+            // Where nothing else is opaque, they have been drawn.
+            let is_all = objects.masks.visible() == objects.surfaces.visible();
+            let drawn = is_all.then_some(&surfaces.gbuffer.value);
+            let (gbuffer_pass, seen) = (&mut shared.gbuffer, &inputs.seen);
+            Some(self.depth_mask.run(
+                rec,
+                gbuffer_pass,
+                seen,
+                (&objects.masks, drawn),
+                &composition.surfaces,
+            )?)
         };
         rec.note("depth mask", mask.as_ref().map(|mask| &mask.value.depth));
         Ok(mask)

@@ -6,10 +6,9 @@ use glam::{DVec3, Vec3};
 
 use crate::geometry::{Bounds, Plane};
 use crate::gpu::recorder::{Draw, Onto};
-use crate::gpu::{DepthRule, Program, Recorder, Target, inputs};
+use crate::gpu::{Program, Recorder, Target, inputs};
 use crate::render::base::error::RenderError;
 use crate::render::base::frame_uniform::View;
-use crate::render::passes::gbuffer::GBuffer;
 use crate::style;
 use crate::style::mirror::Side;
 
@@ -79,13 +78,14 @@ impl Mirror {
     }
 }
 
-/// Lays what is seen in a mirror over its surface. `uniform`: an array of one [`MirrorUniform`].
+/// Lays what is seen in a mirror over its surface, where that is in front of the opaque `surfaces` (see
+/// `shaders/common/gbuffer.wgsl`). `uniform`: an array of one [`MirrorUniform`].
 ///
 /// # Errors
 /// [`RenderError`].
 pub fn mirror(
     rec: &mut Recorder<'_>,
-    gbuffer: &GBuffer,
+    surfaces: &Target,
     reflection: &Target,
     uniform: &wgpu::Buffer,
     color: &Target,
@@ -93,10 +93,10 @@ pub fn mirror(
     rec.draw(Draw {
         label: "mirror",
         program: Program::new("effects/mirror.wgsl", "fs_main"),
-        inputs: &inputs! { geometry_tex: &gbuffer.geometry, reflection_tex: reflection, mirrors: uniform },
+        inputs: &inputs! { geometry_tex: surfaces, reflection_tex: reflection, mirrors: uniform },
         outputs: &[color],
         onto: Onto::Blended,
-        depth: Some((&gbuffer.depth, DepthRule::Covered)),
+        depth: None,
     })?;
     Ok(())
 }

@@ -10,7 +10,7 @@ use encase::ShaderType as _;
 use super::designated::{DepthMask, Masked};
 use super::gbuffer::GBuffer;
 use super::traversal::GBufferPass;
-use crate::gpu::{Gpu, Program, Recorder, inputs};
+use crate::gpu::{Gpu, Program, Recorder, Target, inputs};
 use crate::render::base::error::RenderError;
 use crate::render::base::frame_uniform::View;
 use crate::render::base::group::Group;
@@ -49,7 +49,8 @@ impl DepthMaskPass {
         self.stage.clear();
     }
 
-    /// The mask of what is designated among what is opaque.
+    /// The mask of what is `designated`, with the G-buffer of just that where it has been drawn; `surfaces`: geometry of all
+    /// that is opaque, it included.
     ///
     /// # Errors
     /// [`RenderError`].
@@ -58,8 +59,8 @@ impl DepthMaskPass {
         rec: &mut Recorder<'_>,
         gbuffer_pass: &mut GBufferPass,
         seen: &SceneView<'_>,
-        designated: &Group,
-        (opaque, surfaces): (&Group, &Output<GBuffer>),
+        (designated, drawn): (&Group, Option<&GBuffer>),
+        surfaces: &Output<Target>,
     ) -> Result<Output<DepthMask>, RenderError> {
         let SceneView { scene, view, .. } = *seen;
         let (draws, calls) = designated.draws(scene, view);
@@ -67,11 +68,9 @@ impl DepthMaskPass {
         let asked = (shaders, seen.scene_revision, *view, draws, calls, surfaces.revision);
         let Self { draws: buffer, count, stage } = self;
         stage.run(asked, |(_, _, view, draws, calls, _)| {
-            // Where nothing else is opaque, they have been drawn.
-            let designated = if designated.visible() == opaque.visible() {
-                surfaces.value.clone()
-            } else {
-                gbuffer_pass.run(rec, scene, buffer, (draws, calls), view.has_cuts(), None)?
+            let designated = match drawn {
+                Some(drawn) => drawn.clone(),
+                None => gbuffer_pass.run(rec, scene, buffer, (draws, calls), view.has_cuts(), None)?,
             };
             rec.encoder.clear_buffer(count, 0, None);
             let [width, height] = rec.size();
@@ -80,7 +79,7 @@ impl DepthMaskPass {
                 &Program::new("passes/depth_mask.wgsl", "cs_main"),
                 &inputs! {
                     geometry_tex: &designated.geometry,
-                    surface_tex: &surfaces.value.geometry,
+                    surface_tex: &surfaces.value,
                     mask: &*count,
                 },
                 [width.div_ceil(GROUP), height.div_ceil(GROUP)],
