@@ -123,6 +123,10 @@ for side in top right; do
 		--scale 1:400 --dpi 160 --set blueprint.layers=32 --set blueprint.opacity=0.02 --set view.scale_bar=true
 done
 size=1000,1000
+# Blueprints of several styles that go through each other.
+draw see_through "$crank" --style gooch --object-style 'piston*=blueprint' --object-style 'rod*=blueprint-vellum' \
+	--set 'rod*:blueprint.opacity=0.5' --object-style 'crankshaft*=blueprint' \
+	--set 'crankshaft*:blueprint.fill=#c03010' --set 'crankshaft*:blueprint.opacity=0.35'
 # Hidden lines of surfaces.
 draw hidden_lines "$crank" --style hidden-lines --set edges.hidden.layers=next
 draw x_ray assets/models/temple.glb --style x-ray --camera-azimuth-angle 35 --camera-elevation-angle 30
