@@ -25,7 +25,18 @@ const GROUP: u32 = 16;
 pub struct DepthMaskPass {
     draws: Instances,
     count: wgpu::Buffer,
-    stage: Stage<(u64, u64, View, Vec<Instance>, Vec<DrawCall>, u64), DepthMask>,
+    stage: Stage<Key, DepthMask>,
+}
+
+/// What the depth mask depends on.
+#[derive(PartialEq)]
+struct Key {
+    shaders: u64,
+    scene_revision: u64,
+    view: View,
+    draws: Vec<Instance>,
+    calls: Vec<DrawCall>,
+    surfaces: u64,
 }
 
 impl DepthMaskPass {
@@ -64,10 +75,16 @@ impl DepthMaskPass {
     ) -> Result<Output<DepthMask>, RenderError> {
         let SceneView { scene, view, .. } = *seen;
         let (draws, calls) = designated.draws(scene, view);
-        let shaders = rec.pipelines.generation();
-        let asked = (shaders, seen.scene_revision, *view, draws, calls, surfaces.revision);
+        let key = Key {
+            shaders: rec.pipelines.generation(),
+            scene_revision: seen.scene_revision,
+            view: *view,
+            draws,
+            calls,
+            surfaces: surfaces.revision,
+        };
         let Self { draws: buffer, count, stage } = self;
-        stage.run(asked, |(_, _, view, draws, calls, _)| {
+        stage.run(key, |Key { view, draws, calls, .. }| {
             let designated = match drawn {
                 Some(drawn) => drawn.clone(),
                 None => gbuffer_pass.run(rec, scene, buffer, (draws, calls), view.has_cuts(), None)?,

@@ -32,7 +32,15 @@ impl ShadowMap {
 
 /// The maps of all lights that throw shadows.
 pub struct ShadowMaps {
-    maps: [(ShadowMapPass, Stage<(u64, u64, ShadowScene), Target>); MAX_SHADOWS],
+    maps: [(ShadowMapPass, Stage<MapKey, Target>); MAX_SHADOWS],
+}
+
+/// What a shadow map depends on.
+#[derive(PartialEq)]
+struct MapKey {
+    shaders: u64,
+    scene_revision: u64,
+    seen: ShadowScene,
 }
 
 impl ShadowMaps {
@@ -81,7 +89,7 @@ impl ShadowMaps {
             };
             let seen = seen_by(light, scene, groups, &looked_at, side.min(limit));
             let views = seen.views.clone();
-            let map = stage.run((shaders, scene_revision, seen), |(_, _, seen)| {
+            let map = stage.run(MapKey { shaders, scene_revision, seen }, |MapKey { seen, .. }| {
                 pass.run(rec, scene, material_layout, seen)
             })?;
             made.push(ShadowMap { map, views });
@@ -154,7 +162,18 @@ fn seen_by(
 /// The shadow mask of one camera's picture.
 pub struct ShadowMask {
     pass: ShadowPass,
-    stage: Stage<(u64, DMat4, Vec<u64>, f32), Option<Target>>,
+    stage: Stage<MaskKey, Option<Target>>,
+}
+
+/// What a shadow mask depends on.
+#[derive(PartialEq)]
+struct MaskKey {
+    shaders: u64,
+    gbuffer: u64,
+    view_from_world: DMat4,
+    /// Of each light.
+    maps: Vec<u64>,
+    spread: f32,
 }
 
 impl ShadowMask {
@@ -200,11 +219,14 @@ impl ShadowMask {
             self.stage.clear();
             return Ok(None);
         }
-        let shaders = rec.pipelines.generation();
-        let mut revisions = vec![shaders];
-        revisions.extend(maps.iter().map(|m| m.map.revision));
-        let inputs = (gbuffer.revision, *view_from_world, revisions, spread);
-        let mask = self.stage.run(inputs, |_| {
+        let key = MaskKey {
+            shaders: rec.pipelines.generation(),
+            gbuffer: gbuffer.revision,
+            view_from_world: *view_from_world,
+            maps: maps.iter().map(ShadowMap::revision).collect(),
+            spread,
+        };
+        let mask = self.stage.run(key, |_| {
             let maps: Vec<_> = maps.iter().map(|m| (m.views.as_slice(), &m.map.value)).collect();
             self.pass.run(rec, &gbuffer.value, view_from_world, &maps, spread)
         })?;
