@@ -16,7 +16,7 @@ use hachure::export::session::Opened;
 use hachure::geometry::{Mesh, primitives};
 use hachure::scene::NodeId;
 use hachure::style::param::Condition;
-use hachure::style::{Slot, Style, Technique, Value};
+use hachure::style::{Matrix, Slot, Style, Technique, Value};
 use image::RgbaImage;
 use strum::VariantNames as _;
 
@@ -149,6 +149,9 @@ fn changes() -> Vec<Change> {
                 [range.start(), range.end()].map(|end| Value::Number(f64::from(*end))).to_vec()
             }
             Slot::Choice(choice) => choice.names().iter().map(|name| Value::from(*name)).collect(),
+            Slot::Matrix { most, .. } => [[0.0; 4], [4.0, -1.0, 1.0, 4.0], [*most; 4]]
+                .map(|n| Value::Matrix(Matrix::of_numbers(n)))
+                .to_vec(),
             Slot::Color(_) => ["#ff3010", "#10a0ff"].map(Value::from).to_vec(),
             Slot::File(_) => ["assets/strokes/dots.png", "no/such.png"].map(Value::from).to_vec(),
         };
@@ -159,12 +162,13 @@ fn changes() -> Vec<Change> {
     style.params().into_iter().map(change).collect()
 }
 
-/// Changes of all but the technique and the edges, which matter for a technique or for all of them.
+/// Changes of all but the technique, the edges and the sketch, which matter for a technique or for all of them.
 fn changes_with(technique: &str) -> Vec<Change> {
     let mut all = changes();
     all.retain(|change| {
         let of_it = |c: &Condition| c.key != "technique" || c.values.contains(&technique);
-        change.key != "technique" && !change.key.starts_with("edges.") && change.conditions.iter().all(of_it)
+        let is_shared = ["technique", "edges.", "sketch."].iter().any(|key| change.key.starts_with(key));
+        !is_shared && change.conditions.iter().all(of_it)
     });
     all
 }
@@ -173,7 +177,7 @@ fn changes_with(technique: &str) -> Vec<Change> {
 fn with_conditions(opened: &Opened, node: NodeId, conditions: &[Condition]) -> Opened {
     let mut opened = opened.clone();
     for condition in conditions {
-        set_for(&mut opened, node, condition.key, &Value::from(condition.values[0]));
+        set_for(&mut opened, node, condition.key, &Value::parse(condition.values[0]));
     }
     opened
 }

@@ -75,6 +75,7 @@ fn parameter_json(param: &Param<'_>) -> serde_json::Value {
             (json!({ "soft": ends, "hard": ends }), json!(null))
         }
         Slot::Choice(choice) => (json!(null), json!(choice.names())),
+        Slot::Matrix { most, .. } => (json!({ "hard": [-most, *most] }), json!(null)),
         Slot::Bool(_) | Slot::Color(_) | Slot::File(_) => (json!(null), json!(null)),
     };
     json!({
@@ -87,6 +88,7 @@ fn parameter_json(param: &Param<'_>) -> serde_json::Value {
             Value::Bool(b) => json!(b),
             Value::Number(n) if matches!(param.slot, Slot::Integer { .. }) => json!(n as u32),
             Value::Number(n) => json!(n),
+            Value::Matrix(m) => json!(m.0),
             own @ (Value::Text(_) | Value::Inherit) => json!(own.to_string()),
         },
         "range": range,

@@ -3,9 +3,9 @@
 use std::ops::RangeInclusive;
 use std::path::PathBuf;
 
-use super::Color;
 use super::param::{Condition, Param};
 use super::slot::{Choice, Place, Slot};
+use super::{Color, Matrix};
 
 /// The list while it is being declared.
 #[derive(Default)]
@@ -33,7 +33,8 @@ impl<'a> Params<'a> {
         self.detail = outer;
     }
 
-    /// Declares parameters that matter only while the choice `key` (a whole key) is `value`.
+    /// Declares parameters that matter only while the choice, switch or whole number `key` (a whole key) is `value`, as it is
+    /// written.
     pub fn when(
         &mut self,
         key: &'static str,
@@ -43,14 +44,14 @@ impl<'a> Params<'a> {
         self.when_any(key, [value], declare);
     }
 
-    /// Declares parameters that matter only while the choice `key` (a whole key) has one of these values.
-    pub fn when_any<const N: usize>(
+    /// The same for one of several values.
+    pub fn when_any(
         &mut self,
         key: &'static str,
-        values: [impl Into<&'static str>; N],
+        values: impl IntoIterator<Item = impl Into<&'static str>>,
         declare: impl FnOnce(&mut Self),
     ) {
-        let condition = Condition { key, values: values.map(Into::into).to_vec() };
+        let condition = Condition { key, values: values.into_iter().map(Into::into).collect() };
         let is_new = !self.conditions.contains(&condition);
         self.conditions.extend(is_new.then_some(condition));
         declare(self);
@@ -161,6 +162,19 @@ impl<'a> Params<'a> {
         value: &'a mut Option<PathBuf>,
     ) {
         self.push(key, label, "", help, Slot::File(value));
+    }
+
+    /// A 2×2 matrix, no number of which is greater than `most`.
+    pub fn matrix(
+        &mut self,
+        key: &str,
+        label: &'static str,
+        unit: &'static str,
+        most: f32,
+        help: &'static str,
+        value: &'a mut Matrix,
+    ) {
+        self.push(key, label, unit, help, Slot::Matrix { value, most });
     }
 
     /// One of the variants of an enumeration.

@@ -14,6 +14,7 @@ pub mod gooch;
 pub mod halftone;
 pub mod hidden;
 pub mod matcap;
+mod matrix;
 pub mod mirror;
 mod paper;
 pub mod param;
@@ -22,6 +23,7 @@ mod param_tests;
 pub mod plain;
 pub mod preset;
 mod ramp;
+pub mod sketch;
 mod slot;
 mod toml_file;
 pub mod toon;
@@ -37,10 +39,12 @@ pub use edges::Edges;
 pub use gooch::Gooch;
 pub use halftone::Halftone;
 pub use hidden::{Hidden, HiddenMode};
+pub use matrix::Matrix;
 pub use mirror::Mirror;
 pub use paper::Paper;
 pub use param::{Param, Slot, Value};
 pub use plain::Plain;
+pub use sketch::Sketch;
 pub use toml_file::{diff_to_toml, set_from_toml};
 pub use toon::Toon;
 
@@ -72,6 +76,8 @@ macro_rules! techniques {
             pub edges: Edges,
             /// What a mirror shows.
             pub mirror: Mirror,
+            /// How surfaces and lines are moved and rubbed on as by hand.
+            pub sketch: Sketch,
         }
 
         impl Style {
@@ -86,12 +92,19 @@ macro_rules! techniques {
 
             /// Every parameter, in the order of the panel, with a slot through which it is read and written.
             pub fn params(&mut self) -> Vec<Param<'_>> {
+                let ink = self.edges.profile.line().color;
                 let mut list = Params::default();
                 list.choice("technique", "Technique", "How surfaces are shaded.", &mut self.technique);
                 self.paper.params(&mut list);
                 Self::technique_params($($(&mut self.$field,)?)+ &mut list);
                 list.section("mirror", |list| self.mirror.params(list));
                 list.section("edges", |list| self.edges.params(list));
+                // Blueprints have layers, sketches a single one.
+                let blueprint: &str = Technique::Blueprint.into();
+                let surfaces = <Technique as strum::VariantNames>::VARIANTS.iter().copied();
+                list.when_any("technique", surfaces.filter(|name| *name != blueprint), |list| {
+                    list.section("sketch", |list| self.sketch.params(ink, list));
+                });
                 list.finish()
             }
         }

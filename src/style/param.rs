@@ -36,12 +36,12 @@ pub struct Param<'a> {
     pub slot: Slot<'a>,
 }
 
-/// That a choice has one of some values.
+/// That a choice, a switch or a whole number has one of some values.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Condition {
-    /// Key of the choice.
+    /// Key of the parameter.
     pub key: &'static str,
-    /// The names of which it must have one.
+    /// The values of which it must have one, as they are written.
     pub values: Vec<&'static str>,
 }
 
@@ -57,6 +57,7 @@ impl Param<'_> {
             Slot::File(path) => {
                 Value::Text(path.as_ref().map_or_else(String::new, |p| p.to_string_lossy().into_owned()))
             }
+            Slot::Matrix { value, .. } => Value::Matrix(**value),
             Slot::Choice(c) => Value::Text(c.name().to_owned()),
         }
     }
@@ -76,6 +77,9 @@ impl Param<'_> {
             }
             Slot::Color(_) => "a colour as #rrggbb".to_owned(),
             Slot::File(_) => "the path of a PNG or JPEG image, or an empty text".to_owned(),
+            Slot::Matrix { most, .. } => {
+                format!("a matrix a,b,c,d of numbers from {} to {most}", -most)
+            }
             Slot::Choice(c) => format!("one of {}", c.names().join(", ")),
         };
         if self.slot.inherits().is_some() {
@@ -114,6 +118,13 @@ impl Param<'_> {
             (Slot::Color(c), Value::Text(new)) => new.parse::<Color>().map(|new| c.set(new)).is_ok(),
             (Slot::File(path), Value::Text(new)) => {
                 **path = (!new.is_empty()).then(|| PathBuf::from(new));
+                true
+            }
+            (Slot::Matrix { value, most }, Value::Matrix(new)) => {
+                if let Some(wrong) = new.numbers().into_iter().find(|n| !(-*most..=*most).contains(n)) {
+                    return Err(out_of_range(&self.key, f64::from(wrong), [-*most, *most]));
+                }
+                **value = *new;
                 true
             }
             (Slot::Choice(c), Value::Text(new)) => c.choose(new),
@@ -158,13 +169,10 @@ pub fn set(params: &mut [Param<'_>], key: &str, value: &Value) -> Result<(), Sty
 
 /// Leaves only the parameters that matter with the choices as they are.
 pub fn retain_relevant(params: &mut Vec<Param<'_>>) {
-    let choices: Vec<(String, &'static str)> = params
-        .iter()
-        .filter_map(|p| match &p.slot {
-            Slot::Choice(choice) => Some((p.key.clone(), choice.name())),
-            _ => None,
-        })
-        .collect();
-    let holds = |c: &Condition| choices.iter().any(|(key, name)| key == c.key && c.values.contains(name));
+    let is_asked = |p: &&Param<'_>| matches!(p.slot, Slot::Choice(_) | Slot::Bool(_) | Slot::Integer { .. });
+    let values: Vec<(String, String)> =
+        params.iter().filter(is_asked).map(|p| (p.key.clone(), p.value().to_string())).collect();
+    let holds =
+        |c: &Condition| values.iter().any(|(key, value)| key == c.key && c.values.contains(&value.as_str()));
     params.retain(|p| p.conditions.iter().all(holds));
 }

@@ -17,6 +17,7 @@ fn other_values() -> Vec<(String, Value)> {
         Slot::Integer { range, .. } => Value::Number((*range.start()).into()),
         Slot::Color(_) => Value::Text("#123456".to_owned()),
         Slot::File(_) => Value::Text("images/ramp 2.png".to_owned()),
+        Slot::Matrix { .. } => Value::Matrix(Matrix([[0.1, -1.5], [2.0, 0.25]])),
         Slot::Choice(c) => Value::Text(c.names().iter().find(|n| **n != c.name()).unwrap().to_string()),
     };
     style.params().iter().map(|p| (p.key.clone(), other(p))).collect()
@@ -65,14 +66,20 @@ fn conditions_and_sources_are_parameters_of_the_list() {
     for param in &params {
         for Condition { key, values } in &param.conditions {
             assert!(!values.is_empty());
-            let has = |name: &&str| matches!(&find(key).slot, Slot::Choice(c) if c.names().contains(name));
+            let has = |value: &&str| match &find(key).slot {
+                Slot::Choice(c) => c.names().contains(value),
+                Slot::Bool(_) => ["true", "false"].contains(value),
+                Slot::Integer { range, .. } => value.parse().is_ok_and(|n: u32| range.contains(&n)),
+                _ => false,
+            };
             assert!(values.iter().all(has), "{key}={values:?}");
         }
         if let Some(other) = param.slot.inherits() {
             assert_eq!(std::mem::discriminant(&param.slot), std::mem::discriminant(&find(other).slot));
         }
     }
-    assert_eq!(params.iter().filter(|p| p.slot.inherits().is_some()).count(), 5 * EdgeClass::ALL.len());
+    let inheriting = params.iter().filter(|p| p.slot.inherits().is_some()).count();
+    assert_eq!(inheriting, 5 * EdgeClass::ALL.len() + sketch::MOST_PASSES);
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use std::ops::RangeInclusive;
 use std::path::PathBuf;
 
-use super::Color;
+use super::{Color, Matrix};
 
 /// The borrowed value of a parameter.
 pub enum Slot<'a> {
@@ -29,6 +29,13 @@ pub enum Slot<'a> {
     Color(Place<'a, Color>),
     /// An image file, or none.
     File(&'a mut Option<PathBuf>),
+    /// A 2×2 matrix.
+    Matrix {
+        /// The value.
+        value: &'a mut Matrix,
+        /// What each number may be at most, and with the other sign at least; sliders offer a quarter of it.
+        most: f32,
+    },
     /// One of a few names.
     Choice(&'a mut dyn Choice),
 }
@@ -40,7 +47,7 @@ impl Slot<'_> {
             Self::Bool(place) => place.source(),
             Self::Number { value, .. } => value.source(),
             Self::Color(place) => place.source(),
-            Self::Integer { .. } | Self::File(_) | Self::Choice(_) => None,
+            Self::Integer { .. } | Self::File(_) | Self::Matrix { .. } | Self::Choice(_) => None,
         }
     }
 
@@ -50,7 +57,7 @@ impl Slot<'_> {
             Self::Bool(place) => place.is_inherited(),
             Self::Number { value, .. } => value.is_inherited(),
             Self::Color(place) => place.is_inherited(),
-            Self::Integer { .. } | Self::File(_) | Self::Choice(_) => false,
+            Self::Integer { .. } | Self::File(_) | Self::Matrix { .. } | Self::Choice(_) => false,
         }
     }
 
@@ -60,7 +67,7 @@ impl Slot<'_> {
             Self::Bool(place) => place.inherit(),
             Self::Number { value, .. } => value.inherit(),
             Self::Color(place) => place.inherit(),
-            Self::Integer { .. } | Self::File(_) | Self::Choice(_) => false,
+            Self::Integer { .. } | Self::File(_) | Self::Matrix { .. } | Self::Choice(_) => false,
         }
     }
 }

@@ -3,11 +3,11 @@
 //! A parameter that inherits, as by default, is left out; one that would have a value of its own by default is
 //! written as `"inherit"`.
 
-use toml::de::{DeTable, DeValue};
+use toml::de::{DeArray, DeTable, DeValue};
 use toml::{Spanned, Table};
 
 use super::param::{self, Param, Slot};
-use super::{StyleError, Value};
+use super::{Matrix, StyleError, Value};
 
 /// The parameters of `params` that differ from `defaults`, as nested tables.
 pub fn diff_to_toml(params: &mut [Param<'_>], defaults: &mut [Param<'_>]) -> Table {
@@ -27,6 +27,7 @@ pub fn diff_to_toml(params: &mut [Param<'_>], defaults: &mut [Param<'_>]) -> Tab
                         Value::Bool(b) => (*b).into(),
                         Value::Number(n) if matches!(param.slot, Slot::Integer { .. }) => (*n as i64).into(),
                         Value::Number(n) => (*n).into(),
+                        Value::Matrix(m) => rows_of(*m),
                         Value::Text(_) | Value::Inherit => value.to_string().into(),
                     },
                 );
@@ -67,6 +68,32 @@ pub fn set_from_toml(params: &mut [Param<'_>], text: &str, place: &str) -> Resul
     Ok(())
 }
 
+/// `[[a, b], [c, d]]`
+fn rows_of(matrix: Matrix) -> toml::Value {
+    // Through text, so that 0.1 is written as 0.1.
+    let number = |n: f32| toml::Value::Float(n.to_string().parse().unwrap_or(0.0));
+    toml::Value::Array(matrix.0.map(|row| toml::Value::Array(row.map(number).to_vec())).to_vec())
+}
+
+/// The numbers of a matrix that stands as `[[a, b], [c, d]]`.
+fn matrix(rows: &DeArray<'_>) -> Option<Matrix> {
+    let mut numbers = Vec::new();
+    for row in rows {
+        let DeValue::Array(row) = row.get_ref() else { return None };
+        if row.len() != 2 {
+            return None;
+        }
+        for number in row {
+            numbers.push(match number.get_ref() {
+                DeValue::Integer(i) => i.as_str().parse().ok()?,
+                DeValue::Float(f) => f.as_str().parse().ok()?,
+                _ => return None,
+            });
+        }
+    }
+    Some(Matrix::of_numbers(numbers.try_into().ok()?))
+}
+
 type Found = (String, usize, Result<Value, StyleError>);
 
 fn collect(table: &DeTable<'_>, prefix: &str, out: &mut Vec<Found>) {
@@ -82,7 +109,7 @@ fn collect(table: &DeTable<'_>, prefix: &str, out: &mut Vec<Found>) {
 fn scalar(key: &str, value: &Spanned<DeValue<'_>>) -> Result<Value, StyleError> {
     let wrong = |found: &str| StyleError::WrongType {
         key: key.to_owned(),
-        expected: "a switch, a number or a text".to_owned(),
+        expected: "a switch, a number, a text or a matrix as [[a, b], [c, d]]".to_owned(),
         found: found.to_owned(),
     };
     match value.get_ref() {
@@ -94,7 +121,7 @@ fn scalar(key: &str, value: &Spanned<DeValue<'_>>) -> Result<Value, StyleError> 
             f.as_str().parse().map(Value::Number).map_err(|_malformed| wrong("a malformed number"))
         }
         DeValue::String(s) => Ok(Value::from(s.as_ref())),
-        DeValue::Array(_) => Err(wrong("an array")),
+        DeValue::Array(rows) => matrix(rows).map(Value::Matrix).ok_or_else(|| wrong("another array")),
         _ => Err(wrong("something else")),
     }
 }

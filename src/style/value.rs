@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use super::Matrix;
+
 /// The word that gives a parameter back to what it inherits from.
 const INHERIT: &str = "inherit";
 
@@ -12,6 +14,8 @@ pub enum Value {
     Bool(bool),
     /// Of a number.
     Number(f64),
+    /// Of a matrix.
+    Matrix(Matrix),
     /// Of a colour or a choice.
     Text(String),
     /// No value of its own, written `inherit`: the value of the parameter that it inherits from.
@@ -23,6 +27,7 @@ impl fmt::Display for Value {
         match self {
             Self::Bool(b) => b.fmt(f),
             Self::Number(n) => n.fmt(f),
+            Self::Matrix(m) => m.fmt(f),
             Self::Text(t) => f.write_str(t),
             Self::Inherit => f.write_str(INHERIT),
         }
@@ -42,7 +47,11 @@ impl Value {
         match text {
             "true" | "on" => Self::Bool(true),
             "false" | "off" => Self::Bool(false),
-            _ => text.parse().map_or_else(|_not_a_number| Self::from(text), Self::Number),
+            _ => match (text.parse(), text.parse()) {
+                (Ok(number), _) => Self::Number(number),
+                (_, Ok(matrix)) => Self::Matrix(matrix),
+                _ => Self::from(text),
+            },
         }
     }
 
@@ -51,6 +60,7 @@ impl Value {
         match self {
             Self::Bool(b) => format!("the switch `{b}`"),
             Self::Number(n) => format!("the number {n}"),
+            Self::Matrix(m) => format!("the matrix {m}"),
             Self::Text(t) => format!("the text `{t}`"),
             Self::Inherit => format!("`{INHERIT}`, for it inherits from nothing"),
         }
@@ -63,7 +73,10 @@ mod tests {
 
     #[test]
     fn what_is_written_is_read_back() {
-        for value in [Value::Bool(true), Value::Number(0.1), Value::Text("c1".to_owned()), Value::Inherit] {
+        let matrix = Value::Matrix(Matrix([[1.0, 0.5], [-0.5, 0.1]]));
+        for value in
+            [Value::Bool(true), Value::Number(0.1), matrix, Value::Text("c1".to_owned()), Value::Inherit]
+        {
             assert_eq!(Value::parse(&value.to_string()), value);
         }
         assert_eq!(Value::parse("off"), Value::Bool(false));

@@ -6,6 +6,7 @@ pub mod help;
 pub mod icons;
 pub mod leave;
 pub mod light;
+mod matrix;
 pub mod menu;
 pub mod outliner;
 pub mod params;

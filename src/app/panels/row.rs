@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use eframe::egui::{Color32, RichText, Ui, WidgetText};
 
 use super::icons;
+use super::matrix::matrix_ui;
 use crate::style::Value;
 use crate::style::param::{Param, Place, Slot};
 
@@ -290,6 +291,7 @@ fn slot_ui(ui: &mut Ui, param: &mut Param<'_>, label: egui::Id, help: &str) -> b
             **place = value.round() as u32;
         }
         Slot::File(file) => return file_ui(ui, file, label, help),
+        Slot::Matrix { value, most } => matrix_ui(ui, value, *most, label, help),
         Slot::Color(place) => {
             let mut color = place.get();
             let button = ui.color_edit_button_srgb(&mut color.0);
