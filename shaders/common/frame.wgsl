@@ -48,9 +48,20 @@ struct Frame {
 
 // The point that a pixel of this linear depth shows, in view space.
 fn pos_view_of(px: vec2<i32>, depth: f32) -> vec3<f32> {
-    let ndc = (vec2<f32>(px) + 0.5 - frame.jitter) / frame.size * vec2(2.0, -2.0) + vec2(-1.0, 1.0);
+    return pos_view_at(vec2<f32>(px) + 0.5, depth);
+}
+
+// The same of a place in the picture, px.
+fn pos_view_at(at: vec2<f32>, depth: f32) -> vec3<f32> {
+    let ndc = (at - frame.jitter) / frame.size * vec2(2.0, -2.0) + vec2(-1.0, 1.0);
     let scale = select(depth, 1.0, frame.orthographic == 1u);
     return vec3(ndc * frame.half_extent * scale, -depth);
+}
+
+// Where a depth lies in the range of the enhanced objects: 0 near, 1 far.
+fn range_share(depth: f32) -> f32 {
+    let range = frame.depth_range;
+    return clamp((depth - range.x) / max(range.y - range.x, 1e-20), 0.0, 1.0);
 }
 
 // Unit vector from a point in view space towards the eye.

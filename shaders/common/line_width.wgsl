@@ -33,12 +33,6 @@ fn noise3(p: vec3<f32>) -> f32 {
     return mix(mix(x00, x10, u.y), mix(x01, x11, u.y), u.z);
 }
 
-// Where a depth lies in the range of the enhanced objects: 0 near, 1 far.
-fn range_share(depth: f32) -> f32 {
-    let range = frame.depth_range;
-    return clamp((depth - range.x) / max(range.y - range.x, 1e-20), 0.0, 1.0);
-}
-
 // Half the width in px at a point of a surface with this normal.
 fn half_width(object: u32, class_of: u32, pos_view: vec3<f32>, normal: vec3<f32>) -> f32 {
     let full = edge_styles[object].lines[class_of - 1u].width;

@@ -61,8 +61,12 @@ fn no_line() -> Line {
     return Line(vec4(0.0), 0.0, false, 0.0);
 }
 
-// The line of the pixel of the edge map that was found, as far as surface `g` does not hide it.
-fn line_at(px: vec2<i32>, g: Surfel, found: u32) -> Line {
+// Factor of all widths.
+var<private> width_factor: f32 = 1.0;
+
+// The line of the pixel of the edge map that was found, at a place in the picture, as far as surface `g` of the pixel there does
+// not hide it.
+fn line_at(at: vec2<f32>, g: Surfel, found: u32) -> Line {
     if found == 0u {
         return no_line();
     }
@@ -70,7 +74,7 @@ fn line_at(px: vec2<i32>, g: Surfel, found: u32) -> Line {
     let edge = unpack_edge(textureLoad(edge_map_tex, from_px));
     let spine = vec2<f32>(from_px) + 0.5 + edge.offset;
     let index = edge.class_of - 1u;
-    let d = vec2<f32>(px) + 0.5 - spine;
+    let d = at - spine;
     let tangent = unpack_tangent(edge.tangent);
     let left = vec2(tangent.y, -tangent.x);
     let along = dot(d, tangent);
@@ -79,17 +83,18 @@ fn line_at(px: vec2<i32>, g: Surfel, found: u32) -> Line {
     let away = left * dot(d, left) + tangent * past;
     let distance = length(away);
     let normal = select(left, away / distance, distance > 1e-4);
-    var low = -edge.half_width;
-    var high = edge.half_width;
-    var at = distance;
+    let half_width = edge.half_width * width_factor;
+    var low = -half_width;
+    var high = half_width;
+    var across = distance;
     if edge_styles[edge.object].alignment != 0u {
         // All of the width on one side of the spine.
         let outwards = select(-1.0, 1.0, edge_styles[edge.object].alignment == 1u) * edge.outside;
-        at = distance * select(-1.0, 1.0, dot(away, left) * outwards >= 0.0);
+        across = distance * select(-1.0, 1.0, dot(away, left) * outwards >= 0.0);
         low = 0.0;
-        high = 2.0 * edge.half_width;
+        high = 2.0 * half_width;
     }
-    var coverage = strip_share(at, low, high, normal);
+    var coverage = strip_share(across, low, high, normal);
     if WITH_DASHES && edge_styles[edge.object].lines[index].dashed == 1u {
         let period = edge_styles[edge.object].dash_period;
         let ink = edge_styles[edge.object].dash_share * period;
@@ -100,7 +105,7 @@ fn line_at(px: vec2<i32>, g: Surfel, found: u32) -> Line {
     }
     let strength = edge_styles[edge.object].lines[index].strength * edge.weight;
     coverage *= strength;
-    if coverage <= 0.0 || is_hidden(g, px, edge, spine) {
+    if coverage <= 0.0 || is_hidden(g, vec2<i32>(floor(at)), edge, spine) {
         return Line(vec4(0.0), edge.depth, coverage > 0.0, 0.0);
     }
     var color = edge_styles[edge.object].lines[index].color;
@@ -115,7 +120,8 @@ fn line_at(px: vec2<i32>, g: Surfel, found: u32) -> Line {
 }
 
 // A hidden line may have won against one that is not: of the lines of the pixels around, the one that covers most.
-fn line_around(px: vec2<i32>, g: Surfel, hidden: u32) -> Line {
+fn line_around(at: vec2<f32>, g: Surfel, hidden: u32) -> Line {
+    let px = vec2<i32>(floor(at));
     let last = vec2<i32>(frame.size) - 1;
     var best = no_line();
     var tried = hidden;
@@ -124,7 +130,7 @@ fn line_around(px: vec2<i32>, g: Surfel, hidden: u32) -> Line {
             let q = clamp(px + reach * (vec2(i % 3, i / 3) - 1), vec2(0), last);
             let found = textureLoad(farthest_tex, q, 0).x;
             if found != tried && found != hidden {
-                let line = line_at(px, g, found);
+                let line = line_at(at, g, found);
                 if line.ink.a > best.ink.a {
                     best = line;
                 }
@@ -209,18 +215,24 @@ fn fs_reached(@builtin(position) position: vec4<f32>) {
 
 // What a pixel has of lines, as far as surface `g` does not hide them.
 fn lines_at(px: vec2<i32>, g: Surfel) -> Line {
+    return lines_at_place(vec2<f32>(px) + 0.5, g);
+}
+
+// The same of a place in the picture; `g`: of the pixel there.
+fn lines_at_place(at: vec2<f32>, g: Surfel) -> Line {
+    let px = vec2<i32>(floor(at));
     var lines = no_line();
     if WITH_EXACT {
         let farthest = farthest_at(px);
-        lines = line_at(px, g, farthest);
+        lines = line_at(at, g, farthest);
         if !NARROW && lines.is_hidden {
-            lines = line_around(px, g, farthest);
+            lines = line_around(at, g, farthest);
         }
         if WITH_WIDTHS {
             // A thin line inside a wide one is the nearer one.
             let nearest = textureLoad(nearest_tex, px).x;
             if nearest != farthest {
-                let thin = line_at(px, g, nearest);
+                let thin = line_at(at, g, nearest);
                 let ink = thin.ink * apart(nearest, farthest);
                 let strength = select(lines.strength, thin.strength, ink.a > 0.0);
                 lines = Line(over(ink, lines.ink), select(lines.depth, thin.depth, ink.a > 0.0), false, strength);

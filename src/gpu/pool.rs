@@ -91,10 +91,11 @@ impl TargetPool {
 fn usage(format: wgpu::TextureFormat) -> wgpu::TextureUsages {
     let usage = wgpu::TextureUsages::RENDER_ATTACHMENT
         | wgpu::TextureUsages::TEXTURE_BINDING
-        | wgpu::TextureUsages::COPY_SRC;
+        | wgpu::TextureUsages::COPY_SRC
+        | wgpu::TextureUsages::COPY_DST;
     match format {
         wgpu::TextureFormat::R32Uint => {
-            usage | wgpu::TextureUsages::STORAGE_BINDING | wgpu::TextureUsages::COPY_DST
+            usage | wgpu::TextureUsages::STORAGE_BINDING
         }
         wgpu::TextureFormat::Rg32Uint | wgpu::TextureFormat::Rgba32Uint => {
             usage | wgpu::TextureUsages::STORAGE_BINDING

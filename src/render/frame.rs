@@ -156,8 +156,9 @@ impl FrameState {
         eye: &DrawingInputs<'_>,
     ) -> Result<Vec<ShadowMap>, RenderError> {
         let objects = eye.objects;
-        let fitted_to = objects.mirrors.is_empty().then_some(&objects.surfaces);
-        let groups = [&objects.surfaces, &objects.blended];
+        let opaque = objects.opaque();
+        let fitted_to = objects.mirrors.is_empty().then_some(opaque.as_slice());
+        let groups = [&opaque[..], &[&objects.blended]].concat();
         self.shadow_maps.run(rec, &eye.seen, &groups, fitted_to, &self.shared.gbuffer.material_layout)
     }
 }

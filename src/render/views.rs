@@ -4,7 +4,7 @@ use glam::Vec2;
 
 use super::base::error::RenderError;
 use super::base::stage::{Output, Stage};
-use super::drawing::{Drawing, DrawingInputs, Shared, Surfaces};
+use super::drawing::{Drawing, DrawingInputs, Seen, Shared};
 use super::effects::layered::{Layered, LayeredGroup, Visit, Wanted, WantedLines};
 use super::passes::front::Front;
 use super::passes::gbuffer::GBuffer;
@@ -85,12 +85,12 @@ impl Views {
         view: View,
     ) -> Result<Viewed, RenderError> {
         drawing.forget_picture();
-        let surfaces = drawing.draw_surfaces(rec, shared, inputs)?;
-        let edges = drawing.find_edges(rec, inputs, &surfaces)?;
+        let seen = drawing.draw_surfaces(rec, shared, inputs)?;
+        let edges = drawing.find_edges(rec, inputs, &seen)?;
         rec.note("edge map", Some(&edges.value.edges));
-        let visible = &surfaces.gbuffer;
+        let visible = &seen.surfaces.gbuffer;
         let deeper = if view.layer > 1 {
-            Some(self.layer(rec, shared, inputs, &surfaces, view.layer)?)
+            Some(self.layer(rec, shared, inputs, &seen, view.layer)?)
         } else {
             self.layer.clear();
             None
@@ -101,7 +101,7 @@ impl Views {
         };
         let operators = match view.show {
             Show::NormalOperator | Show::DepthOperator | Show::C1Operator => {
-                let key = (revision, view.layer, surfaces.depth_range);
+                let key = (revision, view.layer, seen.uniform.depth_range());
                 Some(self.operators.run(key, |_| operators(rec, gbuffer, drawing.edge_styles()))?)
             }
             _ => {
@@ -131,12 +131,12 @@ impl Views {
         rec: &mut Recorder<'_>,
         shared: &mut Shared,
         inputs: &DrawingInputs<'_>,
-        surfaces: &Surfaces,
+        seen: &Seen,
         number: u32,
     ) -> Result<Output<(GBuffer, Target)>, RenderError> {
         let mut group = inputs.objects.surfaces.clone();
         group.shows_hidden = true;
-        let key = LayeredGroup::new(rec, &inputs.seen, &surfaces.uniform, group);
+        let key = LayeredGroup::new(rec, &inputs.seen, &seen.uniform, group);
         let Self { layered, layer, .. } = self;
         layer.run((key, number), |(key, _)| {
             let wanted = Wanted {

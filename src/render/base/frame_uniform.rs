@@ -351,6 +351,11 @@ impl FrameUniform {
 }
 
 impl FrameUniform {
+    /// Linear depth of the nearest and farthest point of the enhanced objects.
+    pub fn depth_range(&self) -> Vec2 {
+        self.depth_range
+    }
+
     /// The same with the paper left out: what shading depends on.
     #[must_use]
     pub fn without_background(&self) -> Self {

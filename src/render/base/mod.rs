@@ -10,6 +10,8 @@ pub mod ids;
 pub mod instances;
 pub mod light_view;
 pub mod lights;
+pub mod noise;
+pub mod object_axes;
 pub mod sample;
 pub mod scale_bar;
 pub mod scene_view;

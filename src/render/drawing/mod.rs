@@ -5,35 +5,25 @@ pub mod objects;
 mod reflections;
 mod stages;
 
-use std::sync::Arc;
-
-use glam::Vec2;
-
 use self::objects::Objects;
 use self::reflections::Reflection;
-use self::stages::{ColorKey, EdgeKey, GeometryKey, InkKey, SegmentsKey};
-use crate::geometry::{EdgeClass, LineSegment};
-use crate::gpu::{ArrayBuffer, Gpu, Recorder, Target, UniformBuffer};
-use crate::render::base::edge_style::EdgeUniform;
+use self::stages::{ColorKey, TogetherKey};
+use crate::gpu::{Gpu, Recorder, Target, UniformBuffer};
 use crate::render::base::error::RenderError;
-use crate::render::base::feature_lines::feature_lines;
 use crate::render::base::frame_uniform::FrameUniform;
-use crate::render::base::instances::Instances;
 use crate::render::base::scene_view::SceneView;
 use crate::render::base::stage::{Output, Stage};
-use crate::render::effects::hidden::HiddenLines;
+use crate::render::effects::opaque::{OpaqueInputs, OpaqueLayer, Surfaces};
+use crate::render::effects::sketch::{SharedSketches, SketchState};
 use crate::render::effects::surface::Shading;
 use crate::render::effects::techniques::SharedTechniques;
 use crate::render::effects::translucent::TranslucentState;
 use crate::render::passes::depth_mask::DepthMaskPass;
-use crate::render::passes::edge_map::{EdgeInputs, EdgeMap, edge_map};
+use crate::render::passes::edge_map::EdgeMap;
 use crate::render::passes::front::Front;
-use crate::render::passes::gbuffer::GBuffer;
 use crate::render::passes::layers::{LayersBy, Reported};
-use crate::render::passes::line_distance::Reach;
 use crate::render::passes::peeled::Peeled;
-use crate::render::passes::segments::Segments;
-use crate::render::passes::shadows::{ShadowMap, ShadowMask};
+use crate::render::passes::shadows::ShadowMap;
 use crate::render::passes::traversal::GBufferPass;
 use crate::style::Style;
 
@@ -50,16 +40,12 @@ pub struct DrawingInputs<'a> {
     pub reflections: u32,
 }
 
-/// The opaque surfaces of a drawing: a group of one layer.
-pub struct Surfaces {
+/// The opaque surfaces of a drawing that lie in their place.
+pub struct Seen {
     /// All that is in bind group 0.
     pub uniform: FrameUniform,
-    /// Linear depth range of the enhanced objects.
-    pub depth_range: Vec2,
-    /// Per-pixel geometry.
-    pub gbuffer: Output<GBuffer>,
-    /// See [`ShadowMask`]; `None` when no light throws shadows.
-    pub shadow_mask: Option<Output<Target>>,
+    /// The surfaces.
+    pub surfaces: Surfaces,
 }
 
 /// A drawing, drawn.
@@ -75,12 +61,17 @@ pub struct Shared {
     /// Pipelines of the geometry.
     pub gbuffer: GBufferPass,
     techniques: SharedTechniques,
+    sketches: SharedSketches,
 }
 
 impl Shared {
     /// Compiles and uploads nothing yet.
     pub fn new(gpu: &Gpu) -> Self {
-        Self { gbuffer: GBufferPass::new(gpu), techniques: SharedTechniques::new(gpu) }
+        Self {
+            gbuffer: GBufferPass::new(gpu),
+            techniques: SharedTechniques::new(gpu),
+            sketches: SharedSketches::new(gpu),
+        }
     }
 }
 
@@ -88,23 +79,14 @@ impl Shared {
 pub struct Drawing {
     uniform: UniformBuffer<FrameUniform>,
     frame_group: wgpu::BindGroup,
-    draws: Instances,
-    placed_segments: Segments,
-    greatest_radius: ArrayBuffer,
-    edge_styles: ArrayBuffer,
-    gbuffer: Stage<GeometryKey, GBuffer>,
-    segments: Stage<SegmentsKey, Arc<Vec<LineSegment>>>,
-    edge_map: Stage<EdgeKey, EdgeMap>,
-    reach: Stage<u64, Reach>,
-    ink: Stage<InkKey, Target>,
-    shadow_mask: ShadowMask,
+    surfaces: OpaqueLayer,
+    sketches: Vec<SketchState>,
     shading: Shading,
     color: Stage<ColorKey, Target>,
+    together: Stage<TogetherKey, Target>,
     depth_mask: DepthMaskPass,
     /// `None` while nothing is seen through.
     translucent: Option<TranslucentState>,
-    /// `None` while no object has any.
-    hidden: Option<HiddenLines>,
     reflections: Vec<Reflection>,
     /// How often layers of blueprints were drawn that are gone.
     blueprinted: u64,
@@ -130,21 +112,13 @@ impl Drawing {
         Self {
             uniform,
             frame_group,
-            draws: Instances::new(gpu),
-            placed_segments: Segments::new(gpu),
-            greatest_radius: ArrayBuffer::new(gpu, "greatest radius"),
-            edge_styles: ArrayBuffer::new(gpu, "edge styles"),
-            gbuffer: Stage::default(),
-            segments: Stage::default(),
-            edge_map: Stage::default(),
-            reach: Stage::default(),
-            ink: Stage::default(),
-            shadow_mask: ShadowMask::new(gpu),
+            surfaces: OpaqueLayer::new(gpu),
+            sketches: Vec::new(),
             shading: Shading::new(gpu),
             color: Stage::default(),
+            together: Stage::default(),
             depth_mask: DepthMaskPass::new(gpu),
             translucent: None,
-            hidden: None,
             reflections: Vec::new(),
             blueprinted: 0,
             reflected: 0,
@@ -158,22 +132,19 @@ impl Drawing {
 
     /// Edge styles by object id on the device.
     pub fn edge_styles(&self) -> &wgpu::Buffer {
-        self.edge_styles.buffer()
+        self.surfaces.edge_styles()
     }
 
     /// How often each stage has run, by name.
     pub fn runs(&self) -> Vec<(&'static str, u64)> {
         let blueprints = self.translucent.as_ref().map_or(0, TranslucentState::blueprint_runs);
-        let mut runs = vec![
-            ("g-buffer", self.gbuffer.runs()),
-            ("edge map", self.edge_map.runs()),
-            ("line distance", self.reach.runs()),
-            ("shadow", self.shadow_mask.runs()),
+        let mut runs = self.surfaces.runs().to_vec();
+        runs.extend([
             ("surface", self.color.runs()),
-            ("hidden lines", self.hidden.as_ref().map_or(0, HiddenLines::runs)),
             ("blueprint", self.blueprinted + blueprints),
             ("mirror", self.reflected),
-        ];
+            ("sketch", self.sketches.iter().map(SketchState::runs).sum()),
+        ]);
         runs.extend(self.shading.runs());
         runs
     }
@@ -182,9 +153,10 @@ impl Drawing {
     /// Never waits.
     pub fn take_reports(&mut self) -> Reported {
         let reflected = self.reflections.iter_mut().map(|r| r.drawing.take_reports());
-        let hidden = self.hidden.iter_mut().map(HiddenLines::take_reports);
+        let opaque =
+            self.sketches.iter_mut().map(SketchState::take_reports).chain([self.surfaces.take_reports()]);
         let translucent = self.translucent.iter_mut().map(TranslucentState::take_reports);
-        translucent.chain(hidden).chain(reflected).max().unwrap_or(Reported::Complete)
+        translucent.chain(opaque).chain(reflected).max().unwrap_or(Reported::Complete)
     }
 
     /// How far peeling came in each blueprint. Waits for the device.
@@ -216,16 +188,16 @@ impl Drawing {
         shared: &mut Shared,
         inputs: &DrawingInputs<'_>,
     ) -> Result<Drawn, RenderError> {
-        let surfaces = self.draw_surfaces(rec, shared, inputs)?;
+        let seen = self.draw_surfaces(rec, shared, inputs)?;
         let edges = match inputs.objects.surfaces.have_lines() {
-            true => Some(self.find_edges(rec, inputs, &surfaces)?),
+            true => Some(self.find_edges(rec, inputs, &seen)?),
             false => {
-                self.edge_map.clear();
+                self.surfaces.forget_edges();
                 None
             }
         };
         rec.note("edge map", edges.as_ref().map(|edges| &edges.value.edges));
-        self.compose(rec, shared, inputs, &surfaces, edges.as_ref())
+        self.compose(rec, shared, inputs, &seen, edges.as_ref())
     }
 
     /// Draws the opaque surfaces and the shadows on them; all later passes see through this camera.
@@ -237,28 +209,25 @@ impl Drawing {
         rec: &mut Recorder<'_>,
         shared: &mut Shared,
         inputs: &DrawingInputs<'_>,
-    ) -> Result<Surfaces, RenderError> {
-        let DrawingInputs { seen, objects, shadow_maps, .. } = *inputs;
+    ) -> Result<Seen, RenderError> {
+        let DrawingInputs { seen, objects, .. } = *inputs;
         let SceneView { scene, view, .. } = seen;
         let depth_range = view.fitted_depth_range(objects.enhanced_boxes(scene));
         let uniform = FrameUniform::new(view, seen.sample, depth_range, seen.lights, seen.background);
         self.uniform.write(rec.gpu, &uniform);
         self.look_through(rec, &seen);
-        self.edge_styles.write(rec.gpu, &objects.surfaces.edge_styles);
-        let (draws, calls) = objects.surfaces.draws(scene, view);
-        let key = GeometryKey::new(rec, &seen, draws, calls);
-        let gbuffer = self.gbuffer.run(key, |GeometryKey { draws, calls, .. }| {
-            shared.gbuffer.run(rec, scene, &mut self.draws, (draws, calls), view.has_cuts(), None)
-        })?;
-        let shadow_mask = self.shadow_mask.run(rec, &gbuffer, &seen, shadow_maps)?;
-        let GBuffer { geometry, region, base_color, depth } = &gbuffer.value;
-        for (name, target) in
-            [("geometry", geometry), ("regions", region), ("base color", base_color), ("depth", depth)]
-        {
+        let surfaces = self.surfaces.surfaces(rec, &mut shared.gbuffer, &surfaces_of(inputs, &uniform))?;
+        let gbuffer = &surfaces.gbuffer.value;
+        for (name, target) in [
+            ("geometry", &gbuffer.geometry),
+            ("regions", &gbuffer.region),
+            ("base color", &gbuffer.base_color),
+            ("depth", &gbuffer.depth),
+        ] {
             rec.note(name, Some(target));
         }
-        rec.note("shadow mask", shadow_mask.as_ref().map(|mask| &mask.value));
-        Ok(Surfaces { uniform, depth_range, gbuffer, shadow_mask })
+        rec.note("shadow mask", surfaces.shadow_mask.as_ref().map(|mask| &mask.value));
+        Ok(Seen { uniform, surfaces })
     }
 
     fn look_through(&self, rec: &mut Recorder<'_>, seen: &SceneView<'_>) {
@@ -274,63 +243,26 @@ impl Drawing {
         &mut self,
         rec: &mut Recorder<'_>,
         inputs: &DrawingInputs<'_>,
-        surfaces: &Surfaces,
+        seen: &Seen,
     ) -> Result<Output<EdgeMap>, RenderError> {
-        let DrawingInputs { seen, objects, .. } = *inputs;
-        let group = &objects.surfaces;
-        let styles: Vec<_> = group.edge_styles.iter().map(EdgeUniform::for_finding).collect();
-        // Only widths that follow the light depend on more than the geometry.
-        let light = styles.iter().any(|s| s.by_light > 0.0).then(|| surfaces.uniform.without_background());
-        // Which edges are lines does not change from sample to sample.
-        let view = seen.view.moved(Vec2::ZERO);
-        let key = SegmentsKey {
-            scene_revision: seen.scene_revision,
-            view,
-            styles: styles.clone(),
-            crease_angle: seen.crease_angle,
-        };
-        let segments = self.segments.run(key, |_| {
-            Ok::<_, RenderError>(Arc::new(feature_lines(seen.scene, group, &view, seen.crease_angle)))
-        })?;
-        let has_borders = styles.iter().any(|s| s.draws(EdgeClass::Shadow));
-        let shadow_mask = surfaces.shadow_mask.as_ref().filter(|_| has_borders);
-        let key = EdgeKey {
-            gbuffer: surfaces.gbuffer.revision,
-            shadows: shadow_mask.map(|mask| mask.revision),
-            styles,
-            depth_range: surfaces.depth_range,
-            light,
-        };
-        self.edge_map.run(key, |EdgeKey { styles, .. }| {
-            self.placed_segments.write(rec, &segments.value, false)?;
-            edge_map(
-                rec,
-                &EdgeInputs {
-                    gbuffer: &surfaces.gbuffer.value,
-                    styles,
-                    edge_styles: self.edge_styles.buffer(),
-                    is_whole: true,
-                    seen: None,
-                    marked: None,
-                    segments: &self.placed_segments,
-                    has_holes: group.has_holes,
-                    is_cut: view.cut.is_some(),
-                    before: None,
-                    shadow_mask: shadow_mask.map(|mask| &mask.value),
-                },
-            )
-        })
+        self.surfaces.edges(rec, &surfaces_of(inputs, &seen.uniform), &seen.surfaces)
     }
 
     /// Lets go of what only a picture needs.
     pub fn forget_picture(&mut self) {
-        self.reach.clear();
-        self.ink.clear();
+        self.surfaces.forget_picture();
+        self.sketches.clear();
         self.color.clear();
+        self.together.clear();
         self.depth_mask.forget();
         self.blueprinted += self.translucent.as_ref().map_or(0, TranslucentState::blueprint_runs);
         self.translucent = None;
-        self.hidden = None;
         self.reflections.clear();
     }
+}
+
+/// The opaque surfaces that lie in their place, as a camera sees them.
+fn surfaces_of<'a>(inputs: &DrawingInputs<'a>, uniform: &'a FrameUniform) -> OpaqueInputs<'a> {
+    let DrawingInputs { seen, objects, shadow_maps, .. } = *inputs;
+    OpaqueInputs { seen, group: &objects.surfaces, uniform, shadow_maps }
 }

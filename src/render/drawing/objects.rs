@@ -12,6 +12,7 @@ use crate::render::base::style_images::StyleImages;
 use crate::render::effects::blueprint::Blueprint;
 use crate::render::effects::hidden::Hidden;
 use crate::render::effects::mirror::Mirror;
+use crate::render::effects::sketch::Sketch;
 use crate::render::effects::surface::SurfaceStyles;
 use crate::render::effects::technique::Styled;
 use crate::scene::AlphaMode;
@@ -26,6 +27,8 @@ pub struct Objects {
     pub masks: Group,
     /// Their hidden lines.
     pub hidden: Hidden,
+    /// Objects of the same techniques that are drawn as by hand, together where that is equal; they hide what lies behind them.
+    pub sketches: Vec<Sketch>,
     /// Parts of the same techniques through which something shows.
     pub blended: Group,
     /// The others, together where their style is equal.
@@ -57,8 +60,11 @@ impl Objects {
             // A look at a buffer is one at that of surfaces, which every object then is.
             let has_layers = r.style.technique == Technique::Blueprint && document.view.show == Show::Picture;
             let is_blueprint = has_layers && !r.mask;
+            let is_sketch =
+                document.view.show == Show::Picture && !has_layers && !r.mirror && Sketch::moves(r.style);
             // Mirrors and masks show and hide as a whole.
-            let blends = document.view.show == Show::Picture && !has_layers && !r.mask && !r.mirror;
+            let blends =
+                document.view.show == Show::Picture && !has_layers && !r.mask && !r.mirror && !is_sketch;
             let is_blended = |alpha: AlphaMode| blends && alpha == AlphaMode::Blend;
             let has_blended = scene.alphas(node).any(is_blended);
             let is_opaque = !has_blended || !scene.alphas(node).all(is_blended);
@@ -75,6 +81,14 @@ impl Objects {
             if is_blueprint {
                 let group = Blueprint::group_of(&mut objects.blueprints, r.style, count);
                 group.add(whole, edges, scene);
+            } else if is_sketch {
+                let sketch = Sketch::group_of(&mut objects.sketches, r.style, count, (images, scale));
+                sketch.group.add(whole, edges, scene);
+                sketch.add_alphas(scene.alphas(node));
+                if r.enhanced {
+                    let style = possible(EdgeUniform::hidden(&r.style.edges, scale));
+                    sketch.hidden.add((count, id), style, &r.style.edges.hidden);
+                }
             } else if is_opaque {
                 let parts = if has_blended { Parts::Opaque } else { Parts::All };
                 objects.surfaces.add(Visible { parts, ..whole }, edges, scene);
@@ -104,12 +118,21 @@ impl Objects {
 
     /// All visible objects.
     fn groups(&self) -> impl Iterator<Item = &Group> {
-        [&self.surfaces, &self.blended].into_iter().chain(self.blueprints.iter().map(|b| &b.group))
+        let sketches = self.sketches.iter().map(|s| &s.group);
+        let blueprints = self.blueprints.iter().map(|b| &b.group);
+        [&self.surfaces, &self.blended].into_iter().chain(sketches).chain(blueprints)
+    }
+
+    /// The groups that hide what lies behind them.
+    pub fn opaque(&self) -> Vec<&Group> {
+        std::iter::once(&self.surfaces).chain(self.sketches.iter().map(|s| &s.group)).collect()
     }
 
     /// Greatest distance from its spine at which a line has ink, px.
     pub fn greatest_radius(&self) -> f32 {
-        self.groups().map(Group::greatest_radius).fold(self.hidden.greatest_radius(), f32::max)
+        let sketches = self.sketches.iter().map(Sketch::greatest_radius);
+        let groups = self.groups().map(Group::greatest_radius);
+        groups.chain(sketches).fold(self.hidden.greatest_radius(), f32::max)
     }
 
     /// The boxes of the enhanced objects, each in its own space, and where that lies.

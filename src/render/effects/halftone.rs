@@ -17,6 +17,7 @@ use crate::render::base::frame_uniform::View;
 use crate::render::base::gpu_scene::{GpuScene, Origin};
 use crate::render::base::ids::node_of;
 use crate::render::base::instances::DrawCall;
+use crate::render::base::object_axes::ObjectAxes;
 use crate::render::base::stage::Stage;
 use crate::render::base::style_images::StyleImages;
 use crate::render::passes::coordinates::CoordinatesPass;
@@ -131,18 +132,11 @@ impl Halftones {
     }
 }
 
-/// From view space to the axes of an object, about the middle of its box, of which the diagonal becomes 1. In double
-/// precision up to there, so that patterns keep their digits wherever the object is.
+/// From view space to the axes of an object, of which the diagonal becomes 1. In double precision up to there, so that patterns
+/// keep their digits wherever the object is.
 fn pattern_from_view(scene: &GpuScene, id: usize, view: &View) -> Option<Mat4> {
-    let node = scene.scene.nodes.get(id.checked_sub(1)?)?;
-    let bounds = scene.mesh_bounds(node.mesh?);
-    let linear = [node.world_from_local.x_axis, node.world_from_local.y_axis, node.world_from_local.z_axis];
-    // As large as in the world, so that a stretched object has no stretched pattern.
-    let size = DVec3::from_array(linear.map(|axis| axis.truncate().length()));
-    let diagonal = (size * (bounds.max - bounds.min)).length();
-    let scale = (diagonal > 0.0 && diagonal.is_finite()).then(|| size / diagonal)?;
-    let local_from_view = (view.view_from_world * node.world_from_local).inverse();
-    let pattern = DMat4::from_scale(scale) * DMat4::from_translation(-bounds.center()) * local_from_view;
+    let axes = ObjectAxes::of(scene, id as u32, view)?;
+    let pattern = DMat4::from_scale(DVec3::splat(axes.diagonal.recip())) * axes.from_view;
     pattern.is_finite().then(|| pattern.as_mat4())
 }
 

@@ -2,6 +2,7 @@
 //!
 //! ```text
 //! nearest:  surfaces with their lines ─► geometry (object, depth, plane), ink (colour, depth of its edge)
+//!           sketches: moved, each by its depth ─► the same
 //! beneath:  what is seen through      ─► tested against both, each layer by its own depth, among all groups
 //! front:    the nearest of all        ─► what a click means and what an outline is drawn around
 //! ```
@@ -10,8 +11,8 @@ use super::front::Front;
 use super::lines::{Lines, Pen, lines};
 use super::overlay::overlay;
 use crate::gpu::bindings::NOTHING;
-use crate::gpu::recorder::Onto;
-use crate::gpu::{Inputs, Recorder, Target, inputs};
+use crate::gpu::recorder::{Draw, Onto};
+use crate::gpu::{Inputs, Program, Recorder, Target, inputs};
 use crate::render::base::error::RenderError;
 use crate::render::base::stage::Output;
 
@@ -71,6 +72,29 @@ impl Composition {
             [only] if !self.has_surfaces => Some(&only.value.color),
             _ => None,
         }
+    }
+
+    /// Takes over what is opaque with something placed among it.
+    pub fn place_opaque(&mut self, surfaces: Output<Target>, ink: Option<Output<Target>>) {
+        *self =
+            Self { surfaces, has_surfaces: true, ink, translucent: std::mem::take(&mut self.translucent) };
+    }
+
+    /// Lays the ink of what is opaque over its colour.
+    ///
+    /// # Errors
+    /// [`RenderError`].
+    pub fn lay_ink(&self, rec: &mut Recorder<'_>, color: &Target) -> Result<(), RenderError> {
+        let Some(ink) = &self.ink else { return Ok(()) };
+        rec.draw(Draw {
+            label: "ink",
+            program: Program::new("passes/overlay.wgsl", "fs_ink"),
+            inputs: &inputs! { ink_tex: &ink.value },
+            outputs: &[color],
+            onto: Onto::Blended,
+            depth: None,
+        })?;
+        Ok(())
     }
 
     /// Lays what is seen through over what is opaque.

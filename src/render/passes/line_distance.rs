@@ -35,6 +35,21 @@ pub enum Reach {
     },
 }
 
+/// Finds the nearest spine of each pixel, as far as any is within `distance` (px); `radius` is room for what the device is told.
+/// The result is as [`Reach::Wide`] describes.
+///
+/// # Errors
+/// [`RenderError`].
+pub fn nearest_lines(
+    rec: &mut Recorder<'_>,
+    spines: &Target,
+    distance: f32,
+    radius: &mut ArrayBuffer,
+) -> Result<Target, RenderError> {
+    radius.write(rec.gpu, &vec![distance]);
+    transform(rec, spines, radius.buffer(), true)
+}
+
 /// Finds the lines that reach each pixel from where spines run; `radius` is room for what the device is told.
 ///
 /// # Errors
@@ -62,7 +77,7 @@ pub fn line_distance(
 }
 
 /// Whether two lines differ so much in width that the thin one can be seen inside the wide one.
-fn have_widths(styles: &[EdgeUniform]) -> bool {
+pub fn have_widths(styles: &[EdgeUniform]) -> bool {
     let widths = styles.iter().flat_map(|style| {
         let thinnest = if style.varies() { 0.1 } else { 1.0 };
         style.drawn().flat_map(move |(_, line)| [line.width, line.width * thinnest])

@@ -50,6 +50,39 @@ impl Pen<'_> {
     };
 }
 
+impl<'a> Lines<'a> {
+    /// What `passes/lines.wgsl` reads of them.
+    pub fn inputs(&self) -> Inputs<'a> {
+        let Lines { gbuffer, edge_map, reach, edge_styles, .. } = *self;
+        let (farthest, nearest) = match reach {
+            Some(Reach::Narrow { spines, near }) => (Some(spines), Some(near)),
+            Some(Reach::Wide { farthest, nearest }) => (Some(farthest), nearest.as_ref()),
+            None => (None, None),
+        };
+        inputs! {
+            geometry_tex: &gbuffer.geometry,
+            edge_map_tex: &edge_map.edges,
+            base_color_tex: &gbuffer.base_color,
+            farthest_tex: farthest,
+            nearest_tex: nearest,
+            edge_styles: edge_styles,
+        }
+    }
+
+    /// Its switches.
+    pub fn switches(&self) -> Vec<(&'static str, bool)> {
+        let any = |has: fn(&EdgeUniform) -> bool| self.styles.iter().any(has);
+        vec![
+            ("WITH_PAPER", any(EdgeUniform::is_paper)),
+            ("WITH_EXACT", self.reach.is_some()),
+            ("WITH_WIDTHS", matches!(self.reach, Some(Reach::Wide { nearest: Some(_), .. }))),
+            ("NARROW", matches!(self.reach, Some(Reach::Narrow { .. }))),
+            ("WITH_DASHES", any(|s| s.drawn().any(|(_, l)| l.dashed == 1))),
+            ("WITH_SURFACE_COLOR", any(EdgeUniform::takes_surface_color)),
+        ]
+    }
+}
+
 /// Draws lines onto `color` (linear, premultiplied).
 ///
 /// # Errors
@@ -60,35 +93,12 @@ pub fn lines(
     pen: &Pen<'_>,
     color: &Target,
 ) -> Result<(), RenderError> {
-    let Lines { gbuffer, edge_map, reach, styles, edge_styles } = *lines;
-    let (farthest, nearest) = match reach {
-        Some(Reach::Narrow { spines, near }) => (Some(spines), Some(near)),
-        Some(Reach::Wide { farthest, nearest }) => (Some(farthest), nearest.as_ref()),
-        None => (None, None),
-    };
-    let any = |has: fn(&EdgeUniform) -> bool| styles.iter().any(has);
-    let mut switches = vec![
-        ("WITH_PAPER", any(EdgeUniform::is_paper)),
-        ("WITH_EXACT", reach.is_some()),
-        ("WITH_WIDTHS", matches!(reach, Some(Reach::Wide { nearest: Some(_), .. }))),
-        ("NARROW", matches!(reach, Some(Reach::Narrow { .. }))),
-        ("WITH_DASHES", any(|s| s.drawn().any(|(_, l)| l.dashed == 1))),
-        ("WITH_SURFACE_COLOR", any(EdgeUniform::takes_surface_color)),
-    ];
-    let inputs = inputs! {
-        geometry_tex: &gbuffer.geometry,
-        edge_map_tex: &edge_map.edges,
-        base_color_tex: &gbuffer.base_color,
-        farthest_tex: farthest,
-        nearest_tex: nearest,
-        edge_styles: edge_styles,
-    };
     let reached = rec.target("reached by lines", wgpu::TextureFormat::Depth32Float)?;
-    switches.extend(pen.switches);
+    let switches = [&lines.switches()[..], pen.switches].concat();
     rec.draw(Draw {
         label: "lines",
         program: Program { file: pen.file, entry_point: pen.entry_point, switches },
-        inputs: &inputs.and(pen.inputs),
+        inputs: &lines.inputs().and(pen.inputs),
         outputs: &[color],
         onto: pen.onto,
         depth: Some((&reached, DepthRule::Marked("fs_reached"))),

@@ -64,7 +64,7 @@ impl ShadowMaps {
         rec: &mut Recorder<'_>,
         seen: &SceneView<'_>,
         groups: &[&Group],
-        fitted_to: Option<&Group>,
+        fitted_to: Option<&[&Group]>,
         material_layout: &wgpu::BindGroupLayout,
     ) -> Result<Vec<ShadowMap>, RenderError> {
         let SceneView { scene, scene_revision, lights, view, .. } = *seen;
@@ -72,8 +72,9 @@ impl ShadowMaps {
         let [width, height] = rec.size();
         let limit = rec.gpu.device.limits().max_texture_dimension_2d.min(MOST_TEXELS);
         let points = match fitted_to {
-            Some(group) => {
-                let depths = view.fitted_depth_range(group.boxes(scene));
+            Some(groups) => {
+                let boxes = groups.iter().flat_map(|group| group.boxes(scene));
+                let depths = view.fitted_depth_range(boxes);
                 view.moved(Vec2::ZERO).corners(depths).to_vec()
             }
             None => Vec::new(),

@@ -1,0 +1,444 @@
+// A sketch: lines and colours of a group of one layer, each fetched from beside where it goes, with the depth of what was fetched
+// (sketchy drawings paper, sections 3.2 to 3.4), rubbed onto rough paper.
+//
+// What is drawn at x comes from y = x + F(y), so that each point of a line moves as a whole and none is seen twice; where the
+// noise follows the picture from y = x + F(x), as in the paper.
+#import passes/lines.wgsl
+#import common/composition.wgsl
+
+// Twin: `PassUniform` in src/render/effects/sketch.rs.
+struct Pass {
+    // From noise to offsets, px, by rows.
+    matrix: vec4<f32>,
+    // Linear colour instead of that of the lines.
+    color: vec3<f32>,
+    has_color: u32,
+    width: f32,
+    density: f32,
+}
+
+// Twin: `SketchUniform` in src/render/effects/sketch.rs.
+struct Sketch {
+    passes: array<Pass, 8>,
+    // From noise to offsets of the fill, px, by rows.
+    fill_matrix: vec4<f32>,
+    // Linear colour of the pigment.
+    pigment: vec3<f32>,
+    surface_color: f32,
+    // Colour that lines are smudged with.
+    smudge_color: vec3<f32>,
+    smudge: f32,
+    // Direction of the strokes of the hand: its cosine and sine.
+    turn: vec2<f32>,
+    stroke_width: f32,
+    strokes: f32,
+    density: f32,
+    by_darkness: f32,
+    pressure: f32,
+    grain: f32,
+    soft: f32,
+    // px.
+    grain_size: f32,
+    roughness: f32,
+    pixels_per_reference: f32,
+    // Periods of the tile of noise per px, for lines and fill.
+    line_scale: f32,
+    fill_scale: f32,
+    count: u32,
+    shows_fill: u32,
+}
+
+// Twin: `SketchObject` in src/render/effects/sketch.rs.
+struct SketchObject {
+    // The middle of the object, px.
+    middle: vec2<f32>,
+}
+
+// Whether the noise follows the picture.
+override ON_SCREEN: bool = false;
+// Whether ink and colour have the nearer depth of both, as in the paper.
+override WITH_NEARER: bool = false;
+// Whether there are more than four passes.
+override WITH_MORE_PASSES: bool = false;
+// Whether anything but offsets is asked for: grain, strokes, pressure.
+override WITH_GRAIN: bool = true;
+override WITH_SMUDGE: bool = false;
+// Whether surfaces are as opaque as their materials.
+override WITH_OPACITY: bool = false;
+// Whether hidden lines are seen.
+override WITH_HIDDEN: bool = false;
+// Whether there are any lines of exact mode, which all are found from afar.
+override WITH_NEAREST: bool = true;
+
+var<uniform> sketch: Sketch;
+var<storage, read> sketch_objects: array<SketchObject>;
+// Linear colour times opacity, and opacity, of the surfaces.
+var shaded_tex: texture_2d<f32>;
+// The same of hidden lines.
+var hidden_tex: texture_2d<f32>;
+// The line next to each pixel, from as far as offsets go; as `farthest_tex`.
+var near_line_tex: texture_storage_2d<r32uint, read>;
+// See passes/offset_field.wgsl.
+var line_field_tex: texture_storage_2d<rgba32uint, read>;
+var more_line_field_tex: texture_storage_2d<rgba32uint, read>;
+var fill_field_tex: texture_storage_2d<rgba32uint, read>;
+// A tile of noise: (turbulence(s, t), turbulence(1 − s, 1 − t)); and one of paper.
+var tiles: texture_2d_array<f32>;
+var paper: texture_2d_array<f32>;
+var tile_sampler: sampler;
+// What has been placed before.
+var before_tex: texture_2d<f32>;
+// Geometry after this sketch's colour has been placed.
+var filled_tex: texture_storage_2d<rgba32uint, read>;
+
+// As in src/render/base/noise.rs.
+const TOOTH_CELLS: f32 = 128.0;
+const STROKE_CELLS: f32 = 64.0;
+const SLOW_CELLS: f32 = 4.0;
+const BLOCK: f32 = 4.0;
+
+fn applied(matrix: vec4<f32>, noise: vec2<f32>) -> vec2<f32> {
+    return vec2(dot(matrix.xy, noise), dot(matrix.zw, noise));
+}
+
+// Within the picture, and not on its far edges.
+fn inside(at: vec2<f32>) -> vec2<f32> {
+    return clamp(at, vec2(0.5), frame.size - 0.5);
+}
+
+fn noise_of_picture(x: vec2<f32>, scale: f32) -> vec2<f32> {
+    return textureSampleLevel(tiles, tile_sampler, x * scale, 0, 0.0).xy;
+}
+
+// Noise of a block, and how much it counts for a pixel of this object; 0: any.
+fn fill_noise_of(block: vec2<i32>, object: u32, weight: f32) -> vec3<f32> {
+    let texel = textureLoad(fill_field_tex, block);
+    let counts = select(weight, 0.0, texel.y == 0u || (object != 0u && texel.z != object));
+    return vec3(unpack2x16float(texel.x) * counts, counts);
+}
+
+// Noise of the surface at a place, smoothly from block to block of the same object.
+fn fill_noise(at: vec2<f32>, object: u32) -> vec2<f32> {
+    if ON_SCREEN {
+        return noise_of_picture(at, sketch.fill_scale);
+    }
+    let last = vec2<i32>(textureDimensions(fill_field_tex)) - 1;
+    let p = at / BLOCK - 0.5;
+    let first = vec2<i32>(floor(p));
+    let f = p - floor(p);
+    var sum = vec3(0.0);
+    for (var i = 0; i < 4; i++) {
+        let offset = vec2(i & 1, i >> 1u);
+        let weights = mix(1.0 - f, f, vec2<f32>(offset));
+        sum += fill_noise_of(clamp(first + offset, vec2(0), last), object, weights.x * weights.y + 1e-4);
+    }
+    if sum.z <= 0.0 {
+        // Of an object too small for blocks: as what is around.
+        sum = fill_noise_of(clamp(vec2<i32>(at / BLOCK), vec2(0), last), 0u, 1.0);
+    }
+    return sum.xy / max(sum.z, 1e-6);
+}
+
+// Where the colour comes from that is drawn at x.
+fn fill_source(x: vec2<f32>) -> vec2<f32> {
+    if sketch.shows_fill == 0u {
+        return x;
+    }
+    if ON_SCREEN {
+        return inside(x + applied(sketch.fill_matrix, fill_noise(x, 0u)));
+    }
+    let last = vec2<i32>(textureDimensions(fill_field_tex)) - 1;
+    let coarse = textureLoad(fill_field_tex, clamp(vec2<i32>(x / BLOCK), vec2(0), last));
+    var y = inside(x + applied(sketch.fill_matrix, unpack2x16float(coarse.x)));
+    for (var i = 0; i < 2; i++) {
+        let object = geometry_at(vec2<i32>(floor(y))).w & ~ENHANCED;
+        // Beyond the outline, as what is nearest.
+        y = inside(x + applied(sketch.fill_matrix, fill_noise(y, object)));
+    }
+    return y;
+}
+
+// Noise of the line next to a place, for a pass.
+fn line_noise(at: vec2<f32>, number: u32) -> vec2<f32> {
+    if ON_SCREEN {
+        return noise_of_picture(at + f32(number) * vec2(91.7, 47.3), sketch.line_scale);
+    }
+    var found = 0u;
+    if WITH_NEAREST {
+        found = textureLoad(near_line_tex, vec2<i32>(floor(at))).x;
+    }
+    if found == 0u {
+        // Ink of the papers' operators has no line that it is of.
+        if WITH_PAPER {
+            return fill_noise(at, 0u);
+        }
+        return vec2(0.0);
+    }
+    let px = vec2<i32>(vec2((found - 1u) & 0xffffu, (found - 1u) >> 16u));
+    var texel = textureLoad(line_field_tex, px);
+    if WITH_MORE_PASSES && number >= 4u {
+        texel = textureLoad(more_line_field_tex, px);
+    }
+    return unpack2x16float(texel[number % 4u]);
+}
+
+struct Source {
+    at: vec2<f32>,
+    noise: vec2<f32>,
+}
+
+// Where the lines come from that a pass draws at x.
+fn line_source(x: vec2<f32>, number: u32) -> Source {
+    let matrix = sketch.passes[number].matrix;
+    var noise = line_noise(x, number);
+    var y = inside(x + applied(matrix, noise));
+    if !ON_SCREEN {
+        for (var i = 0; i < 2; i++) {
+            noise = line_noise(y, number);
+            y = inside(x + applied(matrix, noise));
+        }
+    }
+    return Source(y, noise);
+}
+
+// How densely a hand presses where the noise is this.
+fn pressed(noise: vec2<f32>) -> f32 {
+    return mix(1.0 - sketch.pressure, 1.0, smoothstep(-1.1, 1.1, 0.7 * (noise.x + noise.y)));
+}
+
+fn on_paper(at: vec2<f32>) -> vec4<f32> {
+    return textureSampleLevel(paper, tile_sampler, at, 0, 0.0);
+}
+
+// Ink or pigment of a density, 0 to 1, on rough paper: where that stands out it takes some first.
+fn deposited(density: f32, x: vec2<f32>) -> f32 {
+    if !WITH_GRAIN || sketch.grain <= 0.0 {
+        return density;
+    }
+    let tooth = on_paper(x / (sketch.grain_size * TOOTH_CELLS)).x;
+    let height = tooth * (1.0 - 2.0 * sketch.soft) + sketch.soft;
+    let taken = smoothstep(1.0 - density - sketch.soft, 1.0 - density + sketch.soft, height);
+    return mix(density, taken * min(1.6 * density + 0.1, 1.0), sketch.grain) * step(1e-4, density);
+}
+
+// By how much grains are off, px.
+fn roughened(x: vec2<f32>) -> vec2<f32> {
+    if !WITH_GRAIN || sketch.roughness <= 0.0 {
+        return vec2(0.0);
+    }
+    // Correlated over less than a reference pixel: of single pixels it would look digital.
+    let at = x / (0.7 * sketch.pixels_per_reference * TOOTH_CELLS);
+    let noise = vec2(on_paper(at).x, on_paper(at.yx + vec2(0.37, 0.71)).x);
+    return (noise - 0.5) * 3.46 * sketch.roughness;
+}
+
+// The share that the strokes of a hand leave, which move with the object.
+fn stroke_share(x: vec2<f32>, object: u32) -> f32 {
+    if !WITH_GRAIN || sketch.strokes <= 0.0 {
+        return 1.0;
+    }
+    let p = x - sketch_objects[object].middle;
+    let along = dot(p, sketch.turn);
+    var across = dot(p, vec2(-sketch.turn.y, sketch.turn.x));
+    // A hand does not rule lines.
+    let slow = on_paper(p / (400.0 * sketch.pixels_per_reference * SLOW_CELLS)).z - 0.5;
+    across += 80.0 * sketch.pixels_per_reference * slow;
+    let width = sketch.stroke_width * STROKE_CELLS;
+    let rank = on_paper(vec2(along / (16.0 * width), across / width)).y;
+    return 1.0 - sketch.strokes * smoothstep(0.35, 1.0, 1.0 - rank);
+}
+
+// So far, px, may what is fetched from y lie behind another surface at x.
+fn tolerance(x: vec2<f32>, y: vec2<f32>) -> f32 {
+    return 4.0 * max(distance(x, y), 1.0);
+}
+
+// Whether a surface at a pixel hides what has this depth.
+fn is_behind(other: Surfel, depth: f32, slack: f32) -> bool {
+    return other.object != 0u && step_px(nearness_of(other.depth) - nearness_of(depth), depth) > slack;
+}
+
+// The nearest of all fetches from the depth map (sketchy drawings paper, section 3.3); 0: all are exterior.
+fn nearest_depth(x: vec2<f32>) -> f32 {
+    var nearest = 0.0;
+    for (var i = 0u; i <= sketch.count; i++) {
+        var y = x;
+        if i < sketch.count {
+            y = line_source(x, i).at;
+        } else if sketch.shows_fill == 1u {
+            y = fill_source(x);
+        }
+        let s = unpack_surfel(geometry_at(vec2<i32>(floor(y))));
+        if s.object != 0u && (nearest == 0.0 || s.depth < nearest) {
+            nearest = s.depth;
+        }
+    }
+    return nearest;
+}
+
+// Marks where anything of the group can be.
+@fragment
+fn fs_filled(@builtin(position) position: vec4<f32>) {
+    let last = vec2<i32>(textureDimensions(fill_field_tex)) - 1;
+    if textureLoad(fill_field_tex, clamp(vec2<i32>(position.xy / BLOCK), vec2(0), last)).y == 0u {
+        discard;
+    }
+}
+
+// The shaded surface at a place; between pixels only where all show one object.
+fn shaded_at(at: vec2<f32>, object: u32) -> vec4<f32> {
+    let last = vec2<i32>(frame.size) - 1;
+    let p = at - 0.5;
+    let first = vec2<i32>(floor(p));
+    let f = p - floor(p);
+    var sum = vec4(0.0);
+    var is_one = true;
+    for (var i = 0; i < 4; i++) {
+        let offset = vec2(i & 1, i >> 1u);
+        let q = clamp(first + offset, vec2(0), last);
+        let weights = mix(1.0 - f, f, vec2<f32>(offset));
+        sum += weights.x * weights.y * textureLoad(shaded_tex, q, 0);
+        is_one = is_one && (weights.x * weights.y == 0.0 || (textureLoad(geometry_tex, q).w & ~ENHANCED) == object);
+    }
+    return select(textureLoad(shaded_tex, vec2<i32>(floor(at)), 0), sum, is_one);
+}
+
+struct Filled {
+    @location(0) geometry: vec4<u32>,
+    // Linear colour times opacity, and opacity.
+    @location(1) color: vec4<f32>,
+}
+
+@fragment
+fn fs_fill(@builtin(position) position: vec4<f32>) -> Filled {
+    let px = vec2<i32>(position.xy);
+    let x = vec2<f32>(px) + 0.5;
+    let rough = roughened(x);
+    let y = inside(fill_source(x) + rough);
+    var texel = geometry_at(vec2<i32>(floor(y)));
+    let s = unpack_surfel(texel);
+    if s.object == 0u {
+        discard;
+    }
+    var depth = s.depth;
+    var slack = tolerance(x, y);
+    if WITH_NEARER {
+        depth = nearest_depth(x);
+        slack = 0.0;
+        texel.z = bitcast<u32>(depth);
+    }
+    if is_behind(surface_at(px), depth, slack) {
+        discard;
+    }
+    var color = vec4(0.0);
+    var opacity = 1.0;
+    if sketch.shows_fill == 1u {
+        let shaded = shaded_at(y, s.object);
+        opacity = select(1.0, shaded.a, WITH_OPACITY);
+        let own = shaded.rgb / max(shaded.a, 1e-4);
+        // As dark as it looks.
+        let light = pow(clamp(dot(own, vec3(0.2126, 0.7152, 0.0722)), 0.0, 1.0), 1.0 / 2.2);
+        var density = sketch.density * mix(1.0, 1.0 - light, sketch.by_darkness) * min(shaded.a / max(opacity, 1e-4), 1.0);
+        var pigment = mix(sketch.pigment, own, sketch.surface_color);
+        if WITH_GRAIN {
+            density *= stroke_share(x, s.object) * pressed(fill_noise(y, s.object));
+        }
+        if WITH_SMUDGE {
+            let found = textureLoad(near_line_tex, px).x;
+            if found != 0u {
+                let near_px = vec2<i32>(vec2((found - 1u) & 0xffffu, (found - 1u) >> 16u));
+                let away = distance(vec2<f32>(near_px) + 0.5, x) / (9.0 * sketch.pixels_per_reference);
+                let smudged = sketch.smudge * exp(-away * away);
+                pigment = mix(pigment, sketch.smudge_color, smudged / max(smudged + density, 1e-4));
+                density = smudged + density * (1.0 - smudged);
+            }
+        }
+        color = vec4(pigment, 1.0) * deposited(density, x) * opacity;
+    }
+    if WITH_HIDDEN {
+        let noise = fill_noise(y, s.object);
+        let from_px = vec2<i32>(inside(x + rough + applied(sketch.passes[0].matrix, noise)));
+        color = over(textureLoad(hidden_tex, from_px, 0), color);
+    }
+    if WITH_OPACITY {
+        color += (1.0 - opacity) * textureLoad(before_tex, px, 0);
+    }
+    return Filled(texel, color);
+}
+
+// Marks where ink of this sketch or of what is placed already can be.
+@fragment
+fn fs_inked(@builtin(position) position: vec4<f32>) {
+    let px = vec2<i32>(position.xy);
+    var any = 0u;
+    if WITH_NEAREST {
+        any |= textureLoad(near_line_tex, px).x;
+    }
+    if WITH_PAPER {
+        let last = vec2<i32>(textureDimensions(fill_field_tex)) - 1;
+        any |= textureLoad(fill_field_tex, clamp(px / i32(BLOCK), vec2(0), last)).y;
+    }
+    if WITH_OPAQUE_INK {
+        any |= textureLoad(opaque_ink_tex, px).z;
+    }
+    if any == 0u {
+        discard;
+    }
+}
+
+// Ink of a pass at a pixel.
+fn drawn_ink(px: vec2<i32>, number: u32, other: Surfel, rough: vec2<f32>) -> Line {
+    let x = vec2<f32>(px) + 0.5;
+    let source = line_source(x, number);
+    let y = inside(source.at + rough);
+    width_factor = sketch.passes[number].width;
+    var line = lines_at_place(y, unpack_surfel(geometry_at(vec2<i32>(floor(y)))));
+    if line.ink.a <= 0.0 || (!WITH_NEARER && is_behind(other, line.depth, tolerance(x, y))) {
+        return no_line();
+    }
+    let color = select(line.ink.rgb / line.ink.a, sketch.passes[number].color, sketch.passes[number].has_color == 1u);
+    var density = line.ink.a * sketch.passes[number].density;
+    if WITH_GRAIN {
+        density = deposited(density * pressed(source.noise), x);
+    }
+    line.ink = vec4(color, 1.0) * density;
+    return line;
+}
+
+// Ink with that of what has been placed before.
+@fragment
+fn fs_ink(@builtin(position) position: vec4<f32>) -> @location(0) vec4<u32> {
+    let px = vec2<i32>(position.xy);
+    let other = surface_at(px);
+    let rough = roughened(vec2<f32>(px) + 0.5);
+    var ink = vec4(0.0);
+    var depth = 0.0;
+    for (var i = 0u; i < sketch.count; i++) {
+        let line = drawn_ink(px, i, other, rough);
+        if line.ink.a > 0.0 {
+            ink = over(line.ink, ink);
+            depth = select(min(depth, line.depth), line.depth, depth == 0.0);
+        }
+    }
+    if WITH_NEARER && ink.a > 0.0 {
+        let nearest = nearest_depth(vec2<f32>(px) + 0.5);
+        depth = select(depth, nearest, nearest != 0.0);
+        if nearest == 0.0 || is_behind(other, depth, 0.0) {
+            ink = vec4(0.0);
+        }
+    }
+    if WITH_OPAQUE_INK {
+        let texel = textureLoad(opaque_ink_tex, px);
+        let before = placed_color(texel);
+        let before_depth = bitcast<f32>(texel.z);
+        let filled = unpack_surfel(textureLoad(filled_tex, px));
+        // Only what this sketch has put before it can hide it.
+        let is_new = filled.object != other.object || filled.depth != other.depth;
+        if before.a > 0.0 && !(is_new && is_behind(filled, before_depth, 2.0)) {
+            let is_nearer = ink.a > 0.0 && depth <= before_depth;
+            ink = select(over(before, ink), over(ink, before), is_nearer);
+            depth = select(before_depth, depth, is_nearer);
+        }
+    }
+    return pack_placed(ink, depth);
+}

@@ -1,0 +1,234 @@
+// The noise that says where lines and colours of a sketch go (sketchy drawings paper, section 4): it is that of a place on the
+// object, so that it moves with it. Lines have that of their own place, each as a whole; colours that of their surface, and beyond
+// it that of the nearest one. Software devices take their time for noise: lines ask for it where they run, colours for one pixel of
+// each block.
+#import common/frame.wgsl
+#import common/gbuffer.wgsl
+#import common/edge_map.wgsl
+#import common/noise.wgsl
+
+// Twin: `FieldUniform` in src/render/passes/offset_field.rs.
+struct Field {
+    // Length of a wave of lines and colours, px.
+    line_wave: f32,
+    fill_wave: f32,
+    // Share of the finer wave.
+    detail: f32,
+    // What controls the noise.
+    control: u32,
+    turbulent: u32,
+    fill_seed: u32,
+    passes: u32,
+    pixels_per_reference: f32,
+    // Of the passes of lines.
+    seeds: array<vec4<u32>, 2>,
+}
+
+// Twin: `ObjectUniform` in src/render/passes/offset_field.rs.
+struct FieldObject {
+    // View space to the object's axes about its middle, scene units.
+    from_view: mat4x4<f32>,
+    seed: u32,
+}
+
+// As `Anchor` in src/style/sketch.rs.
+const NORMAL: u32 = 2u;
+const CURVATURE: u32 = 3u;
+const DEPTH: u32 = 4u;
+
+// Pixels per side of a block, as in src/render/passes/offset_field.rs.
+const BLOCK: i32 = 4;
+
+// How far a step of the search for the nearest surface goes, blocks: the sum of these.
+override STEP_8: bool = false;
+override STEP_4: bool = false;
+override STEP_2: bool = false;
+override STEP_1: bool = false;
+
+var<uniform> field: Field;
+var<storage, read> field_objects: array<FieldObject>;
+var edge_map_tex: texture_storage_2d<rgba32uint, read>;
+// Noise of the lines at the pixels in which they run, two halves for each pass.
+var line_field_tex: texture_storage_2d<rgba32uint, write>;
+var more_line_field_tex: texture_storage_2d<rgba32uint, write>;
+// Per block, a pixel with a surface (column in the lower 16 bits, row in the upper ones) plus 1; 0: none.
+var near_tex: texture_2d<u32>;
+var found_tex: texture_storage_2d<r32uint, write>;
+// Per block, noise of the colours (two halves), the pixel plus 1 that it is of, the object, and how far away that is, px.
+var fill_field_tex: texture_storage_2d<rgba32uint, write>;
+
+// Width of a pixel at a depth, scene units.
+fn pixel_at(depth: f32) -> f32 {
+    return 2.0 * frame.half_extent.y / frame.size.y * select(depth, 1.0, frame.orthographic == 1u);
+}
+
+// How much noise there is of what controls it: more where it is curved, or far.
+fn control_factor(px: vec2<i32>, s: Surfel) -> f32 {
+    if field.control == DEPTH {
+        return mix(0.35, 1.75, range_share(s.depth));
+    }
+    if field.control != CURVATURE {
+        return 1.0;
+    }
+    // By how much the normal turns over as many pixels around.
+    let reach = max(i32(round(3.0 * field.pixels_per_reference)), 1);
+    var turn = 0.0;
+    for (var i = 0; i < 4; i++) {
+        let step = select(vec2(reach, 0), vec2(0, reach), i % 2 == 1) * select(-1, 1, i < 2);
+        let other = unpack_surfel(geometry_at(px + step));
+        let is_same = other.object == s.object && abs(other.depth - s.depth) < 24.0 * pixel_at(s.depth);
+        turn = max(turn, select(0.0, 1.0 - dot(other.normal, s.normal), is_same));
+    }
+    // The angle, per reference pixel; a sphere of 60 of them counts as 1.
+    let angle = acos(clamp(1.0 - turn, -1.0, 1.0)) / 3.0;
+    return clamp(0.2 + 48.0 * angle, 0.2, 2.0);
+}
+
+// Noise at a place on an object; `stretch`: how much longer than on paper it is along itself.
+fn noise_at(at: vec3<f32>, normal: vec3<f32>, depth: f32, stretch: f32, wave: f32, object: u32, seed: u32) -> vec2<f32> {
+    let turbulent = field.turbulent == 1u;
+    let own = mixed_bits(seed ^ field_objects[object].seed);
+    let from_view = field_objects[object].from_view;
+    if field.control == NORMAL {
+        let turned = normalize((from_view * vec4(normal, 0.0)).xyz);
+        return octave(1.5 * turned + 7.5, own, turbulent);
+    }
+    let place = (from_view * vec4(at, 1.0)).xyz;
+    let length = wave * pixel_at(depth) * stretch;
+    var noise = waves(place, length, own, turbulent);
+    if field.detail > 0.0 {
+        noise += field.detail * fine_waves(place, 0.25 * length, own, turbulent);
+    }
+    return noise;
+}
+
+// How much longer than on paper a line is along itself: of walls seen from the side waves would be too short.
+fn stretch_at(px: vec2<i32>, edge: Edge, spine: vec2<f32>) -> f32 {
+    let tangent = unpack_tangent(edge.tangent);
+    let here = pos_view_at(spine, edge.depth);
+    var stretch = 1.0;
+    for (var side = -1; side <= 1; side += 2) {
+        let q = vec2<i32>(floor(spine + f32(2 * side) * tangent));
+        let texel = textureLoad(edge_map_tex, clamp(q, vec2(0), vec2<i32>(frame.size) - 1));
+        if class_of(texel) == NO_EDGE || class_of(texel) == PAPER || texel.y != edge.object {
+            continue;
+        }
+        let other = unpack_edge(texel);
+        let there = vec2<f32>(q) + 0.5 + other.offset;
+        let apart = distance(there, spine);
+        let along = distance(pos_view_at(there, other.depth), here);
+        // What is farther off than this is another line.
+        let ratio = along / max(apart * pixel_at(edge.depth), 1e-20);
+        if apart > 0.5 && ratio < 12.0 {
+            stretch = max(stretch, ratio);
+        }
+    }
+    return min(stretch, 4.0);
+}
+
+@compute @workgroup_size(8, 8)
+fn cs_lines(@builtin(global_invocation_id) id: vec3<u32>) {
+    let px = vec2<i32>(id.xy);
+    if any(px >= vec2<i32>(frame.size)) {
+        return;
+    }
+    let texel = textureLoad(edge_map_tex, px);
+    if class_of(texel) == NO_EDGE || class_of(texel) == PAPER {
+        return;
+    }
+    let edge = unpack_edge(texel);
+    let spine = vec2<f32>(px) + 0.5 + edge.offset;
+    let tangent = unpack_tangent(edge.tangent);
+    let inwards = vec2<i32>(floor(spine - 0.8 * vec2(tangent.y, -tangent.x) * edge.outside));
+    let s = unpack_surfel(geometry_at(inwards));
+    let factor = control_factor(inwards, s);
+    let stretch = stretch_at(px, edge, spine);
+    let at = pos_view_at(spine, edge.depth);
+    var packed = array<vec4<u32>, 2>(vec4(0u), vec4(0u));
+    for (var i = 0u; i < field.passes; i++) {
+        let seed = field.seeds[i / 4u][i % 4u];
+        let noise = noise_at(at, s.normal, edge.depth, stretch, field.line_wave, edge.object, seed);
+        packed[i / 4u][i % 4u] = pack2x16float(factor * noise);
+    }
+    textureStore(line_field_tex, px, packed[0]);
+    if field.passes > 4u {
+        textureStore(more_line_field_tex, px, packed[1]);
+    }
+}
+
+fn is_surface(px: vec2<i32>) -> bool {
+    return all(px < vec2<i32>(frame.size)) && (geometry_at(px).w & ~ENHANCED) != 0u;
+}
+
+@compute @workgroup_size(8, 8)
+fn cs_blocks(@builtin(global_invocation_id) id: vec3<u32>) {
+    let block = vec2<i32>(id.xy);
+    let first = BLOCK * block;
+    if any(first >= vec2<i32>(frame.size)) {
+        return;
+    }
+    var found = 0u;
+    for (var i = 0; i < 5; i++) {
+        // The middle, then the corners.
+        let offset = select(3 * vec2(i & 1, (i >> 1u) & 1), vec2(2), i == 4);
+        let px = first + offset;
+        found = select(found, ((u32(px.y) << 16u) | u32(px.x)) + 1u, is_surface(px));
+    }
+    textureStore(found_tex, block, vec4(found, 0u, 0u, 0u));
+}
+
+fn pixel_of(found: u32) -> vec2<i32> {
+    return vec2<i32>(vec2((found - 1u) & 0xffffu, (found - 1u) >> 16u));
+}
+
+// Jump flooding: of the surfaces that blocks around have found, the nearest.
+@compute @workgroup_size(8, 8)
+fn cs_flood(@builtin(global_invocation_id) id: vec3<u32>) {
+    let blocks = vec2<i32>(textureDimensions(near_tex));
+    let block = vec2<i32>(id.xy);
+    if any(block >= blocks) {
+        return;
+    }
+    let step = select(0, 8, STEP_8) + select(0, 4, STEP_4) + select(0, 2, STEP_2) + select(0, 1, STEP_1);
+    let middle = vec2<f32>(BLOCK * block) + 0.5 * f32(BLOCK);
+    var best = textureLoad(near_tex, block, 0).x;
+    // What a block has itself stays.
+    var least = 1e9;
+    if best != 0u {
+        least = distance(vec2<f32>(pixel_of(best)) + 0.5, middle);
+    }
+    if least > 0.75 * f32(BLOCK) {
+        for (var i = 0; i < 9; i++) {
+            let q = block + step * (vec2(i % 3, i / 3) - 1);
+            let found = textureLoad(near_tex, clamp(q, vec2(0), blocks - 1), 0).x;
+            if found != 0u {
+                let away = distance(vec2<f32>(pixel_of(found)) + 0.5, middle);
+                if away < least {
+                    least = away;
+                    best = found;
+                }
+            }
+        }
+    }
+    textureStore(found_tex, block, vec4(best, 0u, 0u, 0u));
+}
+
+@compute @workgroup_size(8, 8)
+fn cs_fill(@builtin(global_invocation_id) id: vec3<u32>) {
+    let block = vec2<i32>(id.xy);
+    if any(block >= vec2<i32>(textureDimensions(near_tex))) {
+        return;
+    }
+    let found = textureLoad(near_tex, block, 0).x;
+    if found == 0u {
+        textureStore(fill_field_tex, block, vec4(0u));
+        return;
+    }
+    let px = pixel_of(found);
+    let s = unpack_surfel(geometry_at(px));
+    let noise = noise_at(pos_view_of(px, s.depth), s.normal, s.depth, 1.0, field.fill_wave, s.object, field.fill_seed);
+    let middle = vec2<f32>(BLOCK * block) + 0.5 * f32(BLOCK);
+    let away = distance(vec2<f32>(px) + 0.5, middle);
+    let packed = pack2x16float(control_factor(px, s) * noise);
+    textureStore(fill_field_tex, block, vec4(packed, found, s.object, bitcast<u32>(away)));
+}

@@ -1,0 +1,363 @@
+//! A group of one layer: of objects that hide what lies behind them only the nearest surface of each pixel is drawn. Its geometry,
+//! the shadows on it, its edges and what of them is hidden.
+
+use std::sync::Arc;
+
+use glam::{UVec2, Vec2};
+
+use super::hidden::{Hidden, HiddenLines};
+use crate::geometry::{EdgeClass, LineSegment};
+use crate::gpu::{ArrayBuffer, Gpu, Recorder, Target};
+use crate::render::base::edge_style::EdgeUniform;
+use crate::render::base::error::RenderError;
+use crate::render::base::feature_lines::feature_lines;
+use crate::render::base::frame_uniform::{FrameUniform, View};
+use crate::render::base::group::Group;
+use crate::render::base::instances::{DrawCall, Instance, Instances};
+use crate::render::base::scene_view::SceneView;
+use crate::render::base::stage::{Output, Stage};
+use crate::render::effects::technique::Shaded;
+use crate::render::passes::composition::ink;
+use crate::render::passes::edge_map::{EdgeInputs, EdgeMap, edge_map};
+use crate::render::passes::gbuffer::GBuffer;
+use crate::render::passes::layers::Reported;
+use crate::render::passes::line_distance::{Reach, line_distance};
+use crate::render::passes::lines::Lines;
+use crate::render::passes::segments::Segments;
+use crate::render::passes::shadows::{ShadowMap, ShadowMask};
+use crate::render::passes::traversal::GBufferPass;
+
+/// A group of one layer as a camera sees it.
+#[derive(Clone, Copy)]
+pub struct OpaqueInputs<'a> {
+    /// The scene as the camera sees it.
+    pub seen: SceneView<'a>,
+    /// The objects.
+    pub group: &'a Group,
+    /// All that is in bind group 0.
+    pub uniform: &'a FrameUniform,
+    /// The maps of the lights that throw shadows, by channel.
+    pub shadow_maps: &'a [ShadowMap],
+}
+
+/// The surfaces of a group of one layer.
+pub struct Surfaces {
+    /// Per-pixel geometry.
+    pub gbuffer: Output<GBuffer>,
+    /// See [`ShadowMask`]; `None` when no light throws shadows.
+    pub shadow_mask: Option<Output<Target>>,
+}
+
+/// What of a group of one layer lives across frames.
+pub struct OpaqueLayer {
+    draws: Instances,
+    placed_segments: Segments,
+    greatest_radius: ArrayBuffer,
+    edge_styles: ArrayBuffer,
+    gbuffer: Stage<GeometryKey, GBuffer>,
+    segments: Stage<SegmentsKey, Arc<Vec<LineSegment>>>,
+    edge_map: Stage<EdgeKey, EdgeMap>,
+    reach: Stage<u64, Reach>,
+    ink: Stage<InkKey, Target>,
+    shadow_mask: ShadowMask,
+    /// `None` while no object has any.
+    hidden: Option<HiddenLines>,
+}
+
+/// What the G-buffer depends on.
+#[derive(PartialEq)]
+struct GeometryKey {
+    shaders: u64,
+    scene_revision: u64,
+    size: UVec2,
+    /// `None` where nothing is drawn: that looks the same from everywhere.
+    through: Option<View>,
+    draws: Vec<Instance>,
+    calls: Vec<DrawCall>,
+}
+
+/// What the lines that topology knows depend on.
+#[derive(PartialEq)]
+struct SegmentsKey {
+    scene_revision: u64,
+    view: View,
+    styles: Vec<EdgeUniform>,
+    crease_angle: f32,
+}
+
+/// What the edge map depends on.
+#[derive(PartialEq)]
+struct EdgeKey {
+    gbuffer: u64,
+    shadows: Option<u64>,
+    styles: Vec<EdgeUniform>,
+    depth_range: Vec2,
+    light: Option<FrameUniform>,
+}
+
+/// What the ink depends on.
+#[derive(PartialEq)]
+struct InkKey {
+    gbuffer: u64,
+    edges: u64,
+    reach: Option<u64>,
+    edge_styles: Vec<EdgeUniform>,
+    uniform: FrameUniform,
+}
+
+impl OpaqueLayer {
+    /// Nothing drawn yet.
+    pub fn new(gpu: &Gpu) -> Self {
+        Self {
+            draws: Instances::new(gpu),
+            placed_segments: Segments::new(gpu),
+            greatest_radius: ArrayBuffer::new(gpu, "greatest radius"),
+            edge_styles: ArrayBuffer::new(gpu, "edge styles"),
+            gbuffer: Stage::default(),
+            segments: Stage::default(),
+            edge_map: Stage::default(),
+            reach: Stage::default(),
+            ink: Stage::default(),
+            shadow_mask: ShadowMask::new(gpu),
+            hidden: None,
+        }
+    }
+
+    /// Edge styles by object id on the device.
+    pub fn edge_styles(&self) -> &wgpu::Buffer {
+        self.edge_styles.buffer()
+    }
+
+    /// Finds shadows, on other layers too.
+    pub fn shadow_mask(&mut self) -> &mut ShadowMask {
+        &mut self.shadow_mask
+    }
+
+    /// How often each stage has run, by name.
+    pub fn runs(&self) -> [(&'static str, u64); 5] {
+        [
+            ("g-buffer", self.gbuffer.runs()),
+            ("edge map", self.edge_map.runs()),
+            ("line distance", self.reach.runs()),
+            ("shadow", self.shadow_mask.runs()),
+            ("hidden lines", self.hidden.as_ref().map_or(0, HiddenLines::runs)),
+        ]
+    }
+
+    /// What has been reported about the layers of hidden lines. Never waits.
+    pub fn take_reports(&mut self) -> Reported {
+        self.hidden.as_mut().map_or(Reported::Complete, HiddenLines::take_reports)
+    }
+
+    /// Draws the surfaces and the shadows on them.
+    ///
+    /// # Errors
+    /// [`RenderError`].
+    pub fn surfaces(
+        &mut self,
+        rec: &mut Recorder<'_>,
+        pass: &mut GBufferPass,
+        inputs: &OpaqueInputs<'_>,
+    ) -> Result<Surfaces, RenderError> {
+        let OpaqueInputs { seen, group, shadow_maps, .. } = *inputs;
+        let SceneView { scene, view, .. } = seen;
+        self.edge_styles.write(rec.gpu, &group.edge_styles);
+        let (draws, calls) = group.draws(scene, view);
+        let key = GeometryKey {
+            shaders: rec.pipelines.generation(),
+            scene_revision: seen.scene_revision,
+            size: view.size,
+            through: (!calls.is_empty()).then_some(*view),
+            draws,
+            calls,
+        };
+        let gbuffer = self.gbuffer.run(key, |GeometryKey { draws, calls, .. }| {
+            pass.run(rec, scene, &mut self.draws, (draws, calls), view.has_cuts(), None)
+        })?;
+        let shadow_mask = self.shadow_mask.run(rec, &gbuffer, &seen, shadow_maps)?;
+        Ok(Surfaces { gbuffer, shadow_mask })
+    }
+
+    /// The surfaces as shading asks for them; `uniform`: without the paper.
+    pub fn shaded<'a>(
+        &'a self,
+        surfaces: &'a Surfaces,
+        seen: SceneView<'a>,
+        uniform: &'a FrameUniform,
+    ) -> Shaded<'a> {
+        let drawn = self.gbuffer.inputs();
+        Shaded {
+            gbuffer: &surfaces.gbuffer.value,
+            revision: Some(surfaces.gbuffer.revision),
+            shadow_mask: surfaces.shadow_mask.as_ref().map(|mask| (&mask.value, mask.revision)),
+            seen,
+            uniform,
+            instances: &self.draws,
+            draws: drawn.map_or(&[], |key| &key.draws),
+            calls: drawn.map_or(&[], |key| &key.calls),
+        }
+    }
+
+    /// The edges of the surfaces.
+    ///
+    /// # Errors
+    /// [`RenderError`].
+    pub fn edges(
+        &mut self,
+        rec: &mut Recorder<'_>,
+        inputs: &OpaqueInputs<'_>,
+        surfaces: &Surfaces,
+    ) -> Result<Output<EdgeMap>, RenderError> {
+        let OpaqueInputs { seen, group, uniform, .. } = *inputs;
+        let styles: Vec<_> = group.edge_styles.iter().map(EdgeUniform::for_finding).collect();
+        // Only widths that follow the light depend on more than the geometry.
+        let light = styles.iter().any(|s| s.by_light > 0.0).then(|| uniform.without_background());
+        // Which edges are lines does not change from sample to sample.
+        let view = seen.view.moved(Vec2::ZERO);
+        let key = SegmentsKey {
+            scene_revision: seen.scene_revision,
+            view,
+            styles: styles.clone(),
+            crease_angle: seen.crease_angle,
+        };
+        let segments = self.segments.run(key, |_| {
+            Ok::<_, RenderError>(Arc::new(feature_lines(seen.scene, group, &view, seen.crease_angle)))
+        })?;
+        let has_borders = styles.iter().any(|s| s.draws(EdgeClass::Shadow));
+        let shadow_mask = surfaces.shadow_mask.as_ref().filter(|_| has_borders);
+        let key = EdgeKey {
+            gbuffer: surfaces.gbuffer.revision,
+            shadows: shadow_mask.map(|mask| mask.revision),
+            styles,
+            depth_range: uniform.depth_range(),
+            light,
+        };
+        self.edge_map.run(key, |EdgeKey { styles, .. }| {
+            self.placed_segments.write(rec, &segments.value, false)?;
+            edge_map(
+                rec,
+                &EdgeInputs {
+                    gbuffer: &surfaces.gbuffer.value,
+                    styles,
+                    edge_styles: self.edge_styles.buffer(),
+                    is_whole: true,
+                    seen: None,
+                    marked: None,
+                    segments: &self.placed_segments,
+                    has_holes: group.has_holes,
+                    is_cut: view.cut.is_some(),
+                    before: None,
+                    shadow_mask: shadow_mask.map(|mask| &mask.value),
+                },
+            )
+        })
+    }
+
+    /// Lets go of the edges.
+    pub fn forget_edges(&mut self) {
+        self.edge_map.clear();
+    }
+
+    /// Which lines reach each pixel; `None`: none of exact mode does.
+    ///
+    /// # Errors
+    /// [`RenderError`].
+    pub fn reach(
+        &mut self,
+        rec: &mut Recorder<'_>,
+        group: &Group,
+        edges: Option<&Output<EdgeMap>>,
+    ) -> Result<Option<Output<Reach>>, RenderError> {
+        let spines = edges.and_then(|edges| Some((edges.revision, edges.value.spines.as_ref()?)));
+        let Some((revision, spines)) = spines else {
+            self.reach.clear();
+            return Ok(None);
+        };
+        let (radius, styles) = (&mut self.greatest_radius, &group.edge_styles);
+        self.reach.run(revision, |_| line_distance(rec, spines, styles, radius)).map(Some)
+    }
+
+    /// The lines of the surfaces.
+    pub fn lines<'a>(
+        &'a self,
+        group: &'a Group,
+        surfaces: &'a Surfaces,
+        edges: &'a Output<EdgeMap>,
+        reach: Option<&'a Reach>,
+    ) -> Lines<'a> {
+        Lines {
+            gbuffer: &surfaces.gbuffer.value,
+            edge_map: &edges.value,
+            reach,
+            styles: &group.edge_styles,
+            edge_styles: self.edge_styles.buffer(),
+        }
+    }
+
+    /// The ink of the lines, placed by depth; `None`: there are no lines.
+    ///
+    /// # Errors
+    /// [`RenderError`].
+    pub fn ink(
+        &mut self,
+        rec: &mut Recorder<'_>,
+        inputs: &OpaqueInputs<'_>,
+        surfaces: &Surfaces,
+        edges: Option<&Output<EdgeMap>>,
+        reach: Option<&Output<Reach>>,
+    ) -> Result<Option<Output<Target>>, RenderError> {
+        let OpaqueInputs { group, uniform, .. } = *inputs;
+        let Some(edges) = edges.filter(|_| !group.is_empty()) else {
+            self.ink.clear();
+            return Ok(None);
+        };
+        let key = InkKey {
+            gbuffer: surfaces.gbuffer.revision,
+            edges: edges.revision,
+            reach: reach.map(|reach| reach.revision),
+            edge_styles: group.edge_styles.clone(),
+            uniform: uniform.without_background(),
+        };
+        let drawn = Lines {
+            gbuffer: &surfaces.gbuffer.value,
+            edge_map: &edges.value,
+            reach: reach.map(|reach| &reach.value),
+            styles: &group.edge_styles,
+            edge_styles: self.edge_styles.buffer(),
+        };
+        self.ink.run(key, |_| ink(rec, &drawn)).map(Some)
+    }
+
+    /// Lets go of the ink.
+    pub fn forget_ink(&mut self) {
+        self.ink.clear();
+    }
+
+    /// The hidden lines of the surfaces: linear colour times opacity, and opacity; `None`: they have none.
+    ///
+    /// # Errors
+    /// [`RenderError`].
+    pub fn hidden_lines(
+        &mut self,
+        rec: &mut Recorder<'_>,
+        pass: &mut GBufferPass,
+        inputs: &OpaqueInputs<'_>,
+        asked: &Hidden,
+        edges: Option<&Output<EdgeMap>>,
+    ) -> Result<Option<Output<Target>>, RenderError> {
+        if asked.is_empty() {
+            self.hidden = None;
+            return Ok(None);
+        }
+        let hidden = self.hidden.get_or_insert_with(|| HiddenLines::new(rec.gpu));
+        let asked = (inputs.group, asked);
+        hidden.run(rec, pass, &inputs.seen, inputs.uniform, asked, edges).map(Some)
+    }
+
+    /// Lets go of what only a picture needs.
+    pub fn forget_picture(&mut self) {
+        self.reach.clear();
+        self.ink.clear();
+        self.hidden = None;
+    }
+}

@@ -1,0 +1,201 @@
+//! The tiles of noise and paper that sketches are drawn with, on the device.
+
+use std::collections::HashMap;
+use std::path::Path;
+use std::sync::{Arc, OnceLock};
+
+use super::Sketch;
+use crate::gpu::{Gpu, GpuError};
+use crate::render::base::noise::{SIDE, paper_tile, ranked, turbulence_tile};
+use crate::render::base::style_images::StyleImages;
+use crate::scene::Texture;
+use crate::style;
+use crate::style::sketch::Noise;
+
+/// Most tiles that are kept while they are not used.
+const MOST_KEPT: usize = 8;
+
+/// What a sketch is drawn on.
+#[derive(Clone, Default)]
+pub(super) struct Paper(Option<Arc<Tooth>>);
+
+/// The tooth of a paper by rank, a tile of `SIDE` × `SIDE`.
+struct Tooth(Vec<u8>);
+
+impl PartialEq for Paper {
+    fn eq(&self, other: &Self) -> bool {
+        // Each image has one.
+        match (&self.0, &other.0) {
+            (Some(a), Some(b)) => Arc::ptr_eq(a, b),
+            (a, b) => a.is_none() && b.is_none(),
+        }
+    }
+}
+
+impl Paper {
+    /// That of a style; generated where its image is missing.
+    pub(super) fn of(sketch: &style::Sketch, images: &StyleImages) -> Self {
+        Self(sketch.tooth_image().and_then(|path| images.made(path, Tooth::of_image)))
+    }
+}
+
+/// Makes what takes long of an image that the parameter `key` names.
+pub(super) fn prepare_image(images: &StyleImages, key: &str, path: &Path) {
+    if key == "sketch.grain.image" {
+        images.made(path, Tooth::of_image);
+    }
+}
+
+impl Tooth {
+    fn of_image(image: &Texture) -> Self {
+        let [width, height] = [image.width, image.height].map(|side| side.max(1) as usize);
+        let light = |x: usize, y: usize| {
+            let at = 4 * ((y % height) * width + x % width);
+            image.rgba.get(at..at + 3).map_or(0.0, |rgb| {
+                rgb.iter().zip([0.2126, 0.7152, 0.0722]).map(|(c, share)| f32::from(*c) * share).sum()
+            })
+        };
+        // The mean of what a texel covers, so that fine paper does not become noise.
+        let texel = |i: usize| {
+            let (x, y) = (i % SIDE, i / SIDE);
+            let span = |at: usize, side: usize| {
+                let first = at * side / SIDE;
+                first..((at + 1) * side / SIDE).max(first + 1)
+            };
+            let (columns, rows) = (span(x, width), span(y, height));
+            let count = (columns.len() * rows.len()) as f32;
+            let sum: f32 =
+                rows.flat_map(|y| columns.clone().map(move |x| (x, y))).map(|(x, y)| light(x, y)).sum();
+            sum / count
+        };
+        Self(ranked(&(0..SIDE * SIDE).map(texel).collect::<Vec<_>>()))
+    }
+}
+
+/// What a tile of noise depends on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+struct TileKey {
+    octaves: u32,
+    seed: u32,
+    turbulent: bool,
+}
+
+/// Tiles on the device, made when first asked for.
+pub(super) struct SketchImages {
+    sampler: wgpu::Sampler,
+    nothing: wgpu::TextureView,
+    tiles: HashMap<TileKey, (wgpu::TextureView, u64)>,
+    papers: Vec<(Paper, wgpu::TextureView, u64)>,
+    made: u64,
+}
+
+/// What a sketch is drawn with.
+pub(super) struct Prepared<'a> {
+    /// A tile of noise, for what follows the picture.
+    pub(super) tile: &'a wgpu::TextureView,
+    /// A tile of paper.
+    pub(super) paper: &'a wgpu::TextureView,
+    /// How they are read.
+    pub(super) sampler: &'a wgpu::Sampler,
+    /// Changes when they do.
+    pub(super) revision: u64,
+}
+
+impl SketchImages {
+    /// None yet.
+    pub(super) fn new(gpu: &Gpu) -> Self {
+        let sampler = gpu.device.create_sampler(&wgpu::SamplerDescriptor {
+            label: Some("tiles"),
+            address_mode_u: wgpu::AddressMode::Repeat,
+            address_mode_v: wgpu::AddressMode::Repeat,
+            mag_filter: wgpu::FilterMode::Linear,
+            min_filter: wgpu::FilterMode::Linear,
+            ..Default::default()
+        });
+        let nothing = upload(gpu, wgpu::TextureFormat::Rgba8Unorm, 1, &[0; 4]);
+        Self { sampler, nothing, tiles: HashMap::new(), papers: Vec::new(), made: 0 }
+    }
+
+    /// The tiles of a sketch.
+    ///
+    /// # Errors
+    /// [`GpuError::TooLarge`].
+    pub(super) fn prepare(&mut self, gpu: &Gpu, sketch: &Sketch) -> Result<Prepared<'_>, GpuError> {
+        gpu.check_texture_size("a tile of noise", [SIDE as u32; 2])?;
+        let wander = &sketch.style.wander;
+        let key = sketch.is_on_screen().then(|| TileKey {
+            octaves: wander.octaves,
+            seed: wander.seed,
+            turbulent: wander.noise == Noise::Turbulence,
+        });
+        if let Some(key) = key.filter(|key| !self.tiles.contains_key(key)) {
+            if self.tiles.len() >= MOST_KEPT {
+                self.tiles.clear();
+            }
+            let texels = turbulence_tile(key.octaves, key.seed, key.turbulent);
+            let halves: Vec<u16> =
+                texels.iter().flatten().map(|value| half::f16::from_f32(*value).to_bits()).collect();
+            let bytes = bytemuck::cast_slice(&halves);
+            let view = upload(gpu, wgpu::TextureFormat::Rg16Float, SIDE as u32, bytes);
+            self.made += 1;
+            self.tiles.insert(key, (view, self.made));
+        }
+        let has_paper = sketch.has_grain();
+        let known = |papers: &[(Paper, wgpu::TextureView, u64)]| {
+            papers.iter().position(|(paper, ..)| *paper == sketch.paper)
+        };
+        if has_paper && known(&self.papers).is_none() {
+            if self.papers.len() >= MOST_KEPT {
+                self.papers.clear();
+            }
+            let view = upload(gpu, wgpu::TextureFormat::Rgba8Unorm, SIDE as u32, &texels_of(&sketch.paper));
+            self.made += 1;
+            self.papers.push((sketch.paper.clone(), view, self.made));
+        }
+        let tile = key.and_then(|key| self.tiles.get(&key));
+        let paper = known(&self.papers).filter(|_| has_paper).and_then(|i| self.papers.get(i));
+        Ok(Prepared {
+            tile: tile.map_or(&self.nothing, |(view, _)| view),
+            paper: paper.map_or(&self.nothing, |(_, view, _)| view),
+            sampler: &self.sampler,
+            revision: tile.map_or(0, |(_, made)| *made) + (paper.map_or(0, |(.., made)| *made) << 32),
+        })
+    }
+}
+
+/// The tile of paper: generated, or with the tooth of an image.
+fn texels_of(paper: &Paper) -> Vec<u8> {
+    static GENERATED: OnceLock<Vec<[u8; 4]>> = OnceLock::new();
+    let mut texels = GENERATED.get_or_init(paper_tile).clone();
+    if let Some(tooth) = &paper.0 {
+        for (texel, height) in texels.iter_mut().zip(&tooth.0) {
+            texel[0] = *height;
+        }
+    }
+    texels.into_flattened()
+}
+
+fn upload(gpu: &Gpu, format: wgpu::TextureFormat, side: u32, bytes: &[u8]) -> wgpu::TextureView {
+    let size = wgpu::Extent3d { width: side, height: side, depth_or_array_layers: 1 };
+    let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
+        label: Some("tile"),
+        size,
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format,
+        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+        view_formats: &[],
+    });
+    // All of these formats have four bytes.
+    gpu.queue.write_texture(
+        texture.as_image_copy(),
+        bytes,
+        wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(side * 4), rows_per_image: Some(side) },
+        size,
+    );
+    texture.create_view(&wgpu::TextureViewDescriptor {
+        dimension: Some(wgpu::TextureViewDimension::D2Array),
+        ..Default::default()
+    })
+}

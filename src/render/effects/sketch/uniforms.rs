@@ -1,0 +1,150 @@
+//! What the shader of sketches reads, made from a style.
+
+use encase::ShaderType;
+use glam::{UVec4, Vec2, Vec3, Vec4};
+
+use crate::render::base::noise::TILE_CELLS;
+use crate::render::passes::offset_field::FieldUniform;
+use crate::style;
+use crate::style::sketch::{MOST_OFFSET, MOST_PASSES, Noise, Tone};
+
+/// Farthest that anything is fetched from, px.
+const MOST_BAND: f32 = 64.0;
+
+/// Twin of `Pass` in `shaders/effects/sketch.wgsl`.
+#[derive(Debug, Clone, Copy, PartialEq, ShaderType, Default)]
+pub(super) struct PassUniform {
+    matrix: Vec4,
+    color: Vec3,
+    has_color: u32,
+    width: f32,
+    density: f32,
+}
+
+/// Twin of `Sketch` in `shaders/effects/sketch.wgsl`.
+#[derive(Debug, Clone, Copy, PartialEq, ShaderType)]
+pub(super) struct SketchUniform {
+    passes: [PassUniform; MOST_PASSES],
+    fill_matrix: Vec4,
+    pigment: Vec3,
+    surface_color: f32,
+    smudge_color: Vec3,
+    smudge: f32,
+    turn: Vec2,
+    stroke_width: f32,
+    strokes: f32,
+    density: f32,
+    by_darkness: f32,
+    pressure: f32,
+    grain: f32,
+    soft: f32,
+    grain_size: f32,
+    roughness: f32,
+    pixels_per_reference: f32,
+    line_scale: f32,
+    fill_scale: f32,
+    count: u32,
+    shows_fill: u32,
+}
+
+/// Twin of `SketchObject` in `shaders/effects/sketch.wgsl`.
+#[derive(Debug, Clone, Copy, PartialEq, ShaderType, Default)]
+pub(super) struct SketchObject {
+    /// The middle of the object, px.
+    pub(super) middle: Vec2,
+}
+
+/// A share as it is used: 0 to 1, and 0 where it is no number.
+fn share(value: f32) -> f32 {
+    within(value, 0.0, 1.0)
+}
+
+fn within(value: f32, least: f32, most: f32) -> f32 {
+    if value.is_nan() { least } else { value.clamp(least, most) }
+}
+
+/// From noise to offsets in pixels, by rows.
+fn rows(matrix: style::Matrix, factor: f32) -> Vec4 {
+    Vec4::from_array(matrix.scaled(factor, MOST_OFFSET).numbers())
+}
+
+/// From reference pixels to pixels, as often as a style asks for it.
+fn factor(sketch: &style::Sketch, scale: f32) -> f32 {
+    within(sketch.wander.amount, 0.0, 4.0) * scale
+}
+
+/// How far anything is off at most, px: three and a half times what it is off on average, in whole steps, so that a little more or
+/// less does not change it.
+pub(super) fn band(sketch: &style::Sketch, scale: f32) -> f32 {
+    let passes = sketch.pass.iter().take(sketch.passes.clamp(1, MOST_PASSES as u32) as usize);
+    let fill = sketch.fill.show.then_some(sketch.fill.matrix);
+    let matrices = passes.map(|pass| pass.matrix).chain(fill);
+    let rms =
+        matrices.map(|m| m.scaled(factor(sketch, scale), MOST_OFFSET * scale).rms()).fold(0.0, f32::max);
+    let far = 3.5 * rms + 2.0 * within(sketch.grain.roughness, 0.0, 8.0) * scale;
+    ((far / 8.0).ceil() * 8.0).clamp(8.0, MOST_BAND)
+}
+
+/// What finding noise depends on.
+pub(super) fn field(sketch: &style::Sketch, scale: f32) -> FieldUniform {
+    let wander = &sketch.wander;
+    let seed = |purpose: u32, own: u32| {
+        wander.seed.wrapping_mul(0x9e37_79b1)
+            ^ own.wrapping_mul(0x85eb_ca6b)
+            ^ purpose.wrapping_mul(0xc2b2_ae35)
+    };
+    let seeds: [u32; MOST_PASSES] = std::array::from_fn(|i| seed(1, sketch.pass[i].seed));
+    let [a, b, c, d, e, f, g, h] = seeds;
+    FieldUniform {
+        line_wave: within(wander.wave, 8.0, 1000.0) * scale,
+        fill_wave: within(sketch.fill.wave, 8.0, 1000.0) * scale,
+        detail: share(wander.detail),
+        control: wander.anchor as u32,
+        turbulent: u32::from(wander.noise == Noise::Turbulence),
+        fill_seed: seed(2, 0),
+        passes: sketch.passes.clamp(1, MOST_PASSES as u32),
+        pixels_per_reference: scale,
+        seeds: [UVec4::new(a, b, c, d), UVec4::new(e, f, g, h)],
+    }
+}
+
+impl SketchUniform {
+    /// Of a style; `scale`: pixels per reference pixel.
+    pub(super) fn new(sketch: &style::Sketch, scale: f32) -> Self {
+        let style::Sketch { wander, passes, fill, grain, .. } = sketch;
+        let factor = factor(sketch, scale);
+        let pass = |pass: &style::sketch::Pass| PassUniform {
+            matrix: rows(pass.matrix, factor),
+            color: pass.color.unwrap_or_default().to_linear(),
+            has_color: u32::from(pass.color.is_some()),
+            width: within(pass.width, 0.1, 4.0),
+            density: share(pass.density),
+        };
+        let ink = sketch.pass[0].color.unwrap_or(fill.color);
+        // Noise of one cell is as long as a wave.
+        let per_px = |wave: f32| 1.0 / (TILE_CELLS as f32 * within(wave, 8.0, 1000.0) * scale);
+        Self {
+            passes: std::array::from_fn(|number| pass(&sketch.pass[number])),
+            fill_matrix: rows(fill.matrix, factor),
+            pigment: fill.color.to_linear(),
+            surface_color: share(fill.surface_color),
+            smudge_color: ink.to_linear(),
+            smudge: share(grain.smudge),
+            turn: Vec2::from_angle(within(fill.angle, -180.0, 180.0).to_radians()),
+            stroke_width: within(fill.stroke_width, 1.0, 64.0) * scale,
+            strokes: share(fill.strokes),
+            density: share(fill.density),
+            by_darkness: if fill.tone == Tone::Darkness { 1.0 } else { 0.0 },
+            pressure: share(wander.pressure),
+            grain: share(grain.amount),
+            soft: within(grain.soft, 0.02, 0.49),
+            grain_size: within(grain.size, 0.5, 32.0) * scale,
+            roughness: within(grain.roughness, 0.0, 8.0) * scale,
+            pixels_per_reference: scale,
+            line_scale: per_px(wander.wave),
+            fill_scale: per_px(fill.wave),
+            count: (*passes).clamp(1, MOST_PASSES as u32),
+            shows_fill: u32::from(fill.show),
+        }
+    }
+}

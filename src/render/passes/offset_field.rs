@@ -1,0 +1,151 @@
+//! The noise that says where lines and colours of a sketch go: see `shaders/passes/offset_field.wgsl`.
+//!
+//! ```text
+//! edge map ─────────────────────────────► noise of each line, where it runs
+//! geometry ─► blocks ─► nearest surface ─► noise of each surface, for blocks in it and around
+//! ```
+
+use encase::ShaderType;
+use glam::{Mat4, UVec4};
+
+use super::gbuffer::GBuffer;
+use crate::gpu::{Program, Recorder, Target, inputs};
+use crate::render::base::error::RenderError;
+
+/// Pixels per side of a block, as in `passes/offset_field.wgsl`.
+pub const BLOCK: u32 = 4;
+/// Most passes of one target, two halves each.
+const PASSES_PER_TEXEL: u32 = 4;
+/// Pixels or blocks per side of a workgroup.
+const GROUP: u32 = 8;
+
+const HALVES: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Uint;
+const INDEX: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;
+
+/// Twin of `Field` in `shaders/passes/offset_field.wgsl`.
+#[derive(Debug, Clone, Copy, PartialEq, ShaderType)]
+pub struct FieldUniform {
+    /// Length of a wave of lines, px.
+    pub line_wave: f32,
+    /// Length of a wave of colours, px.
+    pub fill_wave: f32,
+    /// Share of the finer wave, 0 to 1.
+    pub detail: f32,
+    /// What controls the noise, as in [`crate::style::sketch::Anchor`].
+    pub control: u32,
+    /// 1: with kinks.
+    pub turbulent: u32,
+    /// Number of the noise of colours.
+    pub fill_seed: u32,
+    /// How often lines are drawn, 1 to 8.
+    pub passes: u32,
+    /// Pixels per reference pixel.
+    pub pixels_per_reference: f32,
+    /// Numbers of their noise.
+    pub seeds: [UVec4; 2],
+}
+
+/// Twin of `FieldObject` in `shaders/passes/offset_field.wgsl`.
+#[derive(Debug, Clone, Copy, PartialEq, ShaderType, Default)]
+pub struct ObjectUniform {
+    /// View space to the object's axes about its middle, scene units.
+    pub from_view: Mat4,
+    /// Told apart by it, where objects are.
+    pub seed: u32,
+}
+
+/// What noise is asked for with, on the device.
+#[derive(Clone, Copy)]
+pub struct FieldBuffers<'a> {
+    /// A [`FieldUniform`].
+    pub field: &'a wgpu::Buffer,
+    /// [`ObjectUniform`] by object id.
+    pub objects: &'a wgpu::Buffer,
+}
+
+/// The noise of lines: undefined where none run.
+#[derive(Debug, Clone)]
+pub struct LineField {
+    /// Of the first four passes.
+    pub first: Target,
+    /// Of the others; `None`: there are none.
+    pub more: Option<Target>,
+}
+
+/// Finds the noise of the lines of an edge map for so many passes.
+///
+/// # Errors
+/// [`RenderError`].
+pub fn line_field(
+    rec: &mut Recorder<'_>,
+    buffers: FieldBuffers<'_>,
+    gbuffer: &GBuffer,
+    edges: &Target,
+    passes: u32,
+) -> Result<LineField, RenderError> {
+    let first = rec.target("noise of lines", HALVES)?;
+    let more = if passes > PASSES_PER_TEXEL { Some(rec.target("noise of lines", HALVES)?) } else { None };
+    let inputs = inputs! {
+        field: buffers.field,
+        field_objects: buffers.objects,
+        geometry_tex: &gbuffer.geometry,
+        edge_map_tex: edges,
+        line_field_tex: &first,
+        more_line_field_tex: more.as_ref(),
+    };
+    let groups = rec.size().map(|side| side.div_ceil(GROUP));
+    rec.compute("noise of lines", &Program::new("passes/offset_field.wgsl", "cs_lines"), &inputs, groups)?;
+    Ok(LineField { first, more })
+}
+
+/// Finds for each block the nearest surface, as far as it is within `distance` (px).
+///
+/// # Errors
+/// [`RenderError`].
+pub fn nearest_surfaces(
+    rec: &mut Recorder<'_>,
+    geometry: &Target,
+    distance: f32,
+) -> Result<Target, RenderError> {
+    let blocks = rec.size().map(|side| side.div_ceil(BLOCK));
+    let groups = blocks.map(|side| side.div_ceil(GROUP));
+    let program = |entry_point, switches| Program { file: "passes/offset_field.wgsl", entry_point, switches };
+    let mut near = rec.target_of("nearest surfaces", INDEX, blocks)?;
+    let inputs = inputs! { geometry_tex: geometry, found_tex: &near };
+    rec.compute("nearest surfaces", &program("cs_blocks", vec![]), &inputs, groups)?;
+    let mut step = ((distance / BLOCK as f32).ceil() as u32).clamp(1, 8).next_power_of_two();
+    while step > 0 {
+        let next = rec.target_of("nearest surfaces", INDEX, blocks)?;
+        let inputs = inputs! { near_tex: &near, found_tex: &next };
+        let switches =
+            vec![("STEP_8", step == 8), ("STEP_4", step == 4), ("STEP_2", step == 2), ("STEP_1", step == 1)];
+        rec.compute("nearest surfaces", &program("cs_flood", switches), &inputs, groups)?;
+        near = next;
+        step /= 2;
+    }
+    Ok(near)
+}
+
+/// Finds the noise of the surfaces that are nearest to blocks.
+///
+/// # Errors
+/// [`RenderError`].
+pub fn fill_field(
+    rec: &mut Recorder<'_>,
+    buffers: FieldBuffers<'_>,
+    geometry: &Target,
+    nearest: &Target,
+) -> Result<Target, RenderError> {
+    let blocks = nearest.size();
+    let fill = rec.target_of("noise of surfaces", HALVES, blocks)?;
+    let inputs = inputs! {
+        field: buffers.field,
+        field_objects: buffers.objects,
+        geometry_tex: geometry,
+        near_tex: nearest,
+        fill_field_tex: &fill,
+    };
+    let program = Program::new("passes/offset_field.wgsl", "cs_fill");
+    rec.compute("noise of surfaces", &program, &inputs, blocks.map(|side| side.div_ceil(GROUP)))?;
+    Ok(fill)
+}
