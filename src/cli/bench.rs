@@ -19,6 +19,7 @@ use crate::render::Request;
 use crate::scene::{Camera, Material, Node, Scene};
 use crate::style::halftone::{Mapping, Space};
 use crate::style::hidden::HiddenLayers;
+use crate::style::sketch::Anchor;
 use crate::style::toon::Border;
 use crate::style::{DepthOperator, EdgeMode, HiddenMode, Style, StyleError, Technique, preset};
 
@@ -276,6 +277,12 @@ fn looks(has_uvs: bool, pixels: &[u32], size: [u32; 2]) -> Result<Vec<Look>, Cli
         (style.edges.hidden.mode, style.edges.hidden.layers) = (HiddenMode::Dashed, layers);
         style
     };
+    let loose = preset::load("loose-ink")?.style;
+    let sketch = |anchor, passes| {
+        let mut style = loose.clone();
+        (style.sketch.wander.anchor, style.sketch.passes) = (anchor, passes);
+        style
+    };
     let plain = preset::load("plain")?.style;
     let unshadowed = Lighting::default();
     let hard = Lighting { shadows: true, ..Lighting::default() };
@@ -298,6 +305,10 @@ fn looks(has_uvs: bool, pixels: &[u32], size: [u32; 2]) -> Result<Vec<Look>, Cli
         ("gooch + hidden lines, next", hidden(HiddenLayers::Next)),
         ("gooch + hidden lines, all", hidden(HiddenLayers::All)),
         ("lines", preset::load("lines")?.style),
+        ("sketch, screen", sketch(Anchor::Screen, 1)),
+        ("sketch, surface", sketch(Anchor::Surface, 1)),
+        ("sketch, four passes", sketch(Anchor::Surface, 4)),
+        ("crayon", preset::load("crayon")?.style),
     ];
     let look = |name, style, lighting: &Lighting| Look {
         name,

@@ -94,9 +94,7 @@ fn usage(format: wgpu::TextureFormat) -> wgpu::TextureUsages {
         | wgpu::TextureUsages::COPY_SRC
         | wgpu::TextureUsages::COPY_DST;
     match format {
-        wgpu::TextureFormat::R32Uint => {
-            usage | wgpu::TextureUsages::STORAGE_BINDING
-        }
+        wgpu::TextureFormat::R32Uint => usage | wgpu::TextureUsages::STORAGE_BINDING,
         wgpu::TextureFormat::Rg32Uint | wgpu::TextureFormat::Rgba32Uint => {
             usage | wgpu::TextureUsages::STORAGE_BINDING
         }
