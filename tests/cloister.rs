@@ -50,6 +50,7 @@ fn the_cloister_is_made_of_named_solids() {
         "corner.1/vault/web",
         "roofs/roof",
         "roofs/tiles.4",
+        "roofs/valley.4",
         "church/gable.2",
         "tower/bell",
         "tower/cross",

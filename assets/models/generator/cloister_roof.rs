@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use glam::{DQuat, dvec2};
+use glam::{DQuat, DVec3, dvec2, dvec3};
 
 use crate::cloister::{BAY, Builder, Finish, OUTER};
 use crate::cloister_masonry::{cover, frame, points, united};
@@ -36,6 +36,11 @@ pub(crate) fn roofs(builder: &mut Builder) -> Vec<Node> {
         let turn = DQuat::from_rotation_y(f64::from(i) * FRAC_PI_2);
         Node::new(format!("tiles.{}", i + 1), Some(tiles)).turned(turn)
     }));
+    let valley = builder.mesh("valley", Finish::Tiles, valley());
+    parts.extend((0..4).map(|i| {
+        let turn = DQuat::from_rotation_y(f64::from(i) * FRAC_PI_2);
+        Node::new(format!("valley.{}", i + 1), Some(valley)).turned(turn)
+    }));
     parts
 }
 
@@ -48,4 +53,25 @@ fn tiles() -> Solid {
         cover(x, dvec2(from, height(from)), dvec2(to, height(to)), 0.15, [0.1, 0.22])
     };
     united((0..2 * n).map(ridge))
+}
+
+/// The broad tiles in the valley between two sides, which hide where their ridges end.
+fn valley() -> Solid {
+    const WIDE: f64 = 0.3;
+    // Higher than the ridges.
+    let (over, under) = (0.1, -0.05);
+    let ring = |out: f64| {
+        let place = |x: f64, z: f64, over: f64| dvec3(out + x, height(out + x.max(z)) + over, out + z);
+        let row = |over| [place(WIDE, 0.0, over), place(0.0, 0.0, over), place(0.0, WIDE, over)];
+        (row(under), row(over))
+    };
+    let mut solid = Solid::default();
+    let (near, far) = (ring(LOW[0] - 0.05), ring(OUTER + 0.02));
+    let around = |([a, b, c], [d, e, f]): ([DVec3; 3], [DVec3; 3])| [a, b, c, f, e, d];
+    solid.band(&around(far), &around(near));
+    for (low, high) in [near, ([far.0[2], far.0[1], far.0[0]], [far.1[2], far.1[1], far.1[0]])] {
+        solid.quad(low[0], low[1], high[1], high[0]);
+        solid.quad(low[1], low[2], high[2], high[1]);
+    }
+    solid
 }

@@ -47,8 +47,7 @@ struct Bay {
 }
 
 impl Bay {
-    /// A bay between arches: half the width along the walk, and how far the masonry goes on
-    /// in the arches and walls.
+    /// A bay between arches: half its width along the walk, and how far its masonry goes on in the arches and walls.
     fn new(builder: &mut Builder, half: f64, beyond: [f64; 2]) -> Self {
         let rib = points(&[(-0.11, -0.05), (0.08, -0.08), (0.08, 0.08), (-0.11, 0.05)]);
         Self {

@@ -15,6 +15,8 @@ use crate::temple_masonry::{SUNK, block};
 const FACE: f64 = OUTER + 0.9;
 /// The walls' upper side.
 const TOP: f64 = 6.88;
+/// The middle of the vault at a walk's end.
+const END: f64 = (OUTER + WALK) / 2.0;
 /// The gate in the middle of a side.
 const GATE: Opening = Opening { middle: 0.0, half: 0.85, foot: -DEEP, spring: 2.2 };
 
@@ -23,12 +25,10 @@ pub(crate) struct Walls {
     outside: usize,
     beside: usize,
     gate: [usize; 2],
+    step: usize,
     frame: usize,
     buttress: usize,
 }
-
-/// The middle of the vault at a walk's end.
-const END: f64 = (OUTER + WALK) / 2.0;
 
 /// Where a wall has windows: in every bay beside the gate, and at the ends of the other walks.
 fn windows() -> [f64; 8] {
@@ -57,7 +57,8 @@ impl Walls {
         };
         let windows: Vec<Opening> = windows().into_iter().map(window).collect();
         let doors = [-END, END].map(|middle| Opening { middle, ..GATE });
-        let jambs = surround(GATE.grown(-0.08), FLOOR - 0.5 * SUNK, 0.28, [OUTER - 0.06, FACE + 0.06]);
+        let jambs = surround(GATE.grown(-0.08), -0.5 * DEEP, 0.3, [OUTER - 0.07, FACE + 0.08]);
+        let step = block([-1.4, 1.4], [-0.6 * DEEP, 0.06], [FACE - 0.3, FACE + 0.55]);
         let around = united([
             surround(window(0.0).grown(-0.07), window(0.0).foot - SUNK, 0.17, [OUTER - 0.05, FACE + 0.05]),
             block([-0.64, 0.64], [1.76, 1.94], [OUTER - 0.1, FACE + 0.11]),
@@ -66,6 +67,7 @@ impl Walls {
             outside: builder.mesh("wall", Finish::Stone, wall(&[GATE], &windows)),
             beside: builder.mesh("wall", Finish::Stone, wall(&doors, &[])),
             gate: [builder.mesh("jambs", Finish::Pale, jambs), builder.mesh("leaf", Finish::Wood, leaf())],
+            step: builder.mesh("step", Finish::Paving, step),
             frame: builder.mesh("window", Finish::Pale, around),
             buttress: builder.mesh("buttress", Finish::Stone, buttress()),
         }
@@ -80,7 +82,11 @@ impl Walls {
 
     /// A wall towards the outside.
     pub(crate) fn outside(&self) -> Node {
-        let mut parts = vec![Node::new("wall", Some(self.outside)), self.door("gate", 0.0)];
+        let mut parts = vec![
+            Node::new("wall", Some(self.outside)),
+            self.door("gate", 0.0),
+            Node::new("step", Some(self.step)),
+        ];
         for (i, x) in windows().into_iter().enumerate() {
             let frame = Node::new(format!("window.{}", i + 1), Some(self.frame));
             parts.push(Builder::placed(frame, x, 0.0, 0.0));
