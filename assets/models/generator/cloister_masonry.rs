@@ -13,7 +13,7 @@ use crate::solid::{Axis, Solid};
 use crate::temple_masonry::Span;
 
 /// Chords of an arch: enough that it is round, and none of its edges is drawn.
-pub(crate) const CHORDS: usize = 22;
+pub(crate) const CHORDS: usize = 24;
 /// Chords of the arch over a door or window.
 const FEWER: usize = 16;
 
