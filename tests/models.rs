@@ -214,6 +214,11 @@ fn the_temple_is_built_of_closed_parts() {
     Model::open("temple.glb").check();
 }
 
+#[test]
+fn the_cloister_is_built_of_closed_parts() {
+    Model::open("cloister.glb").check();
+}
+
 /// The still life as the program imports it.
 fn still_life() -> Scene {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/models/still_life.glb");

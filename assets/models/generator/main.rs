@@ -5,6 +5,16 @@
     reason = "a tool for the people who change the models: it may stop with a message and report on its standard output"
 )]
 
+mod cloister;
+mod cloister_arcade;
+mod cloister_church;
+mod cloister_column;
+mod cloister_court;
+mod cloister_masonry;
+mod cloister_roof;
+mod cloister_vault;
+mod cloister_walls;
+mod cloister_well;
 mod crank;
 mod crankshaft;
 mod curve;
@@ -54,7 +64,8 @@ mod wood;
 /// Writes each model, or only those named on the command line, and reports their sizes.
 fn main() {
     let wanted: Vec<String> = std::env::args().skip(1).collect();
-    let models: [(&str, fn() -> glb::Scene); 4] = [
+    let models: [(&str, fn() -> glb::Scene); 5] = [
+        ("cloister", cloister::scene),
         ("crank", crank::scene),
         ("ogre", ogre::scene),
         ("still_life", still_life::scene),

@@ -1,0 +1,68 @@
+//! Finds faces of a scene that lie in one place, where no renderer can tell which is in front.
+#![allow(dead_code, unreachable_pub, reason = "each test binary uses its own part")]
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use glam::{DVec2, DVec3, dvec3};
+use hachure::scene::Scene;
+
+/// A triangle in the world, in metres.
+pub type Triangle = [DVec3; 3];
+
+/// Each triangle with the path of its node.
+pub fn triangles(scene: &Scene) -> Vec<(&str, Triangle)> {
+    let shown = scene.nodes.iter().filter_map(|node| Some((node, &scene.meshes[node.mesh?])));
+    shown
+        .flat_map(|(node, mesh)| {
+            mesh.indices.chunks_exact(3).map(move |corners| {
+                let place = |k: usize| mesh.positions[corners[k] as usize].as_dvec3();
+                (node.path.as_str(), [0, 1, 2].map(|k| node.world_from_local.transform_point3(place(k))))
+            })
+        })
+        .collect()
+}
+
+/// The paths of nodes with faces in one place, in pairs.
+pub fn shared(scene: &Scene) -> BTreeSet<(&str, &str)> {
+    let mut planes: BTreeMap<[i64; 3], Vec<(f64, DVec3, &str, Triangle)>> = BTreeMap::new();
+    for (path, triangle) in triangles(scene) {
+        let [a, b, c] = triangle;
+        let normal = (b - a).cross(c - a).normalize();
+        // Both sides of a plane are the same plane.
+        let sign = if normal.dot(dvec3(1.0, 1e-3, 1e-6)) < 0.0 { -1.0 } else { 1.0 };
+        let normal = normal * sign;
+        let key = (normal * 1e3).round().to_array().map(|v| v as i64);
+        planes.entry(key).or_default().push((normal.dot(a), normal, path, triangle));
+    }
+    let mut shared = BTreeSet::new();
+    for plane in planes.values_mut() {
+        plane.sort_by(|a, b| a.0.total_cmp(&b.0));
+        for (i, &(at, normal, path, triangle)) in plane.iter().enumerate() {
+            for &(_, _, other, beside) in plane[i + 1..].iter().take_while(|face| face.0 - at < 1e-3) {
+                if overlap(normal, triangle, beside) {
+                    shared.insert((path.min(other), path.max(other)));
+                }
+            }
+        }
+    }
+    shared
+}
+
+/// Do two triangles of one plane overlap by more than two millimetres in every direction? (No line parts them.)
+fn overlap(normal: DVec3, a: Triangle, b: Triangle) -> bool {
+    let u = normal.any_orthonormal_vector();
+    let v = normal.cross(u);
+    let flat = |triangle: Triangle| triangle.map(|p| DVec2::new(p.dot(u), p.dot(v)));
+    let (a, b) = (flat(a), flat(b));
+    let span = |points: [DVec2; 3], axis: DVec2| {
+        let along = points.map(|p| p.dot(axis));
+        (along.into_iter().fold(f64::INFINITY, f64::min), along.into_iter().fold(f64::NEG_INFINITY, f64::max))
+    };
+    [a, b].iter().all(|points| {
+        (0..3).all(|k| {
+            let axis = (points[(k + 1) % 3] - points[k]).normalize().perp();
+            let ((a0, a1), (b0, b1)) = (span(a, axis), span(b, axis));
+            a1.min(b1) - a0.max(b0) > 2e-3
+        })
+    })
+}
