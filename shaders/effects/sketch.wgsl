@@ -338,7 +338,9 @@ fn fs_fill(@builtin(position) position: vec4<f32>) -> Filled {
         let own = shaded.rgb / max(shaded.a, 1e-4);
         // As dark as it looks.
         let light = pow(clamp(dot(own, vec3(0.2126, 0.7152, 0.0722)), 0.0, 1.0), 1.0 / 2.2);
-        var density = sketch.density * mix(1.0, 1.0 - light, sketch.by_darkness) * min(shaded.a / max(opacity, 1e-4), 1.0);
+        // Pigment that covers so much of bright paper looks so much darker.
+        let dark = 1.0 - pow(1.0 - sketch.density * (1.0 - light), 2.2);
+        var density = mix(sketch.density, dark, sketch.by_darkness) * min(shaded.a / max(opacity, 1e-4), 1.0);
         var pigment = mix(sketch.pigment, own, sketch.surface_color);
         if WITH_GRAIN {
             density *= stroke_share(x, s.object) * pressed(fill_noise(y, s.object));
