@@ -248,9 +248,10 @@ fn stroke_share(x: vec2<f32>, object: u32) -> f32 {
     return 1.0 - sketch.strokes * smoothstep(0.35, 1.0, 1.0 - rank);
 }
 
-// So far, px, may what is fetched from y lie behind another surface at x.
+// So far, px, may what is fetched from y lie behind another surface at x: a foot that is drawn lower lies behind the floor
+// there.
 fn tolerance(x: vec2<f32>, y: vec2<f32>) -> f32 {
-    return 4.0 * max(distance(x, y), 1.0);
+    return 4.0 * distance(x, y);
 }
 
 // Whether a surface at a pixel hides what has this depth.
@@ -395,7 +396,10 @@ fn drawn_ink(px: vec2<i32>, number: u32, other: Surfel, rough: vec2<f32>) -> Lin
     let y = inside(source.at + rough);
     width_factor = sketch.passes[number].width;
     var line = lines_at_place(y, unpack_surfel(geometry_at(vec2<i32>(floor(y)))));
-    if line.ink.a <= 0.0 || (!WITH_NEARER && is_behind(other, line.depth, tolerance(x, y))) {
+    if line.ink.a <= 0.0 {
+        return no_line();
+    }
+    if !WITH_NEARER && hides(other, px, line.depth, -line.away, max(tolerance(x, y), slack())) {
         return no_line();
     }
     let color = select(line.ink.rgb / line.ink.a, sketch.passes[number].color, sketch.passes[number].has_color == 1u);

@@ -34,16 +34,18 @@ fn slack() -> f32 {
     return select(2.0, 0.25, AMONG_OTHERS);
 }
 
-fn is_hidden(g: Surfel, px: vec2<i32>, edge: Edge, spine: vec2<f32>) -> bool {
-    if g.object == 0u || g.object == edge.object {
-        return false;
-    }
-    let line = nearness_of(edge.depth);
+// Whether surface `g` of a pixel lies so much, px, before a line of this depth whose spine is so far from the pixel's centre.
+fn hides(g: Surfel, px: vec2<i32>, depth: f32, to_spine: vec2<f32>, most: f32) -> bool {
+    let line = nearness_of(depth);
     let plane = plane_of(px, g.depth, g.face_normal);
     // Neither here nor where it is continued to the spine may the surface lie before the line: what an object stands
     // on does not hide the line at its foot.
-    let lead = min(plane.center, nearness_at(plane, spine - vec2<f32>(px) - 0.5)) - line;
-    return step_px(lead, edge.depth) > slack();
+    let lead = min(plane.center, nearness_at(plane, to_spine)) - line;
+    return g.object != 0u && step_px(lead, depth) > most;
+}
+
+fn is_hidden(g: Surfel, px: vec2<i32>, edge: Edge, spine: vec2<f32>) -> bool {
+    return g.object != edge.object && hides(g, px, edge.depth, spine - vec2<f32>(px) - 0.5, slack());
 }
 
 struct Line {
@@ -55,10 +57,12 @@ struct Line {
     is_hidden: bool,
     // How strong its ink is where it covers all of a pixel, 0 to 1.
     strength: f32,
+    // From its spine to here, px.
+    away: vec2<f32>,
 }
 
 fn no_line() -> Line {
-    return Line(vec4(0.0), 0.0, false, 0.0);
+    return Line(vec4(0.0), 0.0, false, 0.0, vec2(0.0));
 }
 
 // Factor of all widths.
@@ -106,7 +110,7 @@ fn line_at(at: vec2<f32>, g: Surfel, found: u32) -> Line {
     let strength = edge_styles[edge.object].lines[index].strength * edge.weight;
     coverage *= strength;
     if coverage <= 0.0 || is_hidden(g, vec2<i32>(floor(at)), edge, spine) {
-        return Line(vec4(0.0), edge.depth, coverage > 0.0, 0.0);
+        return Line(vec4(0.0), edge.depth, coverage > 0.0, 0.0, d);
     }
     var color = edge_styles[edge.object].lines[index].color;
     if WITH_SURFACE_COLOR {
@@ -116,7 +120,7 @@ fn line_at(at: vec2<f32>, g: Surfel, found: u32) -> Line {
         let base = textureLoad(base_color_tex, inside, 0).rgb;
         color = mix(color, base * (1.0 - edge_styles[edge.object].darken), edge_styles[edge.object].surface_color);
     }
-    return Line(vec4(color, 1.0) * coverage, edge.depth, false, strength);
+    return Line(vec4(color, 1.0) * coverage, edge.depth, false, strength, d);
 }
 
 // A hidden line may have won against one that is not: of the lines of the pixels around, the one that covers most.
@@ -235,7 +239,8 @@ fn lines_at_place(at: vec2<f32>, g: Surfel) -> Line {
                 let thin = line_at(at, g, nearest);
                 let ink = thin.ink * apart(nearest, farthest);
                 let strength = select(lines.strength, thin.strength, ink.a > 0.0);
-                lines = Line(over(ink, lines.ink), select(lines.depth, thin.depth, ink.a > 0.0), false, strength);
+                let depth = select(lines.depth, thin.depth, ink.a > 0.0);
+                lines = Line(over(ink, lines.ink), depth, false, strength, select(lines.away, thin.away, ink.a > 0.0));
             }
         }
     }
@@ -251,7 +256,7 @@ fn lines_at_place(at: vec2<f32>, g: Surfel) -> Line {
             let inner = vec4(edge_styles[object].inner_color, 1.0) * ink.x;
             let profile = vec4(edge_styles[object].profile_color, 1.0) * ink.y;
             let both = over(over(profile, inner), lines.ink);
-            lines = Line(both, depth, false, both.a);
+            lines = Line(both, depth, false, both.a, vec2(0.0));
         }
     }
     return lines;
