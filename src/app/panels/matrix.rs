@@ -23,7 +23,8 @@ const STEP: f32 = 0.1;
 /// Columns shorter than that have no direction that both could be turned by.
 const SHORTEST: f32 = 0.05;
 
-/// How large the offsets of the grid are as a share of the handles': so that what tears in pictures does so here.
+/// How large the offsets of the grid are as a share of the handles' while these are not far out: what tears in pictures
+/// does so here.
 const OF_GRID: f32 = 0.25;
 
 /// Cells of the grid along a side.
@@ -141,7 +142,9 @@ impl Field<'_> {
         });
         if ui.is_rect_visible(rect) {
             let reach = self::reach(*matrix, self.most).max(if is_held { reach } else { 0.0 });
-            paint(ui, rect, *matrix, points_per_pixel(side, reach), marks);
+            let grid = OF_GRID * points_per_pixel(side, self.most / 4.0);
+            paint_grid(ui, rect, *matrix, grid);
+            paint_handles(ui, rect, *matrix, points_per_pixel(side, reach), marks);
         }
     }
 
@@ -275,8 +278,8 @@ fn colors(ui: &Ui) -> [Color32; 2] {
     [visuals.hyperlink_color, second]
 }
 
-/// The grid as the offsets distort it, and the two handles, which are (pointed at, focused).
-fn paint(ui: &Ui, rect: Rect, matrix: Matrix, scale: f32, marks: [(bool, bool); 2]) {
+/// The grid as the offsets distort it.
+fn paint_grid(ui: &Ui, rect: Rect, matrix: Matrix, scale: f32) {
     let visuals = ui.visuals();
     let frame = Stroke::new(1.0, visuals.widgets.noninteractive.bg_stroke.color);
     ui.painter().rect(rect, 3.0, visuals.extreme_bg_color, frame, egui::StrokeKind::Inside);
@@ -285,7 +288,7 @@ fn paint(ui: &Ui, rect: Rect, matrix: Matrix, scale: f32, marks: [(bool, bool); 
     let vertex = |across: f32, down: f32| {
         let share = vec2(across, down) / f32::from(CELLS);
         // More than one wave over the picture, so that they are seen as such.
-        rect.min + share * rect.size() + OF_GRID * scale * offset(matrix, noise(1.3 * share))
+        rect.min + share * rect.size() + scale * offset(matrix, noise(1.3 * share))
     };
     for line in 0..=CELLS {
         let line = f32::from(line);
@@ -293,6 +296,12 @@ fn paint(ui: &Ui, rect: Rect, matrix: Matrix, scale: f32, marks: [(bool, bool); 
         painter.line(along().map(|at| vertex(line, at)).collect(), grid);
         painter.line(along().map(|at| vertex(at, line)).collect(), grid);
     }
+}
+
+/// The two handles, which are (pointed at, focused).
+fn paint_handles(ui: &Ui, rect: Rect, matrix: Matrix, scale: f32, marks: [(bool, bool); 2]) {
+    let visuals = ui.visuals();
+    let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
     let center = rect.center();
     painter.circle_filled(center, 1.5, visuals.text_color());
     for (column, ((is_hovered, is_focused), color)) in marks.into_iter().zip(colors(ui)).enumerate() {
