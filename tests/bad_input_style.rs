@@ -177,7 +177,33 @@ fn a_wrong_style_file_ends_with_a_message_and_no_picture() {
         ),
         ("image.toml", b"toon.image = 7\n", "takes the path of a PNG or JPEG image"),
         ("huge.toml", b"[toon]\nbands = 99999999999999999999\n", "an integer that is too large"),
-        ("array.toml", b"toon = [1, 2]\n", "`toon` takes a switch, a number or a text, not an array"),
+        (
+            "array.toml",
+            b"toon = [1, 2]\n",
+            "`toon` takes a switch, a number, a text or a matrix as [[a, b], [c, d]]",
+        ),
+        (
+            "flat.toml",
+            b"[sketch.pass1]\nmatrix = [1, 2, 3, 4]\n",
+            "line 2: `sketch.pass1.matrix` takes a matrix of numbers from -32 to 32, [[a, b], [c, d]] in a file",
+        ),
+        ("words.toml", b"sketch.fill.matrix = \"1,2,3,4\"\n", "behind --set, not the text `1,2,3,4`"),
+        (
+            "nan.toml",
+            b"[sketch.pass1]\nmatrix = [[nan, 0], [0, 1]]\n",
+            "line 2: `sketch.pass1.matrix` = NaN is out of range: -32 to 32",
+        ),
+        (
+            "far.toml",
+            b"[sketch.pass8]\nmatrix = [[1e9, 0], [0, 1]]\n",
+            "line 2: `sketch.pass8.matrix` = 1000000000 is out of range: -32 to 32",
+        ),
+        (
+            "pass.toml",
+            b"[sketch.pass9]\nmatrix = [[1, 0], [0, 1]]\n",
+            "line 2: unknown parameter `sketch.pass9.matrix`; did you mean `sketch.pass",
+        ),
+        ("passes.toml", b"[sketch]\npasses = 9\n", "line 2: `sketch.passes` = 9 is out of range: 1 to 8"),
         ("syntax.toml", b"[toon\n", "syntax.toml, line 1: "),
         ("binary.toml", &[0xff; 300], "cannot read style binary.toml: "),
         ("nonsense.toml", &nonsense, "it has 10485760 bytes, a style file has at most"),
@@ -194,6 +220,33 @@ fn a_wrong_style_file_ends_with_a_message_and_no_picture() {
     assert!(String::from_utf8_lossy(&missing.stderr).contains("cannot read style none.toml"));
     let folder = place.hachure(&["model.obj", "--style", place.folder.path().to_str().unwrap()]);
     assert_eq!(folder.status.code(), Some(1));
+}
+
+#[test]
+fn a_matrix_is_set_by_its_rows() {
+    let place = Workplace::new();
+    place.write("sketch.toml", b"[sketch]\nenabled = true\npass1.matrix = [[1, 0.2], [-0.2, 1]]\n");
+    let set = ["model.obj", "--style", "sketch.toml", "--set", "sketch.pass1.matrix=1,0.2,-0.2,1"];
+    let (by_hand, said) = place.drawn(&set);
+    assert_eq!(said, "");
+    assert!(by_hand == place.drawn(&["model.obj", "--style", "sketch.toml"]).0);
+    let _ = std::fs::remove_file(place.path("out.png"));
+    for (value, message) in [
+        ("1,2,3", "a,b,c,d behind --set, not the text `1,2,3`"),
+        ("[[1,2],[3,4]]", "a,b,c,d behind --set, not the text `[[1,2],[3,4]]`"),
+        ("1,2,3,x", "not the text `1,2,3,x`"),
+        ("1.5", "not the number 1.5"),
+        ("inherit", "it inherits from nothing"),
+        ("nan,0,0,1", "`sketch.pass1.matrix` = NaN is out of range: -32 to 32"),
+        ("0,1e9,0,1", "= 1000000000 is out of range: -32 to 32"),
+    ] {
+        let setting = format!("sketch.pass1.matrix={value}");
+        let output = place.hachure(&["model.obj", "--set", &setting]);
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(1), "{value}: {said}");
+        assert!(said.contains(message), "{value}: {said}");
+        assert!(!place.path("out.png").exists(), "{value} left a picture behind");
+    }
 }
 
 /// The whole style list answers for what it prints.

@@ -339,5 +339,7 @@ mod tests {
         let setting: Setting = "a=b:toon.image=x=1.png".parse().unwrap();
         assert_eq!((setting.pattern.as_deref(), setting.key.as_str()), (Some("a=b"), "toon.image"));
         assert_eq!(setting.value, Value::from("x=1.png"));
+        let setting: Setting = "sketch.pass1.matrix=1,0.2,-0.2,1".parse().unwrap();
+        assert_eq!(setting.value, Value::Matrix(crate::style::Matrix([[1.0, 0.2], [-0.2, 1.0]])));
     }
 }

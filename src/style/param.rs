@@ -77,9 +77,10 @@ impl Param<'_> {
             }
             Slot::Color(_) => "a colour as #rrggbb".to_owned(),
             Slot::File(_) => "the path of a PNG or JPEG image, or an empty text".to_owned(),
-            Slot::Matrix { most, .. } => {
-                format!("a matrix a,b,c,d of numbers from {} to {most}", -most)
-            }
+            Slot::Matrix { most, .. } => format!(
+                "a matrix of numbers from {} to {most}, [[a, b], [c, d]] in a file and a,b,c,d behind --set",
+                -most
+            ),
             Slot::Choice(c) => format!("one of {}", c.names().join(", ")),
         };
         if self.slot.inherits().is_some() {
@@ -122,7 +123,9 @@ impl Param<'_> {
             }
             (Slot::Matrix { value, most }, Value::Matrix(new)) => {
                 if let Some(wrong) = new.numbers().into_iter().find(|n| !(-*most..=*most).contains(n)) {
-                    return Err(out_of_range(&self.key, f64::from(wrong), [-*most, *most]));
+                    // Through text, as for values.
+                    let wrong = wrong.to_string().parse().unwrap_or(0.0);
+                    return Err(out_of_range(&self.key, wrong, [-*most, *most]));
                 }
                 **value = *new;
                 true

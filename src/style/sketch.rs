@@ -325,8 +325,10 @@ impl Sketch {
             );
             for (number, pass) in pass.iter_mut().enumerate() {
                 let counts = COUNTS.into_iter().skip(number);
-                list.when_any("sketch.passes", counts, |list| {
-                    list.section(&format!("pass{}", number + 1), |list| pass.params(ink, list));
+                let name = format!("pass{}", number + 1);
+                list.when_any("sketch.passes", counts, |list| match number {
+                    0 => list.section(&name, |list| pass.params(ink, list)),
+                    _ => list.detail(&name, |list| pass.params(ink, list)),
                 });
             }
             list.section("fill", |list| fill.params(list));

@@ -63,9 +63,21 @@ pub fn set_from_toml(params: &mut [Param<'_>], text: &str, place: &str) -> Resul
         if key == "name" || key == "description" {
             continue;
         }
+        let value = value.map_err(|e| asked_of(params, e));
         value.and_then(|value| param::set(params, &key, &value)).map_err(|e| in_file(offset, e))?;
     }
     Ok(())
+}
+
+/// With what the parameter takes in place of what any takes.
+fn asked_of(params: &[Param<'_>], error: StyleError) -> StyleError {
+    match error {
+        StyleError::WrongType { key, expected, found } => {
+            let param = params.iter().find(|p| p.key == key);
+            StyleError::WrongType { expected: param.map_or(expected, Param::domain), key, found }
+        }
+        other => other,
+    }
 }
 
 /// `[[a, b], [c, d]]`
@@ -85,7 +97,7 @@ fn matrix(rows: &DeArray<'_>) -> Option<Matrix> {
         }
         for number in row {
             numbers.push(match number.get_ref() {
-                DeValue::Integer(i) => i.as_str().parse().ok()?,
+                DeValue::Integer(i) => i64::from_str_radix(i.as_str(), i.radix()).ok()? as f32,
                 DeValue::Float(f) => f.as_str().parse().ok()?,
                 _ => return None,
             });
@@ -121,7 +133,7 @@ fn scalar(key: &str, value: &Spanned<DeValue<'_>>) -> Result<Value, StyleError> 
             f.as_str().parse().map(Value::Number).map_err(|_malformed| wrong("a malformed number"))
         }
         DeValue::String(s) => Ok(Value::from(s.as_ref())),
-        DeValue::Array(rows) => matrix(rows).map(Value::Matrix).ok_or_else(|| wrong("another array")),
+        DeValue::Array(rows) => matrix(rows).map(Value::Matrix).ok_or_else(|| wrong("this array")),
         _ => Err(wrong("something else")),
     }
 }
@@ -152,6 +164,66 @@ mod tests {
         assert!(error("technique = \"oil\"").contains("one of blank, plain, unlit, gooch"));
         assert!(error("x = [").starts_with("my.toml, line 1: "));
         assert!(error("[gooch]\nalpha = nan").contains("out of range"));
+        assert_eq!(
+            error("[toon]\nbands = [2]\n"),
+            "my.toml, line 2: `toon.bands` takes a whole number from 2 to 8, not this array"
+        );
+        assert!(
+            error("toon = [1, 2]").starts_with("my.toml, line 1: `toon` takes a switch, a number, a text")
+        );
         assert!(error(&"nonsense\n".repeat(100_000)).starts_with("my.toml, line 1: "));
+    }
+
+    #[test]
+    fn matrices_stand_as_two_rows() {
+        let text = "[sketch.pass1]\nmatrix = [[1.0, 0.2], [-0.2, 1.0]]\n";
+        let mut style = Style::default();
+        set_from_toml(&mut style.params(), text, "my.toml").unwrap();
+        assert_eq!(style.sketch.pass[0].matrix, Matrix([[1.0, 0.2], [-0.2, 1.0]]));
+        let written = diff_to_toml(&mut style.params(), &mut Style::default().params());
+        assert_eq!(written, text.parse().unwrap());
+        let mut again = Style::default();
+        set_from_toml(&mut again.params(), &written.to_string(), "my.toml").unwrap();
+        assert_eq!(again, style);
+        // Whole numbers will do, on lines of their own too.
+        let whole = "[sketch]\npass1.matrix = [\n  [1, 0x2], # of the first noise and the second\n  [+3, 4_0e-1],\n]\n";
+        set_from_toml(&mut style.params(), whole, "my.toml").unwrap();
+        assert_eq!(style.sketch.pass[0].matrix, Matrix([[1.0, 2.0], [3.0, 4.0]]));
+    }
+
+    #[test]
+    fn what_is_no_matrix_is_told_with_line_and_remedy() {
+        let row =
+            |value: &str| error(&format!("[sketch]\nenabled = true\n[sketch.pass1]\nmatrix = {value}\n"));
+        let takes = "my.toml, line 4: `sketch.pass1.matrix` takes a matrix of numbers from -32 to 32, \
+                     [[a, b], [c, d]] in a file and a,b,c,d behind --set, not ";
+        for array in [
+            "[1, 2, 3, 4]",
+            "[]",
+            "[[]]",
+            "[[1, 2]]",
+            "[[1, 2], [3]]",
+            "[[1, 2], [3, 4], [5, 6]]",
+            "[[1, 2, 3], [4]]",
+            "[[1, \"2\"], [3, 4]]",
+            "[[1, 2], [3, [4]]]",
+            "[[1, 2], [3, 99999999999999999999]]",
+            "[1, [2, 3]]",
+        ] {
+            assert_eq!(row(array), format!("{takes}this array"), "{array}");
+        }
+        assert_eq!(row("\"1,2,3,4\""), format!("{takes}the text `1,2,3,4`"));
+        assert_eq!(row("1.5"), format!("{takes}the number 1.5"));
+        assert_eq!(row("true"), format!("{takes}the switch `true`"));
+        assert!(row("\"inherit\"").ends_with("not `inherit`, for it inherits from nothing"));
+        assert!(row("{ a = 1 }").contains("unknown parameter `sketch.pass1.matrix.a`"));
+        let range = "my.toml, line 4: `sketch.pass1.matrix` = ";
+        for (value, number) in
+            [("nan", "NaN"), ("-inf", "-inf"), ("1e9", "1000000000"), ("-32.1", "-32.1"), ("33", "33")]
+        {
+            let message = row(&format!("[[0, 0], [{value}, 0]]"));
+            assert_eq!(message, format!("{range}{number} is out of range: -32 to 32"));
+        }
+        assert!(row("[[1, 2], [3, 4]").starts_with("my.toml, line "));
     }
 }

@@ -842,6 +842,146 @@ fn images_of_styles_are_read_beside_the_window_and_again_when_it_is_come_back_to
     assert_eq!(rows(&window), [0, 0]);
 }
 
+/// A window of a style, which draws surfaces as they are.
+fn sketching(passes: u32) -> Window {
+    let mut style = Style { technique: Technique::Unlit, ..Style::default() };
+    (style.sketch.enabled, style.sketch.passes) = (true, passes);
+    let launch = Launch {
+        files: vec!["/models/engine.glb".into()],
+        style: Some(style),
+        loader: Arc::new(|paths, _, _| Ok(engine(paths))),
+        ..Launch::default()
+    };
+    let mut window = window_of(launch);
+    until(&mut window, "the model is there", |v| !v.is_loading() && !v.model().scene.nodes.is_empty());
+    window
+}
+
+fn offsets(window: &Window, pass: usize) -> [f32; 4] {
+    window.state().document().style.sketch.pass[pass].matrix.numbers()
+}
+
+#[test]
+fn a_matrix_is_changed_by_its_numbers_and_by_arrow_keys_on_its_handles() {
+    let mut window = sketching(1);
+    assert_eq!(offsets(&window, 0), [1.5, 0.3, -0.3, 1.5]);
+    let number = |window: &Window| {
+        let name = "Offsets, across of the second noise";
+        window.get_all_by_role_and_label(Role::SpinButton, name).next().unwrap().focus();
+    };
+    number(&window);
+    settle(&mut window);
+    window.event(egui::Event::Text("-0.75".to_owned()));
+    settle(&mut window);
+    assert_eq!(offsets(&window, 0), [1.5, -0.75, -0.3, 1.5]);
+    window.key_press(Key::Enter);
+    settle(&mut window);
+
+    let handle = |window: &Window, name: &str| {
+        window.get_all_by_role_and_label(Role::Slider, name).next().unwrap().focus();
+    };
+    handle(&window, "Offsets, first handle");
+    settle(&mut window);
+    for (key, numbers) in [
+        (Key::ArrowRight, [1.6, -0.75, -0.3, 1.5]),
+        (Key::ArrowDown, [1.6, -0.75, -0.2, 1.5]),
+        (Key::ArrowUp, [1.6, -0.75, -0.3, 1.5]),
+        (Key::ArrowLeft, [1.5, -0.75, -0.3, 1.5]),
+    ] {
+        window.key_press(key);
+        settle(&mut window);
+        assert_eq!(offsets(&window, 0), numbers, "{key:?}");
+    }
+    handle(&window, "Offsets, second handle");
+    settle(&mut window);
+    window.key_press(Key::ArrowUp);
+    settle(&mut window);
+    assert_eq!(offsets(&window, 0), [1.5, -0.75, -0.3, 1.4]);
+    assert!(!window.state().is_loading(), "no key is a command");
+    ask(&mut window, Command::Undo);
+    assert_eq!(offsets(&window, 0), [1.5, -0.75, -0.3, 1.5], "each key is a step");
+
+    let reset = |window: &mut Window| {
+        window.get_all_by_role_and_label(Role::Button, "Reset Offsets").next().unwrap().click_accesskit();
+        settle(window);
+    };
+    reset(&mut window);
+    assert_eq!(offsets(&window, 0), [1.5, 0.3, -0.3, 1.5]);
+    assert!(window.query_by_role_and_label(Role::Button, "Reset Offsets").is_none());
+}
+
+#[test]
+fn handles_of_a_matrix_are_dragged_one_by_one_or_both() {
+    let mut window = sketching(1);
+    let nodes =
+        |window: &Window, name: &str| -> egui::Rect { window.get_all_by_label(name).next().unwrap().rect() };
+    window.get_all_by_label("Offsets, picture").next().unwrap().scroll_to_me();
+    for _ in 0..30 {
+        window.step();
+    }
+    let panel = window.get_by_label("Picture").rect().right();
+    let side = nodes(&window, "Offsets, picture").width();
+    let pixel = (side / 2.0 - 6.0) / 8.0;
+    let at = |window: &Window, name| nodes(window, name).center();
+    let [first, second] = ["Offsets, first handle", "Offsets, second handle"];
+    let from = at(&window, first);
+    drag(&mut window, from, Vec2::new(2.0, -1.0) * pixel, PointerButton::Primary);
+    assert_eq!(offsets(&window, 0), [3.5, 0.3, -1.3, 1.5]);
+    ask(&mut window, Command::Undo);
+    assert_eq!(offsets(&window, 0), [1.5, 0.3, -0.3, 1.5], "one drag is one step");
+
+    // A quarter turn of both.
+    let from = at(&window, first);
+    window.event(egui::Event::ModifiersChanged(Modifiers::SHIFT));
+    let by = Vec2::new(-1.5 + 0.3, 0.3 + 1.5) * pixel;
+    drag(&mut window, from, by, PointerButton::Primary);
+    window.event(egui::Event::ModifiersChanged(Modifiers::NONE));
+    assert_eq!(offsets(&window, 0), [0.3, -1.5, 1.5, 0.3]);
+
+    // Far out, the picture shows more, and says what comes of it.
+    assert!(window.query_by_label_contains("tear lines").is_none());
+    let from = at(&window, second);
+    drag(&mut window, from, Vec2::new(-20.0, 0.0) * pixel, PointerButton::Primary);
+    let far = offsets(&window, 0);
+    assert_eq!(far, [0.3, -21.5, 1.5, 0.3]);
+    let picture = nodes(&window, "Offsets, picture");
+    assert!(picture.contains_rect(nodes(&window, second).shrink(3.0)));
+    assert_eq!(picture.width(), side);
+    assert!(window.query_by_label_contains("so large offsets tear lines").is_some());
+    assert_eq!(window.get_by_label("Picture").rect().right(), panel, "the panel is as wide as before");
+}
+
+#[test]
+fn passes_of_a_sketch_are_shown_as_often_as_lines_are_drawn() {
+    let mut window = sketching(1);
+    let shown = |window: &Window| -> Vec<usize> {
+        ["Sketch", "Pass 1", "Pass 2", "Pass 3", "Fill", "Grain", "Straight strokes"]
+            .map(|name| window.query_all_by_role_and_label(Role::Button, name).count())
+            .to_vec()
+    };
+    assert_eq!(shown(&window), [1, 1, 0, 0, 1, 1, 1]);
+    window.get_by_role_and_label(Role::Slider, "Passes").set_value_accesskit(2.0);
+    settle(&mut window);
+    assert_eq!(shown(&window), [1, 1, 1, 0, 1, 1, 1]);
+    let pictures = |window: &Window| window.query_all_by_label("Offsets, picture").count();
+    assert_eq!(pictures(&window), 2, "of the first pass and the fill");
+    window.get_by_role_and_label(Role::Button, "Pass 2").click_accesskit();
+    settle(&mut window);
+    assert_eq!(pictures(&window), 3);
+    let left = |role, name| window.get_all_by_role_and_label(role, name).next().unwrap().rect().left();
+    assert!(left(Role::Label, "Offsets") > left(Role::Label, "Passes") + 8.0, "within the sketch");
+    let headings = ["Pass 1", "Pass 2", "Grain"].map(|name| left(Role::Button, name));
+    assert_eq!(headings, [headings[0]; 3]);
+
+    window.get_by_role_and_label(Role::CheckBox, "Sketch").click_accesskit();
+    settle(&mut window);
+    assert!(!window.state().document().style.sketch.enabled);
+    assert_eq!((shown(&window), pictures(&window)), (vec![1, 0, 0, 0, 0, 0, 0], 0));
+    assert!(window.query_by_role_and_label(Role::Slider, "Passes").is_none());
+    ask(&mut window, Command::Undo);
+    assert_eq!((shown(&window), pictures(&window)), (vec![1, 1, 1, 0, 1, 1, 1], 3));
+}
+
 fn glyph_names(window: &Window) -> Vec<&str> {
     window.state().document().glyphs.iter().map(|g| g.name.as_str()).collect()
 }

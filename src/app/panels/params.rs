@@ -17,14 +17,24 @@ pub fn section_of(key: &str) -> &str {
     key.rsplit_once('.').map_or("", |(section, _)| section)
 }
 
-/// A section's heading: `edges.profile` → `Edges · profile`.
+/// A section's heading: `edges.profile` → `Edges · profile`, `sketch.pass1` → `Sketch · pass 1`.
 pub fn heading(section: &str) -> String {
-    let mut words = section.split('.').map(spaced);
+    let mut words = section.split('.').map(numbered);
     let first = words.next().map(|w| capitalised(&w)).unwrap_or_default();
     std::iter::once(first).chain(words).collect::<Vec<_>>().join(" · ")
 }
 
-/// Rows for all of `params` in sections that can be folded; a section that inherits from another one lies in it.
+/// `pass1` → `pass 1`, `face_normals` → `face normals`.
+fn numbered(name: &str) -> String {
+    let word = name.trim_end_matches(|c: char| c.is_ascii_digit());
+    match name.strip_prefix(word) {
+        Some(number) if !word.is_empty() && !number.is_empty() => format!("{} {number}", spaced(word)),
+        _ => spaced(name),
+    }
+}
+
+/// Rows for all of `params` in sections that can be folded; what a section with a switch has below it lies in it, and a
+/// section that inherits from another one of its own kind in that.
 /// `defaults` is the same list with the values that a reset brings back. Returns the keys that changed, with their
 /// new values.
 pub fn params_ui(ui: &mut Ui, salt: &str, params: &mut [Param<'_>], defaults: &[Param<'_>]) -> Vec<Change> {
@@ -42,13 +52,15 @@ pub fn params_ui(ui: &mut Ui, salt: &str, params: &mut [Param<'_>], defaults: &[
     let mut changes = Vec::new();
     let mut rest = sections.as_mut_slice();
     while let Some((section, others)) = rest.split_first_mut() {
-        let is_inner = |s: &&Section<'_, '_>| s.parent().is_some_and(|p| p == section.key);
-        let (inner, others) = others.split_at_mut(others.iter().take_while(is_inner).count());
+        let is_inner = |s: &&Section<'_, '_>| s.is_within(section);
+        let is_plain = section.key.is_empty() || section.key == salt;
+        let inner_count = if is_plain { 0 } else { others.iter().take_while(is_inner).count() };
+        let (inner, others) = others.split_at_mut(inner_count);
         rest = others;
-        if section.key.is_empty() || section.key == salt {
+        if is_plain {
             section.rows_ui(ui, &mut changes);
         } else {
-            section.ui(ui, salt, inner, &mut changes);
+            section.ui(ui, salt, None, inner, &mut changes);
         }
     }
     changes
@@ -61,18 +73,30 @@ struct Section<'p, 'a> {
 }
 
 impl Section<'_, '_> {
-    /// The section that it inherits from.
-    fn parent(&self) -> Option<&str> {
-        self.rows.iter().find_map(|row| row.param.slot.inherits()).map(section_of)
+    /// Whether it lies in another one.
+    fn is_within(&self, other: &Section<'_, '_>) -> bool {
+        let inherits = || self.rows.iter().find_map(|row| row.param.slot.inherits()).map(section_of);
+        match self.key.strip_prefix(other.key.as_str()) {
+            Some(rest) if rest.starts_with('.') => other.rows.iter().any(|row| row.param.head),
+            _ => inherits().is_some_and(|source| source == other.key),
+        }
     }
 
-    fn ui(&mut self, ui: &mut Ui, salt: &str, inner: &mut [Self], changes: &mut Vec<Change>) {
+    /// `outer`: the key of the section in which it lies.
+    fn ui(
+        &mut self,
+        ui: &mut Ui,
+        salt: &str,
+        outer: Option<&str>,
+        inner: &mut [Self],
+        changes: &mut Vec<Change>,
+    ) {
         let id = ui.make_persistent_id((salt, &self.key));
         let open = !self.rows.iter().any(|row| row.param.detail);
         let state = CollapsingState::load_with_default_open(ui.ctx(), id, open);
-        ui.add_space(if self.parent().is_some() { 0.0 } else { 4.0 });
+        ui.add_space(if outer.is_some() { 0.0 } else { 4.0 });
         let mut clicked = false;
-        let mut header = state.show_header(ui, |ui| clicked = self.heading_ui(ui, changes));
+        let mut header = state.show_header(ui, |ui| clicked = self.heading_ui(ui, outer, changes));
         if clicked {
             header.toggle();
         }
@@ -82,7 +106,7 @@ impl Section<'_, '_> {
                 ui,
                 |ui| {
                     for section in inner {
-                        section.ui(ui, salt, &mut [], changes);
+                        section.ui(ui, salt, Some(&self.key), &mut [], changes);
                     }
                 },
             );
@@ -91,8 +115,10 @@ impl Section<'_, '_> {
 
     /// The switch of the section, if it has one, its name, and a button that resets all of it. Returns whether the
     /// name was clicked.
-    fn heading_ui(&mut self, ui: &mut Ui, changes: &mut Vec<Change>) -> bool {
-        let mut title = heading(&self.key);
+    fn heading_ui(&mut self, ui: &mut Ui, outer: Option<&str>, changes: &mut Vec<Change>) -> bool {
+        // What it lies in need not be said again.
+        let own = outer.and_then(|outer| self.key.strip_prefix(outer)).map(|own| own.trim_start_matches('.'));
+        let mut title = heading(own.unwrap_or(&self.key));
         let head = self.rows.iter_mut().find(|row| row.param.head);
         if let Some(head) = &head {
             title = head.param.label.to_owned();
@@ -146,5 +172,7 @@ mod tests {
         assert_eq!(section_of("edges.profile.gain"), "edges.profile");
         assert_eq!(section_of("technique"), "");
         assert_eq!(heading("edges.dash"), "Edges · dash");
+        assert_eq!(heading("sketch.pass1"), "Sketch · pass 1");
+        assert_eq!((heading("pass12"), heading("12")), ("Pass 12".to_owned(), "12".to_owned()));
     }
 }

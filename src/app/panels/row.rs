@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use eframe::egui::{Color32, RichText, Ui, WidgetText};
 
 use super::icons;
-use super::matrix::matrix_ui;
+use super::matrix::Field;
 use crate::style::Value;
 use crate::style::param::{Param, Place, Slot};
 
@@ -291,7 +291,10 @@ fn slot_ui(ui: &mut Ui, param: &mut Param<'_>, label: egui::Id, help: &str) -> b
             **place = value.round() as u32;
         }
         Slot::File(file) => return file_ui(ui, file, label, help),
-        Slot::Matrix { value, most } => matrix_ui(ui, value, *most, label, help),
+        Slot::Matrix { value, most } => {
+            let field = Field { label: param.label, unit: param.unit, help, most: *most, id: label };
+            field.ui(ui, value);
+        }
         Slot::Color(place) => {
             let mut color = place.get();
             let button = ui.color_edit_button_srgb(&mut color.0);
