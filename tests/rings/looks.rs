@@ -4,7 +4,7 @@ use std::str::FromStr as _;
 
 use hachure::style::halftone::Space;
 use hachure::style::toon::Border;
-use hachure::style::{Color, Style, Technique};
+use hachure::style::{Color, Matrix, Style, Technique};
 use strum::VariantNames as _;
 
 /// Reference pixels per pixel of the pictures.
@@ -45,6 +45,18 @@ impl Look {
     /// A technique, in a material that hides what lies behind it.
     pub fn surface(technique: &str) -> Self {
         Self::new(technique, Kind::Surface, technique)
+    }
+
+    /// The same technique as a sketch that puts everything where it is: what is seen of it is known from cast rays.
+    pub fn sketch(technique: &str) -> Self {
+        let mut look = Self { name: format!("sketch {technique}"), ..Self::surface(technique) };
+        let sketch = &mut look.style.sketch;
+        sketch.enabled = true;
+        sketch.pass[0].matrix = Matrix::ZERO;
+        sketch.fill.matrix = Matrix::ZERO;
+        // So little that nobody sees it; with nothing at all it would be no sketch.
+        sketch.wander.pressure = 1e-6;
+        look
     }
 
     /// The same technique in a material that blends.
@@ -101,9 +113,9 @@ pub fn surface_techniques() -> impl Iterator<Item = &'static str> {
     Technique::VARIANTS.iter().copied().filter(|name| *name != "blueprint")
 }
 
-/// Every technique on what hides what lies behind it.
+/// Every technique on what hides what lies behind it, and sketches.
 pub fn surfaces() -> Vec<Look> {
-    surface_techniques().map(Look::surface).collect()
+    surface_techniques().map(Look::surface).chain(["unlit", "gooch"].map(Look::sketch)).collect()
 }
 
 /// What is seen through.
