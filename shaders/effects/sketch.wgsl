@@ -60,8 +60,11 @@ override ON_SCREEN: bool = false;
 override WITH_NEARER: bool = false;
 // Whether there are more than four passes.
 override WITH_MORE_PASSES: bool = false;
-// Whether anything but offsets is asked for: grain, strokes, pressure.
+// Whether each of these is asked for: software devices run both sides of a branch.
 override WITH_GRAIN: bool = true;
+override WITH_ROUGHNESS: bool = true;
+override WITH_STROKES: bool = true;
+override WITH_PRESSURE: bool = true;
 override WITH_SMUDGE: bool = false;
 // Whether surfaces are as opaque as their materials.
 override WITH_OPACITY: bool = false;
@@ -139,23 +142,24 @@ fn fill_noise(at: vec2<f32>, object: u32) -> vec2<f32> {
     return sum.xy / max(sum.z, 1e-6);
 }
 
+struct Source {
+    at: vec2<f32>,
+    noise: vec2<f32>,
+}
+
 // Where the colour comes from that is drawn at x.
-fn fill_source(x: vec2<f32>) -> vec2<f32> {
-    if sketch.shows_fill == 0u {
-        return x;
-    }
+fn fill_source(x: vec2<f32>) -> Source {
     if ON_SCREEN {
-        return inside(x + applied(sketch.fill_matrix, fill_noise(x, 0u)));
+        let noise = fill_noise(x, 0u);
+        return Source(inside(x + applied(sketch.fill_matrix, noise)), noise);
     }
     let last = vec2<i32>(textureDimensions(fill_field_tex)) - 1;
     let coarse = textureLoad(fill_field_tex, clamp(vec2<i32>(x / BLOCK), vec2(0), last));
-    var y = inside(x + applied(sketch.fill_matrix, unpack2x16float(coarse.x)));
-    for (var i = 0; i < 2; i++) {
-        let object = geometry_at(vec2<i32>(floor(y))).w & ~ENHANCED;
-        // Beyond the outline, as what is nearest.
-        y = inside(x + applied(sketch.fill_matrix, fill_noise(y, object)));
-    }
-    return y;
+    let near = inside(x + applied(sketch.fill_matrix, unpack2x16float(coarse.x)));
+    // Beyond the outline, as what is nearest. Waves of colour are so long that one step finds it.
+    let object = geometry_at(vec2<i32>(floor(near))).w & ~ENHANCED;
+    let noise = fill_noise(near, object);
+    return Source(inside(x + applied(sketch.fill_matrix, noise)), noise);
 }
 
 // Noise of the line next to a place, for a pass.
@@ -180,11 +184,6 @@ fn line_noise(at: vec2<f32>, number: u32) -> vec2<f32> {
         texel = textureLoad(more_line_field_tex, px);
     }
     return unpack2x16float(texel[number % 4u]);
-}
-
-struct Source {
-    at: vec2<f32>,
-    noise: vec2<f32>,
 }
 
 // Where the lines come from that a pass draws at x.
@@ -212,7 +211,7 @@ fn on_paper(at: vec2<f32>) -> vec4<f32> {
 
 // Ink or pigment of a density, 0 to 1, on rough paper: where that stands out it takes some first.
 fn deposited(density: f32, x: vec2<f32>) -> f32 {
-    if !WITH_GRAIN || sketch.grain <= 0.0 {
+    if !WITH_GRAIN {
         return density;
     }
     let tooth = on_paper(x / (sketch.grain_size * TOOTH_CELLS)).x;
@@ -223,7 +222,7 @@ fn deposited(density: f32, x: vec2<f32>) -> f32 {
 
 // By how much grains are off, px.
 fn roughened(x: vec2<f32>) -> vec2<f32> {
-    if !WITH_GRAIN || sketch.roughness <= 0.0 {
+    if !WITH_ROUGHNESS {
         return vec2(0.0);
     }
     // Correlated over less than a reference pixel: of single pixels it would look digital.
@@ -234,7 +233,7 @@ fn roughened(x: vec2<f32>) -> vec2<f32> {
 
 // The share that the strokes of a hand leave, which move with the object.
 fn stroke_share(x: vec2<f32>, object: u32) -> f32 {
-    if !WITH_GRAIN || sketch.strokes <= 0.0 {
+    if !WITH_STROKES {
         return 1.0;
     }
     let p = x - sketch_objects[object].middle;
@@ -267,7 +266,7 @@ fn nearest_depth(x: vec2<f32>) -> f32 {
         if i < sketch.count {
             y = line_source(x, i).at;
         } else if sketch.shows_fill == 1u {
-            y = fill_source(x);
+            y = fill_source(x).at;
         }
         let s = unpack_surfel(geometry_at(vec2<i32>(floor(y))));
         if s.object != 0u && (nearest == 0.0 || s.depth < nearest) {
@@ -286,24 +285,6 @@ fn fs_filled(@builtin(position) position: vec4<f32>) {
     }
 }
 
-// The shaded surface at a place; between pixels only where all show one object.
-fn shaded_at(at: vec2<f32>, object: u32) -> vec4<f32> {
-    let last = vec2<i32>(frame.size) - 1;
-    let p = at - 0.5;
-    let first = vec2<i32>(floor(p));
-    let f = p - floor(p);
-    var sum = vec4(0.0);
-    var is_one = true;
-    for (var i = 0; i < 4; i++) {
-        let offset = vec2(i & 1, i >> 1u);
-        let q = clamp(first + offset, vec2(0), last);
-        let weights = mix(1.0 - f, f, vec2<f32>(offset));
-        sum += weights.x * weights.y * textureLoad(shaded_tex, q, 0);
-        is_one = is_one && (weights.x * weights.y == 0.0 || (textureLoad(geometry_tex, q).w & ~ENHANCED) == object);
-    }
-    return select(textureLoad(shaded_tex, vec2<i32>(floor(at)), 0), sum, is_one);
-}
-
 struct Filled {
     @location(0) geometry: vec4<u32>,
     // Linear colour times opacity, and opacity.
@@ -315,7 +296,11 @@ fn fs_fill(@builtin(position) position: vec4<f32>) -> Filled {
     let px = vec2<i32>(position.xy);
     let x = vec2<f32>(px) + 0.5;
     let rough = roughened(x);
-    let y = inside(fill_source(x) + rough);
+    var source = Source(x, vec2(0.0));
+    if sketch.shows_fill == 1u {
+        source = fill_source(x);
+    }
+    let y = inside(source.at + rough);
     var texel = geometry_at(vec2<i32>(floor(y)));
     let s = unpack_surfel(texel);
     if s.object == 0u {
@@ -334,7 +319,7 @@ fn fs_fill(@builtin(position) position: vec4<f32>) -> Filled {
     var color = vec4(0.0);
     var opacity = 1.0;
     if sketch.shows_fill == 1u {
-        let shaded = shaded_at(y, s.object);
+        let shaded = textureLoad(shaded_tex, vec2<i32>(floor(y)), 0);
         opacity = select(1.0, shaded.a, WITH_OPACITY);
         let own = shaded.rgb / max(shaded.a, 1e-4);
         // As dark as it looks.
@@ -343,8 +328,9 @@ fn fs_fill(@builtin(position) position: vec4<f32>) -> Filled {
         let dark = 1.0 - pow(1.0 - sketch.density * (1.0 - light), 2.2);
         var density = mix(sketch.density, dark, sketch.by_darkness) * min(shaded.a / max(opacity, 1e-4), 1.0);
         var pigment = mix(sketch.pigment, own, sketch.surface_color);
-        if WITH_GRAIN {
-            density *= stroke_share(x, s.object) * pressed(fill_noise(y, s.object));
+        density *= stroke_share(x, s.object);
+        if WITH_PRESSURE {
+            density *= pressed(source.noise);
         }
         if WITH_SMUDGE {
             let found = textureLoad(near_line_tex, px).x;
@@ -359,7 +345,7 @@ fn fs_fill(@builtin(position) position: vec4<f32>) -> Filled {
         color = vec4(pigment, 1.0) * deposited(density, x) * opacity;
     }
     if WITH_HIDDEN {
-        let noise = fill_noise(y, s.object);
+        let noise = select(fill_noise(x, s.object), source.noise, sketch.shows_fill == 1u);
         let from_px = vec2<i32>(inside(x + rough + applied(sketch.passes[0].matrix, noise)));
         color = over(textureLoad(hidden_tex, from_px, 0), color);
     }
@@ -404,9 +390,10 @@ fn drawn_ink(px: vec2<i32>, number: u32, other: Surfel, rough: vec2<f32>) -> Lin
     }
     let color = select(line.ink.rgb / line.ink.a, sketch.passes[number].color, sketch.passes[number].has_color == 1u);
     var density = line.ink.a * sketch.passes[number].density;
-    if WITH_GRAIN {
-        density = deposited(density * pressed(source.noise), x);
+    if WITH_PRESSURE {
+        density *= pressed(source.noise);
     }
+    density = deposited(density, x);
     line.ink = vec4(color, 1.0) * density;
     return line;
 }

@@ -5,7 +5,17 @@
 #import common/frame.wgsl
 #import common/gbuffer.wgsl
 #import common/edge_map.wgsl
+#import common/kept.wgsl
 #import common/noise.wgsl
+
+// Pixels per workgroup, as in src/render/passes/offset_field.rs.
+const GROUP: u32 = 64u;
+
+// `Kept` while it is being counted.
+struct Counting {
+    groups: array<atomic<u32>, 3>,
+    count: atomic<u32>,
+}
 
 // Twin: `FieldUniform` in src/render/passes/offset_field.rs.
 struct Field {
@@ -48,6 +58,13 @@ override STEP_1: bool = false;
 var<uniform> field: Field;
 var<storage, read> field_objects: array<FieldObject>;
 var edge_map_tex: texture_storage_2d<rgba32uint, read>;
+// Where lines run, as in passes/line_distance.wgsl.
+var spine_tex: texture_2d<u32>;
+// The pixels in which they do, while they are listed, and afterwards.
+var<storage, read_write> keeping: Counting;
+var<storage, read_write> keeping_pixels: array<u32>;
+var<storage, read> kept: Kept;
+var<storage, read> kept_pixels: array<u32>;
 // Noise of the lines at the pixels in which they run, two halves for each pass.
 var line_field_tex: texture_storage_2d<rgba32uint, write>;
 var more_line_field_tex: texture_storage_2d<rgba32uint, write>;
@@ -126,17 +143,31 @@ fn stretch_at(px: vec2<i32>, edge: Edge, spine: vec2<f32>) -> f32 {
     return min(stretch, 4.0);
 }
 
+// Lists the pixels in which lines run: software devices run both sides of a branch.
 @compute @workgroup_size(8, 8)
-fn cs_lines(@builtin(global_invocation_id) id: vec3<u32>) {
+fn cs_sift(@builtin(global_invocation_id) id: vec3<u32>) {
     let px = vec2<i32>(id.xy);
     if any(px >= vec2<i32>(frame.size)) {
         return;
     }
-    let texel = textureLoad(edge_map_tex, px);
-    if class_of(texel) == NO_EDGE || class_of(texel) == PAPER {
+    if textureLoad(spine_tex, px, 0).x == 0u {
         return;
     }
-    let edge = unpack_edge(texel);
+    let index = atomicAdd(&keeping.count, 1u);
+    keeping_pixels[index] = (id.y << 16u) | id.x;
+    if index % GROUP == 0u {
+        atomicAdd(&keeping.groups[0], 1u);
+    }
+}
+
+@compute @workgroup_size(GROUP)
+fn cs_lines(@builtin(global_invocation_id) id: vec3<u32>) {
+    if id.x >= kept.count {
+        return;
+    }
+    let kept_px = kept_pixels[id.x];
+    let px = vec2<i32>(vec2(kept_px & 0xffffu, kept_px >> 16u));
+    let edge = unpack_edge(textureLoad(edge_map_tex, px));
     let spine = vec2<f32>(px) + 0.5 + edge.offset;
     let tangent = unpack_tangent(edge.tangent);
     let inwards = vec2<i32>(floor(spine - 0.8 * vec2(tangent.y, -tangent.x) * edge.outside));

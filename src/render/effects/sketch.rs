@@ -37,7 +37,7 @@ use crate::render::passes::layers::Reported;
 use crate::render::passes::line_distance::{Reach, have_widths, nearest_lines};
 use crate::render::passes::lines::Lines;
 use crate::render::passes::offset_field::{
-    FieldBuffers, FieldUniform, LineField, ObjectUniform, fill_field, line_field, nearest_surfaces,
+    FieldBuffers, FieldUniform, LineField, LineFieldPass, ObjectUniform, fill_field, nearest_surfaces,
 };
 use crate::render::passes::shadows::ShadowMap;
 use crate::render::passes::traversal::GBufferPass;
@@ -114,7 +114,8 @@ impl Sketch {
 
     /// Greatest distance from where it belongs at which anything is drawn, px.
     pub fn greatest_radius(&self) -> f32 {
-        self.group.greatest_radius() * self.widest() + uniforms::band(&self.style, self.scale)
+        let [lines, fill] = uniforms::bands(&self.style, self.scale);
+        (self.group.greatest_radius() * self.widest() + lines).max(fill)
     }
 
     fn widest(&self) -> f32 {
@@ -131,9 +132,10 @@ impl Sketch {
         self.style.wander.anchor == Anchor::Screen
     }
 
-    fn has_grain(&self) -> bool {
-        let style::Sketch { wander, fill, grain, .. } = &self.style;
-        wander.pressure > 0.0 || grain.amount > 0.0 || grain.roughness > 0.0 || fill.strokes > 0.0
+    /// Whether anything of the tile of paper is seen.
+    fn has_paper(&self) -> bool {
+        let style::Sketch { fill, grain, .. } = &self.style;
+        grain.amount > 0.0 || grain.roughness > 0.0 || fill.strokes > 0.0
     }
 
     fn field(&self) -> FieldUniform {
@@ -257,6 +259,7 @@ pub struct SketchState {
     nearest_surfaces: Stage<(u64, u32), Target>,
     field: UniformBuffer<FieldUniform>,
     field_objects: ArrayBuffer,
+    line_field_pass: LineFieldPass,
     line_field: Stage<FieldKey, LineField>,
     fill_field: Stage<FieldKey, Target>,
     uniform: UniformBuffer<SketchUniform>,
@@ -288,6 +291,7 @@ impl SketchState {
             nearest_surfaces: Stage::default(),
             field: UniformBuffer::new(gpu, "offset field"),
             field_objects: ArrayBuffer::new(gpu, "objects of an offset field"),
+            line_field_pass: LineFieldPass::new(gpu),
             line_field: Stage::default(),
             fill_field: Stage::default(),
             uniform: UniformBuffer::new(gpu, "sketch"),
@@ -332,8 +336,8 @@ impl SketchState {
         let hidden = self.layer.hidden_lines(rec, pass, &own, &sketch.hidden, edges.as_ref())?;
         let shaded = self.shade(rec, techniques, inputs, &surfaces)?;
         let (field_objects, objects) = sketch.objects(&seen);
-        let band = uniforms::band(&sketch.style, sketch.scale);
-        let near_lines = self.near_lines(rec, sketch, edges.as_ref(), band)?;
+        let [line_band, fill_band] = uniforms::bands(&sketch.style, sketch.scale);
+        let near_lines = self.near_lines(rec, sketch, edges.as_ref(), line_band)?;
         let reach = match (&near_lines, have_widths(&group.edge_styles)) {
             (Some(near), false) => Some(Reach::Wide { farthest: near.value.clone(), nearest: None }),
             (Some(near), true) => {
@@ -348,6 +352,8 @@ impl SketchState {
             (None, _) => None,
         };
         let geometry = &surfaces.gbuffer;
+        // Lines of the papers' operators follow surfaces too.
+        let band = line_band.max(fill_band);
         let nearest = self.nearest_surfaces.run((geometry.revision, band as u32), |_| {
             nearest_surfaces(rec, &geometry.value.geometry, band)
         })?;
@@ -361,18 +367,22 @@ impl SketchState {
         self.field.write(rec.gpu, &field);
         self.field_objects.write(rec.gpu, &field_objects);
         let buffers = FieldBuffers { field: self.field.buffer(), objects: self.field_objects.buffer() };
-        let line_field = match &edges {
-            Some(edges) if !sketch.is_on_screen() && edges.value.spines.is_some() => {
-                let drawn = &edges.value.edges;
-                Some(self.line_field.run(key(edges.revision), |_| {
-                    line_field(rec, buffers, &geometry.value, drawn, field.passes)
-                })?)
-            }
-            _ => {
-                self.line_field.clear();
-                None
-            }
-        };
+        let line_field =
+            match &edges {
+                Some(Output { value: EdgeMap { edges, spines: Some(spines), .. }, revision })
+                    if !sketch.is_on_screen() =>
+                {
+                    let pass = &mut self.line_field_pass;
+                    let drawn = [edges, spines];
+                    Some(self.line_field.run(key(*revision), |_| {
+                        pass.run(rec, buffers, &geometry.value, drawn, field.passes)
+                    })?)
+                }
+                _ => {
+                    self.line_field.clear();
+                    None
+                }
+            };
         let fill_field = self.fill_field.run(key(nearest.revision), |_| {
             fill_field(rec, buffers, &geometry.value.geometry, &nearest.value)
         })?;
@@ -513,7 +523,10 @@ impl Placing<'_> {
             ("ON_SCREEN", sketch.is_on_screen()),
             ("WITH_NEARER", style.wander.depth == StyleDepth::Nearer),
             ("WITH_MORE_PASSES", line_field.is_some_and(|field| field.more.is_some())),
-            ("WITH_GRAIN", sketch.has_grain()),
+            ("WITH_GRAIN", style.grain.amount > 0.0),
+            ("WITH_ROUGHNESS", style.grain.roughness > 0.0),
+            ("WITH_STROKES", style.fill.strokes > 0.0),
+            ("WITH_PRESSURE", style.wander.pressure > 0.0),
             ("WITH_SMUDGE", style.grain.smudge > 0.0 && near_lines.is_some()),
             ("WITH_OPACITY", sketch.blends),
             ("WITH_HIDDEN", fetched.hidden.is_some()),
@@ -524,8 +537,13 @@ impl Placing<'_> {
         let [geometry, color] = [&composition.surfaces.value, before].map(|target| target.format());
         let geometry = rec.target("geometry with sketch", geometry)?;
         let color = rec.target("color with sketch", color)?;
-        rec.copy(&composition.surfaces.value, &geometry);
-        rec.copy(before, &color);
+        let onto = if composition.has_surfaces {
+            rec.copy(&composition.surfaces.value, &geometry);
+            rec.copy(before, &color);
+            Onto::Old
+        } else {
+            Onto::Nothing
+        };
         let program = |entry_point, switches: &[(&'static str, bool)]| Program {
             file: "effects/sketch.wgsl",
             entry_point,
@@ -538,7 +556,7 @@ impl Placing<'_> {
             program: program("fs_fill", &switches),
             inputs: &inputs,
             outputs: &[&geometry, &color],
-            onto: Onto::Old,
+            onto,
             depth: Some((&filled, DepthRule::Marked("fs_filled"))),
         })?;
         if no_edges && composition.ink.is_none() {

@@ -8,8 +8,10 @@
 use encase::ShaderType;
 use glam::{Mat4, UVec4};
 
+use wgpu::util::{BufferInitDescriptor, DeviceExt};
+
 use super::gbuffer::GBuffer;
-use crate::gpu::{Program, Recorder, Target, inputs};
+use crate::gpu::{Gpu, Program, RecordBuffer, Recorder, Target, inputs};
 use crate::render::base::error::RenderError;
 
 /// Pixels per side of a block, as in `passes/offset_field.wgsl`.
@@ -18,6 +20,8 @@ pub const BLOCK: u32 = 4;
 const PASSES_PER_TEXEL: u32 = 4;
 /// Pixels or blocks per side of a workgroup.
 const GROUP: u32 = 8;
+/// No workgroups, and no pixels.
+const NONE: [u32; 4] = [0, 1, 1, 0];
 
 const HALVES: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Uint;
 const INDEX: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;
@@ -72,30 +76,67 @@ pub struct LineField {
     pub more: Option<Target>,
 }
 
-/// Finds the noise of the lines of an edge map for so many passes.
-///
-/// # Errors
-/// [`RenderError`].
-pub fn line_field(
-    rec: &mut Recorder<'_>,
-    buffers: FieldBuffers<'_>,
-    gbuffer: &GBuffer,
-    edges: &Target,
-    passes: u32,
-) -> Result<LineField, RenderError> {
-    let first = rec.target("noise of lines", HALVES)?;
-    let more = if passes > PASSES_PER_TEXEL { Some(rec.target("noise of lines", HALVES)?) } else { None };
-    let inputs = inputs! {
-        field: buffers.field,
-        field_objects: buffers.objects,
-        geometry_tex: &gbuffer.geometry,
-        edge_map_tex: edges,
-        line_field_tex: &first,
-        more_line_field_tex: more.as_ref(),
-    };
-    let groups = rec.size().map(|side| side.div_ceil(GROUP));
-    rec.compute("noise of lines", &Program::new("passes/offset_field.wgsl", "cs_lines"), &inputs, groups)?;
-    Ok(LineField { first, more })
+/// What finding the noise of lines needs across frames.
+pub struct LineFieldPass {
+    /// The pixels in which lines run.
+    pixels: RecordBuffer,
+    /// How many they are: `Kept` in `common/kept.wgsl`.
+    kept: wgpu::Buffer,
+    /// What that begins with.
+    none: wgpu::Buffer,
+}
+
+impl LineFieldPass {
+    /// Nothing found yet.
+    pub fn new(gpu: &Gpu) -> Self {
+        let kept = |label, usage| {
+            let contents = bytemuck::bytes_of(&NONE);
+            gpu.device.create_buffer_init(&BufferInitDescriptor { label: Some(label), contents, usage })
+        };
+        let used = wgpu::BufferUsages::INDIRECT | wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST;
+        Self {
+            pixels: RecordBuffer::new(gpu, "pixels of lines"),
+            kept: kept("workgroups of pixels of lines", used),
+            none: kept("no workgroups", wgpu::BufferUsages::COPY_SRC),
+        }
+    }
+
+    /// Finds the noise of the lines of an edge map for so many passes; `spines`: where they run.
+    ///
+    /// # Errors
+    /// [`RenderError`].
+    pub fn run(
+        &mut self,
+        rec: &mut Recorder<'_>,
+        buffers: FieldBuffers<'_>,
+        gbuffer: &GBuffer,
+        [edges, spines]: [&Target; 2],
+        passes: u32,
+    ) -> Result<LineField, RenderError> {
+        let first = rec.target("noise of lines", HALVES)?;
+        let more = if passes > PASSES_PER_TEXEL { Some(rec.target("noise of lines", HALVES)?) } else { None };
+        rec.gpu.check_bytes_of_pixels("as a sketch", rec.size(), 4)?;
+        let [width, height] = rec.size();
+        self.pixels.reserve(rec.gpu, u64::from(width) * u64::from(height) * 4)?;
+        rec.encoder.copy_buffer_to_buffer(&self.none, 0, &self.kept, 0, None);
+        let program = |entry_point| Program::new("passes/offset_field.wgsl", entry_point);
+        let sifting =
+            inputs! { spine_tex: spines, keeping: &self.kept, keeping_pixels: self.pixels.buffer() };
+        let groups = [width, height].map(|side| side.div_ceil(GROUP));
+        rec.compute("sift pixels of lines", &program("cs_sift"), &sifting, groups)?;
+        let inputs = inputs! {
+            field: buffers.field,
+            field_objects: buffers.objects,
+            geometry_tex: &gbuffer.geometry,
+            edge_map_tex: edges,
+            kept: &self.kept,
+            kept_pixels: self.pixels.buffer(),
+            line_field_tex: &first,
+            more_line_field_tex: more.as_ref(),
+        };
+        rec.compute("noise of lines", &program("cs_lines"), &inputs, &self.kept)?;
+        Ok(LineField { first, more })
+    }
 }
 
 /// Finds for each block the nearest surface, as far as it is within `distance` (px).

@@ -140,7 +140,7 @@ impl SketchImages {
             self.made += 1;
             self.tiles.insert(key, (view, self.made));
         }
-        let has_paper = sketch.has_grain();
+        let has_paper = sketch.has_paper();
         let known = |papers: &[(Paper, wgpu::TextureView, u64)]| {
             papers.iter().position(|(paper, ..)| *paper == sketch.paper)
         };

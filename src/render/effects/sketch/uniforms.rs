@@ -11,6 +11,9 @@ use crate::style::sketch::{MOST_OFFSET, MOST_PASSES, Noise, Tone};
 /// Farthest that anything is fetched from, px.
 const MOST_BAND: f32 = 64.0;
 
+/// How far lines are smudged, reference pixels.
+const SMUDGED: f32 = 20.0;
+
 /// Twin of `Pass` in `shaders/effects/sketch.wgsl`.
 #[derive(Debug, Clone, Copy, PartialEq, ShaderType, Default)]
 pub(super) struct PassUniform {
@@ -73,16 +76,17 @@ fn factor(sketch: &style::Sketch, scale: f32) -> f32 {
     within(sketch.wander.amount, 0.0, 4.0) * scale
 }
 
-/// How far anything is off at most, px: three and a half times what it is off on average, in whole steps, so that a little more or
-/// less does not change it.
-pub(super) fn band(sketch: &style::Sketch, scale: f32) -> f32 {
+/// How far lines and colours are off at most, px: three and a half times what they are off on average, in whole steps, so that a
+/// little more or less does not change it.
+pub(super) fn bands(sketch: &style::Sketch, scale: f32) -> [f32; 2] {
     let passes = sketch.pass.iter().take(sketch.passes.clamp(1, MOST_PASSES as u32) as usize);
-    let fill = sketch.fill.show.then_some(sketch.fill.matrix);
-    let matrices = passes.map(|pass| pass.matrix).chain(fill);
-    let rms =
-        matrices.map(|m| m.scaled(factor(sketch, scale), MOST_OFFSET * scale).rms()).fold(0.0, f32::max);
-    let far = 3.5 * rms + 2.0 * within(sketch.grain.roughness, 0.0, 8.0) * scale;
-    ((far / 8.0).ceil() * 8.0).clamp(8.0, MOST_BAND)
+    let rms = |matrix: style::Matrix| matrix.scaled(factor(sketch, scale), MOST_OFFSET * scale).rms();
+    let lines = passes.map(|pass| rms(pass.matrix)).fold(0.0, f32::max);
+    let fill = if sketch.fill.show { rms(sketch.fill.matrix) } else { 0.0 };
+    let rough = 2.0 * within(sketch.grain.roughness, 0.0, 8.0) * scale;
+    let smudged = if sketch.grain.smudge > 0.0 { SMUDGED * scale } else { 0.0 };
+    let whole = |far: f32| ((far / 4.0).ceil() * 4.0).clamp(4.0, MOST_BAND);
+    [whole((3.5 * lines + rough).max(smudged)), whole(3.5 * fill + rough)]
 }
 
 /// What finding noise depends on.
