@@ -13,6 +13,8 @@ struct Instance {
     // Object id with the enhanced flag as the highest bit; order of its first surface among those of all draws; 1: the mesh
     // has no normals, faces are flat.
     @location(14) ids: vec3<u32>,
+    // How far vertices move along their normals where surfaces are drawn enlarged, px.
+    @location(15) enlarged: f32,
 }
 
 fn view_from_local(i: Instance) -> mat4x4<f32> {

@@ -56,6 +56,8 @@ struct SketchObject {
 
 // Whether the noise follows the picture.
 override ON_SCREEN: bool = false;
+// Whether each pixel has noise of its own, of the enlarged surface that it shows, as in the paper.
+override BY_PIXEL: bool = false;
 // Whether ink and colour have the nearer depth of both, as in the paper.
 override WITH_NEARER: bool = false;
 // Whether there are more than four passes.
@@ -178,7 +180,10 @@ fn line_noise(at: vec2<f32>, number: u32) -> vec2<f32> {
         }
         return vec2(0.0);
     }
-    let px = vec2<i32>(vec2((found - 1u) & 0xffffu, (found - 1u) >> 16u));
+    var px = vec2<i32>(vec2((found - 1u) & 0xffffu, (found - 1u) >> 16u));
+    if BY_PIXEL {
+        px = vec2<i32>(floor(at));
+    }
     var texel = textureLoad(line_field_tex, px);
     if WITH_MORE_PASSES && number >= 4u {
         texel = textureLoad(more_line_field_tex, px);
@@ -191,7 +196,7 @@ fn line_source(x: vec2<f32>, number: u32) -> Source {
     let matrix = sketch.passes[number].matrix;
     var noise = line_noise(x, number);
     var y = inside(x + applied(matrix, noise));
-    if !ON_SCREEN {
+    if !ON_SCREEN && !BY_PIXEL {
         for (var i = 0; i < 2; i++) {
             noise = line_noise(y, number);
             y = inside(x + applied(matrix, noise));

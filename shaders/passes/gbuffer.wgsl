@@ -7,6 +7,9 @@
 
 // Whether what lies behind a plane is left out: that of a mirror, that of the section, or either.
 override WITH_CUT: bool = false;
+// Whether vertices are moved along their normals, so that there are values around objects too (sketchy drawings paper, section
+// 4.2).
+override ENLARGED: bool = false;
 
 // What draws with images have beside their instance.
 @group(2) @binding(0) var base_tex: texture_2d<f32>;
@@ -61,6 +64,16 @@ fn ids(instance: Instance, surface: u32) -> vec4<u32> {
     return vec4(surface, instance.ids);
 }
 
+// A vertex where it is drawn.
+fn placed(instance: Instance, pos_view: vec4<f32>, normal: vec3<f32>) -> vec4<f32> {
+    if !ENLARGED {
+        return pos_view;
+    }
+    let pixel = 2.0 * frame.half_extent.y / frame.size.y * select(-pos_view.z, 1.0, frame.orthographic == 1u);
+    let far = length(normal);
+    return pos_view + vec4(normal * select(0.0, instance.enlarged * pixel / far, far > 0.0), 0.0);
+}
+
 @vertex
 fn vs_lean(
     instance: Instance,
@@ -84,10 +97,11 @@ fn vs_smooth(
     @location(5) color: vec4<f32>,
 ) -> Smooth {
     let local = view_from_local(instance);
-    let pos_view = local * vec4(position, 1.0);
+    let normal_view = normal_from_local(instance) * octahedral_decode(normal);
+    let pos_view = placed(instance, local * vec4(position, 1.0), normal_view);
     return Smooth(
         frame.clip_from_view * pos_view, pos_view.xyz - local[3].xyz, depths(pos_view), ids(instance, surface),
-        instance.base_color.rgb * color.rgb, normal_from_local(instance) * octahedral_decode(normal),
+        instance.base_color.rgb * color.rgb, normal_view,
     );
 }
 
@@ -102,11 +116,12 @@ fn vs_full(
     @location(5) color: vec4<f32>,
 ) -> Full {
     let local = view_from_local(instance);
-    let pos_view = local * vec4(position, 1.0);
+    let normal_view = normal_from_local(instance) * octahedral_decode(normal);
+    let pos_view = placed(instance, local * vec4(position, 1.0), normal_view);
     let tangent_view = (local * vec4(octahedral_decode(tangent.xy), 0.0)).xyz;
     return Full(
         frame.clip_from_view * pos_view, pos_view.xyz - local[3].xyz, depths(pos_view), ids(instance, surface),
-        color, normal_from_local(instance) * octahedral_decode(normal),
+        color, normal_view,
         vec4(tangent_view, sign(tangent.z)), uv,
     );
 }

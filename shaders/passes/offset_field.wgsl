@@ -58,7 +58,7 @@ override STEP_1: bool = false;
 var<uniform> field: Field;
 var<storage, read> field_objects: array<FieldObject>;
 var edge_map_tex: texture_storage_2d<rgba32uint, read>;
-// Where lines run, as in passes/line_distance.wgsl.
+// Not 0 where noise is asked for: where lines run, or beside them.
 var spine_tex: texture_2d<u32>;
 // The pixels in which they do, while they are listed, and afterwards.
 var<storage, read_write> keeping: Counting;
@@ -180,6 +180,31 @@ fn cs_lines(@builtin(global_invocation_id) id: vec3<u32>) {
         let seed = field.seeds[i / 4u][i % 4u];
         let noise = noise_at(at, s.normal, edge.depth, stretch, field.line_wave, edge.object, seed);
         packed[i / 4u][i % 4u] = pack2x16float(factor * noise);
+    }
+    textureStore(line_field_tex, px, packed[0]);
+    if field.passes > 4u {
+        textureStore(more_line_field_tex, px, packed[1]);
+    }
+}
+
+// Noise of whatever enlarged surface a pixel shows (sketchy drawings paper, section 4), beside lines.
+@compute @workgroup_size(GROUP)
+fn cs_pixels(@builtin(global_invocation_id) id: vec3<u32>) {
+    if id.x >= kept.count {
+        return;
+    }
+    let kept_px = kept_pixels[id.x];
+    let px = vec2<i32>(vec2(kept_px & 0xffffu, kept_px >> 16u));
+    let s = unpack_surfel(geometry_at(px));
+    var packed = array<vec4<u32>, 2>(vec4(0u), vec4(0u));
+    if s.object != 0u {
+        let factor = control_factor(px, s);
+        let at = pos_view_of(px, s.depth);
+        for (var i = 0u; i < field.passes; i++) {
+            let seed = field.seeds[i / 4u][i % 4u];
+            let noise = noise_at(at, s.normal, s.depth, 1.0, field.line_wave, s.object, seed);
+            packed[i / 4u][i % 4u] = pack2x16float(factor * noise);
+        }
     }
     textureStore(line_field_tex, px, packed[0]);
     if field.passes > 4u {

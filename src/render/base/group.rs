@@ -291,6 +291,7 @@ impl Group {
                 material: part.material(scene),
                 is_flat: part.is_flat,
                 first_surface: 0,
+                enlarged: 0.0,
             };
             draws.push(draw);
         }

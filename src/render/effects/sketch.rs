@@ -12,6 +12,8 @@
 mod images;
 mod uniforms;
 
+pub use images::prepare_image;
+
 use glam::Vec2;
 
 use self::images::{Paper, SketchImages};
@@ -27,12 +29,14 @@ use crate::render::base::error::RenderError;
 use crate::render::base::frame_uniform::FrameUniform;
 use crate::render::base::group::Group;
 use crate::render::base::ids::object_id;
+use crate::render::base::instances::{Instance, Instances};
 use crate::render::base::object_axes::ObjectAxes;
 use crate::render::base::scene_view::SceneView;
 use crate::render::base::stage::{Output, Stage};
 use crate::render::base::style_images::StyleImages;
 use crate::render::passes::composition::{Composition, PLACED};
 use crate::render::passes::edge_map::EdgeMap;
+use crate::render::passes::gbuffer::GBuffer;
 use crate::render::passes::layers::Reported;
 use crate::render::passes::line_distance::{Reach, have_widths, nearest_lines};
 use crate::render::passes::lines::Lines;
@@ -42,7 +46,7 @@ use crate::render::passes::offset_field::{
 use crate::render::passes::shadows::ShadowMap;
 use crate::render::passes::traversal::GBufferPass;
 use crate::scene::AlphaMode;
-use crate::style::sketch::{Anchor, DepthRule as StyleDepth};
+use crate::style::sketch::{Anchor, DepthRule as StyleDepth, Exterior};
 use crate::style::{self, Style, Technique};
 
 /// Objects that are drawn as by hand in one way, together.
@@ -126,6 +130,10 @@ impl Sketch {
         let all = &self.style.pass;
         let count = (self.style.passes as usize).clamp(1, all.len());
         all.get(..count).unwrap_or(all)
+    }
+
+    fn is_enlarged(&self) -> bool {
+        self.style.wander.exterior == Exterior::Enlarged && !self.is_on_screen()
     }
 
     fn is_on_screen(&self) -> bool {
@@ -224,7 +232,8 @@ struct ShadeKey {
 /// What noise depends on.
 #[derive(PartialEq)]
 struct FieldKey {
-    of: u64,
+    /// Lines or surfaces, and the geometry that noise follows.
+    of: [u64; 2],
     field: FieldUniform,
     objects: Vec<ObjectUniform>,
     uniform: FrameUniform,
@@ -256,6 +265,8 @@ pub struct SketchState {
     color: Stage<ShadeKey, Target>,
     near_radius: ArrayBuffer,
     near_lines: Stage<(u64, u32), Target>,
+    enlarged: Stage<(u64, f32), GBuffer>,
+    instances: Instances,
     nearest_surfaces: Stage<(u64, u32), Target>,
     field: UniformBuffer<FieldUniform>,
     field_objects: ArrayBuffer,
@@ -288,6 +299,8 @@ impl SketchState {
             color: Stage::default(),
             near_radius: ArrayBuffer::new(gpu, "distance of lines"),
             near_lines: Stage::default(),
+            enlarged: Stage::default(),
+            instances: Instances::new(gpu),
             nearest_surfaces: Stage::default(),
             field: UniformBuffer::new(gpu, "offset field"),
             field_objects: ArrayBuffer::new(gpu, "objects of an offset field"),
@@ -354,8 +367,10 @@ impl SketchState {
         let geometry = &surfaces.gbuffer;
         // Lines of the papers' operators follow surfaces too.
         let band = line_band.max(fill_band);
-        let nearest = self.nearest_surfaces.run((geometry.revision, band as u32), |_| {
-            nearest_surfaces(rec, &geometry.value.geometry, band)
+        let enlarged = self.enlarge(rec, pass, inputs, &surfaces)?;
+        let followed = enlarged.as_ref().unwrap_or(geometry);
+        let nearest = self.nearest_surfaces.run((followed.revision, band as u32), |_| {
+            nearest_surfaces(rec, &followed.value.geometry, band)
         })?;
         let field = sketch.field();
         let key = |of| FieldKey {
@@ -367,24 +382,26 @@ impl SketchState {
         self.field.write(rec.gpu, &field);
         self.field_objects.write(rec.gpu, &field_objects);
         let buffers = FieldBuffers { field: self.field.buffer(), objects: self.field_objects.buffer() };
-        let line_field =
-            match &edges {
-                Some(Output { value: EdgeMap { edges, spines: Some(spines), .. }, revision })
-                    if !sketch.is_on_screen() =>
-                {
-                    let pass = &mut self.line_field_pass;
-                    let drawn = [edges, spines];
-                    Some(self.line_field.run(key(*revision), |_| {
-                        pass.run(rec, buffers, &geometry.value, drawn, field.passes)
-                    })?)
-                }
-                _ => {
-                    self.line_field.clear();
-                    None
-                }
-            };
-        let fill_field = self.fill_field.run(key(nearest.revision), |_| {
-            fill_field(rec, buffers, &geometry.value.geometry, &nearest.value)
+        let line_field = match &edges {
+            Some(Output { value: EdgeMap { edges, spines: Some(spines), .. }, revision })
+                if !sketch.is_on_screen() =>
+            {
+                let pass = &mut self.line_field_pass;
+                let drawn = match (&enlarged, &near_lines) {
+                    (Some(_), Some(near)) => (None, &near.value),
+                    _ => (Some(edges), spines),
+                };
+                Some(self.line_field.run(key([*revision, followed.revision]), |_| {
+                    pass.run(rec, buffers, &followed.value, drawn, field.passes)
+                })?)
+            }
+            _ => {
+                self.line_field.clear();
+                None
+            }
+        };
+        let fill_field = self.fill_field.run(key([nearest.revision, followed.revision]), |_| {
+            fill_field(rec, buffers, &followed.value.geometry, &nearest.value)
         })?;
         let fetched = Fetched {
             surfaces: &surfaces,
@@ -438,6 +455,32 @@ impl SketchState {
         let ink = ink.map(|value| Output { value, revision });
         composition.place_opaque(Output { value: geometry, revision }, ink);
         Ok(Output { value: color, revision })
+    }
+
+    /// The surfaces enlarged along their normals, where the noise beyond outlines follows them.
+    fn enlarge(
+        &mut self,
+        rec: &mut Recorder<'_>,
+        pass: &mut GBufferPass,
+        inputs: &SketchInputs<'_>,
+        surfaces: &Surfaces,
+    ) -> Result<Option<Output<GBuffer>>, RenderError> {
+        let SketchInputs { seen, sketch, uniform, .. } = *inputs;
+        if !sketch.is_enlarged() {
+            self.enlarged.clear();
+            return Ok(None);
+        }
+        let [lines, fill] = uniforms::bands(&sketch.style, sketch.scale);
+        // No less than the largest offset, or there were none for it.
+        let px = uniforms::enlarged(&sketch.style, sketch.scale).max(lines).max(fill);
+        let Self { layer, enlarged, instances, .. } = self;
+        let key = (surfaces.gbuffer.revision, px);
+        let drawn = enlarged.run(key, |_| {
+            let layer = layer.shaded(surfaces, seen, uniform);
+            let draws: Vec<_> = layer.draws.iter().map(|draw| Instance { enlarged: px, ..*draw }).collect();
+            pass.run_enlarged(rec, seen.scene, instances, (&draws, layer.calls), seen.view.has_cuts())
+        })?;
+        Ok(Some(drawn))
     }
 
     fn shade(
@@ -521,6 +564,7 @@ impl Placing<'_> {
         }
         let mut switches = vec![
             ("ON_SCREEN", sketch.is_on_screen()),
+            ("BY_PIXEL", sketch.is_enlarged()),
             ("WITH_NEARER", style.wander.depth == StyleDepth::Nearer),
             ("WITH_MORE_PASSES", line_field.is_some_and(|field| field.more.is_some())),
             ("WITH_GRAIN", style.grain.amount > 0.0),

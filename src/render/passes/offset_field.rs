@@ -101,7 +101,8 @@ impl LineFieldPass {
         }
     }
 
-    /// Finds the noise of the lines of an edge map for so many passes; `spines`: where they run.
+    /// Finds the noise of the lines of an edge map for so many passes; `spines`: where they run. Without an edge map, that of each
+    /// pixel where `spines` is not 0, of the surface that it shows.
     ///
     /// # Errors
     /// [`RenderError`].
@@ -110,7 +111,7 @@ impl LineFieldPass {
         rec: &mut Recorder<'_>,
         buffers: FieldBuffers<'_>,
         gbuffer: &GBuffer,
-        [edges, spines]: [&Target; 2],
+        (edges, spines): (Option<&Target>, &Target),
         passes: u32,
     ) -> Result<LineField, RenderError> {
         let first = rec.target("noise of lines", HALVES)?;
@@ -134,7 +135,8 @@ impl LineFieldPass {
             line_field_tex: &first,
             more_line_field_tex: more.as_ref(),
         };
-        rec.compute("noise of lines", &program("cs_lines"), &inputs, &self.kept)?;
+        let entry_point = if edges.is_some() { "cs_lines" } else { "cs_pixels" };
+        rec.compute("noise of lines", &program(entry_point), &inputs, &self.kept)?;
         Ok(LineField { first, more })
     }
 }

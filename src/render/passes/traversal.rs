@@ -43,6 +43,8 @@ struct Variant {
 enum Purpose {
     /// The nearest surfaces.
     Surfaces,
+    /// The nearest of surfaces that are enlarged along their normals.
+    Enlarged,
     /// What lies behind another layer.
     Layer,
     /// Where anything does.
@@ -54,7 +56,7 @@ enum Purpose {
 impl Purpose {
     fn file(self) -> &'static str {
         match self {
-            Self::Surfaces => "passes/gbuffer.wgsl",
+            Self::Surfaces | Self::Enlarged => "passes/gbuffer.wgsl",
             Self::Layer | Self::Counted => "passes/peel.wgsl",
             Self::Lists => "passes/fragment_lists.wgsl",
         }
@@ -68,12 +70,18 @@ impl Purpose {
             }
             Detail::Full => ("vs_full", ["fs_full", "fs_full_layer", "fs_full_counted", "fs_full_list"]),
         };
-        (vertex, fragments[self as usize])
+        let number = match self {
+            Self::Surfaces | Self::Enlarged => 0,
+            Self::Layer => 1,
+            Self::Counted => 2,
+            Self::Lists => 3,
+        };
+        (vertex, fragments[number])
     }
 
     fn outputs(self, with_color: bool) -> &'static [wgpu::TextureFormat] {
         match self {
-            Self::Surfaces => &[GEOMETRY, BASE_COLOR, REGION],
+            Self::Surfaces | Self::Enlarged => &[GEOMETRY, BASE_COLOR, REGION],
             Self::Layer if with_color => &[GEOMETRY, REGION, SORT_KEYS, BASE_COLOR],
             Self::Layer => &[GEOMETRY, REGION, SORT_KEYS],
             Self::Counted => &[REGION],
@@ -118,7 +126,7 @@ impl GBufferPass {
         }
         let module = pipelines.module(gpu, key.purpose.file())?;
         let own = match key.purpose {
-            Purpose::Surfaces => None,
+            Purpose::Surfaces | Purpose::Enlarged => None,
             Purpose::Layer | Purpose::Counted => Some(&self.layer_layout),
             Purpose::Lists => Some(self.lists.layout()),
         };
@@ -155,6 +163,29 @@ impl GBufferPass {
         };
         let group = peel.map(|peel| peel.group(rec.gpu, &self.layer_layout));
         let traversal = Traversal { label, purpose, with_color, is_whole, color: &color, depth, group };
+        self.traverse(rec, scene, instances, parts, is_cut, traversal)?;
+        Ok(gbuffer)
+    }
+
+    /// Draws the nearest surfaces of the given parts enlarged along their normals (sketchy drawings paper, section 4.2), each by
+    /// as much as its instance says.
+    ///
+    /// # Errors
+    /// [`RenderError`].
+    pub fn run_enlarged(
+        &mut self,
+        rec: &mut Recorder<'_>,
+        scene: &GpuScene,
+        instances: &mut Instances,
+        parts: (&[Instance], &[DrawCall]),
+        is_cut: bool,
+    ) -> Result<GBuffer, RenderError> {
+        let gbuffer = GBuffer::new(rec)?;
+        let GBuffer { geometry, base_color, region, depth } = &gbuffer;
+        let color = &[geometry, base_color, region];
+        let (label, purpose) = ("enlarged", Purpose::Enlarged);
+        let traversal =
+            Traversal { label, purpose, with_color: true, is_whole: true, color, depth, group: None };
         self.traverse(rec, scene, instances, parts, is_cut, traversal)?;
         Ok(gbuffer)
     }
@@ -259,7 +290,11 @@ fn build(
     let targets: Vec<_> =
         variant.purpose.outputs(variant.with_color).iter().map(|&format| Some(format.into())).collect();
     let mut constants = vec![("WITH_CUT", variant.is_cut)];
-    constants.extend((variant.purpose != Purpose::Surfaces).then_some(("WITH_COLOR", variant.with_color)));
+    match variant.purpose {
+        Purpose::Surfaces => {}
+        Purpose::Enlarged => constants.push(("ENLARGED", true)),
+        _ => constants.push(("WITH_COLOR", variant.with_color)),
+    }
     let constants: Vec<_> = constants.into_iter().map(|(name, on)| (name, f64::from(u8::from(on)))).collect();
     let options = wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
     // Lists take all fragments.

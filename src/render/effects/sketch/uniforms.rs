@@ -89,6 +89,11 @@ pub(super) fn bands(sketch: &style::Sketch, scale: f32) -> [f32; 2] {
     [whole((3.5 * lines + rough).max(smudged)), whole(3.5 * fill + rough)]
 }
 
+/// How far surfaces are enlarged, px.
+pub(super) fn enlarged(sketch: &style::Sketch, scale: f32) -> f32 {
+    within(sketch.wander.enlarge, 0.0, 64.0) * scale
+}
+
 /// What finding noise depends on.
 pub(super) fn field(sketch: &style::Sketch, scale: f32) -> FieldUniform {
     let wander = &sketch.wander;
