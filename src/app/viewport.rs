@@ -378,6 +378,11 @@ impl Viewport {
         samples_at_rest: u32,
     ) -> Result<(), RenderError> {
         self.heed_reports(ui.ctx());
+        let (document, lasts) = document.at(ui.input(|input| input.time));
+        if let Some(lasts) = lasts {
+            ui.ctx().request_repaint_after(lasts);
+        }
+        let document = document.as_ref();
         let inputs = Inputs {
             document: document.clone(),
             size: self.size,

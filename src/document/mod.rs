@@ -1,5 +1,6 @@
 //! What a person can change, save and undo: models, styles and roles per object, camera, lights, view, section plane.
 
+mod boil;
 pub mod file;
 pub mod glyph;
 pub mod history;
