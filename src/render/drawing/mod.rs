@@ -12,7 +12,8 @@ use glam::Vec2;
 use self::objects::Objects;
 use self::reflections::Reflection;
 use self::stages::{ColorKey, EdgeKey, GeometryKey, InkKey, SegmentsKey};
-use crate::geometry::{EdgeClass, LineSegment};
+use crate::geometry::EdgeClass;
+use crate::geometry::line_segments::Strokes;
 use crate::gpu::{ArrayBuffer, Gpu, Recorder, Target, UniformBuffer};
 use crate::render::base::edge_style::EdgeUniform;
 use crate::render::base::error::RenderError;
@@ -93,7 +94,7 @@ pub struct Drawing {
     greatest_radius: ArrayBuffer,
     edge_styles: ArrayBuffer,
     gbuffer: Stage<GeometryKey, GBuffer>,
-    segments: Stage<SegmentsKey, Arc<Vec<LineSegment>>>,
+    segments: Stage<SegmentsKey, Arc<Strokes>>,
     edge_map: Stage<EdgeKey, EdgeMap>,
     reach: Stage<u64, Reach>,
     ink: Stage<InkKey, Target>,
@@ -288,6 +289,7 @@ impl Drawing {
             view,
             styles: styles.clone(),
             crease_angle: seen.crease_angle,
+            strokes: group.strokes,
         };
         let segments = self.segments.run(key, |_| {
             Ok::<_, RenderError>(Arc::new(feature_lines(seen.scene, group, &view, seen.crease_angle)))
@@ -300,6 +302,7 @@ impl Drawing {
             styles,
             depth_range: surfaces.depth_range,
             light,
+            strokes: group.strokes,
         };
         self.edge_map.run(key, |EdgeKey { styles, .. }| {
             self.placed_segments.write(rec, &segments.value, false)?;

@@ -107,9 +107,9 @@ impl Objects {
         [&self.surfaces, &self.blended].into_iter().chain(self.blueprints.iter().map(|b| &b.group))
     }
 
-    /// Greatest distance from its spine at which a line has ink, px.
-    pub fn greatest_radius(&self) -> f32 {
-        self.groups().map(Group::greatest_radius).fold(self.hidden.greatest_radius(), f32::max)
+    /// Greatest distance from its edge at which a line has ink, px.
+    pub fn greatest_reach(&self) -> f32 {
+        self.groups().map(Group::greatest_reach).fold(self.hidden.greatest_radius(), f32::max)
     }
 
     /// The boxes of the enhanced objects, each in its own space, and where that lies.

@@ -7,6 +7,7 @@ use crate::render::base::edge_style::EdgeUniform;
 use crate::render::base::frame_uniform::{FrameUniform, View};
 use crate::render::base::instances::{DrawCall, Instance};
 use crate::render::base::scene_view::SceneView;
+use crate::render::base::strokes::StrokeStyle;
 use crate::render::effects::mirror::MirrorUniform;
 use crate::render::effects::surface::Look;
 
@@ -47,6 +48,7 @@ pub(super) struct SegmentsKey {
     pub(super) view: View,
     pub(super) styles: Vec<EdgeUniform>,
     pub(super) crease_angle: f32,
+    pub(super) strokes: Option<StrokeStyle>,
 }
 
 /// What the edge map depends on.
@@ -57,6 +59,7 @@ pub(super) struct EdgeKey {
     pub(super) styles: Vec<EdgeUniform>,
     pub(super) depth_range: Vec2,
     pub(super) light: Option<FrameUniform>,
+    pub(super) strokes: Option<StrokeStyle>,
 }
 
 /// What the ink of surfaces depends on.
