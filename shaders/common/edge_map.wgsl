@@ -52,7 +52,7 @@ fn unpack_tangent(tangent: u32) -> vec2<f32> {
 }
 
 // x: class (4 bits), extent (2), outside (1), angle of the tangent (9), offset (2 × 8); y: object; z: depth; w: weight
-// (6), phase (10), half width (f16).
+// (6), phase (10), half width (f16, its sign as in `STROKE`).
 fn pack_edge(e: Edge) -> vec4<u32> {
     let outside = select(0u, 1u, e.outside > 0.0);
     let offset = vec2<u32>(round((clamp(e.offset, vec2(-1.0), vec2(1.0)) + 1.0) * 127.0));
@@ -75,8 +75,15 @@ fn offset_of(texel: vec4<u32>) -> vec2<f32> {
     return vec2(f32((texel.x >> 8u) & 255u), f32(texel.x & 255u)) / 127.0 - 1.0;
 }
 
+// No width is negative: the bit of its sign tells of a stroke of a hand, which may lie over what is nearer.
+const STROKE: u32 = 0x8000u;
+
 fn half_width_of(texel: vec4<u32>) -> f32 {
-    return unpack2x16float(texel.w & 0xffffu).x;
+    return unpack2x16float(texel.w & 0x7fffu).x;
+}
+
+fn is_stroke(texel: vec4<u32>) -> bool {
+    return (texel.w & STROKE) != 0u;
 }
 
 // What finding the line of each pixel needs of a texel: the offset as above, and over it a radius as f16; 0 where no

@@ -75,8 +75,11 @@ fn line_at(at: vec2<f32>, g: Surfel, found: u32) -> Line {
         return no_line();
     }
     let from_px = vec2<i32>(vec2((found - 1u) & 0xffffu, (found - 1u) >> 16u));
-    let edge = unpack_edge(textureLoad(edge_map_tex, from_px));
+    let texel = textureLoad(edge_map_tex, from_px);
+    let edge = unpack_edge(texel);
     let spine = vec2<f32>(from_px) + 0.5 + edge.offset;
+    // It has been found that nothing lies before the edge that is drawn so.
+    let is_tested = is_stroke(texel) && !AMONG_OTHERS;
     let index = edge.class_of - 1u;
     let d = at - spine;
     let tangent = unpack_tangent(edge.tangent);
@@ -109,7 +112,7 @@ fn line_at(at: vec2<f32>, g: Surfel, found: u32) -> Line {
     }
     let strength = edge_styles[edge.object].lines[index].strength * edge.weight;
     coverage *= strength;
-    if coverage <= 0.0 || is_hidden(g, vec2<i32>(floor(at)), edge, spine) {
+    if coverage <= 0.0 || (!is_tested && is_hidden(g, vec2<i32>(floor(at)), edge, spine)) {
         return Line(vec4(0.0), edge.depth, coverage > 0.0, 0.0, d);
     }
     var color = edge_styles[edge.object].lines[index].color;
@@ -171,7 +174,7 @@ fn farthest_at(px: vec2<i32>) -> u32 {
     return textureLoad(farthest_tex, px, 0).x;
 }
 
-// How far a thin line shows inside a wide one: not at all where both run along one spine. Where widths differ less, other
+// How far a thin line shows inside a wide one: strokes wholly, others not at all where both run along one spine. Where widths differ less, other
 // objects' lines would come to depend on whether any are so different that they are looked for.
 fn apart(thin: u32, wide: u32) -> f32 {
     if wide == 0u || thin == 0u {
@@ -179,7 +182,11 @@ fn apart(thin: u32, wide: u32) -> f32 {
     }
     let thin_px = vec2<i32>(vec2((thin - 1u) & 0xffffu, (thin - 1u) >> 16u));
     let wide_px = vec2<i32>(vec2((wide - 1u) & 0xffffu, (wide - 1u) >> 16u));
-    let a = unpack_edge(textureLoad(edge_map_tex, thin_px));
+    let thin_texel = textureLoad(edge_map_tex, thin_px);
+    if is_stroke(thin_texel) {
+        return 1.0;
+    }
+    let a = unpack_edge(thin_texel);
     let b = unpack_edge(textureLoad(edge_map_tex, wide_px));
     if b.half_width - a.half_width <= 1.0 {
         return 0.0;

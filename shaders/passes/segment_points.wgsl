@@ -21,6 +21,8 @@ var now_seen_tex: texture_storage_2d<r32uint, write>;
 
 // Whether more points follow that have to be compared with these.
 override KEEP_KEYS: bool = false;
+// Whether they are of strokes, which explain nothing where they are drawn.
+override WITHOUT_MARKS: bool = false;
 
 fn pixel_of(point: SegmentPoint) -> vec2<i32> {
     return vec2<i32>(vec2(point.px & 0xffffu, point.px >> 16u));
@@ -49,7 +51,9 @@ fn put(point: SegmentPoint, px: vec2<i32>, spine: u32) {
     atomicStore(&winners[index_of(point)], 0u);
     textureStore(edge_tex, px, point.edge);
     textureStore(spine_tex, px, vec4(spine, 0u, 0u, 0u));
-    textureStore(mark_tex, px, vec4(mark_of(point.key), 0u, 0u, 0u));
+    if !WITHOUT_MARKS {
+        textureStore(mark_tex, px, vec4(mark_of(point.key), 0u, 0u, 0u));
+    }
 }
 
 @compute @workgroup_size(256)

@@ -16,10 +16,14 @@
 override WITH_HOLES: bool = true;
 // Whether the G-buffer is a depth layer: only what its own surfaces carry is a line of it.
 override IN_LAYER: bool = false;
+// Whether segments are drawn elsewhere than they are tested.
+override WITH_STROKES: bool = false;
 
 var region_tex: texture_storage_2d<r32uint, read>;
 // `LineSegment` of src/geometry/line_segments.rs, four texels each.
 var segment_tex: texture_storage_2d<rgba32uint, read>;
+// With strokes: `Tested` of src/geometry/line_segments/strokes.rs, two texels each.
+var tested_tex: texture_storage_2d<rgba32uint, read>;
 // Number of a segment, and how many steps from its beginning, two in a texel; at the end `NO_STEP`.
 var step_tex: texture_storage_2d<rgba32uint, read>;
 // Where layers are asked about each step, once for all of them: its pixel (column in the lower 16 bits, row in the upper
@@ -58,6 +62,8 @@ const SLACK: f32 = 0.4;
 const BESIDE: f32 = 0.8;
 // Set in the class of a segment that nobody asked for: it is not drawn, but explains why two surfaces meet here.
 const HIDDEN: u32 = 0x80000000u;
+// Set too in that of one which is drawn as strokes: it explains as much as if it were drawn.
+const ELSEWHERE: u32 = 0x40000000u;
 
 struct Segment {
     // Both ends, px.
@@ -79,6 +85,29 @@ fn segment_at(index: u32) -> Segment {
         bitcast<f32>(others.x),
         vec4(others.yzw, texel_at(segment_tex, 4u * index + 3u).x),
     );
+}
+
+// Where a segment is tested.
+fn tested_at(v: Segment, index: u32) -> Segment {
+    let ends = bitcast<vec4<f32>>(texel_at(tested_tex, 2u * index));
+    return Segment(ends + frame.jitter.xyxy, v.depths_arcs, v.angle, v.ids);
+}
+
+// How a segment is drawn.
+struct Hand {
+    // At both ends.
+    weights: vec2<f32>,
+    // The greatest counts where segments share a pixel.
+    precedence: f32,
+    is_stroke: bool,
+}
+
+fn hand_at(index: u32) -> Hand {
+    if !WITH_STROKES {
+        return Hand(vec2(1.0), 1.0, false);
+    }
+    let texel = texel_at(tested_tex, 2u * index + 1u);
+    return Hand(bitcast<vec2<f32>>(texel.xy), bitcast<f32>(texel.z), texel.w == 1u);
 }
 
 fn step_at(number: u32) -> vec2<u32> {
@@ -175,15 +204,34 @@ struct Spine {
     depth: f32,
 }
 
-fn spine_at(v: Segment, px: vec2<f32>) -> Spine {
+// A direction, and the inverse of the length; 0 for a segment without one.
+fn direction_of(v: Segment) -> vec3<f32> {
     let d = v.ends.zw - v.ends.xy;
     let length2 = dot(d, d);
     let inverse_length = select(0.0, inverseSqrt(length2), length2 > 1e-12);
-    let tangent = select(vec2(1.0, 0.0), d * inverse_length, inverse_length > 0.0);
-    let t = clamp(dot(px + 0.5 - v.ends.xy, tangent) * inverse_length, 0.0, 1.0);
+    return vec3(select(vec2(1.0, 0.0), d * inverse_length, inverse_length > 0.0), inverse_length);
+}
+
+fn spine_at(v: Segment, px: vec2<f32>) -> Spine {
+    let direction = direction_of(v);
+    let t = clamp(dot(px + 0.5 - v.ends.xy, direction.xy) * direction.z, 0.0, 1.0);
+    return spine_along(v, direction, t);
+}
+
+// The point for which another one stands that is as far along.
+fn tested_spine(v: Segment, number: u32, spine: Spine) -> Spine {
+    if !WITH_STROKES {
+        return spine;
+    }
+    let tested = tested_at(v, number);
+    return spine_along(tested, direction_of(tested), spine.t);
+}
+
+fn spine_along(v: Segment, direction: vec3<f32>, t: f32) -> Spine {
+    let tangent = direction.xy;
     let at = mix(v.ends.xy, v.ends.zw, t);
     let nearness = mix(nearness_of(v.depths_arcs.x), nearness_of(v.depths_arcs.y), t);
-    return Spine(at, t, tangent, vec2(tangent.y, -tangent.x), inverse_length, nearness, depth_of(nearness));
+    return Spine(at, t, tangent, vec2(tangent.y, -tangent.x), direction.z, nearness, depth_of(nearness));
 }
 
 // What is found at a pixel of a segment.
@@ -191,12 +239,15 @@ fn point_at(v: Segment, number: u32, px: vec2<f32>) -> SegmentPoint {
     let spine = spine_at(v, px);
     let depth = spine.depth;
     let regions = v.ids.zw;
-    let left = beside(spine, PLACES[3], regions);
-    let right = beside(spine, PLACES[1], regions);
+    let tested = tested_spine(v, number, spine);
+    let hand = hand_at(number);
+    let left = beside(tested, PLACES[3], regions);
+    let right = beside(tested, PLACES[1], regions);
     let own = v.ids.y;
     var is_visible = min(left.lead, right.lead) <= SLACK;
     if WITH_HOLES {
-        is_visible = is_visible && is_beside(vec2<i32>(px), regions);
+        let there = select(vec2<i32>(px), texel_of(tested.at), hand.is_stroke);
+        is_visible = is_visible && is_beside(there, regions);
     }
     if IN_LAYER {
         let is_carried = left.carries || right.carries
@@ -230,9 +281,18 @@ fn point_at(v: Segment, number: u32, px: vec2<f32>) -> SegmentPoint {
     } else if class_of == MATERIAL || class_of == SECTION {
         weight = 1.0;
     }
-    let is_hidden = (v.ids.x & HIDDEN) != 0u || edge_styles[own].lines[index].strength <= 0.0 || weight <= 0.0;
+    let is_drawn = edge_styles[own].lines[index].strength > 0.0 && weight > 0.0;
+    let is_hidden = (v.ids.x & HIDDEN) != 0u || !is_drawn;
     let pos_view = pos_view_of(vec2<i32>(px), depth);
     let front = select(left.surfel.normal, right.surfel.normal, left_is_outside);
+    let full_width = half_width(own, class_of, pos_view, front);
+    var width = full_width;
+    if WITH_STROKES {
+        // A hand that presses less draws lines paler and thinner.
+        let pressed = mix(hand.weights.x, hand.weights.y, spine.t);
+        weight *= mix(1.0, pressed, 0.7);
+        width *= mix(1.0, pressed, 0.6);
+    }
     let arc = mix(v.depths_arcs.z, v.depths_arcs.w, spine.t);
     let edge = Edge(
         class_of,
@@ -243,21 +303,26 @@ fn point_at(v: Segment, number: u32, px: vec2<f32>) -> SegmentPoint {
         // Of short segments only some have a pixel: each goes on to the next one that has.
         clamp(0.5 / max(spine.inverse_length, 1e-6), 0.5, 0.75) * select(0.0, 1.0, spine.inverse_length > 0.0),
         depth,
-        half_width(own, class_of, pos_view, front),
+        width,
         arc / edge_styles[own].dash_period,
         select(weight, 0.0, is_hidden),
     );
     // Where segments share a pixel the widest wins, for it would hide the others; profile edges before inner ones; then
     // the nearest; last the object's number, so that the order of drawing does not decide.
     let is_profile = class_of <= OBJECT || class_of == SECTION;
-    let rank = f32(u32(min(edge.half_width * 4.0, 126.0))) + select(0.0, 0.5, is_profile);
+    let rank = f32(u32(min(full_width * 4.0, 126.0))) + select(0.0, 0.5, is_profile);
     let clip = frame.clip_from_view * vec4(0.0, 0.0, -depth, 1.0);
     let nearest = bitcast<f32>((bitcast<u32>(clip.z / clip.w) & ~63u) | (own & 63u));
-    let order = select(rank + 1.0 + 0.499 * nearest, 0.5 * nearest, is_hidden) / 128.0;
-    let texel = pack_edge(edge);
+    // Of strokes the same time of drawing counts everywhere, so that none tears another one along it.
+    let first = select(nearest, mix(nearest, hand.precedence, 0.5), WITH_STROKES);
+    let order = select(rank + 1.0 + 0.499 * first, 0.5 * nearest, is_hidden) / 128.0;
+    var texel = pack_edge(edge);
+    texel.w |= select(0u, STROKE, hand.is_stroke);
     let is_rim = class_of <= OBJECT;
-    let packed = spine_of(texel, halves_of(own), select(0.0, 1.0, is_profile), 1.0 - range_share(depth));
-    let mark = select(0u, 1u, is_rim || !is_hidden);
+    // Strokes cross each other: there is no room around any line.
+    let nearness = select(1.0 - range_share(depth), 0.0, WITH_STROKES);
+    let packed = spine_of(texel, halves_of(own), select(0.0, 1.0, is_profile && !WITH_STROKES), nearness);
+    let mark = select(0u, 1u, is_rim || !is_hidden || (is_drawn && (v.ids.x & ELSEWHERE) != 0u));
     // Positive numbers have the order of their bits, and those below 1 leave two of them.
     return SegmentPoint(texel, packed, (bitcast<u32>(order) << 1u) | mark, u32(px.x) | (u32(px.y) << 16u), number);
 }
@@ -310,8 +375,9 @@ fn cs_sift(@builtin(global_invocation_id) id: vec3<u32>) {
     let segment = segment_at(step.x);
     let place = place_of(segment.ends, step.y);
     let spine = spine_at(segment, place.px);
-    let left = beside(spine, BESIDE, segment.ids.zw);
-    let right = beside(spine, -BESIDE, segment.ids.zw);
+    let tested = tested_spine(segment, step.x, spine);
+    let left = beside(tested, BESIDE, segment.ids.zw);
+    let right = beside(tested, -BESIDE, segment.ids.zw);
     if step.x != NO_STEP && place.is_on && min(left.lead, right.lead) <= SLACK {
         keep(id.x);
     }

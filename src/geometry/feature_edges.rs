@@ -3,6 +3,7 @@
 //! Built once per mesh; [`super::line_segments()`] picks those that a picture shows.
 
 pub(super) mod creases;
+pub(super) mod straights;
 mod stretches;
 
 use std::f32::consts::PI;
@@ -70,6 +71,7 @@ pub struct FeatureEdges {
     /// The box around the mesh, local space.
     pub(super) bounds: Bounds,
     kept: creases::Kept,
+    kept_straights: straights::Kept,
 }
 
 impl FeatureEdges {
@@ -85,6 +87,7 @@ impl FeatureEdges {
             surface_of_triangle: surfaces.of_triangle,
             bounds: mesh.bounds(),
             kept: creases::Kept::default(),
+            kept_straights: straights::Kept::default(),
         };
         let point = |v: u32| adjacency.weld.representative.get(v as usize).copied().unwrap_or(v);
         let materials = Materials::new(mesh);

@@ -1,7 +1,7 @@
 //! Edges one after the other: what dashes run along.
 
 /// Marks the end of a chain.
-const NO_HALF: u32 = u32::MAX;
+pub(super) const NO_HALF: u32 = u32::MAX;
 
 /// An edge that takes part in chains.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -53,17 +53,23 @@ impl Chains {
                 partner[b as usize] = a;
             }
         }
+        Self::joined(&partner)
+    }
+
+    /// Chains of links of which it is known how they go on: for each half (twice the number of a link, plus the number of one
+    /// of its ends) the other one there, or [`NO_HALF`].
+    pub(super) fn joined(partner: &[u32]) -> Self {
         let mut all = Self::default();
-        let mut is_used = vec![false; links.len()];
+        let mut is_used = vec![false; partner.len() / 2];
         // Open chains first: each from the one of its ends that comes first.
         for half in 0..partner.len() as u32 {
             if partner[half as usize] == NO_HALF && !is_used[half as usize >> 1] {
-                all.walk(half, &partner, &mut is_used, false);
+                all.walk(half, partner, &mut is_used, false);
             }
         }
-        for link in 0..links.len() as u32 {
+        for link in 0..is_used.len() as u32 {
             if !is_used[link as usize] {
-                all.walk(2 * link, &partner, &mut is_used, true);
+                all.walk(2 * link, partner, &mut is_used, true);
             }
         }
         all

@@ -13,6 +13,7 @@ mod fan;
 mod outlines;
 mod scale;
 mod segment;
+mod strokes;
 
 use glam::DMat4;
 use rayon::prelude::*;
@@ -23,6 +24,7 @@ pub use self::contours::{PlacedContours, contour_segments};
 use self::facing::Facings;
 use self::fan::Fans;
 pub use self::segment::{Dashes, LineSegment, LineView, NO_SURFACE, PlacedEdges, Wanted};
+pub use self::strokes::{Strokes, Tested, draw_strokes};
 use super::feature_edges::Traits;
 use super::{ClassSet, EdgeClass};
 
@@ -35,15 +37,27 @@ const BLOCK: usize = 64;
 /// Appends the segments of an object that are lines for a camera, in the order of its edges: the same for any number of
 /// threads. Costs one look at each triangle and edge, about 4 ms per million triangles on two cores.
 pub fn line_segments(placed: &PlacedEdges<'_>, view: &LineView, wanted: &Wanted, out: &mut Vec<LineSegment>) {
+    find_segments(placed, view, wanted, false, out);
+}
+
+/// The same, and who found them with where each comes from if that `is_traced` or anything is dashed.
+fn find_segments<'a>(
+    placed: &'a PlacedEdges<'a>,
+    view: &LineView,
+    wanted: &'a Wanted,
+    is_traced: bool,
+    out: &mut Vec<LineSegment>,
+) -> Option<(Finder<'a>, Trace)> {
     if wanted.classes.is_empty() && wanted.suppress_angle == f32::INFINITY {
-        return;
+        return None;
     }
     let view_from_local = view.projector.view_from_world * placed.world_from_local;
     let picture = PictureMap::new(view, &view_from_local);
     if !picture.may_show(&placed.edges.bounds) {
-        return;
+        return None;
     }
-    let finder = Finder::new(placed, view, wanted, &view_from_local, picture);
+    let mut finder = Finder::new(placed, view, wanted, &view_from_local, picture);
+    finder.is_traced |= is_traced;
     let first = out.len();
     let mut trace = Trace::default();
     let count = placed.edges.len();
@@ -69,9 +83,10 @@ pub fn line_segments(placed: &PlacedEdges<'_>, view: &LineView, wanted: &Wanted,
     if let (Some(dashes), Some(segments)) = (&wanted.dashes, out.get_mut(first..)) {
         finder.measure(dashes, &trace, segments);
     }
+    Some((finder, trace))
 }
 
-/// Where segments come from. Kept only for dashes.
+/// Where segments come from. Kept only for dashes and strokes.
 #[derive(Default)]
 struct Trace {
     /// The edge of each segment.
@@ -103,6 +118,8 @@ struct Finder<'a> {
     least_angle: f32,
     /// Whether creases that face away are hidden by their own object.
     hides_its_back: bool,
+    /// Whether it is kept where segments come from.
+    is_traced: bool,
 }
 
 impl<'a> Finder<'a> {
@@ -139,6 +156,7 @@ impl<'a> Finder<'a> {
             least_angle: angles.least_local(least_angle),
             angles,
             special,
+            is_traced: wanted.dashes.is_some(),
             hides_its_back: placed.is_solid && clip::is_before_the_eye(&edges.bounds, view_from_local, lens),
         }
     }
@@ -250,14 +268,13 @@ impl<'a> Finder<'a> {
         let PlacedEdges { edges, mesh, object, .. } = self.placed;
         let Some(ends) = edges.ends.get(edge as usize) else { return };
         let [Some(&a), Some(&b)] = ends.map(|v| mesh.positions.get(v as usize)) else { return };
-        let is_traced = self.wanted.dashes.is_some();
         let Some([from, to]) = self.picture.segment([a, b]) else {
-            if is_traced && line.class == EdgeClass::Silhouette as u32 {
+            if self.is_traced && line.class == EdgeClass::Silhouette as u32 {
                 trace.unseen.push(edge);
             }
             return;
         };
-        if is_traced {
+        if self.is_traced {
             trace.edges.push(edge);
         }
         let [one, two] = line.faces;
@@ -277,6 +294,8 @@ impl<'a> Finder<'a> {
 mod arc_tests;
 #[cfg(test)]
 mod speed;
+#[cfg(test)]
+mod stroke_tests;
 #[cfg(test)]
 mod tests;
 #[cfg(test)]

@@ -20,6 +20,7 @@ pub mod rig;
 pub mod section;
 pub mod solid;
 pub mod stitch;
+pub mod strokes;
 pub mod surfaces;
 pub mod text;
 pub mod topology;

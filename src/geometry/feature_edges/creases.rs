@@ -64,7 +64,7 @@ impl FeatureEdges {
     }
 
     /// Only edges of one kind follow each other; `None` for those that are lines only as silhouettes.
-    fn kind(&self, edge: usize, angles: CreaseAngles) -> Option<u8> {
+    pub(super) fn kind(&self, edge: usize, angles: CreaseAngles) -> Option<u8> {
         let (&traits, &dihedral) = (self.traits.get(edge)?, self.dihedral.get(edge)?);
         let kinds = [
             traits.any(Traits::FAN),

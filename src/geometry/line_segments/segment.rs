@@ -23,7 +23,7 @@ pub struct LineSegment {
     /// Angle between the two surfaces as they are placed, in radians, −π to π: positive if they are convex as seen from
     /// the eye's side (at a silhouette, from the first triangle's front), 0 at a border.
     pub angle: f32,
-    /// [`EdgeClass`] as a number; plus [`LineSegment::HIDDEN`]. Never [`EdgeClass::Object`] nor
+    /// [`EdgeClass`] as a number; plus [`LineSegment::HIDDEN`], [`LineSegment::ELSEWHERE`]. Never [`EdgeClass::Object`] nor
     /// [`EdgeClass::Intersection`].
     pub class: u32,
     /// [`PlacedEdges::object`].
@@ -35,10 +35,12 @@ pub struct LineSegment {
 impl LineSegment {
     /// A bit of `class`: nobody asked for this line, but its surfaces differ, which is to be taken for no other line.
     pub const HIDDEN: u32 = 1 << 31;
+    /// A bit of `class`: this line is drawn by others, see [`super::draw_strokes`]. Always with [`Self::HIDDEN`].
+    pub const ELSEWHERE: u32 = 1 << 30;
 
     /// What kind of line it is, hidden or not.
     pub fn edge_class(&self) -> Option<EdgeClass> {
-        EdgeClass::ALL.get((self.class & !Self::HIDDEN) as usize).copied()
+        EdgeClass::ALL.get((self.class & !(Self::HIDDEN | Self::ELSEWHERE)) as usize).copied()
     }
 
     /// Whether nobody asked for it.

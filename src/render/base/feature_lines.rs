@@ -5,23 +5,40 @@ use super::frame_uniform::View;
 use super::gpu_scene::GpuScene;
 use super::group::Group;
 use super::ids::{object_id, region};
+use super::strokes::StrokeStyle;
 use crate::geometry::line_segments::{
-    Dashes, LineView, PlacedContours, PlacedEdges, Wanted, contour_segments,
+    Dashes, LineView, PlacedContours, PlacedEdges, Strokes, Wanted, contour_segments, draw_strokes,
 };
-use crate::geometry::{ClassSet, EdgeClass, LineSegment, line_segments};
+use crate::geometry::{ClassSet, EdgeClass, line_segments};
 
-/// Silhouettes, borders, creases and material boundaries of all objects of a group with exact lines, hidden ones included. Empty
-/// while topology is not known. `crease_angle` (radians): above it edges separate surfaces.
-pub fn feature_lines(scene: &GpuScene, group: &Group, view: &View, crease_angle: f32) -> Vec<LineSegment> {
-    let margin = group.greatest_radius() + 2.0;
+/// Silhouettes, borders, creases and material boundaries of all objects of a group with exact lines, hidden ones included; straight
+/// ones as strokes if the group has any. Empty while topology is not known. `crease_angle` (radians): above it edges separate
+/// surfaces.
+pub fn feature_lines(scene: &GpuScene, group: &Group, view: &View, crease_angle: f32) -> Strokes {
+    find(scene, group, view, crease_angle, group.strokes)
+}
+
+/// The same without strokes.
+pub fn plain_feature_lines(scene: &GpuScene, group: &Group, view: &View, crease_angle: f32) -> Strokes {
+    find(scene, group, view, crease_angle, None)
+}
+
+fn find(
+    scene: &GpuScene,
+    group: &Group,
+    view: &View,
+    crease_angle: f32,
+    strokes: Option<StrokeStyle>,
+) -> Strokes {
+    let reach = strokes.map_or(0.0, |StrokeStyle(hand)| hand.reach());
     // The vertex shader adds the jitter.
     let view = LineView {
         projector: view.projector(),
         jitter: glam::DVec2::ZERO,
-        margin: f64::from(margin),
+        margin: f64::from(group.greatest_radius() + 2.0) + reach,
         cuts: view.cuts(),
     };
-    let mut all = Vec::new();
+    let mut all = Strokes::default();
     for object in group.visible() {
         let (node, enhanced) = (object.node, object.enhanced);
         let id = object_id(node);
@@ -41,9 +58,14 @@ pub fn feature_lines(scene: &GpuScene, group: &Group, view: &View, crease_angle:
             // What a solid hides is left out.
             is_solid: scene.shows_no_inside(node) && object.is_whole() && !group.shows_hidden,
         };
-        let first = all.len();
+        let first = all.segments.len();
         let wanted = wanted(style, crease_angle);
-        line_segments(&placed, &view, &wanted, &mut all);
+        match strokes {
+            Some(StrokeStyle(hand)) => {
+                draw_strokes(&placed, &view, &wanted, (&hand, crease_angle), &mut all);
+            }
+            None => line_segments(&placed, &view, &wanted, &mut all.segments),
+        }
         if let Some((section, opened)) = scene.section.as_ref().and_then(|s| Some((s, s.opened(node)?))) {
             let placed = PlacedContours {
                 contours: &opened.contours,
@@ -52,11 +74,14 @@ pub fn feature_lines(scene: &GpuScene, group: &Group, view: &View, crease_angle:
                 object: id,
                 cap: opened.cap.map(|cap| cap.surface),
             };
-            contour_segments(&placed, &view, &wanted, &mut all);
+            contour_segments(&placed, &view, &wanted, &mut all.segments);
         }
-        for segment in all.iter_mut().skip(first) {
+        for segment in all.segments.iter_mut().skip(first) {
             segment.surfaces = segment.surfaces.map(|surface| region(id, surface));
         }
+    }
+    if strokes.is_some() {
+        all.complete();
     }
     all
 }

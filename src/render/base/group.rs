@@ -7,6 +7,7 @@ use super::frame_uniform::View;
 use super::gpu_scene::{GpuScene, Origin};
 use super::ids::{ENHANCED, object_id};
 use super::instances::{Detail, DrawCall, Instance};
+use super::strokes::StrokeStyle;
 use crate::geometry::Bounds;
 use crate::gpu::material::MaterialUniform;
 use crate::scene::{AlphaMode, NodeId};
@@ -113,6 +114,8 @@ pub struct Group {
     pub has_holes: bool,
     /// Whether what faces away from the eye or lies behind a solid's front is drawn too.
     pub shows_hidden: bool,
+    /// How straight lines are drawn, unless the group is cut into layers; `None`: as they are.
+    pub strokes: Option<StrokeStyle>,
 }
 
 impl Group {
@@ -124,6 +127,12 @@ impl Group {
     /// Nothing of a scene with so many object ids.
     pub fn new(count: usize) -> Self {
         Self { edge_styles: vec![EdgeUniform::default(); count], ..Self::default() }
+    }
+
+    /// The same with straight lines drawn by a hand.
+    #[must_use]
+    pub fn with_strokes(self, strokes: Option<StrokeStyle>) -> Self {
+        Self { strokes, ..self }
     }
 
     /// Adds an object of which the lines are of no interest.
@@ -160,6 +169,11 @@ impl Group {
         self.edge_styles.iter().map(EdgeUniform::greatest_radius).fold(0.0, f32::max)
     }
 
+    /// Greatest distance from its edge at which a line has ink, px.
+    pub fn greatest_reach(&self) -> f32 {
+        self.greatest_radius() + self.strokes.map_or(0.0, |StrokeStyle(hand)| hand.reach() as f32)
+    }
+
     /// The visible objects.
     pub fn visible(&self) -> &[Visible] {
         &self.visible
@@ -172,7 +186,7 @@ impl Group {
 
     /// The part of the picture that they and their lines cover at most: left, top, right and bottom edge in pixels.
     pub fn part(&self, scene: &GpuScene, view: &View) -> [u32; 4] {
-        let margin = self.greatest_radius();
+        let margin = self.greatest_reach();
         let boxes = self.boxes(scene).filter(|(bounds, _)| !bounds.is_empty());
         let parts = boxes.filter_map(|(bounds, place)| {
             view.part_of(&bounds.corners().map(|corner| place.transform_point3(corner)), margin)

@@ -17,4 +17,5 @@ pub mod scale_bar;
 pub mod scene_view;
 pub mod section;
 pub mod stage;
+pub mod strokes;
 pub mod style_images;

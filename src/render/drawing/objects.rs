@@ -128,10 +128,10 @@ impl Objects {
         std::iter::once(&self.surfaces).chain(self.sketches.iter().map(|s| &s.group)).collect()
     }
 
-    /// Greatest distance from its spine at which a line has ink, px.
-    pub fn greatest_radius(&self) -> f32 {
-        let sketches = self.sketches.iter().map(Sketch::greatest_radius);
-        let groups = self.groups().map(Group::greatest_radius);
+    /// Greatest distance from its edge at which a line has ink, px.
+    pub fn greatest_reach(&self) -> f32 {
+        let sketches = self.sketches.iter().map(Sketch::greatest_reach);
+        let groups = self.groups().map(Group::greatest_reach);
         groups.chain(sketches).fold(self.hidden.greatest_radius(), f32::max)
     }
 

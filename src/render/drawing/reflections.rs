@@ -32,7 +32,7 @@ impl Drawing {
     ) -> Result<Vec<Reflected>, RenderError> {
         let objects = inputs.objects;
         let mirrors = if inputs.reflections > 0 { objects.mirrors.as_slice() } else { &[] };
-        let margin = objects.greatest_radius();
+        let margin = objects.greatest_reach();
         let seen: Vec<_> = mirrors
             .iter()
             .filter_map(|m| Some((m, m.seen_from(inputs.seen.view, &objects.visible_bounds, margin)?)))

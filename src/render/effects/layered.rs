@@ -7,7 +7,7 @@ use crate::document::LayersBy;
 use crate::gpu::{Gpu, Recorder, Target};
 use crate::render::base::edge_style::EdgeUniform;
 use crate::render::base::error::RenderError;
-use crate::render::base::feature_lines::feature_lines;
+use crate::render::base::feature_lines::plain_feature_lines;
 use crate::render::base::frame_uniform::FrameUniform;
 use crate::render::base::group::Group;
 use crate::render::base::instances::{DrawCall, Instance};
@@ -195,7 +195,7 @@ impl Layered {
         }
         // Which edges are lines does not change from sample to sample.
         let view = seen.view.moved(Vec2::ZERO);
-        segments.write(rec, &feature_lines(seen.scene, group, &view, seen.crease_angle), true)?;
+        segments.write(rec, &plain_feature_lines(seen.scene, group, &view, seen.crease_angle), true)?;
         let mut seen_lines = wanted.seen.cloned();
         let inputs = LayerInputs {
             scene: seen.scene,

@@ -6,7 +6,8 @@ use std::sync::Arc;
 use glam::{UVec2, Vec2};
 
 use super::hidden::{Hidden, HiddenLines};
-use crate::geometry::{EdgeClass, LineSegment};
+use crate::geometry::EdgeClass;
+use crate::geometry::line_segments::Strokes;
 use crate::gpu::{ArrayBuffer, Gpu, Recorder, Target};
 use crate::render::base::edge_style::EdgeUniform;
 use crate::render::base::error::RenderError;
@@ -16,6 +17,7 @@ use crate::render::base::group::Group;
 use crate::render::base::instances::{DrawCall, Instance, Instances};
 use crate::render::base::scene_view::SceneView;
 use crate::render::base::stage::{Output, Stage};
+use crate::render::base::strokes::StrokeStyle;
 use crate::render::effects::technique::Shaded;
 use crate::render::passes::composition::ink;
 use crate::render::passes::edge_map::{EdgeInputs, EdgeMap, edge_map};
@@ -55,7 +57,7 @@ pub struct OpaqueLayer {
     greatest_radius: ArrayBuffer,
     edge_styles: ArrayBuffer,
     gbuffer: Stage<GeometryKey, GBuffer>,
-    segments: Stage<SegmentsKey, Arc<Vec<LineSegment>>>,
+    segments: Stage<SegmentsKey, Arc<Strokes>>,
     edge_map: Stage<EdgeKey, EdgeMap>,
     reach: Stage<u64, Reach>,
     ink: Stage<InkKey, Target>,
@@ -83,6 +85,7 @@ struct SegmentsKey {
     view: View,
     styles: Vec<EdgeUniform>,
     crease_angle: f32,
+    strokes: Option<StrokeStyle>,
 }
 
 /// What the edge map depends on.
@@ -93,6 +96,7 @@ struct EdgeKey {
     styles: Vec<EdgeUniform>,
     depth_range: Vec2,
     light: Option<FrameUniform>,
+    strokes: Option<StrokeStyle>,
 }
 
 /// What the ink depends on.
@@ -219,6 +223,7 @@ impl OpaqueLayer {
             view,
             styles: styles.clone(),
             crease_angle: seen.crease_angle,
+            strokes: group.strokes,
         };
         let segments = self.segments.run(key, |_| {
             Ok::<_, RenderError>(Arc::new(feature_lines(seen.scene, group, &view, seen.crease_angle)))
@@ -231,6 +236,7 @@ impl OpaqueLayer {
             styles,
             depth_range: uniform.depth_range(),
             light,
+            strokes: group.strokes,
         };
         self.edge_map.run(key, |EdgeKey { styles, .. }| {
             self.placed_segments.write(rec, &segments.value, false)?;

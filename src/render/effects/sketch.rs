@@ -33,6 +33,7 @@ use crate::render::base::instances::{Instance, Instances};
 use crate::render::base::object_axes::ObjectAxes;
 use crate::render::base::scene_view::SceneView;
 use crate::render::base::stage::{Output, Stage};
+use crate::render::base::strokes::StrokeStyle;
 use crate::render::base::style_images::StyleImages;
 use crate::render::passes::composition::{Composition, PLACED};
 use crate::render::passes::edge_map::EdgeMap;
@@ -99,8 +100,9 @@ impl Sketch {
         let found = all.iter().position(|sketch| sketch.style == style.sketch);
         let index = found.unwrap_or(all.len());
         if found.is_none() {
+            let strokes = StrokeStyle::new(&style.sketch.strokes, style.sketch.wander.seed, scale);
             all.push(Self {
-                group: Group::new(count),
+                group: Group::new(count).with_strokes(strokes),
                 hidden: Hidden::default(),
                 style: style.sketch.clone(),
                 paper: Paper::of(&style.sketch, images),
@@ -117,9 +119,9 @@ impl Sketch {
     }
 
     /// Greatest distance from where it belongs at which anything is drawn, px.
-    pub fn greatest_radius(&self) -> f32 {
+    pub fn greatest_reach(&self) -> f32 {
         let [lines, fill] = uniforms::bands(&self.style, self.scale);
-        (self.group.greatest_radius() * self.widest() + lines).max(fill)
+        (self.group.greatest_reach() * self.widest() + lines).max(fill)
     }
 
     fn widest(&self) -> f32 {

@@ -11,6 +11,7 @@ use wgpu::util::{BufferInitDescriptor, DeviceExt};
 use super::gbuffer::GBuffer;
 use super::repeated::Seen;
 use crate::geometry::LineSegment;
+use crate::geometry::line_segments::Strokes;
 use crate::gpu::{Gpu, Program, RecordBuffer, RecordTexture, Recorder, Target, inputs, size_of_texels};
 use crate::render::base::error::RenderError;
 
@@ -35,6 +36,9 @@ const NO_STEP: [u32; 2] = [u32::MAX; 2];
 /// Segments on the device, ready to be put into the edge maps of several G-buffers.
 pub struct Segments {
     records: RecordTexture,
+    /// Where each is tested, if that is not where it is drawn.
+    tested: RecordTexture,
+    has_strokes: bool,
     steps: Vec<Steps>,
     for_layers: bool,
     /// The steps that are looked at closely.
@@ -57,13 +61,20 @@ struct Steps {
     steps: RecordTexture,
     /// At most [`MOST_STEPS`].
     count: u32,
+    /// Whether all of them are of strokes, which explain nothing where they are drawn.
+    of_strokes: bool,
     /// For layers: `place_tex` in `passes/segments.wgsl`.
     places: Option<Target>,
 }
 
 impl Steps {
     fn new(gpu: &Gpu) -> Self {
-        Self { steps: RecordTexture::new(gpu, "steps of segments"), count: 0, places: None }
+        Self {
+            steps: RecordTexture::new(gpu, "steps of segments"),
+            count: 0,
+            of_strokes: false,
+            places: None,
+        }
     }
 }
 
@@ -88,6 +99,8 @@ impl Segments {
         let used = wgpu::BufferUsages::INDIRECT | wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST;
         Self {
             records: RecordTexture::new(gpu, "segments"),
+            tested: RecordTexture::new(gpu, "where segments are tested"),
+            has_strokes: false,
             steps: Vec::new(),
             for_layers: false,
             kept_steps: RecordBuffer::new(gpu, "kept steps"),
@@ -101,36 +114,49 @@ impl Segments {
     }
 
     /// Uploads those of a view, in place of the last ones; `for_layers`: they are put into the edge maps of depth layers,
-    /// which may lie behind a segment that belongs to a nearer one.
+    /// which may lie behind a segment that belongs to a nearer one, and
+    /// has no strokes.
     ///
     /// # Errors
     /// [`RenderError`].
     pub fn write(
         &mut self,
         rec: &mut Recorder<'_>,
-        segments: &[LineSegment],
+        Strokes { segments, tested }: &Strokes,
         for_layers: bool,
     ) -> Result<(), RenderError> {
         let gpu = rec.gpu;
         self.for_layers = for_layers;
         self.records.write(gpu, segments)?;
-        let mut steps: Vec<[u32; 2]> = (0..)
-            .zip(segments)
-            .flat_map(|(number, segment)| (0..steps_of(segment)).map(move |step| [number, step]))
-            .collect();
-        steps.resize(steps.len().next_multiple_of(GROUP as usize), NO_STEP);
-        let chunks = steps.len().div_ceil(MOST_STEPS);
-        self.steps.resize_with(chunks, || Steps::new(gpu));
-        for (part, chunk) in self.steps.iter_mut().zip(steps.chunks(MOST_STEPS)) {
+        self.has_strokes = !tested.is_empty();
+        if self.has_strokes {
+            self.tested.write(gpu, tested)?;
+        }
+        // What explains what is there comes first.
+        let is_stroke = |number: u32| tested.get(number as usize).is_some_and(|t| t.is_stroke == 1);
+        let steps = [false, true].map(|of_strokes| {
+            let mut steps: Vec<[u32; 2]> = (0..)
+                .zip(segments)
+                .filter(|(number, _)| is_stroke(*number) == of_strokes)
+                .flat_map(|(number, segment)| (0..steps_of(segment)).map(move |step| [number, step]))
+                .collect();
+            steps.resize(steps.len().next_multiple_of(GROUP as usize), NO_STEP);
+            steps
+        });
+        let chunks =
+            || steps.iter().zip([false, true]).flat_map(|(s, is)| s.chunks(MOST_STEPS).map(move |c| (c, is)));
+        self.steps.resize_with(chunks().count(), || Steps::new(gpu));
+        for (part, (chunk, of_strokes)) in self.steps.iter_mut().zip(chunks()) {
             part.count = chunk.len() as u32;
+            part.of_strokes = of_strokes;
             let (pairs, _) = chunk.as_chunks::<2>();
             part.steps.write(gpu, pairs)?;
         }
-        let most = steps.len().min(MOST_STEPS) as u64;
+        let most = chunks().map(|(chunk, _)| chunk.len()).max().unwrap_or(0) as u64;
         self.kept_steps.reserve(gpu, most * 4)?;
         self.points.reserve(gpu, most * POINT_BYTES)?;
         // Lines of images, as in paper mode, need none.
-        if chunks > 0 {
+        if most > 0 {
             gpu.check_bytes_of_pixels("with lines", rec.size(), 4)?;
             let [width, height] = rec.size().map(u64::from);
             self.keys.reserve(gpu, width * height * 4)?;
@@ -185,7 +211,11 @@ impl Segments {
             let program = |entry_point| Program {
                 file: "passes/segment_points.wgsl",
                 entry_point,
-                switches: vec![("WITHOUT_REPEATED", seen.is_some()), ("KEEP_KEYS", has_chunks)],
+                switches: vec![
+                    ("WITHOUT_REPEATED", seen.is_some()),
+                    ("KEEP_KEYS", has_chunks),
+                    ("WITHOUT_MARKS", part.of_strokes),
+                ],
             };
             rec.compute("compare points", &program("cs_compare"), &found, &self.found)?;
             let put = if seen.is_some() { "cs_put_unseen" } else { "cs_put" };
@@ -205,13 +235,14 @@ impl Segments {
         part: &Steps,
         seen: Option<&Seen>,
     ) -> Result<(), RenderError> {
-        let switches: Vec<_> =
-            inputs.switches.iter().copied().chain([("IN_LAYER", self.for_layers)]).collect();
+        let own = [("IN_LAYER", self.for_layers), ("WITH_STROKES", self.has_strokes)];
+        let switches: Vec<_> = inputs.switches.iter().copied().chain(own).collect();
         let tested = inputs! {
             geometry_tex: &inputs.gbuffer.geometry,
             region_tex: &inputs.gbuffer.region,
             edge_styles: inputs.edge_styles,
             segment_tex: self.records.target(),
+            tested_tex: self.has_strokes.then(|| self.tested.target()),
             step_tex: part.steps.target(),
         };
         // Where the recorder's gate is shut nobody counts any.
