@@ -69,6 +69,36 @@ for preset in assets/styles/*.toml; do
 	draw "preset_$name" "$ogre" --style "$name"
 done
 
+# Sketches of a cloister from several places (Sketchy Drawings, Fig. 1 and 11).
+cloister=assets/models/cloister.glb
+size=1200,900
+draw sketch_cloister "$cloister" --style loose-ink --camera-position 8.9,10.5,9.2 --camera-focal-point -2.5,1.8,-4 \
+	--camera-view-angle 52
+draw sketch_cloister_court "$cloister" --style loose-ink --camera-position 8.6,1.9,6.2 --camera-focal-point -6,2.9,-7 \
+	--camera-view-angle 58
+draw sketch_cloister_walk "$cloister" --style pencil-draft --set light.shadows=on \
+	--camera-position 7,1.75,-12.7 --camera-focal-point -8,2.9,-12.1 --camera-view-angle 64
+draw sketch_cloister_above "$cloister" --style architects-sketch --camera-azimuth-angle 24 --camera-elevation-angle 36 \
+	--camera-view-angle 30
+size=1000,1000
+draw preset_architects-sketch assets/models/temple.glb --style architects-sketch
+# Edges and colours before and after they were moved by noise of the picture (Fig. 3).
+target/release/hachure render "$ogre" --output screenshots/sketch_map.png --resolution 800,800 --samples 64 \
+	--style loose-ink --set sketch.enabled=off
+draw sketch_map_after "$ogre" --style loose-ink --set sketch.anchor=screen --set sketch.noise=turbulence
+# A sketch among objects in other styles, each before others and behind them (Fig. 5 and 6).
+draw sketch_sprite "$crank" --style gooch --object-style 'piston*=crayon' --object-style 'rod*=comic' \
+	--object-style 'flywheel=loose-ink' --object-style 'crankshaft*=pencil-draft'
+# Edges twice, in two colours (Fig. 7).
+draw sketch_twice "$ogre" --style ballpoint --set sketch.passes=2 --set sketch.pass1.color=#20306a \
+	--set sketch.pass2.color=#b04a20 --set sketch.amount=1.6
+# Chalk on rough paper (Fig. 8).
+draw sketch_chalk "$ogre" --style chalk-on-slate --set paper=#f6f3ea --set edges.profile.color=#2a2622 \
+	--set edges.inner.color=#2a2622 --set sketch.fill.surface_color=1 --set sketch.grain.roughness=1.6
+# Uncertainty controlled by the surface: more where it is curved, from enlarged geometry (Fig. 9).
+draw sketch_curvature "$ogre" --style loose-ink --set sketch.anchor=curvature --set sketch.exterior=enlarged \
+	--set sketch.amount=1.5
+
 # A statue in strokes before a mirror, with edges in both (Fig. 8).
 cat >"$work/mirror.obj" <<OBJ
 o glass

@@ -160,7 +160,8 @@ fn fill_source(x: vec2<f32>) -> Source {
     let near = inside(x + applied(sketch.fill_matrix, unpack2x16float(coarse.x)));
     // Beyond the outline, as what is nearest. Waves of colour are so long that one step finds it.
     let object = geometry_at(vec2<i32>(floor(near))).w & ~ENHANCED;
-    let noise = fill_noise(near, object);
+    // Enlarged surfaces overlap others.
+    let noise = fill_noise(near, select(object, 0u, BY_PIXEL));
     return Source(inside(x + applied(sketch.fill_matrix, noise)), noise);
 }
 
@@ -252,11 +253,10 @@ fn stroke_share(x: vec2<f32>, object: u32) -> f32 {
     return 1.0 - sketch.strokes * smoothstep(0.35, 1.0, 1.0 - rank);
 }
 
-// So far, px, may what is fetched from y lie behind another surface at x: a foot that is drawn lower lies behind the floor
-// there.
-fn tolerance(x: vec2<f32>, y: vec2<f32>) -> f32 {
-    return 4.0 * distance(x, y);
-}
+// So far, px per pixel that they are off, may ink and colour lie behind another surface: a foot that is drawn lower lies behind
+// the floor there. Colour must not cover what lies just before its own surface.
+const INK_TOLERANCE: f32 = 4.0;
+const FILL_TOLERANCE: f32 = 1.0;
 
 // Whether a surface at a pixel hides what has this depth.
 fn is_behind(other: Surfel, depth: f32, slack: f32) -> bool {
@@ -312,7 +312,7 @@ fn fs_fill(@builtin(position) position: vec4<f32>) -> Filled {
         discard;
     }
     var depth = s.depth;
-    var slack = tolerance(x, y);
+    var slack = FILL_TOLERANCE * distance(x, source.at);
     if WITH_NEARER {
         depth = nearest_depth(x);
         slack = 0.0;
@@ -390,7 +390,7 @@ fn drawn_ink(px: vec2<i32>, number: u32, other: Surfel, rough: vec2<f32>) -> Lin
     if line.ink.a <= 0.0 {
         return no_line();
     }
-    if !WITH_NEARER && hides(other, px, line.depth, -line.away, max(tolerance(x, y), slack())) {
+    if !WITH_NEARER && hides(other, px, line.depth, -line.away, max(INK_TOLERANCE * distance(x, source.at), slack())) {
         return no_line();
     }
     let color = select(line.ink.rgb / line.ink.a, sketch.passes[number].color, sketch.passes[number].has_color == 1u);
