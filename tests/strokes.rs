@@ -64,7 +64,6 @@ fn beyond(ink: &Ink, of: &Ink, distance: f64) -> usize {
 }
 
 #[test]
-
 fn lines_are_overshot_beyond_the_corners_of_a_box() {
     let mut session = session();
     let opened = box_drawing(&mut session);
@@ -77,7 +76,6 @@ fn lines_are_overshot_beyond_the_corners_of_a_box() {
 }
 
 #[test]
-
 fn a_steady_hand_draws_the_same_lines() {
     let mut session = session();
     let opened = box_drawing(&mut session);

@@ -155,9 +155,7 @@ fn fill_source(x: vec2<f32>) -> Source {
         let noise = fill_noise(x, 0u);
         return Source(inside(x + applied(sketch.fill_matrix, noise)), noise);
     }
-    let last = vec2<i32>(textureDimensions(fill_field_tex)) - 1;
-    let coarse = textureLoad(fill_field_tex, clamp(vec2<i32>(x / BLOCK), vec2(0), last));
-    let near = inside(x + applied(sketch.fill_matrix, unpack2x16float(coarse.x)));
+    let near = inside(x + applied(sketch.fill_matrix, fill_noise(x, 0u)));
     // Beyond the outline, as what is nearest. Waves of colour are so long that one step finds it.
     let object = geometry_at(vec2<i32>(floor(near))).w & ~ENHANCED;
     // Enlarged surfaces overlap others.

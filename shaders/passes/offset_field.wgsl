@@ -87,18 +87,21 @@ fn control_factor(px: vec2<i32>, s: Surfel) -> f32 {
     if field.control != CURVATURE {
         return 1.0;
     }
-    // By how much the normal turns over as many pixels around.
-    let reach = max(i32(round(3.0 * field.pixels_per_reference)), 1);
-    var turn = 0.0;
+    // By how much the normal turns on the way to surfaces around, and how long that is in space.
+    let reach = max(i32(round(4.0 * field.pixels_per_reference)), 1);
+    let here = pos_view_of(px, s.depth);
+    let pixel = pixel_at(s.depth) * field.pixels_per_reference;
+    var curvature = 0.0;
     for (var i = 0; i < 4; i++) {
         let step = select(vec2(reach, 0), vec2(0, reach), i % 2 == 1) * select(-1, 1, i < 2);
         let other = unpack_surfel(geometry_at(px + step));
-        let is_same = other.object == s.object && abs(other.depth - s.depth) < 24.0 * pixel_at(s.depth);
-        turn = max(turn, select(0.0, 1.0 - dot(other.normal, s.normal), is_same));
+        let away = distance(pos_view_of(px + step, other.depth), here) / pixel;
+        let turn = acos(clamp(dot(other.normal, s.normal), -1.0, 1.0));
+        let is_same = other.object == s.object && away < 24.0;
+        curvature = max(curvature, select(0.0, turn / max(away, 1.0), is_same));
     }
-    // The angle, per reference pixel; a sphere of 60 of them counts as 1.
-    let angle = acos(clamp(1.0 - turn, -1.0, 1.0)) / 3.0;
-    return clamp(0.2 + 48.0 * angle, 0.2, 2.0);
+    // A sphere with a radius of 80 reference pixels counts as 1.
+    return 0.2 + 1.1 * min(80.0 * curvature, 1.3);
 }
 
 // Noise at a place on an object; `stretch`: how much longer than on paper it is along itself.

@@ -145,9 +145,7 @@ impl FrameState {
         let (front, revisions) = front;
         let selected = (selected, &*eye.seen.scene.scene);
         let selection = self.selection.run(rec, (&front, revisions), selected, sample)?;
-        // Pictures and views count their revisions apart.
-        let revision = 2 * image.revision + u64::from(is_picture);
-        Ok(Picture { image: image.value, revision, sample, selection, front })
+        Ok(Picture { image: image.value, revision: image.revision, sample, selection, front })
     }
 
     fn draw_shadow_maps(
