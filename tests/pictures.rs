@@ -58,6 +58,23 @@ const PICTURES: &[(&str, &str, &[&str])] = &[
     ("porcelain_crank", "crank", &["--style", "porcelain"]),
     ("jade_ogre", "ogre", &["--style", "jade"]),
     ("engraving_ogre", "ogre", &["--style", "engraving"]),
+    ("pencil_draft_crank", "crank", &["--style", "pencil-draft"]),
+    ("architects_sketch_temple", "temple", &["--style", "architects-sketch"]),
+    ("crayon_ogre", "ogre", &["--style", "crayon"]),
+    ("chalk_on_slate_crank", "crank", &["--style", "chalk-on-slate"]),
+    ("charcoal_ogre", "ogre", &["--style", "charcoal"]),
+    ("ballpoint_ogre", "ogre", &["--style", "ballpoint"]),
+    ("loose_ink_cloister", "cloister", &["--style", "loose-ink"]),
+    (
+        "sketch_on_screen_ogre",
+        "ogre",
+        &["--style", "loose-ink", "--set", "sketch.anchor=screen", "--set", "sketch.noise=turbulence"],
+    ),
+    (
+        "sketch_enlarged_ogre",
+        "ogre",
+        &["--style", "loose-ink", "--set", "sketch.anchor=curvature", "--set", "sketch.exterior=enlarged"],
+    ),
     ("newspaper_ogre", "ogre", &["--style", "newspaper", "--set", "halftone.scale=30"]),
     (
         "shadows_ogre",

@@ -50,6 +50,8 @@ const DEPTH: u32 = 4u;
 const BLOCK: i32 = 4;
 
 // How far a step of the search for the nearest surface goes, blocks: the sum of these.
+override STEP_32: bool = false;
+override STEP_16: bool = false;
 override STEP_8: bool = false;
 override STEP_4: bool = false;
 override STEP_2: bool = false;
@@ -248,7 +250,7 @@ fn cs_flood(@builtin(global_invocation_id) id: vec3<u32>) {
     if any(block >= blocks) {
         return;
     }
-    let step = select(0, 8, STEP_8) + select(0, 4, STEP_4) + select(0, 2, STEP_2) + select(0, 1, STEP_1);
+    let step = select(0, 32, STEP_32) + select(0, 16, STEP_16) + select(0, 8, STEP_8) + select(0, 4, STEP_4) + select(0, 2, STEP_2) + select(0, 1, STEP_1);
     let middle = vec2<f32>(BLOCK * block) + 0.5 * f32(BLOCK);
     var best = textureLoad(near_tex, block, 0).x;
     // What a block has itself stays.

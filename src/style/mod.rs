@@ -97,14 +97,14 @@ macro_rules! techniques {
                 list.choice("technique", "Technique", "How surfaces are shaded.", &mut self.technique);
                 self.paper.params(&mut list);
                 Self::technique_params($($(&mut self.$field,)?)+ &mut list);
-                list.section("mirror", |list| self.mirror.params(list));
-                list.section("edges", |list| self.edges.params(list));
                 // Blueprints have layers, sketches a single one.
                 let blueprint: &str = Technique::Blueprint.into();
                 let surfaces = <Technique as strum::VariantNames>::VARIANTS.iter().copied();
                 list.when_any("technique", surfaces.filter(|name| *name != blueprint), |list| {
                     list.section("sketch", |list| self.sketch.params(ink, list));
                 });
+                list.section("mirror", |list| self.mirror.params(list));
+                list.section("edges", |list| self.edges.params(list));
                 list.finish()
             }
         }

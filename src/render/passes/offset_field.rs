@@ -156,12 +156,12 @@ pub fn nearest_surfaces(
     let mut near = rec.target_of("nearest surfaces", INDEX, blocks)?;
     let inputs = inputs! { geometry_tex: geometry, found_tex: &near };
     rec.compute("nearest surfaces", &program("cs_blocks", vec![]), &inputs, groups)?;
-    let mut step = ((distance / BLOCK as f32).ceil() as u32).clamp(1, 8).next_power_of_two();
+    let mut step = ((distance / BLOCK as f32).ceil() as u32).clamp(1, 32).next_power_of_two();
     while step > 0 {
         let next = rec.target_of("nearest surfaces", INDEX, blocks)?;
         let inputs = inputs! { near_tex: &near, found_tex: &next };
-        let switches =
-            vec![("STEP_8", step == 8), ("STEP_4", step == 4), ("STEP_2", step == 2), ("STEP_1", step == 1)];
+        let names = ["STEP_32", "STEP_16", "STEP_8", "STEP_4", "STEP_2", "STEP_1"];
+        let switches = names.into_iter().zip([32, 16, 8, 4, 2, 1].map(|size| step == size)).collect();
         rec.compute("nearest surfaces", &program("cs_flood", switches), &inputs, groups)?;
         near = next;
         step /= 2;

@@ -9,7 +9,7 @@ use crate::style;
 use crate::style::sketch::{MOST_OFFSET, MOST_PASSES, Noise, Tone};
 
 /// Farthest that anything is fetched from, px.
-const MOST_BAND: f32 = 64.0;
+const MOST_BAND: f32 = 128.0;
 
 /// How far lines are smudged, reference pixels.
 const SMUDGED: f32 = 20.0;
@@ -67,8 +67,8 @@ fn within(value: f32, least: f32, most: f32) -> f32 {
 }
 
 /// From noise to offsets in pixels, by rows.
-fn rows(matrix: style::Matrix, factor: f32) -> Vec4 {
-    Vec4::from_array(matrix.scaled(factor, MOST_OFFSET).numbers())
+fn rows(matrix: style::Matrix, factor: f32, scale: f32) -> Vec4 {
+    Vec4::from_array(matrix.scaled(factor, MOST_OFFSET * scale).numbers())
 }
 
 /// From reference pixels to pixels, as often as a style asks for it.
@@ -123,7 +123,7 @@ impl SketchUniform {
         let style::Sketch { wander, passes, fill, grain, .. } = sketch;
         let factor = factor(sketch, scale);
         let pass = |pass: &style::sketch::Pass| PassUniform {
-            matrix: rows(pass.matrix, factor),
+            matrix: rows(pass.matrix, factor, scale),
             color: pass.color.unwrap_or_default().to_linear(),
             has_color: u32::from(pass.color.is_some()),
             width: within(pass.width, 0.1, 4.0),
@@ -134,7 +134,7 @@ impl SketchUniform {
         let per_px = |wave: f32| 1.0 / (TILE_CELLS as f32 * within(wave, 8.0, 1000.0) * scale);
         Self {
             passes: std::array::from_fn(|number| pass(&sketch.pass[number])),
-            fill_matrix: rows(fill.matrix, factor),
+            fill_matrix: rows(fill.matrix, factor, scale),
             pigment: fill.color.to_linear(),
             surface_color: share(fill.surface_color),
             smudge_color: ink.to_linear(),
@@ -155,5 +155,42 @@ impl SketchUniform {
             count: (*passes).clamp(1, MOST_PASSES as u32),
             shows_fill: u32::from(fill.show),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::style::Matrix;
+
+    fn sketch(matrix: Matrix, amount: f32) -> style::Sketch {
+        let mut sketch = style::Sketch::default();
+        (sketch.pass[0].matrix, sketch.fill.matrix) = (matrix, Matrix::ZERO);
+        sketch.wander.amount = amount;
+        sketch
+    }
+
+    #[test]
+    fn what_is_no_number_or_too_great_is_held_back() {
+        for wrong in [f32::NAN, f32::INFINITY, -1e30] {
+            let mut sketch = sketch(Matrix([[wrong; 2]; 2]), wrong);
+            sketch.wander.wave = wrong;
+            sketch.grain.size = wrong;
+            sketch.fill.wave = wrong;
+            let uniform = SketchUniform::new(&sketch, 1.0);
+            let [lines, fill] = bands(&sketch, 1.0);
+            assert!(uniform.passes[0].matrix.abs().max_element() <= MOST_OFFSET, "{wrong}");
+            assert!(uniform.line_scale > 0.0 && uniform.line_scale.is_finite(), "{wrong}");
+            assert!((4.0..=MOST_BAND).contains(&lines) && (4.0..=MOST_BAND).contains(&fill), "{wrong}");
+            assert!(field(&sketch, 1.0).line_wave >= 8.0);
+        }
+    }
+
+    #[test]
+    fn lines_are_looked_for_as_far_as_offsets_go() {
+        let [small, large] = [1.0, 2.0].map(|amount| sketch(Matrix([[3.0, 0.0], [0.0, 3.0]]), amount));
+        assert_eq!((bands(&small, 1.0), bands(&large, 1.0)), ([12.0, 4.0], [24.0, 4.0]));
+        assert_eq!(bands(&small, 2.0), bands(&large, 1.0));
+        assert_eq!(SketchUniform::new(&small, 2.0).passes[0].matrix, Vec4::new(6.0, 0.0, 0.0, 6.0));
     }
 }
