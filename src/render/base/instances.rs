@@ -222,7 +222,8 @@ mod tests {
         let columns = |first: usize, bytes: usize, count: usize| (0..count).map(move |i| first + i * bytes);
         let fields = columns(std::mem::offset_of!(Record, view_from_local), 16, 4)
             .chain(columns(std::mem::offset_of!(Record, normal_from_local), 12, 3))
-            .chain([std::mem::offset_of!(Record, base_color), std::mem::offset_of!(Record, ids)]);
+            .chain([std::mem::offset_of!(Record, base_color), std::mem::offset_of!(Record, ids)])
+            .chain([std::mem::offset_of!(Record, enlarged)]);
         assert_eq!(offsets, fields.map(|at| at as u64).collect::<Vec<_>>());
         let last = INSTANCES.attributes.last().unwrap();
         assert_eq!(last.offset + last.format.size(), RECORD_BYTES);
