@@ -9,10 +9,8 @@
 //!            └─────► noise of lines ──┘
 //! ```
 
-mod images;
+pub mod images;
 mod uniforms;
-
-pub use images::prepare_image;
 
 use glam::Vec2;
 
@@ -415,7 +413,9 @@ impl SketchState {
             line_field,
             fill_field,
         };
-        let images = shared.images.prepare(rec.gpu, sketch)?;
+        let noise = sketch.is_on_screen().then_some(&sketch.style.wander);
+        let paper = sketch.has_paper().then_some(&sketch.paper);
+        let images = shared.images.prepare(rec.gpu, noise, paper)?;
         let key = PlaceKey {
             shaders: rec.pipelines.generation(),
             color: fetched.color.revision,

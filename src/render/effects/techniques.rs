@@ -106,7 +106,7 @@ macro_rules! techniques {
             for ImageUse { key, path, .. } in uses {
                 let Some(path) = path else { continue };
                 $(<$technique>::prepare_image(images, key, path);)*
-                super::sketch::prepare_image(images, key, path);
+                super::sketch::images::prepare_image(images, key, path);
             }
         }
     };

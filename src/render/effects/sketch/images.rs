@@ -4,13 +4,12 @@ use std::collections::HashMap;
 use std::path::Path;
 use std::sync::{Arc, OnceLock};
 
-use super::Sketch;
 use crate::gpu::{Gpu, GpuError};
 use crate::render::base::noise::{SIDE, paper_tile, ranked, turbulence_tile};
 use crate::render::base::style_images::StyleImages;
 use crate::scene::Texture;
 use crate::style;
-use crate::style::sketch::Noise;
+use crate::style::sketch::{Noise, Wander};
 
 /// Most tiles that are kept while they are not used.
 const MOST_KEPT: usize = 8;
@@ -116,14 +115,18 @@ impl SketchImages {
         Self { sampler, nothing, tiles: HashMap::new(), papers: Vec::new(), made: 0 }
     }
 
-    /// The tiles of a sketch.
+    /// The tile of noise of what follows the picture, and that of paper; `None`: nobody reads it.
     ///
     /// # Errors
     /// [`GpuError::TooLarge`].
-    pub(super) fn prepare(&mut self, gpu: &Gpu, sketch: &Sketch) -> Result<Prepared<'_>, GpuError> {
+    pub(super) fn prepare(
+        &mut self,
+        gpu: &Gpu,
+        noise: Option<&Wander>,
+        paper: Option<&Paper>,
+    ) -> Result<Prepared<'_>, GpuError> {
         gpu.check_texture_size("a tile of noise", [SIDE as u32; 2])?;
-        let wander = &sketch.style.wander;
-        let key = sketch.is_on_screen().then(|| TileKey {
+        let key = noise.map(|wander| TileKey {
             octaves: wander.octaves,
             seed: wander.seed,
             turbulent: wander.noise == Noise::Turbulence,
@@ -140,20 +143,19 @@ impl SketchImages {
             self.made += 1;
             self.tiles.insert(key, (view, self.made));
         }
-        let has_paper = sketch.has_paper();
         let known = |papers: &[(Paper, wgpu::TextureView, u64)]| {
-            papers.iter().position(|(paper, ..)| *paper == sketch.paper)
+            papers.iter().position(|(known, ..)| Some(known) == paper)
         };
-        if has_paper && known(&self.papers).is_none() {
+        if let Some(paper) = paper.filter(|_| known(&self.papers).is_none()) {
             if self.papers.len() >= MOST_KEPT {
                 self.papers.clear();
             }
-            let view = upload(gpu, wgpu::TextureFormat::Rgba8Unorm, SIDE as u32, &texels_of(&sketch.paper));
+            let view = upload(gpu, wgpu::TextureFormat::Rgba8Unorm, SIDE as u32, &texels_of(paper));
             self.made += 1;
-            self.papers.push((sketch.paper.clone(), view, self.made));
+            self.papers.push((paper.clone(), view, self.made));
         }
         let tile = key.and_then(|key| self.tiles.get(&key));
-        let paper = known(&self.papers).filter(|_| has_paper).and_then(|i| self.papers.get(i));
+        let paper = known(&self.papers).and_then(|i| self.papers.get(i));
         Ok(Prepared {
             tile: tile.map_or(&self.nothing, |(view, _)| view),
             paper: paper.map_or(&self.nothing, |(_, view, _)| view),
