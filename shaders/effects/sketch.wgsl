@@ -100,6 +100,9 @@ const STROKE_CELLS: f32 = 64.0;
 const SLOW_CELLS: f32 = 4.0;
 const BLOCK: f32 = 4.0;
 
+// How far, px, a floor goes down per pixel at most, seen from 6 degrees above it.
+const STEEPEST: f32 = 9.5;
+
 fn applied(matrix: vec4<f32>, noise: vec2<f32>) -> vec2<f32> {
     return vec2(dot(matrix.xy, noise), dot(matrix.zw, noise));
 }
@@ -247,10 +250,13 @@ fn stroke_share(x: vec2<f32>, object: u32) -> f32 {
     return 1.0 - sketch.strokes * smoothstep(0.35, 1.0, 1.0 - rank);
 }
 
-// So far, px, may what is fetched from y lie behind another surface at x: a foot that is drawn lower lies behind the floor
-// there.
-fn tolerance(x: vec2<f32>, y: vec2<f32>) -> f32 {
-    return 4.0 * distance(x, y);
+// So far, px, may what is fetched from y with a depth lie behind another surface at x: a foot that is drawn lower lies behind the
+// floor there by as much as that goes down from x to y.
+fn tolerance(px: vec2<i32>, y: vec2<f32>, depth: f32, other: Surfel) -> f32 {
+    let off = y - vec2<f32>(px) - 0.5;
+    let away = length(off);
+    let lower = step_px(-dot(plane_of(px, other.depth, other.face_normal).slope, off), depth);
+    return clamp(lower, 4.0 * away, STEEPEST * away);
 }
 
 // Whether a surface at a pixel hides what has this depth.
@@ -259,7 +265,7 @@ fn is_behind(other: Surfel, depth: f32, slack: f32) -> bool {
 }
 
 // The nearest of all fetches from the depth map (sketchy drawings paper, section 3.3); 0: all are exterior.
-fn nearest_depth(x: vec2<f32>) -> f32 {
+fn nearest_depth(x: vec2<f32>, rough: vec2<f32>) -> f32 {
     var nearest = 0.0;
     for (var i = 0u; i <= sketch.count; i++) {
         var y = x;
@@ -268,7 +274,7 @@ fn nearest_depth(x: vec2<f32>) -> f32 {
         } else if sketch.shows_fill == 1u {
             y = fill_source(x).at;
         }
-        let s = unpack_surfel(geometry_at(vec2<i32>(floor(y))));
+        let s = unpack_surfel(geometry_at(vec2<i32>(floor(inside(y + rough)))));
         if s.object != 0u && (nearest == 0.0 || s.depth < nearest) {
             nearest = s.depth;
         }
@@ -307,13 +313,14 @@ fn fs_fill(@builtin(position) position: vec4<f32>) -> Filled {
         discard;
     }
     var depth = s.depth;
-    var slack = tolerance(x, y);
+    let other = surface_at(px);
+    var slack = tolerance(px, y, depth, other);
     if WITH_NEARER {
-        depth = nearest_depth(x);
+        depth = nearest_depth(x, rough);
         slack = 0.0;
         texel.z = bitcast<u32>(depth);
     }
-    if is_behind(surface_at(px), depth, slack) {
+    if is_behind(other, depth, slack) {
         discard;
     }
     var color = vec4(0.0);
@@ -385,7 +392,7 @@ fn drawn_ink(px: vec2<i32>, number: u32, other: Surfel, rough: vec2<f32>) -> Lin
     if line.ink.a <= 0.0 {
         return no_line();
     }
-    if !WITH_NEARER && hides(other, px, line.depth, -line.away, max(tolerance(x, y), slack())) {
+    if !WITH_NEARER && hides(other, px, line.depth, -line.away, tolerance(px, y, line.depth, other) + slack()) {
         return no_line();
     }
     let color = select(line.ink.rgb / line.ink.a, sketch.passes[number].color, sketch.passes[number].has_color == 1u);
@@ -414,7 +421,7 @@ fn fs_ink(@builtin(position) position: vec4<f32>) -> @location(0) vec4<u32> {
         }
     }
     if WITH_NEARER && ink.a > 0.0 {
-        let nearest = nearest_depth(vec2<f32>(px) + 0.5);
+        let nearest = nearest_depth(vec2<f32>(px) + 0.5, rough);
         depth = select(depth, nearest, nearest != 0.0);
         if nearest == 0.0 || is_behind(other, depth, 0.0) {
             ink = vec4(0.0);

@@ -1,15 +1,21 @@
 //! Only what changed runs again: a stage compares its inputs with those of the last frame, by value.
 
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// How often any stage has run: no two outputs have one revision, whichever stages made them.
+static REVISIONS: AtomicU64 = AtomicU64::new(0);
+
 /// A stage of the frame with its last inputs and output.
 #[derive(Debug)]
 pub struct Stage<I, O> {
     last: Option<(I, O)>,
     revision: u64,
+    runs: u64,
 }
 
 impl<I, O> Default for Stage<I, O> {
     fn default() -> Self {
-        Self { last: None, revision: 0 }
+        Self { last: None, revision: 0, runs: 0 }
     }
 }
 
@@ -18,7 +24,7 @@ impl<I, O> Default for Stage<I, O> {
 pub struct Output<O> {
     /// The result.
     pub value: O,
-    /// Changes with every run of the stage; goes into the inputs of later stages.
+    /// That of no other output, of any stage; goes into the inputs of later stages.
     pub revision: u64,
 }
 
@@ -34,7 +40,8 @@ impl<I: PartialEq, O: Clone> Stage<I, O> {
         // Lets the pool use the old textures again.
         self.last = None;
         let value = run(&inputs)?;
-        self.revision += 1;
+        self.revision = 1 + REVISIONS.fetch_add(1, Ordering::Relaxed);
+        self.runs += 1;
         self.last = Some((inputs, value.clone()));
         Ok(Output { value, revision: self.revision })
     }
@@ -46,7 +53,7 @@ impl<I: PartialEq, O: Clone> Stage<I, O> {
 
     /// How often the stage ran.
     pub fn runs(&self) -> u64 {
-        self.revision
+        self.runs
     }
 
     /// Lets go of the output; the stage runs again when it is next asked for.
@@ -63,10 +70,21 @@ mod tests {
     fn a_stage_runs_only_when_its_inputs_changed() {
         let mut stage = Stage::default();
         let mut run = |input: i32| stage.run(input, |i| Ok::<_, ()>(i * 2)).unwrap();
-        assert_eq!((run(1).value, run(1).revision), (2, 1));
-        assert_eq!(run(2), Output { value: 4, revision: 2 });
-        assert_eq!(run(1).revision, 3);
+        let first = run(1);
+        assert_eq!((first.value, run(1)), (2, first.clone()));
+        let second = run(2);
+        assert_eq!((second.value, run(2)), (4, second.clone()));
+        let third = run(1).revision;
+        assert!(first.revision < second.revision && second.revision < third);
+        assert_eq!(stage.runs(), 3);
         assert!(stage.run(5, |_| Err::<i32, _>("no")).is_err());
-        assert_eq!(stage.run(5, |i| Ok::<_, ()>(i * 2)).unwrap().revision, 4);
+        assert_eq!(stage.run(5, |i| Ok::<_, ()>(i * 2)).unwrap().value, 10);
+        assert_eq!(stage.runs(), 4);
+    }
+
+    #[test]
+    fn outputs_of_different_stages_have_different_revisions() {
+        let [a, b] = [1, 1].map(|input| Stage::default().run(input, |i| Ok::<_, ()>(*i)).unwrap());
+        assert_ne!(a.revision, b.revision);
     }
 }

@@ -40,7 +40,7 @@ impl Paper {
 }
 
 /// Makes what takes long of an image that the parameter `key` names.
-pub(super) fn prepare_image(images: &StyleImages, key: &str, path: &Path) {
+pub fn prepare_image(images: &StyleImages, key: &str, path: &Path) {
     if key == "sketch.grain.image" {
         images.made(path, Tooth::of_image);
     }
