@@ -102,6 +102,9 @@ const STROKE_CELLS: f32 = 64.0;
 const SLOW_CELLS: f32 = 4.0;
 const BLOCK: f32 = 4.0;
 
+// How far, px, a floor goes down per pixel at most, seen from 6 degrees above it.
+const STEEPEST: f32 = 9.5;
+
 fn applied(matrix: vec4<f32>, noise: vec2<f32>) -> vec2<f32> {
     return vec2(dot(matrix.xy, noise), dot(matrix.zw, noise));
 }
@@ -251,8 +254,16 @@ fn stroke_share(x: vec2<f32>, object: u32) -> f32 {
     return 1.0 - sketch.strokes * smoothstep(0.35, 1.0, 1.0 - rank);
 }
 
-// So far, px per pixel that they are off, may ink and colour lie behind another surface: a foot that is drawn lower lies behind
-// the floor there. Colour must not cover what lies just before its own surface.
+// So far, px, may what is fetched from y with a depth lie behind another surface at x: a foot that is drawn lower lies behind the
+// floor there by as much as that goes down from x to y; `least`: at least so much per pixel.
+fn tolerance(px: vec2<i32>, y: vec2<f32>, depth: f32, other: Surfel, least: f32) -> f32 {
+    let off = y - vec2<f32>(px) - 0.5;
+    let away = length(off);
+    let lower = step_px(-dot(plane_of(px, other.depth, other.face_normal).slope, off), depth);
+    return clamp(lower, least * away, STEEPEST * away);
+}
+
+// Ink may lie farther behind than colour, which must not cover what lies just before its own surface.
 const INK_TOLERANCE: f32 = 4.0;
 const FILL_TOLERANCE: f32 = 1.0;
 
@@ -262,7 +273,7 @@ fn is_behind(other: Surfel, depth: f32, slack: f32) -> bool {
 }
 
 // The nearest of all fetches from the depth map (sketchy drawings paper, section 3.3); 0: all are exterior.
-fn nearest_depth(x: vec2<f32>) -> f32 {
+fn nearest_depth(x: vec2<f32>, rough: vec2<f32>) -> f32 {
     var nearest = 0.0;
     for (var i = 0u; i <= sketch.count; i++) {
         var y = x;
@@ -271,7 +282,7 @@ fn nearest_depth(x: vec2<f32>) -> f32 {
         } else if sketch.shows_fill == 1u {
             y = fill_source(x).at;
         }
-        let s = unpack_surfel(geometry_at(vec2<i32>(floor(y))));
+        let s = unpack_surfel(geometry_at(vec2<i32>(floor(inside(y + rough)))));
         if s.object != 0u && (nearest == 0.0 || s.depth < nearest) {
             nearest = s.depth;
         }
@@ -310,13 +321,14 @@ fn fs_fill(@builtin(position) position: vec4<f32>) -> Filled {
         discard;
     }
     var depth = s.depth;
-    var slack = FILL_TOLERANCE * distance(x, source.at);
+    let other = surface_at(px);
+    var slack = tolerance(px, source.at, depth, other, FILL_TOLERANCE);
     if WITH_NEARER {
-        depth = nearest_depth(x);
+        depth = nearest_depth(x, rough);
         slack = 0.0;
         texel.z = bitcast<u32>(depth);
     }
-    if is_behind(surface_at(px), depth, slack) {
+    if is_behind(other, depth, slack) {
         discard;
     }
     var color = vec4(0.0);
@@ -388,7 +400,8 @@ fn drawn_ink(px: vec2<i32>, number: u32, other: Surfel, rough: vec2<f32>) -> Lin
     if line.ink.a <= 0.0 {
         return no_line();
     }
-    if !WITH_NEARER && hides(other, px, line.depth, -line.away, max(INK_TOLERANCE * distance(x, source.at), slack())) {
+    let most = tolerance(px, source.at, line.depth, other, INK_TOLERANCE) + slack();
+    if !WITH_NEARER && hides(other, px, line.depth, -line.away, most) {
         return no_line();
     }
     let color = select(line.ink.rgb / line.ink.a, sketch.passes[number].color, sketch.passes[number].has_color == 1u);
@@ -417,7 +430,7 @@ fn fs_ink(@builtin(position) position: vec4<f32>) -> @location(0) vec4<u32> {
         }
     }
     if WITH_NEARER && ink.a > 0.0 {
-        let nearest = nearest_depth(vec2<f32>(px) + 0.5);
+        let nearest = nearest_depth(vec2<f32>(px) + 0.5, rough);
         depth = select(depth, nearest, nearest != 0.0);
         if nearest == 0.0 || is_behind(other, depth, 0.0) {
             ink = vec4(0.0);

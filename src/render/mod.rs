@@ -15,7 +15,7 @@ pub use base::gpu_scene::{GpuScene, Origin, UploadedTopology, Uploader};
 pub use base::sample::{MAX_SAMPLES, Sample};
 pub use base::style_images::StyleImages;
 pub use effects::blueprint::LAYERS;
-pub use effects::techniques::prepare_images;
+pub use effects::prepare_images;
 pub use frame::Picture;
 pub use passes::layers::{LayersBy, Reason, Reported};
 pub use passes::peel::MOST_LAYERS;

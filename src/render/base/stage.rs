@@ -2,8 +2,8 @@
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// The last revision of any stage.
-static REVISION: AtomicU64 = AtomicU64::new(0);
+/// How often any stage has run: no two outputs have one revision, whichever stages made them.
+static REVISIONS: AtomicU64 = AtomicU64::new(0);
 
 /// A stage of the frame with its last inputs and output.
 #[derive(Debug)]
@@ -19,13 +19,12 @@ impl<I, O> Default for Stage<I, O> {
     }
 }
 
-/// What a stage made, and a number that nothing else has that was ever made: where two stages make the same kind of thing, a
-/// change from one to the other is one too.
+/// What a stage made, and a number that changes whenever it was made anew.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Output<O> {
     /// The result.
     pub value: O,
-    /// Of this run alone; goes into the inputs of later stages.
+    /// That of no other output, of any stage; goes into the inputs of later stages.
     pub revision: u64,
 }
 
@@ -41,7 +40,7 @@ impl<I: PartialEq, O: Clone> Stage<I, O> {
         // Lets the pool use the old textures again.
         self.last = None;
         let value = run(&inputs)?;
-        self.revision = REVISION.fetch_add(1, Ordering::Relaxed) + 1;
+        self.revision = 1 + REVISIONS.fetch_add(1, Ordering::Relaxed);
         self.runs += 1;
         self.last = Some((inputs, value.clone()));
         Ok(Output { value, revision: self.revision })
@@ -72,17 +71,20 @@ mod tests {
         let mut stage = Stage::default();
         let mut run = |input: i32| stage.run(input, |i| Ok::<_, ()>(i * 2)).unwrap();
         let first = run(1);
-        assert_eq!((first.value, run(1).revision), (2, first.revision));
+        assert_eq!((first.value, run(1)), (2, first.clone()));
         let second = run(2);
-        assert_eq!((second.value, run(1).revision > second.revision), (4, true));
+        assert_eq!((second.value, run(2)), (4, second.clone()));
+        let third = run(1).revision;
+        assert!(first.revision < second.revision && second.revision < third);
+        assert_eq!(stage.runs(), 3);
         assert!(stage.run(5, |_| Err::<i32, _>("no")).is_err());
-        assert_eq!((stage.run(5, |i| Ok::<_, ()>(i * 2)).unwrap().value, stage.runs()), (10, 4));
+        assert_eq!(stage.run(5, |i| Ok::<_, ()>(i * 2)).unwrap().value, 10);
+        assert_eq!(stage.runs(), 4);
     }
 
     #[test]
-    fn what_two_stages_make_is_told_apart() {
-        let [mut one, mut other] = [Stage::default(), Stage::default()];
-        let run = |stage: &mut Stage<i32, i32>| stage.run(1, |i| Ok::<_, ()>(*i)).unwrap();
-        assert_ne!(run(&mut one), run(&mut other));
+    fn outputs_of_different_stages_have_different_revisions() {
+        let [a, b] = [1, 1].map(|input| Stage::default().run(input, |i| Ok::<_, ()>(*i)).unwrap());
+        assert_ne!(a.revision, b.revision);
     }
 }

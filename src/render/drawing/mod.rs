@@ -143,9 +143,14 @@ impl Drawing {
             ("surface", self.color.runs()),
             ("blueprint", self.blueprinted + blueprints),
             ("mirror", self.reflected),
-            ("sketch", self.sketches.iter().map(SketchState::runs).sum()),
         ]);
         runs.extend(self.shading.runs());
+        for (name, count) in self.sketches.iter().flat_map(SketchState::runs) {
+            match runs.iter_mut().find(|(known, _)| *known == name) {
+                Some((_, sum)) => *sum += count,
+                None => runs.push((name, count)),
+            }
+        }
         runs
     }
 

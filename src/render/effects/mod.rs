@@ -16,3 +16,15 @@ pub mod technique;
 pub mod techniques;
 pub mod toon;
 pub mod translucent;
+
+use super::base::style_images::StyleImages;
+use crate::document::ImageUse;
+
+/// Makes what takes long of the images that styles name, before it is asked for.
+pub fn prepare_images(images: &StyleImages, uses: &[ImageUse]) {
+    for ImageUse { key, path, .. } in uses {
+        let Some(path) = path else { continue };
+        techniques::prepare_image(images, key, path);
+        sketch::prepare_image(images, key, path);
+    }
+}

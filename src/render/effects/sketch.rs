@@ -9,11 +9,12 @@
 //!            └─────► noise of lines ──┘
 //! ```
 
-pub mod images;
+mod images;
 mod uniforms;
 
 use glam::Vec2;
 
+pub use self::images::prepare_image;
 use self::images::{Paper, SketchImages};
 use self::uniforms::{SketchObject, SketchUniform};
 use super::hidden::Hidden;
@@ -313,14 +314,15 @@ impl SketchState {
         }
     }
 
-    /// How often it has been placed.
-    pub fn runs(&self) -> u64 {
-        self.placed.runs()
-    }
-
-    /// How often its parts have been drawn, by name.
-    pub fn layer_runs(&self) -> [(&'static str, u64); 5] {
-        self.layer.runs()
+    /// How often each of its stages has run, by name.
+    pub fn runs(&self) -> Vec<(&'static str, u64)> {
+        let mut runs = self.layer.runs().to_vec();
+        runs.extend([
+            ("line distance", self.near_lines.runs()),
+            ("noise", self.line_field.runs() + self.fill_field.runs()),
+            ("sketch", self.placed.runs()),
+        ]);
+        runs
     }
 
     /// What has been reported about its hidden lines. Never waits.

@@ -1,7 +1,8 @@
 //! The surface techniques that need more than the G-buffer and the lights. Adding one is adding its line at the end.
 
+use std::path::Path;
+
 use super::technique::{Shaded, Styled, SurfaceTechnique};
-use crate::document::ImageUse;
 use crate::gpu::{Gpu, Inputs, Recorder};
 use crate::render::base::error::RenderError;
 use crate::render::base::frame_uniform::View;
@@ -101,13 +102,9 @@ macro_rules! techniques {
             }
         }
 
-        /// Makes what takes long of the images that styles name, before it is asked for.
-        pub fn prepare_images(images: &StyleImages, uses: &[ImageUse]) {
-            for ImageUse { key, path, .. } in uses {
-                let Some(path) = path else { continue };
-                $(<$technique>::prepare_image(images, key, path);)*
-                super::sketch::images::prepare_image(images, key, path);
-            }
+        /// Makes what takes long of an image that the parameter `key` names.
+        pub fn prepare_image(images: &StyleImages, key: &str, path: &Path) {
+            $(<$technique>::prepare_image(images, key, path);)*
         }
     };
 }

@@ -66,21 +66,16 @@ fn within(value: f32, least: f32, most: f32) -> f32 {
     if value.is_nan() { least } else { value.clamp(least, most) }
 }
 
-/// From noise to offsets in pixels, by rows.
-fn rows(matrix: style::Matrix, factor: f32, scale: f32) -> Vec4 {
-    Vec4::from_array(matrix.scaled(factor, MOST_OFFSET * scale).numbers())
-}
-
-/// From reference pixels to pixels, as often as a style asks for it.
-fn factor(sketch: &style::Sketch, scale: f32) -> f32 {
-    within(sketch.wander.amount, 0.0, 4.0) * scale
+/// From noise to offsets in reference pixels, as a style asks for them.
+fn offsets(sketch: &style::Sketch, matrix: style::Matrix) -> style::Matrix {
+    matrix.scaled(within(sketch.wander.amount, 0.0, 4.0), MOST_OFFSET)
 }
 
 /// How far lines and colours are off at most, px: three and a half times what they are off on average, in whole steps, so that a
 /// little more or less does not change it.
 pub(super) fn bands(sketch: &style::Sketch, scale: f32) -> [f32; 2] {
     let passes = sketch.pass.iter().take(sketch.passes.clamp(1, MOST_PASSES as u32) as usize);
-    let rms = |matrix: style::Matrix| matrix.scaled(factor(sketch, scale), MOST_OFFSET * scale).rms();
+    let rms = |matrix: style::Matrix| offsets(sketch, matrix).rms() * scale;
     let lines = passes.map(|pass| rms(pass.matrix)).fold(0.0, f32::max);
     let fill = if sketch.fill.show { rms(sketch.fill.matrix) } else { 0.0 };
     let rough = 2.0 * within(sketch.grain.roughness, 0.0, 8.0) * scale;
@@ -121,9 +116,9 @@ impl SketchUniform {
     /// Of a style; `scale`: pixels per reference pixel.
     pub(super) fn new(sketch: &style::Sketch, scale: f32) -> Self {
         let style::Sketch { wander, passes, fill, grain, .. } = sketch;
-        let factor = factor(sketch, scale);
+        let rows = |matrix| Vec4::from_array(offsets(sketch, matrix).numbers()) * scale;
         let pass = |pass: &style::sketch::Pass| PassUniform {
-            matrix: rows(pass.matrix, factor, scale),
+            matrix: rows(pass.matrix),
             color: pass.color.unwrap_or_default().to_linear(),
             has_color: u32::from(pass.color.is_some()),
             width: within(pass.width, 0.1, 4.0),
@@ -134,7 +129,7 @@ impl SketchUniform {
         let per_px = |wave: f32| 1.0 / (TILE_CELLS as f32 * within(wave, 8.0, 1000.0) * scale);
         Self {
             passes: std::array::from_fn(|number| pass(&sketch.pass[number])),
-            fill_matrix: rows(fill.matrix, factor, scale),
+            fill_matrix: rows(fill.matrix),
             pigment: fill.color.to_linear(),
             surface_color: share(fill.surface_color),
             smudge_color: ink.to_linear(),
