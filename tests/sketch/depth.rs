@@ -249,6 +249,6 @@ fn what_hides_what_is_right_with_sketches_in_a_hundred_scenes() {
 fn the_papers_rule_of_depth_lets_nothing_through_a_wall_either() {
     let mut session = common::session();
     check_all(&mut session, Layout::BehindWall, 302..308, |style| {
-        style.sketch.wander.depth = DepthRule::Nearer
+        style.sketch.wander.depth = DepthRule::Nearer;
     });
 }

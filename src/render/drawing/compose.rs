@@ -159,7 +159,7 @@ impl Drawing {
                 techniques: &mut shared.techniques,
                 shared: &mut shared.sketches,
             };
-            color = state.place(rec, with, &inputs, composition, color)?;
+            color = state.place(rec, with, &inputs, composition, &color)?;
         }
         Ok(color)
     }

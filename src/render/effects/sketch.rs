@@ -340,7 +340,7 @@ impl SketchState {
         with: Sketching<'_>,
         inputs: &SketchInputs<'_>,
         composition: &mut Composition,
-        color: Output<Target>,
+        color: &Output<Target>,
     ) -> Result<Output<Target>, RenderError> {
         let SketchInputs { seen, sketch, uniform, shadow_maps, .. } = *inputs;
         let Sketching { gbuffer: pass, techniques, shared } = with;
