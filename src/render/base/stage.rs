@@ -1,19 +1,25 @@
 //! Only what changed runs again: a stage compares its inputs with those of the last frame, by value.
 
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// The last revision of all stages: an output is never taken for that of another stage which was there before.
+static REVISIONS: AtomicU64 = AtomicU64::new(0);
+
 /// A stage of the frame with its last inputs and output.
 #[derive(Debug)]
 pub struct Stage<I, O> {
     last: Option<(I, O)>,
     revision: u64,
+    runs: u64,
 }
 
 impl<I, O> Default for Stage<I, O> {
     fn default() -> Self {
-        Self { last: None, revision: 0 }
+        Self { last: None, revision: 0, runs: 0 }
     }
 }
 
-/// What a stage made, and a number that changes whenever it was made anew.
+/// What a stage made, and a number that nothing else has which was ever made.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Output<O> {
     /// The result.
@@ -34,7 +40,8 @@ impl<I: PartialEq, O: Clone> Stage<I, O> {
         // Lets the pool use the old textures again.
         self.last = None;
         let value = run(&inputs)?;
-        self.revision += 1;
+        self.revision = REVISIONS.fetch_add(1, Ordering::Relaxed) + 1;
+        self.runs += 1;
         self.last = Some((inputs, value.clone()));
         Ok(Output { value, revision: self.revision })
     }
@@ -46,7 +53,7 @@ impl<I: PartialEq, O: Clone> Stage<I, O> {
 
     /// How often the stage ran.
     pub fn runs(&self) -> u64 {
-        self.revision
+        self.runs
     }
 
     /// Lets go of the output; the stage runs again when it is next asked for.
@@ -63,10 +70,21 @@ mod tests {
     fn a_stage_runs_only_when_its_inputs_changed() {
         let mut stage = Stage::default();
         let mut run = |input: i32| stage.run(input, |i| Ok::<_, ()>(i * 2)).unwrap();
-        assert_eq!((run(1).value, run(1).revision), (2, 1));
-        assert_eq!(run(2), Output { value: 4, revision: 2 });
-        assert_eq!(run(1).revision, 3);
+        let first = run(1);
+        assert_eq!((first.value, run(1)), (2, first.clone()));
+        let second = run(2);
+        assert_eq!(second.value, 4);
+        let third = run(1);
+        assert!(first.revision < second.revision && second.revision < third.revision);
         assert!(stage.run(5, |_| Err::<i32, _>("no")).is_err());
-        assert_eq!(stage.run(5, |i| Ok::<_, ()>(i * 2)).unwrap().revision, 4);
+        let last = stage.run(5, |i| Ok::<_, ()>(i * 2)).unwrap();
+        assert!(last.revision > third.revision);
+        assert_eq!(stage.runs(), 4);
+    }
+
+    #[test]
+    fn what_another_stage_made_before_has_another_revision() {
+        let made = || Stage::default().run(1, |i: &i32| Ok::<_, ()>(*i)).unwrap().revision;
+        assert_ne!(made(), made());
     }
 }
