@@ -15,6 +15,7 @@ mod uniforms;
 use glam::Vec2;
 
 use self::images::{Paper, SketchImages};
+pub use self::uniforms::field;
 use self::uniforms::{SketchObject, SketchUniform};
 use super::hidden::Hidden;
 use super::opaque::{OpaqueInputs, OpaqueLayer, Surfaces};
@@ -373,6 +374,7 @@ impl SketchState {
                 None
             }
         };
+        rec.note("noise of lines", line_field.as_ref().map(|field| &field.value.first));
         let fill_field = self.fill_field.run(key(nearest.revision), |_| {
             fill_field(rec, buffers, &geometry.value.geometry, &nearest.value)
         })?;

@@ -85,8 +85,8 @@ pub(super) fn band(sketch: &style::Sketch, scale: f32) -> f32 {
     ((far / 8.0).ceil() * 8.0).clamp(8.0, MOST_BAND)
 }
 
-/// What finding noise depends on.
-pub(super) fn field(sketch: &style::Sketch, scale: f32) -> FieldUniform {
+/// What finding noise depends on; `scale`: pixels per reference pixel.
+pub fn field(sketch: &style::Sketch, scale: f32) -> FieldUniform {
     let wander = &sketch.wander;
     let seed = |purpose: u32, own: u32| {
         wander.seed.wrapping_mul(0x9e37_79b1)
