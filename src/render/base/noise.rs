@@ -8,7 +8,8 @@ const NOISE_SCALE: f32 = 5.08;
 const MEAN_ABSOLUTE: f32 = 0.804;
 const DEVIATION_ABSOLUTE: f32 = 0.595;
 
-fn mixed_bits(mut h: u32) -> u32 {
+/// A number of which every bit depends on every bit of another one.
+pub fn mixed_bits(mut h: u32) -> u32 {
     h ^= h >> 16;
     h = h.wrapping_mul(0x7feb_352d);
     h ^= h >> 15;

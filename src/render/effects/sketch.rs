@@ -16,6 +16,7 @@ use glam::Vec2;
 
 pub use self::images::prepare_image;
 use self::images::{Paper, SketchImages};
+pub use self::uniforms::field;
 use self::uniforms::{SketchObject, SketchUniform};
 use super::hidden::Hidden;
 use super::opaque::{OpaqueInputs, OpaqueLayer, Surfaces};
@@ -402,6 +403,7 @@ impl SketchState {
                 None
             }
         };
+        rec.note("noise of lines", line_field.as_ref().map(|field| &field.value.first));
         let fill_field = self.fill_field.run(key([nearest.revision, followed.revision]), |_| {
             fill_field(rec, buffers, &followed.value.geometry, &nearest.value)
         })?;

@@ -6,13 +6,14 @@
 //! ```
 
 use encase::ShaderType;
-use glam::{Mat4, UVec4};
+use glam::{Mat4, UVec4, Vec2, Vec3};
 
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
 
 use super::gbuffer::GBuffer;
 use crate::gpu::{Gpu, Program, RecordBuffer, Recorder, Target, inputs};
 use crate::render::base::error::RenderError;
+use crate::render::base::noise::{fine_waves, mixed_bits, waves};
 
 /// Pixels per side of a block, as in `passes/offset_field.wgsl`.
 pub const BLOCK: u32 = 4;
@@ -56,6 +57,28 @@ pub struct ObjectUniform {
     pub from_view: Mat4,
     /// Told apart by it, where objects are.
     pub seed: u32,
+}
+
+/// A place that has noise.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Place {
+    /// View space.
+    pub at: Vec3,
+    /// Width of a pixel there, scene units.
+    pub pixel: f32,
+    /// How much longer than on paper a line is there along itself, 1 to 4.
+    pub stretch: f32,
+}
+
+impl FieldUniform {
+    /// The noise of a pass of lines at a place on an object, where nothing but the place controls it: twin of `noise_at`.
+    pub fn line_noise(&self, object: &ObjectUniform, place: &Place, pass: usize) -> Vec2 {
+        let seed = self.seeds.iter().flat_map(|four| four.to_array()).nth(pass).unwrap_or_default();
+        let (own, turbulent) = (mixed_bits(seed ^ object.seed), self.turbulent == 1);
+        let at = object.from_view.transform_point3(place.at);
+        let length = self.line_wave * place.pixel * place.stretch;
+        waves(at, length, own, turbulent) + self.detail * fine_waves(at, 0.25 * length, own, turbulent)
+    }
 }
 
 /// What noise is asked for with, on the device.

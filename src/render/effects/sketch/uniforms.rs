@@ -89,8 +89,8 @@ pub(super) fn enlarged(sketch: &style::Sketch, scale: f32) -> f32 {
     within(sketch.wander.enlarge, 0.0, 64.0) * scale
 }
 
-/// What finding noise depends on.
-pub(super) fn field(sketch: &style::Sketch, scale: f32) -> FieldUniform {
+/// What finding noise depends on; `scale`: pixels per reference pixel.
+pub fn field(sketch: &style::Sketch, scale: f32) -> FieldUniform {
     let wander = &sketch.wander;
     let seed = |purpose: u32, own: u32| {
         wander.seed.wrapping_mul(0x9e37_79b1)
