@@ -33,7 +33,6 @@ struct Sketch {
     stroke_width: f32,
     strokes: f32,
     density: f32,
-    by_darkness: f32,
     pressure: f32,
     grain: f32,
     soft: f32,
@@ -67,6 +66,8 @@ override WITH_GRAIN: bool = true;
 override WITH_ROUGHNESS: bool = true;
 override WITH_STROKES: bool = true;
 override WITH_PRESSURE: bool = true;
+// Whether pigment is rubbed on more densely where it is dark.
+override WITH_DARKNESS: bool = true;
 override WITH_SMUDGE: bool = false;
 // Whether surfaces are as opaque as their materials.
 override WITH_OPACITY: bool = false;
@@ -114,8 +115,10 @@ fn inside(at: vec2<f32>) -> vec2<f32> {
     return clamp(at, vec2(0.5), frame.size - 0.5);
 }
 
+// The nearest texel: they are as small as pixels, and between two of them noise hardly changes.
 fn noise_of_picture(x: vec2<f32>, scale: f32) -> vec2<f32> {
-    return textureSampleLevel(tiles, tile_sampler, x * scale, 0, 0.0).xy;
+    let texel = vec2<i32>(fract(x * scale) * vec2<f32>(textureDimensions(tiles)));
+    return textureLoad(tiles, texel, 0, 0).xy;
 }
 
 // Noise of a block, and how much it counts for a pixel of this object; 0: any.
@@ -337,11 +340,13 @@ fn fs_fill(@builtin(position) position: vec4<f32>) -> Filled {
         let shaded = textureLoad(shaded_tex, vec2<i32>(floor(y)), 0);
         opacity = select(1.0, shaded.a, WITH_OPACITY);
         let own = shaded.rgb / max(shaded.a, 1e-4);
-        // As dark as it looks.
-        let light = pow(clamp(dot(own, vec3(0.2126, 0.7152, 0.0722)), 0.0, 1.0), 1.0 / 2.2);
-        // Pigment that covers so much of bright paper looks so much darker.
-        let dark = 1.0 - pow(1.0 - sketch.density * (1.0 - light), 2.2);
-        var density = mix(sketch.density, dark, sketch.by_darkness) * min(shaded.a / max(opacity, 1e-4), 1.0);
+        var density = sketch.density;
+        if WITH_DARKNESS {
+            // As dark as it looks; and pigment that covers so much of bright paper looks so much darker.
+            let light = pow(clamp(dot(own, vec3(0.2126, 0.7152, 0.0722)), 0.0, 1.0), 1.0 / 2.2);
+            density = 1.0 - pow(1.0 - density * (1.0 - light), 2.2);
+        }
+        density *= min(shaded.a / max(opacity, 1e-4), 1.0);
         var pigment = mix(sketch.pigment, own, sketch.surface_color);
         density *= stroke_share(x, s.object);
         if WITH_PRESSURE {

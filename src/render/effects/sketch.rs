@@ -47,7 +47,7 @@ use crate::render::passes::offset_field::{
 use crate::render::passes::shadows::ShadowMap;
 use crate::render::passes::traversal::GBufferPass;
 use crate::scene::AlphaMode;
-use crate::style::sketch::{Anchor, DepthRule as StyleDepth, Exterior};
+use crate::style::sketch::{Anchor, DepthRule as StyleDepth, Exterior, Tone};
 use crate::style::{self, Style, Technique};
 
 /// Objects that are drawn as by hand in one way, together.
@@ -577,6 +577,7 @@ impl Placing<'_> {
             ("WITH_ROUGHNESS", style.grain.roughness > 0.0),
             ("WITH_STROKES", style.fill.strokes > 0.0),
             ("WITH_PRESSURE", style.wander.pressure > 0.0),
+            ("WITH_DARKNESS", style.fill.tone == Tone::Darkness),
             ("WITH_SMUDGE", style.grain.smudge > 0.0 && near_lines.is_some()),
             ("WITH_OPACITY", sketch.blends),
             ("WITH_HIDDEN", fetched.hidden.is_some()),

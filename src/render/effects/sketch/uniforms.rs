@@ -6,7 +6,7 @@ use glam::{UVec4, Vec2, Vec3, Vec4};
 use crate::render::base::noise::TILE_CELLS;
 use crate::render::passes::offset_field::FieldUniform;
 use crate::style;
-use crate::style::sketch::{MOST_OFFSET, MOST_PASSES, Noise, Tone};
+use crate::style::sketch::{MOST_OFFSET, MOST_PASSES, Noise};
 
 /// Farthest that anything is fetched from, px.
 const MOST_BAND: f32 = 128.0;
@@ -37,7 +37,6 @@ pub(super) struct SketchUniform {
     stroke_width: f32,
     strokes: f32,
     density: f32,
-    by_darkness: f32,
     pressure: f32,
     grain: f32,
     soft: f32,
@@ -71,7 +70,7 @@ fn offsets(sketch: &style::Sketch, matrix: style::Matrix) -> style::Matrix {
     matrix.scaled(within(sketch.wander.amount, 0.0, 4.0), MOST_OFFSET)
 }
 
-/// How far lines and colours are off at most, px: three and a half times what they are off on average, in whole steps, so that a
+/// How far lines and colours are off at most, px: three times what they are off on average, in whole steps, so that a
 /// little more or less does not change it.
 pub(super) fn bands(sketch: &style::Sketch, scale: f32) -> [f32; 2] {
     let passes = sketch.pass.iter().take(sketch.passes.clamp(1, MOST_PASSES as u32) as usize);
@@ -80,8 +79,8 @@ pub(super) fn bands(sketch: &style::Sketch, scale: f32) -> [f32; 2] {
     let fill = if sketch.fill.show { rms(sketch.fill.matrix) } else { 0.0 };
     let rough = 2.0 * within(sketch.grain.roughness, 0.0, 8.0) * scale;
     let smudged = if sketch.grain.smudge > 0.0 { SMUDGED * scale } else { 0.0 };
-    let whole = |far: f32| ((far / 4.0).ceil() * 4.0).clamp(4.0, MOST_BAND);
-    [whole((3.5 * lines + rough).max(smudged)), whole(3.5 * fill + rough)]
+    let whole = |far: f32| ((far / 2.0).ceil() * 2.0).clamp(4.0, MOST_BAND);
+    [whole((3.0 * lines + rough).max(smudged)), whole(3.0 * fill + rough)]
 }
 
 /// How far surfaces are enlarged, px.
@@ -138,7 +137,6 @@ impl SketchUniform {
             stroke_width: within(fill.stroke_width, 1.0, 64.0) * scale,
             strokes: share(fill.strokes),
             density: share(fill.density),
-            by_darkness: if fill.tone == Tone::Darkness { 1.0 } else { 0.0 },
             pressure: share(wander.pressure),
             grain: share(grain.amount),
             soft: within(grain.soft, 0.02, 0.49),
@@ -184,7 +182,7 @@ mod tests {
     #[test]
     fn lines_are_looked_for_as_far_as_offsets_go() {
         let [small, large] = [1.0, 2.0].map(|amount| sketch(Matrix([[3.0, 0.0], [0.0, 3.0]]), amount));
-        assert_eq!((bands(&small, 1.0), bands(&large, 1.0)), ([12.0, 4.0], [24.0, 4.0]));
+        assert_eq!((bands(&small, 1.0), bands(&large, 1.0)), ([10.0, 4.0], [18.0, 4.0]));
         assert_eq!(bands(&small, 2.0), bands(&large, 1.0));
         assert_eq!(SketchUniform::new(&small, 2.0).passes[0].matrix, Vec4::new(6.0, 0.0, 0.0, 6.0));
     }
