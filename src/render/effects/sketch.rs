@@ -257,7 +257,8 @@ struct PlaceKey {
     styles: Vec<EdgeUniform>,
     uniform: FrameUniform,
     images: u64,
-    by_nearer: bool,
+    /// Says what is asked of the shader at all.
+    style: style::Sketch,
 }
 
 /// What of a sketch lives across frames.
@@ -441,7 +442,7 @@ impl SketchState {
             styles: group.edge_styles.clone(),
             uniform: uniform.without_background(),
             images: images.revision,
-            by_nearer: sketch.style.wander.depth == StyleDepth::Nearer,
+            style: sketch.style.clone(),
         };
         let Self { layer, uniform, objects, placed, .. } = self;
         let placed = placed.run(key, |key| {
