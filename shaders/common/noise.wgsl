@@ -46,6 +46,12 @@ fn octave(p: vec3<f32>, seed: u32, turbulent: bool) -> vec2<f32> {
     return select(n, (abs(n) - MEAN_ABSOLUTE) / DEVIATION_ABSOLUTE, turbulent);
 }
 
+// Where the lattice of an octave lies, in cells: at corners of it noise is 0, which are not to meet in the middle of every object.
+fn lattice_shift(seed: u32) -> vec3<f32> {
+    let h = mixed_bits(seed);
+    return vec3(f32(h & 1023u), f32((h >> 10u) & 1023u), f32((h >> 20u) & 1023u)) / 1024.0;
+}
+
 // Waves that are `wave` long wherever it is measured, from octaves a factor of 4 apart, each of which is 0 where it comes and
 // goes. `at` and `wave`: in one unit.
 fn waves(at: vec3<f32>, wave: f32, seed: u32, turbulent: bool) -> vec2<f32> {
@@ -60,7 +66,8 @@ fn waves(at: vec3<f32>, wave: f32, seed: u32, turbulent: bool) -> vec2<f32> {
         let x = k - s;
         let weight = cos(0.785398 * x) * exp2(0.3 * x);
         let level = max(k, least);
-        sum += weight * octave(at * exp2(-2.0 * level), seed + u32(i32(k) * 17), turbulent);
+        let own = seed + u32(i32(k) * 17);
+        sum += weight * octave(at * exp2(-2.0 * level) + lattice_shift(own), own, turbulent);
         power += weight * weight;
     }
     return sum * inverseSqrt(max(power, 1e-12));
@@ -78,7 +85,8 @@ fn fine_waves(at: vec3<f32>, wave: f32, seed: u32, turbulent: bool) -> vec2<f32>
         let x = k - s;
         let weight = cos(1.570796 * x);
         let level = max(k, least);
-        sum += weight * octave(at * exp2(-2.0 * level), seed + u32(i32(k) * 17) + 8191u, turbulent);
+        let own = seed + u32(i32(k) * 17) + 8191u;
+        sum += weight * octave(at * exp2(-2.0 * level) + lattice_shift(own), own, turbulent);
         power += weight * weight;
     }
     return sum * inverseSqrt(max(power, 1e-12));

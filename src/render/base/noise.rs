@@ -53,6 +53,12 @@ fn shaped(n: Vec2, turbulent: bool) -> Vec2 {
     if turbulent { (n.abs() - MEAN_ABSOLUTE) / DEVIATION_ABSOLUTE } else { n }
 }
 
+/// Where the lattice of an octave lies, in cells: at corners of it noise is 0, which are not to meet in the middle of every object.
+fn lattice_shift(seed: u32) -> Vec3 {
+    let h = mixed_bits(seed);
+    Vec3::from_array([0, 10, 20].map(|shift| ((h >> shift) & 1023) as f32)) / 1024.0
+}
+
 /// Octaves of [`waves`]: how many, how fast they come and go, how much larger ones count for, and what tells their seed apart.
 struct Octaves {
     count: i32,
@@ -72,7 +78,8 @@ fn sum_of(octaves: &Octaves, at: Vec3, wave: f32, seed: u32, turbulent: bool) ->
         let weight = (octaves.period * x).cos() * (octaves.tilt * x).exp2();
         let level = k.max(least);
         let seed = seed.wrapping_add((k as i32).wrapping_mul(17) as u32).wrapping_add(octaves.seed);
-        sum += weight * shaped(noise3x2(at * (-2.0 * level).exp2(), seed), turbulent);
+        let place = at * (-2.0 * level).exp2() + lattice_shift(seed);
+        sum += weight * shaped(noise3x2(place, seed), turbulent);
         power += weight * weight;
     }
     sum / power.max(1e-12).sqrt()
@@ -201,6 +208,22 @@ mod tests {
                     assert!((square - 1.0).abs() < 0.06, "{name} {wave}: mean square {square}");
                     assert!(product.abs() < 0.06, "{name} {wave}: product {product}");
                 }
+            }
+        }
+    }
+
+    #[test]
+    fn small_objects_wander_as_far_as_large_ones() {
+        // About the middle of an object that is small beside its waves.
+        let square = |made: fn(Vec3, f32, u32, bool) -> Vec2, at: Vec3| {
+            let all =
+                (0..20_000).map(|seed| f64::from(made(at, 64.0, mixed_bits(seed), false).length_squared()));
+            all.sum::<f64>() / 40_000.0
+        };
+        for at in [Vec3::ZERO, Vec3::splat(0.3), Vec3::new(64.0, 0.0, -16.0)] {
+            for made in [waves, fine_waves] {
+                let square = square(made, at);
+                assert!((square - 1.0).abs() < 0.06, "{at}: mean square {square}");
             }
         }
     }
