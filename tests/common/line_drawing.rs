@@ -37,6 +37,7 @@ pub fn set_width(opened: &mut Opened, px: f64, height: u32) {
 }
 
 /// Share of each pixel that has ink.
+#[derive(Clone)]
 pub struct Ink {
     pub size: [u32; 2],
     pub values: Vec<f64>,

@@ -1,0 +1,224 @@
+//! How well the offsets of sketches move with the model, in an orbit, in a dolly and in a pan: see `field.rs` and `ink.rs`. All of it:
+//!
+//! ```text
+//! cargo test --release --test sketch_coherence -- --ignored --nocapture --test-threads 1
+//! ```
+//!
+//! `HACHURE_SKETCH_ONLY=crank` limits it to one model.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+#![allow(clippy::print_stdout, reason = "the numbers are what it is for")]
+
+#[path = "../common/mod.rs"]
+mod common;
+mod drawn;
+mod field;
+mod ink;
+mod model;
+mod paths;
+
+use common::session;
+use field::{LOCKED, MAP, SURFACE, walk};
+use hachure::export::Session;
+use hachure::render::base::frame_uniform::REFERENCE_HEIGHT;
+use hachure::render::effects::sketch::field as field_of;
+use hachure::render::passes::offset_field::FieldUniform;
+use hachure::style::{Sketch, preset};
+use ink::{Changes, Draughtsman, compare, frame};
+use model::{Eye, Model, SIDE};
+use paths::{Length, PATHS, Path, runs, target};
+
+const MODELS: [&str; 3] = ["ogre", "crank", "temple"];
+
+/// The wave for which numbers are asked, reference pixels.
+const WAVE: f32 = 120.0;
+/// Least coherence of its offsets, of those of presets, of a field that is locked to the surface, and of ink.
+const LEAST: f64 = 0.9;
+const LEAST_OF_PRESETS: f64 = 0.88;
+const LEAST_LOCKED: f64 = 0.98;
+const LEAST_OF_INK: f64 = 0.9;
+/// The same where a dolly leaps by a third: offsets have changed, for waves are to keep their length on paper, and lines that stay on
+/// the paper cannot be farther off than they are after a third of that.
+const LEAST_OF_LEAPS: f64 = 0.8;
+/// Greatest share of the pixels with ink that pop beyond those of a locked run, where they are moved as the device says.
+const MOST_POPS: f64 = 0.001;
+/// Greatest deviation of the root of the mean square on a dolly.
+const MOST_DEVIATION: f64 = 0.15;
+/// Most steps of a path that ink is compared at, all along it.
+const MOST_STEPS: usize = 8;
+/// So many seeds.
+const SEEDS: u32 = 4;
+
+/// Fields of a style with so many seeds.
+fn seeds(sketch: &Sketch, count: u32) -> Vec<FieldUniform> {
+    let of = |seed| {
+        let mut sketch = sketch.clone();
+        sketch.wander.seed = seed;
+        field_of(&sketch, (f64::from(SIDE) / REFERENCE_HEIGHT) as f32)
+    };
+    (1..=count).map(of).collect()
+}
+
+/// The style for which numbers are asked.
+fn measured() -> Sketch {
+    let mut sketch = Sketch::default();
+    sketch.wander.wave = WAVE;
+    sketch
+}
+
+/// What does not hold, in words.
+#[derive(Default)]
+struct Failures(Vec<String>);
+
+impl Failures {
+    fn check(&mut self, holds: bool, what: String) {
+        if !holds {
+            self.0.push(what);
+        }
+    }
+}
+
+/// Prints a row of offsets; `dolly`: where that leads to.
+fn measure_field(
+    session: &mut Session,
+    model: &Model,
+    (path, dolly): (Path, glam::DVec3),
+    (length, apart): (Length, f64),
+    failures: &mut Failures,
+) {
+    let presets: Vec<_> = preset::all().into_iter().filter(|preset| preset.style.sketch.enabled).collect();
+    let mut recipes = vec![seeds(&measured(), SEEDS)];
+    recipes.extend(presets.iter().map(|preset| seeds(&preset.style.sketch, 1)));
+    let walked = walk(session, model, (path, dolly, length), &recipes, apart);
+    let sums = &walked.sums[0];
+    let (surface, locked) = (sums.coherence(SURFACE).unwrap(), sums.coherence(LOCKED).unwrap());
+    let map = sums.coherence(MAP).map_or("     –".to_owned(), |map| format!("{map:6.3}"));
+    let growth = walked.map_growth.map_or("–".to_owned(), |growth| format!("{growth:.1}"));
+    let of_presets = presets.iter().zip(&walked.sums[1..]);
+    let (least, preset) = of_presets
+        .map(|(preset, sums)| (sums.coherence(SURFACE).unwrap(), &preset.name))
+        .min_by(|a, b| a.0.total_cmp(&b.0))
+        .unwrap();
+    let rms: Vec<f64> = walked.steps[0].iter().map(|step| step.rms(SURFACE) / plain_rms()).collect();
+    let (low, high) = rms.iter().fold((f64::INFINITY, 0.0_f64), |(l, h), r| (l.min(*r), h.max(*r)));
+    let (name, way) = (model.name, path.name());
+    println!(
+        "{name:<8}{way:<7}{surface:7.3}{:8.3}{map:>8} ×{growth:<6}{locked:7.3}   {low:.2} to {high:.2}   {least:.3} {preset}",
+        0.0
+    );
+    failures.check(locked >= LEAST_LOCKED, format!("{name}, {way}: what is locked has {locked:.3}"));
+    failures.check(surface >= LEAST, format!("{name}, {way}: offsets have {surface:.3}"));
+    failures.check(least >= LEAST_OF_PRESETS, format!("{name}, {way}: offsets of {preset} have {least:.3}"));
+    let is_even = path != Path::Dolly || low >= 1.0 - MOST_DEVIATION && high <= 1.0 + MOST_DEVIATION;
+    failures.check(is_even, format!("{name}, {way}: rms from {low:.2} to {high:.2}"));
+}
+
+/// Root of the mean square of noise with its details, by construction.
+fn plain_rms() -> f64 {
+    f64::from(measured().wander.detail).hypot(1.0)
+}
+
+/// Prints a row of ink.
+fn measure_ink(
+    session: &mut Session,
+    model: &Model,
+    draughtsmen: &mut [Draughtsman; 3],
+    (path, dolly): (Path, glam::DVec3),
+    (starts, stride): (u32, u32),
+    failures: &mut Failures,
+) {
+    let field = seeds(&measured(), 1)[0];
+    let length = Length { starts, fresh: 1, stride };
+    let mut all = Changes::default();
+    let runs = runs(model, path, dolly, length);
+    let count = runs.len().min(MOST_STEPS);
+    for run in (0..count).map(|i| runs[i * runs.len() / count].clone()) {
+        let mut frames = run.into_iter().map(|camera| frame(draughtsmen, model, Eye::new(session, camera)));
+        let [before, after] = [frames.next().unwrap(), frames.next().unwrap()];
+        all = all.plus(&compare(&before, &after, &field));
+    }
+    let (drawn, offsets) = (all.coherence(), all.coherence_of_offsets());
+    let [surface, screen, locked, moved] = all.errors();
+    let pops = all.pops().map(|share| 100.0 * share);
+    let (name, way) = (model.name, path.name());
+    println!(
+        "{name:<8}{way:<6}×{stride:<3}{drawn:7.3}{offsets:9.3}   {surface:.4} {moved:.4} {locked:.4} {screen:.4}   {:6.2} {:6.2} {:6.2} {:6.2}   {:7.0}",
+        pops[0],
+        pops[3],
+        pops[2],
+        pops[1],
+        all.count()
+    );
+    let is_leap = path == Path::Dolly && stride >= 10;
+    let least = if is_leap { LEAST_OF_LEAPS } else { LEAST_OF_INK };
+    for (coherence, what) in [(drawn, "ink"), (offsets, "offsets of ink")] {
+        failures.check(coherence >= least, format!("{name}, {way} × {stride}: {what}: {coherence:.3}"));
+    }
+    let beyond = 0.01 * (pops[3] - pops[2]);
+    failures.check(is_leap || beyond <= MOST_POPS, format!("{name}, {way} × {stride}: {beyond:.5} pop"));
+}
+
+fn field_head() {
+    println!(
+        "offsets at lines, wave {WAVE} px; screen: by definition; rms: least and greatest of a step, {SEEDS} seeds"
+    );
+    println!("model   path   surface  screen      uv, larger  locked        rms        least of the presets");
+}
+
+fn ink_head() {
+    println!(
+        "ink, wave {WAVE} px, so many steps at once: coherence; mean change; pixels with ink that pop, %"
+    );
+    println!(
+        "model   path  steps   drawn  offsets    drawn offsets locked screen    drawn offsets locked screen    pixels"
+    );
+}
+
+#[test]
+#[ignore = "heavy: run by `make quality`"]
+fn sketches_move_with_the_model() {
+    let mut session = session();
+    let mut failures = Failures::default();
+    let only = std::env::var("HACHURE_SKETCH_ONLY").unwrap_or_default();
+    let names = || MODELS.into_iter().filter(|name| name.contains(&only));
+    field_head();
+    for name in names() {
+        let model = Model::new(&mut session, name);
+        let eye = Eye::new(&mut session, model.camera());
+        let dolly = target(&model, &eye);
+        for path in PATHS {
+            let length = Length { starts: 12, fresh: 4, stride: 1 };
+            measure_field(&mut session, &model, (path, dolly), (length, 16.0), &mut failures);
+        }
+    }
+    ink_head();
+    for name in names() {
+        let model = Model::new(&mut session, name);
+        let eye = Eye::new(&mut session, model.camera());
+        let dolly = target(&model, &eye);
+        let mut draughtsmen = Draughtsman::all(&model, WAVE);
+        for path in PATHS {
+            let strides: &[u32] = if path == Path::Dolly { &[3, 10] } else { &[10] };
+            for stride in strides {
+                let steps = (3, *stride);
+                measure_ink(&mut session, &model, &mut draughtsmen, (path, dolly), steps, &mut failures);
+            }
+        }
+    }
+    assert!(failures.0.is_empty(), "{:#?}", failures.0);
+}
+
+#[test]
+fn offsets_of_a_crank_move_with_it() {
+    let mut session = session();
+    let mut failures = Failures::default();
+    let model = Model::new(&mut session, "crank");
+    let eye = Eye::new(&mut session, model.camera());
+    let dolly = target(&model, &eye);
+    field_head();
+    for path in PATHS {
+        let length = Length { starts: 2, fresh: 20, stride: 1 };
+        measure_field(&mut session, &model, (path, dolly), (length, 160.0), &mut failures);
+    }
+    assert!(failures.0.is_empty(), "{:#?}", failures.0);
+}
