@@ -1,9 +1,11 @@
 //! How much ink changes from picture to picture, where it goes with the model.
 //!
 //! Ink of two pictures is blurred by a pixel, or antialiasing is all that is measured, and compared where the exact motion of the
-//! nearest place on a line leads to, if that is seen in both. Even ink whose offsets never change does change then: lines end
-//! elsewhere, others pass behind them. How much is said by a locked run: undisturbed ink of both pictures, moved by the offsets that
-//! the device gave the lines in the first one. It is moved here as the shader does it, y = x + F(y) with F of the nearest line.
+//! nearest place on a line leads to: where that is seen in both pictures and all lines around move as it does. Even ink whose offsets
+//! never change does change there. How much is said by a locked run: undisturbed ink of both pictures, moved by the offsets that the
+//! device gave the lines in the first one. It is moved here as the shader does it, y = x + F(y) with F of the nearest line. Moved in
+//! the same way by the offsets of each picture itself, ink says how much of the rest is offsets; what is left then is how evenly the
+//! device draws what it fetches from between its pixels.
 
 use glam::{DVec2, Vec2};
 use hachure::export::Session;
