@@ -96,8 +96,7 @@ draw sketch_twice "$ogre" --style ballpoint --set sketch.passes=2 --set sketch.p
 draw sketch_chalk "$ogre" --style chalk-on-slate --set paper=#f6f3ea --set edges.profile.color=#2a2622 \
 	--set edges.inner.color=#2a2622 --set sketch.fill.surface_color=1 --set sketch.grain.roughness=1.6
 # Uncertainty controlled by the surface: more where it is curved, from enlarged geometry (Fig. 9).
-draw sketch_curvature "$ogre" --style loose-ink --set sketch.anchor=curvature --set sketch.exterior=enlarged \
-	--set sketch.amount=1.5
+draw sketch_curvature "$ogre" --style loose-ink --set sketch.anchor=curvature --set sketch.exterior=enlarged
 
 # A statue in strokes before a mirror, with edges in both (Fig. 8).
 cat >"$work/mirror.obj" <<OBJ

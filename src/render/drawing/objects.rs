@@ -82,7 +82,7 @@ impl Objects {
                 let group = Blueprint::group_of(&mut objects.blueprints, r.style, count);
                 group.add(whole, edges, scene);
             } else if is_sketch {
-                let sketch = Sketch::group_of(&mut objects.sketches, r.style, count, (images, scale));
+                let sketch = Sketch::group_of(&mut objects.sketches, r.style, count, images, scale);
                 sketch.group.add(whole, edges, scene);
                 sketch.add_alphas(scene.alphas(node));
                 if r.enhanced {

@@ -95,7 +95,8 @@ impl Sketch {
         all: &'a mut Vec<Self>,
         style: &Style,
         count: usize,
-        (images, scale): (&StyleImages, f32),
+        images: &StyleImages,
+        scale: f32,
     ) -> &'a mut Self {
         let found = all.iter().position(|sketch| sketch.style == style.sketch);
         let index = found.unwrap_or(all.len());
