@@ -1,10 +1,11 @@
 // A sketch: lines and colours of a group of one layer, each fetched from beside where it goes, with the depth of what was fetched
 // (sketchy drawings paper, sections 3.2 to 3.4), rubbed onto rough paper.
 //
-// What is drawn at x comes from y = x + F(y), so that each point of a line moves as a whole and none is seen twice; where the
-// noise follows the picture from y = x + F(x), as in the paper.
+// Colour, and ink of the papers' operators, that is drawn at x comes from y = x + F(x), as in the paper. Lines of exact mode have
+// been moved, each as a whole (passes/moved_edges.wgsl).
 #import passes/lines.wgsl
 #import common/composition.wgsl
+#import common/noise_tile.wgsl
 
 // Twin: `PassUniform` in src/render/effects/sketch.rs.
 struct Pass {
@@ -55,12 +56,12 @@ struct SketchObject {
 
 // Whether the noise follows the picture.
 override ON_SCREEN: bool = false;
-// Whether each pixel has noise of its own, of the enlarged surface that it shows, as in the paper.
-override BY_PIXEL: bool = false;
+// Whether noise beyond outlines is that of enlarged surfaces, as in the paper.
+override ENLARGED: bool = false;
 // Whether ink and colour have the nearer depth of both, as in the paper.
 override WITH_NEARER: bool = false;
-// Whether there are more than four passes.
-override WITH_MORE_PASSES: bool = false;
+// Whether ink that has been placed before is that of other objects.
+override BEFORE_IS_OTHER: bool = true;
 // Whether each of these is asked for: software devices run both sides of a branch.
 override WITH_GRAIN: bool = true;
 override WITH_ROUGHNESS: bool = true;
@@ -73,22 +74,22 @@ override WITH_SMUDGE: bool = false;
 override WITH_OPACITY: bool = false;
 // Whether hidden lines are seen.
 override WITH_HIDDEN: bool = false;
-// Whether there are any lines of exact mode, which all are found from afar.
-override WITH_NEAREST: bool = true;
 
 var<uniform> sketch: Sketch;
 var<storage, read> sketch_objects: array<SketchObject>;
+// That of the pass whose ink is drawn.
+var<uniform> pass_number: u32;
+// The edge map where lines come from, for the papers' operators.
+var paper_map_tex: texture_storage_2d<rgba32uint, read>;
 // Linear colour times opacity, and opacity, of the surfaces.
 var shaded_tex: texture_2d<f32>;
 // The same of hidden lines.
 var hidden_tex: texture_2d<f32>;
-// The line next to each pixel, from as far as offsets go; as `farthest_tex`.
+// The line next to each pixel, from as far as it is smudged; as `farthest_tex`.
 var near_line_tex: texture_storage_2d<r32uint, read>;
 // See passes/offset_field.wgsl.
-var line_field_tex: texture_storage_2d<rgba32uint, read>;
-var more_line_field_tex: texture_storage_2d<rgba32uint, read>;
 var fill_field_tex: texture_storage_2d<rgba32uint, read>;
-// A tile of noise: (turbulence(s, t), turbulence(1 − s, 1 − t)); and one of paper.
+// A tile of noise, see common/noise_tile.wgsl; and one of paper.
 var tiles: texture_2d_array<f32>;
 var paper: texture_2d_array<f32>;
 var tile_sampler: sampler;
@@ -115,12 +116,6 @@ fn inside(at: vec2<f32>) -> vec2<f32> {
     return clamp(at, vec2(0.5), frame.size - 0.5);
 }
 
-// The nearest texel: they are as small as pixels, and between two of them noise hardly changes.
-fn noise_of_picture(x: vec2<f32>, scale: f32) -> vec2<f32> {
-    let texel = vec2<i32>(fract(x * scale) * vec2<f32>(textureDimensions(tiles)));
-    return textureLoad(tiles, texel, 0, 0).xy;
-}
-
 // Noise of a block, and how much it counts for a pixel of this object; 0: any.
 fn fill_noise_of(block: vec2<i32>, object: u32, weight: f32) -> vec3<f32> {
     let texel = textureLoad(fill_field_tex, block);
@@ -131,7 +126,7 @@ fn fill_noise_of(block: vec2<i32>, object: u32, weight: f32) -> vec3<f32> {
 // Noise of the surface at a place, smoothly from block to block of the same object.
 fn fill_noise(at: vec2<f32>, object: u32) -> vec2<f32> {
     if ON_SCREEN {
-        return noise_of_picture(at, sketch.fill_scale);
+        return noise_of_tile(tiles, at, 0u, sketch.fill_scale);
     }
     let last = vec2<i32>(textureDimensions(fill_field_tex)) - 1;
     let p = at / BLOCK - 0.5;
@@ -165,49 +160,19 @@ fn fill_source(x: vec2<f32>) -> Source {
     // Beyond the outline, as what is nearest. Waves of colour are so long that one step finds it.
     let object = geometry_at(vec2<i32>(floor(near))).w & ~ENHANCED;
     // Enlarged surfaces overlap others.
-    let noise = fill_noise(near, select(object, 0u, BY_PIXEL));
+    let noise = fill_noise(near, select(object, 0u, ENLARGED));
     return Source(inside(x + applied(sketch.fill_matrix, noise)), noise);
 }
 
-// Noise of the line next to a place, for a pass.
-fn line_noise(at: vec2<f32>, number: u32) -> vec2<f32> {
-    if ON_SCREEN {
-        return noise_of_picture(at + f32(number) * vec2(91.7, 47.3), sketch.line_scale);
-    }
-    var found = 0u;
-    if WITH_NEAREST {
-        found = textureLoad(near_line_tex, vec2<i32>(floor(at))).x;
-    }
-    if found == 0u {
-        // Ink of the papers' operators has no line that it is of.
-        if WITH_PAPER {
-            return fill_noise(at, 0u);
-        }
-        return vec2(0.0);
-    }
-    var px = vec2<i32>(vec2((found - 1u) & 0xffffu, (found - 1u) >> 16u));
-    if BY_PIXEL {
-        px = vec2<i32>(floor(at));
-    }
-    var texel = textureLoad(line_field_tex, px);
-    if WITH_MORE_PASSES && number >= 4u {
-        texel = textureLoad(more_line_field_tex, px);
-    }
-    return unpack2x16float(texel[number % 4u]);
-}
-
-// Where the lines come from that a pass draws at x.
+// Where a pass fetches what it draws at x from.
 fn line_source(x: vec2<f32>, number: u32) -> Source {
-    let matrix = sketch.passes[number].matrix;
-    var noise = line_noise(x, number);
-    var y = inside(x + applied(matrix, noise));
-    if !ON_SCREEN && !BY_PIXEL {
-        for (var i = 0; i < 2; i++) {
-            noise = line_noise(y, number);
-            y = inside(x + applied(matrix, noise));
-        }
+    var noise = vec2(0.0);
+    if ON_SCREEN {
+        noise = noise_of_tile(tiles, x, number, sketch.line_scale);
+    } else {
+        noise = fill_noise(x, 0u);
     }
-    return Source(y, noise);
+    return Source(inside(x + applied(sketch.passes[number].matrix, noise)), noise);
 }
 
 // How densely a hand presses where the noise is this.
@@ -379,10 +344,7 @@ fn fs_fill(@builtin(position) position: vec4<f32>) -> Filled {
 @fragment
 fn fs_inked(@builtin(position) position: vec4<f32>) {
     let px = vec2<i32>(position.xy);
-    var any = 0u;
-    if WITH_NEAREST {
-        any |= textureLoad(near_line_tex, px).x;
-    }
+    var any = reached_by_lines(px);
     if WITH_PAPER {
         let last = vec2<i32>(textureDimensions(fill_field_tex)) - 1;
         any |= textureLoad(fill_field_tex, clamp(px / i32(BLOCK), vec2(0), last)).y;
@@ -395,45 +357,59 @@ fn fs_inked(@builtin(position) position: vec4<f32>) {
     }
 }
 
-// Ink of a pass at a pixel.
-fn drawn_ink(px: vec2<i32>, number: u32, other: Surfel, rough: vec2<f32>) -> Line {
+// Whether what has been placed at a pixel hides a line that comes from y.
+fn is_covered(line: Line, px: vec2<i32>, y: vec2<f32>, other: Surfel) -> bool {
+    let most = tolerance(px, y, line.depth, other, INK_TOLERANCE) + slack();
+    return !WITH_NEARER && hides(other, px, line.depth, -line.away, most);
+}
+
+// Ink of the pass at a pixel.
+fn drawn_ink(px: vec2<i32>, other: Surfel, rough: vec2<f32>) -> Line {
     let x = vec2<f32>(px) + 0.5;
-    let source = line_source(x, number);
-    let y = inside(source.at + rough);
-    width_factor = sketch.passes[number].width;
-    var line = lines_at_place(y, unpack_surfel(geometry_at(vec2<i32>(floor(y)))));
+    let sketched = sketch.passes[pass_number];
+    var line = no_line();
+    if WITH_EXACT {
+        line = lines_at_place(inside(x + rough), unpack_surfel(vec4(0u)));
+        if line.ink.a > 0.0 && is_covered(line, px, x + line.to_source, other) {
+            line = no_line();
+        }
+    }
+    if WITH_PAPER {
+        let source = line_source(x, pass_number);
+        let y = inside(source.at + rough);
+        let from_px = vec2<i32>(floor(y));
+        var ink = with_paper_ink(no_line(), textureLoad(paper_map_tex, from_px), unpack_surfel(geometry_at(from_px)));
+        if WITH_PRESSURE {
+            ink.ink *= pressed(source.noise);
+        }
+        if ink.ink.a > 0.0 && !is_covered(ink, px, source.at, other) {
+            ink.ink = over(ink.ink, line.ink);
+            line = ink;
+        }
+    }
     if line.ink.a <= 0.0 {
         return no_line();
     }
-    let most = tolerance(px, source.at, line.depth, other, INK_TOLERANCE) + slack();
-    if !WITH_NEARER && hides(other, px, line.depth, -line.away, most) {
-        return no_line();
-    }
-    let color = select(line.ink.rgb / line.ink.a, sketch.passes[number].color, sketch.passes[number].has_color == 1u);
-    var density = line.ink.a * sketch.passes[number].density;
-    if WITH_PRESSURE {
-        density *= pressed(source.noise);
-    }
-    density = deposited(density, x);
-    line.ink = vec4(color, 1.0) * density;
+    let color = select(line.ink.rgb / line.ink.a, sketched.color, sketched.has_color == 1u);
+    line.ink = vec4(color, 1.0) * deposited(line.ink.a * sketched.density, x);
     return line;
 }
 
-// Ink with that of what has been placed before.
-@fragment
-fn fs_ink(@builtin(position) position: vec4<f32>) -> @location(0) vec4<u32> {
-    let px = vec2<i32>(position.xy);
+// Ink and its depth, with what has been placed before.
+struct Inked {
+    ink: vec4<f32>,
+    depth: f32,
+    // Whether what is in front is of this sketch.
+    is_own: bool,
+}
+
+fn inked(px: vec2<i32>) -> Inked {
     let other = surface_at(px);
     let rough = roughened(vec2<f32>(px) + 0.5);
-    var ink = vec4(0.0);
-    var depth = 0.0;
-    for (var i = 0u; i < sketch.count; i++) {
-        let line = drawn_ink(px, i, other, rough);
-        if line.ink.a > 0.0 {
-            ink = over(line.ink, ink);
-            depth = select(min(depth, line.depth), line.depth, depth == 0.0);
-        }
-    }
+    let line = drawn_ink(px, other, rough);
+    var ink = line.ink;
+    var depth = line.depth;
+    var is_own = ink.a > 0.0;
     if WITH_NEARER && ink.a > 0.0 {
         let nearest = nearest_depth(vec2<f32>(px) + 0.5, rough);
         depth = select(depth, nearest, nearest != 0.0);
@@ -445,14 +421,36 @@ fn fs_ink(@builtin(position) position: vec4<f32>) -> @location(0) vec4<u32> {
         let texel = textureLoad(opaque_ink_tex, px);
         let before = placed_color(texel);
         let before_depth = bitcast<f32>(texel.z);
-        let filled = unpack_surfel(textureLoad(filled_tex, px));
-        // Only what this sketch has put before it can hide it.
-        let is_new = filled.object != other.object || filled.depth != other.depth;
-        if before.a > 0.0 && !(is_new && is_behind(filled, before_depth, 2.0)) {
-            let is_nearer = ink.a > 0.0 && depth <= before_depth;
+        var is_hidden = false;
+        if BEFORE_IS_OTHER {
+            let filled = unpack_surfel(textureLoad(filled_tex, px));
+            // Only what this sketch has put before it can hide it.
+            let is_new = filled.object != other.object || filled.depth != other.depth;
+            is_hidden = is_new && is_behind(filled, before_depth, 2.0);
+        }
+        if before.a > 0.0 && !is_hidden {
+            // Earlier passes lie beneath, wherever their lines come from.
+            let is_earlier = !BEFORE_IS_OTHER && texel.w == 1u;
+            let is_nearer = ink.a > 0.0 && (is_earlier || depth <= before_depth);
+            is_own = is_nearer || is_earlier;
             ink = select(over(before, ink), over(ink, before), is_nearer);
-            depth = select(before_depth, depth, is_nearer);
+            depth = select(before_depth, min(depth, before_depth), is_nearer);
         }
     }
-    return pack_placed(ink, depth);
+    return Inked(ink, depth, is_own);
+}
+
+// Ink to be tested against what is placed later.
+@fragment
+fn fs_ink(@builtin(position) position: vec4<f32>) -> @location(0) vec4<u32> {
+    let inked = inked(vec2<i32>(position.xy));
+    var texel = pack_placed(inked.ink, inked.depth);
+    texel.w = select(0u, 1u, inked.is_own && inked.ink.a > 0.0);
+    return texel;
+}
+
+// Ink over the colour.
+@fragment
+fn fs_lay_ink(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
+    return inked(vec2<i32>(position.xy)).ink;
 }

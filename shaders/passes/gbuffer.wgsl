@@ -61,7 +61,7 @@ fn depths(pos_view: vec4<f32>) -> vec3<f32> {
 }
 
 fn ids(instance: Instance, surface: u32) -> vec4<u32> {
-    return vec4(surface, instance.ids);
+    return vec4(surface, instance.ids.xyz);
 }
 
 // A vertex where it is drawn.

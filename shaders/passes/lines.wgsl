@@ -17,16 +17,22 @@ override WITH_WIDTHS: bool = true;
 // Whether all lines are so thin that they reach no farther than to the next pixel: then nobody has looked for them yet,
 // and `farthest_tex` holds the spines, `nearest_tex` what passes/near_lines.wgsl finds.
 override NARROW: bool = false;
+// Whether they reach one pixel farther.
+override NARROW_BY_TWO: bool = false;
 override WITH_DASHES: bool = true;
 override WITH_SURFACE_COLOR: bool = true;
 // Whether lines are tested against other surfaces than those that they were found among.
 override AMONG_OTHERS: bool = false;
+// Whether lines have been moved: then surfaces hide them where they come from.
+override MOVED: bool = false;
 
 var edge_map_tex: texture_storage_2d<rgba32uint, read>;
 var base_color_tex: texture_2d<f32>;
 // As `found_tex` in passes/line_distance.wgsl: the line that reaches farthest, and the nearest one.
 var farthest_tex: texture_2d<u32>;
 var nearest_tex: texture_storage_2d<r32uint, read>;
+// See passes/moved_edges.wgsl.
+var source_tex: texture_storage_2d<r32uint, read>;
 var<storage, read> edge_styles: array<EdgeStyle>;
 
 // A surface so far before a line, in pixels, hides it.
@@ -59,14 +65,13 @@ struct Line {
     strength: f32,
     // From its spine to here, px.
     away: vec2<f32>,
+    // From where it is to where it comes from, px.
+    to_source: vec2<f32>,
 }
 
 fn no_line() -> Line {
-    return Line(vec4(0.0), 0.0, false, 0.0, vec2(0.0));
+    return Line(vec4(0.0), 0.0, false, 0.0, vec2(0.0), vec2(0.0));
 }
-
-// Factor of all widths.
-var<private> width_factor: f32 = 1.0;
 
 // The line of the pixel of the edge map that was found, at a place in the picture, as far as surface `g` of the pixel there does
 // not hide it.
@@ -75,6 +80,13 @@ fn line_at(at: vec2<f32>, g: Surfel, found: u32) -> Line {
         return no_line();
     }
     let from_px = vec2<i32>(vec2((found - 1u) & 0xffffu, (found - 1u) >> 16u));
+    var to_source = vec2(0.0);
+    var surface = g;
+    if MOVED {
+        let source = textureLoad(source_tex, from_px).x;
+        to_source = vec2<f32>(vec2<i32>(vec2(source & 0xffffu, source >> 16u)) - from_px);
+        surface = unpack_surfel(geometry_at(vec2<i32>(floor(at + to_source))));
+    }
     let texel = textureLoad(edge_map_tex, from_px);
     let edge = unpack_edge(texel);
     let spine = vec2<f32>(from_px) + 0.5 + edge.offset;
@@ -90,16 +102,15 @@ fn line_at(at: vec2<f32>, g: Surfel, found: u32) -> Line {
     let away = left * dot(d, left) + tangent * past;
     let distance = length(away);
     let normal = select(left, away / distance, distance > 1e-4);
-    let half_width = edge.half_width * width_factor;
-    var low = -half_width;
-    var high = half_width;
+    var low = -edge.half_width;
+    var high = edge.half_width;
     var across = distance;
     if edge_styles[edge.object].alignment != 0u {
         // All of the width on one side of the spine.
         let outwards = select(-1.0, 1.0, edge_styles[edge.object].alignment == 1u) * edge.outside;
         across = distance * select(-1.0, 1.0, dot(away, left) * outwards >= 0.0);
         low = 0.0;
-        high = 2.0 * half_width;
+        high = 2.0 * edge.half_width;
     }
     var coverage = strip_share(across, low, high, normal);
     if WITH_DASHES && edge_styles[edge.object].lines[index].dashed == 1u {
@@ -112,18 +123,19 @@ fn line_at(at: vec2<f32>, g: Surfel, found: u32) -> Line {
     }
     let strength = edge_styles[edge.object].lines[index].strength * edge.weight;
     coverage *= strength;
-    if coverage <= 0.0 || (!is_tested && is_hidden(g, vec2<i32>(floor(at)), edge, spine)) {
-        return Line(vec4(0.0), edge.depth, coverage > 0.0, 0.0, d);
+    let at_source = vec2<i32>(floor(at + to_source));
+    if coverage <= 0.0 || (!is_tested && is_hidden(surface, at_source, edge, spine + to_source)) {
+        return Line(vec4(0.0), edge.depth, coverage > 0.0, 0.0, d, to_source);
     }
     var color = edge_styles[edge.object].lines[index].color;
     if WITH_SURFACE_COLOR {
         // Of the object's pixel beside the spine.
-        let inwards = vec2<i32>(floor(spine - 0.8 * left * edge.outside));
+        let inwards = vec2<i32>(floor(spine + to_source - 0.8 * left * edge.outside));
         let inside = clamp(inwards, vec2(0), vec2<i32>(frame.size) - 1);
         let base = textureLoad(base_color_tex, inside, 0).rgb;
         color = mix(color, base * (1.0 - edge_styles[edge.object].darken), edge_styles[edge.object].surface_color);
     }
-    return Line(vec4(color, 1.0) * coverage, edge.depth, false, strength, d);
+    return Line(vec4(color, 1.0) * coverage, edge.depth, false, strength, d, to_source);
 }
 
 // A hidden line may have won against one that is not: of the lines of the pixels around, the one that covers most.
@@ -148,23 +160,39 @@ fn line_around(at: vec2<f32>, g: Surfel, hidden: u32) -> Line {
     return best;
 }
 
+// A line that has been found, and how far within its reach the pixel lies: the least counts.
+struct Nearby {
+    found: u32,
+    power: f32,
+}
+
+fn nearer_of(best: Nearby, spine: u32, px: vec2<i32>, away: vec2<i32>) -> Nearby {
+    let q = vec2<u32>(px + away);
+    let r = unpack2x16float(spine >> 16u).x + 1.25;
+    let d = vec2<f32>(away) + vec2(f32((spine >> 8u) & 255u), f32(spine & 255u)) / 127.0 - 1.0;
+    let is_there = spine != 0u && all(q < vec2<u32>(frame.size));
+    let power = select(0.0, dot(d, d) - r * r, is_there);
+    return Nearby(select(best.found, ((q.y << 16u) | q.x) + 1u, power < best.power), min(best.power, power));
+}
+
 // As `cs_rows` in passes/line_distance.wgsl finds it, among the neighbours.
 fn found_nearby(px: vec2<i32>) -> u32 {
-    var spines = nine_at(farthest_tex, px);
-    var best = 0.0;
-    var found = 0u;
-    for (var i = 0; i < 9; i++) {
-        let away = vec2(i % 3, i / 3) - 1;
-        let q = vec2<u32>(px + away);
-        let spine = spines[i];
-        let r = unpack2x16float(spine >> 16u).x + 1.25;
-        let d = vec2<f32>(away) + vec2(f32((spine >> 8u) & 255u), f32(spine & 255u)) / 127.0 - 1.0;
-        let is_there = spine != 0u && all(q < vec2<u32>(frame.size));
-        let power = select(0.0, dot(d, d) - r * r, is_there);
-        found = select(found, ((q.y << 16u) | q.x) + 1u, power < best);
-        best = min(best, power);
+    var best = Nearby(0u, 0.0);
+    if NARROW_BY_TWO {
+        for (var i = 0; i < 9; i++) {
+            let first = 2 * vec2(i % 3, i / 3) - 2;
+            let spines = four_at(farthest_tex, px + first);
+            for (var k = 0; k < 4; k++) {
+                best = nearer_of(best, spines[k], px, first + vec2(k & 1, k >> 1u));
+            }
+        }
+        return best.found;
     }
-    return found;
+    var spines = nine_at(farthest_tex, px);
+    for (var i = 0; i < 9; i++) {
+        best = nearer_of(best, spines[i], px, vec2(i % 3, i / 3) - 1);
+    }
+    return best.found;
 }
 
 fn farthest_at(px: vec2<i32>) -> u32 {
@@ -201,10 +229,8 @@ fn over(front: vec4<f32>, back: vec4<f32>) -> vec4<f32> {
     return front + back * (1.0 - front.a);
 }
 
-// Marks the pixels that lines can reach, and some beside them.
-@fragment
-fn fs_reached(@builtin(position) position: vec4<f32>) {
-    let px = vec2<i32>(position.xy);
+// Not 0 where exact lines can reach a pixel, and for some beside.
+fn reached_by_lines(px: vec2<i32>) -> u32 {
     var reached = 0u;
     if WITH_EXACT {
         if NARROW {
@@ -216,12 +242,36 @@ fn fs_reached(@builtin(position) position: vec4<f32>) {
             reached |= textureLoad(nearest_tex, px).x;
         }
     }
+    return reached;
+}
+
+// Marks the pixels that lines can reach, and some beside them.
+@fragment
+fn fs_reached(@builtin(position) position: vec4<f32>) {
+    let px = vec2<i32>(position.xy);
+    var reached = reached_by_lines(px);
     if WITH_PAPER {
         reached |= textureLoad(edge_map_tex, px).x;
     }
     if reached == 0u {
         discard;
     }
+}
+
+// With ink of the papers' operators over it, as far as surface `g` does not hide that; `texel`: of the edge map.
+fn with_paper_ink(lines: Line, texel: vec4<u32>, g: Surfel) -> Line {
+    let depth = bitcast<f32>(texel.z);
+    let is_hidden = g.object != 0u && step_px(nearness_of(g.depth) - nearness_of(depth), depth) > slack();
+    if class_of(texel) != PAPER || is_hidden {
+        return lines;
+    }
+    // Edge-enhancement paper, section 5: inner edges first, then profile edges over them.
+    let object = texel.y;
+    let ink = paper_ink(texel) * vec2(edge_styles[object].inner_strength, edge_styles[object].profile_strength);
+    let inner = vec4(edge_styles[object].inner_color, 1.0) * ink.x;
+    let profile = vec4(edge_styles[object].profile_color, 1.0) * ink.y;
+    let both = over(over(profile, inner), lines.ink);
+    return Line(both, depth, false, both.a, vec2(0.0), vec2(0.0));
 }
 
 // What a pixel has of lines, as far as surface `g` does not hide them.
@@ -247,24 +297,14 @@ fn lines_at_place(at: vec2<f32>, g: Surfel) -> Line {
                 let ink = thin.ink * apart(nearest, farthest);
                 let strength = select(lines.strength, thin.strength, ink.a > 0.0);
                 let depth = select(lines.depth, thin.depth, ink.a > 0.0);
-                lines = Line(over(ink, lines.ink), depth, false, strength, select(lines.away, thin.away, ink.a > 0.0));
+                let away = select(lines.away, thin.away, ink.a > 0.0);
+                let to_source = select(lines.to_source, thin.to_source, ink.a > 0.0);
+                lines = Line(over(ink, lines.ink), depth, false, strength, away, to_source);
             }
         }
     }
-    if WITH_PAPER {
-        let texel = textureLoad(edge_map_tex, px);
-        let depth = bitcast<f32>(texel.z);
-        let is_hidden = g.object != 0u && step_px(nearness_of(g.depth) - nearness_of(depth), depth) > slack();
-        if class_of(texel) == PAPER && !is_hidden {
-            // Edge-enhancement paper, section 5: inner edges first, then profile edges over them.
-            let object = texel.y;
-            let ink = paper_ink(texel)
-                * vec2(edge_styles[object].inner_strength, edge_styles[object].profile_strength);
-            let inner = vec4(edge_styles[object].inner_color, 1.0) * ink.x;
-            let profile = vec4(edge_styles[object].profile_color, 1.0) * ink.y;
-            let both = over(over(profile, inner), lines.ink);
-            lines = Line(both, depth, false, both.a, vec2(0.0));
-        }
+    if WITH_PAPER && !MOVED {
+        lines = with_paper_ink(lines, textureLoad(edge_map_tex, px), g);
     }
     return lines;
 }

@@ -5,6 +5,9 @@
 var spine_tex: texture_2d<u32>;
 var near_tex: texture_storage_2d<r32uint, write>;
 
+// Whether lines reach two pixels far.
+override NARROW_BY_TWO: bool = false;
+
 @compute @workgroup_size(16, 16)
 fn cs_main(@builtin(global_invocation_id) id: vec3<u32>) {
     let block = vec2<i32>(id.xy);
@@ -13,8 +16,9 @@ fn cs_main(@builtin(global_invocation_id) id: vec3<u32>) {
         return;
     }
     var any_spine = 0u;
-    for (var y = -1; y <= 3; y += 2) {
-        for (var x = -1; x <= 3; x += 2) {
+    let first = select(-1, -2, NARROW_BY_TWO);
+    for (var y = first; y <= 4; y += 2) {
+        for (var x = first; x <= 4; x += 2) {
             any_spine |= any_of(four_at(spine_tex, 4 * block + vec2(x, y)));
         }
     }

@@ -7,6 +7,7 @@
 #import common/edge_map.wgsl
 #import common/kept.wgsl
 #import common/noise.wgsl
+#import common/noise_tile.wgsl
 
 // Pixels per workgroup, as in src/render/passes/offset_field.rs.
 const GROUP: u32 = 64u;
@@ -32,6 +33,8 @@ struct Field {
     pixels_per_reference: f32,
     // Of the passes of lines.
     seeds: array<vec4<u32>, 2>,
+    // Periods of the tile per px, for lines that noise of the picture moves.
+    tile_scale: f32,
 }
 
 // Twin: `ObjectUniform` in src/render/passes/offset_field.rs.
@@ -60,13 +63,15 @@ override STEP_1: bool = false;
 var<uniform> field: Field;
 var<storage, read> field_objects: array<FieldObject>;
 var edge_map_tex: texture_storage_2d<rgba32uint, read>;
-// Not 0 where noise is asked for: where lines run, or beside them.
+// Not 0 where lines run.
 var spine_tex: texture_2d<u32>;
 // The pixels in which they do, while they are listed, and afterwards.
 var<storage, read_write> keeping: Counting;
 var<storage, read_write> keeping_pixels: array<u32>;
 var<storage, read> kept: Kept;
 var<storage, read> kept_pixels: array<u32>;
+// A tile of noise of the picture: (turbulence(s, t), turbulence(1 − s, 1 − t)).
+var tiles: texture_2d_array<f32>;
 // Noise of the lines at the pixels in which they run, two halves for each pass.
 var line_field_tex: texture_storage_2d<rgba32uint, write>;
 var more_line_field_tex: texture_storage_2d<rgba32uint, write>;
@@ -165,13 +170,29 @@ fn cs_sift(@builtin(global_invocation_id) id: vec3<u32>) {
     }
 }
 
+fn kept_pixel(number: u32) -> vec2<i32> {
+    let px = kept_pixels[number];
+    return vec2<i32>(vec2(px & 0xffffu, px >> 16u));
+}
+
+// Keeps the noise of all passes at a pixel.
+fn store(px: vec2<i32>, noise: array<vec2<f32>, 8>) {
+    var halves = array<u32, 8>();
+    for (var i = 0u; i < field.passes; i++) {
+        halves[i] = pack2x16float(noise[i]);
+    }
+    textureStore(line_field_tex, px, vec4(halves[0], halves[1], halves[2], halves[3]));
+    if field.passes > 4u {
+        textureStore(more_line_field_tex, px, vec4(halves[4], halves[5], halves[6], halves[7]));
+    }
+}
+
 @compute @workgroup_size(GROUP)
 fn cs_lines(@builtin(global_invocation_id) id: vec3<u32>) {
     if id.x >= kept.count {
         return;
     }
-    let kept_px = kept_pixels[id.x];
-    let px = vec2<i32>(vec2(kept_px & 0xffffu, kept_px >> 16u));
+    let px = kept_pixel(id.x);
     let edge = unpack_edge(textureLoad(edge_map_tex, px));
     let spine = vec2<f32>(px) + 0.5 + edge.offset;
     let tangent = unpack_tangent(edge.tangent);
@@ -180,41 +201,47 @@ fn cs_lines(@builtin(global_invocation_id) id: vec3<u32>) {
     let factor = control_factor(inwards, s);
     let stretch = stretch_at(px, edge, spine);
     let at = pos_view_at(spine, edge.depth);
-    var packed = array<vec4<u32>, 2>(vec4(0u), vec4(0u));
+    var noise = array<vec2<f32>, 8>();
     for (var i = 0u; i < field.passes; i++) {
         let seed = field.seeds[i / 4u][i % 4u];
-        let noise = noise_at(at, s.normal, edge.depth, stretch, field.line_wave, edge.object, seed);
-        packed[i / 4u][i % 4u] = pack2x16float(factor * noise);
+        noise[i] = factor * noise_at(at, s.normal, edge.depth, stretch, field.line_wave, edge.object, seed);
     }
-    textureStore(line_field_tex, px, packed[0]);
-    if field.passes > 4u {
-        textureStore(more_line_field_tex, px, packed[1]);
-    }
+    store(px, noise);
 }
 
-// Noise of whatever enlarged surface a pixel shows (sketchy drawings paper, section 4), beside lines.
+// Noise of whatever enlarged surface the pixel of a line shows (sketchy drawings paper, section 4).
 @compute @workgroup_size(GROUP)
-fn cs_pixels(@builtin(global_invocation_id) id: vec3<u32>) {
+fn cs_enlarged(@builtin(global_invocation_id) id: vec3<u32>) {
     if id.x >= kept.count {
         return;
     }
-    let kept_px = kept_pixels[id.x];
-    let px = vec2<i32>(vec2(kept_px & 0xffffu, kept_px >> 16u));
+    let px = kept_pixel(id.x);
     let s = unpack_surfel(geometry_at(px));
-    var packed = array<vec4<u32>, 2>(vec4(0u), vec4(0u));
+    var noise = array<vec2<f32>, 8>();
     if s.object != 0u {
         let factor = control_factor(px, s);
         let at = pos_view_of(px, s.depth);
         for (var i = 0u; i < field.passes; i++) {
             let seed = field.seeds[i / 4u][i % 4u];
-            let noise = noise_at(at, s.normal, s.depth, 1.0, field.line_wave, s.object, seed);
-            packed[i / 4u][i % 4u] = pack2x16float(factor * noise);
+            noise[i] = factor * noise_at(at, s.normal, s.depth, 1.0, field.line_wave, s.object, seed);
         }
     }
-    textureStore(line_field_tex, px, packed[0]);
-    if field.passes > 4u {
-        textureStore(more_line_field_tex, px, packed[1]);
+    store(px, noise);
+}
+
+// Noise of the picture where lines run (sketchy drawings paper, section 3.2).
+@compute @workgroup_size(GROUP)
+fn cs_screen(@builtin(global_invocation_id) id: vec3<u32>) {
+    if id.x >= kept.count {
+        return;
     }
+    let px = kept_pixel(id.x);
+    let at = vec2<f32>(px) + 0.5 + offset_of(textureLoad(edge_map_tex, px));
+    var noise = array<vec2<f32>, 8>();
+    for (var i = 0u; i < field.passes; i++) {
+        noise[i] = noise_of_tile(tiles, at, i, field.tile_scale);
+    }
+    store(px, noise);
 }
 
 fn is_surface(px: vec2<i32>) -> bool {

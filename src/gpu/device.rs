@@ -312,14 +312,16 @@ pub fn instance_descriptor() -> wgpu::InstanceDescriptor {
 /// So many textures of whole numbers the shader that reads most of them takes.
 const STORAGE_TEXTURES: u32 = 6;
 
-/// What is asked of a device: all that the adapter can do in size, and timers and the choice of instances in indirect draws
-/// where it has them.
+/// What is asked of a device: all that the adapter can do in size, and timers, the choice of instances in indirect draws and
+/// numbers of triangles where it has them.
 pub fn device_descriptor(adapter: &wgpu::Adapter) -> wgpu::DeviceDescriptor<'static> {
     let limits = adapter.limits();
     wgpu::DeviceDescriptor {
         label: Some("hachure"),
         required_features: adapter.features()
-            & (wgpu::Features::TIMESTAMP_QUERY | wgpu::Features::INDIRECT_FIRST_INSTANCE),
+            & (wgpu::Features::TIMESTAMP_QUERY
+                | wgpu::Features::INDIRECT_FIRST_INSTANCE
+                | wgpu::Features::PRIMITIVE_INDEX),
         required_limits: wgpu::Limits {
             max_storage_textures_per_shader_stage: limits
                 .max_storage_textures_per_shader_stage

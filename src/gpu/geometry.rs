@@ -198,6 +198,37 @@ fn by_surface<'a>(mesh: &Mesh, surfaces: &'a Provoking) -> Cow<'a, [u32]> {
     ordered
 }
 
+/// Of each triangle of a mesh, in the order in which it is drawn, the corners (indices of [`Mesh::indices`]) as they are drawn.
+pub fn triangle_corners(mesh: &Mesh, surfaces: Option<&Provoking>) -> Vec<[u32; 3]> {
+    let mut order: Vec<u32> = (0..mesh.triangle_count() as u32).collect();
+    let Some(surfaces) = surfaces else {
+        return order.iter().map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect();
+    };
+    let drawn: &[[u32; 3]] = surfaces.indices.as_chunks().0;
+    let first = |t: &u32| drawn.get(*t as usize).map_or(0, |triangle| triangle[0]);
+    for part in &mesh.parts {
+        let range = part.first_index as usize / 3..(part.first_index + part.index_count) as usize / 3;
+        if let Some(order) = order.get_mut(range) {
+            order.sort_by_key(|t| surfaces.surface_of_vertex.get(first(t) as usize).copied());
+        }
+    }
+    let own = mesh.positions.len();
+    let source = |v: u32| match (v as usize).checked_sub(own) {
+        Some(copy) => surfaces.duplicates.get(copy).copied().unwrap_or(v),
+        None => v,
+    };
+    // Triangles have been rotated.
+    let rotation = |t: u32| {
+        let triangle = mesh.triangles().get(t as usize);
+        triangle.and_then(|triangle| triangle.iter().position(|v| *v == source(first(&t)))).unwrap_or(0)
+    };
+    let corners = |t: u32| {
+        let rotation = rotation(t) as u32;
+        [0, 1, 2].map(|c| 3 * t + (c + rotation) % 3)
+    };
+    order.into_iter().map(corners).collect()
+}
+
 fn mapped(gpu: &Gpu, label: &str, bytes: usize, usage: wgpu::BufferUsages) -> Result<wgpu::Buffer, GpuError> {
     let size = (bytes as u64).max(4).next_multiple_of(4);
     let what = format!("the model ({label})");

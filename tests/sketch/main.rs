@@ -18,6 +18,7 @@ mod profiles;
 mod random;
 mod rays;
 mod stages;
+mod twins;
 
 use std::sync::Arc;
 

@@ -37,6 +37,8 @@ pub struct VisiblePart {
     pub first_index: u32,
     /// Number of indices.
     pub index_count: u32,
+    /// Number of its first triangle in its mesh.
+    pub first_triangle: u32,
     /// First vertex of the mesh.
     pub base_vertex: i32,
 }
@@ -223,6 +225,7 @@ impl Group {
                     origin: Origin::Caps,
                     first_index: cap.range.first_index,
                     index_count: cap.index_count,
+                    first_triangle: 0,
                     base_vertex: cap.range.base_vertex,
                 })
             })
@@ -248,6 +251,7 @@ impl Group {
                     origin,
                     first_index: range.first_index + part.first_index,
                     index_count: part.index_count,
+                    first_triangle: part.first_index / 3,
                     base_vertex: range.base_vertex,
                 })
             })
@@ -305,6 +309,7 @@ impl Group {
                 material: part.material(scene),
                 is_flat: part.is_flat,
                 first_surface: 0,
+                first_triangle: part.first_triangle,
                 enlarged: 0.0,
             };
             draws.push(draw);

@@ -23,6 +23,8 @@ pub struct Instance {
     pub is_flat: bool,
     /// Order of its first surface among those of all draws; at least 1.
     pub first_surface: u32,
+    /// Number of its first triangle in its mesh.
+    pub first_triangle: u32,
     /// How far vertices move along their normals where surfaces are drawn enlarged, px.
     pub enlarged: f32,
 }
@@ -34,7 +36,7 @@ struct Record {
     view_from_local: [[f32; 4]; 4],
     normal_from_local: [[f32; 3]; 3],
     base_color: [f32; 4],
-    ids: [u32; 3],
+    ids: [u32; 4],
     enlarged: f32,
 }
 
@@ -44,7 +46,12 @@ impl From<&Instance> for Record {
             view_from_local: instance.view_from_local.to_cols_array_2d(),
             normal_from_local: instance.normal_from_local.to_cols_array_2d(),
             base_color: instance.material.base_color().to_array(),
-            ids: [instance.object, instance.first_surface, u32::from(instance.is_flat)],
+            ids: [
+                instance.object,
+                instance.first_surface,
+                u32::from(instance.is_flat),
+                instance.first_triangle,
+            ],
             enlarged: instance.enlarged,
         }
     }
@@ -107,7 +114,7 @@ pub const INSTANCES: wgpu::VertexBufferLayout<'static> = wgpu::VertexBufferLayou
     step_mode: wgpu::VertexStepMode::Instance,
     attributes: &wgpu::vertex_attr_array![
         6 => Float32x4, 7 => Float32x4, 8 => Float32x4, 9 => Float32x4,
-        10 => Float32x3, 11 => Float32x3, 12 => Float32x3, 13 => Float32x4, 14 => Uint32x3, 15 => Float32,
+        10 => Float32x3, 11 => Float32x3, 12 => Float32x3, 13 => Float32x4, 14 => Uint32x4, 15 => Float32,
     ],
 };
 

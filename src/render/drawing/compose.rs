@@ -65,6 +65,11 @@ impl Drawing {
             let color = self.color_surfaces(rec, shared, inputs, drawn, &parts, &alone)?;
             let color = self.place_sketches(rec, shared, inputs, drawn, &look, &mut composition, color)?;
             self.see_through(rec, shared, inputs, drawn, &look, &mut composition)?;
+            if composition.is_laid() {
+                self.together.clear();
+                let revisions = vec![composition.surfaces.revision];
+                return Ok(Drawn { color, front: (composition.front(), revisions) });
+            }
             let key = TogetherKey {
                 shaders: rec.pipelines.generation(),
                 opaque: [Some(color.revision), composition.ink.as_ref().map(|ink| ink.revision)],
@@ -130,7 +135,7 @@ impl Drawing {
             }
             if let Some((edges, reach)) = *drawn_lines {
                 let reach = reach.map(|reach| &reach.value);
-                let drawn = self.surfaces.lines(&objects.surfaces, surfaces, edges, reach);
+                let drawn = self.surfaces.lines(&objects.surfaces, surfaces, &edges.value, reach);
                 lines(rec, &drawn, &Pen::PLAIN, &color)?;
             }
             composition.lay_translucent(rec, &color)?;
@@ -152,14 +157,16 @@ impl Drawing {
         let DrawingInputs { seen, objects, shadow_maps, .. } = *inputs;
         self.sketches.truncate(objects.sketches.len());
         self.sketches.resize_with(objects.sketches.len(), || SketchState::new(rec.gpu));
-        for (sketch, state) in objects.sketches.iter().zip(&mut self.sketches) {
+        let is_opaque = objects.blended.is_empty() && objects.blueprints.is_empty();
+        let count = objects.sketches.len();
+        for (number, (sketch, state)) in (1..).zip(objects.sketches.iter().zip(&mut self.sketches)) {
             let inputs = SketchInputs { seen, sketch, uniform: &drawn.uniform, look, shadow_maps };
             let with = Sketching {
                 gbuffer: &mut shared.gbuffer,
                 techniques: &mut shared.techniques,
                 shared: &mut shared.sketches,
             };
-            color = state.place(rec, with, &inputs, composition, &color)?;
+            color = state.place(rec, with, &inputs, composition, &color, is_opaque && number == count)?;
         }
         Ok(color)
     }

@@ -20,7 +20,7 @@ use crate::render::base::instances::DrawCall;
 use crate::render::base::object_axes::ObjectAxes;
 use crate::render::base::stage::Stage;
 use crate::render::base::style_images::StyleImages;
-use crate::render::passes::coordinates::CoordinatesPass;
+use crate::render::passes::coordinates::{Coordinates, CoordinatesPass};
 use crate::style::Technique;
 use crate::style::halftone::{Mapping, Space, Texture};
 use threshold_map::{LAYERS, LEVELS, PERIODS, SIDE, ThresholdMap};
@@ -159,7 +159,7 @@ impl SurfaceTechnique for HalftoneShading {
     type Shared = SharedHalftones;
 
     fn shared(gpu: &Gpu) -> SharedHalftones {
-        SharedHalftones { maps: ThresholdMaps::new(gpu), coordinates: CoordinatesPass::default() }
+        SharedHalftones { maps: ThresholdMaps::new(gpu), coordinates: CoordinatesPass::new(Coordinates::Texture) }
     }
 
     fn new(gpu: &Gpu) -> Self {

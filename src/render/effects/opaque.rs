@@ -23,7 +23,7 @@ use crate::render::passes::composition::ink;
 use crate::render::passes::edge_map::{EdgeInputs, EdgeMap, edge_map};
 use crate::render::passes::gbuffer::GBuffer;
 use crate::render::passes::layers::Reported;
-use crate::render::passes::line_distance::{Reach, line_distance};
+use crate::render::passes::line_distance::{Reach, Widths, line_distance};
 use crate::render::passes::lines::Lines;
 use crate::render::passes::segments::Segments;
 use crate::render::passes::shadows::{ShadowMap, ShadowMask};
@@ -279,8 +279,8 @@ impl OpaqueLayer {
             self.reach.clear();
             return Ok(None);
         };
-        let (radius, styles) = (&mut self.greatest_radius, &group.edge_styles);
-        self.reach.run(revision, |_| line_distance(rec, spines, styles, radius)).map(Some)
+        let (radius, widths) = (&mut self.greatest_radius, Widths::of(&group.edge_styles));
+        self.reach.run(revision, |_| line_distance(rec, spines, widths, radius)).map(Some)
     }
 
     /// The lines of the surfaces.
@@ -288,12 +288,12 @@ impl OpaqueLayer {
         &'a self,
         group: &'a Group,
         surfaces: &'a Surfaces,
-        edges: &'a Output<EdgeMap>,
+        edges: &'a EdgeMap,
         reach: Option<&'a Reach>,
     ) -> Lines<'a> {
         Lines {
             gbuffer: &surfaces.gbuffer.value,
-            edge_map: &edges.value,
+            edge_map: edges,
             reach,
             styles: &group.edge_styles,
             edge_styles: self.edge_styles.buffer(),

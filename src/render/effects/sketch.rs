@@ -1,24 +1,25 @@
 //! Sketches: groups of one layer whose geometry, shade and ink are made as everybody's, and whose place is their own: lines and
-//! colours are fetched from beside where they go, with the depth of what was fetched (Nienhaus and Döllner, "Sketchy Drawings",
+//! colours are drawn beside where they belong, with the depth of where they come from (Nienhaus and Döllner, "Sketchy Drawings",
 //! 2004).
 //!
 //! ```text
-//! geometry ─► shade ──────────────► colour ─► placed by its depth ─┐
-//!    │  └───► noise of surfaces ──────┘                            ├─► composition
-//!    └─► edge map ─► nearest lines ─► ink ──► placed by its depth ─┘
-//!            └─────► noise of lines ──┘
+//! geometry ─► shade ──────────────► colour, fetched from beside ─► placed by its depth ─┐
+//!    │  └───► noise of surfaces ──────┘                                                 ├─► composition
+//!    └─► edge map ─► moved edge map ─► ink ──────────────────────► placed by its depth ─┘
+//!            └─► noise of lines ┘
 //! ```
 
+mod group;
 mod images;
+mod ink;
 mod uniforms;
 
-use glam::Vec2;
-
+pub use self::group::Sketch;
 pub use self::images::prepare_image;
-use self::images::{Paper, SketchImages};
+use self::images::{Prepared, SketchImages};
+use self::ink::{Moved, SketchPass};
 pub use self::uniforms::field;
 use self::uniforms::{SketchObject, SketchUniform};
-use super::hidden::Hidden;
 use super::opaque::{OpaqueInputs, OpaqueLayer, Surfaces};
 use super::surface::{Look, Shading};
 use super::techniques::SharedTechniques;
@@ -27,155 +28,23 @@ use crate::gpu::{ArrayBuffer, DepthRule, Gpu, Inputs, Program, Recorder, Target,
 use crate::render::base::edge_style::EdgeUniform;
 use crate::render::base::error::RenderError;
 use crate::render::base::frame_uniform::FrameUniform;
-use crate::render::base::group::Group;
-use crate::render::base::ids::object_id;
 use crate::render::base::instances::{Instance, Instances};
-use crate::render::base::object_axes::ObjectAxes;
 use crate::render::base::scene_view::SceneView;
 use crate::render::base::stage::{Output, Stage};
-use crate::render::base::strokes::StrokeStyle;
-use crate::render::base::style_images::StyleImages;
 use crate::render::passes::composition::{Composition, PLACED};
 use crate::render::passes::edge_map::EdgeMap;
 use crate::render::passes::gbuffer::GBuffer;
 use crate::render::passes::layers::Reported;
-use crate::render::passes::line_distance::{Reach, have_widths, nearest_lines};
-use crate::render::passes::lines::Lines;
+use crate::render::passes::line_distance::nearest_lines;
+use crate::render::passes::moved_edges::MovedEdgesPass;
 use crate::render::passes::offset_field::{
-    FieldBuffers, FieldUniform, LineField, LineFieldPass, ObjectUniform, fill_field, nearest_surfaces,
+    FieldBuffers, FieldUniform, LineField, LineFieldPass, NoiseSource, ObjectUniform, fill_field,
+    nearest_surfaces,
 };
 use crate::render::passes::shadows::ShadowMap;
 use crate::render::passes::traversal::GBufferPass;
-use crate::scene::AlphaMode;
-use crate::style::sketch::{Anchor, DepthRule as StyleDepth, Exterior, Tone};
-use crate::style::{self, Style, Technique};
-
-/// Objects that are drawn as by hand in one way, together.
-#[derive(Clone, PartialEq)]
-pub struct Sketch {
-    /// The objects.
-    pub group: Group,
-    /// Their hidden lines.
-    pub hidden: Hidden,
-    style: style::Sketch,
-    paper: Paper,
-    /// Whether something shows through any of them.
-    blends: bool,
-    /// Pixels per reference pixel.
-    scale: f32,
-}
-
-impl Sketch {
-    /// Whether a style is drawn as by hand; one that moves and roughens nothing is not.
-    pub fn moves(style: &Style) -> bool {
-        let sketch = &style.sketch;
-        let style::sketch::Sketch { wander, passes, pass, fill, grain, strokes, .. } = sketch;
-        let still = style::Sketch::default();
-        let is_still = |matrix: style::Matrix| wander.amount <= 0.0 || matrix == style::Matrix::ZERO;
-        let is_plain_pass = |pass: &style::sketch::Pass| {
-            is_still(pass.matrix) && pass.color.is_none() && pass.width == 1.0 && pass.density == 1.0
-        };
-        let is_plain_fill = fill.show
-            && is_still(fill.matrix)
-            && (fill.density, fill.tone, fill.surface_color, fill.strokes)
-                == (1.0, still.fill.tone, 1.0, 0.0);
-        let is_plain_grain = grain.amount <= 0.0 && grain.roughness <= 0.0 && grain.smudge <= 0.0;
-        let is_plain = *passes == 1
-            && is_plain_pass(&pass[0])
-            && is_plain_fill
-            && is_plain_grain
-            && wander.pressure <= 0.0
-            && !strokes.enabled;
-        sketch.enabled && style.technique != Technique::Blueprint && !is_plain
-    }
-
-    /// The sketch to which an object of this style belongs, in a scene with `count` object ids; `scale`: pixels per reference
-    /// pixel.
-    pub fn group_of<'a>(
-        all: &'a mut Vec<Self>,
-        style: &Style,
-        count: usize,
-        images: &StyleImages,
-        scale: f32,
-    ) -> &'a mut Self {
-        let found = all.iter().position(|sketch| sketch.style == style.sketch);
-        let index = found.unwrap_or(all.len());
-        if found.is_none() {
-            let strokes = StrokeStyle::new(&style.sketch.strokes, style.sketch.wander.seed, scale);
-            all.push(Self {
-                group: Group::new(count).with_strokes(strokes),
-                hidden: Hidden::default(),
-                style: style.sketch.clone(),
-                paper: Paper::of(&style.sketch, images),
-                blends: false,
-                scale,
-            });
-        }
-        &mut all[index]
-    }
-
-    /// Tells it what an object that was added is made of.
-    pub fn add_alphas(&mut self, mut alphas: impl Iterator<Item = AlphaMode>) {
-        self.blends |= alphas.any(|alpha| alpha == AlphaMode::Blend);
-    }
-
-    /// Greatest distance from where it belongs at which anything is drawn, px.
-    pub fn greatest_reach(&self) -> f32 {
-        let [lines, fill] = uniforms::bands(&self.style, self.scale);
-        (self.group.greatest_reach() * self.widest() + lines).max(fill)
-    }
-
-    fn widest(&self) -> f32 {
-        self.passes().iter().map(|pass| pass.width.clamp(0.1, 4.0)).fold(1.0, f32::max)
-    }
-
-    fn passes(&self) -> &[style::sketch::Pass] {
-        let all = &self.style.pass;
-        let count = (self.style.passes as usize).clamp(1, all.len());
-        all.get(..count).unwrap_or(all)
-    }
-
-    fn is_enlarged(&self) -> bool {
-        self.style.wander.exterior == Exterior::Enlarged && !self.is_on_screen()
-    }
-
-    fn is_on_screen(&self) -> bool {
-        self.style.wander.anchor == Anchor::Screen
-    }
-
-    /// Whether anything of the tile of paper is seen.
-    fn has_paper(&self) -> bool {
-        let style::Sketch { fill, grain, .. } = &self.style;
-        grain.amount > 0.0 || grain.roughness > 0.0 || fill.strokes > 0.0
-    }
-
-    fn field(&self) -> FieldUniform {
-        uniforms::field(&self.style, self.scale)
-    }
-
-    /// How noise is found for each of its objects, and where their middles are.
-    fn objects(&self, seen: &SceneView<'_>) -> (Vec<ObjectUniform>, Vec<SketchObject>) {
-        let count = self.group.edge_styles.len();
-        let mut fields = vec![ObjectUniform::default(); count];
-        let mut places = vec![SketchObject::default(); count];
-        // The noise does not shake with the samples of a picture.
-        let view = seen.view.moved(Vec2::ZERO);
-        let projector = view.projector();
-        for object in self.group.visible() {
-            let id = object_id(object.node);
-            let Some(axes) = ObjectAxes::of(seen.scene, id, &view) else { continue };
-            let (Some(field), Some(place)) = (fields.get_mut(id as usize), places.get_mut(id as usize))
-            else {
-                continue;
-            };
-            field.from_view = axes.from_view.as_mat4();
-            field.seed = if self.style.wander.by_object { id } else { 0 };
-            let middle = projector.pixel(axes.middle);
-            place.middle = if middle.is_finite() { middle.as_vec2() } else { Vec2::ZERO };
-        }
-        (fields, places)
-    }
-}
+use crate::style;
+use crate::style::sketch::{DepthRule as StyleDepth, Tone};
 
 /// What sketches of all cameras share.
 pub struct SharedSketches {
@@ -251,8 +120,11 @@ struct PlaceKey {
     edges: Option<u64>,
     near_lines: Option<u64>,
     hidden: Option<u64>,
-    fields: [Option<u64>; 2],
+    fill_field: u64,
+    /// Of the lines that reach each pixel, by pass.
+    moved: Vec<u64>,
     before: [Option<u64>; 3],
+    lays_ink: bool,
     sketch: SketchUniform,
     objects: Vec<SketchObject>,
     styles: Vec<EdgeUniform>,
@@ -268,6 +140,7 @@ pub struct SketchState {
     shading: Shading,
     color: Stage<ShadeKey, Target>,
     near_radius: ArrayBuffer,
+    /// For smudges.
     near_lines: Stage<(u64, u32), Target>,
     enlarged: Stage<(u64, f32), GBuffer>,
     instances: Instances,
@@ -277,6 +150,8 @@ pub struct SketchState {
     line_field_pass: LineFieldPass,
     line_field: Stage<FieldKey, LineField>,
     fill_field: Stage<FieldKey, Target>,
+    moved_pass: MovedEdgesPass,
+    passes: Vec<SketchPass>,
     uniform: UniformBuffer<SketchUniform>,
     objects: ArrayBuffer,
     placed: Stage<PlaceKey, Placed>,
@@ -287,10 +162,10 @@ struct Fetched<'a> {
     surfaces: &'a Surfaces,
     color: Output<Target>,
     edges: Option<Output<EdgeMap>>,
-    reach: Option<Reach>,
     near_lines: Option<Output<Target>>,
     hidden: Option<Output<Target>>,
-    line_field: Option<Output<LineField>>,
+    /// By pass; empty: there are no exact lines.
+    moved: Vec<Moved>,
     fill_field: Output<Target>,
 }
 
@@ -311,6 +186,8 @@ impl SketchState {
             line_field_pass: LineFieldPass::new(gpu),
             line_field: Stage::default(),
             fill_field: Stage::default(),
+            moved_pass: MovedEdgesPass::new(gpu),
+            passes: Vec::new(),
             uniform: UniformBuffer::new(gpu, "sketch"),
             objects: ArrayBuffer::new(gpu, "objects of a sketch"),
             placed: Stage::default(),
@@ -321,7 +198,7 @@ impl SketchState {
     pub fn runs(&self) -> Vec<(&'static str, u64)> {
         let mut runs = self.layer.runs().to_vec();
         runs.extend([
-            ("line distance", self.near_lines.runs()),
+            ("moved edges", self.passes.iter().map(SketchPass::runs).sum()),
             ("noise", self.line_field.runs() + self.fill_field.runs()),
             ("sketch", self.placed.runs()),
         ]);
@@ -333,7 +210,8 @@ impl SketchState {
         self.layer.take_reports()
     }
 
-    /// Places the sketch among what is opaque, of which `color` is the colour without lines; returns that with the sketch.
+    /// Places the sketch among what is opaque, of which `color` is the colour without lines; returns that with the sketch, and with
+    /// its ink if `is_last`: nothing is placed among it any more.
     ///
     /// # Errors
     /// [`RenderError`].
@@ -344,6 +222,7 @@ impl SketchState {
         inputs: &SketchInputs<'_>,
         composition: &mut Composition,
         color: &Output<Target>,
+        is_last: bool,
     ) -> Result<Output<Target>, RenderError> {
         let SketchInputs { seen, sketch, uniform, shadow_maps, .. } = *inputs;
         let Sketching { gbuffer: pass, techniques, shared } = with;
@@ -353,91 +232,38 @@ impl SketchState {
         let edges = if group.have_lines() { Some(self.layer.edges(rec, &own, &surfaces)?) } else { None };
         let hidden = self.layer.hidden_lines(rec, pass, &own, &sketch.hidden, edges.as_ref())?;
         let shaded = self.shade(rec, techniques, inputs, &surfaces)?;
-        let (field_objects, objects) = sketch.objects(&seen);
-        let [line_band, fill_band] = uniforms::bands(&sketch.style, sketch.scale);
-        let near_lines = self.near_lines(rec, sketch, edges.as_ref(), line_band)?;
-        let reach = match (&near_lines, have_widths(&group.edge_styles)) {
-            (Some(near), false) => Some(Reach::Wide { farthest: near.value.clone(), nearest: None }),
-            (Some(near), true) => {
-                let reach = self.layer.reach(rec, group, edges.as_ref())?;
-                match reach.map(|reach| reach.value) {
-                    Some(Reach::Wide { farthest, .. }) => {
-                        Some(Reach::Wide { farthest, nearest: Some(near.value.clone()) })
-                    }
-                    other => other,
-                }
-            }
-            (None, _) => None,
-        };
-        let geometry = &surfaces.gbuffer;
-        // Lines of the papers' operators follow surfaces too.
-        let band = line_band.max(fill_band);
-        let enlarged = self.enlarge(rec, pass, inputs, &surfaces)?;
-        let followed = enlarged.as_ref().unwrap_or(geometry);
-        let nearest = self.nearest_surfaces.run((followed.revision, band as u32), |_| {
-            nearest_surfaces(rec, &followed.value.geometry, band)
-        })?;
-        let field = sketch.field();
-        let key = |of| FieldKey {
-            of,
-            field,
-            objects: field_objects.clone(),
-            uniform: uniform.without_background(),
-        };
-        self.field.write(rec.gpu, &field);
-        self.field_objects.write(rec.gpu, &field_objects);
-        let buffers = FieldBuffers { field: self.field.buffer(), objects: self.field_objects.buffer() };
-        let line_field = match &edges {
-            Some(Output { value: EdgeMap { edges, spines: Some(spines), .. }, revision })
-                if !sketch.is_on_screen() =>
-            {
-                let pass = &mut self.line_field_pass;
-                let drawn = match (&enlarged, &near_lines) {
-                    (Some(_), Some(near)) => (None, &near.value),
-                    _ => (Some(edges), spines),
-                };
-                Some(self.line_field.run(key([*revision, followed.revision]), |_| {
-                    pass.run(rec, buffers, &followed.value, drawn, field.passes)
-                })?)
-            }
-            _ => {
-                self.line_field.clear();
-                None
-            }
-        };
-        rec.note("noise of lines", line_field.as_ref().map(|field| &field.value.first));
-        let fill_field = self.fill_field.run(key([nearest.revision, followed.revision]), |_| {
-            fill_field(rec, buffers, &followed.value.geometry, &nearest.value)
-        })?;
-        let fetched = Fetched {
-            surfaces: &surfaces,
-            color: shaded,
-            edges,
-            reach,
-            near_lines,
-            hidden,
-            line_field,
-            fill_field,
-        };
         let noise = sketch.is_on_screen().then_some(&sketch.style.wander);
         let paper = sketch.has_paper().then_some(&sketch.paper);
         let images = shared.images.prepare(rec.gpu, noise, paper)?;
+        let (field_objects, objects) = sketch.objects(&seen);
+        let enlarged = self.enlarge(rec, pass, inputs, &surfaces)?;
+        let key = |of| FieldKey {
+            of,
+            field: sketch.field(),
+            objects: field_objects.clone(),
+            uniform: uniform.without_background(),
+        };
+        self.field.write(rec.gpu, &sketch.field());
+        self.field_objects.write(rec.gpu, &field_objects);
+        let moved = self.move_lines(rec, sketch, edges.as_ref(), (&surfaces, enlarged.as_ref()), &images, &key)?;
+        let fill_field = self.fill_field(rec, sketch, enlarged.as_ref().unwrap_or(&surfaces.gbuffer), &key)?;
+        let near_lines = self.near_lines(rec, sketch, edges.as_ref())?;
+        let lays_ink = is_last && composition.ink.is_none();
         let key = PlaceKey {
             shaders: rec.pipelines.generation(),
-            color: fetched.color.revision,
-            geometry: geometry.revision,
-            edges: fetched.edges.as_ref().map(|edges| edges.revision),
-            near_lines: fetched.near_lines.as_ref().map(|near| near.revision),
-            hidden: fetched.hidden.as_ref().map(|hidden| hidden.revision),
-            fields: [
-                fetched.line_field.as_ref().map(|field| field.revision),
-                Some(fetched.fill_field.revision),
-            ],
+            color: shaded.revision,
+            geometry: surfaces.gbuffer.revision,
+            edges: edges.as_ref().map(|edges| edges.revision),
+            near_lines: near_lines.as_ref().map(|near| near.revision),
+            hidden: hidden.as_ref().map(|hidden| hidden.revision),
+            fill_field: fill_field.revision,
+            moved: moved.iter().map(|moved| moved.reach.revision).collect(),
             before: [
                 Some(composition.surfaces.revision),
                 composition.ink.as_ref().map(|ink| ink.revision),
                 Some(color.revision),
             ],
+            lays_ink,
             sketch: SketchUniform::new(&sketch.style, sketch.scale),
             objects,
             styles: group.edge_styles.clone(),
@@ -445,7 +271,11 @@ impl SketchState {
             images: images.revision,
             style: sketch.style.clone(),
         };
-        let Self { layer, uniform, objects, placed, .. } = self;
+        let fetched = Fetched { surfaces: &surfaces, color: shaded, edges, near_lines, hidden, moved, fill_field };
+        // Ink that is there is placed anew once.
+        let count = if fetched.edges.is_some() { sketch.passes().len() } else { 1 };
+        self.passes.resize_with(count.max(self.passes.len()), || SketchPass::new(rec.gpu));
+        let Self { layer, uniform, objects, placed, passes, .. } = self;
         let placed = placed.run(key, |key| {
             uniform.write(rec.gpu, &key.sketch);
             objects.write(rec.gpu, &key.objects);
@@ -456,13 +286,76 @@ impl SketchState {
                 paper: images.paper,
                 tile_sampler: images.sampler,
             };
-            let drawing = Placing { sketch, layer, fetched: &fetched, composition, before: &color.value };
-            drawing.place(rec, own)
+            let numbers: Vec<_> = (0..count).zip(passes).map(|(i, pass)| pass.number(rec.gpu, i)).collect();
+            let before = &color.value;
+            let drawing = Placing { sketch, layer, fetched: &fetched, composition, before, own, numbers };
+            drawing.place(rec, lays_ink)
         })?;
         let Output { value: Placed { geometry, color, ink }, revision } = placed;
         let ink = ink.map(|value| Output { value, revision });
         composition.place_opaque(Output { value: geometry, revision }, ink);
         Ok(Output { value: color, revision })
+    }
+
+    /// The exact lines of each pass where noise moves them; empty: there are none.
+    fn move_lines(
+        &mut self,
+        rec: &mut Recorder<'_>,
+        sketch: &Sketch,
+        edges: Option<&Output<EdgeMap>>,
+        (surfaces, enlarged): (&Surfaces, Option<&Output<GBuffer>>),
+        images: &Prepared<'_>,
+        key: &impl Fn([u64; 2]) -> FieldKey,
+    ) -> Result<Vec<Moved>, RenderError> {
+        let spines = edges.and_then(|edges| Some((edges, edges.value.spines.as_ref()?)));
+        let Some((edges, spines)) = spines else {
+            self.line_field.clear();
+            self.passes.iter_mut().for_each(SketchPass::forget);
+            return Ok(Vec::new());
+        };
+        let (source, revision) = if sketch.is_on_screen() {
+            (NoiseSource::Tile(images.tile), images.revision)
+        } else if let Some(enlarged) = enlarged {
+            (NoiseSource::Enlarged(&enlarged.value), enlarged.revision)
+        } else {
+            (NoiseSource::Lines(&surfaces.gbuffer.value), surfaces.gbuffer.revision)
+        };
+        let buffers = FieldBuffers { field: self.field.buffer(), objects: self.field_objects.buffer() };
+        let pass = &mut self.line_field_pass;
+        let count = sketch.passes().len();
+        let field = self.line_field.run(key([edges.revision, revision]), |_| {
+            pass.sift(rec, spines)?;
+            pass.run(rec, buffers, &edges.value.edges, source, count as u32)
+        })?;
+        rec.note("noise of lines", Some(&field.value.first));
+        self.passes.truncate(count);
+        self.passes.resize_with(count, || SketchPass::new(rec.gpu));
+        let Self { passes, moved_pass, line_field_pass, .. } = self;
+        let pixels = line_field_pass.pixels();
+        let all = passes.iter_mut().enumerate();
+        all.map(|(number, pass)| pass.run(rec, moved_pass, (sketch, number), (edges, spines), &field, pixels))
+            .collect()
+    }
+
+    /// Noise of the nearest surface around each block.
+    fn fill_field(
+        &mut self,
+        rec: &mut Recorder<'_>,
+        sketch: &Sketch,
+        followed: &Output<GBuffer>,
+        key: &impl Fn([u64; 2]) -> FieldKey,
+    ) -> Result<Output<Target>, RenderError> {
+        // Ink of the papers' operators follows surfaces too.
+        let [lines, fill] = uniforms::bands(&sketch.style, sketch.scale);
+        let band = lines.max(fill);
+        let geometry = &followed.value.geometry;
+        let nearest = self
+            .nearest_surfaces
+            .run((followed.revision, band as u32), |_| nearest_surfaces(rec, geometry, band))?;
+        let buffers = FieldBuffers { field: self.field.buffer(), objects: self.field_objects.buffer() };
+        self.fill_field.run(key([nearest.revision, followed.revision]), |_| {
+            fill_field(rec, buffers, geometry, &nearest.value)
+        })
     }
 
     /// The surfaces enlarged along their normals, where the noise beyond outlines follows them.
@@ -514,25 +407,22 @@ impl SketchState {
         })
     }
 
-    /// The line next to each pixel, from as far as offsets go.
+    /// The line next to each pixel, from as far as it is smudged; `None`: none is.
     fn near_lines(
         &mut self,
         rec: &mut Recorder<'_>,
         sketch: &Sketch,
         edges: Option<&Output<EdgeMap>>,
-        band: f32,
     ) -> Result<Option<Output<Target>>, RenderError> {
+        let distance = uniforms::smudged(&sketch.style, sketch.scale);
         let spines = edges.and_then(|edges| Some((edges.revision, edges.value.spines.as_ref()?)));
-        let Some((revision, spines)) = spines else {
+        let Some((revision, spines)) = spines.filter(|_| distance > 0.0) else {
             self.near_lines.clear();
             return Ok(None);
         };
-        let distance = band + (sketch.group.greatest_radius() * sketch.widest()).ceil();
         let radius = &mut self.near_radius;
-        let near = self
-            .near_lines
-            .run((revision, distance as u32), |_| nearest_lines(rec, spines, distance, radius))?;
-        Ok(Some(near))
+        let key = (revision, distance.ceil() as u32);
+        self.near_lines.run(key, |_| nearest_lines(rec, spines, distance.ceil(), radius)).map(Some)
     }
 }
 
@@ -543,93 +433,149 @@ struct Placing<'a> {
     fetched: &'a Fetched<'a>,
     composition: &'a Composition,
     before: &'a Target,
+    /// Of the sketch itself.
+    own: Inputs<'a>,
+    /// Numbers of its passes.
+    numbers: Vec<&'a wgpu::Buffer>,
 }
 
 impl Placing<'_> {
-    fn place(&self, rec: &mut Recorder<'_>, own: Inputs<'_>) -> Result<Placed, RenderError> {
-        let Self { sketch, layer, fetched, composition, before } = *self;
-        let group = &sketch.group;
-        let style = &sketch.style;
-        let near_lines = fetched.near_lines.as_ref().map(|near| &near.value);
-        let line_field = fetched.line_field.as_ref().map(|field| &field.value);
-        let no_edges = fetched.edges.is_none();
-        let lines = fetched
-            .edges
-            .as_ref()
-            .map(|edges| layer.lines(group, fetched.surfaces, edges, fetched.reach.as_ref()));
-        let mut inputs = own.and(&composition.tested()).and(&inputs! {
+    /// Places colour, then ink: over the colour if it `lays_ink`.
+    fn place(&self, rec: &mut Recorder<'_>, lays_ink: bool) -> Result<Placed, RenderError> {
+        let Self { composition, before, .. } = *self;
+        let [geometry, color] = [&composition.surfaces.value, before].map(|target| target.format());
+        let geometry = rec.target("geometry with sketch", geometry)?;
+        let color = rec.target("color with sketch", color)?;
+        self.place_color(rec, &geometry, &color)?;
+        let ink = if self.fetched.edges.is_none() && composition.ink.is_none() {
+            None
+        } else if lays_ink {
+            for number in 0..self.numbers.len() {
+                self.draw_ink(rec, number, (&geometry, None), (&color, "fs_lay_ink", Onto::Blended))?;
+            }
+            None
+        } else {
+            let mut before = composition.ink.as_ref().map(|ink| ink.value.clone());
+            for number in 0..self.numbers.len() {
+                let ink = rec.target("ink with sketch", PLACED)?;
+                self.draw_ink(rec, number, (&geometry, before.as_ref()), (&ink, "fs_ink", Onto::Nothing))?;
+                before = Some(ink);
+            }
+            before
+        };
+        Ok(Placed { geometry, color, ink })
+    }
+
+    /// What colour and ink read.
+    fn inputs(&self) -> Inputs<'_> {
+        let Self { fetched, composition, .. } = self;
+        self.own.clone().and(&composition.tested()).and(&inputs! {
             geometry_tex: &fetched.surfaces.gbuffer.value.geometry,
-            shaded_tex: &fetched.color.value,
-            hidden_tex: fetched.hidden.as_ref().map(|hidden| &hidden.value),
-            near_line_tex: near_lines,
-            line_field_tex: line_field.map(|field| &field.first),
-            more_line_field_tex: line_field.and_then(|field| field.more.as_ref()),
             fill_field_tex: &fetched.fill_field.value,
-            before_tex: before,
-        });
-        if let Some(lines) = &lines {
-            inputs.extend(&lines.inputs());
-        }
+        })
+    }
+
+    fn switches(&self) -> Vec<(&'static str, bool)> {
+        let Self { sketch, fetched, composition, .. } = self;
+        let style = &sketch.style;
         let mut switches = vec![
             ("ON_SCREEN", sketch.is_on_screen()),
-            ("BY_PIXEL", sketch.is_enlarged()),
+            ("ENLARGED", sketch.is_enlarged()),
             ("WITH_NEARER", style.wander.depth == StyleDepth::Nearer),
-            ("WITH_MORE_PASSES", line_field.is_some_and(|field| field.more.is_some())),
             ("WITH_GRAIN", style.grain.amount > 0.0),
             ("WITH_ROUGHNESS", style.grain.roughness > 0.0),
             ("WITH_STROKES", style.fill.strokes > 0.0),
             ("WITH_PRESSURE", style.wander.pressure > 0.0),
             ("WITH_DARKNESS", style.fill.tone == Tone::Darkness),
-            ("WITH_SMUDGE", style.grain.smudge > 0.0 && near_lines.is_some()),
+            ("WITH_SMUDGE", fetched.near_lines.is_some()),
             ("WITH_OPACITY", sketch.blends),
             ("WITH_HIDDEN", fetched.hidden.is_some()),
-            ("WITH_NEAREST", near_lines.is_some()),
         ];
         switches.extend(composition.switches());
-        switches.extend(lines.as_ref().map(Lines::switches).unwrap_or_default());
-        let [geometry, color] = [&composition.surfaces.value, before].map(|target| target.format());
-        let geometry = rec.target("geometry with sketch", geometry)?;
-        let color = rec.target("color with sketch", color)?;
+        switches
+    }
+
+    fn place_color(
+        &self,
+        rec: &mut Recorder<'_>,
+        geometry: &Target,
+        color: &Target,
+    ) -> Result<(), RenderError> {
+        let Self { fetched, composition, before, .. } = self;
+        let inputs = self.inputs().and(&inputs! {
+            shaded_tex: &fetched.color.value,
+            hidden_tex: fetched.hidden.as_ref().map(|hidden| &hidden.value),
+            near_line_tex: fetched.near_lines.as_ref().map(|near| &near.value),
+            before_tex: *before,
+        });
         let onto = if composition.has_surfaces {
-            rec.copy(&composition.surfaces.value, &geometry);
-            rec.copy(before, &color);
+            rec.copy(&composition.surfaces.value, geometry);
+            rec.copy(before, color);
             Onto::Old
         } else {
             Onto::Nothing
         };
-        let program = |entry_point, switches: &[(&'static str, bool)]| Program {
-            file: "effects/sketch.wgsl",
-            entry_point,
-            switches: switches.to_vec(),
-        };
-        let depth = wgpu::TextureFormat::Depth32Float;
-        let filled = rec.target("reached by color", depth)?;
+        let filled = rec.target("reached by color", wgpu::TextureFormat::Depth32Float)?;
         rec.draw(Draw {
             label: "sketched color",
-            program: program("fs_fill", &switches),
+            program: Program {
+                file: "effects/sketch.wgsl",
+                entry_point: "fs_fill",
+                switches: self.switches(),
+            },
             inputs: &inputs,
-            outputs: &[&geometry, &color],
+            outputs: &[geometry, color],
             onto,
             depth: Some((&filled, DepthRule::Marked("fs_filled"))),
         })?;
-        if no_edges && composition.ink.is_none() {
-            return Ok(Placed { geometry, color, ink: None });
-        }
-        if no_edges {
+        Ok(())
+    }
+
+    /// Draws the ink of a pass, with that `before` it.
+    fn draw_ink(
+        &self,
+        rec: &mut Recorder<'_>,
+        number: usize,
+        (geometry, before): (&Target, Option<&Target>),
+        (output, entry_point, onto): (&Target, &'static str, Onto),
+    ) -> Result<(), RenderError> {
+        let Self { sketch, layer, fetched, .. } = self;
+        let moved = fetched.moved.get(number);
+        let edges = moved.map(|moved| moved.edges.edge_map());
+        let edges = edges.as_ref().or(fetched.edges.as_ref().map(|edges| &edges.value));
+        let mut inputs = self.inputs();
+        let mut switches = self.switches();
+        if let Some(edges) = edges {
+            let reach = moved.map(|moved| &moved.reach.value);
+            let lines = layer.lines(&sketch.group, fetched.surfaces, edges, reach);
+            inputs.extend(&lines.inputs());
+            switches.extend(lines.switches());
+        } else {
             // What is new hides ink that is there.
             switches.extend([("WITH_PAPER", false), ("WITH_EXACT", false)]);
         }
-        inputs.set("filled_tex", &geometry);
-        let ink = rec.target("ink with sketch", PLACED)?;
-        let inked = rec.target("reached by ink", depth)?;
+        inputs.extend(&inputs! {
+            pass_number: self.numbers[number],
+            paper_map_tex: fetched.edges.as_ref().map(|edges| &edges.value.edges),
+            source_tex: moved.map(|moved| &moved.edges.sources),
+            filled_tex: geometry,
+            opaque_ink_tex: before,
+        });
+        switches.retain(|(name, _)| *name != "WITH_OPAQUE_INK");
+        switches.extend([
+            ("MOVED", true),
+            ("WITH_OPAQUE_INK", before.is_some()),
+            ("BEFORE_IS_OTHER", number == 0),
+        ]);
+        let inked = rec.target("reached by ink", wgpu::TextureFormat::Depth32Float)?;
         rec.draw(Draw {
             label: "sketched ink",
-            program: program("fs_ink", &switches),
+            program: Program { file: "effects/sketch.wgsl", entry_point, switches },
             inputs: &inputs,
-            outputs: &[&ink],
-            onto: Onto::Nothing,
+            outputs: &[output],
+            onto,
             depth: Some((&inked, DepthRule::Marked("fs_inked"))),
         })?;
-        Ok(Placed { geometry, color, ink: Some(ink) })
+        Ok(())
     }
 }

@@ -66,6 +66,11 @@ impl Composition {
         self.translucent.iter().map(|picture| picture.revision).collect()
     }
 
+    /// Whether nothing is left to be laid over the colour of what is opaque.
+    pub fn is_laid(&self) -> bool {
+        self.ink.is_none() && self.translucent.is_empty()
+    }
+
     /// The picture of what is seen through, if it is all there is.
     pub fn only_translucent(&self) -> Option<&Target> {
         match self.translucent.as_slice() {

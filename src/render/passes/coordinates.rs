@@ -12,19 +12,54 @@ use crate::render::base::error::RenderError;
 use crate::render::base::gpu_scene::GpuScene;
 use crate::render::base::instances::{DrawCall, INSTANCES, Instances, runs};
 
-/// Texture coordinates and their change from pixel to pixel: see `shaders/passes/coordinates.wgsl`.
+/// What both shaders of this pass write.
 const COORDINATES: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Uint;
 
+/// What is drawn of surfaces.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Coordinates {
+    /// Texture coordinates and their change from pixel to pixel: see `shaders/passes/coordinates.wgsl`.
+    Texture,
+    /// Triangles, and places in local space: see `shaders/passes/triangle_map.wgsl`.
+    Triangles,
+}
+
+impl Coordinates {
+    /// Whether a device can draw them.
+    pub fn are_supported(self, gpu: &Gpu) -> bool {
+        self == Self::Texture || gpu.device.features().contains(wgpu::Features::PRIMITIVE_INDEX)
+    }
+
+    fn label(self) -> &'static str {
+        match self {
+            Self::Texture => "coordinates",
+            Self::Triangles => "triangles",
+        }
+    }
+
+    fn file(self) -> &'static str {
+        match self {
+            Self::Texture => "passes/coordinates.wgsl",
+            Self::Triangles => "passes/triangle_map.wgsl",
+        }
+    }
+}
+
 /// The pipelines of the pass by the side of triangles that is left out, made when first needed.
-#[derive(Default)]
 pub struct CoordinatesPass {
+    what: Coordinates,
     pipelines: HashMap<Option<wgpu::Face>, wgpu::RenderPipeline>,
     generation: u64,
 }
 
 impl CoordinatesPass {
-    /// Draws parts of the scene of which a G-buffer was made from the same instances; 0 elsewhere. Their meshes must have
-    /// texture coordinates.
+    /// Compiles nothing yet.
+    pub fn new(what: Coordinates) -> Self {
+        Self { what, pipelines: HashMap::new(), generation: 0 }
+    }
+
+    /// Draws parts of the scene of which a G-buffer was made from the same instances; 0 elsewhere. For texture coordinates
+    /// their meshes must have some.
     ///
     /// # Errors
     /// [`RenderError`].
@@ -36,15 +71,16 @@ impl CoordinatesPass {
         instances: &Instances,
         calls: &[DrawCall],
     ) -> Result<Target, RenderError> {
-        let target = rec.target("coordinates", COORDINATES)?;
+        let what = self.what;
+        let target = rec.target(what.label(), COORDINATES)?;
         if self.generation != rec.pipelines.generation() {
             self.pipelines.clear();
             self.generation = rec.pipelines.generation();
         }
         for call in calls {
             if let Entry::Vacant(place) = self.pipelines.entry(call.hidden_side) {
-                let module = rec.pipelines.module(rec.gpu, "passes/coordinates.wgsl")?;
-                place.insert(build(rec.gpu, &module, rec.pipelines.frame_layout(), call.hidden_side));
+                let module = rec.pipelines.module(rec.gpu, what.file())?;
+                place.insert(build(rec.gpu, &module, rec.pipelines.frame_layout(), call.hidden_side, what));
             }
         }
         let runs = runs(rec, calls);
@@ -54,16 +90,17 @@ impl CoordinatesPass {
             depth_ops: None,
             stencil_ops: None,
         };
-        let mut pass = rec.pass("coordinates", &color, Some(depth));
+        let mut pass = rec.pass(what.label(), &color, Some(depth));
         let mut origin = None;
         for run in &runs {
             let call = &run.call;
             let geometry = scene.geometry(call.origin);
-            if geometry.attributes.is_none() {
+            let attributes = geometry.attributes.as_ref().filter(|_| what == Coordinates::Texture);
+            if attributes.is_none() && what == Coordinates::Texture {
                 continue;
             }
             if origin != Some(call.origin) {
-                geometry.bind(&mut pass, 1, &[Some(&geometry.positions), geometry.attributes.as_ref()]);
+                geometry.bind(&mut pass, 1, &[Some(&geometry.positions), attributes]);
                 origin = Some(call.origin);
             }
             let Some(pipeline) = self.pipelines.get(&call.hidden_side) else { continue };
@@ -80,20 +117,24 @@ fn build(
     module: &wgpu::ShaderModule,
     frame_layout: &wgpu::BindGroupLayout,
     hidden_side: Option<wgpu::Face>,
+    what: Coordinates,
 ) -> wgpu::RenderPipeline {
+    let label = Some(what.label());
+    let buffers = [Some(INSTANCES), Some(POSITIONS), Some(Attributes::LAYOUT)];
+    let count = if what == Coordinates::Texture { 3 } else { 2 };
     let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-        label: Some("coordinates"),
+        label,
         bind_group_layouts: &[Some(frame_layout)],
         immediate_size: 0,
     });
     gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: Some("coordinates"),
+        label,
         layout: Some(&layout),
         vertex: wgpu::VertexState {
             module,
             entry_point: Some("vs_main"),
             compilation_options: wgpu::PipelineCompilationOptions::default(),
-            buffers: &[Some(INSTANCES), Some(POSITIONS), Some(Attributes::LAYOUT)],
+            buffers: &buffers[..count],
         },
         primitive: wgpu::PrimitiveState { cull_mode: hidden_side, ..Default::default() },
         // What the G-buffer shows lies exactly there; holes by alpha too are none of it.

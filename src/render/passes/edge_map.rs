@@ -14,7 +14,7 @@ use crate::gpu::{DepthRule, Program, Recorder, Target, inputs};
 use crate::render::base::edge_style::EdgeUniform;
 use crate::render::base::error::RenderError;
 
-const EDGE_MAP: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Uint;
+pub(super) const EDGE_MAP: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Uint;
 const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 
 /// The edge map, and of its lines what [`super::line_distance`] reads.

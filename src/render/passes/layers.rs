@@ -25,7 +25,7 @@ use crate::render::base::instances::{DrawCall, Instance, Instances};
 use crate::render::passes::designated::DepthMask;
 use crate::render::passes::edge_map::{EdgeInputs, EdgeMap, edge_map};
 use crate::render::passes::fragment_lists::Asked;
-use crate::render::passes::line_distance::{Reach, line_distance};
+use crate::render::passes::line_distance::{Reach, Widths, line_distance};
 use crate::render::passes::lines::Lines;
 use crate::render::passes::peel::{Layer, MOST_LAYERS, Peel, PeelCount, before_all, peeled_from_bytes};
 use crate::render::passes::peeled::Peeled;
@@ -323,7 +323,7 @@ impl LayerLines {
         let (before, now) = own.map(|Seen { before, now }| (before, now)).unzip();
         *seen = now;
         let reach = match &edge_map.spines {
-            Some(spines) => Some(line_distance(rec, spines, inputs.styles, &mut self.greatest_radius)?),
+            Some(spines) => Some(line_distance(rec, spines, Widths::of(inputs.styles), &mut self.greatest_radius)?),
             None => None,
         };
         Ok(LayerEdges { edge_map, reach, nearer: before })

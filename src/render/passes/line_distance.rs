@@ -12,8 +12,9 @@ const GROUP: u32 = 64;
 pub const BLOCK: u32 = 4;
 const BLOCK_GROUP: u32 = 16;
 
-/// Lines with a greater radius than this (px) reach farther than to the next pixel.
+/// Lines with a greater radius than this (px) reach farther than to the next pixel, or to that behind it.
 const NARROW: f32 = 0.95;
+const NARROW_BY_TWO: f32 = 1.95;
 
 /// How the lines that reach a pixel are found.
 #[derive(Debug, Clone)]
@@ -24,6 +25,8 @@ pub enum Reach {
         spines: Target,
         /// Not 0 for blocks of pixels that any of them can reach, see `passes/near_lines.wgsl`.
         near: Target,
+        /// Whether they reach two pixels far.
+        by_two: bool,
     },
     /// Per pixel the pixel of the edge map that holds its line, plus 1 (column in the lower 16 bits, row in the upper
     /// ones); 0: none.
@@ -57,34 +60,54 @@ pub fn nearest_lines(
 pub fn line_distance(
     rec: &mut Recorder<'_>,
     spines: &Target,
-    styles: &[EdgeUniform],
+    widths: Widths,
     radius: &mut ArrayBuffer,
 ) -> Result<Reach, RenderError> {
-    let greatest = styles.iter().map(EdgeUniform::greatest_radius).fold(0.0, f32::max);
-    if greatest <= NARROW {
+    let by_two = widths.greatest_radius > NARROW;
+    if !by_two || (widths.greatest_radius <= NARROW_BY_TWO && widths.are_moved && !widths.differ) {
         let blocks = rec.size().map(|side| side.div_ceil(BLOCK));
         let near = rec.target_of("near lines", INDEX, blocks)?;
-        let program = Program::new("passes/near_lines.wgsl", "cs_main");
+        let program = Program {
+            file: "passes/near_lines.wgsl",
+            entry_point: "cs_main",
+            switches: vec![("NARROW_BY_TWO", by_two)],
+        };
         let inputs = inputs! { spine_tex: spines, near_tex: &near };
         rec.compute("near lines", &program, &inputs, blocks.map(|side| side.div_ceil(BLOCK_GROUP)))?;
-        return Ok(Reach::Narrow { spines: spines.clone(), near });
+        return Ok(Reach::Narrow { spines: spines.clone(), near, by_two });
     }
-    radius.write(rec.gpu, &vec![greatest]);
+    radius.write(rec.gpu, &vec![widths.greatest_radius]);
     let farthest = transform(rec, spines, radius.buffer(), false)?;
-    let nearest =
-        if have_widths(styles) { Some(transform(rec, spines, radius.buffer(), true)?) } else { None };
+    let nearest = if widths.differ { Some(transform(rec, spines, radius.buffer(), true)?) } else { None };
     Ok(Reach::Wide { farthest, nearest })
 }
 
-/// Whether two lines differ so much in width that the thin one can be seen inside the wide one.
-pub fn have_widths(styles: &[EdgeUniform]) -> bool {
-    let widths = styles.iter().flat_map(|style| {
-        let thinnest = if style.varies() { 0.1 } else { 1.0 };
-        style.drawn().flat_map(move |(_, line)| [line.width, line.width * thinnest])
-    });
-    let (least, most) =
-        widths.fold((f32::INFINITY, 0.0_f32), |(least, most), width| (least.min(width), most.max(width)));
-    most - least > 2.0
+/// How wide lines are.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Widths {
+    /// Greatest distance from its spine at which a line has ink, px.
+    pub greatest_radius: f32,
+    /// Whether two differ so much that the thin one can be seen inside the wide one.
+    pub differ: bool,
+    /// Whether lines have been moved, so that none of them hides another that is nearer.
+    pub are_moved: bool,
+}
+
+impl Widths {
+    /// Those of the lines of these styles.
+    pub fn of(styles: &[EdgeUniform]) -> Self {
+        let widths = styles.iter().flat_map(|style| {
+            let thinnest = if style.varies() { 0.1 } else { 1.0 };
+            style.drawn().flat_map(move |(_, line)| [line.width, line.width * thinnest])
+        });
+        let (least, most) =
+            widths.fold((f32::INFINITY, 0.0_f32), |(least, most), width| (least.min(width), most.max(width)));
+        Self {
+            greatest_radius: styles.iter().map(EdgeUniform::greatest_radius).fold(0.0, f32::max),
+            differ: most - least > 2.0,
+            are_moved: false,
+        }
+    }
 }
 
 fn transform(

@@ -55,7 +55,7 @@ impl<'a> Lines<'a> {
     pub fn inputs(&self) -> Inputs<'a> {
         let Lines { gbuffer, edge_map, reach, edge_styles, .. } = *self;
         let (farthest, nearest) = match reach {
-            Some(Reach::Narrow { spines, near }) => (Some(spines), Some(near)),
+            Some(Reach::Narrow { spines, near, .. }) => (Some(spines), Some(near)),
             Some(Reach::Wide { farthest, nearest }) => (Some(farthest), nearest.as_ref()),
             None => (None, None),
         };
@@ -65,6 +65,8 @@ impl<'a> Lines<'a> {
             base_color_tex: &gbuffer.base_color,
             farthest_tex: farthest,
             nearest_tex: nearest,
+            // Lines that have been moved have some.
+            source_tex: None::<&Target>,
             edge_styles: edge_styles,
         }
     }
@@ -77,6 +79,7 @@ impl<'a> Lines<'a> {
             ("WITH_EXACT", self.reach.is_some()),
             ("WITH_WIDTHS", matches!(self.reach, Some(Reach::Wide { nearest: Some(_), .. }))),
             ("NARROW", matches!(self.reach, Some(Reach::Narrow { .. }))),
+            ("NARROW_BY_TWO", matches!(self.reach, Some(Reach::Narrow { by_two: true, .. }))),
             ("WITH_DASHES", any(|s| s.drawn().any(|(_, l)| l.dashed == 1))),
             ("WITH_SURFACE_COLOR", any(EdgeUniform::takes_surface_color)),
         ]

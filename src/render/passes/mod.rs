@@ -13,6 +13,7 @@ pub mod layer_lists;
 pub mod layers;
 pub mod line_distance;
 pub mod lines;
+pub mod moved_edges;
 pub mod offset_field;
 pub mod operators;
 pub mod overlay;

@@ -48,6 +48,8 @@ pub struct FieldUniform {
     pub pixels_per_reference: f32,
     /// Numbers of their noise.
     pub seeds: [UVec4; 2],
+    /// Periods of the tile of noise per px, for lines that noise of the picture moves.
+    pub tile_scale: f32,
 }
 
 /// Twin of `FieldObject` in `shaders/passes/offset_field.wgsl`.
@@ -99,6 +101,35 @@ pub struct LineField {
     pub more: Option<Target>,
 }
 
+impl LineField {
+    /// The texture that holds the noise of a pass, and which of the four noises of a texel that is.
+    pub fn of_pass(&self, pass: usize) -> (&Target, u32) {
+        let per_texel = PASSES_PER_TEXEL as usize;
+        let target = self.more.as_ref().filter(|_| pass >= per_texel).unwrap_or(&self.first);
+        (target, (pass % per_texel) as u32)
+    }
+}
+
+/// The pixels in which lines run, on the device.
+#[derive(Clone, Copy)]
+pub struct LinePixels<'a> {
+    /// How many they are: `Kept` in `common/kept.wgsl`, in workgroups of 64.
+    pub kept: &'a wgpu::Buffer,
+    /// Columns in the lower 16 bits, rows in the upper ones; in any order.
+    pub pixels: &'a wgpu::Buffer,
+}
+
+/// What the noise of lines is that of.
+#[derive(Clone, Copy)]
+pub enum NoiseSource<'a> {
+    /// Of their own place in space, on these surfaces.
+    Lines(&'a GBuffer),
+    /// Of the enlarged surfaces that their pixels show.
+    Enlarged(&'a GBuffer),
+    /// Of their place in the picture: a tile of noise.
+    Tile(&'a wgpu::TextureView),
+}
+
 /// What finding the noise of lines needs across frames.
 pub struct LineFieldPass {
     /// The pixels in which lines run.
@@ -124,42 +155,60 @@ impl LineFieldPass {
         }
     }
 
-    /// Finds the noise of the lines of an edge map for so many passes; `spines`: where they run. Without an edge map, that of each
-    /// pixel where `spines` is not 0, of the surface that it shows.
+    /// Lists the pixels in which lines run, as their `spines` say.
     ///
     /// # Errors
     /// [`RenderError`].
-    pub fn run(
-        &mut self,
-        rec: &mut Recorder<'_>,
-        buffers: FieldBuffers<'_>,
-        gbuffer: &GBuffer,
-        (edges, spines): (Option<&Target>, &Target),
-        passes: u32,
-    ) -> Result<LineField, RenderError> {
-        let first = rec.target("noise of lines", HALVES)?;
-        let more = if passes > PASSES_PER_TEXEL { Some(rec.target("noise of lines", HALVES)?) } else { None };
+    pub fn sift(&mut self, rec: &mut Recorder<'_>, spines: &Target) -> Result<(), RenderError> {
         rec.gpu.check_bytes_of_pixels("as a sketch", rec.size(), 4)?;
         let [width, height] = rec.size();
         self.pixels.reserve(rec.gpu, u64::from(width) * u64::from(height) * 4)?;
         rec.encoder.copy_buffer_to_buffer(&self.none, 0, &self.kept, 0, None);
-        let program = |entry_point| Program::new("passes/offset_field.wgsl", entry_point);
+        let program = Program::new("passes/offset_field.wgsl", "cs_sift");
         let sifting =
             inputs! { spine_tex: spines, keeping: &self.kept, keeping_pixels: self.pixels.buffer() };
         let groups = [width, height].map(|side| side.div_ceil(GROUP));
-        rec.compute("sift pixels of lines", &program("cs_sift"), &sifting, groups)?;
+        rec.compute("sift pixels of lines", &program, &sifting, groups)?;
+        Ok(())
+    }
+
+    /// What has been listed.
+    pub fn pixels(&self) -> LinePixels<'_> {
+        LinePixels { kept: &self.kept, pixels: self.pixels.buffer() }
+    }
+
+    /// Finds the noise of the lines of an edge map that have been listed, for so many passes.
+    ///
+    /// # Errors
+    /// [`RenderError`].
+    pub fn run(
+        &self,
+        rec: &mut Recorder<'_>,
+        buffers: FieldBuffers<'_>,
+        edges: &Target,
+        source: NoiseSource<'_>,
+        passes: u32,
+    ) -> Result<LineField, RenderError> {
+        let first = rec.target("noise of lines", HALVES)?;
+        let more = if passes > PASSES_PER_TEXEL { Some(rec.target("noise of lines", HALVES)?) } else { None };
+        let (entry_point, geometry, tiles) = match source {
+            NoiseSource::Lines(gbuffer) => ("cs_lines", Some(&gbuffer.geometry), None),
+            NoiseSource::Enlarged(gbuffer) => ("cs_enlarged", Some(&gbuffer.geometry), None),
+            NoiseSource::Tile(tile) => ("cs_screen", None, Some(tile)),
+        };
         let inputs = inputs! {
             field: buffers.field,
             field_objects: buffers.objects,
-            geometry_tex: &gbuffer.geometry,
+            geometry_tex: geometry,
             edge_map_tex: edges,
+            tiles: tiles,
             kept: &self.kept,
             kept_pixels: self.pixels.buffer(),
             line_field_tex: &first,
             more_line_field_tex: more.as_ref(),
         };
-        let entry_point = if edges.is_some() { "cs_lines" } else { "cs_pixels" };
-        rec.compute("noise of lines", &program(entry_point), &inputs, &self.kept)?;
+        let program = Program::new("passes/offset_field.wgsl", entry_point);
+        rec.compute("noise of lines", &program, &inputs, &self.kept)?;
         Ok(LineField { first, more })
     }
 }

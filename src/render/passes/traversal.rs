@@ -153,6 +153,8 @@ impl GBufferPass {
         let gbuffer = GBuffer::new(rec)?;
         let GBuffer { geometry, base_color, region, depth } = &gbuffer;
         let (label, purpose, with_color, is_whole, color) = match peel {
+            // Nobody looks at colours and regions where nothing is.
+            None if parts.1.is_empty() => ("g-buffer", Purpose::Surfaces, true, true, vec![geometry]),
             None => ("g-buffer", Purpose::Surfaces, true, true, vec![geometry, base_color, region]),
             Some(Peel { sort_keys: None, .. }) => ("peel", Purpose::Counted, false, true, vec![region]),
             Some(Peel { sort_keys: Some(sort_keys), with_color, is_whole, .. }) => {

@@ -4,6 +4,7 @@ use encase::ShaderType;
 use glam::{UVec4, Vec2, Vec3, Vec4};
 
 use crate::render::base::noise::TILE_CELLS;
+use crate::render::passes::moved_edges::MovementUniform;
 use crate::render::passes::offset_field::FieldUniform;
 use crate::style;
 use crate::style::sketch::{MOST_OFFSET, MOST_PASSES, Noise};
@@ -77,10 +78,51 @@ pub(super) fn bands(sketch: &style::Sketch, scale: f32) -> [f32; 2] {
     let rms = |matrix: style::Matrix| offsets(sketch, matrix).rms() * scale;
     let lines = passes.map(|pass| rms(pass.matrix)).fold(0.0, f32::max);
     let fill = if sketch.fill.show { rms(sketch.fill.matrix) } else { 0.0 };
-    let rough = 2.0 * within(sketch.grain.roughness, 0.0, 8.0) * scale;
-    let smudged = if sketch.grain.smudge > 0.0 { SMUDGED * scale } else { 0.0 };
+    let rough = rough(sketch, scale);
     let whole = |far: f32| ((far / 2.0).ceil() * 2.0).clamp(4.0, MOST_BAND);
-    [whole((3.0 * lines + rough).max(smudged)), whole(3.0 * fill + rough)]
+    [whole(3.0 * lines + rough), whole(3.0 * fill + rough)]
+}
+
+/// By how much grains are off at most, px.
+fn rough(sketch: &style::Sketch, scale: f32) -> f32 {
+    2.0 * within(sketch.grain.roughness, 0.0, 8.0) * scale
+}
+
+/// How far lines are smudged, px; 0: they are not.
+pub(super) fn smudged(sketch: &style::Sketch, scale: f32) -> f32 {
+    if sketch.grain.smudge > 0.0 { SMUDGED * scale } else { 0.0 }
+}
+
+/// Factor of the widths of a pass.
+pub(super) fn width(pass: &style::sketch::Pass) -> f32 {
+    within(pass.width, 0.1, 4.0)
+}
+
+/// How a pass moves lines; `component`: which noise of a texel it has.
+pub(super) fn movement(
+    sketch: &style::Sketch,
+    number: usize,
+    scale: f32,
+    component: u32,
+) -> MovementUniform {
+    let pass = &sketch.pass[number.min(MOST_PASSES - 1)];
+    MovementUniform {
+        matrix: rows(sketch, pass.matrix, scale),
+        width: width(pass),
+        margin: rough(sketch, scale),
+        pressure: share(sketch.wander.pressure),
+        component,
+    }
+}
+
+/// From noise to offsets, px, by rows.
+fn rows(sketch: &style::Sketch, matrix: style::Matrix, scale: f32) -> Vec4 {
+    Vec4::from_array(offsets(sketch, matrix).numbers()) * scale
+}
+
+/// Periods of a tile of noise per px, for waves so long (reference pixels): noise of one cell is as long as a wave.
+fn tile_scale(wave: f32, scale: f32) -> f32 {
+    1.0 / (TILE_CELLS as f32 * within(wave, 8.0, 1000.0) * scale)
 }
 
 /// How far surfaces are enlarged, px.
@@ -108,6 +150,7 @@ pub fn field(sketch: &style::Sketch, scale: f32) -> FieldUniform {
         passes: sketch.passes.clamp(1, MOST_PASSES as u32),
         pixels_per_reference: scale,
         seeds: [UVec4::new(a, b, c, d), UVec4::new(e, f, g, h)],
+        tile_scale: tile_scale(wander.wave, scale),
     }
 }
 
@@ -115,20 +158,17 @@ impl SketchUniform {
     /// Of a style; `scale`: pixels per reference pixel.
     pub(super) fn new(sketch: &style::Sketch, scale: f32) -> Self {
         let style::Sketch { wander, passes, fill, grain, .. } = sketch;
-        let rows = |matrix| Vec4::from_array(offsets(sketch, matrix).numbers()) * scale;
         let pass = |pass: &style::sketch::Pass| PassUniform {
-            matrix: rows(pass.matrix),
+            matrix: rows(sketch, pass.matrix, scale),
             color: pass.color.unwrap_or_default().to_linear(),
             has_color: u32::from(pass.color.is_some()),
-            width: within(pass.width, 0.1, 4.0),
+            width: width(pass),
             density: share(pass.density),
         };
         let ink = sketch.pass[0].color.unwrap_or(fill.color);
-        // Noise of one cell is as long as a wave.
-        let per_px = |wave: f32| 1.0 / (TILE_CELLS as f32 * within(wave, 8.0, 1000.0) * scale);
         Self {
             passes: std::array::from_fn(|number| pass(&sketch.pass[number])),
-            fill_matrix: rows(fill.matrix),
+            fill_matrix: rows(sketch, fill.matrix, scale),
             pigment: fill.color.to_linear(),
             surface_color: share(fill.surface_color),
             smudge_color: ink.to_linear(),
@@ -143,8 +183,8 @@ impl SketchUniform {
             grain_size: within(grain.size, 0.5, 32.0) * scale,
             roughness: within(grain.roughness, 0.0, 8.0) * scale,
             pixels_per_reference: scale,
-            line_scale: per_px(wander.wave),
-            fill_scale: per_px(fill.wave),
+            line_scale: tile_scale(wander.wave, scale),
+            fill_scale: tile_scale(fill.wave, scale),
             count: (*passes).clamp(1, MOST_PASSES as u32),
             shows_fill: u32::from(fill.show),
         }

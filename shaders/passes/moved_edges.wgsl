@@ -1,0 +1,184 @@
+// The edge map of a sketch: each line where its noise moves it, as a whole, so that no part of it is lost or seen twice. What is
+// made of it is made as of any other edge map; `source_tex` says where a line comes from.
+#import common/frame.wgsl
+#import common/plane.wgsl
+#import common/edge_map.wgsl
+#import common/kept.wgsl
+
+// Pixels per workgroup, as in src/render/passes/moved_edges.rs.
+const GROUP: u32 = 64u;
+// A pixel of a line becomes so many, or it would break up where it is stretched.
+const POINTS: u32 = 2u;
+
+// Twin: `MovementUniform` in src/render/passes/moved_edges.rs.
+struct Movement {
+    // From noise to offsets, px, by rows.
+    matrix: vec4<f32>,
+    // Factor of all widths.
+    width: f32,
+    // So much farther, px, are lines looked for.
+    margin: f32,
+    // How much the pressure of the hand varies, 0 to 1.
+    pressure: f32,
+    // Which of the four noises of a texel is meant.
+    component: u32,
+}
+
+var<uniform> movement: Movement;
+var edge_map_tex: texture_storage_2d<rgba32uint, read>;
+var spine_tex: texture_2d<u32>;
+// See passes/offset_field.wgsl, which also lists the pixels of lines.
+var line_field_tex: texture_storage_2d<rgba32uint, read>;
+var<storage, read> kept: Kept;
+var<storage, read> kept_pixels: array<u32>;
+// The greatest key of each pixel, and the greatest source of those that have it; 0 again once it has been put.
+var<storage, read_write> keys: array<atomic<u32>>;
+var<storage, read_write> winners: array<atomic<u32>>;
+var moved_edge_tex: texture_storage_2d<rgba32uint, write>;
+var moved_spine_tex: texture_storage_2d<r32uint, write>;
+// The pixel of the edge map that a line comes from: column in the lower 16 bits, row in the upper ones.
+var source_tex: texture_storage_2d<r32uint, write>;
+
+fn noise_at(px: vec2<i32>) -> vec2<f32> {
+    return unpack2x16float(textureLoad(line_field_tex, px)[movement.component]);
+}
+
+fn applied(noise: vec2<f32>) -> vec2<f32> {
+    return vec2(dot(movement.matrix.xy, noise), dot(movement.matrix.zw, noise));
+}
+
+// How the offset changes per pixel along a line.
+fn offset_along(px: vec2<i32>, edge: Edge, spine: vec2<f32>, tangent: vec2<f32>) -> vec2<f32> {
+    let last = vec2<i32>(frame.size) - 1;
+    var from_noise = noise_at(px);
+    var from_along = 0.0;
+    var to_noise = from_noise;
+    var to_along = 0.0;
+    for (var side = -1; side <= 1; side += 2) {
+        let q = clamp(vec2<i32>(floor(spine + f32(2 * side) * tangent)), vec2(0), last);
+        let texel = textureLoad(edge_map_tex, q);
+        if textureLoad(spine_tex, q, 0).x == 0u || texel.y != edge.object {
+            continue;
+        }
+        let d = vec2<f32>(q) + 0.5 + offset_of(texel) - spine;
+        let along = dot(d, tangent);
+        // What lies more to the side is another line.
+        if along * f32(side) < 0.5 || abs(dot(d, vec2(tangent.y, -tangent.x))) > 1.5 {
+            continue;
+        }
+        if side < 0 {
+            from_noise = noise_at(q);
+            from_along = along;
+        } else {
+            to_noise = noise_at(q);
+            to_along = along;
+        }
+    }
+    return applied(to_noise - from_noise) / max(to_along - from_along, 0.5);
+}
+
+// How densely a hand presses where the noise is this.
+fn pressed(noise: vec2<f32>) -> f32 {
+    return mix(1.0 - movement.pressure, 1.0, smoothstep(-1.1, 1.1, 0.7 * (noise.x + noise.y)));
+}
+
+// A pixel of a line where it has been moved to.
+struct Moved {
+    edge: vec4<u32>,
+    spine: u32,
+    px: vec2<i32>,
+    // The greatest counts: the nearest.
+    key: u32,
+    // Tells points of one depth apart, whatever order they are found in.
+    rank: u32,
+    source: u32,
+    is_there: bool,
+}
+
+fn key_of(depth: f32) -> u32 {
+    let bits = bitcast<u32>(nearness_of(depth));
+    return max(select(bits | 0x80000000u, ~bits, (bits & 0x80000000u) != 0u), 1u);
+}
+
+fn moved(source: u32, number: u32) -> Moved {
+    let px = vec2<i32>(vec2(source & 0xffffu, source >> 16u));
+    let edge = unpack_edge(textureLoad(edge_map_tex, px));
+    let spine = vec2<f32>(px) + 0.5 + edge.offset;
+    let tangent = unpack_tangent(edge.tangent);
+    let noise = noise_at(px);
+    // What is drawn at x comes from x and its offset.
+    let turned = tangent - offset_along(px, edge, spine, tangent);
+    let stretch = length(turned);
+    // What is hardly stretched stays as it is.
+    let is_stretched = stretch > 1.2;
+    let share = select(0.0, (f32(number) + 0.5) / f32(POINTS) - 0.5, is_stretched);
+    let away = share * turned - applied(noise);
+    // The pixel that its spine was found for moves with it, unless it would come to lie too far from it.
+    let at = spine + away;
+    let with_px = floor(vec2<f32>(px) + 0.5 + away);
+    let to = select(floor(at), with_px, all(abs(at - with_px - 0.5) <= vec2(1.0)));
+    var e = edge;
+    e.offset = at - to - 0.5;
+    e.extent = select(edge.extent, max(edge.extent, min(0.25 * stretch, 0.75)), is_stretched);
+    e.half_width = edge.half_width * movement.width;
+    e.weight = edge.weight * pressed(noise);
+    if stretch > 0.05 {
+        e.tangent = pack_tangent(turned / stretch);
+    }
+    var texel = pack_edge(e);
+    // As a stroke of a hand it stays one.
+    texel.w |= textureLoad(edge_map_tex, px).w & STROKE;
+    let own = textureLoad(spine_tex, px, 0).x;
+    let radius = unpack2x16float(own >> 16u).x * movement.width + movement.margin;
+    let found = (pack2x16float(vec2(radius, 0.0)) << 16u) | (texel.x & 0xffffu);
+    let is_there = all(to >= vec2(0.0)) && all(to < frame.size) && (is_stretched || number == 0u);
+    return Moved(texel, found, vec2<i32>(to), key_of(edge.depth), (source << 1u) | number, source, is_there);
+}
+
+fn index_of(px: vec2<i32>) -> u32 {
+    return u32(px.y) * u32(frame.size.x) + u32(px.x);
+}
+
+@compute @workgroup_size(GROUP)
+fn cs_move(@builtin(global_invocation_id) id: vec3<u32>) {
+    if id.x >= kept.count {
+        return;
+    }
+    for (var i = 0u; i < POINTS; i++) {
+        let point = moved(kept_pixels[id.x], i);
+        if point.is_there {
+            atomicMax(&keys[index_of(point.px)], point.key);
+        }
+    }
+}
+
+@compute @workgroup_size(GROUP)
+fn cs_compare(@builtin(global_invocation_id) id: vec3<u32>) {
+    if id.x >= kept.count {
+        return;
+    }
+    for (var i = 0u; i < POINTS; i++) {
+        let point = moved(kept_pixels[id.x], i);
+        if point.is_there && atomicLoad(&keys[index_of(point.px)]) == point.key {
+            atomicMax(&winners[index_of(point.px)], point.rank + 1u);
+        }
+    }
+}
+
+@compute @workgroup_size(GROUP)
+fn cs_put(@builtin(global_invocation_id) id: vec3<u32>) {
+    if id.x >= kept.count {
+        return;
+    }
+    for (var i = 0u; i < POINTS; i++) {
+        let point = moved(kept_pixels[id.x], i);
+        if point.is_there && atomicLoad(&winners[index_of(point.px)]) == point.rank + 1u {
+            // Nobody else asks any more: only one has this rank.
+            atomicStore(&keys[index_of(point.px)], 0u);
+            atomicStore(&winners[index_of(point.px)], 0u);
+            textureStore(moved_edge_tex, point.px, point.edge);
+            textureStore(moved_spine_tex, point.px, vec4(point.spine, 0u, 0u, 0u));
+            textureStore(source_tex, point.px, vec4(point.source, 0u, 0u, 0u));
+        }
+    }
+}

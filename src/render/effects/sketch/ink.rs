@@ -1,0 +1,89 @@
+//! The lines of one pass of a sketch: where its noise moves them, and which of them reach each pixel then.
+
+use super::group::Sketch;
+use crate::gpu::{ArrayBuffer, Gpu, Recorder, Target, UniformBuffer};
+use crate::render::base::error::RenderError;
+use crate::render::base::stage::{Output, Stage};
+use crate::render::passes::edge_map::EdgeMap;
+use crate::render::passes::line_distance::{Reach, Widths, line_distance};
+use crate::render::passes::moved_edges::{MovedEdges, MovedEdgesPass, MovementUniform};
+use crate::render::passes::offset_field::{LineField, LinePixels};
+
+/// What moving lines depends on.
+#[derive(PartialEq)]
+struct MovedKey {
+    edges: u64,
+    field: u64,
+    movement: MovementUniform,
+}
+
+/// Lines of a pass, moved.
+#[derive(Clone)]
+pub(super) struct Moved {
+    pub(super) edges: MovedEdges,
+    pub(super) reach: Output<Reach>,
+}
+
+/// What of a pass lives across frames.
+pub(super) struct SketchPass {
+    movement: UniformBuffer<MovementUniform>,
+    number: UniformBuffer<u32>,
+    greatest_radius: ArrayBuffer,
+    moved: Stage<MovedKey, MovedEdges>,
+    reach: Stage<(u64, Widths), Reach>,
+}
+
+impl SketchPass {
+    /// Nothing moved yet.
+    pub(super) fn new(gpu: &Gpu) -> Self {
+        Self {
+            movement: UniformBuffer::new(gpu, "movement of lines"),
+            number: UniformBuffer::new(gpu, "number of a pass"),
+            greatest_radius: ArrayBuffer::new(gpu, "greatest radius of moved lines"),
+            moved: Stage::default(),
+            reach: Stage::default(),
+        }
+    }
+
+    /// Its number, on the device.
+    pub(super) fn number(&mut self, gpu: &Gpu, number: usize) -> &wgpu::Buffer {
+        self.number.write(gpu, &(number as u32));
+        self.number.buffer()
+    }
+
+    /// Lets go of the lines.
+    pub(super) fn forget(&mut self) {
+        self.moved.clear();
+        self.reach.clear();
+    }
+
+    /// How often lines were moved.
+    pub(super) fn runs(&self) -> u64 {
+        self.moved.runs()
+    }
+
+    /// Moves the lines of an edge map, of which the pixels have been listed; `number`: that of the pass.
+    pub(super) fn run(
+        &mut self,
+        rec: &mut Recorder<'_>,
+        pass: &mut MovedEdgesPass,
+        (sketch, number): (&Sketch, usize),
+        (edges, spines): (&Output<EdgeMap>, &Target),
+        field: &Output<LineField>,
+        pixels: LinePixels<'_>,
+    ) -> Result<Moved, RenderError> {
+        let (noise, component) = field.value.of_pass(number);
+        let (movement, widths) = sketch.movement(number, component);
+        let key = MovedKey { edges: edges.revision, field: field.revision, movement };
+        let buffer = &mut self.movement;
+        let moved = self.moved.run(key, |key| {
+            buffer.write(rec.gpu, &key.movement);
+            pass.run(rec, buffer.buffer(), (&edges.value.edges, spines), noise, pixels)
+        })?;
+        let radius = &mut self.greatest_radius;
+        let reach = self.reach.run((moved.revision, widths), |_| {
+            line_distance(rec, &moved.value.spines, widths, radius)
+        })?;
+        Ok(Moved { edges: moved.value, reach })
+    }
+}
