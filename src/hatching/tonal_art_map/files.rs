@@ -1,0 +1,1 @@
+//! Tonal art maps as images.

@@ -1,0 +1,73 @@
+//! The built-in stroke sets: what their strokes look like.
+
+use super::generator::Recipe;
+use super::stroke::StrokeShape;
+
+/// A built-in set by its name.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Set {
+    /// Lower case, also of its file.
+    pub name: &'static str,
+    /// What it is drawn from.
+    pub recipe: Recipe,
+}
+
+/// All built-in sets.
+pub fn all() -> [Set; 4] {
+    let set = |name, seed, shape| Set { name, recipe: Recipe { shape, seed, ..Recipe::default() } };
+    [
+        set("pen", 1, pen()),
+        set("pencil", 2, pencil()),
+        set("woodcut", 3, woodcut()),
+        set("stipple", 4, stipple()),
+    ]
+}
+
+/// Long thin lines that are pressed at their beginning and lifted at their end.
+pub fn pen() -> StrokeShape {
+    StrokeShape {
+        length: 0.42,
+        length_spread: 0.5,
+        width: 1.5,
+        width_spread: 0.25,
+        taper: [0.06, 0.35],
+        waviness: 0.010,
+        angle_spread: 0.035,
+        ..StrokeShape::default()
+    }
+}
+
+/// Wide soft lines that the paper's grain shows through.
+pub fn pencil() -> StrokeShape {
+    StrokeShape {
+        length: 0.34,
+        length_spread: 0.5,
+        width: 3.2,
+        width_spread: 0.25,
+        taper: [0.25, 0.5],
+        waviness: 0.022,
+        angle_spread: 0.07,
+        pressure: 0.75,
+        grain: 0.6,
+        ..StrokeShape::default()
+    }
+}
+
+/// Wedges, as a graver leaves them.
+pub fn woodcut() -> StrokeShape {
+    StrokeShape {
+        length: 0.45,
+        length_spread: 0.4,
+        width: 4.5,
+        width_spread: 0.2,
+        taper: [0.15, 0.85],
+        waviness: 0.008,
+        angle_spread: 0.03,
+        ..StrokeShape::default()
+    }
+}
+
+/// Dots.
+pub fn stipple() -> StrokeShape {
+    StrokeShape { length: 0.0, width: 3.0, width_spread: 0.2, ..StrokeShape::default() }
+}

@@ -1,0 +1,182 @@
+//! One stroke: what it looks like, and which texels it covers.
+
+use std::f32::consts::TAU;
+use std::sync::Arc;
+
+use super::stroke_image::{Scaled, StrokeImage};
+
+/// What strokes of a map look like. They run along +x.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StrokeShape {
+    /// Length as a share of the tile's side, 0 (dots) to 1.
+    pub length: f32,
+    /// Strokes are longer or shorter by up to this share, 0 to 1.
+    pub length_spread: f32,
+    /// Width in texels of each level, 0.25 to 32.
+    pub width: f32,
+    /// Strokes are wider or narrower by up to this share, 0 to 1.
+    pub width_spread: f32,
+    /// Share of the length over which the stroke gets wider at its beginning and thinner at its end, each 0 to 1.
+    /// Without effect on images.
+    pub taper: [f32; 2],
+    /// How far strokes swing to either side, as a share of their length, 0 to 0.25.
+    pub waviness: f32,
+    /// Strokes are turned by up to this to either side, radians, 0 to 0.5.
+    pub angle_spread: f32,
+    /// Ink of a single stroke, above 0 to 1.
+    pub pressure: f32,
+    /// How much ink the paper's valleys take away, 0 to 0.9; of the size of texels.
+    pub grain: f32,
+    /// A picture of a stroke from left to right, instead of a drawn line.
+    pub image: Option<Arc<StrokeImage>>,
+}
+
+impl Default for StrokeShape {
+    fn default() -> Self {
+        Self {
+            length: 0.3,
+            length_spread: 0.4,
+            width: 1.6,
+            width_spread: 0.2,
+            taper: [0.1, 0.3],
+            waviness: 0.008,
+            angle_spread: 0.03,
+            pressure: 1.0,
+            grain: 0.0,
+            image: None,
+        }
+    }
+}
+
+/// A stroke in its place. Lengths are shares of the tile's side, except its width.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stroke {
+    /// Its middle, 0 to 1.
+    pub middle: [f32; 2],
+    /// From end to end.
+    pub length: f32,
+    /// In texels.
+    pub width: f32,
+    /// Radians from the x axis towards +y.
+    pub angle: f32,
+    /// How far it swings to the side, in a long and a short wave.
+    pub swing: [f32; 2],
+    /// Where the waves begin, 0 to 1.
+    pub phase: [f32; 2],
+    /// Whether its image is turned upside down.
+    pub is_flipped: bool,
+}
+
+/// Twelve numbers that look random, 0 to 1, always the same for the same seed and number.
+pub fn random(seed: u64, number: u64) -> [f32; 12] {
+    // SplitMix64 (Steele et al. 2014).
+    let mut state = seed.wrapping_mul(0xd129_0d3b_35a6_7f4d) ^ number.wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    std::array::from_fn(|_| {
+        state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = (state ^ (state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 40) as f32 / (1u64 << 24) as f32
+    })
+}
+
+impl StrokeShape {
+    /// A stroke of this shape somewhere in the tile.
+    pub fn stroke(&self, [x, y, l, w, a, s, t, p, q, f, ..]: [f32; 12]) -> Stroke {
+        let about = |r: f32| 2.0 * r - 1.0;
+        let length = (self.length * (1.0 + self.length_spread * about(l))).clamp(0.0, 1.0);
+        Stroke {
+            middle: [x, y],
+            length,
+            width: self.width * (1.0 + self.width_spread * about(w)),
+            // Two numbers: small angles are more frequent than large ones.
+            angle: self.angle_spread * 0.5 * (about(a) + about(q)),
+            swing: [length * self.waviness * about(s), 0.4 * length * self.waviness * about(t)],
+            phase: [p, q],
+            is_flipped: self.image.is_some() && f > 0.5,
+        }
+    }
+
+    /// Half the width in texels at a place along the stroke, 0 to 1.
+    fn half_width(&self, stroke: &Stroke, u: f32) -> f32 {
+        let share = |c: f32, taper: f32| if c < taper { (c / taper).sqrt() } else { 1.0 };
+        let [begin, end] = self.taper;
+        0.5 * stroke.width * if stroke.length > 0.0 { share(u, begin) * share(1.0 - u, end) } else { 1.0 }
+    }
+}
+
+/// Draws strokes of a shape at one resolution.
+#[derive(Debug)]
+pub struct Brush {
+    shape: StrokeShape,
+    side: usize,
+    scaled: Option<Scaled>,
+}
+
+impl Brush {
+    /// For tiles of `side` texels.
+    pub fn new(shape: &StrokeShape, side: usize) -> Self {
+        let length = (shape.length * side as f32).ceil() as usize;
+        let scaled = shape.image.as_ref().map(|image| image.scaled(length, shape.width.ceil() as usize));
+        Self { shape: shape.clone(), side, scaled }
+    }
+
+    /// Calls `visit` with the number and the ink, above 0 to 1, of each texel that a stroke covers. A texel may come twice
+    /// where a stroke meets its own beginning.
+    pub fn visit(&self, stroke: &Stroke, mut visit: impl FnMut(usize, f32)) {
+        let side = self.side as f32;
+        let (sin, cos) = stroke.angle.sin_cos();
+        let half = 0.5 * stroke.length * cos * side;
+        let [x, y] = stroke.middle.map(|c| c * side);
+        let reach = 0.5 * stroke.width + 0.5;
+        for column in (x - half - reach).floor() as i64..=(x + half + reach).ceil() as i64 {
+            let offset = column as f32 + 0.5 - x;
+            let on_line = offset.clamp(-half, half);
+            let beyond = offset - on_line;
+            let u = if half > 0.0 { (0.5 * (on_line / half + 1.0)).clamp(0.0, 1.0) } else { 0.5 };
+            let wave: f32 = [0.8, 2.3]
+                .iter()
+                .zip(stroke.swing.iter().zip(&stroke.phase))
+                .map(|(turns, (swing, phase))| swing * ((u * turns + phase) * TAU).sin())
+                .sum();
+            let center = y + (on_line * sin / cos) + wave * side;
+            let half_width = self.shape.half_width(stroke, u);
+            for row in (center - reach).floor() as i64..=(center + reach).ceil() as i64 {
+                let across = row as f32 + 0.5 - center;
+                let cover = match &self.scaled {
+                    None => covered(half_width, across.hypot(beyond)),
+                    Some(image) if beyond.abs() <= 1.0 => {
+                        let v = across / stroke.width * if stroke.is_flipped { -1.0 } else { 1.0 };
+                        image.ink(u, v + 0.5)
+                    }
+                    Some(_) => 0.0,
+                };
+                let column = column.rem_euclid(self.side as i64) as usize;
+                let row = row.rem_euclid(self.side as i64) as usize;
+                let ink = cover * self.shape.pressure * self.kept_by_grain(column, row);
+                if ink > MIN_INK {
+                    visit(row * self.side + column, ink);
+                }
+            }
+        }
+    }
+
+    /// Share of ink that the paper takes at a texel.
+    fn kept_by_grain(&self, column: usize, row: usize) -> f32 {
+        if self.shape.grain <= 0.0 {
+            return 1.0;
+        }
+        let [noise, second, ..] = random(GRAIN, (row * self.side + column) as u64);
+        1.0 - self.shape.grain * noise.max(second)
+    }
+}
+
+/// Less ink than this is none.
+const MIN_INK: f32 = 1.0 / 512.0;
+/// Seed of the paper's grain.
+const GRAIN: u64 = 17;
+
+/// Share of a texel that is covered by a line of half a width in texels, at a distance from the line's middle.
+fn covered(half_width: f32, distance: f32) -> f32 {
+    // A thinner line than a texel is a fainter one.
+    (half_width + 0.5 - distance).clamp(0.0, (2.0 * half_width).min(1.0))
+}
