@@ -9,6 +9,7 @@ pub mod files;
 pub mod generator;
 mod placement;
 pub mod priorities;
+mod room;
 pub mod sets;
 pub mod stroke;
 pub mod stroke_image;
@@ -33,13 +34,13 @@ pub struct Level {
     pub priorities: Vec<Priority>,
 }
 
-/// How one texel is inked when the tone darkens: nothing up to `threshold`, `ink` from there on.
+/// How one texel is inked when the tone darkens, in two steps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Priority {
-    /// Mean ink of the tile at which the texel is inked, in 255ths.
-    pub threshold: u8,
-    /// Its ink from there on, in 255ths: less than full at the rims of strokes.
-    pub ink: u8,
+    /// Mean ink of the tile above which each step is taken, in 255ths; 255: never. The first one is not greater.
+    pub thresholds: [u8; 2],
+    /// Ink of the texel after each step, in 255ths. The first one is not greater.
+    pub inks: [u8; 2],
 }
 
 /// The mean ink of a tone is off by no more than this.

@@ -143,13 +143,13 @@ impl Recipe {
             }
             before = *ink;
             for (tones, sheet) in tones.iter_mut().zip(&work.sheets) {
-                tones.push(sheet.paper().iter().map(|paper| ((1.0 - paper) * 255.0).round() as u8).collect());
+                tones.push(sheet.paper.iter().map(|paper| ((1.0 - paper) * 255.0).round() as u8).collect());
             }
         }
         let levels = work.sheets.iter().zip(tones).map(|(sheet, tones)| Level {
             side: sheet.side,
             tones,
-            priorities: priorities(sheet.side, &sheet.touches, before),
+            priorities: priorities(sheet.side, &sheet.touches),
         });
         let map = TonalArtMap { inks: self.inks.clone(), levels: levels.collect() };
         Ok(Drawn { map, strokes: work.strokes })

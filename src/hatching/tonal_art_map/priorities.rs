@@ -1,7 +1,7 @@
-//! All tones in one image: each texel says from which tone on it is inked, and how much.
+//! All tones in one image: each texel says from which tones on it is inked, and how much.
 //!
-//! As the stroke textures of Webb et al. 2002 ("Fine Tone Control in Hardware Hatching"), with the ink of texels beside
-//! the threshold, so that rims of strokes stay soft. The ink of a tile is exactly the tone's (see [`priorities`]).
+//! As the stroke textures of Webb et al. 2002 ("Fine Tone Control in Hardware Hatching"), with ink beside the thresholds,
+//! so that rims of strokes stay soft, and with two steps, for most texels are met by several strokes.
 
 use super::Priority;
 use super::placement::Touch;
@@ -9,69 +9,93 @@ use super::placement::Touch;
 impl Priority {
     /// Ink of the texel when the tile's mean ink is `ink`; both 0 to 1. Twin of the shader's.
     pub fn ink_at(self, ink: f32) -> f32 {
-        if self.threshold < NEVER && f32::from(self.threshold) < 255.0 * ink {
-            f32::from(self.ink) / 255.0
-        } else {
-            0.0
-        }
+        let steps = self.thresholds.into_iter().zip(self.inks);
+        let taken = steps.filter(|(threshold, _)| *threshold < NEVER && f32::from(*threshold) < 255.0 * ink);
+        taken.last().map_or(0.0, |(_, ink)| f32::from(ink) / 255.0)
     }
 }
 
-/// The threshold of texels that are not inked in the darkest tone either.
+/// The threshold of a step that is not taken in the darkest tone either.
 pub const NEVER: u8 = 255;
 
-/// The priorities of a tile from what its strokes did; `darkest`: its mean ink after them.
+/// A step of a texel: its ink from a mean ink of the tile on.
+#[derive(Debug, Clone, Copy, Default)]
+struct Step {
+    amount: f32,
+    ink: f32,
+}
+
+/// One of the two steps of a texel, by how much its ink grows.
+struct Rise {
+    texel: usize,
+    number: usize,
+    amount: f32,
+    by: f32,
+}
+
+/// The priorities of a tile from what its strokes did.
 ///
-/// Each texel gets the single step that is nearest to what its strokes did (least squares over all tones). Then thresholds
-/// are set so that the texels below one have as much ink as it says: the mean ink of a tile is its tone, within a 255th.
-pub(super) fn priorities(side: usize, touches: &[Touch], darkest: f32) -> Vec<Priority> {
-    let mut order: Vec<usize> = (0..touches.len()).collect();
-    let texel = |i: usize| touches.get(i).map_or(u32::MAX, |touch| touch.texel);
-    order.sort_by_key(|i| texel(*i));
-    let mut steps: Vec<(usize, Step)> = Vec::with_capacity(side * side);
-    for of_texel in order.chunk_by(|a, b| texel(*a) == texel(*b)) {
-        let touches: Vec<Touch> = of_texel.iter().filter_map(|i| touches.get(*i)).copied().collect();
-        let Some(first) = touches.first() else { continue };
-        steps.push((first.texel as usize, nearest_step(&touches, darkest)));
+/// Each texel gets the two steps that are nearest to what its strokes did (least squares over all tones). Then thresholds
+/// are set so that all steps below one have as much ink as it says: the mean ink of a tile is its tone, within a 255th.
+pub(super) fn priorities(side: usize, touches: &[Touch]) -> Vec<Priority> {
+    let mut ordered = touches.to_vec();
+    ordered.sort_by_key(|touch| touch.texel);
+    let mut priorities = vec![Priority { thresholds: [NEVER; 2], inks: [0; 2] }; side * side];
+    let mut rises = Vec::with_capacity(2 * side * side);
+    for touches in ordered.chunk_by(|a, b| a.texel == b.texel) {
+        let texel = touches.first().map_or(0, |touch| touch.texel as usize);
+        let mut before = 0.0;
+        for (number, step) in nearest_steps(touches).into_iter().enumerate() {
+            rises.push(Rise { texel, number, amount: step.amount, by: step.ink - before });
+            before = step.ink;
+        }
     }
-    steps.sort_by(|(a, first), (b, second)| first.amount.total_cmp(&second.amount).then(a.cmp(b)));
-    let mut priorities = vec![Priority { threshold: NEVER, ink: 0 }; side * side];
+    rises.sort_by(|a, b| a.amount.total_cmp(&b.amount).then((a.texel, a.number).cmp(&(b.texel, b.number))));
     let mut sum = 0.0f64;
-    for (texel, step) in steps {
-        let mean = sum / (side * side) as f64;
-        sum += f64::from(step.ink);
-        if let Some(priority) = priorities.get_mut(texel) {
-            *priority = Priority {
-                threshold: (mean * 255.0).round().min(f64::from(NEVER - 1)) as u8,
-                ink: (step.ink * 255.0).round() as u8,
-            };
+    let mut inks = vec![0.0f32; side * side];
+    for rise in rises.iter().filter(|rise| rise.by > 0.0) {
+        let threshold = (sum / (side * side) as f64 * 255.0).round().min(f64::from(NEVER - 1)) as u8;
+        sum += f64::from(rise.by);
+        if let Some((priority, ink)) = priorities.get_mut(rise.texel).zip(inks.get_mut(rise.texel)) {
+            *ink += rise.by;
+            let taken = (*ink * 255.0).round() as u8;
+            for number in rise.number..2 {
+                priority.thresholds[number] = threshold;
+                priority.inks[number] = taken;
+            }
         }
     }
     spread(side, &mut priorities);
     priorities
 }
 
-struct Step {
-    amount: f32,
-    ink: f32,
-}
-
-/// The step that is nearest to a texel's own, over amounts up to the darkest.
-fn nearest_step(touches: &[Touch], darkest: f32) -> Step {
-    let mut area = 0.0;
-    let mut end = darkest;
-    let mut best = Step { amount: darkest, ink: 0.0 };
-    let mut most = 0.0;
-    for touch in touches.iter().rev() {
-        area += touch.ink * (end - touch.amount).max(0.0);
-        end = end.min(touch.amount);
-        let width = darkest - end;
-        let ink = if width > 1e-4 { area / width } else { touch.ink };
-        // What is left of the squared error gets smaller by this.
-        let explained = ink * area;
-        if explained >= most {
-            most = explained;
-            best = Step { amount: touch.amount, ink };
+/// The two steps that are nearest to a texel's own, over all amounts.
+fn nearest_steps(touches: &[Touch]) -> [Step; 2] {
+    let amount = |i: usize| touches.get(i).map_or(1.0, |touch| touch.amount);
+    // Ink of all touches up to one, over the amounts; sums of it let any stretch be asked for.
+    let mut area = vec![0.0f32];
+    for (i, touch) in touches.iter().enumerate() {
+        let before = area.last().copied().unwrap_or_default();
+        area.push(before + touch.ink * (amount(i + 1) - amount(i)));
+    }
+    // Its ink and by how much it lessens the squared error.
+    let stretch = |from: usize, to: usize| {
+        let (width, sum) =
+            (amount(to) - amount(from), area.get(to).zip(area.get(from)).map_or(0.0, |(b, a)| b - a));
+        let last = touches.get(to.saturating_sub(1)).map_or(0.0, |touch| touch.ink);
+        if width > 1e-5 { (sum / width, sum * sum / width) } else { (last, 0.0) }
+    };
+    let count = touches.len();
+    let mut best = [Step { amount: 1.0, ink: 0.0 }; 2];
+    let mut most = -1.0;
+    for first in 0..count {
+        for second in first + 1..=count {
+            let ((a, gain), (b, more)) = (stretch(first, second), stretch(second, count));
+            if gain + more > most {
+                most = gain + more;
+                let b = if second < count { b.max(a) } else { a };
+                best = [Step { amount: amount(first), ink: a }, Step { amount: amount(second), ink: b }];
+            }
         }
     }
     best
@@ -82,11 +106,11 @@ fn nearest_step(touches: &[Touch], darkest: f32) -> Step {
 fn spread(side: usize, priorities: &mut [Priority]) {
     let before = priorities.to_vec();
     let at = |x: usize, y: usize| before.get(y % side * side + x % side).copied().unwrap_or_default();
-    for (i, priority) in priorities.iter_mut().enumerate().filter(|(_, priority)| priority.ink == 0) {
+    for (i, priority) in priorities.iter_mut().enumerate().filter(|(_, priority)| priority.inks == [0; 2]) {
         let (x, y) = (i % side + side, i / side + side);
-        let around = (0..9).map(|n| at(x + n % 3 - 1, y + n / 3 - 1)).filter(|near| near.ink > 0);
-        if let Some(strongest) = around.max_by_key(|near| near.ink) {
-            priority.threshold = strongest.threshold;
+        let around = (0..9).map(|n| at(x + n % 3 - 1, y + n / 3 - 1)).filter(|near| near.inks[1] > 0);
+        if let Some(strongest) = around.max_by_key(|near| near.inks) {
+            priority.thresholds = strongest.thresholds;
         }
     }
 }

@@ -1,6 +1,5 @@
 //! One stroke: what it looks like, and which texels it covers.
 
-use std::f32::consts::TAU;
 use std::sync::Arc;
 
 use super::stroke_image::{Scaled, StrokeImage};
@@ -110,20 +109,27 @@ pub struct Brush {
     shape: StrokeShape,
     side: usize,
     scaled: Option<Scaled>,
+    /// Share of ink that the paper takes at each texel; empty: all of it.
+    grain: Vec<f32>,
 }
 
 impl Brush {
-    /// For tiles of `side` texels.
+    /// For tiles of `side` texels, a power of two.
     pub fn new(shape: &StrokeShape, side: usize) -> Self {
         let length = (shape.length * side as f32).ceil() as usize;
         let scaled = shape.image.as_ref().map(|image| image.scaled(length, shape.width.ceil() as usize));
-        Self { shape: shape.clone(), side, scaled }
+        let kept = |texel: usize| {
+            let [first, second, ..] = random(GRAIN, texel as u64);
+            1.0 - shape.grain * first.max(second)
+        };
+        let grain = if shape.grain > 0.0 { (0..side * side).map(kept).collect() } else { Vec::new() };
+        Self { shape: shape.clone(), side, scaled, grain }
     }
 
     /// Calls `visit` with the number and the ink, above 0 to 1, of each texel that a stroke covers. A texel may come twice
     /// where a stroke meets its own beginning.
     pub fn visit(&self, stroke: &Stroke, mut visit: impl FnMut(usize, f32)) {
-        let side = self.side as f32;
+        let (side, mask) = (self.side as f32, self.side.saturating_sub(1));
         let (sin, cos) = stroke.angle.sin_cos();
         let half = 0.5 * stroke.length * cos * side;
         let [x, y] = stroke.middle.map(|c| c * side);
@@ -133,40 +139,43 @@ impl Brush {
             let on_line = offset.clamp(-half, half);
             let beyond = offset - on_line;
             let u = if half > 0.0 { (0.5 * (on_line / half + 1.0)).clamp(0.0, 1.0) } else { 0.5 };
-            let wave: f32 = [0.8, 2.3]
+            let aside: f32 = [0.8, 2.3]
                 .iter()
                 .zip(stroke.swing.iter().zip(&stroke.phase))
-                .map(|(turns, (swing, phase))| swing * ((u * turns + phase) * TAU).sin())
+                .map(|(turns, (swing, phase))| swing * wave(u * turns + phase))
                 .sum();
-            let center = y + (on_line * sin / cos) + wave * side;
+            let center = y + (on_line * sin / cos) + aside * side;
             let half_width = self.shape.half_width(stroke, u);
+            let sign = if stroke.is_flipped { -1.0 } else { 1.0 };
             for row in (center - reach).floor() as i64..=(center + reach).ceil() as i64 {
                 let across = row as f32 + 0.5 - center;
                 let cover = match &self.scaled {
-                    None => covered(half_width, across.hypot(beyond)),
+                    None if beyond == 0.0 => covered(half_width, across.abs()),
+                    None => covered(half_width, (across * across + beyond * beyond).sqrt()),
                     Some(image) if beyond.abs() <= 1.0 => {
-                        let v = across / stroke.width * if stroke.is_flipped { -1.0 } else { 1.0 };
+                        let v = sign * across / stroke.width;
                         image.ink(u, v + 0.5)
                     }
                     Some(_) => 0.0,
                 };
-                let column = column.rem_euclid(self.side as i64) as usize;
-                let row = row.rem_euclid(self.side as i64) as usize;
-                let ink = cover * self.shape.pressure * self.kept_by_grain(column, row);
+                // Sides are powers of two.
+                let texel = (row as usize & mask) * self.side + (column as usize & mask);
+                let ink = cover * self.shape.pressure * self.grain.get(texel).copied().unwrap_or(1.0);
                 if ink > MIN_INK {
-                    visit(row * self.side + column, ink);
+                    visit(texel, ink);
                 }
             }
         }
     }
 
-    /// Share of ink that the paper takes at a texel.
-    fn kept_by_grain(&self, column: usize, row: usize) -> f32 {
-        if self.shape.grain <= 0.0 {
-            return 1.0;
-        }
-        let [noise, second, ..] = random(GRAIN, (row * self.side + column) as u64);
-        1.0 - self.shape.grain * noise.max(second)
+    /// Sums over the texels that a stroke covers: of their ink times a weight of each, and of their ink.
+    pub fn weighed(&self, stroke: &Stroke, weights: &[f32]) -> [f32; 2] {
+        let mut sums = [0.0; 2];
+        self.visit(stroke, |texel, ink| {
+            sums[0] += ink * weights.get(texel).copied().unwrap_or_default();
+            sums[1] += ink;
+        });
+        sums
     }
 }
 
@@ -174,6 +183,12 @@ impl Brush {
 const MIN_INK: f32 = 1.0 / 512.0;
 /// Seed of the paper's grain.
 const GRAIN: u64 = 17;
+
+/// A wave of period 1 between −1 and 1, of parabolas: the same on all systems.
+fn wave(t: f32) -> f32 {
+    let t = t - t.floor() - 0.5;
+    16.0 * t * (0.5 - t.abs())
+}
 
 /// Share of a texel that is covered by a line of half a width in texels, at a distance from the line's middle.
 fn covered(half_width: f32, distance: f32) -> f32 {
