@@ -201,11 +201,7 @@ impl Work<'_> {
     fn fill(&mut self, level: usize, tone: usize, target: f32, exactly: bool) -> Result<(), RecipeError> {
         let Recipe { shape, seed, candidates, .. } = self.recipe;
         let mut count = 0;
-        while let Some(sheet) = self.sheets.get(level) {
-            let rest = target - sheet.ink();
-            if rest < 0.2 * INK_TOLERANCE {
-                break;
-            }
+        while let Some(sheet) = self.sheets.get(level).filter(|sheet| sheet.ink() < target) {
             if !(self.progress)(self.share_done()) {
                 return Err(RecipeError::Cancelled);
             }
@@ -213,17 +209,15 @@ impl Work<'_> {
             if count > MOST_STROKES * sheet.side * sheet.side {
                 return Err(RecipeError::TooFaint { reached: sheet.ink(), wanted: target });
             }
+            let rest = target - sheet.ink();
             let mut stroke = sheet.best(shape, *seed, self.strokes.len() as u64, *candidates);
             let gain = sheet.gain(&stroke);
-            if gain > rest {
-                if exactly {
-                    stroke = shortened(sheet, &stroke, rest);
-                } else if gain > 2.0 * rest {
-                    break;
-                }
-                if exactly && sheet.gain(&stroke) > 2.0 * rest {
-                    break;
-                }
+            // A stub shows: better a little too much or too little ink.
+            let error = rest.min(gain - rest);
+            if gain > rest && exactly && error > 0.6 * INK_TOLERANCE {
+                stroke = shortened(sheet, &stroke, rest);
+            } else if gain > 2.0 * rest {
+                break;
             }
             for sheet in self.sheets.iter_mut().take(level + 1) {
                 sheet.draw(&stroke);

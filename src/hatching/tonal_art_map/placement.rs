@@ -31,6 +31,8 @@ pub(super) struct Sheet {
 
 /// Pyramids of levels end here, in texels along a side.
 const SMALLEST: usize = 8;
+/// Weight of each resolution, relative to the next finer one.
+const FARTHER: f32 = 0.6;
 /// Strokes that are tried in one go.
 const BATCH: usize = 128;
 
@@ -61,12 +63,14 @@ impl Sheet {
     /// How much room there is for a stroke at coarser resolutions, and what share of it would be on paper; nothing if that is
     /// no more than `least`.
     fn goodness(&self, stroke: &Stroke, least: f32) -> Option<f32> {
-        // None adds more than 1, and coarse ones cost little: most strokes are out of the question early.
-        let mut open = self.rooms.len() as f32 + 1.0;
+        // None adds more than its weight, and coarse ones cost little: most strokes are out of the question early.
+        let mut weight = FARTHER.powi(self.rooms.len() as i32);
+        let mut open = (1.0 - weight * FARTHER) / (1.0 - FARTHER);
         let mut sum = 0.0;
         for room in self.rooms.iter().rev() {
-            sum += room.around(stroke);
-            open -= 1.0;
+            sum += weight * room.around(stroke);
+            open -= weight;
+            weight /= FARTHER;
             if sum + open <= least {
                 return None;
             }
