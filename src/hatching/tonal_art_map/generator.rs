@@ -4,7 +4,7 @@
 //! until its ink is reached. A stroke is drawn in its level and in all finer ones, in its tone and in all darker ones.
 //! Here each tone is reached in [`STEPS`] steps, so that levels agree about the order of strokes within a tone too.
 
-use super::placement::Sheet;
+use super::placement::{Sheet, best};
 use super::priorities::priorities;
 use super::stroke::{Stroke, StrokeShape};
 use super::{INK_TOLERANCE, Level, TonalArtMap};
@@ -210,7 +210,8 @@ impl Work<'_> {
                 return Err(RecipeError::TooFaint { reached: sheet.ink(), wanted: target });
             }
             let rest = target - sheet.ink();
-            let mut stroke = sheet.best(shape, *seed, self.strokes.len() as u64, *candidates);
+            let mut stroke =
+                best(&self.sheets[..=level], shape, *seed, self.strokes.len() as u64, *candidates);
             let gain = sheet.gain(&stroke);
             // A stub shows: better a little too much or too little ink.
             let error = rest.min(gain - rest);

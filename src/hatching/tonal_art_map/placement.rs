@@ -60,41 +60,6 @@ impl Sheet {
         gain / (self.side * self.side) as f32
     }
 
-    /// How much room there is for a stroke at coarser resolutions, and what share of it would be on paper; nothing if that is
-    /// no more than `least`.
-    fn goodness(&self, stroke: &Stroke, least: f32) -> Option<f32> {
-        // None adds more than its weight, and coarse ones cost little: most strokes are out of the question early.
-        let mut weight = FARTHER.powi(self.rooms.len() as i32);
-        let mut open = (1.0 - weight * FARTHER) / (1.0 - FARTHER);
-        let mut sum = 0.0;
-        for room in self.rooms.iter().rev() {
-            sum += weight * room.around(stroke);
-            open -= weight;
-            weight /= FARTHER;
-            if sum + open <= least {
-                return None;
-            }
-        }
-        let [gain, ink] = self.brush.weighed(stroke, &self.paper);
-        Some(sum + gain / ink.max(1e-6)).filter(|sum| *sum > least)
-    }
-
-    /// The best of `count` random strokes; `number`: of the stroke, so that each draws other lots.
-    pub(super) fn best(&self, shape: &StrokeShape, seed: u64, number: u64, count: usize) -> Stroke {
-        let lot = |i: usize| shape.stroke(random(seed, number << 24 | i as u64));
-        let best_of = |batch: usize| {
-            let mut best = Try { goodness: -1.0, number: batch * BATCH };
-            for number in batch * BATCH..((batch + 1) * BATCH).min(count) {
-                if let Some(goodness) = self.goodness(&lot(number), best.goodness) {
-                    best = Try { goodness, number };
-                }
-            }
-            best
-        };
-        let best = (0..count.div_ceil(BATCH)).into_par_iter().map(best_of).reduce_with(Try::better);
-        lot(best.map_or(0, |best| best.number))
-    }
-
     /// Draws a stroke.
     pub(super) fn draw(&mut self, stroke: &Stroke) {
         let (mut inked, first) = (0.0, self.touches.len());
@@ -113,6 +78,45 @@ impl Sheet {
             room.take(stroke);
         }
     }
+}
+
+/// The best of `count` random strokes for all of some levels; `number`: of the stroke, so that each draws other lots.
+pub(super) fn best(sheets: &[Sheet], shape: &StrokeShape, seed: u64, number: u64, count: usize) -> Stroke {
+    let lot = |i: usize| shape.stroke(random(seed, number << 24 | i as u64));
+    let best_of = |batch: usize| {
+        let mut best = Try { goodness: -1.0, number: batch * BATCH };
+        for number in batch * BATCH..((batch + 1) * BATCH).min(count) {
+            if let Some(goodness) = goodness(sheets, &lot(number), best.goodness) {
+                best = Try { goodness, number };
+            }
+        }
+        best
+    };
+    let best = (0..count.div_ceil(BATCH)).into_par_iter().map(best_of).reduce_with(Try::better);
+    lot(best.map_or(0, |best| best.number))
+}
+
+/// What share of a stroke would be on paper, and how much room there is for it at coarser resolutions; nothing if that is no
+/// more than `least`.
+fn goodness(sheets: &[Sheet], stroke: &Stroke, least: f32) -> Option<f32> {
+    // None adds more than its weight, and coarse ones cost little: most strokes are out of the question early.
+    let weights = |sheet: &Sheet| (0..=sheet.rooms.len() as i32).map(|i| FARTHER.powi(i)).sum::<f32>();
+    let mut open: f32 = sheets.iter().map(weights).sum();
+    let mut sum = 0.0;
+    for sheet in sheets.iter().rev() {
+        for (i, room) in sheet.rooms.iter().enumerate().rev() {
+            let weight = FARTHER.powi(i as i32 + 1);
+            sum += weight * room.around(stroke);
+            open -= weight;
+            if sum + open <= least {
+                return None;
+            }
+        }
+        let [gain, ink] = sheet.brush.weighed(stroke, &sheet.paper);
+        sum += gain / ink.max(1e-6);
+        open -= 1.0;
+    }
+    Some(sum).filter(|sum| *sum > least)
 }
 
 /// A stroke that was tried.

@@ -14,12 +14,16 @@ pub struct Set {
 
 /// All built-in sets.
 pub fn all() -> [Set; 4] {
-    let set = |name, seed, shape| Set { name, recipe: Recipe { shape, seed, ..Recipe::default() } };
+    let set = |name, seed, candidates, shape| {
+        let recipe = Recipe { shape, seed, candidates, ..Recipe::default() };
+        Set { name, recipe }
+    };
+    // Of many small strokes a few candidates each are enough.
     [
-        set("pen", 1, pen()),
-        set("pencil", 2, pencil()),
-        set("woodcut", 3, woodcut()),
-        set("stipple", 4, stipple()),
+        set("pen", 1, 400, pen()),
+        set("pencil", 2, 200, pencil()),
+        set("woodcut", 3, 400, woodcut()),
+        set("stipple", 4, 100, stipple()),
     ]
 }
 
