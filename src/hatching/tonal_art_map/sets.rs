@@ -1,5 +1,6 @@
 //! The built-in stroke sets: what their strokes look like.
 
+use super::composition::COMPOSED_INKS;
 use super::generator::Recipe;
 use super::stroke::StrokeShape;
 
@@ -12,10 +13,10 @@ pub struct Set {
     pub recipe: Recipe,
 }
 
-/// All built-in sets.
+/// All built-in sets. They have as much ink in each tone as their three light tones have when they are composed.
 pub fn all() -> [Set; 4] {
     let set = |name, seed, candidates, shape| {
-        let recipe = Recipe { shape, seed, candidates, ..Recipe::default() };
+        let recipe = Recipe { shape, seed, candidates, inks: COMPOSED_INKS.to_vec(), ..Recipe::default() };
         Set { name, recipe }
     };
     // Of many small strokes a few candidates each are enough.
@@ -73,5 +74,5 @@ pub fn woodcut() -> StrokeShape {
 
 /// Dots.
 pub fn stipple() -> StrokeShape {
-    StrokeShape { length: 0.0, width: 3.0, width_spread: 0.2, ..StrokeShape::default() }
+    StrokeShape { length: 0.0, width: 3.6, width_spread: 0.2, ..StrokeShape::default() }
 }
