@@ -13,6 +13,8 @@ use super::{Level, Priority, TonalArtMap};
 
 /// Columns after those of the tones.
 const PRIORITIES: usize = 4;
+/// No level has less texels along a side.
+const SMALLEST: usize = 16;
 /// An image with more texels in a direction is refused.
 const MAX_SIDE: u32 = 1 << 15;
 /// An image that takes more memory is refused, in bytes.
@@ -155,7 +157,10 @@ impl Layout {
         let levels = (odd + 1).checked_ilog2()? as usize;
         let side = ((height / odd) << (levels - 1)) as usize;
         let columns = width as usize / side;
-        let is_whole = (odd + 1).is_power_of_two() && levels <= 8 && columns * side == width as usize;
+        let is_whole = (odd + 1).is_power_of_two()
+            && levels <= 8
+            && columns * side == width as usize
+            && side >> (levels - 1) >= SMALLEST;
         (is_whole && columns > PRIORITIES).then(|| Self { side, levels, tones: columns - PRIORITIES })
     }
 }

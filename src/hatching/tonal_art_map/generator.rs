@@ -256,3 +256,7 @@ fn shortened(sheet: &Sheet, stroke: &Stroke, gain: f32) -> Stroke {
     }
     cut(least)
 }
+
+#[cfg(test)]
+#[path = "generator_tests.rs"]
+mod tests;

@@ -35,7 +35,8 @@ struct Rise {
 
 /// The priorities of a tile from what its strokes did.
 ///
-/// Each texel gets the two steps that are nearest to what its strokes did (least squares over all tones). Then thresholds
+/// Each texel gets the two steps that are nearest to what its strokes did (least squares over all tones). The last one leads
+/// to all its ink, so that the darkest tone is exact. Then thresholds
 /// are set so that all steps below one have as much ink as it says: the mean ink of a tile is its tone, within a 255th.
 pub(super) fn priorities(side: usize, touches: &[Touch]) -> Vec<Priority> {
     let mut ordered = touches.to_vec();
@@ -69,32 +70,33 @@ pub(super) fn priorities(side: usize, touches: &[Touch]) -> Vec<Priority> {
     priorities
 }
 
-/// The two steps that are nearest to a texel's own, over all amounts.
+/// The two steps that are nearest to a texel's own, over all amounts, of those that lead to all its ink: so that the darkest
+/// tone is reached.
 fn nearest_steps(touches: &[Touch]) -> [Step; 2] {
     let amount = |i: usize| touches.get(i).map_or(1.0, |touch| touch.amount);
-    // Ink of all touches up to one, over the amounts; sums of it let any stretch be asked for.
-    let mut area = vec![0.0f32];
+    let all = touches.last().map_or(0.0, |touch| touch.ink);
+    // Ink of all touches up to one, over the amounts; differences of it let any stretch be asked for.
+    let mut areas = vec![0.0f32];
     for (i, touch) in touches.iter().enumerate() {
-        let before = area.last().copied().unwrap_or_default();
-        area.push(before + touch.ink * (amount(i + 1) - amount(i)));
+        let before = areas.last().copied().unwrap_or_default();
+        areas.push(before + touch.ink * (amount(i + 1) - amount(i)));
     }
-    // Its ink and by how much it lessens the squared error.
-    let stretch = |from: usize, to: usize| {
-        let (width, sum) =
-            (amount(to) - amount(from), area.get(to).zip(area.get(from)).map_or(0.0, |(b, a)| b - a));
-        let last = touches.get(to.saturating_sub(1)).map_or(0.0, |touch| touch.ink);
-        if width > 1e-5 { (sum / width, sum * sum / width) } else { (last, 0.0) }
-    };
+    let area =
+        |from: usize, to: usize| areas.get(from).zip(areas.get(to)).map_or(0.0, |(from, to)| to - from);
+    // By how much an ink all over a stretch of amounts lessens the squared error.
+    let gain =
+        |ink: f32, [from, to]: [usize; 2]| ink * (2.0 * area(from, to) - ink * (amount(to) - amount(from)));
     let count = touches.len();
     let mut best = [Step { amount: 1.0, ink: 0.0 }; 2];
     let mut most = -1.0;
     for first in 0..count {
-        for second in first + 1..=count {
-            let ((a, gain), (b, more)) = (stretch(first, second), stretch(second, count));
-            if gain + more > most {
-                most = gain + more;
-                let b = if second < count { b.max(a) } else { a };
-                best = [Step { amount: amount(first), ink: a }, Step { amount: amount(second), ink: b }];
+        for second in first..count {
+            let width = amount(second) - amount(first);
+            let ink = if width > 1e-5 { area(first, second) / width } else { 0.0 };
+            let gain = gain(ink, [first, second]) + gain(all, [second, count]);
+            if gain > most {
+                most = gain;
+                best = [Step { amount: amount(first), ink }, Step { amount: amount(second), ink: all }];
             }
         }
     }

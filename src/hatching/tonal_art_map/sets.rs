@@ -9,22 +9,30 @@ use super::stroke::StrokeShape;
 pub struct Set {
     /// Lower case, also of its file.
     pub name: &'static str,
-    /// What it is drawn from.
+    /// What it was drawn from.
     pub recipe: Recipe,
+    /// Its file, which `assets/strokes` made.
+    pub png: &'static [u8],
 }
 
 /// All built-in sets. They have as much ink in each tone as their three light tones have when they are composed.
 pub fn all() -> [Set; 4] {
-    let set = |name, seed, candidates, shape| {
-        let recipe = Recipe { shape, seed, candidates, inks: COMPOSED_INKS.to_vec(), ..Recipe::default() };
-        Set { name, recipe }
+    let set = |name, png, seed, candidates, shape| Set {
+        name,
+        recipe: Recipe { shape, seed, candidates, inks: COMPOSED_INKS.to_vec(), ..Recipe::default() },
+        png,
     };
+    macro_rules! png {
+        ($name:literal) => {
+            include_bytes!(concat!("../../../assets/strokes/sets/", $name, ".png"))
+        };
+    }
     // Of many small strokes a few candidates each are enough.
     [
-        set("pen", 1, 400, pen()),
-        set("pencil", 2, 200, pencil()),
-        set("woodcut", 3, 400, woodcut()),
-        set("stipple", 4, 100, stipple()),
+        set("pen", png!("pen"), 1, 400, pen()),
+        set("pencil", png!("pencil"), 2, 200, pencil()),
+        set("woodcut", png!("woodcut"), 3, 400, woodcut()),
+        set("stipple", png!("stipple"), 4, 100, stipple()),
     ]
 }
 
@@ -74,5 +82,36 @@ pub fn woodcut() -> StrokeShape {
 
 /// Dots.
 pub fn stipple() -> StrokeShape {
-    StrokeShape { length: 0.0, width: 3.6, width_spread: 0.2, ..StrokeShape::default() }
+    StrokeShape { length: 0.0, width: 4.0, width_spread: 0.2, ..StrokeShape::default() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::hatching::tonal_art_map::{INK_TOLERANCE, TonalArtMap};
+
+    #[test]
+    fn built_in_sets_are_small_maps_with_the_ink_of_their_recipes() {
+        for set in all() {
+            let map = TonalArtMap::from_png(set.png).unwrap();
+            assert!(set.png.len() < 300_000, "{}: {} bytes", set.name, set.png.len());
+            let sides: Vec<_> = map.levels.iter().map(|level| level.side).collect();
+            assert_eq!(sides, [256, 128, 64, 32]);
+            assert_eq!(map.inks.len(), COMPOSED_INKS.len());
+            for level in &map.levels {
+                let texels = (level.side * level.side) as f32;
+                for (tone, ink) in level.tones.iter().zip(COMPOSED_INKS) {
+                    let mean = tone.iter().map(|ink| f32::from(*ink)).sum::<f32>() / 255.0 / texels;
+                    assert!((mean - ink).abs() < INK_TOLERANCE, "{} {}: {mean} {ink}", set.name, level.side);
+                    let found = level.priorities.iter().map(|p| p.ink_at(ink)).sum::<f32>() / texels;
+                    assert!(
+                        (found - ink).abs() < INK_TOLERANCE,
+                        "{} {}: {found} {ink}",
+                        set.name,
+                        level.side
+                    );
+                }
+            }
+        }
+    }
 }
