@@ -95,8 +95,8 @@ pub enum RecipeError {
 
 /// Each tone is reached in so many steps.
 pub const STEPS: usize = 4;
-/// A level of the side s has no more strokes than this times s².
-const MOST_STROKES: usize = 4;
+/// After so many strokes without any ink there will be no more.
+const MOST_IDLE: usize = 100;
 
 /// Strokes of a map with the place that they have in it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -200,19 +200,19 @@ impl Work<'_> {
     /// Draws strokes in a level and all finer ones until it has the ink; only `exactly` if the last one may be cut short.
     fn fill(&mut self, level: usize, tone: usize, target: f32, exactly: bool) -> Result<(), RecipeError> {
         let Recipe { shape, seed, candidates, .. } = self.recipe;
-        let mut count = 0;
+        let mut idle = 0;
         while let Some(sheet) = self.sheets.get(level).filter(|sheet| sheet.ink() < target) {
             if !(self.progress)(self.share_done()) {
                 return Err(RecipeError::Cancelled);
-            }
-            count += 1;
-            if count > MOST_STROKES * sheet.side * sheet.side {
-                return Err(RecipeError::TooFaint { reached: sheet.ink(), wanted: target });
             }
             let rest = target - sheet.ink();
             let mut stroke =
                 best(&self.sheets[..=level], shape, *seed, self.strokes.len() as u64, *candidates);
             let gain = sheet.gain(&stroke);
+            idle = if gain > 0.0 { 0 } else { idle + 1 };
+            if idle > MOST_IDLE {
+                return Err(RecipeError::TooFaint { reached: sheet.ink(), wanted: target });
+            }
             // A stub shows: better a little too much or too little ink.
             let error = rest.min(gain - rest);
             if gain > rest && exactly && error > 0.6 * INK_TOLERANCE {

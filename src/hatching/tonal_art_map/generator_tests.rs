@@ -137,6 +137,7 @@ fn strokes_are_spread_evenly() {
 fn priorities_give_all_tones() {
     for shape in shapes() {
         for level in draw(&Recipe { shape, ..recipe() }).map.levels {
+            assert!(level.priorities.iter().all(|p| p.thresholds.is_sorted() && p.inks.is_sorted()));
             let picture = |ink: f32| -> Vec<f32> { level.priorities.iter().map(|p| p.ink_at(ink)).collect() };
             let texels = (level.side * level.side) as f32;
             for tone in 0..=48 {
@@ -172,7 +173,7 @@ fn progress_grows_and_can_stop_the_work() {
         assert!((0.0..=1.0).contains(&share) && share >= before);
         share < 0.4
     };
-    assert_eq!(recipe().draw(&hears), Err(RecipeError::Cancelled));
+    assert!(recipe().draw(&hears) == Err(RecipeError::Cancelled));
     let share = f32::from_bits(last.load(Ordering::Relaxed));
     assert!((0.4..0.5).contains(&share), "{share}");
 }
@@ -197,4 +198,12 @@ fn bad_recipes_are_refused() {
         let error = refuses(&Recipe { side, levels, ..recipe() });
         assert!(matches!(error, RecipeError::Levels { .. }), "{error}");
     }
+}
+
+#[test]
+fn strokes_without_ink_are_an_error() {
+    let image = Some(Arc::new(StrokeImage::new(8, 2, &[0.97; 16]).unwrap()));
+    let shape = StrokeShape { pressure: 0.05, image, ..StrokeShape::default() };
+    let error = Recipe { shape, ..recipe() }.draw(&|_| true).unwrap_err();
+    assert!(matches!(error, RecipeError::TooFaint { reached: 0.0, .. }), "{error}");
 }

@@ -10,8 +10,9 @@ impl Priority {
     /// Ink of the texel when the tile's mean ink is `ink`; both 0 to 1. Twin of the shader's.
     pub fn ink_at(self, ink: f32) -> f32 {
         let steps = self.thresholds.into_iter().zip(self.inks);
-        let taken = steps.filter(|(threshold, _)| *threshold < NEVER && f32::from(*threshold) < 255.0 * ink);
-        taken.last().map_or(0.0, |(_, ink)| f32::from(ink) / 255.0)
+        let mut taken =
+            steps.filter(|(threshold, _)| *threshold < NEVER && f32::from(*threshold) < 255.0 * ink);
+        taken.next_back().map_or(0.0, |(_, ink)| f32::from(ink) / 255.0)
     }
 }
 
@@ -65,6 +66,10 @@ pub(super) fn priorities(side: usize, touches: &[Touch]) -> Vec<Priority> {
                 priority.inks[number] = taken;
             }
         }
+    }
+    for priority in priorities.iter_mut().filter(|priority| priority.inks[0] == 0) {
+        // One step is two at once.
+        *priority = Priority { thresholds: [priority.thresholds[1]; 2], inks: [priority.inks[1]; 2] };
     }
     spread(side, &mut priorities);
     priorities

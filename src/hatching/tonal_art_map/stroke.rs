@@ -147,15 +147,16 @@ impl Brush {
             let center = y + (on_line * sin / cos) + aside * side;
             let half_width = self.shape.half_width(stroke, u);
             let reach = if self.scaled.is_some() { reach } else { half_width + 0.5 };
+            let image = self.scaled.as_ref().map(|image| (image, image.along(u)));
             let sign = if stroke.is_flipped { -1.0 } else { 1.0 };
             for row in below(center - reach + 0.5)..=below(center + reach - 0.5) {
                 let across = row as f32 + 0.5 - center;
-                let cover = match &self.scaled {
+                let cover = match &image {
                     None if beyond == 0.0 => covered(half_width, across.abs()),
                     None => covered(half_width, (across * across + beyond * beyond).sqrt()),
-                    Some(image) if beyond.abs() <= 1.0 => {
+                    Some((image, along)) if beyond.abs() <= 1.0 => {
                         let v = sign * across / stroke.width;
-                        image.ink(u, v + 0.5)
+                        image.ink(*along, v + 0.5)
                     }
                     Some(_) => 0.0,
                 };
@@ -201,4 +202,58 @@ fn wave(t: f32) -> f32 {
 fn covered(half_width: f32, distance: f32) -> f32 {
     // A thinner line than a texel is a fainter one.
     (half_width + 0.5 - distance).clamp(0.0, (2.0 * half_width).min(1.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn stroke(middle: [f32; 2], width: f32) -> Stroke {
+        let (swing, phase) = ([0.0; 2], [0.0; 2]);
+        Stroke { middle, length: 0.5, width, angle: 0.0, swing, phase, is_flipped: false }
+    }
+
+    fn drawn(shape: &StrokeShape, stroke: &Stroke) -> Vec<f32> {
+        let mut tile = vec![0.0; 64 * 64];
+        Brush::new(shape, 64).visit(stroke, |texel, ink| tile[texel] += ink);
+        tile
+    }
+
+    #[test]
+    fn a_stroke_has_the_ink_of_its_area() {
+        let shape = StrokeShape { taper: [0.0; 2], ..StrokeShape::default() };
+        for width in [0.4f32, 1.0, 1.7, 5.0] {
+            for y in [0.5, 0.503, 0.508] {
+                let ink: f32 = drawn(&shape, &stroke([0.5, y], width)).iter().sum();
+                // Its ends are round.
+                let area = 32.0 * width + std::f32::consts::PI * 0.25 * width * width;
+                assert!((ink / area - 1.0).abs() < 0.05, "{width} at {y}: {ink} {area}");
+            }
+        }
+    }
+
+    #[test]
+    fn strokes_go_on_at_the_opposite_side() {
+        let shape = StrokeShape::default();
+        let whole = drawn(&shape, &stroke([0.5, 0.5], 3.0));
+        let across = drawn(&shape, &stroke([0.0, 0.0], 3.0));
+        for (i, ink) in whole.iter().enumerate() {
+            let (x, y) = ((i % 64 + 32) % 64, (i / 64 + 32) % 64);
+            assert!((across[y * 64 + x] - ink).abs() < 1e-4);
+        }
+    }
+
+    #[test]
+    fn strokes_taper_towards_their_ends() {
+        let shape = StrokeShape { taper: [0.1, 0.8], ..StrokeShape::default() };
+        let tile = drawn(&shape, &stroke([0.5, 0.5], 6.0));
+        let width = |x: usize| (0..64).map(|y| tile[y * 64 + x]).sum::<f32>();
+        assert!(
+            width(20) > 5.5
+                && width(34) < 5.0
+                && width(34) > width(42)
+                && width(46) < 1.6
+                && width(52) == 0.0
+        );
+    }
 }

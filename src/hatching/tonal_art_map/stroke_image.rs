@@ -94,16 +94,15 @@ impl StrokeImage {
         let (columns, rows) = (columns.clamp(1, self.width), rows.clamp(1, self.height));
         let range =
             |i: usize, of: usize, from: usize| i * from / of..((i + 1) * from / of).max(i * from / of + 1);
-        let ink = (0..columns * rows)
-            .map(|i| {
-                let (xs, ys) =
-                    (range(i % columns, columns, self.width), range(i / columns, rows, self.height));
-                let count = (xs.len() * ys.len()) as f32;
-                let texels = ys.flat_map(|y| xs.clone().map(move |x| y * self.width + x));
-                texels.filter_map(|i| self.ink.get(i)).sum::<f32>() / count
-            })
-            .collect();
-        Scaled { columns, rows, ink }
+        let mean = |i: usize| {
+            let (xs, ys) = (range(i % columns, columns, self.width), range(i / columns, rows, self.height));
+            let count = (xs.len() * ys.len()) as f32;
+            let texels = ys.flat_map(|y| xs.clone().map(move |x| y * self.width + x));
+            texels.filter_map(|i| self.ink.get(i)).sum::<f32>() / count
+        };
+        let inked = (0..columns * rows).map(mean);
+        let empty = || std::iter::repeat_n(0.0, columns);
+        Scaled { columns, rows, ink: empty().chain(inked).chain(empty()).collect() }
     }
 }
 
@@ -112,26 +111,38 @@ impl StrokeImage {
 pub(super) struct Scaled {
     columns: usize,
     rows: usize,
+    /// With an empty row above and below.
     ink: Vec<f32>,
 }
 
+/// Where a place along the stroke is between two columns.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Along {
+    left: usize,
+    right: usize,
+    share: f32,
+}
+
 impl Scaled {
-    /// Ink between texels; there is none above and below. `u` along the stroke and `v` across, 0 to 1.
-    pub(super) fn ink(&self, u: f32, v: f32) -> f32 {
+    /// A place along the stroke, 0 to 1.
+    pub(super) fn along(&self, u: f32) -> Along {
         let x = (u * self.columns as f32 - 0.5).clamp(0.0, (self.columns - 1) as f32);
-        let y = v * self.rows as f32 - 0.5;
-        let at = |column: f32, row: f32| {
-            let is_inside = row >= 0.0 && row < self.rows as f32 && column < self.columns as f32;
-            let ink = self.ink.get(row.max(0.0) as usize * self.columns + column as usize);
-            ink.copied().filter(|_| is_inside).unwrap_or_default()
+        let left = x as usize;
+        Along { left, right: (left + 1).min(self.columns - 1), share: x - left as f32 }
+    }
+
+    /// Ink between texels; there is none above and below. `v` across the stroke, 0 to 1.
+    pub(super) fn ink(&self, along: Along, v: f32) -> f32 {
+        // The empty row above is number 0.
+        let y = (v * self.rows as f32 + 0.5).clamp(0.0, (self.rows + 1) as f32);
+        let above = (y as usize).min(self.rows);
+        let at = |i: usize| self.ink.get(i).copied().unwrap_or_default();
+        let row = |row: usize| {
+            let (a, b) = (at(row * self.columns + along.left), at(row * self.columns + along.right));
+            a + (b - a) * along.share
         };
-        let (left, above) = (x.floor(), y.floor());
-        let row = |row: f32| {
-            let (a, b) = (at(left, row), at((left + 1.0).min((self.columns - 1) as f32), row));
-            a + (b - a) * (x - left)
-        };
-        let (first, second) = (row(above), row(above + 1.0));
-        first + (second - first) * (y - above)
+        let (first, second) = (row(above), row(above + 1));
+        first + (second - first) * (y - above as f32)
     }
 }
 
@@ -161,9 +172,10 @@ mod tests {
         let image = StrokeImage::new(64, 8, &grey).unwrap();
         for (columns, rows) in [(16, 2), (64, 8), (500, 90)] {
             let scaled = image.scaled(columns, rows);
-            assert!((scaled.ink.iter().sum::<f32>() / scaled.ink.len() as f32 - 0.5).abs() < 1e-6);
-            assert_eq!((scaled.ink(0.1, 0.5), scaled.ink(0.9, 0.5)), (1.0, 0.0));
-            assert_eq!(scaled.ink(0.1, -1.0), 0.0);
+            let texels = (scaled.columns * scaled.rows) as f32;
+            assert!((scaled.ink.iter().sum::<f32>() / texels - 0.5).abs() < 1e-6);
+            let ink = |u, v| scaled.ink(scaled.along(u), v);
+            assert_eq!([ink(0.1, 0.5), ink(0.9, 0.5), ink(0.1, -1.0), ink(0.1, 2.0)], [1.0, 0.0, 0.0, 0.0]);
         }
     }
 }
