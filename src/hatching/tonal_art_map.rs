@@ -4,6 +4,7 @@
 //! Strokes run along +x. They nest: the strokes of a tone are in all darker ones, the strokes of a level are in all
 //! finer ones. They are as many texels wide in each level, so a coarser level has fewer of them for the same ink.
 
+pub mod cached;
 pub mod composition;
 pub mod files;
 pub mod generator;

@@ -89,6 +89,16 @@ impl StrokeImage {
         Ok(Self { width, height, ink })
     }
 
+    /// Texels from left to right and from top to bottom.
+    pub fn size(&self) -> [usize; 2] {
+        [self.width, self.height]
+    }
+
+    /// Ink of the texels, row by row, 0 is paper and 1 full ink.
+    pub fn inks(&self) -> &[f32] {
+        &self.ink
+    }
+
     /// The same in about the size in which it is drawn, in texels, so that none of its own is passed over.
     pub(super) fn scaled(&self, columns: usize, rows: usize) -> Scaled {
         let (columns, rows) = (columns.clamp(1, self.width), rows.clamp(1, self.height));
