@@ -4,7 +4,7 @@ use eframe::egui;
 use eframe::egui::accesskit::Role;
 use eframe::egui::{Event, Key, Modifiers, PointerButton, Pos2, Vec2, vec2};
 use egui_kittest::Harness;
-use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use egui_kittest::kittest::Queryable as _;
 
 use super::params::params_ui;
 use super::row::Change;
@@ -41,7 +41,8 @@ impl Window {
             }
         };
         let size = vec2(280.0, 240.0);
-        Self(Harness::builder().with_size(size).build_ui_state(draw, Edited::default()))
+        let window = Harness::builder().with_size(size).with_step_dt(1.0 / 60.0);
+        Self(window.build_ui_state(draw, Edited::default()))
     }
 
     fn settle(&mut self) {
