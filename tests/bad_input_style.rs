@@ -180,7 +180,7 @@ fn a_wrong_style_file_ends_with_a_message_and_no_picture() {
         (
             "array.toml",
             b"toon = [1, 2]\n",
-            "`toon` takes a switch, a number, a text or a matrix as [[a, b], [c, d]]",
+            "`toon` takes a switch, a number, a text, a matrix as [[a, b], [c, d]] or a curve as [[x, y], …]",
         ),
         (
             "flat.toml",

@@ -152,6 +152,7 @@ fn changes() -> Vec<Change> {
             Slot::Matrix { most, .. } => [[0.0; 4], [4.0, -1.0, 1.0, 4.0], [*most; 4]]
                 .map(|n| Value::Matrix(Matrix::of_numbers(n)))
                 .to_vec(),
+            Slot::Curve(_) => ["0,1,1,0", "0,0,0.3,0.8,1,1"].map(Value::parse).to_vec(),
             Slot::Color(_) => ["#ff3010", "#10a0ff"].map(Value::from).to_vec(),
             Slot::File(_) => ["assets/strokes/dots.png", "no/such.png"].map(Value::from).to_vec(),
         };

@@ -7,7 +7,7 @@ use serde_json::json;
 use super::args::StylesArgs;
 use super::{CliError, print_json, print_line};
 use crate::document::{Lighting, Section, View};
-use crate::style::{Param, Slot, Style, Value, preset};
+use crate::style::{Param, Slot, Style, Value, preset, widened};
 
 pub(super) fn run(args: &StylesArgs) -> Result<(), CliError> {
     let presets = preset::all();
@@ -76,6 +76,7 @@ fn parameter_json(param: &Param<'_>) -> serde_json::Value {
         }
         Slot::Choice(choice) => (json!(null), json!(choice.names())),
         Slot::Matrix { most, .. } => (json!({ "hard": [-most, *most] }), json!(null)),
+        Slot::Curve(_) => (json!({ "hard": [0.0, 1.0] }), json!(null)),
         Slot::Bool(_) | Slot::Color(_) | Slot::File(_) => (json!(null), json!(null)),
     };
     json!({
@@ -88,7 +89,8 @@ fn parameter_json(param: &Param<'_>) -> serde_json::Value {
             Value::Bool(b) => json!(b),
             Value::Number(n) if matches!(param.slot, Slot::Integer { .. }) => json!(n as u32),
             Value::Number(n) => json!(n),
-            Value::Matrix(m) => json!(m.0),
+            Value::Matrix(m) => json!(m.0.map(|row| row.map(widened))),
+            Value::Curve(points) => json!(points.iter().map(|p| [p.x, p.y].map(widened)).collect::<Vec<_>>()),
             own @ (Value::Text(_) | Value::Inherit) => json!(own.to_string()),
         },
         "range": range,

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use super::param::{Condition, Param};
 use super::slot::{Choice, Place, Slot};
-use super::{Color, Matrix};
+use super::{Color, Curve, Matrix};
 
 /// The list while it is being declared.
 #[derive(Default)]
@@ -175,6 +175,11 @@ impl<'a> Params<'a> {
         value: &'a mut Matrix,
     ) {
         self.push(key, label, unit, help, Slot::Matrix { value, most });
+    }
+
+    /// A curve, whose x and y go from 0 to 1.
+    pub fn curve(&mut self, key: &str, label: &'static str, help: &'static str, value: &'a mut Curve) {
+        self.push(key, label, "", help, Slot::Curve(value));
     }
 
     /// One of the variants of an enumeration.

@@ -5,6 +5,9 @@
 
 pub mod blueprint;
 pub mod color;
+mod curve;
+#[cfg(test)]
+mod curve_tests;
 mod declare;
 pub mod edge_group;
 pub mod edge_line;
@@ -33,6 +36,7 @@ use std::path::PathBuf;
 
 pub use blueprint::Blueprint;
 pub use color::Color;
+pub use curve::{Curve, CurveError, Point};
 pub use edge_line::Line;
 pub use edge_mode::{Alignment, DepthOperator, EdgeMode};
 pub use edges::Edges;
@@ -50,6 +54,7 @@ pub use toon::Toon;
 
 use param::Params;
 pub(crate) use slot::choice;
+pub(crate) use value::widened;
 
 /// Makes the list of techniques, and a field of [`Style`] for the parameters of each that has any.
 macro_rules! techniques {
@@ -177,6 +182,14 @@ pub enum StyleError {
         min: f32,
         /// Greatest allowed value.
         max: f32,
+    },
+    /// The points are no curve.
+    #[error("`{key}`: {source}")]
+    Curve {
+        /// The parameter.
+        key: String,
+        /// What is wrong with them.
+        source: CurveError,
     },
     /// No preset and no file has this name.
     #[error(

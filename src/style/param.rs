@@ -8,7 +8,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::{Color, StyleError, nearest};
+use super::{Color, Curve, StyleError, nearest, widened};
 
 pub use super::declare::Params;
 pub use super::slot::{Choice, Place, Slot};
@@ -50,14 +50,14 @@ impl Param<'_> {
     pub fn value(&self) -> Value {
         match &self.slot {
             Slot::Bool(b) => Value::Bool(b.get()),
-            // Through text, so that 0.1 is written as 0.1 and not as 0.10000000149.
-            Slot::Number { value, .. } => Value::Number(value.get().to_string().parse().unwrap_or(0.0)),
+            Slot::Number { value, .. } => Value::Number(widened(value.get())),
             Slot::Integer { value, .. } => Value::Number(f64::from(**value)),
             Slot::Color(c) => Value::Text(c.get().to_string()),
             Slot::File(path) => {
                 Value::Text(path.as_ref().map_or_else(String::new, |p| p.to_string_lossy().into_owned()))
             }
             Slot::Matrix { value, .. } => Value::Matrix(**value),
+            Slot::Curve(curve) => Value::Curve(curve.points().to_vec()),
             Slot::Choice(c) => Value::Text(c.name().to_owned()),
         }
     }
@@ -81,6 +81,12 @@ impl Param<'_> {
                 "a matrix of numbers from {} to {most}, [[a, b], [c, d]] in a file and a,b,c,d behind --set",
                 -most
             ),
+            Slot::Curve(_) => format!(
+                "a curve of {} to {} points from x = 0 to x = 1, y from 0 to 1, [[x, y], …] in a file and x,y,… behind \
+                 --set",
+                Curve::LEAST_POINTS,
+                Curve::MOST_POINTS
+            ),
             Slot::Choice(c) => format!("one of {}", c.names().join(", ")),
         };
         if self.slot.inherits().is_some() {
@@ -92,7 +98,7 @@ impl Param<'_> {
     /// Sets the value, or gives it back to what it inherits from.
     ///
     /// # Errors
-    /// [`StyleError::WrongType`] or [`StyleError::OutOfRange`]; the value is then unchanged.
+    /// [`StyleError::WrongType`], [`StyleError::OutOfRange`] or [`StyleError::Curve`]; the value is then unchanged.
     pub fn set(&mut self, new: &Value) -> Result<(), StyleError> {
         let done = match (&mut self.slot, new) {
             (slot, Value::Inherit) => slot.inherit(),
@@ -123,11 +129,14 @@ impl Param<'_> {
             }
             (Slot::Matrix { value, most }, Value::Matrix(new)) => {
                 if let Some(wrong) = new.numbers().into_iter().find(|n| !(-*most..=*most).contains(n)) {
-                    // Through text, as for values.
-                    let wrong = wrong.to_string().parse().unwrap_or(0.0);
-                    return Err(out_of_range(&self.key, wrong, [-*most, *most]));
+                    return Err(out_of_range(&self.key, widened(wrong), [-*most, *most]));
                 }
                 **value = *new;
+                true
+            }
+            (Slot::Curve(curve), Value::Curve(_) | Value::Matrix(_)) => {
+                **curve = Curve::of_points(&new.points())
+                    .map_err(|source| StyleError::Curve { key: self.key.clone(), source })?;
                 true
             }
             (Slot::Choice(c), Value::Text(new)) => c.choose(new),

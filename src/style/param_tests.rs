@@ -18,6 +18,7 @@ fn other_values() -> Vec<(String, Value)> {
         Slot::Color(_) => Value::Text("#123456".to_owned()),
         Slot::File(_) => Value::Text("images/ramp 2.png".to_owned()),
         Slot::Matrix { .. } => Value::Matrix(Matrix([[0.1, -1.5], [2.0, 0.25]])),
+        Slot::Curve(_) => Value::Curve([[0.0, 0.1], [0.4, 0.2], [1.0, 0.9]].map(Point::from).to_vec()),
         Slot::Choice(c) => Value::Text(c.names().iter().find(|n| **n != c.name()).unwrap().to_string()),
     };
     style.params().iter().map(|p| (p.key.clone(), other(p))).collect()

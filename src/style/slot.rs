@@ -3,7 +3,7 @@
 use std::ops::RangeInclusive;
 use std::path::PathBuf;
 
-use super::{Color, Matrix};
+use super::{Color, Curve, Matrix};
 
 /// The borrowed value of a parameter.
 pub enum Slot<'a> {
@@ -36,6 +36,8 @@ pub enum Slot<'a> {
         /// What each number may be at most, and with the other sign at least; sliders offer a quarter of it.
         most: f32,
     },
+    /// A curve.
+    Curve(&'a mut Curve),
     /// One of a few names.
     Choice(&'a mut dyn Choice),
 }
@@ -47,7 +49,9 @@ impl Slot<'_> {
             Self::Bool(place) => place.source(),
             Self::Number { value, .. } => value.source(),
             Self::Color(place) => place.source(),
-            Self::Integer { .. } | Self::File(_) | Self::Matrix { .. } | Self::Choice(_) => None,
+            Self::Integer { .. } | Self::File(_) | Self::Matrix { .. } | Self::Curve(_) | Self::Choice(_) => {
+                None
+            }
         }
     }
 
@@ -57,7 +61,9 @@ impl Slot<'_> {
             Self::Bool(place) => place.is_inherited(),
             Self::Number { value, .. } => value.is_inherited(),
             Self::Color(place) => place.is_inherited(),
-            Self::Integer { .. } | Self::File(_) | Self::Matrix { .. } | Self::Choice(_) => false,
+            Self::Integer { .. } | Self::File(_) | Self::Matrix { .. } | Self::Curve(_) | Self::Choice(_) => {
+                false
+            }
         }
     }
 
@@ -67,7 +73,9 @@ impl Slot<'_> {
             Self::Bool(place) => place.inherit(),
             Self::Number { value, .. } => value.inherit(),
             Self::Color(place) => place.inherit(),
-            Self::Integer { .. } | Self::File(_) | Self::Matrix { .. } | Self::Choice(_) => false,
+            Self::Integer { .. } | Self::File(_) | Self::Matrix { .. } | Self::Curve(_) | Self::Choice(_) => {
+                false
+            }
         }
     }
 }

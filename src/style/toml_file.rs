@@ -7,7 +7,7 @@ use toml::de::{DeArray, DeTable, DeValue};
 use toml::{Spanned, Table};
 
 use super::param::{self, Param, Slot};
-use super::{Matrix, StyleError, Value};
+use super::{Matrix, Point, StyleError, Value, widened};
 
 /// The parameters of `params` that differ from `defaults`, as nested tables.
 pub fn diff_to_toml(params: &mut [Param<'_>], defaults: &mut [Param<'_>]) -> Table {
@@ -27,7 +27,8 @@ pub fn diff_to_toml(params: &mut [Param<'_>], defaults: &mut [Param<'_>]) -> Tab
                         Value::Bool(b) => (*b).into(),
                         Value::Number(n) if matches!(param.slot, Slot::Integer { .. }) => (*n as i64).into(),
                         Value::Number(n) => (*n).into(),
-                        Value::Matrix(m) => rows_of(*m),
+                        Value::Matrix(m) => rows_of(m.0),
+                        Value::Curve(points) => rows_of(points.iter().map(|p| [p.x, p.y])),
                         Value::Text(_) | Value::Inherit => value.to_string().into(),
                     },
                 );
@@ -81,29 +82,33 @@ fn asked_of(params: &[Param<'_>], error: StyleError) -> StyleError {
 }
 
 /// `[[a, b], [c, d]]`
-fn rows_of(matrix: Matrix) -> toml::Value {
-    // Through text, so that 0.1 is written as 0.1.
-    let number = |n: f32| toml::Value::Float(n.to_string().parse().unwrap_or(0.0));
-    toml::Value::Array(matrix.0.map(|row| toml::Value::Array(row.map(number).to_vec())).to_vec())
+fn rows_of(rows: impl IntoIterator<Item = [f32; 2]>) -> toml::Value {
+    let number = |n: f32| toml::Value::Float(widened(n));
+    toml::Value::Array(rows.into_iter().map(|row| toml::Value::Array(row.map(number).to_vec())).collect())
 }
 
-/// The numbers of a matrix that stands as `[[a, b], [c, d]]`.
-fn matrix(rows: &DeArray<'_>) -> Option<Matrix> {
-    let mut numbers = Vec::new();
-    for row in rows {
-        let DeValue::Array(row) = row.get_ref() else { return None };
-        if row.len() != 2 {
-            return None;
-        }
-        for number in row {
-            numbers.push(match number.get_ref() {
-                DeValue::Integer(i) => i64::from_str_radix(i.as_str(), i.radix()).ok()? as f32,
-                DeValue::Float(f) => f.as_str().parse().ok()?,
-                _ => return None,
-            });
-        }
+/// A matrix that stands as `[[a, b], [c, d]]`, or a curve that stands as `[[x, y], …]`.
+fn rows(rows: &DeArray<'_>) -> Option<Value> {
+    let rows: Vec<[f32; 2]> = rows.iter().map(row).collect::<Option<_>>()?;
+    match rows.as_slice() {
+        [] => None,
+        [first, second] => Some(Value::Matrix(Matrix([*first, *second]))),
+        points => Some(Value::Curve(points.iter().copied().map(Point::from).collect())),
     }
-    Some(Matrix::of_numbers(numbers.try_into().ok()?))
+}
+
+/// `[a, b]`
+fn row(row: &Spanned<DeValue<'_>>) -> Option<[f32; 2]> {
+    let DeValue::Array(row) = row.get_ref() else { return None };
+    let mut numbers = row.iter().map(|number| match number.get_ref() {
+        DeValue::Integer(i) => i64::from_str_radix(i.as_str(), i.radix()).ok().map(|i| i as f32),
+        DeValue::Float(f) => f.as_str().parse().ok(),
+        _ => None,
+    });
+    match (numbers.next(), numbers.next(), numbers.next()) {
+        (Some(Some(a)), Some(Some(b)), None) => Some([a, b]),
+        _ => None,
+    }
 }
 
 type Found = (String, usize, Result<Value, StyleError>);
@@ -121,7 +126,8 @@ fn collect(table: &DeTable<'_>, prefix: &str, out: &mut Vec<Found>) {
 fn scalar(key: &str, value: &Spanned<DeValue<'_>>) -> Result<Value, StyleError> {
     let wrong = |found: &str| StyleError::WrongType {
         key: key.to_owned(),
-        expected: "a switch, a number, a text or a matrix as [[a, b], [c, d]]".to_owned(),
+        expected: "a switch, a number, a text, a matrix as [[a, b], [c, d]] or a curve as [[x, y], …]"
+            .to_owned(),
         found: found.to_owned(),
     };
     match value.get_ref() {
@@ -133,7 +139,7 @@ fn scalar(key: &str, value: &Spanned<DeValue<'_>>) -> Result<Value, StyleError> 
             f.as_str().parse().map(Value::Number).map_err(|_malformed| wrong("a malformed number"))
         }
         DeValue::String(s) => Ok(Value::from(s.as_ref())),
-        DeValue::Array(rows) => matrix(rows).map(Value::Matrix).ok_or_else(|| wrong("this array")),
+        DeValue::Array(array) => rows(array).ok_or_else(|| wrong("this array")),
         _ => Err(wrong("something else")),
     }
 }
@@ -201,9 +207,8 @@ mod tests {
             "[1, 2, 3, 4]",
             "[]",
             "[[]]",
-            "[[1, 2]]",
             "[[1, 2], [3]]",
-            "[[1, 2], [3, 4], [5, 6]]",
+            "[[1, 2], [3, 4], 5]",
             "[[1, 2, 3], [4]]",
             "[[1, \"2\"], [3, 4]]",
             "[[1, 2], [3, [4]]]",
@@ -212,6 +217,8 @@ mod tests {
         ] {
             assert_eq!(row(array), format!("{takes}this array"), "{array}");
         }
+        assert_eq!(row("[[1, 2]]"), format!("{takes}1 point"));
+        assert_eq!(row("[[1, 2], [3, 4], [5, 6]]"), format!("{takes}3 points"));
         assert_eq!(row("\"1,2,3,4\""), format!("{takes}the text `1,2,3,4`"));
         assert_eq!(row("1.5"), format!("{takes}the number 1.5"));
         assert_eq!(row("true"), format!("{takes}the switch `true`"));

@@ -39,6 +39,7 @@ fn changes() -> Vec<(String, Vec<Condition>, Vec<Value>)> {
             Slot::Matrix { .. } => {
                 [[0.0; 4], [4.0, -1.0, 1.0, 4.0]].map(|n| Value::Matrix(Matrix::of_numbers(n))).to_vec()
             }
+            Slot::Curve(_) => ["0,1,1,0", "0,0,0.3,0.8,1,1"].map(Value::parse).to_vec(),
             Slot::Color(_) => ["#ff3010", "#10a0ff"].map(Value::from).to_vec(),
             Slot::File(_) => ["paper", "no/such/image"].map(Value::from).to_vec(),
         };

@@ -1,5 +1,8 @@
 //! What stands around the picture. Panels change the document in place and ask for everything else by command.
 
+mod curve;
+#[cfg(test)]
+mod curve_tests;
 pub mod empty;
 pub mod glyphs;
 pub mod help;

@@ -5,8 +5,7 @@ use std::path::PathBuf;
 
 use eframe::egui::{Color32, RichText, Ui, WidgetText};
 
-use super::icons;
-use super::matrix::Field;
+use super::{curve, icons, matrix};
 use crate::style::Value;
 use crate::style::param::{Param, Place, Slot};
 
@@ -292,8 +291,11 @@ fn slot_ui(ui: &mut Ui, param: &mut Param<'_>, label: egui::Id, help: &str) -> b
         }
         Slot::File(file) => return file_ui(ui, file, label, help),
         Slot::Matrix { value, most } => {
-            let field = Field { label: param.label, unit: param.unit, help, most: *most, id: label };
+            let field = matrix::Field { label: param.label, unit: param.unit, help, most: *most, id: label };
             field.ui(ui, value);
+        }
+        Slot::Curve(curve) => {
+            curve::Field { label: param.label, help, id: label }.ui(ui, curve);
         }
         Slot::Color(place) => {
             let mut color = place.get();
