@@ -47,6 +47,9 @@ pub struct FieldOptions {
     pub crease_angle: f32,
     /// Upwards in local space; where nothing else is known, strokes are level.
     pub up: Vec3,
+    /// How much strokes prefer to be level where the form bends nearly the same in all directions, 0 to 1: a belly gets
+    /// hoops. Does not matter on flat sides, and with other sources than curvature.
+    pub level: f32,
 }
 
 impl Default for FieldOptions {
@@ -57,17 +60,18 @@ impl Default for FieldOptions {
             smoothing: 0.08,
             crease_angle: 38_f32.to_radians(),
             up: Vec3::Y,
+            level: 0.25,
         }
     }
 }
 
 /// How far directions that were asked for reach into places that have none, in extents.
 const REACH: f32 = 0.01;
-/// Weight of the directions of flat sides, of those that were asked for, and of level ones, relative to that of a
-/// certain direction of curvature.
+/// Weights of the directions of flat sides, of those that were asked for, and of level ones where nothing else is
+/// known, relative to that of a certain direction of curvature.
 const PLANE_WEIGHT: f32 = 20.0;
 const SOURCE_WEIGHT: f32 = 1.0;
-const LEVEL_WEIGHT: f32 = 3e-3;
+const FALLBACK_WEIGHT: f32 = 1e-3;
 /// Confidence below the first is noise; from the second on it is believed.
 const NOISE: [f32; 2] = [0.02, 0.15];
 
@@ -172,11 +176,17 @@ fn data(faces: &Faces<'_>, cut: &CutMesh, planes: &Planes, options: &FieldOption
                     add_face(face, direction, PLANE_WEIGHT * faces.areas[face]);
                 }
             }
-            for (v, curvature) in curvatures(faces, cut).iter().enumerate() {
-                let [low, high] = NOISE;
-                let trust = ((curvature.confidence - low) / (high - low)).clamp(0.0, 1.0);
-                let weight = trust * curvature.confidence * cut.areas[v] * per_area;
-                data.add(v, cut.normals[v], curvature.direction, weight);
+            let [low, high] = NOISE;
+            let level = if options.level.is_finite() { options.level.clamp(0.0, 1.0) } else { 0.0 };
+            for (face, curvature) in curvatures(faces, cut).iter().enumerate() {
+                let certain = curvature.confidence;
+                let trust = ((certain - low) / (high - low)).clamp(0.0, 1.0);
+                add_face(face, curvature.direction, trust * certain * faces.areas[face]);
+                if planes.direction(face).is_none() {
+                    let across = up.cross(faces.normals[face]);
+                    let weight = level * (1.0 - certain).powi(2) * across.length_squared();
+                    add_face(face, across, weight * faces.areas[face]);
+                }
             }
         }
         DirectionSource::TextureU => {
@@ -195,9 +205,9 @@ fn data(faces: &Faces<'_>, cut: &CutMesh, planes: &Planes, options: &FieldOption
     for v in 0..cut.len() {
         let normal = cut.normals[v];
         // On what lies level no direction is level in this sense; any fixed one will do.
-        let level = up.cross(normal);
-        let level = if level.length() > 0.05 { level } else { up.any_orthonormal_vector() };
-        data.add(v, normal, level, (LEVEL_WEIGHT * cut.areas[v] * per_area).max(1e-30));
+        let across = up.cross(normal);
+        let across = if across.length() > 0.05 { across } else { up.any_orthonormal_vector() };
+        data.add(v, normal, across, (FALLBACK_WEIGHT * cut.areas[v] * per_area).max(1e-30));
     }
     data
 }
