@@ -60,7 +60,7 @@ impl Default for FieldOptions {
             smoothing: 0.08,
             crease_angle: 38_f32.to_radians(),
             up: Vec3::Y,
-            level: 0.25,
+            level: 0.4,
         }
     }
 }
@@ -143,7 +143,10 @@ impl Solved {
         if !progress(0.6) {
             return None;
         }
-        let directions = smooth(&graphs, data, &|| progress(0.8))?;
+        let mut directions = smooth(&graphs, data, &|| progress(0.8))?;
+        if let Some(finest) = graphs.first() {
+            finest.align(&mut directions);
+        }
         Some(Self { cut, graphs, directions, extent })
     }
 

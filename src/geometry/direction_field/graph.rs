@@ -1,9 +1,10 @@
 //! The neighbours of each vertex of a cut mesh, and coarser and coarser versions of them.
 
-use glam::Vec3;
-use rayon::prelude::*;
+use std::collections::VecDeque;
 
-use super::cut::CutMesh;
+use glam::Vec3;
+
+use super::cut::{CutMesh, transport};
 
 /// From a vertex to a neighbour.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -81,6 +82,33 @@ impl Graph {
     /// Where the links of a patch are.
     pub(crate) fn range(&self, v: usize) -> std::ops::Range<usize> {
         self.first_link[v] as usize..self.first_link[v + 1] as usize
+    }
+
+    /// Turns directions around so that neighbours agree, wherever that is possible. Where it is not, the last links of
+    /// the shortest ways from the first patch of each connected part have one of either kind.
+    pub(crate) fn align(&self, directions: &mut [Vec3]) {
+        let mut is_done = vec![false; self.len()];
+        let mut queue = VecDeque::new();
+        for seed in 0..self.len() {
+            if is_done[seed] {
+                continue;
+            }
+            is_done[seed] = true;
+            queue.push_back(seed);
+            while let Some(v) = queue.pop_front() {
+                for link in &self.links[self.range(v)] {
+                    let to = link.to as usize;
+                    if !is_done[to] {
+                        is_done[to] = true;
+                        let here = transport(directions[to], self.normals[to], self.normals[v]);
+                        if here.dot(directions[v]) < 0.0 {
+                            directions[to] = -directions[to];
+                        }
+                        queue.push_back(to);
+                    }
+                }
+            }
+        }
     }
 
     /// This graph and coarser ones, each with a third to a quarter of the patches, down to about `least` patches or

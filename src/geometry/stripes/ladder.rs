@@ -14,13 +14,14 @@ use crate::geometry::direction_field::graph::Graph;
 const COARSE_LEVELS: usize = 5;
 /// Links of the coarsest graph on which a level is solved are at most this many cycles long.
 const LONGEST_STEP: f32 = 0.4;
-/// Sweeps over a graph.
+/// Sweeps over the finest graph, over coarser ones, and over the one to begin with.
 const SWEEPS: usize = 20;
+const COARSE_SWEEPS: usize = 60;
 const COARSEST_SWEEPS: usize = 200;
 /// Weight of a patch's own phase in a sweep, relative to all of its neighbours.
 const INERTIA: f32 = 0.3;
 /// How strongly a level is held to the doubled phases of the one before, per cycle and extent.
-const PULL: f32 = 0.15;
+const PULL: f32 = 1.0;
 
 /// The phases of a surface, level by level.
 pub(super) struct Ladder<'a> {
@@ -79,7 +80,11 @@ impl<'a> Ladder<'a> {
                 }
             };
             let pull = (PULL * self.frequency).powi(2);
-            let sweeps = if is_coarsest && g > 0 { COARSEST_SWEEPS } else { SWEEPS };
+            let sweeps = match g {
+                0 => SWEEPS,
+                _ if is_coarsest => COARSEST_SWEEPS,
+                _ => COARSE_SWEEPS,
+            };
             for _ in 0..sweeps {
                 waves = swept(track, &waves, targets.as_deref(), pull);
             }
