@@ -1,8 +1,9 @@
 //! Flat sides of a model, as opposed to the facets of something round, and the direction of strokes on them.
 
 use glam::{Vec2, Vec3};
+use rayon::prelude::*;
 
-use super::cut::Faces;
+use super::cut::{Faces, transport};
 use crate::geometry::disjoint_sets::DisjointSets;
 use crate::geometry::{Edge, EdgeKind};
 
@@ -13,6 +14,8 @@ const CREASE: f32 = 0.26;
 /// A side is at least this many times as wide as what continues it across an edge that is not cut. Facets of something
 /// round are about equally wide.
 const WIDER: f32 = 2.5;
+/// A side is large from this share of the area of all triangles on.
+const LARGE: f32 = 0.003;
 /// Stands for "part of no side".
 const NONE: u32 = u32::MAX;
 
@@ -24,35 +27,69 @@ pub(crate) struct Planes {
     directions: Vec<Vec3>,
 }
 
-/// What is gathered about a region of triangles.
+/// Triangles that are connected without an angle between them.
 #[derive(Clone, Default)]
 struct Region {
     area: f32,
+    /// Sum of the normals times areas, then a unit vector.
     normal: Vec3,
-    /// Length of its outline.
-    outline: f32,
-    /// How much of that is a crease.
-    crease: f32,
+    /// Whether it lies in one plane.
+    is_even: bool,
     /// Sum of `length * e^(4 i angle)` over the outline, in the frame of the normal.
     star: Vec2,
-    /// Length of the outline that goes on smoothly, across either axis.
+    /// Along most of the outline, and across that.
+    axes: [Vec3; 2],
+    /// Size along either axis.
+    extent: Vec2,
+    /// Length of its outline; how much of that is a cut, and how much a cut or a crease.
+    outline: f32,
+    cut: f32,
+    crease: f32,
+    /// Length of the outline that goes on smoothly, to be crossed along either axis.
     smooth: [f32; 2],
-    /// Least and largest coordinate along either axis.
-    least: Vec2,
-    most: Vec2,
 }
 
 impl Region {
-    /// Its two axes, along most of its outline; of a disc, level and upright.
-    fn axes(&self, up: Vec3) -> [Vec3; 2] {
+    /// Chooses the axes: of a disc, level and upright.
+    fn choose_axes(&mut self, up: Vec3) {
         let (x, y) = self.normal.any_orthonormal_pair();
-        if self.star.length() < 0.1 * self.outline {
-            let level = up.cross(self.normal).try_normalize().unwrap_or(x);
-            return [level, self.normal.cross(level)];
+        let first = if self.star.length() < 0.1 * self.outline {
+            up.cross(self.normal).try_normalize().unwrap_or(x)
+        } else {
+            let (sin, cos) = (0.25 * self.star.to_angle()).sin_cos();
+            x * cos + y * sin
+        };
+        self.axes = [first, self.normal.cross(first)];
+    }
+
+    /// How far it reaches away from an edge of this length and unit direction.
+    fn width(&self, along: Vec3, length: f32) -> f32 {
+        if !self.is_even {
+            return self.area / length;
         }
-        let (sin, cos) = (0.25 * self.star.to_angle()).sin_cos();
-        let first = x * cos + y * sin;
-        [first, self.normal.cross(first)]
+        let across = along.cross(self.normal);
+        self.axes[0].dot(across).abs() * self.extent.x + self.axes[1].dot(across).abs() * self.extent.y
+    }
+
+    /// Whether it is a side of the model. Irregular triangles are wider than some of their neighbours by chance, but not
+    /// than all.
+    fn is_side(&self, total_area: f32) -> bool {
+        let needed = if self.area > LARGE * total_area { 0.6 } else { 0.9 };
+        self.is_even && (self.cut > 0.6 * self.outline || self.crease > needed * self.outline)
+    }
+
+    /// The axis that crosses the edges behind which the surface goes on, if those are all across one axis; else the one
+    /// along which the side is longer.
+    fn direction(&self) -> Vec3 {
+        let [first, second] = self.smooth;
+        let enough = 0.2 * self.outline;
+        if first > enough && second < 0.1 * first {
+            self.axes[0]
+        } else if second > enough && first < 0.1 * second {
+            self.axes[1]
+        } else {
+            self.axes[usize::from(self.extent.y > self.extent.x)]
+        }
     }
 }
 
@@ -65,9 +102,19 @@ impl Planes {
     /// Finds them. Edges above `cut` (radians) are cut anyway.
     pub(crate) fn new(faces: &Faces<'_>, cut: f32, up: Vec3) -> Self {
         let sets = DisjointSets::new(faces.areas.len());
+        let edges = &faces.adjacency.edges;
         let joins = |edge: &Edge| edge.kind == EdgeKind::Manifold && edge.dihedral.abs() <= FLAT;
-        faces.adjacency.edges.iter().filter(|e| joins(e)).for_each(|e| sets.unite(e.faces[0], e.faces[1]));
+        edges
+            .par_iter()
+            .with_min_len(4096)
+            .filter(|e| joins(e))
+            .for_each(|e| sets.unite(e.faces[0], e.faces[1]));
         let (region_of, count) = sets.numbered();
+        // The regions on both sides of an edge that does not lie inside of one.
+        let sides = |edge: &Edge| {
+            let [first, second] = edge.faces.map(|face| region_of.get(face as usize).map(|&r| r as usize));
+            if first == second { [None, None] } else { [first, second] }
+        };
 
         let mut regions = vec![Region::default(); count];
         for (face, &region) in region_of.iter().enumerate() {
@@ -76,81 +123,62 @@ impl Planes {
             region.normal += faces.normals[face] * faces.areas[face];
         }
         let total: f32 = regions.iter().map(|r| r.area).sum();
-        let is_even: Vec<bool> =
-            regions.iter().map(|r| r.area > 1e-5 * total && r.normal.length() > 0.999_5 * r.area).collect();
         for region in &mut regions {
+            region.is_even = region.area > 1e-5 * total && region.normal.length() > 0.999_5 * region.area;
             region.normal = region.normal.normalize_or(Vec3::Z);
         }
-
-        // The outlines, seen from either side.
-        let areas: Vec<f32> = regions.iter().map(|r| r.area).collect();
-        let outlines = |visit: &mut dyn FnMut(usize, Vec3, Option<(f32, f32)>)| {
-            for edge in &faces.adjacency.edges {
-                let along = faces.along(edge);
-                let length = along.length();
-                let goes_on = edge.kind == EdgeKind::Manifold && edge.dihedral.abs() <= cut;
-                for (side, &face) in edge.faces.iter().enumerate() {
-                    let Some(&region) = region_of.get(face as usize) else {
-                        continue;
-                    };
-                    let other = region_of.get(edge.faces[1 - side] as usize);
-                    if !is_even[region as usize] || length <= 0.0 || other == Some(&region) {
-                        continue;
-                    }
-                    let other_width = other.filter(|_| goes_on).map(|&o| areas[o as usize] / length);
-                    visit(region as usize, along, other_width.map(|width| (width, edge.dihedral.abs())));
-                }
-            }
-        };
-        outlines(&mut |region, along, smooth| {
-            let region = &mut regions[region];
+        for edge in edges {
+            let along = faces.along(edge);
             let length = along.length();
-            let is_large = region.area > 0.003 * total;
-            let is_crease = smooth.is_none_or(|(width, angle)| {
-                region.area / length > WIDER * width && (angle > CREASE || is_large)
-            });
-            region.outline += length;
-            region.crease += if is_crease { length } else { 0.0 };
-            let (x, y) = region.normal.any_orthonormal_pair();
-            let angle = 4.0 * along.dot(y).atan2(along.dot(x));
-            region.star += Vec2::from_angle(angle) * length;
-        });
-        let is_side: Vec<bool> =
-            regions.iter().zip(&is_even).map(|(r, even)| *even && r.crease > 0.6 * r.outline).collect();
-
-        let axes: Vec<[Vec3; 2]> = regions.iter().map(|r| r.axes(up)).collect();
-        for region in &mut regions {
-            (region.least, region.most) = (Vec2::INFINITY, Vec2::NEG_INFINITY);
-        }
-        outlines(&mut |region, along, smooth| {
-            if smooth.is_some() {
-                // An edge along one axis is to be crossed along the other.
-                let [first, second] = axes[region].map(|axis| along.dot(axis).abs());
-                regions[region].smooth[usize::from(first > second)] += along.length();
+            for region in sides(edge).into_iter().flatten() {
+                let region = &mut regions[region];
+                let (x, y) = region.normal.any_orthonormal_pair();
+                let once = Vec2::new(along.dot(x), along.dot(y)).normalize_or_zero();
+                let twice = once.rotate(once);
+                region.star += twice.rotate(twice) * length;
+                region.outline += length;
             }
-        });
-        for (face, &region) in region_of.iter().enumerate() {
-            if !is_side[region as usize] {
+        }
+        measure(&mut regions, &region_of, faces, up);
+
+        for edge in edges {
+            let vector = faces.along(edge);
+            let length = vector.length();
+            let Some(along) = vector.try_normalize() else {
                 continue;
-            }
-            let [first, second] = axes[region as usize];
-            let region = &mut regions[region as usize];
-            for p in faces.corners(face) {
-                let p = Vec2::new(p.dot(first), p.dot(second));
-                (region.least, region.most) = (region.least.min(p), region.most.max(p));
+            };
+            let goes_on = edge.kind == EdgeKind::Manifold && edge.dihedral.abs() <= cut;
+            let [first, second] = sides(edge);
+            for (region, other) in [(first, second), (second, first)] {
+                let Some(region) = region else {
+                    continue;
+                };
+                let other_width = other.filter(|_| goes_on).map(|other| regions[other].width(along, length));
+                let region = &mut regions[region];
+                let Some(other_width) = other_width else {
+                    region.cut += length;
+                    region.crease += length;
+                    continue;
+                };
+                let is_steep = edge.dihedral.abs() > CREASE || region.area > LARGE * total;
+                if is_steep && region.width(along, length) > WIDER * other_width {
+                    region.crease += length;
+                }
+                let [first, second] = region.axes.map(|axis| along.dot(axis).abs());
+                region.smooth[usize::from(first > second)] += length;
             }
         }
 
-        let mut numbers = vec![NONE; count];
         let mut directions = Vec::new();
-        for (region, (r, axes)) in regions.iter().zip(&axes).enumerate() {
-            if !is_side[region] {
-                continue;
+        let number = |region: &Region| {
+            if !region.is_side(total) {
+                return NONE;
             }
-            numbers[region] = directions.len() as u32;
-            directions.push(axes[preferred_axis(r)]);
-        }
-        Self { of_face: region_of.into_iter().map(|r| numbers[r as usize]).collect(), directions }
+            directions.push(region.direction());
+            directions.len() as u32 - 1
+        };
+        let numbers: Vec<u32> = regions.iter().map(number).collect();
+        Self { of_face: region_of.iter().map(|&r| numbers[r as usize]).collect(), directions }
     }
 
     /// The direction of the strokes on the side to which a triangle belongs.
@@ -168,24 +196,29 @@ impl Planes {
             (None, None) => true,
             (Some(direction), None) | (None, Some(direction)) => crosses(direction),
             (Some(first), Some(second)) => {
-                let turned = super::cut::transport(first, faces.normals[a], faces.normals[b]);
+                let turned = transport(first, faces.normals[a], faces.normals[b]);
                 turned.dot(second).abs() > 0.9
             }
         }
     }
 }
 
-/// The axis that crosses the edges behind which the surface goes on, if those are all across one axis; else the one
-/// along which the side is longer.
-fn preferred_axis(region: &Region) -> usize {
-    let [across_first, across_second] = region.smooth;
-    let extent = region.most - region.least;
-    let enough = 0.2 * region.outline;
-    if across_first > enough && across_second < 0.1 * across_first {
-        0
-    } else if across_second > enough && across_first < 0.1 * across_second {
-        1
-    } else {
-        usize::from(extent.y > extent.x)
+/// Finds the axes of the regions that lie in one plane, and their sizes along them.
+fn measure(regions: &mut [Region], region_of: &[u32], faces: &Faces<'_>, up: Vec3) {
+    let mut least = vec![Vec2::INFINITY; regions.len()];
+    let mut most = vec![Vec2::NEG_INFINITY; regions.len()];
+    for region in regions.iter_mut() {
+        region.choose_axes(up);
+    }
+    for (face, &region) in region_of.iter().enumerate() {
+        let region = region as usize;
+        let [first, second] = regions[region].axes;
+        for p in faces.corners(face) {
+            let p = Vec2::new(p.dot(first), p.dot(second));
+            (least[region], most[region]) = (least[region].min(p), most[region].max(p));
+        }
+    }
+    for (region, (least, most)) in regions.iter_mut().zip(least.iter().zip(most)) {
+        region.extent = most - least;
     }
 }
