@@ -28,10 +28,15 @@ pub(crate) struct Graph {
     pub(crate) first_link: Vec<u32>,
     /// All links, each in both directions.
     pub(crate) links: Vec<Link>,
-    /// The patch of the next coarser graph that each is part of; empty if there is none.
+    /// The patch of the next coarser graph that each is part of, [`NO_PARENT`] if it has no neighbours; empty if there
+    /// is no coarser graph.
     pub(crate) parents: Vec<u32>,
 }
 
+/// Stands for "part of no coarser patch".
+pub(crate) const NO_PARENT: u32 = u32::MAX;
+/// All graphs of a hierarchy together have at most this many times the patches of the finest.
+const MOST_PATCHES: usize = 4;
 /// Cotangents belong to angles of at least this many radians, so that slivers do not dominate.
 const LEAST_ANGLE: f32 = 0.05;
 /// Least weight of an edge.
@@ -84,6 +89,12 @@ impl Graph {
         self.first_link[v] as usize..self.first_link[v + 1] as usize
     }
 
+    /// The patches that have a parent, each with it.
+    pub(crate) fn children(&self) -> impl Iterator<Item = (usize, usize)> {
+        let pairs = self.parents.iter().enumerate();
+        pairs.filter(|(_, parent)| **parent != NO_PARENT).map(|(v, parent)| (v, *parent as usize))
+    }
+
     /// Turns directions around so that neighbours agree, wherever that is possible. Where it is not, the last links of
     /// the shortest ways from the first patch of each connected part have one of either kind.
     pub(crate) fn align(&self, directions: &mut [Vec3]) {
@@ -114,15 +125,17 @@ impl Graph {
     /// This graph and coarser ones, each with a third to a quarter of the patches, down to about `least` patches or
     /// until nothing more can be joined.
     pub(crate) fn hierarchy(self, least: usize) -> Vec<Self> {
+        let mut patches_left = self.len() * (MOST_PATCHES - 1);
         let mut graphs = vec![self];
         while let Some(fine) = graphs.last_mut() {
             if fine.len() <= least {
                 break;
             }
             let (parents, count) = fine.patches();
-            if count * 10 > fine.len() * 9 {
+            if count == 0 || count >= fine.len() || count > patches_left {
                 break;
             }
+            patches_left -= count;
             let coarse = fine.joined(&parents, count);
             fine.parents = parents;
             graphs.push(coarse);
@@ -132,16 +145,18 @@ impl Graph {
 
     /// Joins each patch that is still free with its free neighbours to which it is coupled most, in order.
     fn patches(&self) -> (Vec<u32>, usize) {
-        const FREE: u32 = u32::MAX;
         const MOST_MEMBERS: usize = 4;
-        let mut parents = vec![FREE; self.len()];
+        let mut parents = vec![NO_PARENT; self.len()];
         let mut count = 0_u32;
         let mut nearest: Vec<(f32, u32)> = Vec::new();
         for v in 0..self.len() {
-            if parents[v] != FREE {
+            if parents[v] != NO_PARENT {
                 continue;
             }
             let links = &self.links[self.range(v)];
+            if links.is_empty() {
+                continue;
+            }
             let strongest = links.iter().fold(0.0_f32, |s, link| s.max(link.weight));
             let fits = |link: &&Link| {
                 link.weight >= 0.25 * strongest
@@ -152,7 +167,7 @@ impl Graph {
                 links
                     .iter()
                     .filter(fits)
-                    .filter(|link| parents[link.to as usize] == FREE)
+                    .filter(|link| parents[link.to as usize] == NO_PARENT)
                     .map(|link| (link.weight, link.to)),
             );
             nearest.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
@@ -176,7 +191,7 @@ impl Graph {
         let mut positions = vec![Vec3::ZERO; count];
         let mut normals = vec![Vec3::ZERO; count];
         let mut areas = vec![0.0; count];
-        for (v, &parent) in parents.iter().enumerate() {
+        for (v, &parent) in parents.iter().enumerate().filter(|(_, p)| **p != NO_PARENT) {
             let area = self.areas[v].max(1e-30);
             positions[parent as usize] += self.positions[v] * area;
             normals[parent as usize] += self.normals[v] * area;

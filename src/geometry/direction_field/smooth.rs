@@ -42,8 +42,7 @@ pub(crate) fn smooth(graphs: &[Graph], data: Data, go_on: &(dyn Fn() -> bool + S
     for (fine, coarse) in graphs.iter().zip(graphs.iter().skip(1)) {
         let of_fine = levels.last()?;
         let mut of_coarse = Data::new(coarse.len());
-        for (v, &parent) in fine.parents.iter().enumerate() {
-            let parent = parent as usize;
+        for (v, parent) in fine.children() {
             of_coarse.sums[parent] += of_fine.sums[v].rotate(turn(fine.normals[v], coarse.normals[parent]));
             of_coarse.weights[parent] += of_fine.weights[v];
         }
@@ -54,15 +53,14 @@ pub(crate) fn smooth(graphs: &[Graph], data: Data, go_on: &(dyn Fn() -> bool + S
         if !go_on() {
             return None;
         }
-        guess = match graphs.get(level + 1) {
-            None => vec![Vec2::ZERO; graph.len()],
-            Some(coarse) => graph
-                .parents
-                .par_iter()
-                .with_min_len(4096)
-                .enumerate()
-                .map(|(v, &p)| guess[p as usize].rotate(turn(coarse.normals[p as usize], graph.normals[v])))
-                .collect(),
+        let from_parent =
+            |(v, &parent): (usize, &u32)| match (graphs.get(level + 1), guess.get(parent as usize)) {
+                (Some(coarse), Some(u)) => u.rotate(turn(coarse.normals[parent as usize], graph.normals[v])),
+                _ => data.sums[v] / data.weights[v].max(1e-30),
+            };
+        guess = match graph.parents.len() {
+            0 => vec![Vec2::ZERO; graph.len()],
+            _ => graph.parents.par_iter().with_min_len(4096).enumerate().map(from_parent).collect(),
         };
         System::new(graph, data).solve(&mut guess, if level + 1 == graphs.len() { 200 } else { 24 });
     }

@@ -6,7 +6,7 @@ use std::f32::consts::TAU;
 use glam::Vec3;
 use rayon::prelude::*;
 
-use super::rails::{Track, Wave};
+use super::rails::{Rail, Track, Wave};
 use super::{BASE_LEVEL, CYCLES_PER_EXTENT, FAMILIES, LEVELS, Phases};
 use crate::geometry::direction_field::graph::Graph;
 
@@ -65,6 +65,7 @@ impl<'a> Ladder<'a> {
         let fits = |track: &Track<'_>| track.step * self.frequency <= LONGEST_STEP;
         let coarsest =
             if level < COARSE_LEVELS { self.tracks.iter().rposition(fits).unwrap_or(0) } else { 0 };
+        let finest = self.tracks.first().map_or(0, |t| t.graph.len());
         let mut waves: Vec<Wave> = Vec::new();
         for g in (0..=coarsest).rev() {
             let track = self.tracks.get(g)?;
@@ -75,14 +76,19 @@ impl<'a> Ladder<'a> {
                 (Some(targets), true) => targets.clone(),
                 (None, true) => spread(track),
                 _ => {
-                    let parents = track.graph.parents.par_iter().zip(&track.to_parent).with_min_len(4096);
-                    parents.map(|(&parent, rail)| rail.back(&waves[parent as usize])).collect()
+                    let parents = track.graph.parents.par_iter().zip(&track.to_parent).enumerate();
+                    let from_parent = |(v, (&parent, rail)): (usize, (&u32, &Rail))| {
+                        let alone = || targets.as_ref().and_then(|t| t.get(v)).copied().unwrap_or(Wave::ONE);
+                        waves.get(parent as usize).map_or_else(alone, |wave| rail.back(wave))
+                    };
+                    parents.with_min_len(1024).map(from_parent).collect()
                 }
             };
             let pull = (PULL * self.frequency).powi(2);
             let sweeps = match g {
                 0 => SWEEPS,
-                _ if is_coarsest => COARSEST_SWEEPS,
+                // Not more work than on the finest graph, where this one is about as large.
+                _ if is_coarsest => (COARSE_SWEEPS * finest / track.graph.len().max(1)).min(COARSEST_SWEEPS),
                 _ => COARSE_SWEEPS,
             };
             for _ in 0..sweeps {
@@ -96,9 +102,8 @@ impl<'a> Ladder<'a> {
                 break;
             };
             let mut sums = vec![Wave::ZERO; coarse.graph.len()];
-            for (v, wave) in of_fine.iter().enumerate() {
-                let parent = &mut sums[fine.graph.parents[v] as usize];
-                parent.add_scaled(&fine.to_parent[v].on(wave), fine.graph.areas[v].max(1e-30));
+            for (v, parent) in fine.graph.children() {
+                sums[parent].add_scaled(&fine.to_parent[v].on(&of_fine[v]), fine.graph.areas[v].max(1e-30));
             }
             for sum in &mut sums {
                 *sum = sum.normalized_or(&Wave::ONE);

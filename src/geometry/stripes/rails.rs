@@ -150,8 +150,10 @@ impl<'a> Track<'a> {
             if let Some(coarse) = graphs.get(level + 1) {
                 coarser = joined(graph, coarse, &directions);
                 let rail = |v: usize| {
+                    // What has no parent needs no rail to it.
                     let p = graph.parents[v] as usize;
-                    Rail::new(at(v), (coarse.positions[p], coarse.normals[p], coarser[p]), frequency)
+                    let parent = coarser.get(p).map(|d| (coarse.positions[p], coarse.normals[p], *d));
+                    Rail::new(at(v), parent.unwrap_or(at(v)), frequency)
                 };
                 to_parent = (0..graph.len()).into_par_iter().with_min_len(1024).map(rail).collect();
             }
@@ -171,12 +173,12 @@ impl<'a> Track<'a> {
 /// The mean directions of the patches of the coarser graph.
 fn joined(fine: &Graph, coarse: &Graph, directions: &[Vec3]) -> Vec<Vec3> {
     let mut sums = vec![Vec2::ZERO; coarse.len()];
-    for (v, &parent) in fine.parents.iter().enumerate() {
-        let normal = coarse.normals[parent as usize];
+    for (v, parent) in fine.children() {
+        let normal = coarse.normals[parent];
         let (x, y) = normal.any_orthonormal_pair();
         let direction = transport(directions[v], fine.normals[v], normal);
         let angle = Vec2::new(direction.dot(x), direction.dot(y));
-        sums[parent as usize] += angle.rotate(angle) * fine.areas[v].max(1e-30);
+        sums[parent] += angle.rotate(angle) * fine.areas[v].max(1e-30);
     }
     let direction = |(sum, &normal): (Vec2, &Vec3)| {
         let (x, y) = normal.any_orthonormal_pair();
