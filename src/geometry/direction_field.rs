@@ -119,8 +119,8 @@ impl Solved {
         let extent = extent(mesh, options);
         if !is_usable(mesh) {
             let cut = CutMesh::of_no_use(mesh.indices.len() / 3);
-            let directions = vec![Vec3::X; cut.len()];
-            return Some(Self { cut, graphs: Vec::new(), directions, extent });
+            let graphs = vec![Graph::new(&cut, &[])];
+            return Some(Self { directions: vec![Vec3::X; cut.len()], cut, graphs, extent });
         }
         let adjacency = Adjacency::new(mesh);
         let faces = Faces::new(mesh, &adjacency, extent);
@@ -193,10 +193,10 @@ fn data(faces: &Faces<'_>, cut: &CutMesh, planes: &Planes, options: &FieldOption
             }
         }
         DirectionSource::TextureU => {
-            sources::along_texture(faces, 0, |f, d, a| add_face(f, d, SOURCE_WEIGHT * a))
+            sources::along_texture(faces, 0, |f, d, a| add_face(f, d, SOURCE_WEIGHT * a));
         }
         DirectionSource::TextureV => {
-            sources::along_texture(faces, 1, |f, d, a| add_face(f, d, SOURCE_WEIGHT * a))
+            sources::along_texture(faces, 1, |f, d, a| add_face(f, d, SOURCE_WEIGHT * a));
         }
         DirectionSource::Axis(axis) => {
             for (v, direction) in sources::along_axis(cut, axis).enumerate() {
@@ -225,7 +225,7 @@ fn extent(mesh: &Mesh, options: &FieldOptions) -> f64 {
 /// Whether a mesh is as importers promise: only then are its edges known.
 fn is_usable(mesh: &Mesh) -> bool {
     let count = mesh.positions.len();
-    mesh.indices.len() % 3 == 0
+    mesh.indices.len().is_multiple_of(3)
         && mesh.indices.iter().all(|&v| (v as usize) < count)
         && mesh.positions.iter().all(|p| p.is_finite())
 }

@@ -102,7 +102,7 @@ impl StripeField {
         })
     }
 
-    /// What [`lift`] needs to know of a triangle of the mesh; `None` if there is no such triangle.
+    /// What [`lift()`] needs to know of a triangle of the mesh; `None` if there is no such triangle.
     pub fn corners(&self, mesh: &Mesh, triangle: usize) -> Option<[Corner; 3]> {
         let positions = mesh.triangles().get(triangle)?;
         let vertices = self.corner_vertices.as_chunks::<3>().0.get(triangle)?;

@@ -145,7 +145,7 @@ impl<'a> System<'a> {
         let mut energy = dot(&residual, |v| residual[v] / self.diagonal[v]);
         let enough = 1e-8 * dot(&self.data.sums, |v| self.data.sums[v] / self.diagonal[v]);
         for _ in 0..most_steps {
-            if !(energy > enough) {
+            if energy.is_nan() || energy <= enough {
                 return;
             }
             self.apply(&step, &mut image);

@@ -49,9 +49,9 @@ impl<'a> Ladder<'a> {
             self.solve_level(level)?;
             if let Some(waves) = self.waves.first() {
                 phases.par_iter_mut().zip(waves).with_min_len(1024).for_each(|(phases, wave)| {
-                    for f in 0..FAMILIES {
-                        let cycles = wave.im[f].atan2(wave.re[f]) / TAU;
-                        phases[f][level] = ((cycles * 65536.0).round() as i32 & 0xffff) as u16;
+                    for ((phases, im), re) in phases.iter_mut().zip(wave.im).zip(wave.re) {
+                        let cycles = im.atan2(re) / TAU;
+                        phases[level] = ((cycles * 65536.0).round() as i32 & 0xffff) as u16;
                     }
                 });
             }
