@@ -22,6 +22,8 @@ const COARSEST_SWEEPS: usize = 200;
 const INERTIA: f32 = 0.3;
 /// How strongly a level is held to the doubled phases of the one before, per cycle and extent.
 const PULL: f32 = 1.0;
+/// At most this much of the weight of all neighbours: large triangles must be free to end lines.
+const MOST_PULL: f32 = 0.3;
 
 /// The phases of a surface, level by level.
 pub(super) struct Ladder<'a> {
@@ -152,7 +154,7 @@ fn swept(track: &Track<'_>, waves: &[Wave], targets: Option<&[Wave]>, pull: f32)
             total += link.weight;
         }
         if let Some(targets) = targets {
-            sum.add_scaled(&targets[v], pull * graph.areas[v]);
+            sum.add_scaled(&targets[v], (pull * graph.areas[v]).min(MOST_PULL * total.max(1e-30)));
         }
         sum.add_scaled(&waves[v], INERTIA * total);
         sum.normalized_or(&waves[v])
