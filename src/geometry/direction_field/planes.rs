@@ -16,6 +16,8 @@ const CREASE: f32 = 0.26;
 const WIDER: f32 = 2.5;
 /// A side is large from this share of the area of all triangles on.
 const LARGE: f32 = 0.003;
+/// Below this share one that is not mostly surrounded by cuts is just a few triangles.
+const SMALL: f32 = 3e-4;
 /// Stands for "part of no side".
 const NONE: u32 = u32::MAX;
 
@@ -74,8 +76,10 @@ impl Region {
     /// Whether it is a side of the model. Irregular triangles are wider than some of their neighbours by chance, but not
     /// than all.
     fn is_side(&self, total_area: f32) -> bool {
-        let needed = if self.area > LARGE * total_area { 0.6 } else { 0.9 };
-        self.is_even && (self.cut > 0.6 * self.outline || self.crease > needed * self.outline)
+        let share = self.area / total_area;
+        let needed = if share > LARGE { 0.6 } else { 0.9 };
+        let is_set_off = share > SMALL && self.crease > needed * self.outline;
+        self.is_even && (self.cut > 0.6 * self.outline || is_set_off)
     }
 
     /// The axis that crosses the edges behind which the surface goes on, if those are all across one axis; else the one
