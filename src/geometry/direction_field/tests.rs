@@ -143,6 +143,42 @@ fn a_box_with_round_edges_is_ruled_straight() {
 }
 
 #[test]
+fn strokes_of_flat_sides_do_not_bend_into_fillets_along_them() {
+    let (half, radius) = (Vec3::new(2.0, 1.2, 0.7), 0.1);
+    let mut mesh = sphere(1.0, 25, 48);
+    mesh.normals.clear();
+    for p in &mut mesh.positions {
+        // Half a step, so that no point of the sphere lies on the border of two octants.
+        let n = Quat::from_rotation_y(TAU / 96.0) * *p;
+        *p = n * radius + n.signum() * (half - radius);
+    }
+    let field = solve(&mesh, &of_form());
+    let (mut flat, mut round) = (0, 0);
+    for (corners, triangle) in field.corner_vertices.chunks(3).zip(mesh.triangles()) {
+        let normal = crate::geometry::normals::face_normal(mesh.corners(*triangle));
+        let along = corners.iter().map(|v| field.directions[*v as usize].x.abs());
+        if normal.z.abs() > 0.999_9 {
+            flat += 1;
+            assert!(along.clone().all(|x| x > 0.999), "flat: {along:?}");
+        } else if normal.x.abs() < 1e-3 && normal.z.abs() > 0.2 && normal.y.abs() > 0.05 {
+            round += 1;
+            assert!(along.clone().all(|x| x < 0.1), "round: {along:?}");
+        }
+    }
+    assert!(flat == 4 && round > 30, "{flat} {round}");
+}
+
+#[test]
+fn directions_agree_where_they_can() {
+    let mesh = torus(2.0, 0.5, 48, 32);
+    let field = solve(&mesh, &of_form());
+    for corners in field.corner_vertices.chunks(3) {
+        let [a, b, c] = [0, 1, 2].map(|k| field.directions[corners[k] as usize]);
+        assert!(a.dot(b) > 0.0 && b.dot(c) > 0.0);
+    }
+}
+
+#[test]
 fn irregular_tori_cylinders_saddles_and_ellipsoids_get_their_directions_of_curvature() {
     let pipe = patch(40, 30, true, |u, v| {
         let (sin, cos) = (u * TAU).sin_cos();
