@@ -2,7 +2,7 @@
 //!
 //! Source: Rusinkiewicz, Estimating Curvatures and Their Derivatives on Triangle Meshes, 3DPVT 2004.
 
-use glam::{Mat3, Vec3};
+use glam::{DMat3, DVec3, Vec3};
 use rayon::prelude::*;
 
 use super::cut::{CutMesh, Faces};
@@ -69,21 +69,23 @@ fn principal(normal: Vec3, corners: [Vec3; 3], normals: [Vec3; 3]) -> Curvature 
     let size = longest.length();
     let x = longest / size;
     let y = normal.cross(x);
-    // Rows (u, v, 0) and (0, u, v) of the unknowns (xx, xy, yy), with edges of about unit length.
-    let mut matrix = Mat3::ZERO;
-    let mut right = Vec3::ZERO;
+    // Rows (u, v, 0) and (0, u, v) of the unknowns (xx, xy, yy), with edges of about unit length. Slivers need double
+    // precision.
+    let mut matrix = DMat3::ZERO;
+    let mut right = DVec3::ZERO;
     for k in 0..3 {
-        let change = normals[(k + 1) % 3] - normals[k];
-        let (u, v) = (edges[k].dot(x) / size, edges[k].dot(y) / size);
-        let (du, dv) = (change.dot(x), change.dot(y));
-        matrix += Mat3::from_cols(
-            Vec3::new(u * u, u * v, 0.0),
-            Vec3::new(u * v, u * u + v * v, u * v),
-            Vec3::new(0.0, u * v, v * v),
+        let change = (normals[(k + 1) % 3] - normals[k]).as_dvec3();
+        let edge = edges[k] / size;
+        let (u, v) = (f64::from(edge.dot(x)), f64::from(edge.dot(y)));
+        let (du, dv) = (change.dot(x.as_dvec3()), change.dot(y.as_dvec3()));
+        matrix += DMat3::from_cols(
+            DVec3::new(u * u, u * v, 0.0),
+            DVec3::new(u * v, u * u + v * v, u * v),
+            DVec3::new(0.0, u * v, v * v),
         );
-        right += Vec3::new(u * du, u * dv + v * du, v * dv);
+        right += DVec3::new(u * du, u * dv + v * du, v * dv);
     }
-    let [xx, xy, yy] = (matrix.inverse() * right / size).to_array();
+    let [xx, xy, yy] = (matrix.inverse() * right).as_vec3().to_array().map(|k| k / size);
     let (mean, half_difference) = (0.5 * (xx + yy), 0.5 * (xx - yy));
     let spread = half_difference.hypot(xy);
     let (k1, k2) = ((mean + spread).abs(), (mean - spread).abs());
