@@ -4,9 +4,8 @@ use glam::{Vec2, Vec3};
 
 use super::cut::{CutMesh, Faces};
 
-/// Sum over the triangles around each vertex of the direction in which the first (`axis` = 0) or second (1) texture
-/// coordinate grows, seen from the vertex as the tensor `d dᵀ` times area; the second value is the area. Triangles whose texture has no
-/// area, or no numbers, have no part in it.
+/// Calls `add` for each triangle with its unit direction in which the first (`axis` = 0) or second (1) texture coordinate
+/// grows, and with its area; not for triangles whose texture has no area or is not finite.
 pub(crate) fn along_texture(faces: &Faces<'_>, axis: usize, mut add: impl FnMut(usize, Vec3, f32)) {
     let uvs = &faces.mesh.uvs;
     if uvs.len() != faces.mesh.positions.len() {
