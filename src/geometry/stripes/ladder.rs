@@ -6,8 +6,8 @@ use std::f32::consts::TAU;
 use glam::Vec3;
 use rayon::prelude::*;
 
+use super::levels::{BASE_LEVEL, CYCLES_PER_EXTENT, FAMILIES, LEVELS, Phases};
 use super::rails::{Rail, Track, Wave};
-use super::{BASE_LEVEL, CYCLES_PER_EXTENT, FAMILIES, LEVELS, Phases};
 use crate::geometry::direction_field::graph::Graph;
 
 /// Levels that are solved on coarse graphs first.
@@ -45,10 +45,7 @@ impl<'a> Ladder<'a> {
         let count = self.tracks.first().map_or(0, |t| t.graph.len());
         let mut phases = vec![[[0; LEVELS]; FAMILIES]; count];
         for level in 0..LEVELS {
-            if !progress(level as f32 / LEVELS as f32) {
-                return None;
-            }
-            self.solve_level(level)?;
+            self.solve_level(level, &|| progress(level as f32 / LEVELS as f32))?;
             if let Some(waves) = self.waves.first() {
                 phases.par_iter_mut().zip(waves).with_min_len(1024).for_each(|(phases, wave)| {
                     for ((phases, im), re) in phases.iter_mut().zip(wave.im).zip(wave.re) {
@@ -63,13 +60,17 @@ impl<'a> Ladder<'a> {
         Some(phases)
     }
 
-    fn solve_level(&mut self, level: usize) -> Option<()> {
+    /// The phases of one level on all graphs. `None` when `go_on` says no.
+    fn solve_level(&mut self, level: usize, go_on: &dyn Fn() -> bool) -> Option<()> {
         let fits = |track: &Track<'_>| track.step * self.frequency <= LONGEST_STEP;
         let coarsest =
             if level < COARSE_LEVELS { self.tracks.iter().rposition(fits).unwrap_or(0) } else { 0 };
         let finest = self.tracks.first().map_or(0, |t| t.graph.len());
         let mut waves: Vec<Wave> = Vec::new();
         for g in (0..=coarsest).rev() {
+            if !go_on() {
+                return None;
+            }
             let track = self.tracks.get(g)?;
             let targets: Option<Vec<Wave>> =
                 self.waves.get(g).map(|before| before.par_iter().map(Wave::squared).collect());

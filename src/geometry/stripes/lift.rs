@@ -4,7 +4,7 @@ use std::f32::consts::{FRAC_PI_2, FRAC_PI_3};
 
 use glam::Vec3;
 
-use super::{BASE_LEVEL, FAMILIES, LEVELS, Phases};
+use super::levels::{BASE_LEVEL, FAMILIES, LEVELS, Phases};
 use crate::geometry::direction_field::cut::transport;
 
 /// A corner of a triangle.

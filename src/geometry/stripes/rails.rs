@@ -5,7 +5,7 @@ use std::f32::consts::{FRAC_PI_2, FRAC_PI_3, PI};
 use glam::{Vec2, Vec3};
 use rayon::prelude::*;
 
-use super::FAMILIES;
+use super::levels::FAMILIES;
 use super::lift::sign;
 use crate::geometry::direction_field::cut::transport;
 use crate::geometry::direction_field::graph::Graph;
