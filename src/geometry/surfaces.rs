@@ -1,10 +1,10 @@
 //! Smooth surfaces: triangles that are connected without crossing a crease.
 
 use std::collections::HashMap;
-use std::sync::atomic::{AtomicU32, Ordering};
 
 use rayon::prelude::*;
 
+use super::disjoint_sets::DisjointSets;
 use super::topology::NO_FACE;
 use super::{Adjacency, Edge, EdgeKind, Mesh};
 
@@ -45,58 +45,8 @@ impl Adjacency {
                 sets.unite(face, neighbour);
             }
         }
-        sets.numbered()
-    }
-}
-
-/// Union-find whose roots are the smallest members, so that numbering needs one pass.
-struct DisjointSets(Vec<AtomicU32>);
-
-impl DisjointSets {
-    fn new(count: usize) -> Self {
-        Self((0..count as u32).map(AtomicU32::new).collect())
-    }
-
-    fn find(&self, mut member: u32) -> u32 {
-        loop {
-            let parent = self.0[member as usize].load(Ordering::Relaxed);
-            if parent == member {
-                return member;
-            }
-            let above = self.0[parent as usize].load(Ordering::Relaxed);
-            if above != parent {
-                // Halving the path. Parents only ever decrease to smaller members of the same set, so a race here
-                // costs a longer path at worst.
-                self.0[member as usize].fetch_min(above, Ordering::Relaxed);
-            }
-            member = above;
-        }
-    }
-
-    fn unite(&self, a: u32, b: u32) {
-        let (mut a, mut b) = (self.find(a), self.find(b));
-        while a != b {
-            let (low, high) = (a.min(b), a.max(b));
-            match self.0[high as usize].compare_exchange(high, low, Ordering::Relaxed, Ordering::Relaxed) {
-                Ok(_) => return,
-                Err(_) => (a, b) = (self.find(low), self.find(high)),
-            }
-        }
-    }
-
-    fn numbered(self) -> Surfaces {
-        let mut of_triangle: Vec<u32> = self.0.into_iter().map(AtomicU32::into_inner).collect();
-        let mut count = 0;
-        for face in 0..of_triangle.len() {
-            let parent = of_triangle[face] as usize;
-            of_triangle[face] = if parent == face {
-                count += 1;
-                count - 1
-            } else {
-                of_triangle[parent]
-            };
-        }
-        Surfaces { of_triangle, count: count as usize }
+        let (of_triangle, count) = sets.numbered();
+        Surfaces { of_triangle, count }
     }
 }
 

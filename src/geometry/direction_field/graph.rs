@@ -1,0 +1,262 @@
+//! The neighbours of each vertex of a cut mesh, and coarser and coarser versions of them.
+
+use std::collections::VecDeque;
+
+use glam::Vec3;
+
+use super::cut::{CutMesh, transport};
+
+/// From a vertex to a neighbour.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Link {
+    /// The neighbour.
+    pub(crate) to: u32,
+    /// How strongly both are coupled: the cotangent weight of Pinkall and Polthier 1993, or what takes its place in
+    /// a coarse graph.
+    pub(crate) weight: f32,
+}
+
+/// Patches of a surface and their neighbours. In the finest graph a patch is one vertex.
+pub(crate) struct Graph {
+    /// Middle of each patch, 1 = the extent.
+    pub(crate) positions: Vec<Vec3>,
+    /// Unit normal.
+    pub(crate) normals: Vec<Vec3>,
+    /// Area.
+    pub(crate) areas: Vec<f32>,
+    /// `links[first_link[v]..first_link[v + 1]]` are those of `v`, by ascending neighbour.
+    pub(crate) first_link: Vec<u32>,
+    /// All links, each in both directions.
+    pub(crate) links: Vec<Link>,
+    /// The patch of the next coarser graph that each is part of, [`NO_PARENT`] if it has no neighbours; empty if there
+    /// is no coarser graph.
+    pub(crate) parents: Vec<u32>,
+}
+
+/// Stands for "part of no coarser patch".
+pub(crate) const NO_PARENT: u32 = u32::MAX;
+/// All graphs of a hierarchy together have at most this many times the patches of the finest.
+const MOST_PATCHES: usize = 4;
+/// Cotangents belong to angles of at least this many radians, so that slivers do not dominate.
+const LEAST_ANGLE: f32 = 0.05;
+/// Least weight of an edge.
+const LEAST_WEIGHT: f32 = 0.02;
+/// Patches whose normals differ by more than the angle with this cosine stay apart.
+const LEAST_COSINE: f32 = 0.7;
+
+impl Graph {
+    /// The graph of a cut mesh.
+    pub(crate) fn new(cut: &CutMesh, face_areas: &[f32]) -> Self {
+        let mut pairs = Vec::with_capacity(cut.triangles.len() * 6);
+        for (triangle, &area) in cut.triangles.iter().zip(face_areas) {
+            let [a, b, c] = *triangle;
+            if area <= 0.0 || a == b || b == c || c == a {
+                continue;
+            }
+            let corners = triangle.map(|v| cut.positions[v as usize]);
+            for k in 0..3 {
+                let (p, q, apex) = (corners[(k + 1) % 3], corners[(k + 2) % 3], corners[k]);
+                let (u, v) = (p - apex, q - apex);
+                let largest = 1.0 / LEAST_ANGLE.tan();
+                let cotangent = (u.dot(v) / u.cross(v).length()).clamp(-largest, largest);
+                let weight = if cotangent.is_finite() { 0.5 * cotangent } else { 0.0 };
+                let (i, j) = (triangle[(k + 1) % 3], triangle[(k + 2) % 3]);
+                pairs.push((i, Link { to: j, weight }));
+                pairs.push((j, Link { to: i, weight }));
+            }
+        }
+        let (first_link, mut links) = gather_links(cut.len(), &pairs);
+        for link in &mut links {
+            link.weight = link.weight.max(LEAST_WEIGHT);
+        }
+        Self {
+            positions: cut.positions.clone(),
+            normals: cut.normals.clone(),
+            areas: cut.areas.clone(),
+            first_link,
+            links,
+            parents: Vec::new(),
+        }
+    }
+
+    /// Number of patches.
+    pub(crate) fn len(&self) -> usize {
+        self.positions.len()
+    }
+
+    /// Where the links of a patch are.
+    pub(crate) fn range(&self, v: usize) -> std::ops::Range<usize> {
+        self.first_link[v] as usize..self.first_link[v + 1] as usize
+    }
+
+    /// The patches that have a parent, each with it.
+    pub(crate) fn children(&self) -> impl Iterator<Item = (usize, usize)> {
+        let pairs = self.parents.iter().enumerate();
+        pairs.filter(|(_, parent)| **parent != NO_PARENT).map(|(v, parent)| (v, *parent as usize))
+    }
+
+    /// Turns directions around so that neighbours agree, wherever that is possible. Where it is not, the last links of
+    /// the shortest ways from the first patch of each connected part have one of either kind.
+    pub(crate) fn align(&self, directions: &mut [Vec3]) {
+        let mut is_done = vec![false; self.len()];
+        let mut queue = VecDeque::new();
+        for seed in 0..self.len() {
+            if is_done[seed] {
+                continue;
+            }
+            is_done[seed] = true;
+            queue.push_back(seed);
+            while let Some(v) = queue.pop_front() {
+                for link in &self.links[self.range(v)] {
+                    let to = link.to as usize;
+                    if !is_done[to] {
+                        is_done[to] = true;
+                        let here = transport(directions[to], self.normals[to], self.normals[v]);
+                        if here.dot(directions[v]) < 0.0 {
+                            directions[to] = -directions[to];
+                        }
+                        queue.push_back(to);
+                    }
+                }
+            }
+        }
+    }
+
+    /// This graph and coarser ones, each with a third to a quarter of the patches, down to about `least` patches or
+    /// until nothing more can be joined.
+    pub(crate) fn hierarchy(self, least: usize) -> Vec<Self> {
+        let mut patches_left = self.len() * (MOST_PATCHES - 1);
+        let mut graphs = vec![self];
+        while let Some(fine) = graphs.last_mut() {
+            if fine.len() <= least {
+                break;
+            }
+            let (parents, count) = fine.patches();
+            if count == 0 || count >= fine.len() || count > patches_left {
+                break;
+            }
+            patches_left -= count;
+            let coarse = fine.joined(&parents, count);
+            fine.parents = parents;
+            graphs.push(coarse);
+        }
+        graphs
+    }
+
+    /// Joins each patch that is still free with its free neighbours to which it is coupled most, in order.
+    fn patches(&self) -> (Vec<u32>, usize) {
+        const MOST_MEMBERS: usize = 4;
+        let mut parents = vec![NO_PARENT; self.len()];
+        let mut count = 0_u32;
+        let mut nearest: Vec<(f32, u32)> = Vec::new();
+        for v in 0..self.len() {
+            if parents[v] != NO_PARENT {
+                continue;
+            }
+            let links = &self.links[self.range(v)];
+            if links.is_empty() {
+                continue;
+            }
+            let strongest = links.iter().fold(0.0_f32, |s, link| s.max(link.weight));
+            let fits = |link: &&Link| {
+                link.weight >= 0.25 * strongest
+                    && self.normals[v].dot(self.normals[link.to as usize]) > LEAST_COSINE
+            };
+            nearest.clear();
+            nearest.extend(
+                links
+                    .iter()
+                    .filter(fits)
+                    .filter(|link| parents[link.to as usize] == NO_PARENT)
+                    .map(|link| (link.weight, link.to)),
+            );
+            nearest.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+            if nearest.is_empty()
+                && let Some(link) = links.iter().filter(fits).max_by(|a, b| a.weight.total_cmp(&b.weight))
+            {
+                // What is left over between patches becomes part of one.
+                parents[v] = parents[link.to as usize];
+                continue;
+            }
+            parents[v] = count;
+            for &(_, neighbour) in nearest.iter().take(MOST_MEMBERS - 1) {
+                parents[neighbour as usize] = count;
+            }
+            count += 1;
+        }
+        (parents, count as usize)
+    }
+
+    fn joined(&self, parents: &[u32], count: usize) -> Self {
+        let mut positions = vec![Vec3::ZERO; count];
+        let mut normals = vec![Vec3::ZERO; count];
+        let mut areas = vec![0.0; count];
+        for (v, &parent) in parents.iter().enumerate().filter(|(_, p)| **p != NO_PARENT) {
+            let area = self.areas[v].max(1e-30);
+            positions[parent as usize] += self.positions[v] * area;
+            normals[parent as usize] += self.normals[v] * area;
+            areas[parent as usize] += area;
+        }
+        for ((position, normal), &area) in positions.iter_mut().zip(&mut normals).zip(&areas) {
+            *position /= area;
+            *normal = normal.normalize_or(Vec3::Z);
+        }
+        // The weight of a link is the length of the border between two patches over the distance of their middles.
+        let mut pairs = Vec::with_capacity(self.links.len());
+        for v in 0..self.len() {
+            for link in &self.links[self.range(v)] {
+                let (from, to) = (parents[v], parents[link.to as usize]);
+                if from != to {
+                    let border = link.weight * self.positions[v].distance(self.positions[link.to as usize]);
+                    let distance = positions[from as usize].distance(positions[to as usize]);
+                    let weight = (border / distance.max(1e-30)).min(link.weight * 4.0);
+                    pairs.push((from, Link { to, weight }));
+                }
+            }
+        }
+        let (first_link, links) = gather_links(count, &pairs);
+        Self { positions, normals, areas, first_link, links, parents: Vec::new() }
+    }
+}
+
+/// Sorts links by the patch that they come from, and adds up those between the same two.
+fn gather_links(count: usize, pairs: &[(u32, Link)]) -> (Vec<u32>, Vec<Link>) {
+    // A counting sort. Counts are kept two places ahead, so that filling leaves the offsets behind.
+    let mut offsets = vec![0_u32; count + 2];
+    for &(from, _) in pairs {
+        offsets[from as usize + 2] += 1;
+    }
+    for v in 2..offsets.len() {
+        offsets[v] += offsets[v - 1];
+    }
+    let mut links = vec![Link { to: 0, weight: 0.0 }; pairs.len()];
+    for &(from, link) in pairs {
+        let slot = &mut offsets[from as usize + 1];
+        links[*slot as usize] = link;
+        *slot += 1;
+    }
+    offsets.pop();
+    let mut kept = 0;
+    let mut begin = 0;
+    for v in 0..count {
+        let end = offsets[v + 1] as usize;
+        // Stable, so that sums do not depend on anything but the order of the triangles.
+        links[begin..end].sort_by_key(|link| link.to);
+        let first = kept;
+        for k in begin..end {
+            if kept > first && links[kept - 1].to == links[k].to {
+                links[kept - 1].weight += links[k].weight;
+            } else {
+                links[kept] = links[k];
+                kept += 1;
+            }
+        }
+        offsets[v] = first as u32;
+        begin = end;
+    }
+    if let Some(last) = offsets.last_mut() {
+        *last = kept as u32;
+    }
+    links.truncate(kept);
+    (offsets, links)
+}

@@ -1,0 +1,130 @@
+//! Phases of stripes on a surface: families of lines that follow a direction field, at several densities.
+//!
+//! Three families cross at 60°. Each has a ladder of levels, every one twice as dense as the one before; where the field
+//! is parallel, each line of a level is a line of the next. Source: Knoeppel et al., Stripe Patterns on Surfaces, 2015;
+//! the ladder is ours.
+
+mod ladder;
+mod levels;
+pub mod lift;
+mod rails;
+
+use glam::{Vec2, Vec3};
+use rayon::prelude::*;
+
+use self::ladder::Ladder;
+use super::direction_field::Solved;
+use super::{FieldOptions, Mesh};
+
+pub use self::levels::{BASE_LEVEL, CYCLES_PER_EXTENT, FAMILIES, LEVELS, Phases};
+pub use self::lift::{Corner, Lifted, lift};
+
+/// What stripes need to know of a vertex: 50 bytes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct StripeVertex {
+    direction: [i16; 2],
+    normal: [i16; 2],
+    /// The phases.
+    pub phases: Phases,
+}
+
+impl StripeVertex {
+    /// Direction of the strokes of family 0: a unit vector, nearly across [`StripeVertex::normal`].
+    pub fn direction(&self) -> Vec3 {
+        from_octahedron(self.direction)
+    }
+
+    /// Unit normal of the plane in which the families are turned against each other.
+    pub fn normal(&self) -> Vec3 {
+        from_octahedron(self.normal)
+    }
+
+    /// All of it in 13 words: direction and normal, each two octahedral coordinates as 16-bit snorm (x in the low
+    /// half), then the phases two by two, the first in the low half, family by family and level by level.
+    pub fn packed(&self) -> [u32; 13] {
+        let word = |low: u16, high: u16| u32::from(low) | u32::from(high) << 16;
+        let pair = |[x, y]: [i16; 2]| word(x.cast_unsigned(), y.cast_unsigned());
+        let phases = self.phases.as_flattened();
+        std::array::from_fn(|i| match i {
+            0 => pair(self.direction),
+            1 => pair(self.normal),
+            _ => {
+                let at = |k: usize| phases.get(k).copied().unwrap_or(0);
+                word(at(2 * i - 4), at(2 * i - 3))
+            }
+        })
+    }
+}
+
+/// Stripes on a mesh.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct StripeField {
+    /// The vertices of the mesh cut open at its creases.
+    pub vertices: Vec<StripeVertex>,
+    /// The vertex at each corner of the mesh's triangles; as long as [`Mesh::indices`].
+    pub corner_vertices: Vec<u32>,
+    /// Lines of the base level per unit of the mesh; each level has twice as many as the one before.
+    pub cycles_per_unit: f32,
+}
+
+impl StripeField {
+    /// The stripes of a clean mesh; the same bits for the same input. `progress` is given the share that is done, 0 to
+    /// 1, and says whether to go on: `None` when it did not.
+    pub fn solve(
+        mesh: &Mesh,
+        options: &FieldOptions,
+        progress: &(dyn Fn(f32) -> bool + Sync),
+    ) -> Option<Self> {
+        const SHARE_OF_FIELD: f32 = 0.2;
+        let solved = Solved::new(mesh, options, &|done| progress(SHARE_OF_FIELD * done))?;
+        let ladder = Ladder::new(&solved.graphs, &solved.directions);
+        let phases = ladder.solve(&|done| progress(SHARE_OF_FIELD + (1.0 - SHARE_OF_FIELD) * done))?;
+        let vertex = |(v, &phases): (usize, &Phases)| StripeVertex {
+            direction: to_octahedron(solved.directions[v]),
+            normal: to_octahedron(solved.cut.normals[v]),
+            phases,
+        };
+        Some(Self {
+            vertices: phases.par_iter().with_min_len(4096).enumerate().map(vertex).collect(),
+            corner_vertices: solved.corner_vertices(mesh),
+            cycles_per_unit: (f64::from(CYCLES_PER_EXTENT) / solved.extent) as f32,
+        })
+    }
+
+    /// What [`lift()`] needs to know of a triangle of the mesh; `None` if there is no such triangle.
+    pub fn corners(&self, mesh: &Mesh, triangle: usize) -> Option<[Corner; 3]> {
+        let positions = mesh.triangles().get(triangle)?;
+        let vertices = self.corner_vertices.as_chunks::<3>().0.get(triangle)?;
+        let corner = |k: usize| {
+            let vertex = self.vertices.get(vertices[k] as usize)?;
+            Some(Corner {
+                position: *mesh.positions.get(positions[k] as usize)?,
+                direction: vertex.direction(),
+                normal: vertex.normal(),
+                phases: vertex.phases,
+            })
+        };
+        Some([corner(0)?, corner(1)?, corner(2)?])
+    }
+}
+
+/// A unit vector as a point of an unfolded octahedron. Source: Cigolle et al., A Survey of Efficient Representations for
+/// Independent Unit Vectors, 2014.
+fn to_octahedron(v: Vec3) -> [i16; 2] {
+    let size = v.x.abs() + v.y.abs() + v.z.abs();
+    let p = v.truncate() / size;
+    let folded = (Vec2::ONE - Vec2::new(p.y, p.x).abs()) * Vec2::ONE.copysign(p);
+    let p = if v.z < 0.0 { folded } else { p };
+    (p.clamp(Vec2::NEG_ONE, Vec2::ONE) * 32767.0).round().to_array().map(|c| c as i16)
+}
+
+fn from_octahedron(packed: [i16; 2]) -> Vec3 {
+    let p = Vec2::from_array(packed.map(|c| f32::from(c) / 32767.0));
+    let z = 1.0 - p.x.abs() - p.y.abs();
+    let folded = (Vec2::ONE - Vec2::new(p.y, p.x).abs()) * Vec2::ONE.copysign(p);
+    (if z < 0.0 { folded } else { p }).extend(z).normalize_or(Vec3::Z)
+}
+
+#[cfg(test)]
+#[path = "stripes/tests.rs"]
+mod tests;

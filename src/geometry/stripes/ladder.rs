@@ -1,0 +1,164 @@
+//! The phases of all levels: the coarse ones from coarse graphs to the fine one, each other from the one before it.
+
+use std::collections::VecDeque;
+use std::f32::consts::TAU;
+
+use glam::Vec3;
+use rayon::prelude::*;
+
+use super::levels::{BASE_LEVEL, CYCLES_PER_EXTENT, FAMILIES, LEVELS, Phases};
+use super::rails::{Rail, Track, Wave};
+use crate::geometry::direction_field::graph::Graph;
+
+/// Levels that are solved on coarse graphs first.
+const COARSE_LEVELS: usize = 5;
+/// Links of the coarsest graph on which a level is solved are at most this many cycles long.
+const LONGEST_STEP: f32 = 0.4;
+/// Sweeps over the finest graph, over coarser ones, and over the one to begin with.
+const SWEEPS: usize = 20;
+const COARSE_SWEEPS: usize = 60;
+const COARSEST_SWEEPS: usize = 200;
+/// Weight of a patch's own phase in a sweep, relative to all of its neighbours.
+const INERTIA: f32 = 0.3;
+/// How strongly a level is held to the doubled phases of the one before, per cycle and extent.
+const PULL: f32 = 1.0;
+/// At most this much of the weight of all neighbours: large triangles must be free to end lines.
+const MOST_PULL: f32 = 0.3;
+
+/// The phases of a surface, level by level.
+pub(super) struct Ladder<'a> {
+    tracks: Vec<Track<'a>>,
+    /// The phases of the level before on each graph.
+    waves: Vec<Vec<Wave>>,
+    frequency: f32,
+}
+
+impl<'a> Ladder<'a> {
+    /// For a hierarchy of graphs, and the directions of the finest.
+    pub(super) fn new(graphs: &'a [Graph], directions: &[Vec3]) -> Self {
+        let frequency = CYCLES_PER_EXTENT * (-(BASE_LEVEL as f32)).exp2();
+        Self { tracks: Track::hierarchy(graphs, directions, frequency), waves: Vec::new(), frequency }
+    }
+
+    /// The phases of every vertex. `None` when `progress` says so.
+    pub(super) fn solve(mut self, progress: &(dyn Fn(f32) -> bool + Sync)) -> Option<Vec<Phases>> {
+        let count = self.tracks.first().map_or(0, |t| t.graph.len());
+        let mut phases = vec![[[0; LEVELS]; FAMILIES]; count];
+        for level in 0..LEVELS {
+            self.solve_level(level, &|| progress(level as f32 / LEVELS as f32))?;
+            if let Some(waves) = self.waves.first() {
+                phases.par_iter_mut().zip(waves).with_min_len(1024).for_each(|(phases, wave)| {
+                    for ((phases, im), re) in phases.iter_mut().zip(wave.im).zip(wave.re) {
+                        let cycles = im.atan2(re) / TAU;
+                        phases[level] = ((cycles * 65536.0).round() as i32 & 0xffff) as u16;
+                    }
+                });
+            }
+            self.tracks.par_iter_mut().for_each(Track::double);
+            self.frequency *= 2.0;
+        }
+        Some(phases)
+    }
+
+    /// The phases of one level on all graphs. `None` when `go_on` says no.
+    fn solve_level(&mut self, level: usize, go_on: &dyn Fn() -> bool) -> Option<()> {
+        let fits = |track: &Track<'_>| track.step * self.frequency <= LONGEST_STEP;
+        let coarsest =
+            if level < COARSE_LEVELS { self.tracks.iter().rposition(fits).unwrap_or(0) } else { 0 };
+        let finest = self.tracks.first().map_or(0, |t| t.graph.len());
+        let mut waves: Vec<Wave> = Vec::new();
+        for g in (0..=coarsest).rev() {
+            if !go_on() {
+                return None;
+            }
+            let track = self.tracks.get(g)?;
+            let targets: Option<Vec<Wave>> =
+                self.waves.get(g).map(|before| before.par_iter().map(Wave::squared).collect());
+            let is_coarsest = g == coarsest;
+            waves = match (&targets, is_coarsest) {
+                (Some(targets), true) => targets.clone(),
+                (None, true) => spread(track),
+                _ => {
+                    let parents = track.graph.parents.par_iter().zip(&track.to_parent).enumerate();
+                    let from_parent = |(v, (&parent, rail)): (usize, (&u32, &Rail))| {
+                        let alone = || targets.as_ref().and_then(|t| t.get(v)).copied().unwrap_or(Wave::ONE);
+                        waves.get(parent as usize).map_or_else(alone, |wave| rail.back(wave))
+                    };
+                    parents.with_min_len(1024).map(from_parent).collect()
+                }
+            };
+            let pull = (PULL * self.frequency).powi(2);
+            let sweeps = match g {
+                0 => SWEEPS,
+                // Not more work than on the finest graph, where this one is about as large.
+                _ if is_coarsest => (COARSE_SWEEPS * finest / track.graph.len().max(1)).min(COARSEST_SWEEPS),
+                _ => COARSE_SWEEPS,
+            };
+            for _ in 0..sweeps {
+                waves = swept(track, &waves, targets.as_deref(), pull);
+            }
+        }
+        // What the next level asks for on coarser graphs.
+        self.waves = vec![waves];
+        for (fine, coarse) in self.tracks.iter().zip(self.tracks.iter().skip(1)) {
+            let Some(of_fine) = self.waves.last() else {
+                break;
+            };
+            let mut sums = vec![Wave::ZERO; coarse.graph.len()];
+            for (v, parent) in fine.graph.children() {
+                sums[parent].add_scaled(&fine.to_parent[v].on(&of_fine[v]), fine.graph.areas[v].max(1e-30));
+            }
+            for sum in &mut sums {
+                *sum = sum.normalized_or(&Wave::ONE);
+            }
+            self.waves.push(sums);
+        }
+        Some(())
+    }
+}
+
+/// Phases that agree along a tree through each connected part of a graph.
+fn spread(track: &Track<'_>) -> Vec<Wave> {
+    let graph = track.graph;
+    let mut waves: Vec<Option<Wave>> = vec![None; graph.len()];
+    let mut queue = VecDeque::new();
+    for seed in 0..graph.len() {
+        if waves[seed].is_some() {
+            continue;
+        }
+        waves[seed] = Some(Wave::ONE);
+        queue.push_back(seed);
+        while let Some(v) = queue.pop_front() {
+            let wave = waves[v].unwrap_or(Wave::ONE);
+            for (link, rail) in graph.links[graph.range(v)].iter().zip(&track.rails[graph.range(v)]) {
+                let neighbour = &mut waves[link.to as usize];
+                if neighbour.is_none() {
+                    *neighbour = Some(rail.on(&wave));
+                    queue.push_back(link.to as usize);
+                }
+            }
+        }
+    }
+    waves.into_iter().map(|w| w.unwrap_or(Wave::ONE)).collect()
+}
+
+/// One sweep of Jacobi's method towards phases that agree with those of the neighbours and with the targets. Every phase
+/// keeps unit length, else weak parts of the surface would be lost.
+fn swept(track: &Track<'_>, waves: &[Wave], targets: Option<&[Wave]>, pull: f32) -> Vec<Wave> {
+    let graph = track.graph;
+    let new = |v: usize| {
+        let range = graph.range(v);
+        let mut sum = Wave::ZERO;
+        let mut total = 0.0;
+        for (link, rail) in graph.links[range.clone()].iter().zip(&track.rails[range]) {
+            sum.add_scaled(&rail.back(&waves[link.to as usize]), link.weight);
+            total += link.weight;
+        }
+        if let Some(targets) = targets {
+            sum.add_scaled(&targets[v], (pull * graph.areas[v]).min(MOST_PULL * total.max(1e-30)));
+        }
+        sum.add_scaled(&waves[v], INERTIA * total);
+        sum.normalized_or(&waves[v])
+    };
+    (0..graph.len()).into_par_iter().with_min_len(1024).map(new).collect()
+}
