@@ -2,7 +2,8 @@
 //!
 //! The rooms of the house, from the top floor down; a room imports only from floors below its own:
 //! [`app`] the window, [`export`] pictures without a window, [`render`] one frame of one scene, [`import`] files
-//! become scenes, [`gpu`] the device, [`document`] what is saved and undone, [`scene`] nodes, cameras, lights and
+//! become scenes, [`gpu`] the device, [`hatching`] what strokes are drawn
+//! with, [`document`] what is saved and undone, [`scene`] nodes, cameras, lights and
 //! materials, [`style`] the parameters of every effect, [`geometry`] meshes.
 
 pub mod app;
@@ -11,6 +12,7 @@ pub mod document;
 pub mod export;
 pub mod geometry;
 pub mod gpu;
+pub mod hatching;
 pub mod import;
 pub mod render;
 pub mod scene;

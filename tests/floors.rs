@@ -9,13 +9,14 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 /// Rooms, top to bottom, as in the README. A room imports only from itself and from rooms below it.
-const ROOMS: [&[&str]; 10] = [
+const ROOMS: [&[&str]; 11] = [
     &["main", "cli"],
     &["app"],
     &["export"],
     &["render"],
     &["import"],
     &["gpu"],
+    &["hatching"],
     &["document"],
     &["scene"],
     &["style"],

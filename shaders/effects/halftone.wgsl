@@ -3,6 +3,7 @@
 #import common/frame.wgsl
 #import common/gbuffer.wgsl
 #import common/light.wgsl
+#import common/surface_change.wgsl
 
 const HALFTONE: u32 = 5u;
 
@@ -182,16 +183,6 @@ fn uv_ink(object: u32, px: vec2<i32>, tone: f32) -> f32 {
     let uv = bitcast<vec2<f32>>(texel.xy);
     let pattern = Patch(uv, unpack2x16float(texel.z) / 4096.0, unpack2x16float(texel.w) / 4096.0);
     return surface_ink(object, pattern, tone);
-}
-
-// How the point that a pixel shows moves with the pixel, over a plane with a normal.
-fn pos_change(pos_view: vec3<f32>, normal: vec3<f32>, per_px: vec3<f32>) -> vec3<f32> {
-    let orthographic = frame.orthographic == 1u;
-    let ray = select(pos_view / -pos_view.z, vec3(0.0, 0.0, -1.0), orthographic);
-    // Seen edge on, a plane would have no end.
-    let facing = min(dot(normal, ray), -0.1 * length(ray));
-    let change = per_px - ray * (dot(normal, per_px) / facing);
-    return change * select(-pos_view.z, 1.0, orthographic);
 }
 
 // Projections along the axes count as much as the surface faces them.

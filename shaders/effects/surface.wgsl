@@ -5,6 +5,7 @@
 #import common/light.wgsl
 #import effects/gooch.wgsl
 #import effects/halftone.wgsl
+#import effects/hatching.wgsl
 #import effects/matcap.wgsl
 #import effects/toon.wgsl
 
@@ -13,7 +14,7 @@ const BLANK: u32 = 0u;
 const PLAIN: u32 = 1u;
 const UNLIT: u32 = 2u;
 // Only what is designated among blueprints is a surface.
-const BLUEPRINT: u32 = 7u;
+const BLUEPRINT: u32 = 8u;
 
 // A surface seen edge on has this share of its highlight colour: it is lit from the eye.
 const HIGHLIGHT_RIM: f32 = 0.55;
@@ -58,6 +59,8 @@ fn fs_main(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
                 shade = halftone(px, s, base, pos_view);
             } else if WITH_MATCAP && technique == MATCAP {
                 shade = matcap(px, s, base, pos_view);
+            } else if WITH_HATCHING && technique == HATCHING {
+                shade = hatching(px, s, base, pos_view);
             } else if technique == BLUEPRINT {
                 shade = surface_styles[s.object].highlight * mix(HIGHLIGHT_RIM, 1.0, max(dot(s.normal, towards_eye(pos_view)), 0.0));
             }

@@ -8,7 +8,9 @@ use image::RgbaImage;
 use crate::document::{Document, DocumentError};
 use crate::geometry::Topology;
 use crate::gpu::{Gpu, GpuError, readback};
+use crate::hatching::cache::Cache;
 use crate::import::{ImportError, ImportOptions, Progress, load_all};
+use crate::render::base::stripes::SolvedStripes;
 use crate::render::{Picture, RenderError, Renderer, Reported, Request};
 use crate::scene::{Camera, Scene};
 
@@ -86,12 +88,14 @@ pub fn topology(scene: &Scene, crease_angle: f32) -> Vec<Topology> {
 pub struct Session {
     renderer: Renderer,
     samples: u32,
+    /// What takes long is kept there.
+    cache: Cache,
 }
 
 impl Session {
     /// Takes over a device.
     pub fn new(gpu: Gpu) -> Self {
-        Self { renderer: Renderer::new(gpu), samples: 1 }
+        Self { renderer: Renderer::new(gpu), samples: 1, cache: Cache::of_user() }
     }
 
     /// The renderer.
@@ -111,6 +115,21 @@ impl Session {
     pub fn set_scene(&mut self, opened: &Opened) -> Result<(), RenderError> {
         let topology = topology(&opened.scene, opened.document.view.crease_angle);
         self.renderer.set_scene(&opened.scene, &topology)
+    }
+
+    /// Finds the stripes of hatching that a document asks for and that are not there yet.
+    fn find_stripes(&mut self, opened: &Opened) -> Result<(), RenderError> {
+        let missing = self.renderer.missing_stripes(&opened.document);
+        if missing.is_empty() {
+            return Ok(());
+        }
+        let found = SolvedStripes::solve(&self.cache, &opened.scene, &missing, &|_| true);
+        let mut solved = self.renderer.solved_stripes().to_vec();
+        solved.extend(found.unwrap_or_default());
+        let topology = topology(&opened.scene, opened.document.view.crease_angle);
+        let stripes = self.renderer.uploader().stripes(&opened.scene, &topology, solved)?;
+        self.renderer.show_stripes(stripes);
+        Ok(())
     }
 
     /// Draws a document on the scene that was set, with its own camera or the initial one.
@@ -134,6 +153,7 @@ impl Session {
             selected: &[],
             samples: self.samples,
         };
+        self.find_stripes(opened)?;
         loop {
             let picture = self.renderer.render(&request)?;
             // One sample at a time, so that not all of them lie in the queue at once, and each is known to be complete.

@@ -16,7 +16,7 @@ use self::ladder::Ladder;
 use super::direction_field::Solved;
 use super::{FieldOptions, Mesh};
 
-pub use self::levels::{BASE_LEVEL, CYCLES_PER_EXTENT, FAMILIES, LEVELS, Phases};
+pub use self::levels::{BASE_LEVEL, CYCLES_PER_EXTENT, FAMILIES, LEVELS, Phases, WORDS};
 pub use self::lift::{Corner, Lifted, lift};
 
 /// What stripes need to know of a vertex: 50 bytes.
@@ -41,7 +41,7 @@ impl StripeVertex {
 
     /// All of it in 13 words: direction and normal, each two octahedral coordinates as 16-bit snorm (x in the low
     /// half), then the phases two by two, the first in the low half, family by family and level by level.
-    pub fn packed(&self) -> [u32; 13] {
+    pub fn packed(&self) -> [u32; WORDS] {
         let word = |low: u16, high: u16| u32::from(low) | u32::from(high) << 16;
         let pair = |[x, y]: [i16; 2]| word(x.cast_unsigned(), y.cast_unsigned());
         let phases = self.phases.as_flattened();
@@ -53,6 +53,21 @@ impl StripeVertex {
                 word(at(2 * i - 4), at(2 * i - 3))
             }
         })
+    }
+}
+
+impl StripeVertex {
+    /// The reverse of [`StripeVertex::packed`].
+    pub fn from_packed(words: &[u32; WORDS]) -> Self {
+        let halves = words.map(|word| [word as u16, (word >> 16) as u16]);
+        let pair = |halves: [u16; 2]| halves.map(u16::cast_signed);
+        let all = halves.as_flattened();
+        let phase = |family: usize, level: usize| all.get(4 + family * LEVELS + level).copied().unwrap_or(0);
+        Self {
+            direction: pair(halves[0]),
+            normal: pair(halves[1]),
+            phases: std::array::from_fn(|family| std::array::from_fn(|level| phase(family, level))),
+        }
     }
 }
 

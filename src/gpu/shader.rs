@@ -148,12 +148,13 @@ impl Shaders {
             composed.error(line as usize, e.emit_to_string_with_path(&composed.text, file))
         })?;
         bindings::number(&mut module);
-        let info = Validator::new(checks, Capabilities::SHADER_FLOAT16_IN_FLOAT32 | Capabilities::PRIMITIVE_INDEX)
-            .validate(&module)
-            .map_err(|e| {
-                let line = e.location(&composed.text).map_or(0, |l| l.line_number);
-                composed.error(line as usize, e.emit_to_string_with_path(&composed.text, file))
-            })?;
+        let info =
+            Validator::new(checks, Capabilities::SHADER_FLOAT16_IN_FLOAT32 | Capabilities::PRIMITIVE_INDEX)
+                .validate(&module)
+                .map_err(|e| {
+                    let line = e.location(&composed.text).map_or(0, |l| l.line_number);
+                    composed.error(line as usize, e.emit_to_string_with_path(&composed.text, file))
+                })?;
         Ok((module, info))
     }
 

@@ -11,9 +11,11 @@ use super::base::ids::node_of;
 use super::base::lights::Lights;
 use super::base::scale_bar::ScaleBar;
 use super::base::scene_view::SceneView;
+use super::base::stripes::{GpuStripes, SolvedStripes, StripeRequest};
 use super::base::style_images::StyleImages;
 use super::drawing::DrawingInputs;
 use super::drawing::objects::Objects;
+use super::effects::hatching::missing;
 use super::frame::{FrameInputs, FrameState, Picture};
 use super::passes::accumulate::Subject;
 use super::passes::layers::{LayersBy, Reported};
@@ -157,6 +159,24 @@ impl Renderer {
     pub fn show_topology(&mut self, topology: UploadedTopology) {
         if let Some(scene) = &mut self.scene {
             scene.set_topology(topology);
+            self.scene_revision += 1;
+        }
+    }
+
+    /// The stripes of hatching that a document asks for and that nobody has given yet; until then tones are even.
+    pub fn missing_stripes(&self, document: &Document) -> Vec<StripeRequest> {
+        self.scene.as_ref().map_or(Vec::new(), |scene| missing(document, scene))
+    }
+
+    /// All stripes that have been given for the scene that is shown.
+    pub fn solved_stripes(&self) -> &[SolvedStripes] {
+        self.scene.as_ref().map_or(&[], GpuScene::solved_stripes)
+    }
+
+    /// Takes over stripes of hatching for the scene that is shown.
+    pub fn show_stripes(&mut self, stripes: GpuStripes) {
+        if let Some(scene) = &mut self.scene {
+            scene.set_stripes(stripes);
             self.scene_revision += 1;
         }
     }

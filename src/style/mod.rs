@@ -15,6 +15,7 @@ pub mod edge_mode;
 pub mod edges;
 pub mod gooch;
 pub mod halftone;
+pub mod hatching;
 pub mod hidden;
 pub mod matcap;
 mod matrix;
@@ -42,6 +43,7 @@ pub use edge_mode::{Alignment, DepthOperator, EdgeMode};
 pub use edges::Edges;
 pub use gooch::Gooch;
 pub use halftone::Halftone;
+pub use hatching::Hatching;
 pub use hidden::{Hidden, HiddenMode};
 pub use matrix::Matrix;
 pub use mirror::Mirror;
@@ -132,6 +134,8 @@ techniques! {
     Halftone(halftone: Halftone),
     /// The look of a lit sphere, of which there is a picture.
     Matcap(matcap: matcap::Matcap),
+    /// Tones by strokes that follow the form.
+    Hatching(hatching: Hatching),
     /// The lines of hidden layers too.
     Blueprint(blueprint: Blueprint),
 }

@@ -112,10 +112,9 @@ impl Rail {
     }
 }
 
-/// A graph with directions, and the rails of all its links at one frequency.
+/// A graph, and the rails of all its links at one frequency.
 pub(super) struct Track<'a> {
     pub(super) graph: &'a Graph,
-    pub(super) directions: Vec<Vec3>,
     /// One for each link.
     pub(super) rails: Vec<Rail>,
     /// From each patch to the one of the coarser graph that it is part of.
@@ -157,7 +156,7 @@ impl<'a> Track<'a> {
                 };
                 to_parent = (0..graph.len()).into_par_iter().with_min_len(1024).map(rail).collect();
             }
-            tracks.push(Self { graph, directions, rails, to_parent, step });
+            tracks.push(Self { graph, rails, to_parent, step });
             directions = coarser;
         }
         tracks

@@ -7,6 +7,7 @@ use rayon::prelude::*;
 
 use super::frame_uniform::View;
 use super::section::{Part, Section};
+use super::stripes::{GpuStripes, SolvedStripes, StripePlace, StripeRequest};
 use crate::document::Document;
 use crate::geometry::{Bounds, FeatureEdges, Mesh, NotFlat, Plane, Topology, Weld};
 use crate::gpu::geometry::{MeshRange, MeshSource};
@@ -31,6 +32,12 @@ pub struct GpuScene {
     meshes: [MeshSet; 2],
     /// Where it is cut open, if it is.
     pub section: Option<Section>,
+    /// Diagonal of the box around the model, scene units.
+    diagonal: f64,
+    /// Stripes of hatching on the model; `None` while there are none for the triangles as they are.
+    stripes: Option<GpuStripes>,
+    /// All that have been found.
+    solved: Vec<SolvedStripes>,
 }
 
 /// Which buffers hold a mesh.
@@ -91,6 +98,9 @@ impl GpuScene {
             meshes: [MeshSet::new(gpu, &scene.meshes, topology)?, MeshSet::new(gpu, &[], &[])?],
             model: Arc::clone(scene),
             section: None,
+            diagonal: diagonal_of(scene),
+            stripes: None,
+            solved: Vec::new(),
             scene: Arc::clone(scene),
         })
     }
@@ -103,6 +113,34 @@ impl GpuScene {
         model.welds = uploaded.welds;
         model.is_solid = uploaded.is_solid;
         self.section = None;
+        // Triangles lie in another order now.
+        self.stripes = None;
+    }
+
+    /// Takes over stripes of the model.
+    pub fn set_stripes(&mut self, stripes: GpuStripes) {
+        self.solved = stripes.solved().to_vec();
+        self.stripes = Some(stripes);
+    }
+
+    /// Stripes of the model on the device.
+    pub fn stripes(&self) -> Option<&GpuStripes> {
+        self.stripes.as_ref()
+    }
+
+    /// Where stripes lie on the device; `None`: they are not there.
+    pub fn stripe_place(&self, request: &StripeRequest) -> Option<StripePlace> {
+        self.stripes.as_ref()?.place(request)
+    }
+
+    /// All stripes that have been found, on the device or not.
+    pub fn solved_stripes(&self) -> &[SolvedStripes] {
+        &self.solved
+    }
+
+    /// Diagonal of the box around the model, scene units.
+    pub fn diagonal(&self) -> f64 {
+        self.diagonal
     }
 
     /// Puts these objects beside the model in place of those that were there; the model stays on the device as it is.
@@ -304,6 +342,16 @@ impl GpuScene {
     }
 }
 
+fn diagonal_of(scene: &Scene) -> f64 {
+    let meshes: Vec<Bounds> = scene.meshes.par_iter().map(|mesh| mesh.bounds()).collect();
+    let boxes = scene.nodes.iter().filter_map(|node| {
+        let bounds = meshes.get(node.mesh?).filter(|bounds| !bounds.is_empty())?;
+        Some(bounds.transformed(&node.world_from_local))
+    });
+    let all = boxes.fold(Bounds::EMPTY, |all, bounds| all.union(&bounds));
+    if all.is_empty() { 0.0 } else { (all.max - all.min).length() }
+}
+
 /// Whether anything shows through a material anywhere.
 fn blends(scene: &Scene, number: usize, material: &Material) -> bool {
     let image = material.base_color_texture.as_ref().and_then(|t| scene.textures.get(t.texture));
@@ -350,6 +398,19 @@ impl Uploader {
     /// [`GpuError::TooLarge`].
     pub fn scene(&self, scene: &Arc<Scene>, topology: &[Topology]) -> Result<GpuScene, GpuError> {
         GpuScene::new(&self.gpu, &self.material_layout, scene, topology)
+    }
+
+    /// Uploads stripes of a scene; `topology`: of its meshes, as they are on the device.
+    ///
+    /// # Errors
+    /// [`GpuError::TooLarge`].
+    pub fn stripes(
+        &self,
+        scene: &Scene,
+        topology: &[Topology],
+        solved: Vec<SolvedStripes>,
+    ) -> Result<GpuStripes, GpuError> {
+        GpuStripes::new(&self.gpu, scene, topology, solved)
     }
 
     /// Uploads what topology found out about the meshes of a scene, one entry each.

@@ -17,5 +17,6 @@ pub mod scale_bar;
 pub mod scene_view;
 pub mod section;
 pub mod stage;
+pub mod stripes;
 pub mod strokes;
 pub mod style_images;

@@ -159,7 +159,10 @@ impl SurfaceTechnique for HalftoneShading {
     type Shared = SharedHalftones;
 
     fn shared(gpu: &Gpu) -> SharedHalftones {
-        SharedHalftones { maps: ThresholdMaps::new(gpu), coordinates: CoordinatesPass::new(Coordinates::Texture) }
+        SharedHalftones {
+            maps: ThresholdMaps::new(gpu),
+            coordinates: CoordinatesPass::new(Coordinates::Texture),
+        }
     }
 
     fn new(gpu: &Gpu) -> Self {

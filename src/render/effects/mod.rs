@@ -4,6 +4,7 @@ pub mod blended;
 pub mod blueprint;
 pub mod gooch;
 pub mod halftone;
+pub mod hatching;
 pub mod hidden;
 pub mod layered;
 pub mod matcap;

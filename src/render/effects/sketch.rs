@@ -245,8 +245,10 @@ impl SketchState {
         };
         self.field.write(rec.gpu, &sketch.field());
         self.field_objects.write(rec.gpu, &field_objects);
-        let moved = self.move_lines(rec, sketch, edges.as_ref(), (&surfaces, enlarged.as_ref()), &images, &key)?;
-        let fill_field = self.fill_field(rec, sketch, enlarged.as_ref().unwrap_or(&surfaces.gbuffer), &key)?;
+        let moved =
+            self.move_lines(rec, sketch, edges.as_ref(), (&surfaces, enlarged.as_ref()), &images, &key)?;
+        let fill_field =
+            self.fill_field(rec, sketch, enlarged.as_ref().unwrap_or(&surfaces.gbuffer), &key)?;
         let near_lines = self.near_lines(rec, sketch, edges.as_ref())?;
         let lays_ink = is_last && composition.ink.is_none();
         let key = PlaceKey {
@@ -271,7 +273,8 @@ impl SketchState {
             images: images.revision,
             style: sketch.style.clone(),
         };
-        let fetched = Fetched { surfaces: &surfaces, color: shaded, edges, near_lines, hidden, moved, fill_field };
+        let fetched =
+            Fetched { surfaces: &surfaces, color: shaded, edges, near_lines, hidden, moved, fill_field };
         // Ink that is there is placed anew once.
         let count = if fetched.edges.is_some() { sketch.passes().len() } else { 1 };
         self.passes.resize_with(count.max(self.passes.len()), || SketchPass::new(rec.gpu));

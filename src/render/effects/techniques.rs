@@ -114,4 +114,5 @@ techniques! {
     toon: super::toon::ToonShading,
     halftone: super::halftone::HalftoneShading,
     matcap: super::matcap::MatcapShading,
+    hatching: super::hatching::HatchingShading,
 }

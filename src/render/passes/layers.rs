@@ -323,7 +323,9 @@ impl LayerLines {
         let (before, now) = own.map(|Seen { before, now }| (before, now)).unzip();
         *seen = now;
         let reach = match &edge_map.spines {
-            Some(spines) => Some(line_distance(rec, spines, Widths::of(inputs.styles), &mut self.greatest_radius)?),
+            Some(spines) => {
+                Some(line_distance(rec, spines, Widths::of(inputs.styles), &mut self.greatest_radius)?)
+            }
             None => None,
         };
         Ok(LayerEdges { edge_map, reach, nearer: before })

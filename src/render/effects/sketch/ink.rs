@@ -81,9 +81,9 @@ impl SketchPass {
             pass.run(rec, buffer.buffer(), (&edges.value.edges, spines), noise, pixels)
         })?;
         let radius = &mut self.greatest_radius;
-        let reach = self.reach.run((moved.revision, widths), |_| {
-            line_distance(rec, &moved.value.spines, widths, radius)
-        })?;
+        let reach = self
+            .reach
+            .run((moved.revision, widths), |_| line_distance(rec, &moved.value.spines, widths, radius))?;
         Ok(Moved { edges: moved.value, reach })
     }
 }

@@ -99,12 +99,7 @@ pub(super) fn width(pass: &style::sketch::Pass) -> f32 {
 }
 
 /// How a pass moves lines; `component`: which noise of a texel it has.
-pub(super) fn movement(
-    sketch: &style::Sketch,
-    number: usize,
-    scale: f32,
-    component: u32,
-) -> MovementUniform {
+pub(super) fn movement(sketch: &style::Sketch, number: usize, scale: f32, component: u32) -> MovementUniform {
     let pass = &sketch.pass[number.min(MOST_PASSES - 1)];
     MovementUniform {
         matrix: rows(sketch, pass.matrix, scale),

@@ -1,0 +1,284 @@
+// Stripes of hatching: lines that were found on the surface (Knoeppel et al. 2015, "Stripe Patterns on Surfaces"), of which each pixel
+// takes the level that is about as dense as wanted, so that strokes keep their width on paper. Lines that the denser level has more
+// than the coarser one begin as points and come last.
+#import common/octahedral.wgsl
+#import common/records.wgsl
+
+// Twin: `StrokeUniform` in src/render/effects/hatching/strokes.rs. Lengths in px, widths as shares of the spacing.
+struct Stroke {
+    spacing: f32,
+    thin: f32,
+    thick: f32,
+    length: f32,
+    taper: f32,
+    gap: f32,
+    spread: f32,
+    chance: f32,
+    pointed: f32,
+    inserted: f32,
+    variation: f32,
+    // Which of the tables says what tone to ask for.
+    table: u32,
+}
+
+// As in src/geometry/stripes/levels.rs.
+const FAMILIES: u32 = 3u;
+const BASE_LEVEL: i32 = 5;
+const LAST_LEVEL: i32 = 6;
+// Levels below the own one by which lines are told apart, so that a line keeps its number while one comes closer.
+const FINER_BY: i32 = 3;
+
+// As in src/render/effects/hatching/calibration.rs.
+const SOFT: f32 = 0.04;
+const LEAST_WIDTH: f32 = 0.35;
+const OCTAVE_PLACES: u32 = 10u;
+const INK_STEPS: u32 = 64u;
+
+// Numbers of vertices of each triangle, and the vertices: src/render/base/stripes.rs.
+var stripe_triangles: texture_storage_2d<rgba32uint, read>;
+var stripe_vertices: texture_storage_2d<rgba32uint, read>;
+// For each table, place in the octave and share of ink the tone to ask for.
+var<storage, read> stripe_tones: array<f32>;
+
+fn mixed(v: u32) -> u32 {
+    let state = v * 747796405u + 2891336453u;
+    let word = ((state >> ((state >> 28u) + 4u)) ^ state) * 277803737u;
+    return (word >> 22u) ^ word;
+}
+
+fn hash_of(a: u32, b: u32) -> u32 {
+    return mixed(a + mixed(b));
+}
+
+fn unit_of(hash: u32) -> f32 {
+    return f32(hash >> 8u) / 16777216.0;
+}
+
+// Value noise, 0 to 1.
+fn value_noise(p: vec3<f32>) -> f32 {
+    let f = floor(p);
+    let t = p - f;
+    let w = t * t * (3.0 - 2.0 * t);
+    let cell = vec3<u32>(vec3<i32>(f));
+    var sum = 0.0;
+    for (var i = 0u; i < 8u; i++) {
+        let corner = vec3(i & 1u, (i >> 1u) & 1u, i >> 2u);
+        let at = cell + corner;
+        let weights = select(1.0 - w, w, corner == vec3(1u));
+        sum += weights.x * weights.y * weights.z * unit_of(mixed(at.x + mixed(at.y + mixed(at.z))));
+    }
+    return sum;
+}
+
+fn wrapped(cycles: f32) -> f32 {
+    return cycles - round(cycles);
+}
+
+// The stripes of a triangle as a pixel sees them.
+struct Stripes {
+    // Of the corners, local space.
+    direction: array<vec3<f32>, 3>,
+    normal: array<vec3<f32>, 3>,
+    away: array<vec3<f32>, 3>,
+    // Seven phases of each corner and family, two in a word.
+    phases: array<vec4<u32>, 9>,
+    // 1 where a corner's direction agrees with that of the first one, or −1.
+    signs: vec3<f32>,
+    // Shares of the corners.
+    shares: vec3<f32>,
+    // Of the pixel, and its change from pixel to pixel, local space.
+    place: vec3<f32>,
+    dx: vec3<f32>,
+    dy: vec3<f32>,
+    // Cycles of the base level per unit.
+    frequency: f32,
+}
+
+// How much each corner counts at a place in a triangle.
+fn shares_at(place: vec3<f32>, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>) -> vec3<f32> {
+    let u = b - a;
+    let v = c - a;
+    let w = place - a;
+    let uu = dot(u, u);
+    let uv = dot(u, v);
+    let vv = dot(v, v);
+    let area = max(uu * vv - uv * uv, 1e-36);
+    let s = clamp((vv * dot(w, u) - uv * dot(w, v)) / area, 0.0, 1.0);
+    let t = clamp((uu * dot(w, v) - uv * dot(w, u)) / area, 0.0, 1.0);
+    return vec3(1.0 - s - t, s, t);
+}
+
+// `triangle`: its number among all.
+fn stripes_of(triangle: u32, place: vec3<f32>, dx: vec3<f32>, dy: vec3<f32>, frequency: f32) -> Stripes {
+    var s: Stripes;
+    let vertices = texel_at(stripe_triangles, triangle).xyz;
+    var position = array<vec3<f32>, 3>();
+    for (var i = 0u; i < 3u; i++) {
+        let first = 4u * vertices[i];
+        let texel = texel_at(stripe_vertices, first);
+        var last = vec3(0u);
+        for (var f = 0u; f < FAMILIES; f++) {
+            let phases = texel_at(stripe_vertices, first + 1u + f);
+            s.phases[3u * i + f] = phases;
+            last[f] = phases.w >> 16u;
+        }
+        position[i] = bitcast<vec3<f32>>(texel.xyz);
+        s.direction[i] = octahedral_decode(unpack2x16snorm(texel.w));
+        s.normal[i] = octahedral_decode(unpack2x16snorm(last.x | (last.y << 16u)));
+        s.away[i] = position[i] - position[0];
+        // Rolled from the plane of the first corner to that of this one.
+        let n0 = s.normal[0];
+        let d0 = s.direction[0];
+        let rolled = d0 - (n0 + s.normal[i]) * (dot(d0, s.normal[i]) / max(1.0 + dot(n0, s.normal[i]), 1e-3));
+        s.signs[i] = select(1.0, -1.0, dot(rolled, s.direction[i]) < 0.0);
+    }
+    s.signs[0] = 1.0;
+    s.shares = shares_at(place, position[0], position[1], position[2]);
+    s.place = place;
+    s.dx = dx;
+    s.dy = dy;
+    s.frequency = frequency;
+    return s;
+}
+
+// One family of the stripes.
+struct Family {
+    // From the first corner to the others, cycles of the base level.
+    cycles: vec3<f32>,
+    // Cycles of the base level per px.
+    per_px: f32,
+    number: u32,
+}
+
+fn family_of(s: Stripes, number: u32) -> Family {
+    let angle = 1.5707963 + 1.0471976 * f32(number);
+    let turn = vec2(cos(angle), sin(angle));
+    var gradient = vec3(0.0);
+    var cycles = vec3(0.0);
+    let first = s.direction[0] * turn.x + cross(s.normal[0], s.direction[0]) * turn.y;
+    for (var i = 0u; i < 3u; i++) {
+        let own = (s.direction[i] * turn.x + cross(s.normal[i], s.direction[i]) * turn.y) * s.signs[i];
+        gradient += s.shares[i] * own;
+        cycles[i] = 0.5 * s.frequency * dot(first + own, s.away[i]);
+    }
+    gradient = normalize(gradient + vec3(1e-20)) * s.frequency;
+    let per_px = max(length(vec2(dot(gradient, s.dx), dot(gradient, s.dy))), 1e-12);
+    return Family(cycles, per_px, number);
+}
+
+fn phase_of(phases: vec4<u32>, level: u32) -> f32 {
+    return f32((phases[level >> 1u] >> (16u * (level & 1u))) & 0xffffu) / 65536.0;
+}
+
+// The phase at a level, −5 and more: linear in the triangle, where each corner has what comes nearest to what the gradient foretells.
+fn phase_at(s: Stripes, family: Family, k: i32) -> f32 {
+    let level = u32(clamp(k + BASE_LEVEL, 0, LAST_LEVEL));
+    let scale = exp2(f32(level) - f32(BASE_LEVEL));
+    let first = phase_of(s.phases[family.number], level);
+    var phase = first;
+    for (var i = 1u; i < 3u; i++) {
+        let foretold = family.cycles[i] * scale;
+        let own = s.signs[i] * phase_of(s.phases[3u * i + family.number], level) - first;
+        phase += s.shares[i] * (foretold + wrapped(own - foretold));
+    }
+    // Beyond the last level twice as many lines each time.
+    return phase * exp2(f32(k + BASE_LEVEL) - f32(level));
+}
+
+// Which level has lines of a spacing (px), and the place in the octave up to the next coarser one, 0 to 1.
+struct Level {
+    k: i32,
+    place: f32,
+    spacing: f32,
+}
+
+fn level_of(per_px: f32, wanted: f32) -> Level {
+    let x = clamp(-log2(per_px * wanted), -5.0, 12.0);
+    let k = floor(x);
+    return Level(i32(k), x - k, exp2(-k) / per_px);
+}
+
+// Where a pixel lies among the lines of a family: in lines of the next level, whole numbers on them, which tell them apart by their
+// last bits; and in lines of the level itself.
+struct Rows {
+    finer: f32,
+    own: f32,
+}
+
+fn rows_at(s: Stripes, family: Family, k: i32) -> Rows {
+    let first = min(max(k - FINER_BY, -BASE_LEVEL), k);
+    var y = wrapped(phase_at(s, family, first));
+    var own = y;
+    for (var level = first + 1; level <= k + 1; level++) {
+        let phase = phase_at(s, family, level);
+        y = 2.0 * y + wrapped(phase - 2.0 * y);
+        own = select(own, y, level == k);
+    }
+    return Rows(y, own);
+}
+
+// The tone to ask for, so that so much is inked.
+fn tone_for(table: u32, place: f32, ink: f32) -> f32 {
+    let row = clamp(place * f32(OCTAVE_PLACES) - 0.5, 0.0, f32(OCTAVE_PLACES) - 1.0);
+    let column = clamp(ink, 0.0, 1.0) * f32(INK_STEPS - 1u);
+    let row_first = min(u32(row), OCTAVE_PLACES - 2u);
+    let column_first = min(u32(column), INK_STEPS - 2u);
+    let i = (table * OCTAVE_PLACES + row_first) * INK_STEPS + column_first;
+    let t = column - f32(column_first);
+    let low = mix(stripe_tones[i], stripe_tones[i + 1u], t);
+    let high = mix(stripe_tones[i + INK_STEPS], stripe_tones[i + INK_STEPS + 1u], t);
+    return mix(low, high, row - f32(row_first));
+}
+
+// Ink of a family where `ink` of all is to be inked.
+fn stripe_ink(s: Stripes, number: u32, stroke: Stroke, ink: f32) -> f32 {
+    let family = family_of(s, number);
+    let level = level_of(family.per_px, stroke.spacing);
+    let rows = rows_at(s, family, level.k);
+    let row = round(rows.finer);
+    let even = (i32(row) & 1) == 0;
+    let coarse = 2.0 * wrapped(rows.own);
+    let fine = rows.finer - row;
+    let blended = select(fine, mix(coarse, fine, smoothstep(0.0, 1.0, level.place)), even && abs(coarse - fine) < 0.5);
+    let away = blended * level.spacing * 0.5;
+    // The odd part of its number, and the level at which it was born: a line keeps both while one comes closer.
+    let bits = u32(i32(row) & 15);
+    let code = select(bits, 16u, bits == 0u);
+    let born = countTrailingZeros(code);
+    let id = hash_of(code >> born, u32(level.k + 1 - i32(born)) ^ (number * 7919u));
+    var tap = 1.0;
+    var chance = unit_of(id);
+    var variation = 0.0;
+    if stroke.taper > 0.0 {
+        let across = family_of(s, (number + 1u) % FAMILIES);
+        let along = level_of(across.per_px, stroke.length);
+        let octave = along.place;
+        let at = rows_at(s, across, along.k).own;
+        // So that the ends of neighbours do not line up.
+        let frequency = s.frequency * exp2(f32(along.k)) * 1.7;
+        let noise = mix(value_noise(s.place * frequency), value_noise(s.place * frequency * 2.0), octave);
+        let u = at + unit_of(mixed(id)) + 0.5 * (noise - 0.5);
+        let stroke_number = u32(i32(floor(u)) & 15);
+        let share = fract(u);
+        let end = min(share, 1.0 - share) * along.spacing - stroke.gap;
+        let half_gap = stroke.gap * smoothstep(0.35, 1.0, octave);
+        let middle = select(1e9, abs(share - 0.5) * along.spacing - half_gap, octave > 0.35);
+        tap = clamp(min(end, middle) / stroke.taper, 0.0, 1.0);
+        let half = select(0u, 1u, share > 0.5);
+        let whole = unit_of(hash_of(id, stroke_number));
+        let halves = unit_of(hash_of(id, 2u * stroke_number + half + 100u));
+        chance = mix(whole, halves, 0.35 * smoothstep(0.3, 1.0, octave));
+        variation = unit_of(hash_of(hash_of(id, stroke_number), 23u)) - 0.5;
+    }
+    let late = select((1.0 - level.place) * stroke.inserted, 0.0, even);
+    let threshold = stroke.spread * (stroke.chance * chance + (1.0 - tap) * stroke.pointed) + late;
+    let tone = tone_for(stroke.table, level.place, ink);
+    let beyond = clamp((tone - threshold) / max(1.0 - threshold, 1e-3), 0.0, 1.0);
+    let share = mix(stroke.thin, stroke.thick, beyond);
+    let pressed = sqrt(tap) * (1.0 - stroke.variation * variation) * smoothstep(0.0, SOFT, tone - threshold);
+    var width = stroke.spacing * share * pressed;
+    // No hair lines: a stroke ends, it does not fade.
+    width = select(width, 0.0, width < LEAST_WIDTH);
+    let covered = clamp(max(width, 2.0 * LEAST_WIDTH) * 0.5 - abs(away) + 0.5, 0.0, 1.0);
+    return covered * min(width / (2.0 * LEAST_WIDTH), 1.0);
+}

@@ -1,0 +1,172 @@
+//! Stripes of hatching on the device: for each triangle of a mesh, as it is drawn, where strokes run.
+
+use std::sync::Arc;
+
+use bytemuck::{Pod, Zeroable};
+use glam::Vec3;
+
+use crate::geometry::stripes::{FAMILIES, LEVELS, StripeField, StripeVertex};
+use crate::geometry::{FieldOptions, Mesh, Topology};
+use crate::gpu::geometry::triangle_corners;
+use crate::gpu::{Gpu, GpuError, RecordTexture, Target};
+use crate::hatching::cache::Cache;
+use crate::hatching::stripes::stripes_of;
+use crate::scene::Scene;
+
+/// Stripes that somebody wants: which mesh, and how they run on it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StripeRequest {
+    /// The mesh.
+    pub mesh: usize,
+    /// How they run.
+    pub options: FieldOptions,
+}
+
+/// Stripes that have been found.
+#[derive(Debug, Clone)]
+pub struct SolvedStripes {
+    /// What was asked for.
+    pub request: StripeRequest,
+    /// What was found.
+    pub field: Arc<StripeField>,
+}
+
+impl SolvedStripes {
+    /// Finds stripes, or takes them from a cache. `progress` is given the share that is done, 0 to 1, and says whether to go on:
+    /// `None` when it did not.
+    pub fn solve(
+        cache: &Cache,
+        scene: &Scene,
+        requests: &[StripeRequest],
+        progress: &(dyn Fn(f32) -> bool + Sync),
+    ) -> Option<Vec<Self>> {
+        let triangles = |r: &StripeRequest| scene.meshes.get(r.mesh).map_or(0, |mesh| mesh.triangle_count());
+        let all = requests.iter().map(triangles).sum::<usize>().max(1) as f32;
+        let mut done = 0.0;
+        let mut solved = Vec::with_capacity(requests.len());
+        for request in requests {
+            let Some(mesh) = scene.meshes.get(request.mesh) else { continue };
+            let share = triangles(request) as f32 / all;
+            let field = stripes_of(cache, mesh, &request.options, &|part| progress(done + part * share))?;
+            solved.push(Self { request: *request, field: Arc::new(field) });
+            done += share;
+            if !progress(done) {
+                return None;
+            }
+        }
+        Some(solved)
+    }
+}
+
+/// Where the stripes of a mesh lie on the device.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StripePlace {
+    /// The record of its first triangle.
+    pub first_triangle: u32,
+    /// Lines of the base level per unit of the mesh.
+    pub cycles_per_unit: f32,
+}
+
+/// A vertex as shaders read it, four texels: twin of `stripe_corner` in `shaders/effects/hatching/stripes.wgsl`.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable, Default)]
+struct VertexRecord {
+    position: [f32; 3],
+    direction: u32,
+    /// By family: seven phases, and a coordinate of the normal.
+    families: [[u16; LEVELS + 1]; FAMILIES],
+}
+
+impl VertexRecord {
+    fn new(position: Vec3, vertex: &StripeVertex) -> Self {
+        let [direction, normal, ..] = vertex.packed();
+        let normal = [normal as u16, (normal >> 16) as u16, 0];
+        let family = |f: usize| {
+            let mut halves = [0; LEVELS + 1];
+            halves[..LEVELS].copy_from_slice(&vertex.phases[f]);
+            halves[LEVELS] = normal[f];
+            halves
+        };
+        Self { position: position.to_array(), direction, families: std::array::from_fn(family) }
+    }
+}
+
+/// All stripes of a scene on the device. Clones share them.
+#[derive(Clone)]
+pub struct GpuStripes {
+    solved: Vec<SolvedStripes>,
+    places: Vec<StripePlace>,
+    triangles: Target,
+    vertices: Target,
+}
+
+impl GpuStripes {
+    /// Uploads stripes of a scene; `topology`: of its meshes, as they are on the device, or empty. From any thread.
+    ///
+    /// # Errors
+    /// [`GpuError::TooLarge`].
+    pub fn new(
+        gpu: &Gpu,
+        scene: &Scene,
+        topology: &[Topology],
+        solved: Vec<SolvedStripes>,
+    ) -> Result<Self, GpuError> {
+        let mut triangles: Vec<[u32; 4]> = Vec::new();
+        let mut vertices: Vec<VertexRecord> = Vec::new();
+        let mut places = Vec::with_capacity(solved.len());
+        for SolvedStripes { request, field } in &solved {
+            let place = StripePlace {
+                first_triangle: triangles.len() as u32,
+                cycles_per_unit: field.cycles_per_unit,
+            };
+            places.push(place);
+            let Some(mesh) = scene.meshes.get(request.mesh) else { continue };
+            let first_vertex = vertices.len() as u32;
+            vertices.extend(records(mesh, field));
+            let corners = triangle_corners(mesh, topology.get(request.mesh).map(|t| &t.provoking));
+            let vertex_of =
+                |corner: u32| field.corner_vertices.get(corner as usize).map_or(0, |v| first_vertex + v);
+            triangles
+                .extend(corners.into_iter().map(|[a, b, c]| [vertex_of(a), vertex_of(b), vertex_of(c), 0]));
+        }
+        let mut triangle_records = RecordTexture::new(gpu, "triangles of stripes");
+        triangle_records.write(gpu, &triangles)?;
+        let mut vertex_records = RecordTexture::new(gpu, "vertices of stripes");
+        vertex_records.write(gpu, &vertices)?;
+        let (triangles, vertices) = (triangle_records.target().clone(), vertex_records.target().clone());
+        Ok(Self { solved, places, triangles, vertices })
+    }
+
+    /// Where these stripes lie; `None`: they are not there.
+    pub fn place(&self, request: &StripeRequest) -> Option<StripePlace> {
+        let number = self.solved.iter().position(|s| s.request == *request)?;
+        self.places.get(number).copied()
+    }
+
+    /// The stripes, as they were found.
+    pub fn solved(&self) -> &[SolvedStripes] {
+        &self.solved
+    }
+
+    /// Three numbers of vertices per triangle, one texel each.
+    pub fn triangles(&self) -> &Target {
+        &self.triangles
+    }
+
+    /// The vertices, four texels each.
+    pub fn vertices(&self) -> &Target {
+        &self.vertices
+    }
+}
+
+fn records(mesh: &Mesh, field: &StripeField) -> Vec<VertexRecord> {
+    let mut positions = vec![Vec3::ZERO; field.vertices.len()];
+    for (vertex, index) in field.corner_vertices.iter().zip(&mesh.indices) {
+        if let (Some(slot), Some(position)) =
+            (positions.get_mut(*vertex as usize), mesh.positions.get(*index as usize))
+        {
+            *slot = *position;
+        }
+    }
+    positions.iter().zip(&field.vertices).map(|(p, vertex)| VertexRecord::new(*p, vertex)).collect()
+}

@@ -1,0 +1,357 @@
+//! Hatching: tones by strokes of a pen that follow the form (Bu et al., "Image-based Real-time Hatching of Scene Traveling", 2006;
+//! Praun et al., "Real-Time Hatching", 2001).
+
+use super::param::Params;
+use super::slot::choice;
+use super::{Color, Curve};
+
+/// Parameters of the technique `hatching`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Hatching {
+    /// How strokes lie on the picture or on the model.
+    pub mapping: Mapping,
+    /// The strokes of mappings with textures.
+    pub set: Set,
+    /// Where strokes run.
+    pub direction: Direction,
+    /// Strokes turn in steps of so many degrees, 0 to 90; 0: smoothly.
+    pub turn_step: f32,
+    /// Whether the strokes of the two nearest steps are blended.
+    pub blend_steps: bool,
+    /// What single strokes are like.
+    pub stroke: Stroke,
+    /// How strokes make tones.
+    pub layers: Layers,
+    /// From light to darkness.
+    pub tone: Tone,
+    /// Strokes that are left out away from edges.
+    pub indication: Indication,
+    /// Colour of the ink.
+    pub ink: Color,
+    /// Share of the object's own colour in the ink, 0 to 1.
+    pub ink_tint: f32,
+    /// Colour between the ink.
+    pub paper: Color,
+    /// Share of the object's own colour on the paper, 0 to 1.
+    pub paper_tint: f32,
+}
+
+/// What single strokes are like.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Stroke {
+    /// Least distance between strokes, reference pixels, 2 to 60; on a surface up to twice as much.
+    pub spacing: f32,
+    /// Width of a stroke that just begins, as a share of the spacing, 0.02 to 1.
+    pub thin: f32,
+    /// Greatest width, as a share of the spacing, 0.05 to 1.2.
+    pub thick: f32,
+    /// Least length, reference pixels, 5 to 1000; up to twice as much.
+    pub length: f32,
+    /// Length of pointed ends, reference pixels, 0 to 100; 0: strokes go on and on.
+    pub taper: f32,
+    /// Half of the gap between the ends of strokes, reference pixels, 0 to 20.
+    pub gap: f32,
+    /// How far strokes come one after the other as it gets darker, instead of all at once getting wider, 0 to 1.
+    pub spread: f32,
+    /// How much chance decides which come first, 0 to 1.
+    pub chance: f32,
+    /// How much later the ends of a stroke come than its middle, 0 to 2.
+    pub pointed: f32,
+    /// How much later a line comes that is inserted between two others, 0 to 1.
+    pub inserted: f32,
+    /// How much widths vary from stroke to stroke, 0 to 1.
+    pub variation: f32,
+}
+
+/// How strokes make tones.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Layers {
+    /// How many directions cross at most, 1 to 3.
+    pub count: u32,
+    /// Darkness from which on strokes of a second direction cross those of the first, 0 to 1.
+    pub second: f32,
+    /// The same for a third direction.
+    pub third: f32,
+    /// Whether strokes of the form run on through shadows that are thrown on it, and others make these.
+    pub shadows_cross: bool,
+}
+
+/// From light to darkness.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Tone {
+    /// From light, 0 to 1, to tone, 0 (ink) to 1 (paper).
+    pub curve: Curve,
+    /// Light that reaches every point from everywhere, 0 to 1.
+    pub ambient: f32,
+    /// How far an object's own colour makes its tone darker, 0 (not at all) to 1 (as much as it is dark).
+    pub own_color: f32,
+    /// Tones lighter than this are paper, 0 to 1 from white down.
+    pub white: f32,
+    /// The greatest darkness, 0 to 1.
+    pub darkest: f32,
+}
+
+/// Strokes that are left out away from edges.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Indication {
+    /// How much is left out, 0 to 1.
+    pub amount: f32,
+    /// How far from edges that begins, reference pixels, 1 to 300.
+    pub distance: f32,
+    /// How fast strokes become fewer beyond, 0.1 to 4.
+    pub falloff: f32,
+}
+
+choice! {
+    /// How strokes lie on the picture or on the model.
+    pub enum Mapping {
+        /// On the surface: lines that follow the form, always about equally dense.
+        #[default]
+        Stripes,
+        /// On the paper, turned as the surface says.
+        Paper,
+        /// On the surface, by texture coordinates.
+        Uv,
+    }
+}
+
+choice! {
+    /// The strokes of mappings with textures.
+    pub enum Set {
+        /// Long thin ones.
+        #[default]
+        Pen,
+        /// Soft and a little wavy ones.
+        Pencil,
+        /// Wedges.
+        Woodcut,
+        /// Dots.
+        Stipple,
+    }
+}
+
+choice! {
+    /// Where strokes run.
+    pub enum Direction {
+        /// Around what is round, along what is long.
+        #[default]
+        Curvature,
+        /// Along the first texture coordinate.
+        TextureU,
+        /// Along the second texture coordinate.
+        TextureV,
+        /// Along the x axis of the model.
+        X,
+        /// Along its y axis.
+        Y,
+        /// Along its z axis.
+        Z,
+        /// Towards the first light.
+        Light,
+    }
+}
+
+impl Default for Hatching {
+    fn default() -> Self {
+        Self {
+            mapping: Mapping::default(),
+            set: Set::default(),
+            direction: Direction::default(),
+            turn_step: 15.0,
+            blend_steps: false,
+            stroke: Stroke {
+                spacing: 6.0,
+                thin: 0.16,
+                thick: 0.62,
+                length: 80.0,
+                taper: 22.0,
+                gap: 2.5,
+                spread: 0.6,
+                chance: 1.0,
+                pointed: 0.5,
+                inserted: 0.45,
+                variation: 0.3,
+            },
+            layers: Layers { count: 3, second: 0.42, third: 0.7, shadows_cross: true },
+            tone: Tone { curve: Curve::LINEAR, ambient: 0.1, own_color: 0.2, white: 0.1, darkest: 0.82 },
+            indication: Indication { amount: 0.0, distance: 30.0, falloff: 1.3 },
+            ink: Color([24, 22, 28]),
+            ink_tint: 0.0,
+            paper: Color([252, 250, 244]),
+            paper_tint: 0.0,
+        }
+    }
+}
+
+impl Hatching {
+    pub(super) fn params<'a>(&'a mut self, list: &mut Params<'a>) {
+        let share = |list: &mut Params<'a>, key, label, help, value: &'a mut f32| {
+            list.number(key, label, "", 0.0..=1.0, 0.0..=1.0, help, value);
+        };
+        list.choice(
+            "mapping",
+            "Mapping",
+            "How strokes lie on the model or on the picture. Where a model has no texture coordinates there are stripes.",
+            &mut self.mapping,
+        );
+        list.choice(
+            "direction",
+            "Direction",
+            "Where strokes run; without texture coordinates they follow the curvature instead.",
+            &mut self.direction,
+        );
+        list.when_any("hatching.mapping", ["paper", "uv"], |list| {
+            list.choice("set", "Strokes", "What the strokes look like.", &mut self.set);
+        });
+        list.when("hatching.mapping", Mapping::Paper, |list| {
+            list.number(
+                "turn_step",
+                "Turning step",
+                "°",
+                0.0..=45.0,
+                0.0..=90.0,
+                "Strokes turn in steps of so much, so that neighbours stay parallel; 0: smoothly.",
+                &mut self.turn_step,
+            );
+            list.switch(
+                "blend_steps",
+                "Blend steps",
+                "Strokes of the two nearest steps are blended, so that none is cut off.",
+                &mut self.blend_steps,
+            );
+        });
+        list.section("stroke", |list| self.stroke.params(list));
+        list.section("layers", |list| self.layers.params(list));
+        list.section("tone", |list| self.tone.params(list));
+        list.section("indication", |list| self.indication.params(list));
+        list.color("ink", "Ink", "Colour of the ink.", &mut self.ink);
+        share(list, "ink_tint", "Own colour in ink", "Share of the object's own colour.", &mut self.ink_tint);
+        list.color("paper", "Paper", "Colour between the ink.", &mut self.paper);
+        share(
+            list,
+            "paper_tint",
+            "Own colour on paper",
+            "How far the paper is multiplied by the object's own colour.",
+            &mut self.paper_tint,
+        );
+    }
+}
+
+impl Stroke {
+    fn params<'a>(&'a mut self, list: &mut Params<'a>) {
+        list.number(
+            "spacing",
+            "Spacing",
+            "px",
+            3.0..=20.0,
+            2.0..=60.0,
+            "Least distance between strokes; on a surface between this and the double, whatever the distance.",
+            &mut self.spacing,
+        );
+        list.when("hatching.mapping", Mapping::Stripes, |list| {
+            let number = |list: &mut Params<'a>,
+                          key,
+                          label,
+                          (unit, soft, hard),
+                          help,
+                          value: &'a mut f32| list.number(key, label, unit, soft, hard, help, value);
+            let share = ("", 0.02..=1.0, 0.02..=1.2);
+            number(list, "thin", "Thinnest", share.clone(), "Width of a stroke that just begins, as a share of the spacing.", &mut self.thin);
+            number(list, "thick", "Thickest", share, "Width where all is dark, as a share of the spacing.", &mut self.thick);
+            let length = ("px", 10.0..=300.0, 5.0..=1000.0);
+            number(list, "length", "Length", length, "Least length of strokes; up to twice as much.", &mut self.length);
+            let taper = ("px", 0.0..=40.0, 0.0..=100.0);
+            number(list, "taper", "Pointed ends", taper, "Length of the ends that run out; 0: strokes go on and on.", &mut self.taper);
+            let gap = ("px", 0.0..=8.0, 0.0..=20.0);
+            number(list, "gap", "Gap", gap, "Half of the gap between the ends of two strokes.", &mut self.gap);
+            let unit = ("", 0.0..=1.0, 0.0..=1.0);
+            number(list, "spread", "One by one", unit.clone(), "0: all strokes get wider where it is dark, as an engraver's; 1: more and more come, as of a pen.", &mut self.spread);
+            number(list, "chance", "Chance", unit.clone(), "How much chance decides which strokes come first.", &mut self.chance);
+            number(list, "pointed", "Ends come late", ("", 0.0..=2.0, 0.0..=2.0), "How much darker it must be for the ends of a stroke than for its middle.", &mut self.pointed);
+            number(list, "inserted", "Insertion", unit.clone(), "How much darker it must be for lines that are inserted between others.", &mut self.inserted);
+            number(list, "variation", "Variation", unit, "How much widths vary from stroke to stroke.", &mut self.variation);
+        });
+    }
+}
+
+impl Layers {
+    fn params<'a>(&'a mut self, list: &mut Params<'a>) {
+        list.integer("count", "Directions", "", 1..=3, "How many directions cross at most.", &mut self.count);
+        list.when_any("hatching.layers.count", ["2", "3"], |list| {
+            list.number(
+                "second",
+                "Second from",
+                "",
+                0.0..=1.0,
+                0.0..=1.0,
+                "Darkness from which on a second direction crosses the first.",
+                &mut self.second,
+            );
+            list.switch(
+                "shadows_cross",
+                "Shadows cross",
+                "Strokes of the form run on through cast shadows, which others make.",
+                &mut self.shadows_cross,
+            );
+        });
+        list.when_any("hatching.layers.count", ["3"], |list| {
+            list.number(
+                "third",
+                "Third from",
+                "",
+                0.0..=1.0,
+                0.0..=1.0,
+                "Darkness from which on a third direction crosses both.",
+                &mut self.third,
+            );
+        });
+    }
+}
+
+impl Tone {
+    fn params<'a>(&'a mut self, list: &mut Params<'a>) {
+        let share = |list: &mut Params<'a>, key, label, help, value: &'a mut f32| {
+            list.number(key, label, "", 0.0..=1.0, 0.0..=1.0, help, value);
+        };
+        list.curve(
+            "curve",
+            "Tone curve",
+            "From the light on a surface (left: none) to the tone that is drawn (below: ink).",
+            &mut self.curve,
+        );
+        share(list, "ambient", "Ambient", "Light that reaches every point, lit or not.", &mut self.ambient);
+        share(
+            list,
+            "own_color",
+            "Own colour",
+            "How far the object's own colour darkens: 0 draws all as if white.",
+            &mut self.own_color,
+        );
+        share(list, "white", "White", "Darkness that is left to the paper.", &mut self.white);
+        share(list, "darkest", "Darkest", "Greatest share of ink.", &mut self.darkest);
+    }
+}
+
+impl Indication {
+    fn params<'a>(&'a mut self, list: &mut Params<'a>) {
+        list.number(
+            "amount",
+            "Amount",
+            "",
+            0.0..=1.0,
+            0.0..=1.0,
+            "How many strokes are left out away from edges; darks keep theirs.",
+            &mut self.amount,
+        );
+        list.number(
+            "distance",
+            "Distance",
+            "px",
+            5.0..=120.0,
+            1.0..=300.0,
+            "How far from edges strokes become fewer.",
+            &mut self.distance,
+        );
+        list.number("falloff", "Falloff", "", 0.3..=3.0, 0.1..=4.0, "How fast they do.", &mut self.falloff);
+    }
+}
