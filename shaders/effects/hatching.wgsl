@@ -4,17 +4,23 @@
 #import common/light.wgsl
 #import common/surface_change.wgsl
 #import effects/hatching/stripes.wgsl
+#import effects/hatching/tonal_art_map.wgsl
 
 const HATCHING: u32 = 7u;
 
 // Whether any object is drawn in this way, and how strokes lie on any.
 override WITH_HATCHING: bool = true;
 override WITH_STRIPES: bool = true;
+override WITH_STROKES_ON_PAPER: bool = true;
+override WITH_STROKES_BY_UV: bool = true;
+override WITH_INDICATION: bool = false;
 override WITH_SECOND: bool = true;
 override WITH_THIRD: bool = true;
 
 // As in src/render/effects/hatching.rs; 0: no hatching.
 const STRIPES: u32 = 1u;
+const ON_PAPER: u32 = 2u;
+const BY_UV: u32 = 3u;
 
 // Twin: `HatchingUniform` in src/render/effects/hatching.rs.
 struct HatchingStyle {
@@ -40,13 +46,27 @@ struct HatchingStyle {
     // Of its stripes.
     frequency: f32,
     first_triangle: u32,
+    // Strokes of tonal art maps: side of a tile, px; which set; steps in which strokes turn, radians; whether two steps are blended;
+    // whether strokes run towards the light.
+    tile: f32,
+    strokes: u32,
+    turn_step: f32,
+    blends_steps: u32,
+    towards_light: u32,
+    // Strokes that are left out away from edges.
+    indication: f32,
+    // px.
+    indication_distance: f32,
+    indication_falloff: f32,
 }
 
 var<storage, read> hatching_styles: array<HatchingStyle>;
 // The tone curve of each object.
 var<storage, read> hatching_curves: array<f32>;
-// See passes/triangle_map.wgsl.
+// See passes/triangle_map.wgsl, and passes/coordinates.wgsl for objects with strokes by texture coordinates.
 var triangle_map_tex: texture_storage_2d<rgba32uint, read>;
+// The nearest edge that is drawn, as `found_tex` in passes/line_distance.wgsl.
+var nearest_edge_tex: texture_storage_2d<r32uint, read>;
 
 // As in src/render/effects/hatching.rs.
 const CURVE: u32 = 33u;
@@ -112,21 +132,21 @@ fn split(object: u32, dark: Dark) -> vec3<f32> {
     return vec3(first, next, select(0.0, clamp(last, 0.0, greatest), directions >= 3u));
 }
 
-// Strokes on the surface.
-fn stripes_ink(px: vec2<i32>, s: Surfel, pos_view: vec3<f32>, inks: vec3<f32>) -> f32 {
-    let object = s.object;
-    let texel = textureLoad(triangle_map_tex, px);
-    if texel.x == 0u {
-        return 1.0 - (1.0 - inks.x) * (1.0 - inks.y) * (1.0 - inks.z);
-    }
+// The stripes of the triangle that a pixel shows.
+fn stripes_seen(object: u32, texel: vec4<u32>, s: Surfel, pos_view: vec3<f32>) -> Stripes {
     let m = hatching_styles[object].local_from_view;
     let linear = mat3x3(m[0].xyz, m[1].xyz, m[2].xyz);
     let per_px = 2.0 * frame.half_extent / frame.size;
     let dx = linear * pos_change(pos_view, s.face_normal, vec3(per_px.x, 0.0, 0.0));
     let dy = linear * pos_change(pos_view, s.face_normal, vec3(0.0, -per_px.y, 0.0));
     let triangle = hatching_styles[object].first_triangle + texel.x - 1u;
-    let stripes = stripes_of(triangle, bitcast<vec3<f32>>(texel.yzw), dx, dy, hatching_styles[object].frequency);
-    let stroke = hatching_styles[object].stroke;
+    return stripes_of(triangle, bitcast<vec3<f32>>(texel.yzw), dx, dy, hatching_styles[object].frequency);
+}
+
+// Strokes on the surface.
+fn stripes_ink(texel: vec4<u32>, s: Surfel, pos_view: vec3<f32>, inks: vec3<f32>) -> f32 {
+    let stripes = stripes_seen(s.object, texel, s, pos_view);
+    let stroke = hatching_styles[s.object].stroke;
     var left = 1.0 - stripe_ink(stripes, 0u, stroke, inks.x);
     if WITH_SECOND && inks.y > 0.0 {
         left *= 1.0 - stripe_ink(stripes, 1u, stroke, inks.y);
@@ -137,12 +157,111 @@ fn stripes_ink(px: vec2<i32>, s: Surfel, pos_view: vec3<f32>, inks: vec3<f32>) -
     return 1.0 - left;
 }
 
+// Direction of strokes in the picture, x to the right and y down: that of the stripes, or across what faces up.
+fn direction_seen(texel: vec4<u32>, s: Surfel, pos_view: vec3<f32>) -> vec2<f32> {
+    let object = s.object;
+    var view = cross(vec3(0.0, 1.0, 0.0), s.normal) + vec3(1e-3, 0.0, 0.0);
+    if hatching_styles[object].towards_light == 1u && frame.light_count > 0u {
+        let l = towards_light(frame.lights[0], pos_view);
+        view = l - s.normal * dot(l, s.normal);
+    } else if texel.x != 0u && hatching_styles[object].frequency > 0.0 {
+        let stripes = stripes_seen(object, texel, s, pos_view);
+        var d = vec3(0.0);
+        for (var i = 0u; i < 3u; i++) {
+            d += stripes.shares[i] * stripes.signs[i] * stripes.direction[i];
+        }
+        // So many pixels to the right and down lead as far as the direction does.
+        let xx = dot(stripes.dx, stripes.dx);
+        let xy = dot(stripes.dx, stripes.dy);
+        let yy = dot(stripes.dy, stripes.dy);
+        let x = dot(d, stripes.dx);
+        let y = dot(d, stripes.dy);
+        let area = max(xx * yy - xy * xy, 1e-36);
+        return vec2(yy * x - xy * y, xx * y - xy * x) / area;
+    }
+    return vec2(view.x, -view.y);
+}
+
+// Strokes on the paper, turned as the surface says, in steps: sign(a) · ⌊|a| / T⌋ · T.
+fn strokes_on_paper(px: vec2<i32>, texel: vec4<u32>, s: Surfel, pos_view: vec3<f32>, ink: f32) -> f32 {
+    let object = s.object;
+    let direction = direction_seen(texel, s, pos_view);
+    // No direction has a front: angles from −90° to 90°.
+    let facing = direction * select(1.0, -1.0, direction.x < 0.0);
+    let angle = atan2(facing.y, max(facing.x, 1e-12));
+    let at = (vec2<f32>(px) + 0.5 - frame.jitter) / hatching_styles[object].tile;
+    let strokes = hatching_styles[object].strokes;
+    let lod = max(log2(TILE / hatching_styles[object].tile), 0.0);
+    let step = hatching_styles[object].turn_step;
+    if step <= 0.0 {
+        return paper_ink_at(at, angle, strokes, ink, lod);
+    }
+    let steps = floor(abs(angle) / step);
+    let drawn = paper_ink_at(at, sign(angle) * steps * step, strokes, ink, lod);
+    if hatching_styles[object].blends_steps == 0u {
+        return drawn;
+    }
+    let next = paper_ink_at(at, sign(angle) * (steps + 1.0) * step, strokes, ink, lod);
+    return mix(drawn, next, abs(angle) / step - steps);
+}
+
+// Strokes by texture coordinates.
+fn strokes_by_uv(texel: vec4<u32>, object: u32, inks: vec3<f32>) -> f32 {
+    let across = unpack2x16float(texel.z) / 4096.0;
+    let down = unpack2x16float(texel.w) / 4096.0;
+    // Coordinates that are stretched in one direction are stretched back, in steps of an octave.
+    let size_u = length(vec2(across.x, down.x));
+    let size_v = length(vec2(across.y, down.y));
+    let squeeze = vec2(1.0, exp2(round(log2(max(size_u, 1e-9) / max(size_v, 1e-9)))));
+    let uv = bitcast<vec2<f32>>(texel.xy) * squeeze;
+    let dx = across * squeeze;
+    let dy = down * squeeze;
+    // As large as its area, but no strokes are pressed together more than threefold.
+    let area = abs(dx.x * dy.y - dx.y * dy.x);
+    let pixel = max(sqrt(area), max(length(dx), length(dy)) / 3.0);
+    let strokes = hatching_styles[object].strokes;
+    let tile = 0.5 * hatching_styles[object].tile;
+    var left = 1.0 - uv_ink_of(uv, pixel, tile, strokes, 0u, inks.x);
+    if WITH_SECOND && inks.y > 0.0 {
+        left *= 1.0 - uv_ink_of(uv, pixel, tile, strokes, 1u, inks.y);
+    }
+    if WITH_THIRD && inks.z > 0.0 {
+        left *= 1.0 - uv_ink_of(uv, pixel, tile, strokes, 2u, inks.z);
+    }
+    return 1.0 - left;
+}
+
+// Darkness with fewer strokes away from edges: (1 + distance / d)^−c of them; darks keep theirs.
+fn indicated(px: vec2<i32>, object: u32, dark: f32) -> f32 {
+    // A layer without lines has nothing that strokes could be near to.
+    if textureDimensions(nearest_edge_tex).x <= 1u {
+        return dark;
+    }
+    let found = textureLoad(nearest_edge_tex, px).x;
+    let edge = vec2<i32>(vec2((found - 1u) & 0xffffu, (found - 1u) >> 16u));
+    // No farther has been looked.
+    let most = 8.0 * hatching_styles[object].indication_distance;
+    let away = select(distance(vec2<f32>(edge), vec2<f32>(px)), most, found == 0u);
+    let field = pow(1.0 + min(away, most) / hatching_styles[object].indication_distance, -hatching_styles[object].indication_falloff);
+    return dark * (1.0 - hatching_styles[object].indication * (1.0 - field) * (1.0 - smoothstep(0.45, 0.8, dark)));
+}
+
 fn hatching(px: vec2<i32>, s: Surfel, base: vec3<f32>, pos_view: vec3<f32>) -> vec3<f32> {
     let object = s.object;
-    let inks = split(object, dark_at(px, s, base, pos_view));
+    var dark = dark_at(px, s, base, pos_view);
+    if WITH_INDICATION && hatching_styles[object].indication > 0.0 {
+        dark = Dark(indicated(px, object, dark.all), indicated(px, object, dark.form));
+    }
+    let inks = split(object, dark);
+    let texel = textureLoad(triangle_map_tex, px);
+    let mapping = hatching_styles[object].mapping;
     var ink = 0.0;
-    if WITH_STRIPES && hatching_styles[object].mapping == STRIPES {
-        ink = stripes_ink(px, s, pos_view, inks);
+    if WITH_STRIPES && mapping == STRIPES && texel.x != 0u {
+        ink = stripes_ink(texel, s, pos_view, inks);
+    } else if WITH_STROKES_BY_UV && mapping == BY_UV && any(texel != vec4(0u)) {
+        ink = strokes_by_uv(texel, object, inks);
+    } else if WITH_STROKES_ON_PAPER {
+        ink = strokes_on_paper(px, texel, s, pos_view, dark.all);
     }
     let paper = hatching_styles[object].paper * mix(vec3(1.0), base, hatching_styles[object].paper_tint);
     let stroke = mix(hatching_styles[object].ink, base, hatching_styles[object].ink_tint);

@@ -31,7 +31,7 @@ use super::{AppError, theme};
 use crate::document::{Document, DocumentError, History};
 use crate::gpu::GpuError;
 use crate::import::{self, ImageCache, ImportError};
-use crate::render::UploadedTopology;
+use crate::render::{GpuStripes, StripeRequest, UploadedTopology};
 use crate::style::Style;
 use crate::style::preset::{self, Preset};
 
@@ -86,6 +86,8 @@ struct Jobs {
     load: Option<Job<Result<Loaded, LoadError>>>,
     dialog: Option<(DialogFor, Job<Vec<PathBuf>>)>,
     topology: Option<Job<Result<UploadedTopology, GpuError>>>,
+    /// `None` comes of it when it was cancelled.
+    stripes: Option<Job<Option<Result<GpuStripes, GpuError>>>>,
     save: Option<Job<Result<(PathBuf, Document), DocumentError>>>,
     images: Option<Job<Result<(ImageCache, crate::render::StyleImages), ImportError>>>,
     picture: Option<Job<Result<PathBuf, ScreenshotError>>>,
@@ -113,6 +115,8 @@ pub struct Viewer {
     loaded: Vec<PathBuf>,
     /// The crease angle of the topology that the renderer has or is about to get.
     topology_for: Option<f32>,
+    /// Stripes of hatching that the person did not want to wait for.
+    stripes_refused: Vec<StripeRequest>,
     /// The images that the styles name.
     images: StyleImages,
     loader: Loader,
@@ -162,6 +166,7 @@ impl Viewer {
             kept: Kept::default(),
             loaded: Vec::new(),
             topology_for: None,
+            stripes_refused: Vec::new(),
             images: StyleImages::default(),
             loader: launch.loader,
             dialogs: launch.dialogs,
@@ -219,6 +224,11 @@ impl Viewer {
     /// Whether the meshes have been examined for the present crease angle.
     pub fn has_topology(&self) -> bool {
         self.topology_for == Some(self.document.view.crease_angle) && self.jobs.topology.is_none()
+    }
+
+    /// Whether all strokes of hatching that are asked for have been found.
+    pub fn has_stripes(&self) -> bool {
+        self.jobs.stripes.is_none() && self.viewport.missing_stripes(&self.document).is_empty()
     }
 
     /// What the person is to do next, while a glyph is being placed.
@@ -299,10 +309,18 @@ impl Viewer {
                 adapter: &adapter,
                 refining: self.viewport.refining().progress(),
                 saving: self.jobs.picture.as_ref().map(|job| job.progress().share()),
+                hatching: self.jobs.stripes.as_ref().map(|job| job.progress().share()),
             };
-            if status::status_ui(ui, &status, &mut self.commands) {
-                self.jobs.picture = None;
-                self.jobs.waiting.clear();
+            match status::status_ui(ui, &status, &mut self.commands) {
+                Some(status::Cancelled::Saving) => {
+                    self.jobs.picture = None;
+                    self.jobs.waiting.clear();
+                }
+                Some(status::Cancelled::Hatching) => {
+                    self.jobs.stripes = None;
+                    self.stripes_refused = self.viewport.missing_stripes(&self.document);
+                }
+                None => {}
             }
         });
         self.side_panels(ui);

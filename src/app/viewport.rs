@@ -17,8 +17,8 @@ use crate::document::Document;
 use crate::gpu::{Gpu, Target};
 use crate::render::Peeled;
 use crate::render::{
-    GpuScene, LayersBy, Pick, RenderError, Renderer, Reported, Request, StyleImages, UploadedTopology,
-    Uploader,
+    GpuScene, GpuStripes, LayersBy, Pick, RenderError, Renderer, Reported, Request, SolvedStripes,
+    StripeRequest, StyleImages, UploadedTopology, Uploader,
 };
 use crate::scene::{Camera, NodeId, Up};
 use crate::style::Style;
@@ -271,6 +271,22 @@ impl Viewport {
     /// Takes over what topology found out about the scene's meshes.
     pub fn show_topology(&mut self, topology: UploadedTopology) {
         self.renderer.show_topology(topology);
+        self.draw_again();
+    }
+
+    /// The stripes of hatching that a document asks for and that nobody has given yet.
+    pub fn missing_stripes(&self, document: &Document) -> Vec<StripeRequest> {
+        self.renderer.missing_stripes(document)
+    }
+
+    /// All stripes of hatching that have been found for the scene.
+    pub fn solved_stripes(&self) -> Vec<SolvedStripes> {
+        self.renderer.solved_stripes().to_vec()
+    }
+
+    /// Takes over stripes of hatching.
+    pub fn show_stripes(&mut self, stripes: GpuStripes) {
+        self.renderer.show_stripes(stripes);
         self.draw_again();
     }
 

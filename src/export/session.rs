@@ -10,8 +10,7 @@ use crate::geometry::Topology;
 use crate::gpu::{Gpu, GpuError, readback};
 use crate::hatching::cache::Cache;
 use crate::import::{ImportError, ImportOptions, Progress, load_all};
-use crate::render::base::stripes::SolvedStripes;
-use crate::render::{Picture, RenderError, Renderer, Reported, Request};
+use crate::render::{Picture, RenderError, Renderer, Reported, Request, SolvedStripes};
 use crate::scene::{Camera, Scene};
 
 /// Files that were opened: a document and its scene.

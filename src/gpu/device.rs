@@ -310,7 +310,7 @@ pub fn instance_descriptor() -> wgpu::InstanceDescriptor {
 }
 
 /// So many textures of whole numbers the shader that reads most of them takes.
-const STORAGE_TEXTURES: u32 = 6;
+const STORAGE_TEXTURES: u32 = 8;
 
 /// What is asked of a device: all that the adapter can do in size, and timers, the choice of instances in indirect draws and
 /// numbers of triangles where it has them.

@@ -13,6 +13,7 @@ pub use base::error::RenderError;
 pub use base::frame_uniform::View;
 pub use base::gpu_scene::{GpuScene, Origin, UploadedTopology, Uploader};
 pub use base::sample::{MAX_SAMPLES, Sample};
+pub use base::stripes::{GpuStripes, SolvedStripes, StripeRequest};
 pub use base::style_images::StyleImages;
 pub use effects::blueprint::LAYERS;
 pub use effects::prepare_images;

@@ -28,6 +28,17 @@ pub struct Status<'a> {
     pub refining: Option<(u32, u32)>,
     /// Share of a screenshot that is done, while one is made.
     pub saving: Option<f32>,
+    /// Share of the strokes of hatching that are found, while they are looked for.
+    pub hatching: Option<f32>,
+}
+
+/// Work that is not wanted any more.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Cancelled {
+    /// A screenshot.
+    Saving,
+    /// Strokes of hatching.
+    Hatching,
 }
 
 /// A number with its thousands set apart.
@@ -43,9 +54,9 @@ pub fn grouped(number: usize) -> String {
     out
 }
 
-/// The line. Returns whether the screenshot is not wanted any more.
-pub fn status_ui(ui: &mut Ui, status: &Status<'_>, commands: &mut Vec<Command>) -> bool {
-    let mut is_cancelled = false;
+/// The line. Returns what is not wanted any more.
+pub fn status_ui(ui: &mut Ui, status: &Status<'_>, commands: &mut Vec<Command>) -> Option<Cancelled> {
+    let mut cancelled = None;
     ui.horizontal_centered(|ui| {
         let scene = &status.model.scene;
         if let Some(hint) = status.hint {
@@ -89,12 +100,21 @@ pub fn status_ui(ui: &mut Ui, status: &Status<'_>, commands: &mut Vec<Command>) 
             }
             if let Some(share) = status.saving {
                 ui.separator();
-                is_cancelled = ui.link("Cancel").on_hover_text("Save no picture").clicked();
+                if ui.link("Cancel").on_hover_text("Save no picture").clicked() {
+                    cancelled = Some(Cancelled::Saving);
+                }
                 ui.label(format!("Saving a picture, {:.0} %", share * 100.0));
+            }
+            if let Some(share) = status.hatching {
+                ui.separator();
+                if ui.link("Cancel").on_hover_text("Leave strokes on the paper").clicked() {
+                    cancelled = Some(Cancelled::Hatching);
+                }
+                ui.label(format!("Strokes lie on the paper until they are found, {:.0} %", share * 100.0));
             }
         });
     });
-    is_cancelled
+    cancelled
 }
 
 #[cfg(test)]

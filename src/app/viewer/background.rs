@@ -16,8 +16,9 @@ use crate::app::unsaved::{Kept, Next};
 use crate::app::viewport::PickFor;
 use crate::document::Document;
 use crate::export::session::{self, is_document};
+use crate::hatching::cache::Cache;
 use crate::import::{ImportError, Progress};
-use crate::render::Pick;
+use crate::render::{Pick, SolvedStripes};
 use crate::scene::Standard;
 
 /// How often the progress of a load is shown anew.
@@ -57,6 +58,7 @@ impl Viewer {
         self.answer_load(context);
         self.answer_dialog(context);
         self.answer_topology(context);
+        self.answer_stripes(context);
         self.answer_images(context);
         self.answer_pictures(context);
         if let Some(result) = self.jobs.save.as_ref().and_then(Job::poll) {
@@ -127,6 +129,8 @@ impl Viewer {
         self.model = model;
         self.jobs.topology = None;
         self.topology_for = None;
+        self.jobs.stripes = None;
+        self.stripes_refused.clear();
         self.outliner.restart(&self.model.scene);
         self.selection = if intent == Intent::Open { Default::default() } else { selection };
         match intent {
@@ -193,6 +197,43 @@ impl Viewer {
             let work = move |_: &Progress| uploader.topology(&scene, &session::topology(&scene, angle));
             self.jobs.topology = Some(Job::start("examining the meshes", context, work));
         }
+    }
+
+    /// Finds the strokes of hatching that styles ask for, once the meshes have been examined.
+    fn answer_stripes(&mut self, context: &egui::Context) {
+        if let Some(result) = self.jobs.stripes.as_ref().and_then(Job::poll) {
+            self.jobs.stripes = None;
+            match result {
+                // Triangles may lie in another order meanwhile.
+                Ok(Some(Ok(stripes))) if self.has_topology() => self.viewport.show_stripes(stripes),
+                Ok(Some(Ok(_)) | None) => {}
+                Ok(Some(Err(error))) => self.notices.error(error.to_string()),
+                Err(error) => self.notices.error(error.to_string()),
+            }
+        }
+        if self.jobs.stripes.is_some() {
+            context.request_repaint_after(PROGRESS);
+            return;
+        }
+        if !self.has_topology() || context.input(|i| i.pointer.any_down()) {
+            return;
+        }
+        let missing = self.viewport.missing_stripes(&self.document);
+        if missing.iter().all(|request| self.stripes_refused.contains(request)) {
+            return;
+        }
+        let (scene, angle) = (Arc::clone(&self.model.files), self.document.view.crease_angle);
+        let (uploader, known) = (self.viewport.uploader(), self.viewport.solved_stripes());
+        let work = move |progress: &Progress| {
+            let go_on = |share: f32| {
+                progress.report(share);
+                !progress.is_cancelled()
+            };
+            let found = SolvedStripes::solve(&Cache::of_user(), &scene, &missing, &go_on)?;
+            let all = known.into_iter().chain(found).collect();
+            Some(uploader.stripes(&scene, &session::topology(&scene, angle), all))
+        };
+        self.jobs.stripes = Some(Job::start("hatching", context, work));
     }
 
     fn begin_document(&mut self, document: Option<(PathBuf, Document)>, models: &[PathBuf]) {

@@ -24,6 +24,7 @@ use crate::render::passes::shadows::ShadowMap;
 /// What the colour of the opaque surfaces is made of.
 struct Parts<'a> {
     look: &'a Look,
+    edges: Option<&'a Output<EdgeMap>>,
     reflected: Vec<Reflected>,
     hidden: Option<Output<Target>>,
     /// The lines, if they are drawn with the surfaces.
@@ -59,7 +60,7 @@ impl Drawing {
             composition.place_ink(ink);
         }
         let lines = edges.filter(|_| !has_sketches).map(|edges| (edges, reach.as_ref()));
-        let parts = Parts { look: &look, reflected, hidden, lines };
+        let parts = Parts { look: &look, edges, reflected, hidden, lines };
         let color = if has_sketches {
             let alone = Composition::of_surfaces(composition.surfaces.clone(), composition.has_surfaces);
             let color = self.color_surfaces(rec, shared, inputs, drawn, &parts, &alone)?;
@@ -104,12 +105,14 @@ impl Drawing {
         composition: &Composition,
     ) -> Result<Output<Target>, RenderError> {
         let DrawingInputs { seen, objects, .. } = *inputs;
-        let Parts { look, reflected, hidden, lines: drawn_lines } = parts;
+        let Parts { look, edges, reflected, hidden, lines: drawn_lines } = parts;
+        let spines = look.lines(*edges);
         let Seen { uniform, surfaces } = drawn;
         let key = ColorKey {
             gbuffer: surfaces.gbuffer.revision,
             shadows: surfaces.shadow_mask.as_ref().map(|mask| mask.revision),
             lines: drawn_lines.map(|(edges, reach)| (edges.revision, reach.map(|reach| reach.revision))),
+            shaded_by_lines: spines.map(|(_, revision)| revision),
             look: (*look).clone(),
             edge_styles: objects.surfaces.edge_styles.clone(),
             uniform: uniform.without_background(),
@@ -122,7 +125,7 @@ impl Drawing {
             if let Some(only) = composition.only_translucent() {
                 return Ok(only.clone());
             }
-            let layer = self.surfaces.shaded(surfaces, seen, &key.uniform);
+            let layer = self.surfaces.shaded(surfaces, seen, &key.uniform, spines);
             let color = self.shading.shade(rec, &mut shared.techniques, &key.look, &layer, false)?;
             for seen in reflected {
                 let Some(reflection) = self.reflections.get_mut(seen.index) else { continue };

@@ -14,6 +14,8 @@ pub(super) struct ColorKey {
     pub(super) shadows: Option<u64>,
     /// Edges and which of them reach each pixel; `None` where lines are not drawn with the surfaces.
     pub(super) lines: Option<(u64, Option<u64>)>,
+    /// Where shading goes by lines.
+    pub(super) shaded_by_lines: Option<u64>,
     pub(super) look: Look,
     pub(super) edge_styles: Vec<EdgeUniform>,
     pub(super) uniform: FrameUniform,

@@ -66,6 +66,7 @@ pub fn place_blended(
             gbuffer,
             revision: None,
             shadow_mask: mask.as_ref().map(|mask| (mask, 0)),
+            spines: None,
             seen: *seen,
             uniform: &key.uniform,
             instances: drawn.instances,

@@ -220,8 +220,9 @@ impl SurfaceTechnique for HalftoneShading {
         };
         let calls: Vec<DrawCall> = layer.calls.iter().filter(asks).copied().collect();
         let (scene, has_any) = (layer.seen.scene, !calls.is_empty());
-        let mut draw =
-            |calls: &[DrawCall]| shared.coordinates.run(rec, scene, layer.gbuffer, layer.instances, calls);
+        let mut draw = |calls: &[DrawCall]| {
+            shared.coordinates.run(rec, scene, layer.gbuffer, layer.instances, calls, None)
+        };
         self.coordinates = match layer.revision {
             Some(revision) if has_any => {
                 Some(self.stage.run((revision, calls), |(_, calls)| draw(calls))?.value)

@@ -8,6 +8,7 @@
 
 mod calibration;
 mod requests;
+mod sets;
 mod strokes;
 
 use std::sync::{Mutex, PoisonError};
@@ -18,7 +19,9 @@ use glam::{DMat4, Mat4, Vec3};
 use self::calibration::{calibration, greatest_ink};
 pub use self::requests::missing;
 use self::requests::request_of;
+use self::sets::{StrokeSets, TILE};
 pub use self::strokes::StrokeUniform;
+use self::strokes::within;
 use super::technique::{Shaded, Styled, SurfaceTechnique};
 use crate::gpu::{ArrayBuffer, Gpu, Inputs, Recorder, Target};
 use crate::render::base::error::RenderError;
@@ -29,8 +32,9 @@ use crate::render::base::instances::DrawCall;
 use crate::render::base::stage::Stage;
 use crate::render::base::stripes::StripePlace;
 use crate::render::passes::coordinates::{Coordinates, CoordinatesPass};
+use crate::render::passes::line_distance::nearest_lines;
 use crate::style::Technique;
-use crate::style::hatching::Hatching;
+use crate::style::hatching::{Direction, Hatching, Mapping};
 
 /// Twin of `HatchingStyle` in `shaders/effects/hatching.wgsl`.
 #[derive(Debug, Clone, Copy, PartialEq, ShaderType, Default)]
@@ -53,10 +57,26 @@ pub struct HatchingUniform {
     mapping: u32,
     frequency: f32,
     first_triangle: u32,
+    tile: f32,
+    strokes: u32,
+    turn_step: f32,
+    blends_steps: u32,
+    towards_light: u32,
+    indication: f32,
+    indication_distance: f32,
+    indication_falloff: f32,
 }
 
 // As in `shaders/effects/hatching.wgsl`.
 const STRIPES: u32 = 1;
+const ON_PAPER: u32 = 2;
+const BY_UV: u32 = 3;
+/// Spacing at which a texel of a tonal art map is as large as a reference pixel, reference pixels.
+const SPACING_OF_TEXELS: f32 = 6.0;
+/// The greatest share of ink that a direction of strokes on tiles has.
+const GREATEST_OF_TILES: f32 = 0.76;
+/// Farthest that edges are looked for, px.
+const MOST_REACH: f32 = 512.0;
 /// Samples of a tone curve.
 const CURVE: usize = 33;
 
@@ -93,6 +113,8 @@ pub struct Hatchings {
     /// Of each object id, [`CURVE`] samples.
     curves: Vec<f32>,
     tables: Vec<Table>,
+    /// Whether there may be caps of sections, which have no stripes.
+    has_caps: bool,
 }
 
 impl Hatchings {
@@ -107,10 +129,19 @@ impl Hatchings {
             self.tables.len() - 1
         });
         let greatest = self.tables.get(table).map_or(1.0, |table| table.greatest);
-        let uniform = uniform(style, StrokeUniform { table: table as u32, ..stroke }, greatest, place);
+        let stroke = StrokeUniform { table: table as u32, ..stroke };
+        let mapping = match style.mapping {
+            Mapping::Stripes if place.is_some() => STRIPES,
+            Mapping::Uv if object.scene.has_uvs(object.node) => BY_UV,
+            Mapping::Uv if place.is_some() => STRIPES,
+            // Until stripes are found.
+            Mapping::Stripes | Mapping::Uv | Mapping::Paper => ON_PAPER,
+        };
+        let uniform = uniform(style, mapping, (stroke, greatest), object.scale, place);
         if let Some(slot) = object.entry(&mut self.styles) {
             *slot = uniform;
         }
+        self.has_caps |= object.scene.section.is_some();
         self.curves.resize(object.count * CURVE, 0.0);
         let first = object.id * CURVE;
         if let Some(slot) = self.curves.get_mut(first..first + CURVE) {
@@ -118,17 +149,28 @@ impl Hatchings {
         }
     }
 
-    /// Whether an object (by id, with or without flag) lies in stripes.
-    fn need_triangles(&self, object: u32) -> bool {
-        let style = node_of(object).and_then(|node| self.styles.get(node + 1));
-        style.is_some_and(|s| s.frequency > 0.0)
+    /// How far from edges strokes become fewer, px; 0: they do not.
+    fn indication_reach(&self) -> f32 {
+        let reaches = self.styles.iter().filter(|s| s.indication > 0.0).map(|s| 8.0 * s.indication_distance);
+        reaches.fold(0.0, f32::max).min(MOST_REACH)
+    }
+
+    /// What has to be known of the surface of an object (by id, with or without flag).
+    fn needs(&self, object: u32) -> Option<Coordinates> {
+        let style = node_of(object).and_then(|node| self.styles.get(node + 1))?;
+        match style.mapping {
+            BY_UV => Some(Coordinates::Texture),
+            0 => None,
+            _ => (style.frequency > 0.0).then_some(Coordinates::Triangles),
+        }
     }
 }
 
 fn uniform(
     style: &Hatching,
-    stroke: StrokeUniform,
-    greatest: f32,
+    mapping: u32,
+    (stroke, greatest): (StrokeUniform, f32),
+    scale: f32,
     place: Option<StripePlace>,
 ) -> HatchingUniform {
     let share = |value: f32| if value.is_nan() { 0.0 } else { value.clamp(0.0, 1.0) };
@@ -144,16 +186,25 @@ fn uniform(
         stroke,
         second,
         third: share(layers.third).max(second),
-        greatest,
+        greatest: if mapping == STRIPES { greatest } else { GREATEST_OF_TILES },
         directions: layers.count.clamp(1, 3),
         shadows_cross: u32::from(layers.shadows_cross),
         ambient: share(tone.ambient),
         own_color: share(tone.own_color),
         white: share(tone.white),
         darkest: share(tone.darkest),
-        mapping: STRIPES,
+        mapping,
         frequency: place.map_or(0.0, |place| place.cycles_per_unit),
         first_triangle: place.map_or(0, |place| place.first_triangle),
+        // Closer than this there would be nothing but grey.
+        tile: (TILE as f32 * stroke.spacing / SPACING_OF_TEXELS).max(32.0),
+        strokes: style.set as u32,
+        turn_step: if style.turn_step.is_nan() { 0.0 } else { style.turn_step.clamp(0.0, 90.0).to_radians() },
+        blends_steps: u32::from(style.blend_steps),
+        towards_light: u32::from(style.direction == Direction::Light),
+        indication: share(style.indication.amount),
+        indication_distance: within(style.indication.distance, 1.0, 300.0) * scale,
+        indication_falloff: within(style.indication.falloff, 0.1, 4.0),
     }
 }
 
@@ -162,6 +213,13 @@ fn local_from_view(scene: &GpuScene, id: usize, view: &View) -> Option<Mat4> {
     let node = scene.scene.nodes.get(node_of(id as u32)?)?;
     let local: DMat4 = (view.view_from_world * node.world_from_local).inverse();
     local.is_finite().then(|| local.as_mat4())
+}
+
+/// What hatching of all cameras shares.
+pub struct SharedHatching {
+    sets: StrokeSets,
+    triangles: CoordinatesPass,
+    coordinates: CoordinatesPass,
 }
 
 /// Hatching on the device.
@@ -173,14 +231,22 @@ pub struct HatchingShading {
     /// The triangles of the layer that is shaded, and the records of all; `None` where nobody asks.
     triangle_map: Option<Target>,
     records: Option<[Target; 2]>,
+    /// The nearest edge of each pixel of that layer, for indication.
+    nearest_edges: Option<Target>,
+    edges: Stage<(u64, u32), Target>,
+    greatest_radius: ArrayBuffer,
 }
 
 impl SurfaceTechnique for HatchingShading {
     type Styles = Hatchings;
-    type Shared = CoordinatesPass;
+    type Shared = SharedHatching;
 
-    fn shared(_gpu: &Gpu) -> CoordinatesPass {
-        CoordinatesPass::new(Coordinates::Triangles)
+    fn shared(gpu: &Gpu) -> SharedHatching {
+        SharedHatching {
+            sets: StrokeSets::new(gpu),
+            triangles: CoordinatesPass::new(Coordinates::Triangles),
+            coordinates: CoordinatesPass::new(Coordinates::Texture),
+        }
     }
 
     fn new(gpu: &Gpu) -> Self {
@@ -191,6 +257,9 @@ impl SurfaceTechnique for HatchingShading {
             stage: Stage::default(),
             triangle_map: None,
             records: None,
+            nearest_edges: None,
+            edges: Stage::default(),
+            greatest_radius: ArrayBuffer::new(gpu, "distance of edges"),
         }
     }
 
@@ -210,21 +279,31 @@ impl SurfaceTechnique for HatchingShading {
 
     fn switches(hatchings: &Hatchings) -> Vec<(&'static str, bool)> {
         let any = |directions| hatchings.styles.iter().any(|s| s.directions >= directions);
+        let is_mapped = |mapping| hatchings.styles.iter().any(|s| s.mapping == mapping);
         vec![
             ("WITH_HATCHING", !hatchings.styles.is_empty()),
-            ("WITH_STRIPES", !hatchings.styles.is_empty()),
+            ("WITH_STRIPES", is_mapped(STRIPES)),
+            // Caps of sections too.
+            ("WITH_STROKES_ON_PAPER", is_mapped(ON_PAPER) || hatchings.has_caps),
+            ("WITH_STROKES_BY_UV", is_mapped(BY_UV)),
+            ("WITH_INDICATION", hatchings.indication_reach() > 0.0),
             ("WITH_SECOND", any(2)),
             ("WITH_THIRD", any(3)),
         ]
     }
 
+    fn reads_lines(hatchings: &Hatchings) -> bool {
+        hatchings.indication_reach() > 0.0
+    }
+
     fn upload(
         &mut self,
-        _shared: &mut CoordinatesPass,
+        shared: &mut SharedHatching,
         gpu: &Gpu,
         hatchings: &Hatchings,
     ) -> Result<(), RenderError> {
         if !hatchings.styles.is_empty() {
+            shared.sets.prepare(gpu)?;
             self.styles.write(gpu, &hatchings.styles);
             self.curves.write(gpu, &hatchings.curves);
             let tones: Vec<f32> = hatchings.tables.iter().flat_map(|table| &table.tones).copied().collect();
@@ -236,23 +315,41 @@ impl SurfaceTechnique for HatchingShading {
     fn begin(
         &mut self,
         rec: &mut Recorder<'_>,
-        shared: &mut CoordinatesPass,
+        shared: &mut SharedHatching,
         hatchings: &Hatchings,
         layer: &Shaded<'_>,
     ) -> Result<(), RenderError> {
-        let asks = |call: &&DrawCall| {
-            let object = layer.draws.get(call.draw as usize).map(|draw| draw.object);
-            call.origin == Origin::Model && object.is_some_and(|object| hatchings.need_triangles(object))
+        let needs = |call: &DrawCall| {
+            let object = layer.draws.get(call.draw as usize).map(|draw| draw.object)?;
+            hatchings.needs(object).filter(|_| call.origin != Origin::Caps)
         };
-        let calls: Vec<DrawCall> = layer.calls.iter().filter(asks).copied().collect();
+        let calls: Vec<DrawCall> = layer.calls.iter().filter(|call| needs(call).is_some()).copied().collect();
         let (scene, has_any) = (layer.seen.scene, !calls.is_empty());
-        let mut draw = |calls: &[DrawCall]| shared.run(rec, scene, layer.gbuffer, layer.instances, calls);
+        let SharedHatching { triangles, coordinates, .. } = shared;
+        let mut draw = |calls: &[DrawCall]| {
+            let (on_triangles, by_uv): (Vec<_>, Vec<_>) =
+                calls.iter().partition(|call| needs(call) == Some(Coordinates::Triangles));
+            let (gbuffer, instances) = (layer.gbuffer, layer.instances);
+            let drawn = triangles.run(rec, scene, gbuffer, instances, &on_triangles, None)?;
+            if by_uv.is_empty() {
+                return Ok(drawn);
+            }
+            coordinates.run(rec, scene, gbuffer, instances, &by_uv, Some(&drawn))
+        };
         self.triangle_map = match layer.revision {
             Some(revision) if has_any => {
                 Some(self.stage.run((revision, calls), |(_, calls)| draw(calls))?.value)
             }
             None if has_any => Some(draw(&calls)?),
             _ => None,
+        };
+        self.nearest_edges = match layer.spines {
+            Some((spines, revision)) => {
+                let (reach, radius) = (hatchings.indication_reach().ceil(), &mut self.greatest_radius);
+                let key = (revision, reach as u32);
+                Some(self.edges.run(key, |_| nearest_lines(rec, spines, reach, radius))?.value)
+            }
+            None => None,
         };
         self.records =
             scene.stripes().map(|stripes| [stripes.triangles().clone(), stripes.vertices().clone()]);
@@ -262,7 +359,10 @@ impl SurfaceTechnique for HatchingShading {
         Ok(())
     }
 
-    fn bind<'a>(&'a self, _shared: &'a CoordinatesPass, inputs: &mut Inputs<'a>) {
+    fn bind<'a>(&'a self, shared: &'a SharedHatching, inputs: &mut Inputs<'a>) {
+        inputs.set("light_tones", &shared.sets.tones);
+        inputs.set("stroke_priorities", &shared.sets.priorities);
+        inputs.set("tile_of_strokes", &shared.sets.sampler);
         let [triangles, vertices] = match &self.records {
             Some([triangles, vertices]) => [Some(triangles), Some(vertices)],
             None => [None, None],
@@ -271,6 +371,7 @@ impl SurfaceTechnique for HatchingShading {
         inputs.set("hatching_curves", self.curves.buffer());
         inputs.set("stripe_tones", self.tones.buffer());
         inputs.set("triangle_map_tex", self.triangle_map.as_ref());
+        inputs.set("nearest_edge_tex", self.nearest_edges.as_ref());
         inputs.set("stripe_triangles", triangles);
         inputs.set("stripe_vertices", vertices);
     }

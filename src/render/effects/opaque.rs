@@ -182,18 +182,20 @@ impl OpaqueLayer {
         Ok(Surfaces { gbuffer, shadow_mask })
     }
 
-    /// The surfaces as shading asks for them; `uniform`: without the paper.
+    /// The surfaces as shading asks for them; `uniform`: without the paper; `spines`: see [`Shaded`].
     pub fn shaded<'a>(
         &'a self,
         surfaces: &'a Surfaces,
         seen: SceneView<'a>,
         uniform: &'a FrameUniform,
+        spines: Option<(&'a Target, u64)>,
     ) -> Shaded<'a> {
         let drawn = self.gbuffer.inputs();
         Shaded {
             gbuffer: &surfaces.gbuffer.value,
             revision: Some(surfaces.gbuffer.revision),
             shadow_mask: surfaces.shadow_mask.as_ref().map(|mask| (&mask.value, mask.revision)),
+            spines,
             seen,
             uniform,
             instances: &self.draws,

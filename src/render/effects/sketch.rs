@@ -95,6 +95,8 @@ struct Placed {
 #[derive(PartialEq)]
 struct ShadeKey {
     gbuffer: u64,
+    /// Where shading goes by lines.
+    lines: Option<u64>,
     shadows: Option<u64>,
     look: Look,
     uniform: FrameUniform,
@@ -231,7 +233,7 @@ impl SketchState {
         let surfaces = self.layer.surfaces(rec, pass, &own)?;
         let edges = if group.have_lines() { Some(self.layer.edges(rec, &own, &surfaces)?) } else { None };
         let hidden = self.layer.hidden_lines(rec, pass, &own, &sketch.hidden, edges.as_ref())?;
-        let shaded = self.shade(rec, techniques, inputs, &surfaces)?;
+        let shaded = self.shade(rec, techniques, inputs, &surfaces, edges.as_ref())?;
         let noise = sketch.is_on_screen().then_some(&sketch.style.wander);
         let paper = sketch.has_paper().then_some(&sketch.paper);
         let images = shared.images.prepare(rec.gpu, noise, paper)?;
@@ -380,7 +382,7 @@ impl SketchState {
         let Self { layer, enlarged, instances, .. } = self;
         let key = (surfaces.gbuffer.revision, px);
         let drawn = enlarged.run(key, |_| {
-            let layer = layer.shaded(surfaces, seen, uniform);
+            let layer = layer.shaded(surfaces, seen, uniform, None);
             let draws: Vec<_> = layer.draws.iter().map(|draw| Instance { enlarged: px, ..*draw }).collect();
             pass.run_enlarged(rec, seen.scene, instances, (&draws, layer.calls), seen.view.has_cuts())
         })?;
@@ -393,10 +395,13 @@ impl SketchState {
         techniques: &mut SharedTechniques,
         inputs: &SketchInputs<'_>,
         surfaces: &Surfaces,
+        edges: Option<&Output<EdgeMap>>,
     ) -> Result<Output<Target>, RenderError> {
         let SketchInputs { seen, sketch, uniform, look, .. } = *inputs;
         self.shading.upload(techniques, rec.gpu, look)?;
+        let spines = look.lines(edges);
         let key = ShadeKey {
+            lines: spines.map(|(_, revision)| revision),
             gbuffer: surfaces.gbuffer.revision,
             shadows: surfaces.shadow_mask.as_ref().map(|mask| mask.revision),
             look: look.clone(),
@@ -405,7 +410,7 @@ impl SketchState {
         };
         let Self { layer, shading, color, .. } = self;
         color.run(key, |key| {
-            let layer = layer.shaded(surfaces, seen, &key.uniform);
+            let layer = layer.shaded(surfaces, seen, &key.uniform, spines);
             shading.shade(rec, techniques, &key.look, &layer, sketch.blends)
         })
     }

@@ -11,6 +11,8 @@ use super::techniques::{SharedTechniques, TechniqueStyles, Techniques};
 use crate::gpu::{ArrayBuffer, Gpu, Program, Recorder, Target, inputs};
 use crate::render::base::error::RenderError;
 use crate::render::base::scene_view::SceneView;
+use crate::render::base::stage::Output;
+use crate::render::passes::edge_map::EdgeMap;
 use crate::style::{Style, Technique};
 
 /// Twin of `SurfaceStyle` in `shaders/effects/surface.wgsl`; by default paper only.
@@ -153,6 +155,12 @@ impl Shading {
 }
 
 impl Look {
+    /// Those of these lines that shading goes by, and what changes when they do.
+    pub fn lines<'a>(&self, edges: Option<&'a Output<EdgeMap>>) -> Option<(&'a Target, u64)> {
+        let edges = edges.filter(|_| self.styles.techniques.read_lines())?;
+        Some((edges.value.spines.as_ref()?, edges.revision))
+    }
+
     /// The caps of a section by object id; empty when there are none.
     pub fn caps(&self) -> &Vec<CapUniform> {
         &self.caps

@@ -48,6 +48,8 @@ pub struct Shaded<'a> {
     pub revision: Option<u64>,
     /// Which lights reach each pixel, and what changes when that does; `None` when no light throws shadows.
     pub shadow_mask: Option<(&'a Target, u64)>,
+    /// Where lines run on it, and what changes when that does; `None` where nobody asks, or there are none.
+    pub spines: Option<(&'a Target, u64)>,
     /// The scene as the camera sees it.
     pub seen: SceneView<'a>,
     /// Bind group 0, without the paper.
@@ -87,6 +89,11 @@ pub trait SurfaceTechnique: Sized {
 
     /// The switches of its shader.
     fn switches(styles: &Self::Styles) -> Vec<(&'static str, bool)>;
+
+    /// Whether it goes by where lines run.
+    fn reads_lines(_styles: &Self::Styles) -> bool {
+        false
+    }
 
     /// Takes what all layers read to the device; `styles`: those for this camera.
     ///

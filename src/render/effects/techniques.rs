@@ -30,6 +30,11 @@ macro_rules! techniques {
                 Self { $($name: <$technique>::placed(&self.$name, scene, view),)* }
             }
 
+            /// Whether any goes by where lines run.
+            pub fn read_lines(&self) -> bool {
+                [$(<$technique>::reads_lines(&self.$name),)*].contains(&true)
+            }
+
             /// The switches of their shaders.
             pub fn switches(&self) -> Vec<(&'static str, bool)> {
                 let mut switches = Vec::new();

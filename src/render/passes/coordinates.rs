@@ -58,8 +58,8 @@ impl CoordinatesPass {
         Self { what, pipelines: HashMap::new(), generation: 0 }
     }
 
-    /// Draws parts of the scene of which a G-buffer was made from the same instances; 0 elsewhere. For texture coordinates
-    /// their meshes must have some.
+    /// Draws parts of the scene of which a G-buffer was made from the same instances; 0 elsewhere, or what is drawn of others
+    /// where it goes `beside` that. For texture coordinates their meshes must have some.
     ///
     /// # Errors
     /// [`RenderError`].
@@ -70,9 +70,13 @@ impl CoordinatesPass {
         gbuffer: &GBuffer,
         instances: &Instances,
         calls: &[DrawCall],
+        beside: Option<&Target>,
     ) -> Result<Target, RenderError> {
         let what = self.what;
-        let target = rec.target(what.label(), COORDINATES)?;
+        let (target, onto) = match beside {
+            Some(target) => (target.clone(), Onto::Old),
+            None => (rec.target(what.label(), COORDINATES)?, Onto::Nothing),
+        };
         if self.generation != rec.pipelines.generation() {
             self.pipelines.clear();
             self.generation = rec.pipelines.generation();
@@ -84,7 +88,7 @@ impl CoordinatesPass {
             }
         }
         let runs = runs(rec, calls);
-        let color = Onto::Nothing.attachments(&[&target]);
+        let color = onto.attachments(&[&target]);
         let depth = wgpu::RenderPassDepthStencilAttachment {
             view: gbuffer.depth.view(),
             depth_ops: None,

@@ -21,7 +21,7 @@ pub struct StrokeUniform {
     pub(super) table: u32,
 }
 
-fn within(value: f32, least: f32, most: f32) -> f32 {
+pub(super) fn within(value: f32, least: f32, most: f32) -> f32 {
     if value.is_nan() { least } else { value.clamp(least, most) }
 }
 

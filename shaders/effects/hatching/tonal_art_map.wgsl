@@ -1,0 +1,109 @@
+// Strokes of tonal art maps (Praun et al. 2001, "Real-Time Hatching"): tiles that repeat, on the paper (Bu et al. 2006) or by the
+// texture coordinates of the model. Twins: src/hatching/tonal_art_map/.
+
+// Of each set the three light tones, and how texels are inked when it gets darker, at several resolutions.
+var light_tones: texture_2d_array<f32>;
+var stroke_priorities: texture_2d_array<f32>;
+var tile_of_strokes: sampler;
+
+// Texels along the side of a tile at its finest resolution.
+const TILE: f32 = 256.0;
+const DIRECTIONS: u32 = 3u;
+
+struct LaidDirection {
+    turn: f32,
+    offset: vec2<f32>,
+}
+
+// As `DIRECTIONS` in src/hatching/tonal_art_map/composition.rs.
+fn laid_direction(number: u32) -> LaidDirection {
+    if number == 0u {
+        return LaidDirection(0.0, vec2(0.0));
+    }
+    if number == 1u {
+        return LaidDirection(1.0471976, vec2(0.37, 0.61));
+    }
+    return LaidDirection(-1.0471976, vec2(0.71, 0.23));
+}
+
+// Place in a tile of a point (in tiles) where strokes run at an angle: it turns by the inverse of that.
+fn place_in_tile(at: vec2<f32>, angle: f32, direction: LaidDirection) -> vec2<f32> {
+    let c = cos(angle + direction.turn);
+    let s = sin(angle + direction.turn);
+    return vec2(at.x * c + at.y * s, at.y * c - at.x * s) + direction.offset;
+}
+
+// Ink of a whole tone, 0 to 6, of which the dark ones are laid over each other.
+fn composed(tone: u32, samples: array<vec3<f32>, 3>) -> f32 {
+    if tone == 0u {
+        return 0.0;
+    }
+    if tone <= 3u {
+        return samples[0][tone - 1u];
+    }
+    let i = min(tone, 6u) - 4u;
+    return 1.0 - (1.0 - samples[0].z) * (1.0 - samples[1][i]) * (1.0 - samples[2][i]);
+}
+
+// The tone, 0 to 6, that has a mean ink.
+fn tone_of_ink(ink: f32) -> f32 {
+    // As `COMPOSED_INKS`.
+    var inks = array(0.0, 0.118, 0.245, 0.384, 0.5208, 0.6489, 0.7663);
+    var tone = 6.0;
+    for (var i = 5; i >= 0; i--) {
+        if ink < inks[i + 1] {
+            tone = f32(i) + clamp((ink - inks[i]) / (inks[i + 1] - inks[i]), 0.0, 1.0);
+        }
+    }
+    return tone;
+}
+
+// Ink at a point of the paper (in tiles), where strokes run at an angle; each pixel blends two neighbouring tones.
+fn paper_ink_at(at: vec2<f32>, angle: f32, strokes: u32, ink: f32, lod: f32) -> f32 {
+    var samples = array<vec3<f32>, 3>();
+    for (var i = 0u; i < DIRECTIONS; i++) {
+        let place = place_in_tile(at, angle, laid_direction(i));
+        samples[i] = textureSampleLevel(light_tones, tile_of_strokes, place, strokes, lod).rgb;
+    }
+    let tone = tone_of_ink(ink);
+    let whole = u32(tone);
+    return mix(composed(whole, samples), composed(whole + 1u, samples), tone - f32(whole));
+}
+
+// Ink of a texel where a mean ink is asked for.
+fn ink_of_priority(texel: vec4<f32>, ink: f32) -> f32 {
+    return select(select(0.0, texel.y, ink > texel.x && texel.x < 0.999), texel.w, ink > texel.z && texel.z < 0.999);
+}
+
+// Ink at a place in a tile, at a resolution, 0 the finest. Priorities must not be filtered before they are compared.
+fn priority_ink(place: vec2<f32>, strokes: u32, level: u32, ink: f32) -> f32 {
+    let side = i32(TILE) >> level;
+    let p = fract(place) * f32(side) - 0.5;
+    let first = vec2<i32>(floor(p));
+    let f = p - floor(p);
+    var inks = vec4(0.0);
+    for (var i = 0; i < 4; i++) {
+        let texel = (first + vec2(i & 1, i >> 1u) + side) & vec2(side - 1);
+        inks[i] = ink_of_priority(textureLoad(stroke_priorities, texel, strokes, level), ink);
+    }
+    return mix(mix(inks.x, inks.y, f.x), mix(inks.z, inks.w, f.x), f.y);
+}
+
+// Ink of one direction of strokes by texture coordinates: tiles as large as wanted between two octaves, of which the one comes as the
+// other goes, stroke by stroke. `pixel`: size of a pixel in texture coordinates; `tile`: px.
+fn uv_ink_of(uv: vec2<f32>, pixel: f32, tile: f32, strokes: u32, number: u32, ink: f32) -> f32 {
+    let wanted = -log2(max(pixel * tile, 1e-12));
+    let octave = floor(wanted);
+    let share = wanted - octave;
+    let direction = laid_direction(number);
+    let coarse = place_in_tile(uv * exp2(octave), 0.0, direction);
+    let fine = place_in_tile(uv * exp2(octave + 1.0), 0.0, direction);
+    // Both over each other leave as much paper as is wanted.
+    let left = max(1.0 - ink, 0.0);
+    let first = 1.0 - pow(left, 1.0 - share);
+    let second = 1.0 - pow(left, share);
+    // A tile that is twice as large has its strokes at twice the resolution.
+    let a = mix(priority_ink(coarse, strokes, 1u, first), priority_ink(coarse, strokes, 0u, first), share);
+    let b = priority_ink(fine, strokes, 1u, second);
+    return 1.0 - (1.0 - a) * (1.0 - b);
+}

@@ -1,0 +1,148 @@
+//! The strokes of tonal art maps on the device.
+
+use std::sync::OnceLock;
+
+use crate::gpu::{Gpu, GpuError};
+use crate::hatching::tonal_art_map::{TonalArtMap, sets};
+
+/// Texels along the side of a tile at its finest resolution, as in `shaders/effects/hatching/tonal_art_map.wgsl`.
+pub(super) const TILE: usize = 256;
+/// Resolutions.
+const LEVELS: usize = 4;
+
+/// All built-in sets on the device, made when first asked for.
+pub(super) struct StrokeSets {
+    pub(super) tones: wgpu::TextureView,
+    pub(super) priorities: wgpu::TextureView,
+    pub(super) sampler: wgpu::Sampler,
+    is_made: bool,
+}
+
+/// The built-in sets, read when first asked for.
+fn maps() -> &'static [TonalArtMap] {
+    static MAPS: OnceLock<Vec<TonalArtMap>> = OnceLock::new();
+    // A test reads them all.
+    MAPS.get_or_init(|| sets::all().iter().filter_map(|set| TonalArtMap::from_png(set.png).ok()).collect())
+}
+
+impl StrokeSets {
+    /// None yet; a shader that reads none is given an empty texture.
+    pub(super) fn new(gpu: &Gpu) -> Self {
+        let sampler = gpu.device.create_sampler(&wgpu::SamplerDescriptor {
+            label: Some("strokes"),
+            address_mode_u: wgpu::AddressMode::Repeat,
+            address_mode_v: wgpu::AddressMode::Repeat,
+            mag_filter: wgpu::FilterMode::Linear,
+            min_filter: wgpu::FilterMode::Linear,
+            mipmap_filter: wgpu::MipmapFilterMode::Linear,
+            ..Default::default()
+        });
+        let nothing = || view(&texture(gpu, 1, 1, 1));
+        Self { tones: nothing(), priorities: nothing(), sampler, is_made: false }
+    }
+
+    /// Uploads them, unless they are there.
+    pub(super) fn prepare(&mut self, gpu: &Gpu) -> Result<(), GpuError> {
+        if self.is_made {
+            return Ok(());
+        }
+        gpu.check_texture_size("strokes", [TILE as u32; 2])?;
+        let maps = maps();
+        let [tones, priorities] = [(); 2].map(|()| texture(gpu, TILE, maps.len(), LEVELS));
+        for (layer, map) in maps.iter().enumerate() {
+            let mut lights = Vec::new();
+            for (number, level) in map.levels.iter().take(LEVELS).enumerate() {
+                lights = if number == 0 { lights_of(&level.tones) } else { halved(&lights, level.side) };
+                write(gpu, &tones, [layer, number], level.side, &lights);
+                let texels: Vec<[u8; 4]> = level
+                    .priorities
+                    .iter()
+                    .map(|p| [p.thresholds[0], p.inks[0], p.thresholds[1], p.inks[1]])
+                    .collect();
+                write(gpu, &priorities, [layer, number], level.side, &texels);
+            }
+        }
+        (self.tones, self.priorities, self.is_made) = (view(&tones), view(&priorities), true);
+        Ok(())
+    }
+}
+
+/// The three light tones in one image.
+fn lights_of(tones: &[Vec<u8>]) -> Vec<[u8; 4]> {
+    let texel = |i: usize| {
+        let ink = |tone: usize| tones.get(tone).and_then(|tone| tone.get(i)).copied().unwrap_or(0);
+        [ink(0), ink(1), ink(2), 255]
+    };
+    (0..tones.first().map_or(0, Vec::len)).map(texel).collect()
+}
+
+/// An image of half the size: on the paper strokes that are drawn smaller only get finer.
+fn halved(texels: &[[u8; 4]], side: usize) -> Vec<[u8; 4]> {
+    let at = |x: usize, y: usize| texels.get(y * 2 * side + x).copied().unwrap_or_default();
+    let texel = |i: usize| {
+        let (x, y) = (2 * (i % side), 2 * (i / side));
+        let four = [at(x, y), at(x + 1, y), at(x, y + 1), at(x + 1, y + 1)];
+        std::array::from_fn(|c| ((four.iter().map(|t| u32::from(t[c])).sum::<u32>() + 2) / 4) as u8)
+    };
+    (0..side * side).map(texel).collect()
+}
+
+fn texture(gpu: &Gpu, side: usize, layers: usize, levels: usize) -> wgpu::Texture {
+    gpu.device.create_texture(&wgpu::TextureDescriptor {
+        label: Some("strokes"),
+        size: wgpu::Extent3d {
+            width: side as u32,
+            height: side as u32,
+            depth_or_array_layers: layers.max(1) as u32,
+        },
+        mip_level_count: levels as u32,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: wgpu::TextureFormat::Rgba8Unorm,
+        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+        view_formats: &[],
+    })
+}
+
+fn view(texture: &wgpu::Texture) -> wgpu::TextureView {
+    texture.create_view(&wgpu::TextureViewDescriptor {
+        dimension: Some(wgpu::TextureViewDimension::D2Array),
+        ..Default::default()
+    })
+}
+
+fn write(gpu: &Gpu, texture: &wgpu::Texture, [layer, level]: [usize; 2], side: usize, texels: &[[u8; 4]]) {
+    if side != TILE >> level || texels.len() != side * side {
+        return;
+    }
+    gpu.queue.write_texture(
+        wgpu::TexelCopyTextureInfo {
+            texture,
+            mip_level: level as u32,
+            origin: wgpu::Origin3d { x: 0, y: 0, z: layer as u32 },
+            aspect: wgpu::TextureAspect::All,
+        },
+        texels.as_flattened(),
+        wgpu::TexelCopyBufferLayout {
+            offset: 0,
+            bytes_per_row: Some(side as u32 * 4),
+            rows_per_image: Some(side as u32),
+        },
+        wgpu::Extent3d { width: side as u32, height: side as u32, depth_or_array_layers: 1 },
+    );
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn all_built_in_sets_are_as_the_device_expects() {
+        let maps = maps();
+        assert_eq!(maps.len(), sets::all().len());
+        for map in maps {
+            let sides: Vec<_> = map.levels.iter().map(|level| level.side).collect();
+            assert_eq!(sides, [256, 128, 64, 32]);
+        }
+    }
+}
