@@ -3,7 +3,7 @@
 SAMPLE := assets/models/crank.glb
 HACHURE := cargo run --quiet --release --
 
-.PHONY: run test check bench quality gallery bless models textures
+.PHONY: run test check bench quality gallery bless models textures strokes
 
 # Opens the viewer on the sample model; without a display draws it to a file.
 run:
@@ -36,7 +36,7 @@ bench:
 quality:
 	@sh .ci/packages test
 	cargo test --release --test quality --test many_objects --test line_table --test line_width --test shadows \
-		--test halftone --test layers --test blueprint --test sketch_coherence -- --ignored --nocapture --test-threads 1
+		--test halftone --test layers --test blueprint --test sketch_coherence --test hatching -- --ignored --nocapture --test-threads 1
 
 # The sample models, from their generator.
 models:
@@ -47,6 +47,11 @@ models:
 textures:
 	@sh .ci/packages build
 	cargo run --release --example textures
+
+# The built-in stroke sets of hatching, from their generator.
+strokes:
+	@sh .ci/packages build
+	cargo run --release --example strokes
 
 # Every picture under screenshots/, each by one command.
 gallery:

@@ -13,6 +13,7 @@ use crate::export::Session;
 use crate::export::session::{Opened, initial_camera, open, topology};
 use crate::geometry::primitives;
 use crate::gpu::Gpu;
+use crate::hatching::cache::Cache;
 use crate::import::Progress;
 use crate::render::MOST_LAYERS;
 use crate::render::Request;
@@ -21,7 +22,7 @@ use crate::style::halftone::{Mapping, Space};
 use crate::style::hidden::HiddenLayers;
 use crate::style::sketch::Anchor;
 use crate::style::toon::Border;
-use crate::style::{DepthOperator, EdgeMode, HiddenMode, Style, StyleError, Technique, preset};
+use crate::style::{DepthOperator, EdgeMode, HiddenMode, Style, StyleError, Technique, hatching, preset};
 
 /// What is measured: a style in some light, and what stands behind the model.
 struct Look {
@@ -159,6 +160,7 @@ impl Bench {
         let Opened { document, scene } = &opened;
         let camera = initial_camera(document, scene, f64::from(size[0]) / f64::from(size[1]));
         let mut session = Session::new(Gpu::headless()?);
+        session.set_cache(Cache::of_user());
         // The window knows it too, as soon as a background job has found it out.
         let started = Instant::now();
         let mut found = topology(scene, document.view.crease_angle);
@@ -283,6 +285,13 @@ fn looks(has_uvs: bool, pixels: &[u32], size: [u32; 2]) -> Result<Vec<Look>, Cli
         (style.sketch.wander.anchor, style.sketch.passes) = (anchor, passes);
         style
     };
+    let hatching = |mapping, directions| {
+        let mut style = exact(2.0);
+        style.technique = Technique::Hatching;
+        (style.hatching.mapping, style.hatching.layers.count) = (mapping, directions);
+        style.hatching.indication.amount = if mapping == hatching::Mapping::Paper { 0.5 } else { 0.0 };
+        style
+    };
     let plain = preset::load("plain")?.style;
     let unshadowed = Lighting::default();
     let hard = Lighting { shadows: true, ..Lighting::default() };
@@ -304,6 +313,10 @@ fn looks(has_uvs: bool, pixels: &[u32], size: [u32; 2]) -> Result<Vec<Look>, Cli
         ("gooch + edges, 32 px", exact(32.0)),
         ("gooch + hidden lines, next", hidden(HiddenLayers::Next)),
         ("gooch + hidden lines, all", hidden(HiddenLayers::All)),
+        ("hatching, one direction", hatching(hatching::Mapping::Stripes, 1)),
+        ("hatching, two directions", hatching(hatching::Mapping::Stripes, 2)),
+        ("hatching, three directions", hatching(hatching::Mapping::Stripes, 3)),
+        ("hatching, on the paper", hatching(hatching::Mapping::Paper, 3)),
         ("lines", preset::load("lines")?.style),
         ("sketch, screen", sketch(Anchor::Screen, 1)),
         ("sketch, surface", sketch(Anchor::Surface, 1)),

@@ -10,6 +10,7 @@ use crate::document::{Document, Pattern, Role, Section, glyph};
 use crate::export::session::{OpenError, Opened, initial_camera, open};
 use crate::export::{Session, save_png};
 use crate::gpu::{Gpu, GpuError};
+use crate::hatching::cache::Cache;
 use crate::import::{ImageCache, Progress};
 use crate::render::{RenderError, StyleImages};
 use crate::scene::{Camera, NodeId, Projection, Scene};
@@ -39,6 +40,7 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
     opened.document.camera = Some(camera);
 
     let mut session = Session::new(device.wait()?);
+    session.set_cache(Cache::of_user());
     if let Some(mistake) = session.renderer().take_shader_error() {
         return Err(RenderError::from(mistake).into());
     }

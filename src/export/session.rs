@@ -94,7 +94,12 @@ pub struct Session {
 impl Session {
     /// Takes over a device.
     pub fn new(gpu: Gpu) -> Self {
-        Self { renderer: Renderer::new(gpu), samples: 1, cache: Cache::of_user() }
+        Self { renderer: Renderer::new(gpu), samples: 1, cache: Cache::nowhere() }
+    }
+
+    /// Keeps results that take long there from now on; at first nowhere.
+    pub fn set_cache(&mut self, cache: Cache) {
+        self.cache = cache;
     }
 
     /// The renderer.

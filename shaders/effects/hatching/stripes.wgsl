@@ -31,13 +31,14 @@ const FINER_BY: i32 = 3;
 // As in src/render/effects/hatching/calibration.rs.
 const SOFT: f32 = 0.04;
 const LEAST_WIDTH: f32 = 0.35;
-const OCTAVE_PLACES: u32 = 10u;
+const OCTAVE_PLACES: u32 = 8u;
+const OCTAVE_LENGTHS: u32 = 6u;
 const INK_STEPS: u32 = 64u;
 
 // Numbers of vertices of each triangle, and the vertices: src/render/base/stripes.rs.
 var stripe_triangles: texture_storage_2d<rgba32uint, read>;
 var stripe_vertices: texture_storage_2d<rgba32uint, read>;
-// For each table, place in the octave and share of ink the tone to ask for.
+// For each table, place in the octave of densities, in that of lengths, and share of ink the tone to ask for.
 var<storage, read> stripe_tones: array<f32>;
 
 fn mixed(v: u32) -> u32 {
@@ -217,17 +218,21 @@ fn rows_at(s: Stripes, family: Family, k: i32) -> Rows {
     return Rows(y, own);
 }
 
-// The tone to ask for, so that so much is inked.
-fn tone_for(table: u32, place: f32, ink: f32) -> f32 {
-    let row = clamp(place * f32(OCTAVE_PLACES) - 0.5, 0.0, f32(OCTAVE_PLACES) - 1.0);
-    let column = clamp(ink, 0.0, 1.0) * f32(INK_STEPS - 1u);
-    let row_first = min(u32(row), OCTAVE_PLACES - 2u);
-    let column_first = min(u32(column), INK_STEPS - 2u);
-    let i = (table * OCTAVE_PLACES + row_first) * INK_STEPS + column_first;
-    let t = column - f32(column_first);
-    let low = mix(stripe_tones[i], stripe_tones[i + 1u], t);
-    let high = mix(stripe_tones[i + INK_STEPS], stripe_tones[i + INK_STEPS + 1u], t);
-    return mix(low, high, row - f32(row_first));
+// The tone to ask for, so that so much is inked; `place` and `length`: in their octaves, after each of which comes another.
+fn tone_for(table: u32, place: f32, length: f32, ink: f32) -> f32 {
+    let row = place * f32(OCTAVE_PLACES) - 0.5 + f32(OCTAVE_PLACES);
+    let column = length * f32(OCTAVE_LENGTHS) - 0.5 + f32(OCTAVE_LENGTHS);
+    let at = clamp(ink, 0.0, 1.0) * f32(INK_STEPS - 1u);
+    let first = min(u32(at), INK_STEPS - 2u);
+    var tones = vec4(0.0);
+    for (var i = 0u; i < 4u; i++) {
+        let r = (u32(row) + (i & 1u)) % OCTAVE_PLACES;
+        let c = (u32(column) + (i >> 1u)) % OCTAVE_LENGTHS;
+        let k = ((table * OCTAVE_PLACES + r) * OCTAVE_LENGTHS + c) * INK_STEPS + first;
+        tones[i] = mix(stripe_tones[k], stripe_tones[k + 1u], at - f32(first));
+    }
+    let by_row = mix(tones.xz, tones.yw, fract(row));
+    return mix(by_row.x, by_row.y, fract(column));
 }
 
 // Ink of a family where `ink` of all is to be inked.
@@ -249,10 +254,12 @@ fn stripe_ink(s: Stripes, number: u32, stroke: Stroke, ink: f32) -> f32 {
     var tap = 1.0;
     var chance = unit_of(id);
     var variation = 0.0;
+    var length_place = 0.0;
     if stroke.taper > 0.0 {
         let across = family_of(s, (number + 1u) % FAMILIES);
         let along = level_of(across.per_px, stroke.length);
         let octave = along.place;
+        length_place = octave;
         let at = rows_at(s, across, along.k).own;
         // So that the ends of neighbours do not line up.
         let frequency = s.frequency * exp2(f32(along.k)) * 1.7;
@@ -272,7 +279,7 @@ fn stripe_ink(s: Stripes, number: u32, stroke: Stroke, ink: f32) -> f32 {
     }
     let late = select((1.0 - level.place) * stroke.inserted, 0.0, even);
     let threshold = stroke.spread * (stroke.chance * chance + (1.0 - tap) * stroke.pointed) + late;
-    let tone = tone_for(stroke.table, level.place, ink);
+    let tone = tone_for(stroke.table, level.place, length_place, ink);
     let beyond = clamp((tone - threshold) / max(1.0 - threshold, 1e-3), 0.0, 1.0);
     let share = mix(stroke.thin, stroke.thick, beyond);
     let pressed = sqrt(tap) * (1.0 - stroke.variation * variation) * smoothstep(0.0, SOFT, tone - threshold);

@@ -1,41 +1,62 @@
 //! How dark stripes have to be asked for so that they are as dark as they should be: measured on an even plane, with the same
 //! arithmetic as `shaders/effects/hatching/stripes.wgsl`.
 
+use glam::Vec2;
 use rayon::prelude::*;
 
 use super::strokes::StrokeUniform;
 
-/// Places in the octave between two densities.
-pub(super) const PLACES: usize = 10;
+/// Places in the octave between two densities, and in that between two lengths of strokes. What comes after the last is the first.
+pub(super) const PLACES: usize = 8;
+pub(super) const LENGTHS: usize = 6;
 /// Shares of ink.
 pub(super) const INKS: usize = 64;
 /// Tones that are measured.
-const TONES: usize = 48;
+const TONES: usize = 32;
 /// Points that are looked at for each tone: rows times places along them.
-const ROWS: usize = 16 * 16;
+const ROWS: usize = 16 * 12;
 const ALONG: usize = 8;
 
-/// For each of [`PLACES`] and each of [`INKS`] the tone to ask for, 0 to 1.
+/// For each of [`PLACES`], each of [`LENGTHS`] and each of [`INKS`] the tone to ask for, 0 to 1.
 pub(super) fn calibration(stroke: &StrokeUniform) -> Vec<f32> {
-    (0..PLACES).into_par_iter().flat_map_iter(|place| tones_of(stroke, place)).collect()
+    let tables: Vec<Vec<f32>> =
+        octaves(stroke).into_par_iter().map(|octave| tones_of(stroke, octave)).collect();
+    let is_pointed = stroke.taper > 0.0;
+    // Strokes without ends have no lengths.
+    let times = if is_pointed { 1 } else { LENGTHS };
+    tables.iter().flat_map(|table| std::iter::repeat_n(table, times)).flatten().copied().collect()
+}
+
+/// Where in both octaves points lie.
+#[derive(Clone, Copy)]
+struct Octave {
+    /// Between two densities, 0 to 1.
+    place: f32,
+    /// Between two lengths.
+    length: f32,
+}
+
+fn octaves(stroke: &StrokeUniform) -> Vec<Octave> {
+    let middle = |i: usize, of: usize| (i as f32 + 0.5) / of as f32;
+    let lengths = if stroke.taper > 0.0 { LENGTHS } else { 1 };
+    let at = |place| {
+        (0..lengths).map(move |l| Octave { place: middle(place, PLACES), length: middle(l, lengths) })
+    };
+    (0..PLACES).flat_map(at).collect()
 }
 
 /// The greatest share of ink that is reached everywhere.
 pub(super) fn greatest_ink(stroke: &StrokeUniform) -> f32 {
-    (0..PLACES).map(|place| mean_ink(stroke, 1.0, middle(place))).fold(1.0, f32::min)
+    octaves(stroke).into_iter().map(|octave| mean_ink(stroke, 1.0, octave)).fold(1.0, f32::min)
 }
 
-fn middle(place: usize) -> f32 {
-    (place as f32 + 0.5) / PLACES as f32
-}
-
-fn tones_of(stroke: &StrokeUniform, place: usize) -> Vec<f32> {
+fn tones_of(stroke: &StrokeUniform, octave: Octave) -> Vec<f32> {
     let tone = |i: usize| i as f32 / (TONES - 1) as f32;
     let mut least = 0.0_f32;
     let measured: Vec<f32> = (0..TONES)
         .map(|i| {
             // More tone is never less ink.
-            least = least.max(mean_ink(stroke, tone(i), middle(place)));
+            least = least.max(mean_ink(stroke, tone(i), octave));
             least
         })
         .collect();
@@ -51,30 +72,23 @@ fn tones_of(stroke: &StrokeUniform, place: usize) -> Vec<f32> {
     (0..INKS).map(|i| inverted(i as f32 / (INKS - 1) as f32)).collect()
 }
 
-/// Share of ink of an even plane, at a tone and a place in the octave.
-fn mean_ink(stroke: &StrokeUniform, tone: f32, place: f32) -> f32 {
+/// Share of ink of an even plane, at a tone and a place in the octaves.
+fn mean_ink(stroke: &StrokeUniform, tone: f32, octave: Octave) -> f32 {
     let mut sum = 0.0;
     for row in 0..ROWS {
         for along in 0..ALONG {
             let jitter = |n: u32| unit(hash(row as u32 * 977 + n, along as u32));
             let y = 16.0 * (row as f32 + jitter(1)) / ROWS as f32;
-            let at = Along { place: 16.0 * (along as f32 + jitter(2)) / ALONG as f32, octave: jitter(3) };
-            sum += ink(stroke, tone, place, y, at);
+            let x = 16.0 * (along as f32 + jitter(2)) / ALONG as f32;
+            sum += ink(stroke, tone, octave, Vec2::new(x, y));
         }
     }
     sum / (ROWS * ALONG) as f32
 }
 
-/// Where a point lies along a stroke.
-struct Along {
-    /// In strokes.
-    place: f32,
-    /// In the octave of their lengths, 0 to 1.
-    octave: f32,
-}
-
-/// Ink of one family at a point of a plane: `y` in rows of the finer level.
-fn ink(stroke: &StrokeUniform, tone: f32, place: f32, y: f32, along: Along) -> f32 {
+/// Ink of one family at a point of a plane: x in strokes, y in rows of the finer level.
+fn ink(stroke: &StrokeUniform, tone: f32, Octave { place, length: octave }: Octave, at: Vec2) -> f32 {
+    let Vec2 { x, y } = at;
     let spacing = stroke.spacing * place.exp2();
     let row = y.round();
     let even = (row as i32) & 1 == 0;
@@ -85,20 +99,20 @@ fn ink(stroke: &StrokeUniform, tone: f32, place: f32, y: f32, along: Along) -> f
     let id = hash(code >> born, 1_u32.wrapping_sub(born));
     let (mut tap, mut chance, mut variation) = (1.0_f32, unit(id), 0.0);
     if stroke.taper > 0.0 {
-        let length = stroke.length * along.octave.exp2();
-        let u = along.place + unit(mixed(id));
+        let length = stroke.length * octave.exp2();
+        let u = x + unit(mixed(id));
         let number = (u.floor() as i32 & 15) as u32;
         let share = u - u.floor();
         let end = share.min(1.0 - share) * length - stroke.gap;
-        let middle = if along.octave > 0.35 {
-            (share - 0.5).abs() * length - stroke.gap * smoothstep(0.35, 1.0, along.octave)
+        let middle = if octave > 0.35 {
+            (share - 0.5).abs() * length - stroke.gap * smoothstep(0.35, 1.0, octave)
         } else {
             1e9
         };
         tap = (end.min(middle) / stroke.taper).clamp(0.0, 1.0);
         let half = u32::from(share > 0.5);
         let [whole, halves] = [number, 2 * number + half + 100].map(|n| unit(hash(id, n)));
-        chance = whole + (halves - whole) * 0.35 * smoothstep(0.3, 1.0, along.octave);
+        chance = whole + (halves - whole) * 0.35 * smoothstep(0.3, 1.0, octave);
         variation = unit(hash(hash(id, number), 23)) - 0.5;
     }
     let late = if even { 0.0 } else { (1.0 - place) * stroke.inserted };
@@ -147,12 +161,12 @@ mod tests {
         let table = calibration(&stroke);
         let greatest = greatest_ink(&stroke);
         assert!(greatest > 0.5, "{greatest}");
-        for (place, tones) in table.chunks(INKS).enumerate() {
+        for (place, (tones, octave)) in table.chunks(INKS).zip(octaves(&stroke)).enumerate() {
             assert!(tones.is_sorted(), "place {place}");
             for (i, tone) in tones.iter().enumerate() {
                 let asked = i as f32 / (INKS - 1) as f32;
                 if asked < greatest {
-                    let drawn = mean_ink(&stroke, *tone, middle(place));
+                    let drawn = mean_ink(&stroke, *tone, octave);
                     assert!((drawn - asked).abs() < 0.02, "place {place}: {drawn} for {asked}");
                 }
             }

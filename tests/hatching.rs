@@ -1,0 +1,311 @@
+//! Hatching: tones are as dark as asked, strokes keep their size on paper and stay where they are, formulas agree with plain twins,
+//! and models that are not as they should be are hatched all the same.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+#![allow(clippy::print_stdout, reason = "the numbers are what it is for")]
+
+mod common;
+
+use glam::{DMat4, DVec3, Vec2, Vec3};
+use hachure::export::Session;
+use hachure::export::session::Opened;
+use hachure::geometry::{Mesh, primitives};
+use hachure::hatching::tonal_art_map::composition::{
+    COMPOSED_INKS, DIRECTIONS, LIGHTS, compose, tone_of_ink,
+};
+use hachure::hatching::tonal_art_map::{TonalArtMap, sets};
+use hachure::render::base::frame_uniform::REFERENCE_HEIGHT;
+use hachure::scene::Camera;
+use hachure::style::hatching::{Direction, Hatching, Mapping};
+use hachure::style::{Color, Curve, Style, Technique, preset};
+use image::RgbaImage;
+
+use common::session;
+
+const SIDE: u32 = 480;
+
+/// Black strokes on white of one darkness everywhere, without lines.
+fn even(mut hatching: Hatching, darkness: f32) -> Style {
+    let tone = (1.0 - darkness) * 1000.0;
+    let points = [[0.0, tone.round() / 1000.0], [1.0, tone.round() / 1000.0]];
+    hatching.tone.curve = Curve::of_points(&points.map(Into::into)).unwrap();
+    (hatching.tone.white, hatching.tone.darkest) = (0.0, 1.0);
+    (hatching.ink, hatching.paper) = (Color([0; 3]), Color([255; 3]));
+    hatching.indication.amount = 0.0;
+    // As large as in a picture of 1080 pixels.
+    let stroke = &mut hatching.stroke;
+    let larger = REFERENCE_HEIGHT as f32 / SIDE as f32;
+    for length in [&mut stroke.spacing, &mut stroke.length, &mut stroke.taper, &mut stroke.gap] {
+        *length *= larger;
+    }
+    let mut style = Style { technique: Technique::Hatching, hatching, ..Style::default() };
+    (style.edges.profile.show, style.edges.inner.show) = (false, false);
+    style
+}
+
+fn opened(mesh: Mesh, place: DMat4, distance: f64) -> Opened {
+    let scene = common::scene(vec![("thing", mesh, place, [1.0; 3])]);
+    let mut opened = common::opened(&scene, DVec3::Z);
+    let camera = Camera { position: distance * DVec3::Z, focal_point: DVec3::ZERO, ..Camera::default() };
+    opened.document.camera = Some(camera);
+    opened
+}
+
+fn drawn(session: &mut Session, opened: &Opened) -> RgbaImage {
+    session.image(opened, [SIDE; 2], true).unwrap()
+}
+
+/// Share of ink of each pixel; `None` beside the model.
+fn inks(picture: &RgbaImage) -> Vec<Option<f64>> {
+    let ink = |p: &image::Rgba<u8>| {
+        let c = f64::from(p.0[1]) / 255.0;
+        let linear = if c <= 0.04045 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) };
+        (p.0[3] == 255).then_some(1.0 - linear)
+    };
+    picture.pixels().map(ink).collect()
+}
+
+fn mean(inks: &[Option<f64>]) -> f64 {
+    let all: Vec<f64> = inks.iter().flatten().copied().collect();
+    all.iter().sum::<f64>() / all.len().max(1) as f64
+}
+
+fn mid_greys(inks: &[Option<f64>]) -> f64 {
+    let inked = inks.iter().flatten().filter(|ink| **ink > 0.05);
+    let (mut all, mut grey) = (0.0, 0.0);
+    for ink in inked {
+        all += 1.0;
+        grey += f64::from(u8::from((0.2..=0.8).contains(ink)));
+    }
+    grey / f64::max(all, 1.0)
+}
+
+/// The presets that are hatched with stripes.
+fn presets() -> Vec<(String, Hatching)> {
+    let all = preset::all().into_iter().filter(|preset| preset.style.technique == Technique::Hatching);
+    let mut presets: Vec<_> =
+        all.map(|preset| (preset.name.clone(), preset.style.hatching.clone())).collect();
+    presets.push(("default".to_owned(), Hatching::default()));
+    presets.retain(|(_, hatching)| hatching.mapping == Mapping::Stripes);
+    presets
+}
+
+/// Measures the tones of a preset over zooms and tilts; greatest deviation below the greatest ink that it reaches.
+fn worst_tone(hatching: &Hatching, tones: u32, zooms: u32, tilts: u32) -> (f64, f64) {
+    let mut session = session();
+    let (mut worst, mut greyest) = (0.0_f64, 0.0_f64);
+    for zoom in 0..zooms {
+        for tilt in 0..tilts {
+            let turn = DMat4::from_rotation_y(f64::from(tilt) * 0.2) * DMat4::from_rotation_z(0.3);
+            // Over an octave.
+            let distance = 3.0 * 2.0_f64.powf(f64::from(zoom) / f64::from(zooms));
+            let mut plane = opened(primitives::plane(6.0), turn, distance);
+            session.set_scene(&plane).unwrap();
+            let mut before = 0.0;
+            for tone in 1..tones {
+                let darkness = f64::from(tone) / f64::from(tones);
+                plane.document.style = even(hatching.clone(), darkness as f32);
+                let inks = inks(&drawn(&mut session, &plane));
+                let ink = mean(&inks);
+                assert!(ink >= before - 0.004, "{darkness}: {ink} after {before}");
+                before = ink;
+                if std::env::var_os("HACHURE_TONES").is_some() {
+                    println!("zoom {zoom}, tilt {tilt}: {ink:.3} for {darkness:.3}");
+                }
+                if darkness <= 0.7 {
+                    worst = worst.max((ink - darkness).abs());
+                    greyest = greyest.max(mid_greys(&inks));
+                }
+            }
+        }
+    }
+    (worst, greyest)
+}
+
+#[test]
+fn tones_are_as_dark_as_asked() {
+    for (name, hatching) in presets() {
+        let (worst, greyest) = worst_tone(&hatching, 8, 2, 2);
+        println!("{name}: tones off by {worst:.4} at most; {greyest:.3} of the ink is grey");
+        assert!(worst <= 0.03, "{name}: {worst}");
+    }
+}
+
+#[test]
+#[ignore = "heavy: run by `make quality`"]
+fn all_tones_are_as_dark_as_asked() {
+    for (name, hatching) in presets() {
+        let (worst, greyest) = worst_tone(&hatching, 64, 8, 6);
+        println!("{name}: tones off by {worst:.4} at most; {greyest:.3} of the ink is grey");
+        assert!(worst <= 0.03, "{name}: {worst}");
+    }
+}
+
+/// Share of the pixels near ink that change by more than 0.6 when a plane comes closer by 1 %, after taking that back.
+fn pops(session: &mut Session, hatching: &Hatching) -> f64 {
+    let distance = 4.0;
+    let closer = 1.01;
+    let mut plane = opened(primitives::plane(30.0), DMat4::from_rotation_z(0.4), distance);
+    plane.document.style = even(hatching.clone(), 0.35);
+    session.set_scene(&plane).unwrap();
+    let far = inks(&drawn(session, &plane));
+    plane.document.camera.as_mut().unwrap().position.z = distance / closer;
+    let near = inks(&drawn(session, &plane));
+    let middle = f64::from(SIDE) / 2.0;
+    let at = |inks: &[Option<f64>], x: usize, y: usize| inks[y * SIDE as usize + x].unwrap_or(0.0);
+    let sampled = |x: f64, y: f64| {
+        let (left, top) = ((x - 0.5).floor(), (y - 0.5).floor());
+        let (s, t) = (x - 0.5 - left, y - 0.5 - top);
+        let (left, top) = (left as usize, top as usize);
+        let row = |y| at(&near, left, y) * (1.0 - s) + at(&near, left + 1, y) * s;
+        row(top) * (1.0 - t) + row(top + 1) * t
+    };
+    let (mut all, mut popped) = (0, 0);
+    for y in 8..SIDE as usize - 8 {
+        for x in 8..SIDE as usize - 8 {
+            let place = |c: usize| middle + (c as f64 + 0.5 - middle) * closer;
+            let (px, py) = (place(x), place(y));
+            if px < 4.0 || py < 4.0 || px > f64::from(SIDE) - 4.0 || py > f64::from(SIDE) - 4.0 {
+                continue;
+            }
+            all += 1;
+            popped += usize::from((at(&far, x, y) - sampled(px, py)).abs() > 0.6);
+        }
+    }
+    popped as f64 / f64::from(all)
+}
+
+#[test]
+fn strokes_stay_where_they_are_when_one_comes_closer() {
+    let mut session = session();
+    for (name, hatching) in presets() {
+        let stripes = pops(&mut session, &hatching);
+        println!("{name}: {:.2} % pop", 100.0 * stripes);
+        assert!(stripes <= 0.015, "{name}: {stripes}");
+    }
+    // What stays on the paper is no match: the test can fail.
+    let paper = Hatching { mapping: Mapping::Paper, ..Hatching::default() };
+    let popped = pops(&mut session, &paper);
+    println!("on the paper: {:.2} % pop", 100.0 * popped);
+    assert!(popped > 0.015, "{popped}");
+}
+
+/// Ink of the light tones at a place of a tile, between four texels.
+fn lights_at(map: &TonalArtMap, [u, v]: [f32; 2]) -> [f32; LIGHTS] {
+    let level = &map.levels[0];
+    let side = level.side as i32;
+    let p = Vec2::new(u, v) * side as f32 - 0.5;
+    let (first, f) = (p.floor(), p - p.floor());
+    std::array::from_fn(|tone| {
+        let texel = |dx: i32, dy: i32| {
+            let x = (first.x as i32 + dx).rem_euclid(side);
+            let y = (first.y as i32 + dy).rem_euclid(side);
+            f32::from(level.tones[tone][(y * side + x) as usize]) / 255.0
+        };
+        let row = |dy| texel(0, dy) * (1.0 - f.x) + texel(1, dy) * f.x;
+        row(0) * (1.0 - f.y) + row(1) * f.y
+    })
+}
+
+#[test]
+fn strokes_on_the_paper_are_composed_and_turned_as_the_paper_says() {
+    let mut session = session();
+    let map = TonalArtMap::from_png(sets::all()[0].png).unwrap();
+    // A texel is a pixel.
+    for (turned, step, drawn_at) in [(0.0_f64, 15.0_f32, 0.0_f32), (40.0, 15.0, -30.0), (-50.0, 20.0, 40.0)] {
+        let place = DMat4::from_rotation_z(turned.to_radians());
+        let mut plane = opened(primitives::plane(30.0), place, 4.0);
+        session.set_scene(&plane).unwrap();
+        for darkness in [0.1, 0.3, 0.6] {
+            let mut hatching = Hatching { mapping: Mapping::Paper, turn_step: step, ..Hatching::default() };
+            // An axis of the world would not turn with the plane.
+            hatching.direction = Direction::Curvature;
+            hatching.stroke.spacing = 6.0;
+            plane.document.style = even(hatching, darkness);
+            let inks = inks(&drawn(&mut session, &plane));
+            let tone = tone_of_ink(darkness, &COMPOSED_INKS);
+            let (mut worst, mut sum) = (0.0_f64, 0.0);
+            // The plane's own direction is along one of its sides.
+            let best = [0.0_f32, 90.0, -90.0].map(|side| {
+                let mut off = 0.0;
+                for (i, ink) in inks.iter().enumerate().step_by(7) {
+                    let at = Vec2::new((i % SIDE as usize) as f32, (i / SIDE as usize) as f32) + 0.5;
+                    let angle = (drawn_at + side).to_radians();
+                    let place = |d: usize| DIRECTIONS[d].place((at / 256.0).to_array(), angle);
+                    let samples = [0, 1, 2].map(|d| lights_at(&map, place(d)));
+                    let expected = f64::from(compose(tone, &samples));
+                    let apart = (ink.unwrap() - expected).abs();
+                    worst = worst.max(apart);
+                    off += apart;
+                }
+                sum = off / (inks.len() / 7) as f64;
+                sum
+            });
+            let least = best.iter().copied().fold(f64::INFINITY, f64::min);
+            println!("turned {turned}°, {darkness}: off by {best:.3?}");
+            assert!(least < 0.02, "turned {turned}°, {darkness}: {best:?}");
+        }
+    }
+}
+
+fn without_uvs(mut mesh: Mesh) -> Mesh {
+    mesh.uvs.clear();
+    mesh
+}
+
+#[test]
+fn whatever_a_mesh_is_like_it_gets_strokes() {
+    let mut session = session();
+    let triangle = primitives::from_triangles(
+        vec![Vec3::new(-1.0, -1.0, 0.0), Vec3::new(1.0, -1.0, 0.0), Vec3::new(0.0, 1.0, 0.0)],
+        vec![0, 1, 2],
+    );
+    let mut same_uvs = primitives::cube(1.5);
+    same_uvs.uvs = vec![Vec2::splat(0.3); same_uvs.positions.len()];
+    let mut wrong_uvs = primitives::cube(1.5);
+    wrong_uvs.uvs = vec![Vec2::new(f32::NAN, f32::INFINITY); wrong_uvs.positions.len()];
+    let meshes = [
+        ("a triangle", triangle),
+        ("a sphere", primitives::sphere(1.0, 24, 48)),
+        ("a box without coordinates", without_uvs(primitives::cube(1.5))),
+        ("a box with one coordinate", same_uvs),
+        ("a box with coordinates that are none", wrong_uvs),
+        ("a large thing", scaled(primitives::torus(0.8, 0.3, 32, 16), 1.0)),
+    ];
+    for (what, mesh) in meshes {
+        let mut thing = opened(mesh, DMat4::from_rotation_x(0.4), 4.0);
+        session.set_scene(&thing).unwrap();
+        for mapping in [Mapping::Stripes, Mapping::Paper, Mapping::Uv] {
+            for direction in [Direction::Curvature, Direction::TextureU, Direction::Y, Direction::Light] {
+                let hatching = Hatching { mapping, direction, ..Hatching::default() };
+                thing.document.style = even(hatching, 0.4);
+                let ink = mean(&inks(&drawn(&mut session, &thing)));
+                assert!((0.25..0.6).contains(&ink), "{what}, {mapping:?}, {direction:?}: {ink}");
+            }
+        }
+    }
+}
+
+fn scaled(mut mesh: Mesh, size: f32) -> Mesh {
+    mesh.positions.iter_mut().for_each(|p| *p *= size);
+    mesh
+}
+
+#[test]
+fn the_unit_of_a_model_does_not_matter() {
+    let mut session = session();
+    let mut pictures = [1e-3_f32, 1.0, 1e3].map(|size| {
+        let mesh = scaled(primitives::torus(0.8, 0.3, 64, 32), size);
+        let mut thing = opened(mesh, DMat4::IDENTITY, 4.0 * f64::from(size));
+        thing.document.style = even(Hatching::default(), 0.4);
+        session.set_scene(&thing).unwrap();
+        inks(&drawn(&mut session, &thing))
+    });
+    let [small, middle, large] = &mut pictures;
+    for other in [small, large] {
+        let apart =
+            middle.iter().zip(other.iter()).filter(|(a, b)| a.unwrap_or(0.0) > 0.5 && b.unwrap_or(0.0) < 0.1);
+        let share = apart.count() as f64 / middle.iter().flatten().count() as f64;
+        assert!(share < 0.01, "{share}");
+    }
+}
