@@ -98,6 +98,42 @@ draw sketch_chalk "$ogre" --style chalk-on-slate --set paper=#f6f3ea --set edges
 # Uncertainty controlled by the surface: more where it is curved, from enlarged geometry (Fig. 9).
 draw sketch_curvature "$ogre" --style loose-ink --set sketch.anchor=curvature --set sketch.exterior=enlarged
 
+# Hatching: six tones, of which the dark ones are composed of the light ones (Bu et al. 2006, Fig. 1).
+cat >"$work/sheet.obj" <<OBJ
+v -1 -1 0
+v 1 -1 0
+v 1 1 0
+v -1 1 0
+f 1 2 3 4
+OBJ
+for tone in 0.882 0.755 0.616 0.479 0.351 0.234; do
+	target/release/hachure render "$work/sheet.obj" --output "$work/tone_$tone.png" --resolution 200,200 --samples 16 \
+		--set technique=hatching --set hatching.mapping=paper --set "hatching.tone.curve=0,$tone,1,$tone" \
+		--set hatching.tone.white=0 --set hatching.tone.darkest=1 --set hatching.stroke.spacing=32 --set hatching.direction=y \
+		--camera-position 0,0,3 --camera-focal-point 0,0,0 --set edges.profile.show=false
+done
+montage "$work"/tone_0.882.png "$work"/tone_0.755.png "$work"/tone_0.616.png "$work"/tone_0.479.png "$work"/tone_0.351.png \
+	"$work"/tone_0.234.png -tile 6x1 -geometry +6+6 screenshots/hatching_tones.png
+echo screenshots/hatching_tones.png
+# Where strokes run; on the paper smoothly and in steps (Fig. 4); near edges (Fig. 3).
+draw hatching_directions "$ogre" --style stroke-directions
+draw hatching_paper "$ogre" --style pen-and-ink --set hatching.mapping=paper --set hatching.turn_step=0
+draw hatching_paper_steps "$ogre" --style pen-and-ink --set hatching.mapping=paper
+draw hatching_cross "$ogre" --style cross-hatch --set light.shadows=on
+size=1200,900
+temple() { # temple NAME ARGUMENTS...
+	name=$1
+	shift
+	draw "$name" assets/models/temple.glb --set light.shadows=on --set light.key.azimuth=-55 --set light.key.elevation=35 \
+		--camera-position -24,7,48 --camera-focal-point 2,5,10 --camera-view-angle 40 "$@"
+}
+temple hatching_temple --style pen-and-ink
+temple hatching_indication --style pen-and-ink --set hatching.indication.amount=1 --set hatching.indication.distance=10
+size=1000,1000
+draw hatching_crank "$crank" --style engraving --set light.shadows=on
+draw hatching_still_life "$still_life" --style pencil-hatching --mirror glass --set light.shadows=on \
+	--set edges.texture.show=true
+
 # A statue in strokes before a mirror, with edges in both (Fig. 8).
 cat >"$work/mirror.obj" <<OBJ
 o glass

@@ -149,6 +149,8 @@ fn wall(camera: &Camera, scene: &Scene) -> Scene {
 /// A scene on the device, ready to be drawn again and again.
 struct Bench {
     session: Session,
+    /// What is drawn, with the wall behind it.
+    scene: Arc<Scene>,
     opened: Opened,
     size: [u32; 2],
     camera: Camera,
@@ -169,8 +171,9 @@ impl Bench {
         found.extend(topology(&wall, document.view.crease_angle));
         let mut with_wall = (**scene).clone();
         with_wall.append(wall);
-        session.renderer().set_scene(&Arc::new(with_wall), &found)?;
-        Ok(Self { session, opened, size, camera, topology_ms })
+        let with_wall = Arc::new(with_wall);
+        session.renderer().set_scene(&with_wall, &found)?;
+        Ok(Self { session, scene: with_wall, opened, size, camera, topology_ms })
     }
 
     /// How many pixels each depth layer of the model has.
@@ -208,6 +211,7 @@ impl Bench {
         wall.mirror = Some(look.behind == Behind::Mirror);
         let camera = self.camera.orbited(document.up(&self.opened.scene).vector(), turn, 0.0);
         let started = Instant::now();
+        self.session.find_stripes(&document, &self.scene)?;
         self.session.renderer().render(&Request {
             document: &document,
             camera: &camera,

@@ -55,6 +55,7 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
     let section = document.section_fault(document.up(scene), &scene.bounds());
     let roles = document.role_faults(&document.scene_with_glyphs(scene));
     let faults = roles.into_iter().chain(section).chain(document.glyph_faults(scene));
+    let faults = faults.chain(document.coordinate_faults(scene));
     let peeled: Vec<_> = session.renderer().last_peeled().into_iter().flatten().collect();
     let warnings = images.warnings(&uses).into_iter().chain(scene.warnings.iter().cloned()).chain(faults);
     let warnings =

@@ -1,6 +1,7 @@
 //! What a person can change, save and undo: models, styles and roles per object, camera, lights, view, section plane.
 
 mod boil;
+mod coordinates;
 pub mod file;
 pub mod glyph;
 pub mod history;

@@ -121,17 +121,21 @@ impl Session {
         self.renderer.set_scene(&opened.scene, &topology)
     }
 
-    /// Finds the stripes of hatching that a document asks for and that are not there yet.
-    fn find_stripes(&mut self, opened: &Opened) -> Result<(), RenderError> {
-        let missing = self.renderer.missing_stripes(&opened.document);
+    /// Finds the stripes of hatching that a document asks for, for the scene that was set, and that are not there yet. Takes
+    /// seconds where a model is large.
+    ///
+    /// # Errors
+    /// [`RenderError`].
+    pub fn find_stripes(&mut self, document: &Document, scene: &Scene) -> Result<(), RenderError> {
+        let missing = self.renderer.missing_stripes(document);
         if missing.is_empty() {
             return Ok(());
         }
-        let found = SolvedStripes::solve(&self.cache, &opened.scene, &missing, &|_| true);
+        let found = SolvedStripes::solve(&self.cache, scene, &missing, &|_| true);
         let mut solved = self.renderer.solved_stripes().to_vec();
         solved.extend(found.unwrap_or_default());
-        let topology = topology(&opened.scene, opened.document.view.crease_angle);
-        let stripes = self.renderer.uploader().stripes(&opened.scene, &topology, solved)?;
+        let topology = topology(scene, document.view.crease_angle);
+        let stripes = self.renderer.uploader().stripes(scene, &topology, solved)?;
         self.renderer.show_stripes(stripes);
         Ok(())
     }
@@ -157,7 +161,7 @@ impl Session {
             selected: &[],
             samples: self.samples,
         };
-        self.find_stripes(opened)?;
+        self.find_stripes(&opened.document, &opened.scene)?;
         loop {
             let picture = self.renderer.render(&request)?;
             // One sample at a time, so that not all of them lie in the queue at once, and each is known to be complete.

@@ -151,6 +151,12 @@ choice! {
     }
 }
 
+/// Paper where light falls, and ink that gathers fast where it does not.
+fn paper_in_the_light() -> Curve {
+    let points = [[0.0, 0.0], [0.28, 0.02], [0.58, 0.38], [0.76, 0.82], [0.87, 1.0], [1.0, 1.0]];
+    Curve::of_points(&points.map(Into::into)).unwrap_or_default()
+}
+
 impl Default for Hatching {
     fn default() -> Self {
         Self {
@@ -162,18 +168,24 @@ impl Default for Hatching {
             stroke: Stroke {
                 spacing: 6.0,
                 thin: 0.16,
-                thick: 0.62,
-                length: 80.0,
+                thick: 0.54,
+                length: 120.0,
                 taper: 22.0,
-                gap: 2.5,
-                spread: 0.6,
+                gap: 1.5,
+                spread: 0.45,
                 chance: 1.0,
                 pointed: 0.5,
                 inserted: 0.45,
                 variation: 0.3,
             },
             layers: Layers { count: 3, second: 0.42, third: 0.7, shadows_cross: true },
-            tone: Tone { curve: Curve::LINEAR, ambient: 0.1, own_color: 0.2, white: 0.1, darkest: 0.82 },
+            tone: Tone {
+                curve: paper_in_the_light(),
+                ambient: 0.06,
+                own_color: 0.2,
+                white: 0.1,
+                darkest: 0.86,
+            },
             indication: Indication { amount: 0.0, distance: 30.0, falloff: 1.3 },
             ink: Color([24, 22, 28]),
             ink_tint: 0.0,

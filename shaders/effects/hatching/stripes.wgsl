@@ -26,7 +26,7 @@ const FAMILIES: u32 = 3u;
 const BASE_LEVEL: i32 = 5;
 const LAST_LEVEL: i32 = 6;
 // Levels below the own one by which lines are told apart, so that a line keeps its number while one comes closer.
-const FINER_BY: i32 = 3;
+const FINER_BY: i32 = 4;
 
 // As in src/render/effects/hatching/calibration.rs.
 const SOFT: f32 = 0.04;
@@ -148,6 +148,10 @@ struct Family {
     cycles: vec3<f32>,
     // Cycles of the base level per px.
     per_px: f32,
+    // Its change from pixel to pixel.
+    screen: vec2<f32>,
+    // How far its gradient agrees with a direction that is the same everywhere.
+    up: f32,
     number: u32,
 }
 
@@ -163,8 +167,8 @@ fn family_of(s: Stripes, number: u32) -> Family {
         cycles[i] = 0.5 * s.frequency * dot(first + own, s.away[i]);
     }
     gradient = normalize(gradient + vec3(1e-20)) * s.frequency;
-    let per_px = max(length(vec2(dot(gradient, s.dx), dot(gradient, s.dy))), 1e-12);
-    return Family(cycles, per_px, number);
+    let screen = vec2(dot(gradient, s.dx), dot(gradient, s.dy));
+    return Family(cycles, max(length(screen), 1e-12), screen, dot(gradient, vec3(0.31, 0.89, 0.33)), number);
 }
 
 fn phase_of(phases: vec4<u32>, level: u32) -> f32 {
@@ -204,6 +208,8 @@ fn level_of(per_px: f32, wanted: f32) -> Level {
 struct Rows {
     finer: f32,
     own: f32,
+    // After so many lines of the next level their numbers begin again.
+    period: u32,
 }
 
 fn rows_at(s: Stripes, family: Family, k: i32) -> Rows {
@@ -215,7 +221,7 @@ fn rows_at(s: Stripes, family: Family, k: i32) -> Rows {
         y = 2.0 * y + wrapped(phase - 2.0 * y);
         own = select(own, y, level == k);
     }
-    return Rows(y, own);
+    return Rows(y, own, 2u << u32(k - first));
 }
 
 // The tone to ask for, so that so much is inked; `place` and `length`: in their octaves, after each of which comes another.
@@ -238,6 +244,7 @@ fn tone_for(table: u32, place: f32, length: f32, ink: f32) -> f32 {
 // Ink of a family where `ink` of all is to be inked.
 fn stripe_ink(s: Stripes, number: u32, stroke: Stroke, ink: f32) -> f32 {
     let family = family_of(s, number);
+    let sense = select(1.0, -1.0, family.up < 0.0);
     let level = level_of(family.per_px, stroke.spacing);
     let rows = rows_at(s, family, level.k);
     let row = round(rows.finer);
@@ -247,8 +254,9 @@ fn stripe_ink(s: Stripes, number: u32, stroke: Stroke, ink: f32) -> f32 {
     let blended = select(fine, mix(coarse, fine, smoothstep(0.0, 1.0, level.place)), even && abs(coarse - fine) < 0.5);
     let away = blended * level.spacing * 0.5;
     // The odd part of its number, and the level at which it was born: a line keeps both while one comes closer.
-    let bits = u32(i32(row) & 15);
-    let code = select(bits, 16u, bits == 0u);
+    let bits = u32(i32(row)) & (rows.period - 1u);
+    // The same for a line and for the same line counted from the other side.
+    let code = select(min(bits, rows.period - bits), rows.period, bits == 0u);
     let born = countTrailingZeros(code);
     let id = hash_of(code >> born, u32(level.k + 1 - i32(born)) ^ (number * 7919u));
     var tap = 1.0;
@@ -257,25 +265,36 @@ fn stripe_ink(s: Stripes, number: u32, stroke: Stroke, ink: f32) -> f32 {
     var length_place = 0.0;
     if stroke.taper > 0.0 {
         let across = family_of(s, (number + 1u) % FAMILIES);
-        let along = level_of(across.per_px, stroke.length);
+        // Along the stroke itself: where a surface is seen at a slant the steepest way is another.
+        let slope = abs(family.screen.x * across.screen.y - family.screen.y * across.screen.x) / family.per_px;
+        let along = level_of(max(slope, 1e-12), stroke.length);
         let octave = along.place;
         length_place = octave;
-        let at = rows_at(s, across, along.k).own;
+        // Along the stroke in one sense, whichever that of the triangle is.
+        let across_rows = rows_at(s, across, along.k);
+        let finer = 0.5 * wrapped(across_rows.finer - 2.0 * across_rows.own);
+        let at = (across_rows.own + finer * smoothstep(0.0, 1.0, octave)) * sense;
         // So that the ends of neighbours do not line up.
         let frequency = s.frequency * exp2(f32(along.k)) * 1.7;
         let noise = mix(value_noise(s.place * frequency), value_noise(s.place * frequency * 2.0), octave);
-        let u = at + unit_of(mixed(id)) + 0.5 * (noise - 0.5);
-        let stroke_number = u32(i32(floor(u)) & 15);
+        // Twice as much where there are twice as many, so that what is an end stays one.
+        let offset = fract(unit_of(mixed(id)) * exp2(f32(along.k + BASE_LEVEL)));
+        let u = at + offset + mix(0.5, 0.25, octave) * (noise - 0.5);
+        let number_mask = (across_rows.period >> 1u) - 1u;
+        let halves_mask = min(2u * number_mask + 1u, (1u << u32(FINER_BY)) - 1u);
+        let stroke_number = u32(i32(floor(u))) & number_mask;
         let share = fract(u);
         let end = min(share, 1.0 - share) * along.spacing - stroke.gap;
-        let half_gap = stroke.gap * smoothstep(0.35, 1.0, octave);
-        let middle = select(1e9, abs(share - 0.5) * along.spacing - half_gap, octave > 0.35);
-        tap = clamp(min(end, middle) / stroke.taper, 0.0, 1.0);
+        // Where strokes are nearly twice as long as wanted they come apart in the middle.
+        let apart = smoothstep(0.35, 1.0, octave);
+        let middle = abs(share - 0.5) * along.spacing - stroke.gap;
+        tap = clamp(end / stroke.taper, 0.0, 1.0);
+        tap = min(tap, mix(1.0, clamp(middle / stroke.taper, 0.0, 1.0), apart));
         let half = select(0u, 1u, share > 0.5);
-        let whole = unit_of(hash_of(id, stroke_number));
-        let halves = unit_of(hash_of(id, 2u * stroke_number + half + 100u));
-        chance = mix(whole, halves, 0.35 * smoothstep(0.3, 1.0, octave));
-        variation = unit_of(hash_of(hash_of(id, stroke_number), 23u)) - 0.5;
+        let whole = hash_of(id, stroke_number);
+        let halves = hash_of(id, (2u * stroke_number + half) & halves_mask);
+        chance = mix(unit_of(whole), unit_of(halves), apart);
+        variation = mix(unit_of(mixed(whole)), unit_of(mixed(halves)), apart) - 0.5;
     }
     let late = select((1.0 - level.place) * stroke.inserted, 0.0, even);
     let threshold = stroke.spread * (stroke.chance * chance + (1.0 - tap) * stroke.pointed) + late;
@@ -286,6 +305,9 @@ fn stripe_ink(s: Stripes, number: u32, stroke: Stroke, ink: f32) -> f32 {
     var width = stroke.spacing * share * pressed;
     // No hair lines: a stroke ends, it does not fade.
     width = select(width, 0.0, width < LEAST_WIDTH);
+    // Nor hair lines of paper: strokes that nearly touch do.
+    let next = 0.5 * level.spacing;
+    width += smoothstep(next - 2.0 * LEAST_WIDTH, next, width);
     let covered = clamp(max(width, 2.0 * LEAST_WIDTH) * 0.5 - abs(away) + 0.5, 0.0, 1.0);
     return covered * min(width / (2.0 * LEAST_WIDTH), 1.0);
 }

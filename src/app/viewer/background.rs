@@ -161,7 +161,9 @@ impl Viewer {
         }
         self.model.show_glyphs(&self.document);
         let faults = self.document.role_faults(&self.model.scene);
-        for fault in faults.into_iter().chain(self.document.glyph_faults(&self.model.files)) {
+        let without_coordinates = self.document.coordinate_faults(&self.model.files);
+        let glyphs = self.document.glyph_faults(&self.model.files);
+        for fault in faults.into_iter().chain(glyphs).chain(without_coordinates) {
             self.notices.warning(fault.to_string());
         }
         let warnings = self.model.scene.warnings.len();

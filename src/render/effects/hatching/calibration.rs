@@ -14,7 +14,9 @@ pub(super) const INKS: usize = 64;
 /// Tones that are measured.
 const TONES: usize = 32;
 /// Points that are looked at for each tone: rows times places along them.
-const ROWS: usize = 16 * 12;
+const ROWS: usize = PERIOD * 6;
+/// After so many lines of the finer level, and half as many strokes, numbers begin again.
+const PERIOD: usize = 32;
 const ALONG: usize = 8;
 
 /// For each of [`PLACES`], each of [`LENGTHS`] and each of [`INKS`] the tone to ask for, 0 to 1.
@@ -78,7 +80,7 @@ fn mean_ink(stroke: &StrokeUniform, tone: f32, octave: Octave) -> f32 {
     for row in 0..ROWS {
         for along in 0..ALONG {
             let jitter = |n: u32| unit(hash(row as u32 * 977 + n, along as u32));
-            let y = 16.0 * (row as f32 + jitter(1)) / ROWS as f32;
+            let y = PERIOD as f32 * (row as f32 + jitter(1)) / ROWS as f32;
             let x = 16.0 * (along as f32 + jitter(2)) / ALONG as f32;
             sum += ink(stroke, tone, octave, Vec2::new(x, y));
         }
@@ -93,8 +95,9 @@ fn ink(stroke: &StrokeUniform, tone: f32, Octave { place, length: octave }: Octa
     let row = y.round();
     let even = (row as i32) & 1 == 0;
     let away = (y - row) * spacing * 0.5;
-    let code = (row as i32 & 15) as u32;
-    let code = if code == 0 { 16 } else { code };
+    let period = PERIOD as u32;
+    let bits = row as u32 % period;
+    let code = if bits == 0 { period } else { bits.min(period - bits) };
     let born = code.trailing_zeros();
     let id = hash(code >> born, 1_u32.wrapping_sub(born));
     let (mut tap, mut chance, mut variation) = (1.0_f32, unit(id), 0.0);
@@ -104,16 +107,15 @@ fn ink(stroke: &StrokeUniform, tone: f32, Octave { place, length: octave }: Octa
         let number = (u.floor() as i32 & 15) as u32;
         let share = u - u.floor();
         let end = share.min(1.0 - share) * length - stroke.gap;
-        let middle = if octave > 0.35 {
-            (share - 0.5).abs() * length - stroke.gap * smoothstep(0.35, 1.0, octave)
-        } else {
-            1e9
-        };
-        tap = (end.min(middle) / stroke.taper).clamp(0.0, 1.0);
+        let apart = smoothstep(0.35, 1.0, octave);
+        let middle = (share - 0.5).abs() * length - stroke.gap;
+        let [end, middle] = [end, middle].map(|left| (left / stroke.taper).clamp(0.0, 1.0));
+        tap = end.min(1.0 + (middle - 1.0) * apart);
         let half = u32::from(share > 0.5);
-        let [whole, halves] = [number, 2 * number + half + 100].map(|n| unit(hash(id, n)));
-        chance = whole + (halves - whole) * 0.35 * smoothstep(0.3, 1.0, octave);
-        variation = unit(hash(hash(id, number), 23)) - 0.5;
+        let [whole, halves] = [number, (2 * number + half) & 15].map(|n| hash(id, n));
+        let mix = |from: f32, to: f32| from + (to - from) * apart;
+        chance = mix(unit(whole), unit(halves));
+        variation = mix(unit(mixed(whole)), unit(mixed(halves))) - 0.5;
     }
     let late = if even { 0.0 } else { (1.0 - place) * stroke.inserted };
     let threshold = stroke.spread * (stroke.chance * chance + (1.0 - tap) * stroke.pointed) + late;
@@ -123,6 +125,9 @@ fn ink(stroke: &StrokeUniform, tone: f32, Octave { place, length: octave }: Octa
     let width = stroke.spacing * share * pressed;
     // No hair lines: a stroke ends, it does not fade.
     let width = if width < LEAST_WIDTH { 0.0 } else { width };
+    // Nor hair lines of paper.
+    let next = 0.5 * spacing;
+    let width = width + smoothstep(next - 2.0 * LEAST_WIDTH, next, width);
     (width.max(2.0 * LEAST_WIDTH) * 0.5 - away.abs() + 0.5).clamp(0.0, 1.0)
         * (width / (2.0 * LEAST_WIDTH)).min(1.0)
 }
