@@ -186,7 +186,13 @@ fn every_technique_shades_what_blends_as_what_does_not() {
         let opaque = image(&mut session, &lit(technique, 1.0), SIDE);
         // Where a toon's bands are smoothed, they are where one surface hides the other.
         let far = blended.pixels().zip(opaque.pixels()).filter(|(a, b)| apart(a, b) > 2).count();
-        assert!(far <= if *technique == "toon" { 20 } else { 0 }, "{technique}: {far}");
+        // Of a stroke a shade more or less of light decides whether it is there.
+        let most = match *technique {
+            "toon" => 20,
+            "hatching" => 4,
+            _ => 0,
+        };
+        assert!(far <= most, "{technique}: {far}");
         let glass = image(&mut session, &lit(technique, 0.4), SIDE);
         // Blueprints are drawings of lines and blank paper is paper, whatever the material.
         let expected = !["blank", "blueprint"].contains(technique);

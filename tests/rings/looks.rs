@@ -3,6 +3,7 @@
 use std::str::FromStr as _;
 
 use hachure::style::halftone::Space;
+use hachure::style::hatching::Mapping;
 use hachure::style::toon::Border;
 use hachure::style::{Color, Matrix, Style, Technique};
 use strum::VariantNames as _;
@@ -37,6 +38,8 @@ impl Look {
         let mut style = Style { technique: Technique::from_str(technique).unwrap(), ..Style::default() };
         style.edges.profile.width = 2.0 * REFERENCE;
         // What is fixed to surfaces may depend on what else there is to fix it to.
+        // Stripes of a part of a mesh are not those of all of it.
+        (style.hatching.mapping, style.hatching.turn_step) = (Mapping::Paper, 90.0);
         style.halftone.space = Space::Screen;
         style.halftone.scale = 4.0 * REFERENCE;
         Self { name: name.to_owned(), kind, style }

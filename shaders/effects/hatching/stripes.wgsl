@@ -31,8 +31,8 @@ const FINER_BY: i32 = 4;
 // As in src/render/effects/hatching/calibration.rs.
 const SOFT: f32 = 0.04;
 const LEAST_WIDTH: f32 = 0.35;
-const OCTAVE_PLACES: u32 = 8u;
-const OCTAVE_LENGTHS: u32 = 6u;
+const OCTAVE_PLACES: u32 = 16u;
+const OCTAVE_LENGTHS: u32 = 10u;
 const INK_STEPS: u32 = 64u;
 
 // Numbers of vertices of each triangle, and the vertices: src/render/base/stripes.rs.
