@@ -131,9 +131,8 @@ impl Hatchings {
         let greatest = self.tables.get(table).map_or(1.0, |table| table.greatest);
         let stroke = StrokeUniform { table: table as u32, ..stroke };
         let mapping = match style.mapping {
-            Mapping::Stripes if place.is_some() => STRIPES,
             Mapping::Uv if object.scene.has_uvs(object.node) => BY_UV,
-            Mapping::Uv if place.is_some() => STRIPES,
+            Mapping::Stripes | Mapping::Uv if place.is_some() => STRIPES,
             // Until stripes are found.
             Mapping::Stripes | Mapping::Uv | Mapping::Paper => ON_PAPER,
         };

@@ -94,7 +94,7 @@ impl Sketch {
     }
 
     fn widest(&self) -> f32 {
-        self.passes().iter().map(|pass| uniforms::width(pass)).fold(1.0, f32::max)
+        self.passes().iter().map(uniforms::width).fold(1.0, f32::max)
     }
 
     /// How often lines are drawn, and how.
