@@ -242,7 +242,7 @@ impl Renderer {
 
     /// Keeps the textures that have a name from now on, among those that pictures are made of, for a look at them: `geometry`,
     /// `regions`, `base color`, `depth` (see `passes/gbuffer.rs`), `edge map`, `shadow mask`, `cartoon map`, `coordinates`,
-    /// `operators`, `depth mask`, of the last sketch `noise of lines`, and of the layers of a blueprint
+    /// `operators`, `depth mask`, `triangles`, of the last sketch `noise of lines`, and of the layers of a blueprint
     /// [`crate::render::LAYERS`].
     pub fn keep(&mut self, name: &'static str) {
         self.intermediates.entry(name).or_default();
