@@ -18,6 +18,7 @@ use super::drawing::objects::Objects;
 use super::effects::hatching::missing;
 use super::frame::{FrameInputs, FrameState, Picture};
 use super::passes::accumulate::Subject;
+use super::passes::coordinates::Coordinates;
 use super::passes::layers::{LayersBy, Reported};
 use super::passes::line_distance::BLOCK;
 use super::passes::peeled::Peeled;
@@ -163,9 +164,13 @@ impl Renderer {
         }
     }
 
-    /// The stripes of hatching that a document asks for and that nobody has given yet; until then tones are even.
+    /// The stripes of hatching that a document asks for and that nobody has given yet; until then strokes lie on the paper, and for
+    /// good where a device cannot number triangles.
     pub fn missing_stripes(&self, document: &Document) -> Vec<StripeRequest> {
-        self.scene.as_ref().map_or(Vec::new(), |scene| missing(document, scene))
+        match &self.scene {
+            Some(scene) if Coordinates::Triangles.are_supported(&self.gpu) => missing(document, scene),
+            _ => Vec::new(),
+        }
     }
 
     /// All stripes that have been given for the scene that is shown.

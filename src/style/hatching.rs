@@ -232,10 +232,6 @@ impl Hatching {
                 &mut self.blend_steps,
             );
         });
-        list.section("stroke", |list| self.stroke.params(list));
-        list.section("layers", |list| self.layers.params(list));
-        list.section("tone", |list| self.tone.params(list));
-        list.section("indication", |list| self.indication.params(list));
         list.color("ink", "Ink", "Colour of the ink.", &mut self.ink);
         share(list, "ink_tint", "Own colour in ink", "Share of the object's own colour.", &mut self.ink_tint);
         list.color("paper", "Paper", "Colour between the ink.", &mut self.paper);
@@ -246,6 +242,10 @@ impl Hatching {
             "How far the paper is multiplied by the object's own colour.",
             &mut self.paper_tint,
         );
+        list.section("stroke", |list| self.stroke.params(list));
+        list.section("layers", |list| self.layers.params(list));
+        list.section("tone", |list| self.tone.params(list));
+        list.section("indication", |list| self.indication.params(list));
     }
 }
 

@@ -1096,3 +1096,20 @@ fn escape_leaves_nothing_of_what_was_being_placed() {
     settle(&mut window);
     assert!(matches!(&window.state().document().glyphs[0].shape, Shape::Label(l) if l.text.contains('!')));
 }
+
+#[test]
+fn strokes_of_hatching_are_found_beside_the_window() {
+    let mut window = window();
+    until(&mut window, "the meshes are examined", Viewer::has_topology);
+    assert!(window.state().viewport().solved_stripes().is_empty());
+    choose(&mut window, "Technique", "Hatching");
+    until(&mut window, "strokes are found", Viewer::has_stripes);
+    // All parts are boxes of one mesh and size.
+    assert_eq!(window.state().viewport().solved_stripes().len(), 1);
+    choose(&mut window, "Direction", "X");
+    until(&mut window, "those along an axis are found", |v| v.viewport().solved_stripes().len() == 2);
+    // What has been found stays.
+    ask(&mut window, Command::Undo);
+    assert!(window.state().has_stripes());
+    assert_eq!(window.state().viewport().solved_stripes().len(), 2);
+}
