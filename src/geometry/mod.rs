@@ -16,6 +16,7 @@ pub mod line_score;
 pub mod line_segments;
 pub mod mesh;
 pub mod normals;
+pub mod octahedron;
 pub mod primitives;
 pub mod projector;
 pub mod rig;

@@ -9,11 +9,12 @@ mod levels;
 pub mod lift;
 mod rails;
 
-use glam::{Vec2, Vec3};
+use glam::Vec3;
 use rayon::prelude::*;
 
 use self::ladder::Ladder;
 use super::direction_field::Solved;
+use super::octahedron::{from_octahedron, to_octahedron};
 use super::{FieldOptions, Mesh};
 
 pub use self::levels::{BASE_LEVEL, CYCLES_PER_EXTENT, FAMILIES, LEVELS, Phases, WORDS};
@@ -121,23 +122,6 @@ impl StripeField {
         };
         Some([corner(0)?, corner(1)?, corner(2)?])
     }
-}
-
-/// A unit vector as a point of an unfolded octahedron. Source: Cigolle et al., A Survey of Efficient Representations for
-/// Independent Unit Vectors, 2014.
-fn to_octahedron(v: Vec3) -> [i16; 2] {
-    let size = v.x.abs() + v.y.abs() + v.z.abs();
-    let p = v.truncate() / size;
-    let folded = (Vec2::ONE - Vec2::new(p.y, p.x).abs()) * Vec2::ONE.copysign(p);
-    let p = if v.z < 0.0 { folded } else { p };
-    (p.clamp(Vec2::NEG_ONE, Vec2::ONE) * 32767.0).round().to_array().map(|c| c as i16)
-}
-
-fn from_octahedron(packed: [i16; 2]) -> Vec3 {
-    let p = Vec2::from_array(packed.map(|c| f32::from(c) / 32767.0));
-    let z = 1.0 - p.x.abs() - p.y.abs();
-    let folded = (Vec2::ONE - Vec2::new(p.y, p.x).abs()) * Vec2::ONE.copysign(p);
-    (if z < 0.0 { folded } else { p }).extend(z).normalize_or(Vec3::Z)
 }
 
 #[cfg(test)]

@@ -6,6 +6,7 @@ use bytemuck::{Pod, Zeroable};
 use glam::{Vec2, Vec3};
 
 use super::{Gpu, GpuError};
+use crate::geometry::octahedron::to_octahedron;
 use crate::geometry::{Mesh, Provoking};
 
 /// All vertices and indices of a scene in one set of buffers.
@@ -77,28 +78,16 @@ impl Attributes {
 
     fn of(mesh: &Mesh, vertex: usize) -> Self {
         let tangent = mesh.tangents.get(vertex).map_or([0; 4], |t| {
-            let [x, y] = octahedral(t.truncate());
+            let [x, y] = to_octahedron(t.truncate());
             [x, y, if t.w < 0.0 { -i16::MAX } else { i16::MAX }, 0]
         });
         Self {
-            normal: mesh.normals.get(vertex).map_or([0; 2], |n| octahedral(*n)),
+            normal: mesh.normals.get(vertex).map_or([0; 2], |n| to_octahedron(*n)),
             tangent,
             uv: mesh.uvs.get(vertex).copied().unwrap_or(Vec2::ZERO),
             color: mesh.colors.get(vertex).copied().unwrap_or([255; 4]),
         }
     }
-}
-
-/// A unit vector folded onto a square (Cigolle et al. 2014), as signed 16-bit unorm.
-fn octahedral(v: Vec3) -> [i16; 2] {
-    let sum = v.abs().element_sum().max(f32::MIN_POSITIVE);
-    let p = Vec2::new(v.x, v.y) / sum;
-    let folded = if v.z >= 0.0 {
-        p
-    } else {
-        (Vec2::ONE - Vec2::new(p.y, p.x).abs()) * Vec2::new(1.0f32.copysign(p.x), 1.0f32.copysign(p.y))
-    };
-    folded.to_array().map(|c| (c.clamp(-1.0, 1.0) * f32::from(i16::MAX)).round() as i16)
 }
 
 impl GeometryBuffers {
@@ -245,22 +234,4 @@ fn view(buffer: &wgpu::Buffer) -> Result<wgpu::BufferViewMut, GpuError> {
 
 fn write(view: &mut wgpu::BufferViewMut, offset: usize, bytes: &[u8]) {
     view.slice(offset..offset + bytes.len()).copy_from_slice(bytes);
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn octahedral_vectors_come_back_within_a_hundredth_of_a_degree() {
-        for i in 0..1000 {
-            let t = i as f32 * 0.61803;
-            let v = Vec3::new((t * 3.1).sin(), (t * 5.3).cos(), (t * 7.7).sin()).normalize_or(Vec3::Z);
-            let p = Vec2::from_array(octahedral(v).map(|c| f32::from(c) / f32::from(i16::MAX)));
-            let z = 1.0 - p.x.abs() - p.y.abs();
-            let fold = (-z).max(0.0);
-            let back = Vec3::new(p.x - fold.copysign(p.x), p.y - fold.copysign(p.y), z).normalize_or(Vec3::Z);
-            assert!((back - v).length() < 1.5e-4, "{v} {back}");
-        }
-    }
 }

@@ -67,7 +67,7 @@ pub struct StripePlace {
     pub cycles_per_unit: f32,
 }
 
-/// A vertex as shaders read it, four texels: twin of `stripe_corner` in `shaders/effects/hatching/stripes.wgsl`.
+/// A vertex as shaders read it, four texels: read by `stripes_of` in `shaders/effects/hatching/stripes.wgsl`.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Pod, Zeroable, Default)]
 struct VertexRecord {
