@@ -147,3 +147,114 @@ fn a_step_of_a_tenth_of_the_depth_range_is_full_ink_with_either_operator() {
         assert_eq!((inner, owner), (0.0, 1), "{operator}: no crease there, and the line is the nearer one's");
     }
 }
+
+/// Gradients by Sobel operators, and whether the z of normals differs in sign (hatching paper, section 3, "Outline").
+struct Gradients {
+    normal: f32,
+    depth: f32,
+    color: f32,
+    turns: bool,
+}
+
+fn sobel(buffer: &[Surfel], colors: &[[u8; 4]], px: [i32; 2], range: [f32; 2], sums: bool) -> Gradients {
+    const S_X: [[f32; 3]; 3] = [[-1.0, 0.0, 1.0], [-2.0, 0.0, 2.0], [-1.0, 0.0, 1.0]];
+    const S_Y: [[f32; 3]; 3] = [[-1.0, -2.0, -1.0], [0.0, 0.0, 0.0], [1.0, 2.0, 1.0]];
+    let x = &buffer[(px[1] * SIDE + px[0]) as usize];
+    let images = |s: Sample, px: [i32; 2]| {
+        let texel = colors[(px[1] * SIDE + px[0]) as usize];
+        let bright = [0, 1, 2].map(|k| srgb_to_linear(f32::from(texel[k]) / 255.0));
+        let luminance = 0.2126 * bright[0] + 0.7152 * bright[1] + 0.0722 * bright[2];
+        let luminance = if s.object == 0 { 1.0 } else { luminance };
+        [s.normal.x, s.normal.y, s.normal.z, s.depth, luminance]
+    };
+    let (mut along, mut down, mut signs) = ([0.0; 5], [0.0; 5], [0; 2]);
+    for (j, i) in (0..3).flat_map(|j| (0..3).map(move |i| (j, i))) {
+        let at = [px[0] + i as i32 - 1, px[1] + j as i32 - 1].map(|c: i32| c.clamp(0, SIDE - 1));
+        let s = neighbour(buffer, at, x, range);
+        for (k, value) in images(s, at).into_iter().enumerate() {
+            along[k] += S_X[j][i] * value;
+            down[k] += S_Y[j][i] * value;
+        }
+        signs[usize::from(s.object != 0 && s.normal.z >= 0.0)] += 1;
+    }
+    let length = |v: &[f32]| v.iter().map(|c| c * c).sum::<f32>().sqrt();
+    let magnitude = |of: std::ops::Range<usize>| {
+        let (x, y) = (length(&along[of.clone()]), length(&down[of]));
+        if sums { x + y } else { (x * x + y * y).sqrt() }
+    };
+    Gradients {
+        normal: magnitude(0..3),
+        depth: magnitude(3..4),
+        color: magnitude(4..5),
+        turns: signs[0] > 0 && signs[1] > 0,
+    }
+}
+
+fn srgb_to_linear(c: f32) -> f32 {
+    if c <= 0.040_45 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) }
+}
+
+#[test]
+fn sobel_edges_equal_their_twins() {
+    let at = |x, y, z| DMat4::from_translation(DVec3::new(x, y, z));
+    let mut torus = primitives::torus(1.0, 0.4, 48, 24);
+    // Half of it is dark.
+    torus.colors =
+        torus.positions.iter().map(|p| if p.x < 0.2 { [255; 4] } else { [9, 9, 9, 255] }).collect();
+    let scene = scene(vec![
+        ("torus", torus, at(0.0, 0.0, 0.0), [0.9, 0.9, 0.9]),
+        ("cube", primitives::cube(0.9), at(0.6, 0.7, 0.3), [0.3, 0.6, 0.8]),
+        ("dark", primitives::cube(0.5), at(-0.9, -0.2, 0.4), [0.02, 0.02, 0.02]),
+    ]);
+    for sums in [false, true] {
+        let mut opened = opened(&scene, vec3(0.4, 0.5, 1.0).as_dvec3());
+        for (key, value) in [
+            ("edges.mode", "paper"),
+            ("edges.operator", "sobel"),
+            ("edges.sobel.sum", if sums { "true" } else { "false" }),
+            ("edges.sobel.depth_threshold", "0.3"),
+        ] {
+            set(&mut opened, key, value);
+        }
+        let mut session = session();
+        session.renderer().keep("base color");
+        let picture = draw(&mut session, &opened, SIDE as u32);
+        let buffer = surfels(&mut session, &picture);
+        let shown = common::kept(&mut session, "base color").unwrap();
+        let colors = texels::<[u8; 4]>(&mut session, &shown);
+        let ink = ink(&mut session, &picture);
+        let range = opened_range(&scene, &opened);
+        let (mut profile_count, mut by_color, mut by_normal) = (0, 0, 0);
+        for (i, surfel) in buffer.iter().enumerate() {
+            let px = [i as i32 % SIDE, i as i32 / SIDE];
+            let g = sobel(&buffer, &colors, px, range, sums);
+            // On the threshold itself rounding decides.
+            let close = |value: f32, threshold: f32| (value - threshold).abs() < 2e-3;
+            if close(g.normal, 1.4) || close(g.depth, 0.3) || close(g.color, 0.6) {
+                continue;
+            }
+            let profile = surfel.enhanced && (g.turns || g.depth >= 0.3);
+            let inner = surfel.enhanced && !profile && (g.normal >= 1.4 || g.color >= 0.6);
+            let expected = (f32::from(u8::from(inner)), f32::from(u8::from(profile)));
+            assert_eq!((ink[i].0, ink[i].1), expected, "{px:?}, sums: {sums}");
+            profile_count += i32::from(profile);
+            by_normal += i32::from(inner && g.color < 0.6);
+            by_color += i32::from(inner && g.normal < 1.4);
+        }
+        assert!(
+            profile_count > 500 && by_normal > 50 && by_color > 5,
+            "{profile_count} {by_normal} {by_color}"
+        );
+    }
+}
+
+/// Near and far of everything, as fitted to the boxes of the objects (section 4.1.1).
+fn opened_range(scene: &hachure::scene::Scene, opened: &hachure::export::session::Opened) -> [f32; 2] {
+    let view_from_world = opened.document.camera.unwrap().view_from_world();
+    let boxes = scene
+        .nodes
+        .iter()
+        .map(|n| scene.meshes[n.mesh.unwrap()].bounds().transformed(&(view_from_world * n.world_from_local)));
+    let fitted = boxes.reduce(|a, b| a.union(&b)).unwrap();
+    [-fitted.max.z as f32, -fitted.min.z as f32]
+}

@@ -44,9 +44,19 @@ struct EdgeStyle {
     profile_strength: f32,
     inner_color: vec3<f32>,
     inner_strength: f32,
-    // 1: the C1 operator finds profile edges, otherwise the diagonal one.
-    use_c1: u32,
+    // What finds edges in paper mode.
+    found_by: u32,
+    // Of Sobel operators: 1 where the sign of normals makes silhouettes; gradients that make an edge (0: not looked at);
+    // 1: the gradient is the sum of both changes.
+    by_sign: u32,
+    normal_gradient: f32,
+    depth_gradient: f32,
+    color_gradient: f32,
+    sums_changes: u32,
 }
 
 const EXACT_MODE: u32 = 1u;
 const PAPER_MODE: u32 = 2u;
+
+const C1_OPERATOR: u32 = 1u;
+const SOBEL_OPERATOR: u32 = 2u;

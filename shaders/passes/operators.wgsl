@@ -1,4 +1,4 @@
-// The operators of the edge-enhancement paper, section 4.1.2.
+// The operators of the edge-enhancement paper, section 4.1.2, and those of the hatching paper (Bu et al. 2006), section 3, "Outline".
 #import common/frame.wgsl
 #import common/fullscreen.wgsl
 #import common/gbuffer.wgsl
@@ -7,8 +7,13 @@
 
 // Whether any object uses the C1 operator.
 override WITH_C1: bool = true;
+// Whether any uses Sobel operators, and whether on base colours.
+override WITH_SOBEL: bool = false;
+override WITH_COLOR: bool = false;
 
 var<storage, read> edge_styles: array<EdgeStyle>;
+// Linear.
+var base_color_tex: texture_2d<f32>;
 
 // One texel as the operators see it.
 struct Sample {
@@ -86,6 +91,76 @@ fn past(ink: f32, threshold: f32) -> f32 {
     return clamp((ink - threshold) / (1.0 - threshold), 0.0, 1.0);
 }
 
+// Gradients of what is around a texel, by the Sobel operators S_x and S_y.
+struct Gradients {
+    normal: f32,
+    depth: f32,
+    color: f32,
+    // Whether the z of the normals differs in sign.
+    turns: bool,
+    owner: u32,
+}
+
+// Paper is white.
+fn luminance_at(px: vec2<i32>, at: Sample) -> f32 {
+    if at.object == 0u {
+        return 1.0;
+    }
+    let last = vec2<i32>(textureDimensions(base_color_tex)) - 1;
+    return dot(textureLoad(base_color_tex, clamp(px, vec2(0), last), 0).rgb, vec3(0.2126, 0.7152, 0.0722));
+}
+
+fn magnitude(x: f32, y: f32, sums: bool) -> f32 {
+    return select(sqrt(x * x + y * y), abs(x) + abs(y), sums);
+}
+
+fn gradients(px: vec2<i32>, x: Surfel, sums: bool) -> Gradients {
+    let center = sample_of(x);
+    var nearest = center;
+    // Of normals, depth and colour, in both directions.
+    var nx = vec3(0.0);
+    var ny = vec3(0.0);
+    var z = vec2(0.0);
+    var c = vec2(0.0);
+    var front = 0;
+    for (var j = -1; j <= 1; j++) {
+        for (var i = -1; i <= 1; i++) {
+            let at = px + vec2(i, j);
+            var s = center;
+            if i != 0 || j != 0 {
+                s = neighbour(at, x);
+            }
+            nearest = nearer(nearest, s);
+            // The background has the other sign.
+            front += select(0, 1, s.normal.z >= 0.0 && s.object != 0u);
+            let weight = vec2<f32>(vec2(i * (2 - j * j), j * (2 - i * i)));
+            nx += weight.x * s.normal;
+            ny += weight.y * s.normal;
+            z += weight * s.depth;
+            if WITH_COLOR {
+                c += weight * luminance_at(at, s);
+            }
+        }
+    }
+    let normal = select(sqrt(dot(nx, nx) + dot(ny, ny)), length(nx) + length(ny), sums);
+    return Gradients(normal, magnitude(z.x, z.y, sums), magnitude(c.x, c.y, sums), front != 0 && front != 9, nearest.object);
+}
+
+// Whether a gradient makes an edge; with threshold 0 none does.
+fn is_edge(gradient: f32, threshold: f32) -> bool {
+    return threshold > 0.0 && gradient >= threshold;
+}
+
+// Inner and profile ink: 1 where there is an edge.
+fn sobel_ink(g: Gradients) -> vec2<f32> {
+    let owner = g.owner;
+    let turns = g.turns && edge_styles[owner].by_sign == 1u;
+    let profile = turns || is_edge(g.depth, edge_styles[owner].depth_gradient);
+    let inner = is_edge(g.normal, edge_styles[owner].normal_gradient) || is_edge(g.color, edge_styles[owner].color_gradient);
+    // One line is enough.
+    return vec2(select(0.0, 1.0, inner && !profile), select(0.0, 1.0, profile));
+}
+
 @fragment
 fn fs_main(@builtin(position) position: vec4<f32>) -> @location(0) vec4<u32> {
     let px = vec2<i32>(position.xy);
@@ -94,7 +169,16 @@ fn fs_main(@builtin(position) position: vec4<f32>) -> @location(0) vec4<u32> {
     if !x.enhanced || edge_styles[x.object].mode != PAPER_MODE {
         discard;
     }
-    let use_c1 = edge_styles[x.object].use_c1 == 1u;
+    let found_by = edge_styles[x.object].found_by;
+    if WITH_SOBEL && found_by == SOBEL_OPERATOR {
+        let g = gradients(px, x, edge_styles[x.object].sums_changes == 1u);
+        let ink = sobel_ink(g);
+        if all(ink <= vec2(0.0)) {
+            discard;
+        }
+        return pack_paper(ink, g.owner, x.depth);
+    }
+    let use_c1 = found_by == C1_OPERATOR;
     let o = operators(px, x, use_c1);
     let owner = o.owner;
     let profile = select(edge_styles[owner].gain_z * (1.0 - o.i_z), edge_styles[owner].gain_c1 * o.c1, use_c1);

@@ -106,7 +106,17 @@ impl EdgeGroup<Profile> {
         };
         places.declare("Profile edges", "Draw silhouettes, borders and the outlines of objects.", list);
         list.when("edges.mode", EdgeMode::Paper, |list| {
-            list.number("threshold", "Threshold", "", 0.0..=0.95, 0.0..=0.99, THRESHOLD, &mut self.threshold);
+            list.when_any("edges.operator", ["diagonal", "c1"], |list| {
+                list.number(
+                    "threshold",
+                    "Threshold",
+                    "",
+                    0.0..=0.95,
+                    0.0..=0.99,
+                    THRESHOLD,
+                    &mut self.threshold,
+                );
+            });
             list.when("edges.operator", DepthOperator::Diagonal, |list| {
                 list.number(
                     "gain",
@@ -155,16 +165,26 @@ impl EdgeGroup<Inner> {
             );
         });
         list.when("edges.mode", EdgeMode::Paper, |list| {
-            list.number("threshold", "Threshold", "", 0.0..=0.95, 0.0..=0.99, THRESHOLD, &mut self.threshold);
-            list.number(
-                "gain",
-                "Gain",
-                "",
-                0.5..=20.0,
-                0.0..=1000.0,
-                "Ink per discontinuity; 4 makes a fold of 41° full ink.",
-                &mut self.gain,
-            );
+            list.when_any("edges.operator", ["diagonal", "c1"], |list| {
+                list.number(
+                    "threshold",
+                    "Threshold",
+                    "",
+                    0.0..=0.95,
+                    0.0..=0.99,
+                    THRESHOLD,
+                    &mut self.threshold,
+                );
+                list.number(
+                    "gain",
+                    "Gain",
+                    "",
+                    0.5..=20.0,
+                    0.0..=1000.0,
+                    "Ink per discontinuity; 4 makes a fold of 41° full ink.",
+                    &mut self.gain,
+                );
+            });
         });
     }
 }

@@ -27,12 +27,14 @@ choice! {
 }
 
 choice! {
-    /// Operator on the depth buffer (paper, section 4.1.2).
+    /// Operators of paper mode (edge-enhancement paper, section 4.1.2).
     pub enum DepthOperator {
         /// Two diagonal pairs: finer edges, softer intensities.
         #[default]
         Diagonal,
         /// Eight neighbours against the centre.
         C1,
+        /// Sobel operators on normals, depth and colour, and the sign of normals (hatching paper, section 3, "Outline").
+        Sobel,
     }
 }

@@ -16,6 +16,8 @@ pub struct Edges {
     pub alignment: Alignment,
     /// The operator that finds depth discontinuities. Paper mode.
     pub operator: DepthOperator,
+    /// What Sobel operators look at. Paper mode.
+    pub sobel: Sobel,
     /// Profile edges: silhouettes, borders, the outlines of objects and of sections.
     pub profile: EdgeGroup<Profile>,
     /// Inner edges: creases, borders of materials, intersections.
@@ -45,6 +47,43 @@ pub struct Dash {
     pub gap: f32,
 }
 
+/// What Sobel operators look at. Where the gradient of an image reaches a threshold there is an edge, elsewhere none.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sobel {
+    /// Profile edges where the z of the normals around a pixel differs in sign, the background's being negative.
+    pub silhouettes: bool,
+    /// Inner edges by normals.
+    pub normals: bool,
+    /// Gradient of unit normals, 0.01 to 8.
+    pub normal_threshold: f32,
+    /// Profile edges by depth.
+    pub depth: bool,
+    /// Gradient of depth, of which 1 is the range of the enhanced objects, 0.001 to 4.
+    pub depth_threshold: f32,
+    /// Inner edges by base colours.
+    pub color: bool,
+    /// Gradient of the luminance, 0.01 to 4.
+    pub color_threshold: f32,
+    /// Whether the gradient is |I_x| + |I_y| instead of √(I_x² + I_y²).
+    pub sum: bool,
+}
+
+impl Default for Sobel {
+    fn default() -> Self {
+        Self {
+            silhouettes: true,
+            normals: true,
+            // A fold of 20° gives 4 · 2 sin 10°.
+            normal_threshold: 1.4,
+            depth: true,
+            depth_threshold: 0.15,
+            color: true,
+            color_threshold: 0.6,
+            sum: false,
+        }
+    }
+}
+
 /// What makes lines thinner; each 0 (nothing) to 1.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Variation {
@@ -69,6 +108,7 @@ impl Default for Edges {
             mode: EdgeMode::default(),
             alignment: Alignment::default(),
             operator: DepthOperator::default(),
+            sobel: Sobel::default(),
             profile: EdgeGroup::default(),
             inner: EdgeGroup::default(),
             classes: EdgeClass::ALL.map(ClassStyle::new),
@@ -114,9 +154,12 @@ impl Edges {
             list.choice(
                 "operator",
                 "Operator",
-                "How depth discontinuities are found: two diagonal pairs, or eight neighbours (C1).",
+                "How discontinuities are found: two diagonal pairs, eight neighbours (C1), or Sobel operators.",
                 &mut self.operator,
             );
+            list.when("edges.operator", DepthOperator::Sobel, |list| {
+                list.detail("sobel", |list| self.sobel.params(list));
+            });
         });
         list.when("edges.mode", EdgeMode::Exact, |list| {
             list.choice(
@@ -174,6 +217,35 @@ impl Dash {
             &mut self.length,
         );
         list.number("gap", "Gap", "px", soft, hard, "Length of the gap behind a dash.", &mut self.gap);
+    }
+}
+
+impl Sobel {
+    fn params<'a>(&'a mut self, list: &mut Params<'a>) {
+        let number = |list: &mut Params<'a>, key, label, most, help, value: &'a mut f32| {
+            list.number(key, label, "", 0.01..=most, 0.001..=8.0, help, value);
+        };
+        list.switch(
+            "silhouettes",
+            "Silhouettes",
+            "Profile edges where normals turn away, and against the background.",
+            &mut self.silhouettes,
+        );
+        list.switch("normals", "Normals", "Inner edges where normals change.", &mut self.normals);
+        let help = "Gradient of normals that makes an edge; 1.4 is a fold of 20°.";
+        number(list, "normal_threshold", "Normals from", 4.0, help, &mut self.normal_threshold);
+        list.switch("depth", "Depth", "Profile edges where depth changes.", &mut self.depth);
+        let help = "Gradient of depth that makes an edge; a step through the whole range gives 4.";
+        number(list, "depth_threshold", "Depth from", 2.0, help, &mut self.depth_threshold);
+        list.switch("color", "Colour", "Inner edges where the object's own colour changes.", &mut self.color);
+        let help = "Gradient of brightness that makes an edge; a step from black to white gives 4.";
+        number(list, "color_threshold", "Colour from", 2.0, help, &mut self.color_threshold);
+        list.switch(
+            "sum",
+            "Cheap gradient",
+            "Adds the changes in both directions instead of taking the length of both.",
+            &mut self.sum,
+        );
     }
 }
 

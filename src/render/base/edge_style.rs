@@ -53,19 +53,30 @@ pub struct EdgeUniform {
     profile_strength: f32,
     inner_color: Vec3,
     inner_strength: f32,
-    /// 1: the C1 operator.
-    pub use_c1: u32,
+    /// 0: diagonal, 1: C1, 2: Sobel.
+    found_by: u32,
+    /// Of Sobel operators: 1 where the sign of normals makes silhouettes.
+    by_sign: u32,
+    /// Gradients that make an edge; 0: not looked at.
+    normal_gradient: f32,
+    depth_gradient: f32,
+    color_gradient: f32,
+    /// 1: the gradient is the sum of both changes.
+    sums_changes: u32,
 }
 
 // As in `shaders/common/edge_style.wgsl`.
 const EXACT: u32 = 1;
 const PAPER: u32 = 2;
+const C1: u32 = DepthOperator::C1 as u32;
+const SOBEL: u32 = DepthOperator::Sobel as u32;
 
 impl EdgeUniform {
     /// The parameters of an object in a picture with this many pixels per reference pixel.
     pub fn new(edges: &Edges, scale: f32) -> Self {
         let (profile, inner) = (&edges.profile, &edges.inner);
         let gain = |show: bool, gain: f32| if show { gain.clamp(0.0, 1000.0) } else { 0.0 };
+        let threshold = |show: bool, least: f32| if show { least.clamp(0.001, 8.0) } else { 0.0 };
         let (length, gap) = (edges.dash.length.clamp(1.0, 512.0), edges.dash.gap.clamp(1.0, 512.0));
         let lines = EdgeClass::ALL.map(|class| {
             let line = edges.line(class);
@@ -106,7 +117,12 @@ impl EdgeUniform {
             gain_n: gain(inner.show, inner.gain),
             profile_threshold: profile.threshold.clamp(0.0, 0.99),
             inner_threshold: inner.threshold.clamp(0.0, 0.99),
-            use_c1: u32::from(edges.operator == DepthOperator::C1),
+            found_by: edges.operator as u32,
+            by_sign: u32::from(edges.sobel.silhouettes && profile.show),
+            normal_gradient: threshold(edges.sobel.normals && inner.show, edges.sobel.normal_threshold),
+            depth_gradient: threshold(edges.sobel.depth && profile.show, edges.sobel.depth_threshold),
+            color_gradient: threshold(edges.sobel.color && inner.show, edges.sobel.color_threshold),
+            sums_changes: u32::from(edges.sobel.sum),
         }
     }
 
@@ -176,7 +192,7 @@ impl EdgeUniform {
 
     /// Whether base colours decide where its lines run or what colour they have.
     pub fn reads_color(&self) -> bool {
-        self.takes_surface_color() || self.draws(EdgeClass::Texture)
+        self.takes_surface_color() || self.draws(EdgeClass::Texture) || self.is_paper_with_color()
     }
 
     /// Whether its lines are found by comparing the geometry of all pixels around: the papers' operators and details do.
@@ -192,9 +208,27 @@ impl EdgeUniform {
 
     /// Whether the papers' operators draw.
     pub fn is_paper(&self) -> bool {
-        let profile = if self.use_c1 == 1 { self.gain_c1 } else { self.gain_z };
-        self.mode == PAPER
-            && (profile * self.profile_strength > 0.0 || self.gain_n * self.inner_strength > 0.0)
+        let (profile, inner) = match self.found_by {
+            C1 => (self.gain_c1, self.gain_n),
+            SOBEL => (self.by_sign as f32 + self.depth_gradient, self.normal_gradient + self.color_gradient),
+            _ => (self.gain_z, self.gain_n),
+        };
+        self.mode == PAPER && (profile * self.profile_strength > 0.0 || inner * self.inner_strength > 0.0)
+    }
+
+    /// Whether the papers' operators draw by the C1 operator.
+    pub fn is_c1(&self) -> bool {
+        self.is_paper() && self.found_by == C1
+    }
+
+    /// Whether the papers' operators draw by Sobel operators.
+    pub fn is_sobel(&self) -> bool {
+        self.is_paper() && self.found_by == SOBEL
+    }
+
+    /// Whether the papers' operators compare base colours.
+    pub fn is_paper_with_color(&self) -> bool {
+        self.is_sobel() && self.color_gradient * self.inner_strength > 0.0
     }
 
     /// The lines that are drawn in exact mode.

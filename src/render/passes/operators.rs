@@ -1,4 +1,5 @@
-//! The papers' operators: ink per pixel, and whose it is (edge-enhancement paper, section 4.1.2).
+//! The papers' operators: ink per pixel, and whose it is (edge-enhancement paper, section 4.1.2; hatching paper, section 3,
+//! "Outline").
 
 use super::gbuffer::GBuffer;
 use crate::gpu::recorder::{Draw, Onto};
@@ -6,9 +7,18 @@ use crate::gpu::{DepthRule, Program, Recorder, Target, inputs};
 use crate::render::base::edge_style::EdgeUniform;
 use crate::render::base::error::RenderError;
 
-fn program(entry_point: &'static str, with_c1: bool) -> Program {
-    Program { file: "passes/operators.wgsl", entry_point, switches: vec![("WITH_C1", with_c1)] }
+fn program(entry_point: &'static str, styles: &[EdgeUniform]) -> Program {
+    let any = |has: fn(&EdgeUniform) -> bool| styles.iter().any(has);
+    let switches = vec![
+        ("WITH_C1", entry_point == VALUES || any(EdgeUniform::is_c1)),
+        ("WITH_SOBEL", any(EdgeUniform::is_sobel)),
+        ("WITH_COLOR", any(EdgeUniform::is_paper_with_color)),
+    ];
+    Program { file: "passes/operators.wgsl", entry_point, switches }
 }
+
+/// The entry point that tells the operators' own values.
+const VALUES: &str = "fs_operators";
 
 /// Adds the ink of the objects that are drawn in paper mode to the edge map.
 ///
@@ -24,8 +34,12 @@ pub fn paper_edges(
 ) -> Result<(), RenderError> {
     rec.draw(Draw {
         label: "operators",
-        program: program("fs_main", styles.iter().any(|s| s.is_paper() && s.use_c1 == 1)),
-        inputs: &inputs! { geometry_tex: &gbuffer.geometry, edge_styles: edge_styles },
+        program: program("fs_main", styles),
+        inputs: &inputs! {
+            geometry_tex: &gbuffer.geometry,
+            base_color_tex: &gbuffer.base_color,
+            edge_styles: edge_styles,
+        },
         outputs: &[edge_map],
         onto,
         depth: Some((&gbuffer.depth, DepthRule::Covered)),
@@ -44,6 +58,6 @@ pub fn operators(
 ) -> Result<Target, RenderError> {
     let out = rec.target("operators", wgpu::TextureFormat::Rgba32Float)?;
     let inputs = inputs! { geometry_tex: &gbuffer.geometry, edge_styles: edge_styles };
-    rec.fullscreen("operators", program("fs_operators", true), &inputs, &[&out], None)?;
+    rec.fullscreen("operators", program(VALUES, &[]), &inputs, &[&out], None)?;
     Ok(out)
 }
