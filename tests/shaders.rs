@@ -12,6 +12,7 @@ use hachure::render::base::scale_bar::ScaleBarUniform;
 use hachure::render::effects::blueprint::BlueprintUniform;
 use hachure::render::effects::gooch::GoochUniform;
 use hachure::render::effects::halftone::HalftoneUniform;
+use hachure::render::effects::hatching::{HatchingUniform, IndicationUniform, StrokeUniform};
 use hachure::render::effects::matcap::MatcapUniform;
 use hachure::render::effects::mirror::MirrorUniform;
 use hachure::render::effects::section::CapUniform;
@@ -56,7 +57,7 @@ fn rust_and_wgsl_agree_on_every_uniform() {
     same_layout!(Masked, 3, "passes/depth_mask.wgsl", "Counted");
     same_layout!(MaterialUniform, 7, "passes/gbuffer.wgsl", "Material");
     same_layout!(LineUniform, 5, "passes/lines.wgsl", "LineStyle");
-    same_layout!(EdgeUniform, 22, "passes/lines.wgsl", "EdgeStyle");
+    same_layout!(EdgeUniform, 27, "passes/lines.wgsl", "EdgeStyle");
     same_layout!(SurfaceUniform, 3, "effects/surface.wgsl", "SurfaceStyle");
     same_layout!(BandUniform, 3, "passes/layer_lists.wgsl", "Band");
     same_layout!(GoochUniform, 11, "effects/surface.wgsl", "GoochStyle");
@@ -68,6 +69,9 @@ fn rust_and_wgsl_agree_on_every_uniform() {
     same_layout!(ToonUniform, 11, "effects/toon.wgsl", "ToonStyle");
     same_layout!(MatcapUniform, 3, "effects/matcap.wgsl", "MatcapStyle");
     same_layout!(HalftoneUniform, 15, "effects/halftone.wgsl", "HalftoneStyle");
+    same_layout!(HatchingUniform, 25, "effects/hatching.wgsl", "HatchingStyle");
+    same_layout!(StrokeUniform, 12, "effects/hatching.wgsl", "Stroke");
+    same_layout!(IndicationUniform, 18, "effects/hatching.wgsl", "Indication");
 }
 
 #[test]

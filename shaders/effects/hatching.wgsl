@@ -3,6 +3,7 @@
 #import common/gbuffer.wgsl
 #import common/light.wgsl
 #import common/surface_change.wgsl
+#import effects/hatching/indication.wgsl
 #import effects/hatching/stripes.wgsl
 #import effects/hatching/tonal_art_map.wgsl
 
@@ -14,6 +15,7 @@ override WITH_STRIPES: bool = true;
 override WITH_STROKES_ON_PAPER: bool = true;
 override WITH_STROKES_BY_UV: bool = true;
 override WITH_INDICATION: bool = false;
+override SHOWS_DETAIL: bool = false;
 override WITH_SECOND: bool = true;
 override WITH_THIRD: bool = true;
 
@@ -54,10 +56,9 @@ struct HatchingStyle {
     blends_steps: u32,
     towards_light: u32,
     // Strokes that are left out away from edges.
-    indication: f32,
-    // px.
-    indication_distance: f32,
-    indication_falloff: f32,
+    indication: Indication,
+    // 1: the detail that indication gives is drawn instead of strokes.
+    shows_detail: u32,
 }
 
 var<storage, read> hatching_styles: array<HatchingStyle>;
@@ -65,8 +66,6 @@ var<storage, read> hatching_styles: array<HatchingStyle>;
 var<storage, read> hatching_curves: array<f32>;
 // See passes/triangle_map.wgsl, and passes/coordinates.wgsl for objects with strokes by texture coordinates.
 var triangle_map_tex: texture_storage_2d<rgba32uint, read>;
-// The nearest edge that is drawn, as `found_tex` in passes/line_distance.wgsl.
-var nearest_edge_tex: texture_storage_2d<r32uint, read>;
 
 // As in src/render/effects/hatching.rs.
 const CURVE: u32 = 33u;
@@ -231,29 +230,52 @@ fn strokes_by_uv(texel: vec4<u32>, object: u32, inks: vec3<f32>) -> f32 {
     return 1.0 - left;
 }
 
-// Darkness with fewer strokes away from edges: (1 + distance / d)^−c of them; darks keep theirs.
-fn indicated(px: vec2<i32>, object: u32, dark: f32) -> f32 {
+// How much detail a pixel gets, 0 to 1.
+fn detail_at(px: vec2<i32>, texel: vec4<u32>, s: Surfel) -> f32 {
+    let object = s.object;
+    let indication = hatching_styles[object].indication;
+    if indication.by_fields == 1u {
+        var part = 0u;
+        if hatching_styles[object].frequency > 0.0 && texel.x != 0u && hatching_styles[object].mapping != BY_UV {
+            part = texel_at(stripe_triangles, hatching_styles[object].first_triangle + texel.x - 1u).w;
+        }
+        let w1 = patch_field(part, bitcast<vec3<f32>>(texel.yzw), indication);
+        let w2 = silhouette_field(px, s, indication);
+        return clamp(indication.patch_share * w1 + indication.silhouette_share * w2, 0.0, 1.0);
+    }
     // A layer without lines has nothing that strokes could be near to.
     if textureDimensions(nearest_edge_tex).x <= 1u {
-        return dark;
+        return 1.0;
     }
     let found = textureLoad(nearest_edge_tex, px).x;
     let edge = vec2<i32>(vec2((found - 1u) & 0xffffu, (found - 1u) >> 16u));
     // No farther has been looked.
-    let most = 8.0 * hatching_styles[object].indication_distance;
+    let most = 8.0 * indication.distance;
     let away = select(distance(vec2<f32>(edge), vec2<f32>(px)), most, found == 0u);
-    let field = pow(1.0 + min(away, most) / hatching_styles[object].indication_distance, -hatching_styles[object].indication_falloff);
-    return dark * (1.0 - hatching_styles[object].indication * (1.0 - field) * (1.0 - smoothstep(0.45, 0.8, dark)));
+    // The line may be that of an object which attracts details, and is not hatched itself.
+    let owner = unpack_surfel(geometry_at(edge)).object;
+    let attraction = select(indication.attraction, hatching_styles[owner].indication.attraction, found != 0u && hatching_styles[owner].mapping != 0u);
+    return line_field(indication, attraction, min(away, most));
+}
+
+// Darkness with fewer strokes where there is little detail; darks keep theirs.
+fn indicated(object: u32, detail: f32, dark: f32) -> f32 {
+    return dark * (1.0 - hatching_styles[object].indication.amount * (1.0 - detail) * (1.0 - smoothstep(0.45, 0.8, dark)));
 }
 
 fn hatching(px: vec2<i32>, s: Surfel, base: vec3<f32>, pos_view: vec3<f32>) -> vec3<f32> {
     let object = s.object;
     var dark = dark_at(px, s, base, pos_view);
-    if WITH_INDICATION && hatching_styles[object].indication > 0.0 {
-        dark = Dark(indicated(px, object, dark.all), indicated(px, object, dark.form));
+    let texel = textureLoad(triangle_map_tex, px);
+    var detail = 1.0;
+    if WITH_INDICATION && hatching_styles[object].indication.amount > 0.0 {
+        detail = detail_at(px, texel, s);
+        dark = Dark(indicated(object, detail, dark.all), indicated(object, detail, dark.form));
+    }
+    if SHOWS_DETAIL && hatching_styles[object].shows_detail == 1u {
+        return vec3(detail);
     }
     let inks = split(object, dark);
-    let texel = textureLoad(triangle_map_tex, px);
     let mapping = hatching_styles[object].mapping;
     var ink = 0.0;
     if WITH_STRIPES && mapping == STRIPES && texel.x != 0u {

@@ -11,6 +11,7 @@ pub mod mirrors;
 pub mod pattern;
 pub mod roles;
 pub mod section;
+mod shown;
 pub mod view;
 
 use std::collections::{BTreeMap, BTreeSet};

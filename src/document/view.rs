@@ -49,6 +49,10 @@ choice! {
         C1Operator,
         /// The edge map: profile and inner ink, black on white.
         EdgeMap,
+        /// Lines where the strokes of hatching run, or would run.
+        StrokeDirections,
+        /// How much detail hatching gives to each place by indication: white all, black none.
+        Detail,
     }
 }
 

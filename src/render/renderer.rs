@@ -167,6 +167,8 @@ impl Renderer {
     /// The stripes of hatching that a document asks for and that nobody has given yet; until then strokes lie on the paper, and for
     /// good where a device cannot number triangles.
     pub fn missing_stripes(&self, document: &Document) -> Vec<StripeRequest> {
+        let shown = document.shown();
+        let document = shown.as_ref().unwrap_or(document);
         match &self.scene {
             Some(scene) if Coordinates::Triangles.are_supported(&self.gpu) => missing(document, scene),
             _ => Vec::new(),
@@ -284,6 +286,13 @@ impl Renderer {
     /// # Errors
     /// [`RenderError`].
     pub fn render(&mut self, request: &Request<'_>) -> Result<Picture, RenderError> {
+        match request.document.shown() {
+            Some(shown) => self.render_as_it_is(&Request { document: &shown, ..*request }),
+            None => self.render_as_it_is(request),
+        }
+    }
+
+    fn render_as_it_is(&mut self, request: &Request<'_>) -> Result<Picture, RenderError> {
         if self.scene.is_none() {
             self.set_scene(&Arc::new(Scene::default()), &[])?;
         }

@@ -1,6 +1,7 @@
 //! Hatching: tones by strokes of a pen that follow the form (Bu et al., "Image-based Real-time Hatching of Scene Traveling", 2006;
 //! Praun et al., "Real-Time Hatching", 2001).
 
+use super::indication::Indication;
 use super::param::Params;
 use super::slot::choice;
 use super::{Color, Curve};
@@ -34,6 +35,8 @@ pub struct Hatching {
     pub paper: Color,
     /// Share of the object's own colour on the paper, 0 to 1.
     pub paper_tint: f32,
+    /// Whether the detail that indication gives is drawn instead of strokes; no parameter, but a view of the document.
+    pub shows_detail: bool,
 }
 
 /// What single strokes are like.
@@ -89,17 +92,6 @@ pub struct Tone {
     pub white: f32,
     /// The greatest darkness, 0 to 1.
     pub darkest: f32,
-}
-
-/// Strokes that are left out away from edges.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Indication {
-    /// How much is left out, 0 to 1.
-    pub amount: f32,
-    /// How far from edges that begins, reference pixels, 1 to 300.
-    pub distance: f32,
-    /// How fast strokes become fewer beyond, 0.1 to 4.
-    pub falloff: f32,
 }
 
 choice! {
@@ -186,11 +178,12 @@ impl Default for Hatching {
                 white: 0.1,
                 darkest: 0.86,
             },
-            indication: Indication { amount: 0.0, distance: 30.0, falloff: 1.3 },
+            indication: Indication::default(),
             ink: Color([24, 22, 28]),
             ink_tint: 0.0,
             paper: Color([252, 250, 244]),
             paper_tint: 0.0,
+            shows_detail: false,
         }
     }
 }
@@ -341,29 +334,5 @@ impl Tone {
         );
         share(list, "white", "White", "Darkness that is left to the paper.", &mut self.white);
         share(list, "darkest", "Darkest", "Greatest share of ink.", &mut self.darkest);
-    }
-}
-
-impl Indication {
-    fn params<'a>(&'a mut self, list: &mut Params<'a>) {
-        list.number(
-            "amount",
-            "Amount",
-            "",
-            0.0..=1.0,
-            0.0..=1.0,
-            "How many strokes are left out away from edges; darks keep theirs.",
-            &mut self.amount,
-        );
-        list.number(
-            "distance",
-            "Distance",
-            "px",
-            5.0..=120.0,
-            1.0..=300.0,
-            "How far from edges strokes become fewer.",
-            &mut self.distance,
-        );
-        list.number("falloff", "Falloff", "", 0.3..=3.0, 0.1..=4.0, "How fast they do.", &mut self.falloff);
     }
 }

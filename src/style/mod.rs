@@ -17,6 +17,7 @@ pub mod gooch;
 pub mod halftone;
 pub mod hatching;
 pub mod hidden;
+pub mod indication;
 pub mod matcap;
 mod matrix;
 pub mod mirror;

@@ -6,7 +6,7 @@ use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
 use crate::geometry::stripes::{FAMILIES, LEVELS, StripeField, StripeVertex};
-use crate::geometry::{FieldOptions, Mesh, Topology};
+use crate::geometry::{FieldOptions, Mesh, Patches, Topology};
 use crate::gpu::geometry::triangle_corners;
 use crate::gpu::{Gpu, GpuError, RecordTexture, Target};
 use crate::hatching::cache::Cache;
@@ -98,6 +98,7 @@ pub struct GpuStripes {
     places: Vec<StripePlace>,
     triangles: Target,
     vertices: Target,
+    patches: Target,
 }
 
 impl GpuStripes {
@@ -113,6 +114,7 @@ impl GpuStripes {
     ) -> Result<Self, GpuError> {
         let mut triangles: Vec<[u32; 4]> = Vec::new();
         let mut vertices: Vec<VertexRecord> = Vec::new();
+        let mut patches: Vec<[[f32; 4]; 2]> = Vec::new();
         let mut places = Vec::with_capacity(solved.len());
         for SolvedStripes { request, field } in &solved {
             let place = StripePlace {
@@ -126,15 +128,26 @@ impl GpuStripes {
             let corners = triangle_corners(mesh, topology.get(request.mesh).map(|t| &t.provoking));
             let vertex_of =
                 |corner: u32| field.corner_vertices.get(corner as usize).map_or(0, |v| first_vertex + v);
-            triangles
-                .extend(corners.into_iter().map(|[a, b, c]| [vertex_of(a), vertex_of(b), vertex_of(c), 0]));
+            let flat = topology.get(request.mesh).map(|t| Patches::new(mesh, &t.edges)).unwrap_or_default();
+            let first_patch = patches.len() as u32;
+            patches.extend(flat.planes.iter().map(|planes| planes.map(|plane| plane.to_array())));
+            let patch_of = |corner: u32| match flat.of_triangle.get(corner as usize / 3) {
+                Some(&number) if number > 0 => first_patch + number,
+                _ => 0,
+            };
+            triangles.extend(
+                corners.into_iter().map(|[a, b, c]| [vertex_of(a), vertex_of(b), vertex_of(c), patch_of(a)]),
+            );
         }
         let mut triangle_records = RecordTexture::new(gpu, "triangles of stripes");
         triangle_records.write(gpu, &triangles)?;
         let mut vertex_records = RecordTexture::new(gpu, "vertices of stripes");
         vertex_records.write(gpu, &vertices)?;
-        let (triangles, vertices) = (triangle_records.target().clone(), vertex_records.target().clone());
-        Ok(Self { solved, places, triangles, vertices })
+        let mut patch_records = RecordTexture::new(gpu, "flat parts");
+        patch_records.write(gpu, &patches)?;
+        let [triangles, vertices, patches] =
+            [triangle_records, vertex_records, patch_records].map(|records| records.target().clone());
+        Ok(Self { solved, places, triangles, vertices, patches })
     }
 
     /// Where these stripes lie; `None`: they are not there.
@@ -148,7 +161,7 @@ impl GpuStripes {
         &self.solved
     }
 
-    /// Three numbers of vertices per triangle, one texel each.
+    /// Per triangle one texel: three numbers of vertices, and that of its flat part, counted from 1; 0: none.
     pub fn triangles(&self) -> &Target {
         &self.triangles
     }
@@ -156,6 +169,11 @@ impl GpuStripes {
     /// The vertices, four texels each.
     pub fn vertices(&self) -> &Target {
         &self.vertices
+    }
+
+    /// The flat parts, two texels each ([`Patches::planes`]).
+    pub fn patches(&self) -> &Target {
+        &self.patches
     }
 }
 

@@ -7,6 +7,7 @@
 //! ```
 
 mod calibration;
+mod indication;
 mod requests;
 mod sets;
 mod strokes;
@@ -17,11 +18,11 @@ use encase::ShaderType;
 use glam::{DMat4, Mat4, Vec3};
 
 use self::calibration::{calibration, greatest_ink};
+pub use self::indication::IndicationUniform;
 pub use self::requests::missing;
 use self::requests::request_of;
 use self::sets::{StrokeSets, TILE};
 pub use self::strokes::StrokeUniform;
-use self::strokes::within;
 use super::technique::{Shaded, Styled, SurfaceTechnique};
 use crate::gpu::{ArrayBuffer, Gpu, Inputs, Recorder, Target};
 use crate::render::base::error::RenderError;
@@ -62,9 +63,8 @@ pub struct HatchingUniform {
     turn_step: f32,
     blends_steps: u32,
     towards_light: u32,
-    indication: f32,
-    indication_distance: f32,
-    indication_falloff: f32,
+    indication: IndicationUniform,
+    shows_detail: u32,
 }
 
 // As in `shaders/effects/hatching.wgsl`.
@@ -75,8 +75,6 @@ const BY_UV: u32 = 3;
 const SPACING_OF_TEXELS: f32 = 6.0;
 /// The greatest share of ink that a direction of strokes on tiles has.
 const GREATEST_OF_TILES: f32 = 0.76;
-/// Farthest that edges are looked for, px.
-const MOST_REACH: f32 = 512.0;
 /// Samples of a tone curve.
 const CURVE: usize = 33;
 
@@ -150,8 +148,7 @@ impl Hatchings {
 
     /// How far from edges strokes become fewer, px; 0: they do not.
     fn indication_reach(&self) -> f32 {
-        let reaches = self.styles.iter().filter(|s| s.indication > 0.0).map(|s| 8.0 * s.indication_distance);
-        reaches.fold(0.0, f32::max).min(MOST_REACH)
+        self.styles.iter().map(|style| style.indication.reach()).fold(0.0, f32::max)
     }
 
     /// What has to be known of the surface of an object (by id, with or without flag).
@@ -201,9 +198,8 @@ fn uniform(
         turn_step: if style.turn_step.is_nan() { 0.0 } else { style.turn_step.clamp(0.0, 90.0).to_radians() },
         blends_steps: u32::from(style.blend_steps),
         towards_light: u32::from(style.direction == Direction::Light),
-        indication: share(style.indication.amount),
-        indication_distance: within(style.indication.distance, 1.0, 300.0) * scale,
-        indication_falloff: within(style.indication.falloff, 0.1, 4.0),
+        indication: IndicationUniform::new(&style.indication, scale),
+        shows_detail: u32::from(style.shows_detail),
     }
 }
 
@@ -229,7 +225,7 @@ pub struct HatchingShading {
     stage: Stage<(u64, Vec<DrawCall>), Target>,
     /// The triangles of the layer that is shaded, and the records of all; `None` where nobody asks.
     triangle_map: Option<Target>,
-    records: Option<[Target; 2]>,
+    records: Option<[Target; 3]>,
     /// The nearest edge of each pixel of that layer, for indication.
     nearest_edges: Option<Target>,
     edges: Stage<(u64, u32), Target>,
@@ -285,7 +281,8 @@ impl SurfaceTechnique for HatchingShading {
             // Caps of sections too.
             ("WITH_STROKES_ON_PAPER", is_mapped(ON_PAPER) || hatchings.has_caps),
             ("WITH_STROKES_BY_UV", is_mapped(BY_UV)),
-            ("WITH_INDICATION", hatchings.indication_reach() > 0.0),
+            ("SHOWS_DETAIL", hatchings.styles.iter().any(|s| s.shows_detail == 1)),
+            ("WITH_INDICATION", hatchings.styles.iter().any(|s| s.indication.amount > 0.0)),
             ("WITH_SECOND", any(2)),
             ("WITH_THIRD", any(3)),
         ]
@@ -350,8 +347,7 @@ impl SurfaceTechnique for HatchingShading {
             }
             None => None,
         };
-        self.records =
-            scene.stripes().map(|stripes| [stripes.triangles().clone(), stripes.vertices().clone()]);
+        self.records = scene.stripes().map(|s| [s.triangles(), s.vertices(), s.patches()].map(Clone::clone));
         if layer.revision.is_some() {
             rec.note("triangles", self.triangle_map.as_ref());
         }
@@ -362,9 +358,9 @@ impl SurfaceTechnique for HatchingShading {
         inputs.set("light_tones", &shared.sets.tones);
         inputs.set("stroke_priorities", &shared.sets.priorities);
         inputs.set("tile_of_strokes", &shared.sets.sampler);
-        let [triangles, vertices] = match &self.records {
-            Some([triangles, vertices]) => [Some(triangles), Some(vertices)],
-            None => [None, None],
+        let [triangles, vertices, patches] = match &self.records {
+            Some(records) => records.each_ref().map(Some),
+            None => [None; 3],
         };
         inputs.set("hatching_styles", self.styles.buffer());
         inputs.set("hatching_curves", self.curves.buffer());
@@ -373,5 +369,6 @@ impl SurfaceTechnique for HatchingShading {
         inputs.set("nearest_edge_tex", self.nearest_edges.as_ref());
         inputs.set("stripe_triangles", triangles);
         inputs.set("stripe_vertices", vertices);
+        inputs.set("flat_parts", patches);
     }
 }

@@ -24,7 +24,7 @@ pub struct Shown<'a> {
 pub fn show(rec: &mut Recorder<'_>, what: Show, shown: Shown<'_>) -> Result<Target, RenderError> {
     let Shown { gbuffer, edge_map, operators } = shown;
     let entry_point = match what {
-        Show::Picture | Show::EdgeMap => "fs_edge_map",
+        Show::Picture | Show::EdgeMap | Show::StrokeDirections | Show::Detail => "fs_edge_map",
         Show::Normals => "fs_normals",
         Show::FaceNormals => "fs_face_normals",
         Show::Depth => "fs_depth",
