@@ -69,7 +69,7 @@ fn rust_and_wgsl_agree_on_every_uniform() {
     same_layout!(ToonUniform, 11, "effects/toon.wgsl", "ToonStyle");
     same_layout!(MatcapUniform, 3, "effects/matcap.wgsl", "MatcapStyle");
     same_layout!(HalftoneUniform, 15, "effects/halftone.wgsl", "HalftoneStyle");
-    same_layout!(HatchingUniform, 25, "effects/hatching.wgsl", "HatchingStyle");
+    same_layout!(HatchingUniform, 28, "effects/hatching.wgsl", "HatchingStyle");
     same_layout!(StrokeUniform, 12, "effects/hatching.wgsl", "Stroke");
     same_layout!(IndicationUniform, 18, "effects/hatching.wgsl", "Indication");
 }

@@ -52,6 +52,10 @@ struct HatchingStyle {
     // whether strokes run towards the light.
     tile: f32,
     strokes: u32,
+    // In shadow: which set, how far it is turned (radians), and whether strokes differ there.
+    strokes_in_shadow: u32,
+    turn_in_shadow: f32,
+    shadows_differ: u32,
     turn_step: f32,
     blends_steps: u32,
     towards_light: u32,
@@ -89,21 +93,28 @@ fn darkness(object: u32, light: f32) -> f32 {
 struct Dark {
     all: f32,
     form: f32,
+    // Whether the first light does not reach it.
+    is_in_shadow: bool,
 }
 
 fn dark_at(px: vec2<i32>, s: Surfel, base: vec3<f32>, pos_view: vec3<f32>) -> Dark {
     let object = s.object;
     var lit = vec3(hatching_styles[object].ambient);
     var form = lit;
+    var first = 0.0;
     for (var i = 0u; i < frame.light_count; i++) {
         let l = towards_light(frame.lights[i], pos_view);
         let light = frame.lights[i].color * max(dot(s.normal, l), 0.0);
         form += light;
-        lit += light * visibility(px, i);
+        let reaches = visibility(px, i);
+        lit += light * reaches;
+        if i == 0u {
+            first = reaches * dot(s.normal, l);
+        }
     }
     let own = mix(1.0, luminance_of(base), hatching_styles[object].own_color);
     let all = darkness(object, luminance_of(lit) * own);
-    return Dark(all, min(darkness(object, luminance_of(form) * own), all));
+    return Dark(all, min(darkness(object, luminance_of(form) * own), all), first < 0.02);
 }
 
 // What each direction draws, so that all of them over each other leave as much paper as is wanted.
@@ -181,31 +192,44 @@ fn direction_seen(texel: vec4<u32>, s: Surfel, pos_view: vec3<f32>) -> vec2<f32>
     return vec2(view.x, -view.y);
 }
 
+// Which set of strokes is drawn, and how far it is turned.
+struct Laid {
+    strokes: u32,
+    turn: f32,
+}
+
+fn laid_at(object: u32, dark: Dark) -> Laid {
+    if hatching_styles[object].shadows_differ == 1u && dark.is_in_shadow {
+        return Laid(hatching_styles[object].strokes_in_shadow, hatching_styles[object].turn_in_shadow);
+    }
+    return Laid(hatching_styles[object].strokes, 0.0);
+}
+
 // Strokes on the paper, turned as the surface says, in steps: sign(a) · ⌊|a| / T⌋ · T.
-fn strokes_on_paper(px: vec2<i32>, texel: vec4<u32>, s: Surfel, pos_view: vec3<f32>, ink: f32) -> f32 {
+fn strokes_on_paper(px: vec2<i32>, texel: vec4<u32>, s: Surfel, pos_view: vec3<f32>, ink: f32, laid: Laid) -> f32 {
     let object = s.object;
     let direction = direction_seen(texel, s, pos_view);
     // No direction has a front: angles from −90° to 90°.
     let facing = direction * select(1.0, -1.0, direction.x < 0.0);
     let angle = atan2(facing.y, max(facing.x, 1e-12));
     let at = (vec2<f32>(px) + 0.5 - frame.jitter) / hatching_styles[object].tile;
-    let strokes = hatching_styles[object].strokes;
+    let strokes = laid.strokes;
     let lod = max(log2(TILE / hatching_styles[object].tile), 0.0);
     let step = hatching_styles[object].turn_step;
     if step <= 0.0 {
-        return paper_ink_at(at, angle, strokes, ink, lod);
+        return paper_ink_at(at, angle + laid.turn, strokes, ink, lod);
     }
     let steps = floor(abs(angle) / step);
-    let drawn = paper_ink_at(at, sign(angle) * steps * step, strokes, ink, lod);
+    let drawn = paper_ink_at(at, sign(angle) * steps * step + laid.turn, strokes, ink, lod);
     if hatching_styles[object].blends_steps == 0u {
         return drawn;
     }
-    let next = paper_ink_at(at, sign(angle) * (steps + 1.0) * step, strokes, ink, lod);
+    let next = paper_ink_at(at, sign(angle) * (steps + 1.0) * step + laid.turn, strokes, ink, lod);
     return mix(drawn, next, abs(angle) / step - steps);
 }
 
 // Strokes by texture coordinates.
-fn strokes_by_uv(texel: vec4<u32>, object: u32, inks: vec3<f32>) -> f32 {
+fn strokes_by_uv(texel: vec4<u32>, object: u32, inks: vec3<f32>, laid: Laid) -> f32 {
     let across = unpack2x16float(texel.z) / 4096.0;
     let down = unpack2x16float(texel.w) / 4096.0;
     // Coordinates that are stretched in one direction are stretched back, in steps of an octave.
@@ -218,14 +242,15 @@ fn strokes_by_uv(texel: vec4<u32>, object: u32, inks: vec3<f32>) -> f32 {
     // As large as its area, but no strokes are pressed together more than threefold.
     let area = abs(dx.x * dy.y - dx.y * dy.x);
     let pixel = max(sqrt(area), max(length(dx), length(dy)) / 3.0);
-    let strokes = hatching_styles[object].strokes;
+    let strokes = laid.strokes;
+    let turn = laid.turn;
     let tile = 0.5 * hatching_styles[object].tile;
-    var left = 1.0 - uv_ink_of(uv, pixel, tile, strokes, 0u, inks.x);
+    var left = 1.0 - uv_ink_of(uv, pixel, tile, strokes, turn, 0u, inks.x);
     if WITH_SECOND && inks.y > 0.0 {
-        left *= 1.0 - uv_ink_of(uv, pixel, tile, strokes, 1u, inks.y);
+        left *= 1.0 - uv_ink_of(uv, pixel, tile, strokes, turn, 1u, inks.y);
     }
     if WITH_THIRD && inks.z > 0.0 {
-        left *= 1.0 - uv_ink_of(uv, pixel, tile, strokes, 2u, inks.z);
+        left *= 1.0 - uv_ink_of(uv, pixel, tile, strokes, turn, 2u, inks.z);
     }
     return 1.0 - left;
 }
@@ -270,7 +295,8 @@ fn hatching(px: vec2<i32>, s: Surfel, base: vec3<f32>, pos_view: vec3<f32>) -> v
     var detail = 1.0;
     if WITH_INDICATION && hatching_styles[object].indication.amount > 0.0 {
         detail = detail_at(px, texel, s);
-        dark = Dark(indicated(object, detail, dark.all), indicated(object, detail, dark.form));
+        dark.all = indicated(object, detail, dark.all);
+        dark.form = indicated(object, detail, dark.form);
     }
     if SHOWS_DETAIL && hatching_styles[object].shows_detail == 1u {
         return vec3(detail);
@@ -281,9 +307,9 @@ fn hatching(px: vec2<i32>, s: Surfel, base: vec3<f32>, pos_view: vec3<f32>) -> v
     if WITH_STRIPES && mapping == STRIPES && texel.x != 0u {
         ink = stripes_ink(texel, s, pos_view, inks);
     } else if WITH_STROKES_BY_UV && mapping == BY_UV && any(texel != vec4(0u)) {
-        ink = strokes_by_uv(texel, object, inks);
+        ink = strokes_by_uv(texel, object, inks, laid_at(object, dark));
     } else if WITH_STROKES_ON_PAPER {
-        ink = strokes_on_paper(px, texel, s, pos_view, dark.all);
+        ink = strokes_on_paper(px, texel, s, pos_view, dark.all, laid_at(object, dark));
     }
     let paper = hatching_styles[object].paper * mix(vec3(1.0), base, hatching_styles[object].paper_tint);
     let stroke = mix(hatching_styles[object].ink, base, hatching_styles[object].ink_tint);

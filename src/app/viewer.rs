@@ -30,8 +30,9 @@ use super::viewport::Viewport;
 use super::{AppError, theme};
 use crate::document::{Document, DocumentError, History};
 use crate::gpu::GpuError;
+use crate::hatching::tonal_art_map::generator::Recipe;
 use crate::import::{self, ImageCache, ImportError};
-use crate::render::{GpuStripes, StripeRequest, UploadedTopology};
+use crate::render::{GpuStripes, StripeRequest, StrokeMap, UploadedTopology};
 use crate::style::Style;
 use crate::style::preset::{self, Preset};
 
@@ -88,6 +89,7 @@ struct Jobs {
     topology: Option<Job<Result<UploadedTopology, GpuError>>>,
     /// `None` comes of it when it was cancelled.
     stripes: Option<Job<Option<Result<GpuStripes, GpuError>>>>,
+    strokes: Option<Job<Option<StrokeMap>>>,
     save: Option<Job<Result<(PathBuf, Document), DocumentError>>>,
     images: Option<Job<Result<(ImageCache, crate::render::StyleImages), ImportError>>>,
     picture: Option<Job<Result<PathBuf, ScreenshotError>>>,
@@ -117,6 +119,8 @@ pub struct Viewer {
     topology_for: Option<f32>,
     /// Stripes of hatching that the person did not want to wait for.
     stripes_refused: Vec<StripeRequest>,
+    /// Strokes that styles describe and that the person did not want to wait for.
+    strokes_refused: Vec<Recipe>,
     /// The images that the styles name.
     images: StyleImages,
     loader: Loader,
@@ -167,6 +171,7 @@ impl Viewer {
             loaded: Vec::new(),
             topology_for: None,
             stripes_refused: Vec::new(),
+            strokes_refused: Vec::new(),
             images: StyleImages::default(),
             loader: launch.loader,
             dialogs: launch.dialogs,
@@ -228,7 +233,10 @@ impl Viewer {
 
     /// Whether all strokes of hatching that are asked for have been found.
     pub fn has_stripes(&self) -> bool {
-        self.jobs.stripes.is_none() && self.viewport.missing_stripes(&self.document).is_empty()
+        self.jobs.stripes.is_none()
+            && self.jobs.strokes.is_none()
+            && self.viewport.missing_stripes(&self.document).is_empty()
+            && self.viewport.missing_strokes(&self.document).is_empty()
     }
 
     /// What the person is to do next, while a glyph is being placed.
@@ -310,6 +318,7 @@ impl Viewer {
                 refining: self.viewport.refining().progress(),
                 saving: self.jobs.picture.as_ref().map(|job| job.progress().share()),
                 hatching: self.jobs.stripes.as_ref().map(|job| job.progress().share()),
+                strokes: self.jobs.strokes.as_ref().map(|job| job.progress().share()),
             };
             match status::status_ui(ui, &status, &mut self.commands) {
                 Some(status::Cancelled::Saving) => {
@@ -319,6 +328,10 @@ impl Viewer {
                 Some(status::Cancelled::Hatching) => {
                     self.jobs.stripes = None;
                     self.stripes_refused = self.viewport.missing_stripes(&self.document);
+                }
+                Some(status::Cancelled::Strokes) => {
+                    self.jobs.strokes = None;
+                    self.strokes_refused = self.viewport.missing_strokes(&self.document);
                 }
                 None => {}
             }

@@ -15,10 +15,11 @@ use super::refining::Refining;
 use super::screenshot::Shot;
 use crate::document::Document;
 use crate::gpu::{Gpu, Target};
+use crate::hatching::tonal_art_map::generator::Recipe;
 use crate::render::Peeled;
 use crate::render::{
     GpuScene, GpuStripes, LayersBy, Pick, RenderError, Renderer, Reported, Request, SolvedStripes,
-    StripeRequest, StyleImages, UploadedTopology, Uploader,
+    StripeRequest, StrokeMap, StyleImages, UploadedTopology, Uploader,
 };
 use crate::scene::{Camera, NodeId, Up};
 use crate::style::Style;
@@ -277,6 +278,17 @@ impl Viewport {
     /// The stripes of hatching that a document asks for and that nobody has given yet.
     pub fn missing_stripes(&self, document: &Document) -> Vec<StripeRequest> {
         self.renderer.missing_stripes(document)
+    }
+
+    /// The strokes that a document describes and that nobody has drawn yet.
+    pub fn missing_strokes(&self, document: &Document) -> Vec<Recipe> {
+        self.renderer.missing_strokes(document)
+    }
+
+    /// Takes over strokes that a document describes.
+    pub fn show_strokes(&mut self, map: StrokeMap) {
+        self.renderer.show_strokes(map);
+        self.draw_again();
     }
 
     /// All stripes of hatching that have been found for the scene.

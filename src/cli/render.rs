@@ -57,7 +57,9 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
     let faults = roles.into_iter().chain(section).chain(document.glyph_faults(scene));
     let faults = faults.chain(document.coordinate_faults(scene));
     let peeled: Vec<_> = session.renderer().last_peeled().into_iter().flatten().collect();
-    let warnings = images.warnings(&uses).into_iter().chain(scene.warnings.iter().cloned()).chain(faults);
+    let strokes = crate::render::image_faults(session.renderer().images(), &uses);
+    let warnings =
+        images.warnings(&uses).into_iter().chain(strokes).chain(scene.warnings.iter().cloned()).chain(faults);
     let warnings =
         warnings.map(|w| w.to_string()).chain(peeling::warnings(&peeled, opened.document.view.layers));
     if args.json {

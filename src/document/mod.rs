@@ -17,7 +17,9 @@ pub mod view;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
-use crate::scene::{Camera, Light, NodeId, Scene, Up};
+use glam::DVec3;
+
+use crate::scene::{Camera, Light, LightKind, NodeId, Scene, Up};
 use crate::style::{Color, Style, StyleError, Value, param};
 
 pub use file::DocumentError;
@@ -144,6 +146,16 @@ impl Document {
         match self.lighting.source {
             lighting::Source::Rig => self.lighting.rig(up),
             lighting::Source::File => self.lights.clone(),
+        }
+    }
+
+    /// Direction to the first light, world space, if that is parallel and stands still.
+    pub fn fixed_light(&self, scene: &Scene) -> Option<DVec3> {
+        match self.light_sources(self.up(scene)).first()? {
+            Light { kind: LightKind::Directional { direction }, attached_to_camera: false, .. } => {
+                (-*direction).try_normalize()
+            }
+            _ => None,
         }
     }
 

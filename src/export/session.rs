@@ -10,7 +10,7 @@ use crate::geometry::Topology;
 use crate::gpu::{Gpu, GpuError, readback};
 use crate::hatching::cache::Cache;
 use crate::import::{ImportError, ImportOptions, Progress, load_all};
-use crate::render::{Picture, RenderError, Renderer, Reported, Request, SolvedStripes};
+use crate::render::{Picture, RenderError, Renderer, Reported, Request, SolvedStripes, StrokeMap};
 use crate::scene::{Camera, Scene};
 
 /// Files that were opened: a document and its scene.
@@ -121,12 +121,19 @@ impl Session {
         self.renderer.set_scene(&opened.scene, &topology)
     }
 
-    /// Finds the stripes of hatching that a document asks for, for the scene that was set, and that are not there yet. Takes
-    /// seconds where a model is large.
+    /// Finds the stripes and draws the strokes of hatching that a document asks for, for the scene that was set, and that are not
+    /// there yet. Takes seconds where a model is large.
     ///
     /// # Errors
     /// [`RenderError`].
     pub fn find_stripes(&mut self, document: &Document, scene: &Scene) -> Result<(), RenderError> {
+        for recipe in self.renderer.missing_strokes(document) {
+            let drawn = StrokeMap::draw(&self.cache, &recipe, &|_| true);
+            if let Some(map) = drawn {
+                map.map.clone()?;
+                self.renderer.show_strokes(map);
+            }
+        }
         let missing = self.renderer.missing_stripes(document);
         if missing.is_empty() {
             return Ok(());

@@ -12,10 +12,11 @@ use super::base::lights::Lights;
 use super::base::scale_bar::ScaleBar;
 use super::base::scene_view::SceneView;
 use super::base::stripes::{GpuStripes, SolvedStripes, StripeRequest};
+use super::base::stroke_maps::{StrokeMap, StrokeMaps};
 use super::base::style_images::StyleImages;
 use super::drawing::DrawingInputs;
 use super::drawing::objects::Objects;
-use super::effects::hatching::missing;
+use super::effects::hatching::{missing, missing_strokes};
 use super::frame::{FrameInputs, FrameState, Picture};
 use super::passes::accumulate::Subject;
 use super::passes::coordinates::Coordinates;
@@ -28,6 +29,7 @@ use crate::geometry::Topology;
 use crate::gpu::readback::Readback;
 use crate::gpu::recorder::Intermediates;
 use crate::gpu::{Gpu, GpuError, Pipelines, Recorder, ShaderError, Shaders, Target, TargetPool, Timers};
+use crate::hatching::tonal_art_map::generator::Recipe;
 use crate::scene::{Addition, Camera, NodeId, Scene};
 use crate::style::{Color, Style};
 
@@ -79,6 +81,7 @@ pub struct Renderer {
     glyphs: (Vec<Glyph>, Color),
     has_new_additions: bool,
     images: StyleImages,
+    strokes: StrokeMaps,
     last: Option<(Picture, View)>,
     pick: Option<PendingPick>,
     shader_error: Option<ShaderError>,
@@ -107,6 +110,7 @@ impl Renderer {
             glyphs: Default::default(),
             has_new_additions: false,
             images: StyleImages::default(),
+            strokes: StrokeMaps::default(),
             last: None,
             pick: None,
             shader_error,
@@ -130,6 +134,7 @@ impl Renderer {
         twin.incomplete = self.incomplete;
         twin.additions = self.additions.clone();
         twin.images = self.images.clone();
+        twin.strokes = self.strokes.clone();
         // Of a sample that may yet turn out to be incomplete nothing is taken over.
         if self.is_settled {
             twin.state.go_on_from(&self.state);
@@ -173,6 +178,17 @@ impl Renderer {
             Some(scene) if Coordinates::Triangles.are_supported(&self.gpu) => missing(document, scene),
             _ => Vec::new(),
         }
+    }
+
+    /// The maps of strokes that a document describes and that nobody has given yet; until then a pen's are drawn.
+    pub fn missing_strokes(&self, document: &Document) -> Vec<Recipe> {
+        missing_strokes(document, &self.strokes, &self.images)
+    }
+
+    /// Takes over a map of strokes.
+    pub fn show_strokes(&mut self, map: StrokeMap) {
+        self.strokes.add(map);
+        self.scene_revision += 1;
     }
 
     /// All stripes that have been given for the scene that is shown.
@@ -306,7 +322,7 @@ impl Renderer {
         }
         let size = request.size.map(|s| s.max(1));
         let scale = size[1] as f32 / REFERENCE_HEIGHT as f32;
-        let objects = Objects::new(request.document, scene, &self.images, scale);
+        let objects = Objects::new(request.document, scene, &self.images, &self.strokes, scale);
         let subject = Subject {
             shaders: self.pipelines.generation(),
             scene_revision: self.scene_revision,

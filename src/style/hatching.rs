@@ -2,6 +2,7 @@
 //! Praun et al., "Real-Time Hatching", 2001).
 
 use super::indication::Indication;
+use super::own_strokes::OwnStrokes;
 use super::param::Params;
 use super::slot::choice;
 use super::{Color, Curve};
@@ -13,6 +14,10 @@ pub struct Hatching {
     pub mapping: Mapping,
     /// The strokes of mappings with textures.
     pub set: Set,
+    /// What strokes of one's own look like.
+    pub own: OwnStrokes,
+    /// Strokes in shadows.
+    pub shadows: Shadows,
     /// Where strokes run.
     pub direction: Direction,
     /// Strokes turn in steps of so many degrees, 0 to 90; 0: smoothly.
@@ -79,6 +84,17 @@ pub struct Layers {
     pub shadows_cross: bool,
 }
 
+/// Strokes where the first light does not reach, for mappings with textures.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Shadows {
+    /// Whether they are others than in the light.
+    pub differ: bool,
+    /// What they look like.
+    pub set: Set,
+    /// How far they are turned against those in the light, degrees, −90 to 90.
+    pub turn: f32,
+}
+
 /// From light to darkness.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tone {
@@ -119,6 +135,10 @@ choice! {
         Woodcut,
         /// Dots.
         Stipple,
+        /// Lines that are described by numbers.
+        Own,
+        /// Copies of a painted one.
+        Painted,
     }
 }
 
@@ -138,7 +158,7 @@ choice! {
         Y,
         /// Along its z axis.
         Z,
-        /// Towards the first light.
+        /// Towards the first light; on the paper as long as that moves with the eye.
         Light,
     }
 }
@@ -154,6 +174,8 @@ impl Default for Hatching {
         Self {
             mapping: Mapping::default(),
             set: Set::default(),
+            own: OwnStrokes::default(),
+            shadows: Shadows { differ: false, set: Set::Pen, turn: 30.0 },
             direction: Direction::default(),
             turn_step: 15.0,
             blend_steps: false,
@@ -236,6 +258,12 @@ impl Hatching {
             &mut self.paper_tint,
         );
         list.section("stroke", |list| self.stroke.params(list));
+        list.when_any("hatching.mapping", ["paper", "uv"], |list| {
+            list.when_any("hatching.set", ["own", "painted"], |list| {
+                list.section("own", |list| self.own.params(list));
+            });
+            list.section("shadows", |list| self.shadows.params(list));
+        });
         list.section("layers", |list| self.layers.params(list));
         list.section("tone", |list| self.tone.params(list));
         list.section("indication", |list| self.indication.params(list));
@@ -308,6 +336,29 @@ impl Layers {
                 0.0..=1.0,
                 "Darkness from which on a third direction crosses both.",
                 &mut self.third,
+            );
+        });
+    }
+}
+
+impl Shadows {
+    fn params<'a>(&'a mut self, list: &mut Params<'a>) {
+        list.switch(
+            "differ",
+            "Own strokes in shadows",
+            "Other strokes where the first light does not reach: in shadows that are thrown, and on the side away from it.",
+            &mut self.differ,
+        );
+        list.when_any("hatching.shadows.differ", ["true"], |list| {
+            list.choice("set", "Strokes", "What strokes in shadows look like.", &mut self.set);
+            list.number(
+                "turn",
+                "Turned by",
+                "°",
+                -90.0..=90.0,
+                -90.0..=90.0,
+                "How far strokes in shadows are turned against those in the light.",
+                &mut self.turn,
             );
         });
     }

@@ -21,6 +21,7 @@ pub mod indication;
 pub mod matcap;
 mod matrix;
 pub mod mirror;
+pub mod own_strokes;
 mod paper;
 pub mod param;
 #[cfg(test)]

@@ -91,13 +91,13 @@ fn priority_ink(place: vec2<f32>, strokes: u32, level: u32, ink: f32) -> f32 {
 
 // Ink of one direction of strokes by texture coordinates: tiles as large as wanted between two octaves, of which the one comes as the
 // other goes, stroke by stroke. `pixel`: size of a pixel in texture coordinates; `tile`: px.
-fn uv_ink_of(uv: vec2<f32>, pixel: f32, tile: f32, strokes: u32, number: u32, ink: f32) -> f32 {
+fn uv_ink_of(uv: vec2<f32>, pixel: f32, tile: f32, strokes: u32, turn: f32, number: u32, ink: f32) -> f32 {
     let wanted = -log2(max(pixel * tile, 1e-12));
     let octave = floor(wanted);
     let share = wanted - octave;
     let direction = laid_direction(number);
-    let coarse = place_in_tile(uv * exp2(octave), 0.0, direction);
-    let fine = place_in_tile(uv * exp2(octave + 1.0), 0.0, direction);
+    let coarse = place_in_tile(uv * exp2(octave), turn, direction);
+    let fine = place_in_tile(uv * exp2(octave + 1.0), turn, direction);
     // Both over each other leave as much paper as is wanted.
     let left = max(1.0 - ink, 0.0);
     let first = 1.0 - pow(left, 1.0 - share);

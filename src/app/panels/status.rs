@@ -30,6 +30,8 @@ pub struct Status<'a> {
     pub saving: Option<f32>,
     /// Share of the strokes of hatching that are found, while they are looked for.
     pub hatching: Option<f32>,
+    /// Share of the strokes that styles describe that are drawn, while they are drawn.
+    pub strokes: Option<f32>,
 }
 
 /// Work that is not wanted any more.
@@ -39,6 +41,8 @@ pub enum Cancelled {
     Saving,
     /// Strokes of hatching.
     Hatching,
+    /// Strokes that styles describe.
+    Strokes,
 }
 
 /// A number with its thousands set apart.
@@ -111,6 +115,13 @@ pub fn status_ui(ui: &mut Ui, status: &Status<'_>, commands: &mut Vec<Command>) 
                     cancelled = Some(Cancelled::Hatching);
                 }
                 ui.label(format!("Strokes lie on the paper until they are found, {:.0} %", share * 100.0));
+            }
+            if let Some(share) = status.strokes {
+                ui.separator();
+                if ui.link("Cancel").on_hover_text("Draw with the strokes of a pen").clicked() {
+                    cancelled = Some(Cancelled::Strokes);
+                }
+                ui.label(format!("A pen's strokes until these are drawn, {:.0} %", share * 100.0));
             }
         });
     });

@@ -18,7 +18,7 @@ use crate::document::Document;
 use crate::export::session::{self, is_document};
 use crate::hatching::cache::Cache;
 use crate::import::{ImportError, Progress};
-use crate::render::{Pick, SolvedStripes};
+use crate::render::{Pick, SolvedStripes, StrokeMap};
 use crate::scene::Standard;
 
 /// How often the progress of a load is shown anew.
@@ -59,6 +59,7 @@ impl Viewer {
         self.answer_dialog(context);
         self.answer_topology(context);
         self.answer_stripes(context);
+        self.answer_strokes(context);
         self.answer_images(context);
         self.answer_pictures(context);
         if let Some(result) = self.jobs.save.as_ref().and_then(Job::poll) {
@@ -236,6 +237,40 @@ impl Viewer {
             Some(uploader.stripes(&scene, &session::topology(&scene, angle), all))
         };
         self.jobs.stripes = Some(Job::start("hatching", context, work));
+    }
+
+    /// Draws the strokes that styles describe.
+    fn answer_strokes(&mut self, context: &egui::Context) {
+        if let Some(result) = self.jobs.strokes.as_ref().and_then(Job::poll) {
+            self.jobs.strokes = None;
+            match result {
+                Ok(Some(map)) => {
+                    if let Err(error) = &map.map {
+                        self.notices.error(error.to_string());
+                    }
+                    self.viewport.show_strokes(map);
+                }
+                Ok(None) => {}
+                Err(error) => self.notices.error(error.to_string()),
+            }
+        }
+        if self.jobs.strokes.is_some() {
+            context.request_repaint_after(PROGRESS);
+            return;
+        }
+        if context.input(|i| i.pointer.any_down()) {
+            return;
+        }
+        let mut missing = self.viewport.missing_strokes(&self.document).into_iter();
+        let Some(recipe) = missing.find(|recipe| !self.strokes_refused.contains(recipe)) else { return };
+        let work = move |progress: &Progress| {
+            let go_on = |share: f32| {
+                progress.report(share);
+                !progress.is_cancelled()
+            };
+            StrokeMap::draw(&Cache::of_user(), &recipe, &go_on)
+        };
+        self.jobs.strokes = Some(Job::start("drawing strokes", context, work));
     }
 
     fn begin_document(&mut self, document: Option<(PathBuf, Document)>, models: &[PathBuf]) {

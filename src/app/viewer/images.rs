@@ -42,7 +42,8 @@ impl Viewer {
     }
 
     fn show_images(&mut self, cache: ImageCache, images: render::StyleImages) {
-        let warnings = cache.warnings(&self.images.uses);
+        let mut warnings = cache.warnings(&self.images.uses);
+        warnings.extend(render::image_faults(&images, &self.images.uses));
         let is_new = |w: &&Warning| !self.images.warnings.contains(w);
         // Where none is named yet, one is about to be chosen.
         let is_named = |w: &&Warning| self.images.uses.iter().any(|u| u.place == w.place && u.path.is_some());

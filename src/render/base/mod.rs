@@ -18,5 +18,6 @@ pub mod scene_view;
 pub mod section;
 pub mod stage;
 pub mod stripes;
+pub mod stroke_maps;
 pub mod strokes;
 pub mod style_images;

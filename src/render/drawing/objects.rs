@@ -8,6 +8,7 @@ use crate::render::base::edge_style::EdgeUniform;
 use crate::render::base::gpu_scene::GpuScene;
 use crate::render::base::group::{Group, Parts, Visible, box_of};
 use crate::render::base::ids::object_id;
+use crate::render::base::stroke_maps::StrokeMaps;
 use crate::render::base::style_images::StyleImages;
 use crate::render::effects::blueprint::Blueprint;
 use crate::render::effects::hidden::Hidden;
@@ -45,7 +46,14 @@ pub struct Objects {
 
 impl Objects {
     /// Resolves styles and roles of a document for the nodes of a scene; `scale`: pixels per reference pixel.
-    pub fn new(document: &Document, scene: &GpuScene, images: &StyleImages, scale: f32) -> Self {
+    pub fn new(
+        document: &Document,
+        scene: &GpuScene,
+        images: &StyleImages,
+        strokes: &StrokeMaps,
+        scale: f32,
+    ) -> Self {
+        let fixed_light = document.fixed_light(&scene.scene);
         let resolved = document.resolve(&scene.scene);
         // What is not drawn, entry 0 (the background) included, has neither shading nor lines.
         let count = resolved.len() + 1;
@@ -56,7 +64,17 @@ impl Objects {
                 continue;
             }
             let id = object_id(node) as usize;
-            objects.styles.add(&Styled { id, count, node, style: r.style, scene, images, scale });
+            objects.styles.add(&Styled {
+                id,
+                count,
+                node,
+                style: r.style,
+                scene,
+                images,
+                strokes,
+                fixed_light,
+                scale,
+            });
             // A look at a buffer is one at that of surfaces, which every object then is.
             let has_layers = r.style.technique == Technique::Blueprint && document.view.show == Show::Picture;
             let is_blueprint = has_layers && !r.mask;

@@ -12,17 +12,18 @@ mod requests;
 mod sets;
 mod strokes;
 
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use encase::ShaderType;
 use glam::{DMat4, Mat4, Vec3};
 
 use self::calibration::{calibration, greatest_ink};
 pub use self::indication::IndicationUniform;
-pub use self::requests::missing;
-use self::requests::request_of;
-use self::sets::{StrokeSets, TILE};
+pub use self::requests::{missing, missing_strokes, stroke_image_fault};
+use self::requests::{recipe_of, request_of};
+use self::sets::{OwnMap, StrokeSets, TILE, built_in};
 pub use self::strokes::StrokeUniform;
+use self::strokes::within;
 use super::technique::{Shaded, Styled, SurfaceTechnique};
 use crate::gpu::{ArrayBuffer, Gpu, Inputs, Recorder, Target};
 use crate::render::base::error::RenderError;
@@ -35,7 +36,7 @@ use crate::render::base::stripes::StripePlace;
 use crate::render::passes::coordinates::{Coordinates, CoordinatesPass};
 use crate::render::passes::line_distance::nearest_lines;
 use crate::style::Technique;
-use crate::style::hatching::{Direction, Hatching, Mapping};
+use crate::style::hatching::{Direction, Hatching, Mapping, Set};
 
 /// Twin of `HatchingStyle` in `shaders/effects/hatching.wgsl`.
 #[derive(Debug, Clone, Copy, PartialEq, ShaderType, Default)]
@@ -60,6 +61,9 @@ pub struct HatchingUniform {
     first_triangle: u32,
     tile: f32,
     strokes: u32,
+    strokes_in_shadow: u32,
+    turn_in_shadow: f32,
+    shadows_differ: u32,
     turn_step: f32,
     blends_steps: u32,
     towards_light: u32,
@@ -111,6 +115,8 @@ pub struct Hatchings {
     /// Of each object id, [`CURVE`] samples.
     curves: Vec<f32>,
     tables: Vec<Table>,
+    /// Maps of strokes that styles describe; their numbers follow those of the built-in ones.
+    own: Vec<OwnMap>,
     /// Whether there may be caps of sections, which have no stripes.
     has_caps: bool,
 }
@@ -118,7 +124,7 @@ pub struct Hatchings {
 impl Hatchings {
     fn set(&mut self, object: &Styled<'_>) {
         let style = &object.style.hatching;
-        let request = request_of(object.scene, object.node, style);
+        let request = request_of(object.scene, object.node, style, object.fixed_light);
         let place = request.and_then(|request| object.scene.stripe_place(&request));
         let stroke = StrokeUniform::new(&style.stroke, object.scale);
         let known = self.tables.iter().position(|table| table.stroke == stroke);
@@ -134,7 +140,11 @@ impl Hatchings {
             // Until stripes are found.
             Mapping::Stripes | Mapping::Uv | Mapping::Paper => ON_PAPER,
         };
-        let uniform = uniform(style, mapping, (stroke, greatest), object.scale, place);
+        let uniform = HatchingUniform {
+            strokes: self.number_of(style, style.set, object),
+            strokes_in_shadow: self.number_of(style, style.shadows.set, object),
+            ..uniform(style, mapping, (stroke, greatest), object.scale, place)
+        };
         if let Some(slot) = object.entry(&mut self.styles) {
             *slot = uniform;
         }
@@ -144,6 +154,21 @@ impl Hatchings {
         if let Some(slot) = self.curves.get_mut(first..first + CURVE) {
             slot.copy_from_slice(&style.tone.curve.table(CURVE));
         }
+    }
+
+    /// The number of a set of strokes; until those of a style have been drawn, a pen's.
+    fn number_of(&mut self, style: &Hatching, set: Set, object: &Styled<'_>) -> u32 {
+        if !matches!(set, Set::Own | Set::Painted) {
+            return set as u32;
+        }
+        let recipe = recipe_of(style, set, object.images);
+        let Some(map) = recipe.and_then(|recipe| object.strokes.map(&recipe)) else { return Set::Pen as u32 };
+        let map = OwnMap(Arc::clone(map));
+        let known = self.own.iter().position(|own| *own == map).unwrap_or_else(|| {
+            self.own.push(map);
+            self.own.len() - 1
+        });
+        (built_in() + known) as u32
     }
 
     /// How far from edges strokes become fewer, px; 0: they do not.
@@ -194,7 +219,11 @@ fn uniform(
         first_triangle: place.map_or(0, |place| place.first_triangle),
         // Closer than this there would be nothing but grey.
         tile: (TILE as f32 * stroke.spacing / SPACING_OF_TEXELS).max(32.0),
-        strokes: style.set as u32,
+        // Depend on what has been drawn.
+        strokes: 0,
+        strokes_in_shadow: 0,
+        turn_in_shadow: within(style.shadows.turn, -90.0, 90.0).to_radians(),
+        shadows_differ: u32::from(style.shadows.differ && mapping != STRIPES),
         turn_step: if style.turn_step.is_nan() { 0.0 } else { style.turn_step.clamp(0.0, 90.0).to_radians() },
         blends_steps: u32::from(style.blend_steps),
         towards_light: u32::from(style.direction == Direction::Light),
@@ -299,7 +328,7 @@ impl SurfaceTechnique for HatchingShading {
         hatchings: &Hatchings,
     ) -> Result<(), RenderError> {
         if !hatchings.styles.is_empty() {
-            shared.sets.prepare(gpu)?;
+            shared.sets.prepare(gpu, &hatchings.own)?;
             self.styles.write(gpu, &hatchings.styles);
             self.curves.write(gpu, &hatchings.curves);
             let tones: Vec<f32> = hatchings.tables.iter().flat_map(|table| &table.tones).copied().collect();

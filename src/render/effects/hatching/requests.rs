@@ -1,13 +1,22 @@
-//! Which stripes hatching asks for, and where they lie on the device.
+//! What hatching asks for that takes long: stripes on meshes, and maps of strokes that styles describe.
+
+use std::sync::Arc;
 
 use glam::{DVec3, Vec3};
 
+use super::strokes::within;
 use crate::document::Document;
 use crate::geometry::{DirectionSource, FieldOptions};
+use crate::hatching::tonal_art_map::composition::COMPOSED_INKS;
+use crate::hatching::tonal_art_map::generator::Recipe;
+use crate::hatching::tonal_art_map::stroke::StrokeShape;
+use crate::hatching::tonal_art_map::stroke_image::{StrokeImage, StrokeImageError};
 use crate::render::base::gpu_scene::GpuScene;
 use crate::render::base::stripes::StripeRequest;
-use crate::scene::NodeId;
-use crate::style::hatching::{Direction, Hatching};
+use crate::render::base::stroke_maps::StrokeMaps;
+use crate::render::base::style_images::StyleImages;
+use crate::scene::{NodeId, Texture};
+use crate::style::hatching::{Direction, Hatching, Mapping, Set};
 use crate::style::{Style, Technique};
 
 /// How far directions reach into places that have none of their own, in diagonals of the scene: between what suits things that grew
@@ -15,7 +24,12 @@ use crate::style::{Style, Technique};
 const SMOOTHING: f32 = 0.06;
 
 /// The stripes that an object of a style asks for; `None`: none, or it is no part of the model.
-pub(super) fn request_of(scene: &GpuScene, node: NodeId, style: &Hatching) -> Option<StripeRequest> {
+pub(super) fn request_of(
+    scene: &GpuScene,
+    node: NodeId,
+    style: &Hatching,
+    fixed_light: Option<DVec3>,
+) -> Option<StripeRequest> {
     let data = scene.scene.nodes.get(node)?;
     let mesh = data.mesh?;
     if scene.scene.is_added(node) {
@@ -33,9 +47,9 @@ pub(super) fn request_of(scene: &GpuScene, node: NodeId, style: &Hatching) -> Op
         Direction::X => DirectionSource::Axis(local(DVec3::X)),
         Direction::Y => DirectionSource::Axis(local(DVec3::Y)),
         Direction::Z => DirectionSource::Axis(local(DVec3::Z)),
-        Direction::Curvature | Direction::TextureU | Direction::TextureV | Direction::Light => {
-            DirectionSource::Curvature
-        }
+        // Where the light turns with the eye, no stripe could stay.
+        Direction::Light => DirectionSource::Axis(local(fixed_light?)),
+        Direction::Curvature | Direction::TextureU | Direction::TextureV => DirectionSource::Curvature,
     };
     let options = FieldOptions {
         extent: if extent.is_finite() { extent } else { 0.0 },
@@ -50,11 +64,12 @@ pub(super) fn request_of(scene: &GpuScene, node: NodeId, style: &Hatching) -> Op
 /// The stripes that a document asks for and that are not on the device yet, each once.
 pub fn missing(document: &Document, scene: &GpuScene) -> Vec<StripeRequest> {
     let mut missing = Vec::new();
+    let fixed_light = document.fixed_light(&scene.scene);
     for (node, resolved) in document.resolve(&scene.scene).iter().enumerate() {
         if !resolved.visible || !asks(resolved.style) {
             continue;
         }
-        let request = request_of(scene, node, &resolved.style.hatching);
+        let request = request_of(scene, node, &resolved.style.hatching, fixed_light);
         if let Some(request) = request.filter(|r| scene.stripe_place(r).is_none() && !missing.contains(r)) {
             missing.push(request);
         }
@@ -64,4 +79,77 @@ pub fn missing(document: &Document, scene: &GpuScene) -> Vec<StripeRequest> {
 
 fn asks(style: &Style) -> bool {
     style.technique == Technique::Hatching
+}
+
+/// The strokes of a style, if it describes any.
+pub(super) fn recipe_of(style: &Hatching, set: Set, images: &StyleImages) -> Option<Recipe> {
+    let own = &style.own;
+    let image = match set {
+        Set::Own => None,
+        Set::Painted => {
+            Some(Arc::clone(images.made(own.image.as_ref()?, stroke_image)?.as_ref().as_ref().ok()?))
+        }
+        _ => return None,
+    };
+    let shape = StrokeShape {
+        length: within(own.length, 0.0, 1.0),
+        length_spread: within(own.length_spread, 0.0, 1.0),
+        width: within(own.width, 0.5, 16.0),
+        width_spread: within(own.width_spread, 0.0, 1.0),
+        taper: [within(own.begin, 0.0, 1.0), within(own.end, 0.0, 1.0)],
+        waviness: within(own.waviness, 0.0, 0.25),
+        angle_spread: within(own.turn_spread, 0.0, 28.0).to_radians(),
+        pressure: within(own.pressure, 0.3, 1.0),
+        grain: within(own.grain, 0.0, 0.7),
+        image,
+    };
+    Some(Recipe {
+        shape,
+        inks: COMPOSED_INKS.to_vec(),
+        candidates: CANDIDATES,
+        seed: u64::from(own.seed),
+        ..Recipe::default()
+    })
+}
+
+/// Of so many random strokes the best is taken: few enough that a person waits.
+const CANDIDATES: usize = 100;
+
+/// The stroke that an image shows, or why it shows none.
+fn stroke_image(image: &Texture) -> Result<Arc<StrokeImage>, StrokeImageError> {
+    let grey: Vec<f32> = image.rgba.as_chunks::<4>().0.iter().map(|t| grey_of(*t)).collect();
+    StrokeImage::new(image.width as usize, image.height as usize, &grey).map(Arc::new)
+}
+
+/// What is transparent is paper.
+fn grey_of([r, g, b, alpha]: [u8; 4]) -> f32 {
+    let [r, g, b, alpha] = [r, g, b, alpha].map(|c| f32::from(c) / 255.0);
+    1.0 - (1.0 - (0.2126 * r + 0.7152 * g + 0.0722 * b)).clamp(0.0, 1.0) * alpha
+}
+
+/// The sets of strokes that a style draws with.
+pub(super) fn sets_of(style: &Hatching) -> impl Iterator<Item = Set> {
+    let has_textures = style.mapping != Mapping::Stripes;
+    let shadows = style.shadows.differ.then_some(style.shadows.set);
+    std::iter::once(style.set).chain(shadows).filter(move |_| has_textures)
+}
+
+/// The maps of strokes that a document asks for and that have not been drawn yet, each once.
+pub fn missing_strokes(document: &Document, known: &StrokeMaps, images: &StyleImages) -> Vec<Recipe> {
+    let nodes = document.nodes.values().filter_map(|node| node.style.as_ref());
+    let styles = std::iter::once(&document.style).chain(nodes).filter(|style| asks(style));
+    let mut missing: Vec<Recipe> = Vec::new();
+    for style in styles.map(|style| &style.hatching) {
+        for recipe in sets_of(style).filter_map(|set| recipe_of(style, set, images)) {
+            if !known.is_known(&recipe) && !missing.contains(&recipe) {
+                missing.push(recipe);
+            }
+        }
+    }
+    missing
+}
+
+/// Why an image that a style names as a painted stroke is none.
+pub fn stroke_image_fault(image: &Texture) -> Option<StrokeImageError> {
+    stroke_image(image).err()
 }

@@ -1,6 +1,6 @@
 //! The strokes of tonal art maps on the device.
 
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 use crate::gpu::{Gpu, GpuError};
 use crate::hatching::tonal_art_map::{TonalArtMap, sets};
@@ -10,12 +10,28 @@ pub(super) const TILE: usize = 256;
 /// Resolutions.
 const LEVELS: usize = 4;
 
-/// All built-in sets on the device, made when first asked for.
+/// The built-in sets and those that styles describe on the device, made when first asked for.
 pub(super) struct StrokeSets {
     pub(super) tones: wgpu::TextureView,
     pub(super) priorities: wgpu::TextureView,
     pub(super) sampler: wgpu::Sampler,
-    is_made: bool,
+    /// Those beside the built-in ones; `None`: nothing is there yet.
+    own: Option<Vec<OwnMap>>,
+}
+
+/// A map that a style describes: equal to another if it is the same one.
+#[derive(Debug, Clone)]
+pub(super) struct OwnMap(pub(super) Arc<TonalArtMap>);
+
+impl PartialEq for OwnMap {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.0, &other.0)
+    }
+}
+
+/// Number of built-in sets: those of styles come after them.
+pub(super) fn built_in() -> usize {
+    maps().len()
 }
 
 /// The built-in sets, read when first asked for.
@@ -38,16 +54,16 @@ impl StrokeSets {
             ..Default::default()
         });
         let nothing = || view(&texture(gpu, 1, 1, 1));
-        Self { tones: nothing(), priorities: nothing(), sampler, is_made: false }
+        Self { tones: nothing(), priorities: nothing(), sampler, own: None }
     }
 
     /// Uploads them, unless they are there.
-    pub(super) fn prepare(&mut self, gpu: &Gpu) -> Result<(), GpuError> {
-        if self.is_made {
+    pub(super) fn prepare(&mut self, gpu: &Gpu, own: &[OwnMap]) -> Result<(), GpuError> {
+        if self.own.as_deref() == Some(own) {
             return Ok(());
         }
         gpu.check_texture_size("strokes", [TILE as u32; 2])?;
-        let maps = maps();
+        let maps: Vec<&TonalArtMap> = maps().iter().chain(own.iter().map(|own| &*own.0)).collect();
         let [tones, priorities] = [(); 2].map(|()| texture(gpu, TILE, maps.len(), LEVELS));
         for (layer, map) in maps.iter().enumerate() {
             let mut lights = Vec::new();
@@ -62,7 +78,7 @@ impl StrokeSets {
                 write(gpu, &priorities, [layer, number], level.side, &texels);
             }
         }
-        (self.tones, self.priorities, self.is_made) = (view(&tones), view(&priorities), true);
+        (self.tones, self.priorities, self.own) = (view(&tones), view(&priorities), Some(own.to_vec()));
         Ok(())
     }
 }
