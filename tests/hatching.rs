@@ -16,7 +16,7 @@ use hachure::hatching::tonal_art_map::composition::{
 use hachure::hatching::tonal_art_map::{TonalArtMap, sets};
 use hachure::render::base::frame_uniform::REFERENCE_HEIGHT;
 use hachure::scene::Camera;
-use hachure::style::hatching::{Direction, Hatching, Mapping};
+use hachure::style::hatching::{Direction, Hatching, Mapping, Set};
 use hachure::style::{Color, Curve, Style, Technique, preset};
 use image::RgbaImage;
 
@@ -307,5 +307,136 @@ fn the_unit_of_a_model_does_not_matter() {
             middle.iter().zip(other.iter()).filter(|(a, b)| a.unwrap_or(0.0) > 0.5 && b.unwrap_or(0.0) < 0.1);
         let share = apart.count() as f64 / middle.iter().flatten().count() as f64;
         assert!(share < 0.01, "{share}");
+    }
+}
+
+/// What indication gives to a plane that faces the eye: per pixel the detail, 0 to 1; `None` beside it.
+fn detail(parameters: &[(&str, &str)]) -> Vec<Option<f64>> {
+    let mut session = session();
+    let mut plane = opened(primitives::plane(2.0), DMat4::IDENTITY, 5.0);
+    plane.document.style = even(Hatching::default(), 0.4);
+    for (key, value) in
+        [("view.show", "detail"), ("hatching.indication.amount", "1"), ("hatching.indication.by", "fields")]
+            .iter()
+            .chain(parameters)
+    {
+        common::set(&mut plane, key, value);
+    }
+    session.set_scene(&plane).unwrap();
+    inks(&drawn(&mut session, &plane)).into_iter().map(|ink| ink.map(|ink| 1.0 - ink)).collect()
+}
+
+#[test]
+fn the_general_field_map_equals_its_twin() {
+    let detail = detail(&[
+        ("hatching.indication.patches.share", "1"),
+        ("hatching.indication.patches.slope", "6"),
+        ("hatching.indication.silhouettes.share", "0"),
+    ]);
+    let side = SIDE as usize;
+    let inside: Vec<[usize; 2]> =
+        (0..side * side).filter(|i| detail[*i].is_some()).map(|i| [i % side, i / side]).collect();
+    let range = |axis: usize| {
+        let all = inside.iter().map(|p| p[axis]);
+        (all.clone().min().unwrap() as f64, all.max().unwrap() as f64 + 1.0)
+    };
+    let ((left, right), (top, bottom)) = (range(0), range(1));
+    assert!(right - left > 200.0, "{left} {right}");
+    for [x, y] in inside {
+        // (a + b · distance)^−c in the square of the map.
+        let u = (x as f64 + 0.5 - left) / (right - left);
+        let v = (y as f64 + 0.5 - top) / (bottom - top);
+        let expected = (1.0 + 6.0 * u.min(1.0 - u).min(v).min(1.0 - v)).powf(-1.3);
+        let found = detail[y * side + x].unwrap();
+        assert!((found - expected).abs() < 0.03, "{x} {y}: {found} instead of {expected}");
+    }
+}
+
+#[test]
+fn the_field_of_silhouettes_equals_its_twin_and_divides_by_nothing() {
+    let side = SIDE as i32;
+    for (lambda, least) in [(0.05, 0.05), (0.0, 1e-3)] {
+        let detail = detail(&[
+            ("hatching.indication.patches.share", "0"),
+            ("hatching.indication.silhouettes.share", "1"),
+            ("hatching.indication.silhouettes.radius", "45"),
+            ("hatching.indication.silhouettes.beta", "1.5"),
+            ("hatching.indication.silhouettes.lambda", &lambda.to_string()),
+        ]);
+        let radius = 45.0 * f64::from(SIDE) / f64::from(REFERENCE_HEIGHT);
+        let offsets: Vec<[i32; 2]> = (0..16)
+            .map(|k| (f64::from(k) * std::f64::consts::TAU / 16.0).sin_cos())
+            .map(|(sin, cos)| [(radius * cos).round() as i32, (radius * sin).round() as i32])
+            .collect();
+        let mut counts = [0; 17];
+        for (i, found) in detail.iter().enumerate() {
+            let Some(found) = found else { continue };
+            let [x, y] = [i as i32 % side, i as i32 / side];
+            let is_outside = |[dx, dy]: &[i32; 2]| {
+                let [x, y] = [x + dx, y + dy].map(|c| c.clamp(0, side - 1));
+                detail[(y * side + x) as usize].is_none()
+            };
+            let n = offsets.iter().filter(|offset| is_outside(offset)).count();
+            counts[n] += 1;
+            // (a + b · α / (n^β + λ))^−c.
+            let field = 1.0 / ((n as f64).powf(1.5) + lambda).max(least);
+            let expected = (1.0 + field).powf(-1.3);
+            assert!((found - expected).abs() < 0.01, "{x} {y}: {found} instead of {expected}, {n} apart");
+        }
+        assert!(counts[0] > 1000 && counts.iter().filter(|count| **count > 0).count() > 5, "{counts:?}");
+    }
+}
+
+#[test]
+fn details_attract_details() {
+    let mut session = session();
+    let mut plane = opened(primitives::plane(2.0), DMat4::IDENTITY, 5.0);
+    plane.document.style = even(Hatching::default(), 0.4);
+    plane.document.style.edges.profile.show = true;
+    for (key, value) in [("view.show", "detail"), ("hatching.indication.amount", "1")] {
+        common::set(&mut plane, key, value);
+    }
+    session.set_scene(&plane).unwrap();
+    let mut before = 0.0;
+    for attraction in ["0", "1", "4"] {
+        common::set(&mut plane, "hatching.indication.attraction", attraction);
+        let drawn = mean(&inks(&drawn(&mut session, &plane)));
+        let detail = 1.0 - drawn;
+        assert!(detail > before + 0.1 || attraction == "0", "{attraction}: {detail} after {before}");
+        before = detail;
+    }
+}
+
+#[test]
+fn strokes_of_ones_own_are_as_dark_as_built_in_ones() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("stroke.png");
+    let is_ink = |x: u32, y: u32| (20..230).contains(&x) && (4..12).contains(&y);
+    image::GrayImage::from_fn(256, 16, |x, y| image::Luma([if is_ink(x, y) { 0 } else { 255 }]))
+        .save(&path)
+        .unwrap();
+    let texture = image::open(&path).unwrap().to_rgba8();
+    let texture = hachure::scene::Texture {
+        name: String::new(),
+        width: 256,
+        height: 16,
+        rgba: texture.into_raw().into(),
+    };
+    let mut session = session();
+    let images = [(path.clone(), std::sync::Arc::new(texture))].into();
+    session.renderer().set_images(hachure::render::StyleImages::new(images));
+    let mut plane = opened(primitives::plane(6.0), DMat4::IDENTITY, 3.0);
+    let mut hatching = Hatching { mapping: Mapping::Paper, ..Hatching::default() };
+    hatching.own.image = Some(path);
+    let mut pictures = Vec::new();
+    for set in [Set::Pen, Set::Own, Set::Painted] {
+        hatching.set = set;
+        plane.document.style = even(hatching.clone(), 0.45);
+        session.set_scene(&plane).unwrap();
+        let picture = drawn(&mut session, &plane);
+        let ink = mean(&inks(&picture));
+        assert!((ink - 0.45).abs() < 0.03, "{set:?}: {ink}");
+        assert!(!pictures.contains(&picture), "{set:?} looks like another");
+        pictures.push(picture);
     }
 }
