@@ -129,6 +129,22 @@ temple() { # temple NAME ARGUMENTS...
 }
 temple hatching_temple --style pen-and-ink
 temple hatching_indication --style pen-and-ink --set hatching.indication.amount=1 --set hatching.indication.distance=10
+# The fields of the paper (Fig. 3): the general field map, silhouettes nearby, both; and a drawing with all of the paper: strokes on
+# the picture in steps, Sobel outlines, cast shadows in strokes of their own, indication (Fig. 5 and 8).
+temple hatching_field --style pen-and-ink --set hatching.indication.amount=1 --set hatching.indication.by=fields \
+	--set hatching.indication.patches.share=1 --set hatching.indication.silhouettes.share=0 --set view.show=detail
+temple hatching_fields --style pen-and-ink --set hatching.indication.amount=1 --set hatching.indication.by=fields \
+	--set view.show=detail
+temple hatching_as_in_paper --style pen-and-ink --set hatching.mapping=paper --set hatching.indication.amount=0.7 \
+	--set hatching.indication.by=fields --set edges.mode=paper --set edges.operator=sobel \
+	--set hatching.shadows.differ=true --set hatching.shadows.turn=50
+yard() { # yard NAME ARGUMENTS...
+	name=$1
+	shift
+	draw "$name" assets/models/temple.glb --set light.shadows=on --set light.key.azimuth=-40 --set light.key.elevation=42 \
+		--set light.key.attached=world --camera-position -6,2.4,22 --camera-focal-point 8,3.5,10 --camera-view-angle 60 "$@"
+}
+yard hatching_yard --style pen-and-ink
 size=1000,1000
 draw hatching_crank "$crank" --style engraving --set light.shadows=on
 draw hatching_still_life "$still_life" --style pencil-hatching --mirror glass --set light.shadows=on \

@@ -5,6 +5,7 @@
 use encase::ShaderType;
 use encase::internal::SizeValue;
 use hachure::gpu::Shaders;
+use hachure::gpu::buffer::EMPTY_ARRAY;
 use hachure::gpu::material::MaterialUniform;
 use hachure::render::base::edge_style::{EdgeUniform, LineUniform};
 use hachure::render::base::frame_uniform::{FrameUniform, LightUniform};
@@ -40,6 +41,7 @@ macro_rules! same_layout {
         let offsets: Vec<u64> = (0..$fields).map(|i| <$rust as ShaderType>::METADATA.offset(i)).collect();
         let SizeValue(size) = <$rust as ShaderType>::METADATA.min_size();
         assert_eq!((offsets, size.get()), layout($file, $wgsl), "{} and {}", stringify!($rust), $wgsl);
+        assert!(size.get() <= EMPTY_ARRAY, "an empty array of {} is too small", $wgsl);
     };
 }
 

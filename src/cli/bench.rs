@@ -20,6 +20,7 @@ use crate::render::Request;
 use crate::scene::{Camera, Material, Node, Scene};
 use crate::style::halftone::{Mapping, Space};
 use crate::style::hidden::HiddenLayers;
+use crate::style::indication::DetailBy;
 use crate::style::sketch::Anchor;
 use crate::style::toon::Border;
 use crate::style::{DepthOperator, EdgeMode, HiddenMode, Style, StyleError, Technique, hatching, preset};
@@ -336,6 +337,10 @@ fn looks(has_uvs: bool, pixels: &[u32], size: [u32; 2]) -> Result<Vec<Look>, Cli
     };
     let mut looks: Vec<Look> =
         styles.into_iter().chain(by_uv).map(|(name, style)| look(name, style, &unshadowed)).collect();
+    let mut hatching_paper = hatching(hatching::Mapping::Paper, 3);
+    (hatching_paper.edges.mode, hatching_paper.edges.operator) = (EdgeMode::Paper, DepthOperator::Sobel);
+    hatching_paper.hatching.indication.by = DetailBy::Fields;
+    looks.push(look("hatching, all of its paper", hatching_paper, &hard));
     let mut as_in_paper = blueprint(5)?;
     as_in_paper.edges.mode = EdgeMode::Paper;
     for (way, layers_by) in WAYS.into_iter().enumerate() {

@@ -119,6 +119,9 @@ impl DynamicBuffer {
     }
 }
 
+/// Bytes of an array without elements: shaders ask for room for one, and none is larger.
+pub const EMPTY_ARRAY: u64 = 1024;
+
 /// A read-only storage buffer that holds an array and grows with it.
 pub struct ArrayBuffer {
     buffer: wgpu::Buffer,
@@ -128,7 +131,7 @@ pub struct ArrayBuffer {
 impl ArrayBuffer {
     /// An empty array.
     pub fn new(gpu: &Gpu, label: &'static str) -> Self {
-        Self { buffer: Self::create(gpu, label, 256), label }
+        Self { buffer: Self::create(gpu, label, EMPTY_ARRAY), label }
     }
 
     fn create(gpu: &Gpu, label: &str, size: u64) -> wgpu::Buffer {
