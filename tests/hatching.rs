@@ -363,7 +363,7 @@ fn the_field_of_silhouettes_equals_its_twin_and_divides_by_nothing() {
             ("hatching.indication.silhouettes.beta", "1.5"),
             ("hatching.indication.silhouettes.lambda", &lambda.to_string()),
         ]);
-        let radius = 45.0 * f64::from(SIDE) / f64::from(REFERENCE_HEIGHT);
+        let radius = 45.0 * f64::from(SIDE) / REFERENCE_HEIGHT;
         let offsets: Vec<[i32; 2]> = (0..16)
             .map(|k| (f64::from(k) * std::f64::consts::TAU / 16.0).sin_cos())
             .map(|(sin, cos)| [(radius * cos).round() as i32, (radius * sin).round() as i32])

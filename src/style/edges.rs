@@ -64,7 +64,7 @@ pub struct Sobel {
     pub color: bool,
     /// Gradient of the luminance, 0.01 to 4.
     pub color_threshold: f32,
-    /// Whether the gradient is |I_x| + |I_y| instead of √(I_x² + I_y²).
+    /// Whether the gradient is the sum of the changes in both directions instead of the length of both.
     pub sum: bool,
 }
 
