@@ -26,6 +26,8 @@ impl Traits {
     pub(super) const MATERIAL: Self = Self(4);
     /// Three triangles or more; all of them are in [`FeatureEdges::fans`].
     pub(super) const FAN: Self = Self(8);
+    /// [`super::Edge::is_soft`]: no crease, whatever the angle.
+    pub(super) const SOFT: Self = Self(16);
 
     /// All traits of both.
     pub(super) const fn and(self, other: Self) -> Self {
@@ -42,13 +44,13 @@ impl Traits {
         self.0 & Self::FLIPPED.0
     }
 
-    const fn when(self, is: bool) -> Self {
+    pub(super) const fn when(self, is: bool) -> Self {
         if is { self } else { Self(0) }
     }
 }
 
 /// Above this angle (radians) two triangles lie on each other: a wall that was modelled twice, with one surface.
-const FOLDED: f32 = PI - 1e-3;
+pub(super) const FOLDED: f32 = PI - 1e-3;
 
 /// All edges of a mesh at which a line can be, one entry each: about 21 bytes, and 4 per triangle.
 ///
@@ -112,7 +114,8 @@ impl FeatureEdges {
                 }
                 EdgeKind::Manifold | EdgeKind::Flipped => {
                     let flipped = Traits::FLIPPED.when(edge.kind == EdgeKind::Flipped);
-                    all.add_pair(ends, edge.faces, edge.dihedral, flipped, &materials);
+                    let traits = flipped.and(Traits::SOFT.when(edge.is_soft));
+                    all.add_pair(ends, edge.faces, edge.dihedral, traits, &materials);
                 }
                 EdgeKind::NonManifold => {
                     let faces = own_faces.iter().map(|&(_, face)| face);
@@ -191,7 +194,10 @@ impl FeatureEdges {
             [] => {}
             [face] => self.add(ends, [face; 2], 0.0, Traits::BORDER),
             // Seams join only edges that run against each other: no pair is flipped.
-            [a, b] => self.add_pair(ends, [a, b], stretch.dihedral, Traits::default(), materials),
+            [a, b] => {
+                let soft = Traits::SOFT.when(stretch.is_soft);
+                self.add_pair(ends, [a, b], stretch.dihedral, soft, materials);
+            }
             [a, b, ..] => self.add_fan(ends, [a, b], stretch.dihedral, stretch.faces.iter().copied()),
         }
     }

@@ -16,6 +16,8 @@ pub struct Mesh {
     pub positions: Vec<Vec3>,
     /// Shading normals, unit length, local space. Empty: every face is flat and uses its own geometric normal.
     pub normals: Vec<Vec3>,
+    /// Whether `normals` were computed from the triangles. Then they say nothing about the shape that those do not.
+    pub has_computed_normals: bool,
     /// Texture coordinates, (0,0) = upper left of the image as in glTF. Empty: none.
     pub uvs: Vec<Vec2>,
     /// Vertex colours, linear RGBA as 8-bit unorm, multiplied into the base colour. Empty: white.
@@ -94,6 +96,7 @@ impl Mesh {
         Self {
             positions: pick(&self.positions, sources),
             normals: pick(&self.normals, sources),
+            has_computed_normals: self.has_computed_normals,
             uvs: pick(&self.uvs, sources),
             colors: pick(&self.colors, sources),
             tangents: pick(&self.tangents, sources),

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{Adjacency, FeatureEdges, Mesh, Provoking, Weld, provoking};
+use super::{Adjacency, CreaseRule, FeatureEdges, Mesh, Provoking, Weld, provoking};
 
 /// The findings of topology about one mesh, in the form that drawing needs.
 #[derive(Debug, Clone, PartialEq)]
@@ -19,13 +19,13 @@ pub struct Topology {
 }
 
 impl Topology {
-    /// Examines a mesh; edges with a dihedral angle above `crease_angle` (radians) separate surfaces. Takes about 0.1 s
-    /// per million triangles.
+    /// Examines a mesh; creases, which `rule` tells from the other edges with a dihedral angle above `crease_angle`
+    /// (radians), separate surfaces. Takes about 0.1 s per million triangles.
     ///
     /// # Panics
     /// When an index is out of range.
-    pub fn new(mesh: &Mesh, crease_angle: f32) -> Self {
-        let adjacency = Adjacency::new(mesh);
+    pub fn new(mesh: &Mesh, crease_angle: f32, rule: CreaseRule) -> Self {
+        let adjacency = Adjacency::new(mesh).with_rule(rule);
         let surfaces = adjacency.surfaces(crease_angle);
         Self {
             is_solid: is_solid(mesh, &adjacency),
@@ -62,7 +62,7 @@ mod tests {
 
     #[test]
     fn closed_meshes_that_face_outwards_are_solid() {
-        let is_solid = |mesh: &Mesh| Topology::new(mesh, 0.5).is_solid;
+        let is_solid = |mesh: &Mesh| Topology::new(mesh, 0.5, CreaseRule::Normals).is_solid;
         assert!(is_solid(&primitives::cube(1.0)) && is_solid(&primitives::cube_split(1.0)));
         assert!(is_solid(&primitives::sphere(1.0, 12, 16)) && is_solid(&primitives::torus(1.0, 0.3, 16, 8)));
         assert!(!is_solid(&primitives::plane(1.0)));

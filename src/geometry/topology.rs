@@ -5,9 +5,11 @@
 use glam::Vec3;
 use rayon::prelude::*;
 
+use super::feature_edges::FOLDED;
 use super::normals::face_normals;
+use super::soft_edges::{SoftNormals, judge_steep};
 use super::stitch::{Seam, stitch};
-use super::{Mesh, Weld, angle};
+use super::{CreaseRule, Mesh, Weld, angle};
 
 /// Stands for "no triangle".
 pub const NO_FACE: u32 = u32::MAX;
@@ -38,6 +40,9 @@ pub struct Edge {
     /// Angle between the normals of `faces`, in radians, −π to π: 0 flat, positive convex (ridge), negative concave
     /// (valley). A flipped triangle counts as if it were turned. 0 at a border.
     pub dihedral: f32,
+    /// Whether the mesh's own vertex normals say that the surface goes on smoothly here, whatever the angle. Never at
+    /// borders and non-manifold edges.
+    pub is_soft: bool,
     /// How many triangles meet, and whether they agree.
     pub kind: EdgeKind,
 }
@@ -69,6 +74,18 @@ pub struct Adjacency {
     pub flipped_count: usize,
 }
 
+impl Edge {
+    /// The edge of a single triangle.
+    fn border(vertices: [u32; 2], face: u32) -> Self {
+        Self { vertices, faces: [face, NO_FACE], dihedral: 0.0, is_soft: false, kind: EdgeKind::Border }
+    }
+
+    /// Whether the angle is above `crease_angle` (radians) and the normals do not say otherwise.
+    pub fn is_crease(&self, crease_angle: f32) -> bool {
+        !self.is_soft && self.dihedral.abs() > crease_angle
+    }
+}
+
 impl Adjacency {
     /// Finds the edges of a clean mesh (indices in range, positions finite; see [`super::clean()`]).
     ///
@@ -78,11 +95,7 @@ impl Adjacency {
         let (weld, normals) = rayon::join(|| Weld::near(&mesh.positions), || face_normals(mesh));
         let mut half_edges = HalfEdges::new(mesh, &weld);
         let chunks = half_edges.sorted_chunks();
-        let mut edges =
-            vec![
-                Edge { vertices: [0; 2], faces: [NO_FACE; 2], dihedral: 0.0, kind: EdgeKind::Border };
-                chunks.iter().map(|c| c.edge_count).sum()
-            ];
+        let mut edges = vec![Edge::border([0; 2], NO_FACE); chunks.iter().map(|c| c.edge_count).sum()];
         let mut first_edge = vec![edges.len() as u32; mesh.positions.len() + 1];
 
         // Each chunk fills its own stretch of both arrays.
@@ -97,7 +110,7 @@ impl Adjacency {
             jobs.push((chunk.vertices.clone(), base, own_edges, own_first));
             base += chunk.edge_count as u32;
         }
-        let context = Context { mesh, weld: &weld, normals: &normals };
+        let context = Context { mesh, weld: &weld, normals: &normals, soft: SoftNormals::new(mesh) };
         let tallies: Vec<Tally> = jobs
             .into_par_iter()
             .map(|(vertices, base, edges, first)| {
@@ -138,12 +151,23 @@ impl Adjacency {
             let stitched = all.edges.iter().filter(|e| e.kind == EdgeKind::Stitched).count();
             all.border_count -= stitched;
         }
+        judge_steep(mesh, &mut all.edges, &mut all.seams);
         all.collapsed = half_edges
             .collapsed
             .iter()
             .map(|&face| (face, all.neighbour_of(mesh.triangles()[face as usize])))
             .collect();
         all
+    }
+
+    /// Makes no edge soft, if the rule says so: then normals are not asked.
+    #[must_use]
+    pub fn with_rule(mut self, rule: CreaseRule) -> Self {
+        if rule == CreaseRule::Angle {
+            self.edges.iter_mut().for_each(|edge| edge.is_soft = false);
+            self.seams.iter_mut().for_each(|seam| seam.is_soft = false);
+        }
+        self
     }
 
     /// Whether the mesh encloses a volume: no borders and nothing non-manifold.
@@ -204,6 +228,7 @@ struct Context<'a> {
     mesh: &'a Mesh,
     weld: &'a Weld,
     normals: &'a [Vec3],
+    soft: SoftNormals<'a>,
 }
 
 impl Context<'_> {
@@ -214,7 +239,7 @@ impl Context<'_> {
         let first = half_edges[0] as u32;
         let vertices = [start(first), start(next_in_triangle(first))];
         let Some(&second) = half_edges.get(1) else {
-            return Edge { vertices, faces: [first / 3, NO_FACE], dihedral: 0.0, kind: EdgeKind::Border };
+            return Edge::border(vertices, first / 3);
         };
         let second = second as u32;
         let flipped = runs_up(first) == runs_up(second);
@@ -227,7 +252,14 @@ impl Context<'_> {
         let [n0, n1] = faces.map(|f| self.normals[f as usize]);
         let n1 = if flipped { -n1 } else { n1 };
         let [a, b] = vertices.map(|v| self.mesh.positions[v as usize]);
-        Edge { vertices, faces, dihedral: signed_angle(n0, n1, b - a), kind }
+        let dihedral = signed_angle(n0, n1, b - a);
+        let is_soft = kind != EdgeKind::NonManifold && dihedral.abs() <= FOLDED && {
+            let across = [start(second), start(next_in_triangle(second))];
+            let [same, opposite] = if flipped { across } else { [across[1], across[0]] };
+            let agree = |ends| self.soft.agree(ends, flipped);
+            agree([vertices[0], same]) && agree([vertices[1], opposite])
+        };
+        Edge { vertices, faces, dihedral, is_soft, kind }
     }
 }
 

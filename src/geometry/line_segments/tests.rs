@@ -2,7 +2,7 @@ use glam::{DVec2, DVec3, DVec4, Vec3};
 
 use super::*;
 use crate::geometry::feature_edges::tests::junction;
-use crate::geometry::{Adjacency, FeatureEdges, Lens, Mesh, Projector, primitives};
+use crate::geometry::{Adjacency, CreaseRule, FeatureEdges, Lens, Mesh, Projector, Topology, primitives};
 
 pub(super) const LENSES: [Lens; 2] =
     [Lens::Perspective { tan_half_angle: 0.3 }, Lens::Orthographic { half_height: 1.5 }];
@@ -53,7 +53,7 @@ impl Subject {
     pub(super) fn new(mesh: Mesh) -> Self {
         let adjacency = Adjacency::new(&mesh);
         let edges = FeatureEdges::new(&mesh, &adjacency, adjacency.surfaces(0.5));
-        let is_solid = crate::geometry::Topology::new(&mesh, 0.5).is_solid;
+        let is_solid = Topology::new(&mesh, 0.5, CreaseRule::Normals).is_solid;
         Self { mesh, edges, adjacency, is_solid }
     }
 

@@ -9,7 +9,7 @@ use super::frame_uniform::View;
 use super::section::{Part, Section};
 use super::stripes::{GpuStripes, SolvedStripes, StripePlace, StripeRequest};
 use crate::document::Document;
-use crate::geometry::{Bounds, FeatureEdges, Mesh, NotFlat, Plane, Topology, Weld};
+use crate::geometry::{Bounds, CreaseRule, FeatureEdges, Mesh, NotFlat, Plane, Topology, Weld};
 use crate::gpu::geometry::{MeshRange, MeshSource};
 use crate::gpu::{GeometryBuffers, Gpu, GpuError, MaterialBindings};
 use crate::scene::{Addition, AlphaMode, Material, NodeId, Scene};
@@ -154,8 +154,10 @@ impl GpuScene {
     ) -> Result<(), GpuError> {
         let scene = self.model.with_additions(additions);
         let (_, meshes) = scene.meshes.split_at(self.model.meshes.len());
-        let topology: Vec<_> =
-            meshes.par_iter().map(|mesh| Topology::new(mesh, ADDED_CREASE_ANGLE)).collect();
+        let topology: Vec<_> = meshes
+            .par_iter()
+            .map(|mesh| Topology::new(mesh, ADDED_CREASE_ANGLE, CreaseRule::default()))
+            .collect();
         self.meshes[1] = MeshSet::new(gpu, meshes, &topology)?;
         let (own, others) = scene.materials.split_at(self.model.materials.len());
         self.materials = self.materials.with_others(own.len(), others);
