@@ -4,9 +4,10 @@
 
 pub(super) mod creases;
 pub(super) mod straights;
-mod stretches;
+pub(super) mod stretches;
 
 use std::f32::consts::PI;
+use std::sync::Arc;
 
 use self::stretches::Stretch;
 use super::topology::NO_FACE;
@@ -68,8 +69,8 @@ pub struct FeatureEdges {
     pub(super) traits: Vec<Traits>,
     /// Every (edge, triangle) of the edges with more than two triangles, in order.
     pub(super) fans: Vec<(u32, u32)>,
-    /// The surface of each triangle, as in [`Surfaces::of_triangle`].
-    pub(super) surface_of_triangle: Vec<u32>,
+    /// The surfaces of the mesh.
+    pub(super) surfaces: Arc<Surfaces>,
     /// The box around the mesh, local space.
     pub(super) bounds: Bounds,
     kept: creases::Kept,
@@ -78,7 +79,7 @@ pub struct FeatureEdges {
 
 impl FeatureEdges {
     /// Gathers the edges of a mesh. Adjacency and surfaces must be those of the same mesh.
-    pub fn new(mesh: &Mesh, adjacency: &Adjacency, surfaces: Surfaces) -> Self {
+    pub fn new(mesh: &Mesh, adjacency: &Adjacency, surfaces: impl Into<Arc<Surfaces>>) -> Self {
         let count = adjacency.edges.len();
         let mut all = Self {
             ends: Vec::with_capacity(count),
@@ -86,7 +87,7 @@ impl FeatureEdges {
             dihedral: Vec::with_capacity(count),
             traits: Vec::with_capacity(count),
             fans: Vec::new(),
-            surface_of_triangle: surfaces.of_triangle,
+            surfaces: surfaces.into(),
             bounds: mesh.bounds(),
             kept: creases::Kept::default(),
             kept_straights: straights::Kept::default(),
@@ -143,7 +144,7 @@ impl FeatureEdges {
             + size_of_val(self.dihedral.as_slice())
             + size_of_val(self.traits.as_slice())
             + size_of_val(self.fans.as_slice())
-            + size_of_val(self.surface_of_triangle.as_slice())
+            + size_of_val(self.surfaces.of_triangle.as_slice())
     }
 
     /// The triangles of a fan, each with the number of the edge.

@@ -262,7 +262,7 @@ impl<'a> Finder<'a> {
     }
 
     fn surface(&self, face: u32) -> u32 {
-        self.placed.edges.surface_of_triangle.get(face as usize).copied().unwrap_or(NO_SURFACE)
+        self.placed.edges.surfaces.of_triangle.get(face as usize).copied().unwrap_or(NO_SURFACE)
     }
 
     fn push(&self, edge: u32, line: &Line, out: &mut Vec<LineSegment>, trace: &mut Trace) {
