@@ -1,9 +1,10 @@
 //! The bodies of a mesh: its parts that are connected across edges of any kind, and which of them enclose a volume.
 //!
-//! A body is closed if at every edge as many triangles run one way as the other, and if next to nothing of its borders
-//! is uncovered. That holds too where four triangles meet because bodies touch along an edge, whichever of them belong
-//! together. A closed body that encloses a positive volume is solid; one that encloses a negative volume within a solid
-//! one is a cavity of that.
+//! A body is closed if at every edge as many triangles run one way as the other. That holds too where four triangles
+//! meet because bodies touch along an edge, whichever of them belong together. Where it does not hold, the sides that are
+//! left over form rims; a body is still closed if they run around slits only, as where one edge lies on several others or
+//! where faces were tessellated apart. A closed body that encloses a positive volume is solid; one that encloses a
+//! negative volume within a solid one is a cavity of that.
 //!
 //! Bodies are made of whole surfaces, so that only edges between surfaces have to be followed.
 
@@ -13,15 +14,14 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::disjoint_sets::DisjointSets;
-use super::feature_edges::stretches::seams_by_edge;
 use super::{Adjacency, Bounds, EdgeKind, Mesh, Surfaces};
 
-/// Share of the length of a body's borders that may be uncovered although it counts as closed.
-const UNCOVERED: f64 = 0.005;
 /// Width of the widest gap in a closed body, as a share of the diagonal of the mesh.
 const WIDEST_GAP: f64 = 2e-3;
-/// A border edge that others cover more often than this has more triangles on one side than on the other.
-const OVERFULL: f64 = 1.25;
+/// Of very many sides that begin at one point, not all are tried out.
+const MOST_AT_A_POINT: usize = 64;
+/// Stands for "no point".
+const NO_POINT: u32 = u32::MAX;
 /// Pairs of bodies that are compared to find cavities; of those beyond nothing is believed.
 const MOST_PAIRS: usize = 1 << 22;
 /// Triangles that one thread takes at a time.
@@ -57,7 +57,7 @@ impl Bodies {
             kinds: Vec::new(),
             widest_gap: mesh.bounds().diagonal() * WIDEST_GAP,
         };
-        let is_closed = Rims::new(mesh, adjacency, &all, count).closed();
+        let is_closed = closed(mesh, adjacency, &all, count);
         let volumes = if is_closed.contains(&true) { all.volumes(mesh, count) } else { vec![0.0; count] };
         all.kinds = is_closed
             .into_iter()
@@ -188,71 +188,100 @@ fn connected(adjacency: &Adjacency, surfaces: &Surfaces) -> (Vec<u32>, usize) {
     sets.numbered()
 }
 
-/// How the edges of a body close it.
-#[derive(Clone, Copy, Default)]
-struct Rim {
-    /// At some edge more triangles run one way than the other.
-    is_unbalanced: bool,
-    /// Length of all border edges, units of the mesh.
-    length: f64,
-    /// Length of them on which no other lies.
-    uncovered: f64,
+/// A side of a triangle, or several alike, that no other one meets in the opposite direction.
+struct OpenSide {
+    /// Welded points.
+    ends: [u32; 2],
+    count: u32,
+    face: u32,
 }
 
-/// The edges of all bodies.
-struct Rims(Vec<Rim>);
-
-impl Rims {
-    fn new(mesh: &Mesh, adjacency: &Adjacency, bodies: &Bodies, count: usize) -> Self {
-        let mut rims = vec![Rim::default(); count];
-        let Adjacency { edges, seams, weld, .. } = adjacency;
-        let touches = |kind| edges.iter().filter(move |edge| edge.kind == kind);
-        if adjacency.flipped_count > 0 {
-            for edge in touches(EdgeKind::Flipped) {
-                rims[bodies.of_triangle(edge.faces[0])].is_unbalanced = true;
-            }
-        }
-        // Of the triangles at an edge, one less for each that runs the other way.
-        for same in adjacency.non_manifold.chunk_by(|a, b| a.0 == b.0) {
-            let point = |v: u32| weld.representative.get(v as usize).copied();
-            let start_and_end = edges.get(same[0].0 as usize).map(|edge| edge.vertices.map(point));
-            let runs_along = |face: u32| {
-                let Some(&[a, b, c]) = mesh.triangles().get(face as usize) else { return false };
-                [[a, b], [b, c], [c, a]].iter().any(|side| Some(side.map(point)) == start_and_end)
-            };
-            let along = same.iter().filter(|(_, face)| runs_along(*face)).count();
-            if 2 * along != same.len() {
-                rims[bodies.of_triangle(same[0].1)].is_unbalanced = true;
-            }
-        }
-        if adjacency.border_count == 0 && seams.is_empty() {
-            return Self(rims);
-        }
-        let by_edge = seams_by_edge(adjacency);
-        let mut by_edge = by_edge.chunk_by(|a, b| a.0 == b.0).peekable();
-        for (edge, number) in edges.iter().zip(0..) {
-            if !matches!(edge.kind, EdgeKind::Border | EdgeKind::Stitched) {
-                continue;
-            }
-            let own = by_edge.next_if(|own| own[0].0 == number).unwrap_or_default();
-            let lengths =
-                own.iter().filter_map(|&(_, seam)| seams.get(seam as usize)).map(|seam| seam.length);
-            let covered: f64 = lengths.sum();
-            let [a, b] = edge.vertices.map(|v| mesh.positions.get(v as usize).copied().unwrap_or_default());
-            let length = a.as_dvec3().distance(b.as_dvec3());
-            let rim = &mut rims[bodies.of_triangle(edge.faces[0])];
-            rim.length += length;
-            rim.is_unbalanced |= covered > OVERFULL * length + bodies.widest_gap;
-            if edge.kind == EdgeKind::Border {
-                rim.uncovered += (length - covered).max(0.0);
-            }
-        }
-        Self(rims)
+/// All open sides of a mesh. They form closed curves: the rims of its holes.
+fn open_sides(mesh: &Mesh, adjacency: &Adjacency) -> Vec<OpenSide> {
+    let Adjacency { edges, weld, .. } = adjacency;
+    let is_balanced =
+        adjacency.border_count == 0 && adjacency.flipped_count == 0 && adjacency.seams.is_empty();
+    if is_balanced && adjacency.non_manifold.is_empty() {
+        return Vec::new();
     }
-
-    fn closed(self) -> Vec<bool> {
-        self.0.iter().map(|rim| !rim.is_unbalanced && rim.uncovered <= UNCOVERED * rim.length).collect()
+    let point = |v: u32| weld.representative.get(v as usize).copied().unwrap_or(v);
+    let mut open = Vec::new();
+    for edge in edges {
+        let count = match edge.kind {
+            EdgeKind::Border | EdgeKind::Stitched => 1,
+            EdgeKind::Flipped => 2,
+            EdgeKind::Manifold | EdgeKind::NonManifold => continue,
+        };
+        open.push(OpenSide { ends: edge.vertices.map(point), count, face: edge.faces[0] });
     }
+    for same in adjacency.non_manifold.chunk_by(|a, b| a.0 == b.0) {
+        let (number, face) = same[0];
+        let Some([start, end]) = edges.get(number as usize).map(|edge| edge.vertices.map(point)) else {
+            continue;
+        };
+        let runs_along = |face: u32| {
+            let Some(&triangle) = mesh.triangles().get(face as usize) else { return false };
+            let [a, b, c] = triangle.map(point);
+            [[a, b], [b, c], [c, a]].contains(&[start, end])
+        };
+        let along = same.iter().filter(|(_, face)| runs_along(*face)).count();
+        let against = same.len() - along;
+        let ends = if along > against { [start, end] } else { [end, start] };
+        if along != against {
+            open.push(OpenSide { ends, count: along.abs_diff(against) as u32, face });
+        }
+    }
+    open
+}
+
+/// For each of `count` bodies whether its rims run around nothing but slits.
+fn closed(mesh: &Mesh, adjacency: &Adjacency, bodies: &Bodies, count: usize) -> Vec<bool> {
+    let mut is_closed = vec![true; count];
+    let open = open_sides(mesh, adjacency);
+    let mut starts: Vec<(u32, u32)> = Vec::with_capacity(open.len());
+    for (side, number) in open.iter().zip(0..) {
+        starts.extend(std::iter::repeat_n((side.ends[0], number), side.count as usize));
+    }
+    starts.par_sort_unstable();
+    let mut is_taken = vec![false; starts.len()];
+    let position = |point: u32| mesh.positions.get(point as usize).map_or(DVec3::ZERO, |p| p.as_dvec3());
+    let span = |side: &OpenSide| position(side.ends[1]) - position(side.ends[0]);
+    for first in 0..starts.len() {
+        let (start, side) = starts[first];
+        let body = bodies.of_triangle(open[side as usize].face);
+        if is_taken[first] || !is_closed[body] {
+            continue;
+        }
+        let origin = position(start);
+        // Twice the area that the rim runs around, as a vector: of slits next to nothing.
+        let (mut area, mut length) = (DVec3::ZERO, 0.0);
+        let mut next = Some(first);
+        let mut end = NO_POINT;
+        while let Some(at) = next {
+            is_taken[at] = true;
+            let side = &open[starts[at].1 as usize];
+            let [a, b] = side.ends.map(|point| position(point) - origin);
+            area += a.cross(b);
+            length += a.distance(b);
+            end = side.ends[1];
+            if end == start {
+                break;
+            }
+            // Where several go on, the one that turns back most: the other side of a slit.
+            let along = b - a;
+            let first_there = starts.partition_point(|&(point, _)| point < end);
+            let there = starts.iter().zip(0..).skip(first_there).take_while(|((point, _), _)| *point == end);
+            next = there
+                .take(MOST_AT_A_POINT)
+                .filter(|&(_, i)| !is_taken[i])
+                .map(|(&(_, side), i)| (along.dot(span(&open[side as usize]).normalize_or_zero()), i))
+                .min_by(|a, b| a.0.total_cmp(&b.0))
+                .map(|(_, i)| i);
+        }
+        let is_slit = area.length() <= bodies.widest_gap * length.min(bodies.widest_gap / WIDEST_GAP);
+        is_closed[body] = end == start && is_slit;
+    }
+    is_closed
 }
 
 #[cfg(test)]

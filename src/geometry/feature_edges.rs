@@ -4,7 +4,7 @@
 
 pub(super) mod creases;
 pub(super) mod straights;
-pub(super) mod stretches;
+mod stretches;
 
 use std::f32::consts::PI;
 use std::sync::Arc;

@@ -14,6 +14,9 @@ use super::{Bounds, Rig};
 pub struct Mesh {
     /// Vertex positions, local space, file units.
     pub positions: Vec<Vec3>,
+    /// How far a vertex may lie from its place, in units of the mesh, where seams were mended. 0: no farther than by
+    /// rounding.
+    pub position_error: f32,
     /// Shading normals, unit length, local space. Empty: every face is flat and uses its own geometric normal.
     pub normals: Vec<Vec3>,
     /// Whether `normals` were computed from the triangles. Then they say nothing about the shape that those do not.
@@ -95,6 +98,7 @@ impl Mesh {
         }
         Self {
             positions: pick(&self.positions, sources),
+            position_error: self.position_error,
             normals: pick(&self.normals, sources),
             has_computed_normals: self.has_computed_normals,
             uvs: pick(&self.uvs, sources),

@@ -16,6 +16,7 @@ mod line_chains;
 pub mod line_score;
 pub mod line_segments;
 pub mod mesh;
+mod needles;
 pub mod normals;
 pub mod octahedron;
 pub mod primitives;

@@ -30,9 +30,9 @@ impl Topology {
         let adjacency = Adjacency::new(mesh).with_rule(rule);
         let surfaces = Arc::new(adjacency.surfaces(crease_angle));
         let bodies = Bodies::new(mesh, &adjacency, Arc::clone(&surfaces));
-        let is_anything = !bodies.kinds().is_empty();
+        let has_gaps = adjacency.border_count > 0 || adjacency.flipped_count > 0;
         Self {
-            is_solid: is_anything && bodies.open_count() == 0 && adjacency.border_count == 0,
+            is_solid: !bodies.kinds().is_empty() && bodies.open_count() == 0 && !has_gaps,
             bodies: Arc::new(bodies),
             provoking: provoking(mesh, &surfaces),
             edges: Arc::new(FeatureEdges::new(mesh, &adjacency, surfaces)),

@@ -27,7 +27,7 @@ struct Other {
 }
 
 /// (edge, number of a seam that it takes part in), sorted.
-pub(in crate::geometry) fn seams_by_edge(adjacency: &Adjacency) -> Vec<(u32, u32)> {
+pub(super) fn seams_by_edge(adjacency: &Adjacency) -> Vec<(u32, u32)> {
     let mut seams: Vec<(u32, u32)> = (0..)
         .zip(&adjacency.seams)
         .flat_map(|(number, seam)| seam.edges.map(|edge| (edge, number)))
