@@ -245,10 +245,11 @@ fn closed(mesh: &Mesh, adjacency: &Adjacency, bodies: &Bodies, count: usize) -> 
     starts.par_sort_unstable();
     let mut is_taken = vec![false; starts.len()];
     let position = |point: u32| mesh.positions.get(point as usize).map_or(DVec3::ZERO, |p| p.as_dvec3());
-    let span = |side: &OpenSide| position(side.ends[1]) - position(side.ends[0]);
+    let side_of = |start: usize| &open[starts[start].1 as usize];
+    let body_of = |start: usize| bodies.of_triangle(side_of(start).face);
+    let direction = |side: &OpenSide| (position(side.ends[1]) - position(side.ends[0])).normalize_or_zero();
     for first in 0..starts.len() {
-        let (start, side) = starts[first];
-        let body = bodies.of_triangle(open[side as usize].face);
+        let (start, body) = (starts[first].0, body_of(first));
         if is_taken[first] || !is_closed[body] {
             continue;
         }
@@ -259,7 +260,7 @@ fn closed(mesh: &Mesh, adjacency: &Adjacency, bodies: &Bodies, count: usize) -> 
         let mut end = NO_POINT;
         while let Some(at) = next {
             is_taken[at] = true;
-            let side = &open[starts[at].1 as usize];
+            let side = side_of(at);
             let [a, b] = side.ends.map(|point| position(point) - origin);
             area += a.cross(b);
             length += a.distance(b);
@@ -268,15 +269,14 @@ fn closed(mesh: &Mesh, adjacency: &Adjacency, bodies: &Bodies, count: usize) -> 
                 break;
             }
             // Where several go on, the one that turns back most: the other side of a slit.
-            let along = b - a;
+            let along = direction(side);
             let first_there = starts.partition_point(|&(point, _)| point < end);
-            let there = starts.iter().zip(0..).skip(first_there).take_while(|((point, _), _)| *point == end);
-            next = there
+            let turned = |&start: &usize| along.dot(direction(side_of(start)));
+            next = (first_there..starts.len())
+                .take_while(|&start| starts[start].0 == end)
                 .take(MOST_AT_A_POINT)
-                .filter(|&(_, i)| !is_taken[i])
-                .map(|(&(_, side), i)| (along.dot(span(&open[side as usize]).normalize_or_zero()), i))
-                .min_by(|a, b| a.0.total_cmp(&b.0))
-                .map(|(_, i)| i);
+                .filter(|&start| !is_taken[start] && body_of(start) == body)
+                .min_by(|a, b| turned(a).total_cmp(&turned(b)));
         }
         let is_slit = area.length() <= bodies.widest_gap * length.min(bodies.widest_gap / WIDEST_GAP);
         is_closed[body] = end == start && is_slit;

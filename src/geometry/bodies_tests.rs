@@ -74,6 +74,14 @@ fn bodies_that_touch_along_an_edge_are_closed() {
 }
 
 #[test]
+fn sheets_that_touch_in_a_point_are_open() {
+    let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [-1.0, 0.0], [-1.0, -1.0], [0.0, 1.0], [-1.0, 1.0]];
+    let points = corners.map(|[x, y]| Vec3::new(x, y, 0.0)).to_vec();
+    let mesh = from_triangles(points, vec![0, 1, 2, 0, 3, 4, 0, 5, 6]);
+    assert_eq!(bodies(&mesh).kinds(), [BodyKind::Open; 3]);
+}
+
+#[test]
 fn one_turned_triangle_opens_its_body() {
     let mut mesh = together(&[cube(1.0), moved(cube(1.0), Vec3::X * 3.0)]);
     mesh.indices.swap(0, 1);

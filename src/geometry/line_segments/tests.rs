@@ -290,3 +290,17 @@ fn the_number_of_threads_changes_nothing() {
     let (one, three) = (found(1), found(3));
     assert!(one.len() > 400 && one == three);
 }
+
+#[test]
+fn soft_edges_are_outlines_and_no_creases() {
+    let coarse = primitives::torus(1.0, 0.5, 8, 8);
+    let faceted = Mesh { normals: Vec::new(), ..coarse.clone() };
+    let [smooth, faceted] = [coarse, faceted].map(Subject::new);
+    let view = look_from(DVec3::new(0.7, 4.0, 1.1), LENSES[0]);
+    let counts = [&smooth, &faceted].map(|subject| {
+        let segments = subject.segments(DMat4::IDENTITY, &view, &everything());
+        [EdgeClass::Silhouette, EdgeClass::Ridge].map(|class| count(&segments, class))
+    });
+    assert!(counts[0][0] >= 16 && counts[0][0] == counts[1][0], "{counts:?}");
+    assert!(counts[0][1] == 0 && counts[1][1] > 0, "{counts:?}");
+}

@@ -50,7 +50,7 @@ pub struct Opened {
     pub cap: Option<PlacedCap>,
     /// Whether what is left of it encloses a volume.
     pub is_solid: bool,
-    /// Number of bodies that the plane cuts and that have no cap: they are not solid.
+    /// Number of bodies that the plane cuts and that have no cap because they are not solid; 0 if there are no caps.
     pub open_count: usize,
 }
 
