@@ -11,7 +11,7 @@ mod planes;
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use hachure::geometry::Topology;
+use hachure::geometry::{CreaseRule, Topology};
 use hachure::import::{ImportOptions, Progress, load};
 use hachure::scene::Scene;
 
@@ -62,7 +62,7 @@ fn the_cloister_is_made_of_named_solids() {
     assert_eq!(names.len(), scene.nodes.len(), "two parts of one name");
     for node in &scene.nodes {
         let Some(mesh) = node.mesh.map(|mesh| &scene.meshes[mesh]) else { continue };
-        assert!(Topology::new(mesh, 0.6).is_solid, "{}", node.path);
+        assert!(Topology::new(mesh, 0.6, CreaseRule::default()).is_solid, "{}", node.path);
     }
 }
 

@@ -9,7 +9,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use glam::{DVec2, DVec3, Vec3};
-use hachure::geometry::Topology;
+use hachure::geometry::{CreaseRule, Topology};
 use hachure::import::{ImportOptions, Progress, load};
 use hachure::scene::{AlphaMode, Scene};
 
@@ -255,7 +255,7 @@ fn the_still_life_is_made_of_named_solids_leaves_and_a_pane() {
     for node in &scene.nodes {
         let Some(mesh) = node.mesh.map(|mesh| &scene.meshes[mesh]) else { continue };
         let sheet = ["/leaf.", "/label", "/glass"].iter().any(|name| node.path.contains(name));
-        assert_eq!(Topology::new(mesh, 0.6).is_solid, !sheet, "{}", node.path);
+        assert_eq!(Topology::new(mesh, 0.6, CreaseRule::default()).is_solid, !sheet, "{}", node.path);
     }
     for part in Model::open("still_life.glb").parts {
         part.check_faces();

@@ -13,7 +13,7 @@ use std::f64::consts::TAU;
 use std::path::Path;
 
 use glam::{DVec3, dvec3};
-use hachure::geometry::{Bounds, Topology};
+use hachure::geometry::{Bounds, CreaseRule, Topology};
 use hachure::import::{ImportOptions, Progress, load};
 use hachure::scene::Scene;
 
@@ -81,7 +81,7 @@ fn the_temple_is_made_of_named_solids() {
     assert_eq!(names.len(), scene.nodes.len(), "two parts of one name");
     for node in &scene.nodes {
         let Some(mesh) = node.mesh.map(|mesh| &scene.meshes[mesh]) else { continue };
-        assert!(Topology::new(mesh, 0.6).is_solid, "{}", node.path);
+        assert!(Topology::new(mesh, 0.6, CreaseRule::default()).is_solid, "{}", node.path);
     }
 }
 

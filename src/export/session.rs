@@ -6,7 +6,7 @@ use std::sync::Arc;
 use image::RgbaImage;
 
 use crate::document::{Document, DocumentError};
-use crate::geometry::Topology;
+use crate::geometry::{CreaseRule, Topology};
 use crate::gpu::{Gpu, GpuError, readback};
 use crate::hatching::cache::Cache;
 use crate::import::{ImportError, ImportOptions, Progress, load_all};
@@ -80,7 +80,11 @@ pub fn initial_camera(document: &Document, scene: &Scene, aspect: f64) -> Camera
 
 /// What topology finds out about all meshes, for a crease angle in degrees. Takes about 0.1 s per million triangles.
 pub fn topology(scene: &Scene, crease_angle: f32) -> Vec<Topology> {
-    scene.meshes.iter().map(|mesh| Topology::new(mesh, crease_angle.to_radians())).collect()
+    scene
+        .meshes
+        .iter()
+        .map(|mesh| Topology::new(mesh, crease_angle.to_radians(), CreaseRule::default()))
+        .collect()
 }
 
 /// A renderer that gives its pictures back.

@@ -211,7 +211,7 @@ impl Skin {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::{Bounds, Topology};
+    use crate::geometry::{Bounds, CreaseRule, Topology};
 
     const END: Heads = Heads { at_start: false, at_end: true, along: false };
     const ALL: Heads = Heads { at_start: true, at_end: true, along: true };
@@ -232,7 +232,10 @@ mod tests {
                 // A tube that bends more sharply than it is thick runs into itself, one that goes back has no inside.
                 let is_back = points.len() == 4 && points[0] == points[2];
                 let is_folded = is_back || points[1].x < 0.1;
-                assert!(is_back || Topology::new(&mesh, 0.5).is_solid, "{points:?} {heads:?}");
+                assert!(
+                    is_back || Topology::new(&mesh, 0.5, CreaseRule::Normals).is_solid,
+                    "{points:?} {heads:?}"
+                );
                 for (t, n) in mesh.triangles().iter().map(|t| (mesh.corners(*t), mesh.normals[t[0] as usize]))
                 {
                     let face = (t[1] - t[0]).cross(t[2] - t[0]);

@@ -47,14 +47,14 @@ fn unit(axis: usize) -> [u32; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::Topology;
+    use crate::geometry::{CreaseRule, Topology};
     use glam::DVec3;
 
     #[test]
     fn a_frame_is_closed_fills_its_box_and_is_hollow() {
         let bounds = Bounds { min: DVec3::new(-1.0, 0.0, 2.0), max: DVec3::new(1.0, 4.0, 5.0) };
         let mesh = box_frame(&bounds, 0.25);
-        assert!(Topology::new(&mesh, 0.5).is_solid);
+        assert!(Topology::new(&mesh, 0.5, CreaseRule::Normals).is_solid);
         assert_eq!(Bounds::of_points(&mesh.positions), bounds);
         let volume: f32 =
             mesh.triangles().iter().map(|t| mesh.corners(*t)).map(|[a, b, c]| a.dot(b.cross(c)) / 6.0).sum();

@@ -17,7 +17,7 @@ use self::cut::{CutMesh, Faces};
 use self::graph::Graph;
 use self::planes::Planes;
 use self::smooth::{Data, smooth};
-use super::{Adjacency, Mesh};
+use super::{Adjacency, CreaseRule, Mesh};
 
 /// Where directions come from.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -45,6 +45,8 @@ pub struct FieldOptions {
     pub smoothing: f32,
     /// Edges with a larger angle between their triangles are cut: radians, 0 to π.
     pub crease_angle: f32,
+    /// Which of those are cut.
+    pub crease_rule: CreaseRule,
     /// Upwards in local space; where nothing else is known, strokes are level.
     pub up: Vec3,
     /// How much strokes prefer to be level where the form bends nearly the same in all directions, 0 to 1: a belly gets
@@ -59,6 +61,7 @@ impl Default for FieldOptions {
             source: DirectionSource::Curvature,
             smoothing: 0.08,
             crease_angle: 38_f32.to_radians(),
+            crease_rule: CreaseRule::default(),
             up: Vec3::Y,
             level: 0.4,
         }
@@ -122,7 +125,7 @@ impl Solved {
             let graphs = vec![Graph::new(&cut, &[])];
             return Some(Self { directions: vec![Vec3::X; cut.len()], cut, graphs, extent });
         }
-        let adjacency = Adjacency::new(mesh);
+        let adjacency = Adjacency::new(mesh).with_rule(options.crease_rule);
         let faces = Faces::new(mesh, &adjacency, extent);
         let crease = if options.crease_angle.is_finite() { options.crease_angle.abs() } else { 0.0 };
         let up = options.up.normalize_or(Vec3::Y);
@@ -133,7 +136,7 @@ impl Solved {
             DirectionSource::Curvature => Planes::new(&faces, crease, up),
             _ => Planes::none(mesh.triangle_count()),
         };
-        let cut = CutMesh::new(&faces, |edge| edge.dihedral.abs() <= crease && planes.goes_on(&faces, edge));
+        let cut = CutMesh::new(&faces, |edge| !edge.is_crease(crease) && planes.goes_on(&faces, edge));
         if !progress(0.4) {
             return None;
         }

@@ -7,6 +7,7 @@ pub(super) mod straights;
 mod stretches;
 
 use std::f32::consts::PI;
+use std::sync::Arc;
 
 use self::stretches::Stretch;
 use super::topology::NO_FACE;
@@ -26,6 +27,8 @@ impl Traits {
     pub(super) const MATERIAL: Self = Self(4);
     /// Three triangles or more; all of them are in [`FeatureEdges::fans`].
     pub(super) const FAN: Self = Self(8);
+    /// [`super::Edge::is_soft`]: no crease, whatever the angle.
+    pub(super) const SOFT: Self = Self(16);
 
     /// All traits of both.
     pub(super) const fn and(self, other: Self) -> Self {
@@ -42,13 +45,13 @@ impl Traits {
         self.0 & Self::FLIPPED.0
     }
 
-    const fn when(self, is: bool) -> Self {
+    pub(super) const fn when(self, is: bool) -> Self {
         if is { self } else { Self(0) }
     }
 }
 
 /// Above this angle (radians) two triangles lie on each other: a wall that was modelled twice, with one surface.
-const FOLDED: f32 = PI - 1e-3;
+pub(super) const FOLDED: f32 = PI - 1e-3;
 
 /// All edges of a mesh at which a line can be, one entry each: about 21 bytes, and 4 per triangle.
 ///
@@ -66,8 +69,8 @@ pub struct FeatureEdges {
     pub(super) traits: Vec<Traits>,
     /// Every (edge, triangle) of the edges with more than two triangles, in order.
     pub(super) fans: Vec<(u32, u32)>,
-    /// The surface of each triangle, as in [`Surfaces::of_triangle`].
-    pub(super) surface_of_triangle: Vec<u32>,
+    /// The surfaces of the mesh.
+    pub(super) surfaces: Arc<Surfaces>,
     /// The box around the mesh, local space.
     pub(super) bounds: Bounds,
     kept: creases::Kept,
@@ -76,7 +79,7 @@ pub struct FeatureEdges {
 
 impl FeatureEdges {
     /// Gathers the edges of a mesh. Adjacency and surfaces must be those of the same mesh.
-    pub fn new(mesh: &Mesh, adjacency: &Adjacency, surfaces: Surfaces) -> Self {
+    pub fn new(mesh: &Mesh, adjacency: &Adjacency, surfaces: impl Into<Arc<Surfaces>>) -> Self {
         let count = adjacency.edges.len();
         let mut all = Self {
             ends: Vec::with_capacity(count),
@@ -84,7 +87,7 @@ impl FeatureEdges {
             dihedral: Vec::with_capacity(count),
             traits: Vec::with_capacity(count),
             fans: Vec::new(),
-            surface_of_triangle: surfaces.of_triangle,
+            surfaces: surfaces.into(),
             bounds: mesh.bounds(),
             kept: creases::Kept::default(),
             kept_straights: straights::Kept::default(),
@@ -112,7 +115,8 @@ impl FeatureEdges {
                 }
                 EdgeKind::Manifold | EdgeKind::Flipped => {
                     let flipped = Traits::FLIPPED.when(edge.kind == EdgeKind::Flipped);
-                    all.add_pair(ends, edge.faces, edge.dihedral, flipped, &materials);
+                    let traits = flipped.and(Traits::SOFT.when(edge.is_soft));
+                    all.add_pair(ends, edge.faces, edge.dihedral, traits, &materials);
                 }
                 EdgeKind::NonManifold => {
                     let faces = own_faces.iter().map(|&(_, face)| face);
@@ -140,7 +144,7 @@ impl FeatureEdges {
             + size_of_val(self.dihedral.as_slice())
             + size_of_val(self.traits.as_slice())
             + size_of_val(self.fans.as_slice())
-            + size_of_val(self.surface_of_triangle.as_slice())
+            + size_of_val(self.surfaces.of_triangle.as_slice())
     }
 
     /// The triangles of a fan, each with the number of the edge.
@@ -191,7 +195,10 @@ impl FeatureEdges {
             [] => {}
             [face] => self.add(ends, [face; 2], 0.0, Traits::BORDER),
             // Seams join only edges that run against each other: no pair is flipped.
-            [a, b] => self.add_pair(ends, [a, b], stretch.dihedral, Traits::default(), materials),
+            [a, b] => {
+                let soft = Traits::SOFT.when(stretch.is_soft);
+                self.add_pair(ends, [a, b], stretch.dihedral, soft, materials);
+            }
             [a, b, ..] => self.add_fan(ends, [a, b], stretch.dihedral, stretch.faces.iter().copied()),
         }
     }

@@ -205,7 +205,7 @@ impl<'a> Finder<'a> {
             let seen = self.fans.look(edge)?;
             return match seen.rim {
                 Some(rim) => self.rim(rim, seen.angle, seen.faces),
-                None => self.crease(seen.angle, seen.faces, seen.materials_differ),
+                None => self.crease(seen.angle, seen.faces, Traits::MATERIAL.when(seen.materials_differ)),
             };
         }
         if traits.any(Traits::BORDER) {
@@ -225,7 +225,7 @@ impl<'a> Finder<'a> {
             return self.rim(EdgeClass::Silhouette, angle, faces);
         }
         // From behind, what is convex looks concave.
-        self.crease(if is_away { -angle } else { angle }, faces, traits.any(Traits::MATERIAL))
+        self.crease(if is_away { -angle } else { angle }, faces, traits)
     }
 
     /// A line with all surfaces on one side of it.
@@ -237,11 +237,12 @@ impl<'a> Finder<'a> {
     }
 
     /// A line with a surface on either side.
-    fn crease(&self, angle: f32, faces: [u32; 2], materials_differ: bool) -> Option<Line> {
+    fn crease(&self, angle: f32, faces: [u32; 2], traits: Traits) -> Option<Line> {
+        let is_hard = !traits.any(Traits::SOFT);
         let candidates = [
-            (angle >= self.wanted.ridge_angle, EdgeClass::Ridge),
-            (angle <= -self.wanted.valley_angle, EdgeClass::Valley),
-            (materials_differ, EdgeClass::Material),
+            (is_hard && angle >= self.wanted.ridge_angle, EdgeClass::Ridge),
+            (is_hard && angle <= -self.wanted.valley_angle, EdgeClass::Valley),
+            (traits.any(Traits::MATERIAL), EdgeClass::Material),
         ];
         let first = candidates.into_iter().find(|&(is, class)| is && self.wanted.classes.contains(class));
         let class = match first {
@@ -261,7 +262,7 @@ impl<'a> Finder<'a> {
     }
 
     fn surface(&self, face: u32) -> u32 {
-        self.placed.edges.surface_of_triangle.get(face as usize).copied().unwrap_or(NO_SURFACE)
+        self.placed.edges.surfaces.of_triangle.get(face as usize).copied().unwrap_or(NO_SURFACE)
     }
 
     fn push(&self, edge: u32, line: &Line, out: &mut Vec<LineSegment>, trace: &mut Trace) {

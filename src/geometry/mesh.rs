@@ -14,8 +14,13 @@ use super::{Bounds, Rig};
 pub struct Mesh {
     /// Vertex positions, local space, file units.
     pub positions: Vec<Vec3>,
+    /// How far a vertex may lie from its place, in units of the mesh, where seams were mended. 0: no farther than by
+    /// rounding.
+    pub position_error: f32,
     /// Shading normals, unit length, local space. Empty: every face is flat and uses its own geometric normal.
     pub normals: Vec<Vec3>,
+    /// Whether `normals` were computed from the triangles. Then they say nothing about the shape that those do not.
+    pub has_computed_normals: bool,
     /// Texture coordinates, (0,0) = upper left of the image as in glTF. Empty: none.
     pub uvs: Vec<Vec2>,
     /// Vertex colours, linear RGBA as 8-bit unorm, multiplied into the base colour. Empty: white.
@@ -93,7 +98,9 @@ impl Mesh {
         }
         Self {
             positions: pick(&self.positions, sources),
+            position_error: self.position_error,
             normals: pick(&self.normals, sources),
+            has_computed_normals: self.has_computed_normals,
             uvs: pick(&self.uvs, sources),
             colors: pick(&self.colors, sources),
             tangents: pick(&self.tangents, sources),

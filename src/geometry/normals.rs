@@ -25,13 +25,14 @@ pub fn face_normals(mesh: &Mesh) -> Vec<Vec3> {
 /// The mesh without vertex normals: every face is flat.
 #[must_use]
 pub fn flat(mesh: Mesh) -> Mesh {
-    Mesh { normals: Vec::new(), ..mesh }
+    Mesh { normals: Vec::new(), has_computed_normals: false, ..mesh }
 }
 
 /// The mesh with smooth normals: at each point, the triangles that are connected across edges with a dihedral angle of
 /// at most `degrees` (0 to 180) share the mean of their normals, weighted by their angle at the point. A vertex on a
 /// crease is split, with all its attributes; vertices that differ in texture coordinates or colour stay apart but get
-/// the same normal. Points are welded by position first. The mesh must be clean (see [`super::clean()`]).
+/// the same normal. Points are welded by position first. The mesh must be clean (see [`super::clean()`]). The normals are
+/// marked as computed.
 ///
 /// # Panics
 /// When an index is out of range.
@@ -77,6 +78,7 @@ pub fn by_crease_angle(mut mesh: Mesh, degrees: f32) -> Mesh {
     }
     mesh.normals.clear();
     mesh.append_copies(&copies);
+    mesh.has_computed_normals = !normals.is_empty();
     mesh.normals = normals;
     mesh
 }

@@ -1,15 +1,15 @@
-//! Where a plane cuts a mesh: the contours of the cut, exact, and the cap that fills those of a solid.
+//! Where a plane cuts a mesh: the contours of the cut, exact, and the cap that fills those of solid bodies.
 //!
 //! All is computed in the coordinates of the plane: x and y run in it, z is the height over it. What lies below the plane
 //! is kept, what lies in it or over it is cut away; each welded vertex is asked once, so that neighbouring triangles agree
 //! and contours of closed meshes are closed.
 
+mod cap;
+
 use glam::{DMat4, DVec2, DVec3, DVec4};
-use i_triangle::float::custom::CustomTriangulatable as _;
-use i_triangle::i_overlay::core::fill_rule::FillRule;
-use i_triangle::int::validation::Validation;
 use rayon::prelude::*;
 
+pub use self::cap::{Cap, Filling, fill};
 use super::{Mesh, Plane, Weld};
 
 /// Triangles that one thread takes at a time.
@@ -35,26 +35,6 @@ impl Contour {
     pub fn stretches(&self) -> impl Iterator<Item = ([DVec2; 2], u32)> + '_ {
         let next = self.points.iter().skip(1).chain(self.points.first().filter(|_| self.is_closed));
         self.points.iter().zip(next).zip(&self.triangles).map(|((&a, &b), &t)| ([a, b], t))
-    }
-}
-
-/// The inside of contours as triangles, in the plane's coordinates.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Cap {
-    /// Corners.
-    pub points: Vec<DVec2>,
-    /// Counter-clockwise seen from above.
-    pub triangles: Vec<[u32; 3]>,
-}
-
-impl Cap {
-    /// The area that it covers.
-    pub fn area(&self) -> f64 {
-        let corner = |i: u32| self.points.get(i as usize).copied().unwrap_or(DVec2::ZERO);
-        self.triangles
-            .iter()
-            .map(|&[a, b, c]| 0.5 * (corner(b) - corner(a)).perp_dot(corner(c) - corner(a)))
-            .sum()
     }
 }
 
@@ -199,31 +179,6 @@ impl Cut<'_> {
             is_closed,
         }
     }
-}
-
-/// What the contours of one solid enclose: every place around which they run more often to the left than to the right, so
-/// that a shell within a shell is hollow if it faces inwards, and bodies that reach into each other are one. `None` unless
-/// all of them are closed, and when nothing is enclosed.
-pub fn cap(contours: &[Contour]) -> Option<Cap> {
-    if contours.is_empty() || !contours.iter().all(|c| c.is_closed) {
-        return None;
-    }
-    let points = || contours.iter().flat_map(|c| &c.points);
-    let low = points().fold(DVec2::INFINITY, |low, p| low.min(*p));
-    let high = points().fold(DVec2::NEG_INFINITY, |high, p| high.max(*p));
-    let (middle, size) = ((low + high) * 0.5, (high - low).max_element());
-    if !(points().all(|p| p.is_finite()) && size.is_finite() && size > 0.0) {
-        return None;
-    }
-    let outlines: Vec<Vec<[f64; 2]>> = contours
-        .iter()
-        .map(|contour| contour.points.iter().map(|p| ((*p - middle) / size).to_array()).collect())
-        .collect();
-    let validation = Validation::with_fill_rule(FillRule::Positive);
-    let filled = outlines.custom_triangulate(validation).to_triangulation::<u32>();
-    let points = filled.points.into_iter().map(|p| DVec2::from_array(p) * size + middle).collect();
-    let cap = Cap { points, triangles: filled.indices.as_chunks().0.to_vec() };
-    (!cap.triangles.is_empty()).then_some(cap)
 }
 
 #[cfg(test)]

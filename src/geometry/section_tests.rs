@@ -1,7 +1,7 @@
 use glam::{DMat4, DVec2, DVec3, Vec3};
 
 use super::*;
-use crate::geometry::{Bounds, primitives};
+use crate::geometry::{Bodies, BodyKind, Bounds, CreaseRule, Topology, primitives};
 
 /// The contours of a mesh in a plane, and the coordinates of that.
 fn cut(mesh: &Mesh, point: DVec3, normal: DVec3) -> (Vec<Contour>, DMat4) {
@@ -10,8 +10,21 @@ fn cut(mesh: &Mesh, point: DVec3, normal: DVec3) -> (Vec<Contour>, DMat4) {
     (contours(mesh, &Weld::near(&mesh.positions), &world_from_plane.inverse()), world_from_plane)
 }
 
+fn bodies(mesh: &Mesh) -> Bodies {
+    (*Topology::new(mesh, 0.5, CreaseRule::Normals).bodies).clone()
+}
+
+fn filling(mesh: &Mesh, point: DVec3, normal: DVec3) -> Filling {
+    let (contours, world_from_plane) = cut(mesh, point, normal);
+    fill(&contours, &bodies(mesh), &world_from_plane.inverse())
+}
+
+fn area_of(filling: &Filling) -> f64 {
+    filling.cap.as_ref().map_or(0.0, Cap::area)
+}
+
 fn area(mesh: &Mesh, point: DVec3, normal: DVec3) -> f64 {
-    cap(&cut(mesh, point, normal).0).map_or(0.0, |cap| cap.area())
+    area_of(&filling(mesh, point, normal))
 }
 
 fn length(contours: &[Contour]) -> f64 {
@@ -45,6 +58,7 @@ fn speed() {
     let tube = primitives::torus(1.0, 0.3, 1100, 500);
     for (name, mesh) in [("ball", ball), ("tube", tube)] {
         let weld = Weld::near(&mesh.positions);
+        let bodies = bodies(&mesh);
         for normal in [DVec3::X, DVec3::Y, DVec3::new(0.3, 0.5, 0.8)] {
             let plane = Plane { point: normal * 0.05, normal: normal.normalize() };
             let plane_from_local = plane.world_from_plane(DVec3::ONE).inverse();
@@ -53,7 +67,7 @@ fn speed() {
                     let start = std::time::Instant::now();
                     let found = contours(&mesh, &weld, &plane_from_local);
                     let cut = start.elapsed();
-                    assert!(cap(&found).is_some());
+                    assert!(fill(&found, &bodies, &plane_from_local).cap.is_some());
                     [cut, start.elapsed() - cut].map(|time| 1e3 * time.as_secs_f64())
                 })
                 .collect();
@@ -73,7 +87,7 @@ fn a_cube_is_cut_into_a_square_a_hexagon_and_a_triangle() {
         let (square, _) = cut(&mesh, DVec3::new(0.0, 0.3, 0.0), DVec3::Y);
         assert_eq!(square.len(), 1);
         assert!(square[0].is_closed && (length(&square) - 8.0).abs() < 1e-9);
-        assert!((cap(&square).unwrap().area() - 4.0).abs() < 1e-7);
+        assert!((area(&mesh, DVec3::new(0.0, 0.3, 0.0), DVec3::Y) - 4.0).abs() < 1e-7);
         // Through the middle, across the space diagonal: a regular hexagon with sides of √2.
         let hexagon = 1.5 * 3.0_f64.sqrt() * 2.0;
         assert!((area(&mesh, DVec3::ZERO, DVec3::ONE) - hexagon).abs() < 1e-7);
@@ -141,6 +155,90 @@ fn nested_and_touching_shells_are_filled_by_what_they_enclose() {
 }
 
 #[test]
+fn each_body_is_filled_for_itself() {
+    let mut open = moved(primitives::cube(1.0), Vec3::X * 2.0);
+    open.indices.truncate(30);
+    let lone = inside_out(moved(primitives::cube(1.0), Vec3::X * 4.0));
+    let all = together(&[primitives::cube(2.0), inside_out(primitives::cube(1.0)), open, lone]);
+    assert_eq!(bodies(&all).kinds(), [BodyKind::Solid, BodyKind::Cavity, BodyKind::Open, BodyKind::Open]);
+    let found = filling(&all, DVec3::ZERO, DVec3::Y);
+    assert!((area_of(&found) - 3.0).abs() < 1e-7 && found.open_count == 2, "{found:?}");
+}
+
+#[test]
+fn boxes_that_touch_along_an_edge_are_filled() {
+    let boxes = together(&[primitives::cube(1.0), moved(primitives::cube(1.0), Vec3::new(1.0, 0.0, 1.0))]);
+    for (point, normal, exact) in [
+        (DVec3::ZERO, DVec3::Y, 2.0),
+        (DVec3::new(0.5, 0.0, 0.5), DVec3::new(1.0, 0.0, -1.0), 8.0_f64.sqrt()),
+        (DVec3::new(0.1, 0.1, 0.1), DVec3::new(0.1, 1.0, 0.2), 2.0 * (1.0 + 0.05_f64).sqrt()),
+    ] {
+        let found = filling(&boxes, point, normal);
+        assert!((area_of(&found) - exact).abs() < 1e-6 && found.open_count == 0, "{normal}: {found:?}");
+    }
+}
+
+/// A box whose lid shares no vertices with its walls. It is cut into strips, whose ends lie `gap` too high between the
+/// corners. Of the four sides, which are loose as well, so many are there.
+fn loose_box(strips: u32, gap: f32, sides: usize) -> Mesh {
+    let mut walls = primitives::cube_split(1.0);
+    walls.normals.clear();
+    walls.uvs.clear();
+    let of_lid = |t: &&[u32; 3]| t.iter().all(|&v| walls.positions[v as usize].y > 0.0);
+    let of_floor = |t: &&[u32; 3]| t.iter().all(|&v| walls.positions[v as usize].y < 0.0);
+    let is_side = |t: &&[u32; 3]| !of_lid(t) && !of_floor(t);
+    let triangles = walls.triangles();
+    let kept = triangles.iter().filter(is_side).take(2 * sides).chain(triangles.iter().filter(of_floor));
+    let walls = primitives::from_triangles(walls.positions.clone(), kept.flatten().copied().collect());
+    let (mut positions, mut indices) = (Vec::new(), Vec::new());
+    for i in 0..=strips {
+        let height = if i == 0 || i == strips { 0.5 } else { 0.5 + gap };
+        positions.extend([-0.5, 0.5].map(|z| Vec3::new(i as f32 / strips as f32 - 0.5, height, z)));
+    }
+    for a in (0..2 * strips).step_by(2) {
+        indices.extend([a, a + 1, a + 2, a + 2, a + 1, a + 3]);
+    }
+    together(&[walls, primitives::from_triangles(positions, indices)])
+}
+
+#[test]
+fn contours_are_joined_where_faces_are_divided_differently() {
+    for (strips, gap) in [(1, 0.0), (2, 0.0), (5, 0.0), (5, 2e-3)] {
+        let mesh = loose_box(strips, gap, 4);
+        assert_eq!(bodies(&mesh).kinds(), [BodyKind::Solid], "{strips} {gap}");
+        let oblique = DVec3::new(1.0, 0.0, 1.0);
+        for (normal, exact) in [(DVec3::X, 1.0), (DVec3::Z, 1.0), (oblique, 2.0_f64.sqrt())] {
+            let found = filling(&mesh, DVec3::new(0.01, 0.0, -0.01), normal);
+            assert!(found.open_count == 0, "{strips} {gap} {normal}: {found:?}");
+            assert!((area_of(&found) / exact - 1.0).abs() < 0.01, "{strips} {gap} {normal}");
+        }
+    }
+}
+
+#[test]
+fn wide_gaps_open_a_body_even_if_they_face_each_other() {
+    for mesh in [loose_box(5, 0.05, 4), loose_box(2, 0.0, 3), loose_box(2, 0.0, 2), loose_box(2, 0.0, 0)] {
+        assert!(bodies(&mesh).kinds().iter().all(|kind| *kind == BodyKind::Open));
+        assert_eq!(filling(&mesh, DVec3::ZERO, DVec3::X).cap, None);
+    }
+}
+
+#[test]
+fn contours_with_wide_gaps_are_left_open() {
+    let point = |x: f64, y: f64| DVec2::new(x, y);
+    let cube = primitives::cube(1.0);
+    let reach = bodies(&cube).widest_gap();
+    let filled = |gap: f64| {
+        let half = |points: Vec<DVec2>| Contour { points, triangles: vec![0; 2], is_closed: false };
+        let lower = half(vec![point(0.0, 0.0), point(1.0, 0.0), point(1.0, 1.0)]);
+        let upper = half(vec![point(1.0 - gap, 1.0), point(0.0, 1.0), point(0.0, gap)]);
+        fill(&[lower, upper], &bodies(&cube), &DMat4::IDENTITY)
+    };
+    assert!((area_of(&filled(0.5 * reach)) - 1.0).abs() < reach);
+    assert_eq!(filled(1.5 * reach), Filling { cap: None, open_count: 1 });
+}
+
+#[test]
 fn what_one_side_keeps_the_other_one_cuts_away() {
     let mesh = primitives::torus(1.0, 0.3, 33, 17);
     for normal in [DVec3::X, DVec3::new(0.2, 0.9, -0.4)] {
@@ -157,8 +255,9 @@ fn where_a_mesh_lies_turns_its_contours_but_not_inside_out() {
     let plane_from_world = plane.world_from_plane(DVec3::Y).inverse();
     let places = [DMat4::IDENTITY, DMat4::from_scale(DVec3::new(1.0, 1.0, -1.0))];
     let areas = places.map(|place| {
-        let found = contours(&mesh, &Weld::near(&mesh.positions), &(plane_from_world * place));
-        cap(&found).unwrap().area()
+        let plane_from_local = plane_from_world * place;
+        let found = contours(&mesh, &Weld::near(&mesh.positions), &plane_from_local);
+        area_of(&fill(&found, &bodies(&mesh), &plane_from_local))
     });
     assert!(areas[0] > 2.5 && (areas[0] - areas[1]).abs() < 1e-7, "{areas:?}");
 }
@@ -191,7 +290,9 @@ fn open_surfaces_have_contours_and_no_cap() {
     assert!(found.iter().all(|c| !c.is_empty()));
     let is_open = |c: &&Vec<Contour>| c.iter().any(|c| !c.is_closed);
     assert_eq!(found.iter().filter(is_open).count(), 2);
-    assert!(found.iter().filter(is_open).all(|c| cap(c).is_none()));
+    for normal in [DVec3::X, DVec3::Y, DVec3::Z] {
+        assert_eq!(filling(&open, DVec3::ZERO, normal), Filling { cap: None, open_count: 1 });
+    }
     let (line, _) = cut(&primitives::plane(2.0), DVec3::ZERO, DVec3::X);
     assert!(line.len() == 1 && !line[0].is_closed && (length(&line) - 2.0).abs() < 1e-9);
     assert_eq!(line[0].points.len(), line[0].triangles.len() + 1);
@@ -207,10 +308,12 @@ fn nothing_and_broken_numbers_give_nothing() {
     for broken in
         [DMat4::ZERO, DMat4::from_scale(DVec3::splat(f64::NAN)), DMat4::from_scale(DVec3::splat(1e100))]
     {
-        assert!(cap(&contours(&cube, &weld, &broken)).is_none_or(|cap| cap.area().is_finite()));
+        let filling = fill(&contours(&cube, &weld, &broken), &bodies(&cube), &broken);
+        assert!(area_of(&filling).is_finite());
     }
     let point = |x: f64| DVec2::new(x, 0.0);
     let flat = Contour { points: vec![point(0.0), point(1.0)], triangles: vec![0, 1], is_closed: true };
-    assert_eq!(cap(&[flat]), None);
-    assert_eq!(cap(&[]), None);
+    assert_eq!(fill(&[flat], &bodies(&cube), &DMat4::IDENTITY).cap, None);
+    assert_eq!(fill(&[], &bodies(&cube), &DMat4::IDENTITY), Filling::default());
+    assert_eq!(fill(&[Contour::default()], &bodies(&Mesh::default()), &DMat4::NAN).open_count, 1);
 }

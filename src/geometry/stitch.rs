@@ -7,6 +7,8 @@
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
+use super::feature_edges::FOLDED;
+use super::soft_edges::SoftNormals;
 use super::topology::{EdgeKind, signed_angle};
 use super::weld::TOLERANCE;
 use super::{Edge, Mesh, Weld};
@@ -20,8 +22,17 @@ pub struct Seam {
     pub faces: [u32; 2],
     /// Angle between the triangles' normals, as [`Edge::dihedral`].
     pub dihedral: f32,
+    /// As [`Edge::is_soft`].
+    pub is_soft: bool,
     /// Length of the stretch, in units of the mesh.
     pub length: f64,
+}
+
+impl Seam {
+    /// As [`Edge::is_crease`].
+    pub fn is_crease(&self, crease_angle: f32) -> bool {
+        !self.is_soft && self.dihedral.abs() > crease_angle
+    }
 }
 
 /// Finds all seams between border edges and marks the edges that are covered by seams from end to end as
@@ -67,6 +78,7 @@ struct Borders<'a> {
     mesh: &'a Mesh,
     weld: &'a Weld,
     normals: &'a [Vec3],
+    soft: SoftNormals<'a>,
     edges: &'a [Edge],
     /// (welded point, edge), sorted: the edges that start at the point.
     starts: Vec<(u32, u32)>,
@@ -92,6 +104,7 @@ impl<'a> Borders<'a> {
             mesh,
             weld,
             normals,
+            soft: SoftNormals::new(mesh),
             edges,
             starts: by_end(0),
             ends: by_end(1),
@@ -140,7 +153,7 @@ impl<'a> Borders<'a> {
             if end <= begin + self.tolerance {
                 return;
             }
-            seams.push(self.seam(left, right, direction, end - begin));
+            seams.push(self.seam(left, right, direction, [begin, end].map(|at| origin + direction * at)));
             begin = end;
             if (left_end - right_end).abs() <= self.tolerance {
                 return;
@@ -161,15 +174,24 @@ impl<'a> Borders<'a> {
         }
     }
 
-    fn seam(&self, left: u32, right: u32, direction: DVec3, length: f64) -> Seam {
+    fn seam(&self, left: u32, right: u32, direction: DVec3, ends: [DVec3; 2]) -> Seam {
         let face = |edge: u32| self.edges[edge as usize].faces[0];
         let [n0, n1] = [left, right].map(|edge| self.normals[face(edge) as usize]);
         let [first, second] = [left.min(right), left.max(right)];
+        let place = |edge: u32, point: DVec3| {
+            let [a, b] = [0, 1].map(|end| self.position(edge, end));
+            let share = (point - a).dot(b - a) / a.distance_squared(b);
+            (self.edges[edge as usize].vertices, share.clamp(0.0, 1.0) as f32)
+        };
+        let dihedral = signed_angle(n0, n1, direction.as_vec3());
+        let is_soft = dihedral.abs() <= FOLDED
+            && ends.iter().all(|&p| self.soft.agree_between([place(left, p), place(right, p)]));
         Seam {
             edges: [first, second],
             faces: [face(first), face(second)],
-            dihedral: signed_angle(n0, n1, direction.as_vec3()),
-            length,
+            dihedral,
+            is_soft,
+            length: ends[0].distance(ends[1]),
         }
     }
 }

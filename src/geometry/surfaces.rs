@@ -18,15 +18,15 @@ pub struct Surfaces {
 }
 
 impl Edge {
-    /// Whether a surface goes on across this edge: two triangles, and an angle of at most `crease_angle` (radians).
+    /// Whether a surface goes on across this edge: two triangles, and no crease above `crease_angle` (radians).
     pub fn is_smooth(&self, crease_angle: f32) -> bool {
-        matches!(self.kind, EdgeKind::Manifold | EdgeKind::Flipped) && self.dihedral.abs() <= crease_angle
+        matches!(self.kind, EdgeKind::Manifold | EdgeKind::Flipped) && !self.is_crease(crease_angle)
     }
 }
 
 impl Adjacency {
-    /// The connected surfaces when edges with a dihedral angle above `crease_angle` (radians), borders and
-    /// non-manifold edges separate them.
+    /// The connected surfaces when creases above `crease_angle` (radians), borders and non-manifold edges separate
+    /// them.
     pub fn surfaces(&self, crease_angle: f32) -> Surfaces {
         let sets = DisjointSets::new(self.face_count);
         self.edges.par_iter().with_min_len(16_384).for_each(|edge| {
@@ -35,7 +35,7 @@ impl Adjacency {
             }
         });
         for seam in &self.seams {
-            if seam.dihedral.abs() <= crease_angle {
+            if !seam.is_crease(crease_angle) {
                 sets.unite(seam.faces[0], seam.faces[1]);
             }
         }

@@ -1,4 +1,5 @@
 use super::*;
+use crate::geometry::CreaseRule;
 use crate::geometry::primitives::{cube, cube_split, plane, sphere, torus};
 
 const DEGREE: f32 = std::f32::consts::PI / 180.0;
@@ -69,7 +70,7 @@ fn first_vertices_carry_the_surface_with_few_duplicates() {
     assert_eq!(check(&round, &surfaces), 0);
 
     // Every triangle its own surface: far more surfaces than vertices.
-    let surfaces = Adjacency::new(&round).surfaces(-1.0);
+    let surfaces = Adjacency::new(&round).with_rule(CreaseRule::Angle).surfaces(-1.0);
     assert_eq!(surfaces.count, round.triangle_count());
     check(&round, &surfaces);
 }

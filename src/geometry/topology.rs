@@ -2,12 +2,18 @@
 //!
 //! Built once per mesh; what depends on the crease angle is in [`super::surfaces`].
 
+mod half_edges;
+
 use glam::Vec3;
 use rayon::prelude::*;
 
+use self::half_edges::{HalfEdges, next_in_triangle};
+use super::feature_edges::FOLDED;
+use super::needles::judge_needles;
 use super::normals::face_normals;
+use super::soft_edges::{SoftNormals, judge_steep};
 use super::stitch::{Seam, stitch};
-use super::{Mesh, Weld, angle};
+use super::{CreaseRule, Mesh, Weld, angle};
 
 /// Stands for "no triangle".
 pub const NO_FACE: u32 = u32::MAX;
@@ -38,6 +44,9 @@ pub struct Edge {
     /// Angle between the normals of `faces`, in radians, −π to π: 0 flat, positive convex (ridge), negative concave
     /// (valley). A flipped triangle counts as if it were turned. 0 at a border.
     pub dihedral: f32,
+    /// Whether the mesh's own vertex normals say that the surface goes on smoothly here, whatever the angle. Never at
+    /// borders and non-manifold edges.
+    pub is_soft: bool,
     /// How many triangles meet, and whether they agree.
     pub kind: EdgeKind,
 }
@@ -69,6 +78,18 @@ pub struct Adjacency {
     pub flipped_count: usize,
 }
 
+impl Edge {
+    /// The edge of a single triangle.
+    fn border(vertices: [u32; 2], face: u32) -> Self {
+        Self { vertices, faces: [face, NO_FACE], dihedral: 0.0, is_soft: false, kind: EdgeKind::Border }
+    }
+
+    /// Whether the angle is above `crease_angle` (radians) and the normals do not say otherwise.
+    pub fn is_crease(&self, crease_angle: f32) -> bool {
+        !self.is_soft && self.dihedral.abs() > crease_angle
+    }
+}
+
 impl Adjacency {
     /// Finds the edges of a clean mesh (indices in range, positions finite; see [`super::clean()`]).
     ///
@@ -78,11 +99,7 @@ impl Adjacency {
         let (weld, normals) = rayon::join(|| Weld::near(&mesh.positions), || face_normals(mesh));
         let mut half_edges = HalfEdges::new(mesh, &weld);
         let chunks = half_edges.sorted_chunks();
-        let mut edges =
-            vec![
-                Edge { vertices: [0; 2], faces: [NO_FACE; 2], dihedral: 0.0, kind: EdgeKind::Border };
-                chunks.iter().map(|c| c.edge_count).sum()
-            ];
+        let mut edges = vec![Edge::border([0; 2], NO_FACE); chunks.iter().map(|c| c.edge_count).sum()];
         let mut first_edge = vec![edges.len() as u32; mesh.positions.len() + 1];
 
         // Each chunk fills its own stretch of both arrays.
@@ -97,7 +114,7 @@ impl Adjacency {
             jobs.push((chunk.vertices.clone(), base, own_edges, own_first));
             base += chunk.edge_count as u32;
         }
-        let context = Context { mesh, weld: &weld, normals: &normals };
+        let context = Context { mesh, weld: &weld, normals: &normals, soft: SoftNormals::new(mesh) };
         let tallies: Vec<Tally> = jobs
             .into_par_iter()
             .map(|(vertices, base, edges, first)| {
@@ -138,12 +155,24 @@ impl Adjacency {
             let stitched = all.edges.iter().filter(|e| e.kind == EdgeKind::Stitched).count();
             all.border_count -= stitched;
         }
+        judge_needles(mesh, &normals, &mut all);
+        judge_steep(mesh, &mut all.edges, &mut all.seams);
         all.collapsed = half_edges
             .collapsed
             .iter()
             .map(|&face| (face, all.neighbour_of(mesh.triangles()[face as usize])))
             .collect();
         all
+    }
+
+    /// Makes no edge soft, if the rule says so: then normals are not asked.
+    #[must_use]
+    pub fn with_rule(mut self, rule: CreaseRule) -> Self {
+        if rule == CreaseRule::Angle {
+            self.edges.iter_mut().for_each(|edge| edge.is_soft = false);
+            self.seams.iter_mut().for_each(|seam| seam.is_soft = false);
+        }
+        self
     }
 
     /// Whether the mesh encloses a volume: no borders and nothing non-manifold.
@@ -204,6 +233,7 @@ struct Context<'a> {
     mesh: &'a Mesh,
     weld: &'a Weld,
     normals: &'a [Vec3],
+    soft: SoftNormals<'a>,
 }
 
 impl Context<'_> {
@@ -214,7 +244,7 @@ impl Context<'_> {
         let first = half_edges[0] as u32;
         let vertices = [start(first), start(next_in_triangle(first))];
         let Some(&second) = half_edges.get(1) else {
-            return Edge { vertices, faces: [first / 3, NO_FACE], dihedral: 0.0, kind: EdgeKind::Border };
+            return Edge::border(vertices, first / 3);
         };
         let second = second as u32;
         let flipped = runs_up(first) == runs_up(second);
@@ -227,7 +257,14 @@ impl Context<'_> {
         let [n0, n1] = faces.map(|f| self.normals[f as usize]);
         let n1 = if flipped { -n1 } else { n1 };
         let [a, b] = vertices.map(|v| self.mesh.positions[v as usize]);
-        Edge { vertices, faces, dihedral: signed_angle(n0, n1, b - a), kind }
+        let dihedral = signed_angle(n0, n1, b - a);
+        let is_soft = kind != EdgeKind::NonManifold && dihedral.abs() <= FOLDED && {
+            let across = [start(second), start(next_in_triangle(second))];
+            let [same, opposite] = if flipped { across } else { [across[1], across[0]] };
+            let agree = |ends| self.soft.agree(ends, flipped);
+            agree([vertices[0], same]) && agree([vertices[1], opposite])
+        };
+        Edge { vertices, faces, dihedral, is_soft, kind }
     }
 }
 
@@ -236,103 +273,6 @@ pub(super) fn signed_angle(n0: Vec3, n1: Vec3, edge: Vec3) -> f32 {
     let turn = n0.cross(n1);
     let angle = angle::from_sine_and_cosine(turn.length(), n0.dot(n1));
     if turn.dot(edge) < 0.0 { -angle } else { angle }
-}
-
-/// Half-edge `3 t + k` runs from corner `k` of triangle `t` to the next.
-fn next_in_triangle(half_edge: u32) -> u32 {
-    if half_edge % 3 == 2 { half_edge - 2 } else { half_edge + 1 }
-}
-
-/// All half-edges in buckets by their smaller welded end.
-struct HalfEdges {
-    /// Per half-edge: the larger welded end (high 32 bits) and the half-edge (low 32 bits).
-    entries: Vec<u64>,
-    /// Bucket `v` is `entries[offsets[v]..offsets[v + 1]]`.
-    offsets: Vec<u32>,
-    collapsed: Vec<u32>,
-}
-
-/// A stretch of buckets that one thread works on.
-struct Chunk {
-    vertices: std::ops::Range<usize>,
-    edge_count: usize,
-}
-
-impl HalfEdges {
-    fn new(mesh: &Mesh, weld: &Weld) -> Self {
-        let vertex_count = mesh.positions.len();
-        let points = |t: &[u32; 3]| t.map(|v| weld.representative[v as usize]);
-        let is_collapsed = |[a, b, c]: [u32; 3]| a == b || b == c || c == a;
-
-        // A counting sort. Counts are kept two places ahead, so that filling leaves the offsets behind.
-        let mut offsets = vec![0_u32; vertex_count + 2];
-        let mut collapsed = Vec::new();
-        for (t, triangle) in mesh.triangles().iter().enumerate() {
-            let [a, b, c] = points(triangle);
-            if is_collapsed([a, b, c]) {
-                collapsed.push(t as u32);
-                continue;
-            }
-            for low in [a.min(b), b.min(c), c.min(a)] {
-                offsets[low as usize + 2] += 1;
-            }
-        }
-        for v in 2..offsets.len() {
-            offsets[v] += offsets[v - 1];
-        }
-        let mut entries = vec![0_u64; offsets[vertex_count + 1] as usize];
-        for (t, triangle) in mesh.triangles().iter().enumerate() {
-            let [a, b, c] = points(triangle);
-            if is_collapsed([a, b, c]) {
-                continue;
-            }
-            for (k, (from, to)) in [(a, b), (b, c), (c, a)].into_iter().enumerate() {
-                let slot = &mut offsets[from.min(to) as usize + 1];
-                entries[*slot as usize] = u64::from(from.max(to)) << 32 | (3 * t + k) as u64;
-                *slot += 1;
-            }
-        }
-        offsets.pop();
-        Self { entries, offsets, collapsed }
-    }
-
-    fn of(&self, v: usize) -> &[u64] {
-        &self.entries[self.offsets[v] as usize..self.offsets[v + 1] as usize]
-    }
-
-    /// Sorts every bucket, and counts the edges of stretches of about equal work.
-    fn sorted_chunks(&mut self) -> Vec<Chunk> {
-        let vertex_count = self.offsets.len() - 1;
-        let wanted = rayon::current_num_threads() * 8;
-        let per_chunk = self.entries.len() / wanted + 1024;
-        let mut jobs = Vec::with_capacity(wanted);
-        let mut entries = self.entries.as_mut_slice();
-        let mut start = 0;
-        while start < vertex_count {
-            let begin = self.offsets[start] as usize;
-            let end = (start
-                + 1
-                + self.offsets[start + 1..vertex_count]
-                    .partition_point(|&o| (o as usize) < begin + per_chunk))
-            .min(vertex_count);
-            let (own, rest) = entries.split_at_mut(self.offsets[end] as usize - begin);
-            entries = rest;
-            jobs.push((start..end, begin, own));
-            start = end;
-        }
-        let offsets = &self.offsets;
-        jobs.into_par_iter()
-            .map(|(vertices, begin, entries)| {
-                let mut edge_count = 0;
-                for v in vertices.clone() {
-                    let bucket = &mut entries[offsets[v] as usize - begin..offsets[v + 1] as usize - begin];
-                    bucket.sort_unstable();
-                    edge_count += bucket.chunk_by(|a, b| a >> 32 == b >> 32).count();
-                }
-                Chunk { vertices, edge_count }
-            })
-            .collect()
-    }
 }
 
 #[cfg(test)]

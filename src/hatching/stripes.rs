@@ -31,7 +31,7 @@ pub fn stripes_of(
 }
 
 fn key_of(mesh: &Mesh, options: &FieldOptions) -> Key {
-    let FieldOptions { extent, source, smoothing, crease_angle, up, level } = *options;
+    let FieldOptions { extent, source, smoothing, crease_angle, crease_rule, up, level } = *options;
     let (number, axis) = match source {
         DirectionSource::Curvature => (0, None),
         DirectionSource::TextureU => (1, None),
@@ -44,7 +44,7 @@ fn key_of(mesh: &Mesh, options: &FieldOptions) -> Key {
         .bytes(bytemuck::cast_slice(&mesh.normals))
         .bytes(bytemuck::cast_slice(&mesh.indices))
         .bytes(uvs)
-        .integers(&[number])
+        .integers(&[number, crease_rule as u64, u64::from(mesh.has_computed_normals)])
         .numbers(&axis.map_or([0.0; 3], |axis| axis.to_array()))
         .numbers(&[extent, smoothing, crease_angle, level])
         .numbers(&up.to_array())

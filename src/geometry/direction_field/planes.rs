@@ -151,7 +151,7 @@ impl Planes {
             let Some(along) = vector.try_normalize() else {
                 continue;
             };
-            let goes_on = edge.kind == EdgeKind::Manifold && edge.dihedral.abs() <= cut;
+            let goes_on = edge.kind == EdgeKind::Manifold && !edge.is_crease(cut);
             let [first, second] = sides(edge);
             for (region, other) in [(first, second), (second, first)] {
                 let Some(region) = region else {

@@ -66,11 +66,12 @@ impl FeatureEdges {
     /// Only edges of one kind follow each other; `None` for those that are lines only as silhouettes.
     pub(super) fn kind(&self, edge: usize, angles: CreaseAngles) -> Option<u8> {
         let (&traits, &dihedral) = (self.traits.get(edge)?, self.dihedral.get(edge)?);
+        let is_hard = !traits.any(Traits::SOFT);
         let kinds = [
             traits.any(Traits::FAN),
             traits.any(Traits::BORDER),
-            dihedral >= angles.ridge,
-            dihedral <= -angles.valley,
+            is_hard && dihedral >= angles.ridge,
+            is_hard && dihedral <= -angles.valley,
             traits.any(Traits::MATERIAL),
         ];
         kinds.iter().position(|is| *is).map(|kind| kind as u8)

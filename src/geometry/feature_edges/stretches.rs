@@ -12,6 +12,8 @@ pub(super) struct Stretch {
     pub faces: Vec<u32>,
     /// Of two triangles, the angle between them.
     pub dihedral: f32,
+    /// Of two triangles, [`crate::geometry::Edge::is_soft`].
+    pub is_soft: bool,
 }
 
 /// Another edge on one that is being cut.
@@ -19,6 +21,7 @@ struct Other {
     edge: u32,
     face: u32,
     dihedral: f32,
+    is_soft: bool,
     /// From where to where it lies on the edge, 0 to 1.
     span: [f64; 2],
 }
@@ -59,6 +62,7 @@ pub(super) fn cut(
             edge,
             face: seam.faces[which],
             dihedral: seam.dihedral,
+            is_soft: seam.is_soft,
             span: [from.min(to), from.max(to)],
         });
         cuts.extend(vertices.map(|v| (along(v), v)).into_iter().filter(|&(t, _)| t > 0.0 && t < 1.0));
@@ -77,6 +81,7 @@ pub(super) fn cut(
                 ends: [start, end],
                 faces: std::iter::once(own.faces[0]).chain(here.iter().map(|other| other.face)).collect(),
                 dihedral: here.first().map_or(0.0, |other| other.dihedral),
+                is_soft: here.first().is_some_and(|other| other.is_soft),
             });
         }
         (from, start) = (to, end);

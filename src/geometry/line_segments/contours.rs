@@ -43,7 +43,7 @@ pub fn contour_segments(
         let scale = dashes.map(|dashes| Lengths::new(contour, &picture, &dashes));
         for (number, (ends, triangle)) in contour.stretches().enumerate() {
             let Some([from, to]) = picture.segment(ends.map(in_plane)) else { continue };
-            let surface = placed.edges.surface_of_triangle.get(triangle as usize).copied();
+            let surface = placed.edges.surfaces.of_triangle.get(triangle as usize).copied();
             out.push(LineSegment {
                 ends: [from.px.as_vec2().to_array(), to.px.as_vec2().to_array()],
                 depths: [from.depth as f32, to.depth as f32],

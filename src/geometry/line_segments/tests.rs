@@ -2,7 +2,7 @@ use glam::{DVec2, DVec3, DVec4, Vec3};
 
 use super::*;
 use crate::geometry::feature_edges::tests::junction;
-use crate::geometry::{Adjacency, FeatureEdges, Lens, Mesh, Projector, primitives};
+use crate::geometry::{Adjacency, CreaseRule, FeatureEdges, Lens, Mesh, Projector, Topology, primitives};
 
 pub(super) const LENSES: [Lens; 2] =
     [Lens::Perspective { tan_half_angle: 0.3 }, Lens::Orthographic { half_height: 1.5 }];
@@ -53,7 +53,7 @@ impl Subject {
     pub(super) fn new(mesh: Mesh) -> Self {
         let adjacency = Adjacency::new(&mesh);
         let edges = FeatureEdges::new(&mesh, &adjacency, adjacency.surfaces(0.5));
-        let is_solid = crate::geometry::Topology::new(&mesh, 0.5).is_solid;
+        let is_solid = Topology::new(&mesh, 0.5, CreaseRule::Normals).is_solid;
         Self { mesh, edges, adjacency, is_solid }
     }
 
@@ -289,4 +289,18 @@ fn the_number_of_threads_changes_nothing() {
     };
     let (one, three) = (found(1), found(3));
     assert!(one.len() > 400 && one == three);
+}
+
+#[test]
+fn soft_edges_are_outlines_and_no_creases() {
+    let coarse = primitives::torus(1.0, 0.5, 8, 8);
+    let faceted = Mesh { normals: Vec::new(), ..coarse.clone() };
+    let [smooth, faceted] = [coarse, faceted].map(Subject::new);
+    let view = look_from(DVec3::new(0.7, 4.0, 1.1), LENSES[0]);
+    let counts = [&smooth, &faceted].map(|subject| {
+        let segments = subject.segments(DMat4::IDENTITY, &view, &everything());
+        [EdgeClass::Silhouette, EdgeClass::Ridge].map(|class| count(&segments, class))
+    });
+    assert!(counts[0][0] >= 16 && counts[0][0] == counts[1][0], "{counts:?}");
+    assert!(counts[0][1] == 0 && counts[1][1] > 0, "{counts:?}");
 }

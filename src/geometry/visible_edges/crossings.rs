@@ -56,6 +56,7 @@ pub(super) fn find(
                     ends,
                     faces: vec![one as u32, other as u32],
                     wings: Vec::new(),
+                    is_soft: false,
                     object: firsts[mesh].1,
                     edge: None,
                 });

@@ -19,6 +19,8 @@ pub(super) struct WorldEdge {
     pub faces: Vec<u32>,
     /// The surfaces that leave it, each once; none for an intersection.
     pub wings: Vec<Wing>,
+    /// Whether normals say that it is no crease.
+    pub is_soft: bool,
     pub object: u32,
     /// Index into the mesh's edges; `None` for an intersection.
     pub edge: Option<u32>,
@@ -80,8 +82,8 @@ impl WorldEdge {
                 let bend = left + right - std::f64::consts::PI;
                 let crease = rules.crease_angle.to_radians();
                 let candidates = [
-                    (bend > crease, EdgeClass::Ridge),
-                    (bend < -crease, EdgeClass::Valley),
+                    (!self.is_soft && bend > crease, EdgeClass::Ridge),
+                    (!self.is_soft && bend < -crease, EdgeClass::Valley),
                     (left_material != right_material, EdgeClass::Material),
                 ];
                 let class = candidates.into_iter().find(|(is, class)| *is && wanted(class));
@@ -121,7 +123,7 @@ pub(super) fn edges_of(placed: &PlacedMesh<'_>, triangles: &[[DVec3; 3]], first:
             EdgeKind::Manifold | EdgeKind::Flipped => edge.faces.map(|face| (number, face)).to_vec(),
             EdgeKind::NonManifold => own_faces.to_vec(),
         };
-        edges.extend(gatherer.edge(number, [0.0, 1.0], &faces));
+        edges.extend(gatherer.edge(number, [0.0, 1.0], &faces, edge.is_soft));
     }
     edges
 }
@@ -131,6 +133,15 @@ fn split_front<'a, T>(slice: &mut &'a [T], is_front: impl Fn(&T) -> bool) -> &'a
     let (front, rest) = slice.split_at(slice.iter().take_while(|item| is_front(item)).count());
     *slice = rest;
     front
+}
+
+/// An edge that lies on another one.
+struct Other {
+    edge: u32,
+    face: u32,
+    is_soft: bool,
+    /// From where to where it lies on the other, 0 to 1.
+    span: [f64; 2],
 }
 
 struct Gatherer<'a> {
@@ -153,16 +164,21 @@ impl Gatherer<'_> {
         let adjacency = self.placed.adjacency;
         let on_edge = |p: DVec3| ((p - a).dot(b - a) / a.distance_squared(b)).clamp(0.0, 1.0);
         // Others, and from where to where they lie on this one.
-        let others: Vec<(u32, u32, [f64; 2])> = seams
+        let others: Vec<Other> = seams
             .iter()
             .filter_map(|&(_, seam)| {
                 let seam = adjacency.seams.get(seam as usize)?;
                 let other = usize::from(seam.edges[0] == number);
                 let [from, to] = self.ends(seam.edges[other])?.map(on_edge);
-                Some((seam.edges[other], seam.faces[other], [from.min(to), from.max(to)]))
+                Some(Other {
+                    edge: seam.edges[other],
+                    face: seam.faces[other],
+                    is_soft: seam.is_soft,
+                    span: [from.min(to), from.max(to)],
+                })
             })
             .collect();
-        let mut cuts: Vec<f64> = others.iter().flat_map(|other| other.2).chain([0.0, 1.0]).collect();
+        let mut cuts: Vec<f64> = others.iter().flat_map(|other| other.span).chain([0.0, 1.0]).collect();
         cuts.sort_by(f64::total_cmp);
         let shortest = 4.0 * TOLERANCE * self.placed.mesh.bounds().diagonal() / a.distance(b);
         let own_face = adjacency.edges.get(number as usize).map(|edge| (number, edge.faces[0]));
@@ -172,18 +188,26 @@ impl Gatherer<'_> {
                 continue;
             }
             let middle = 0.5 * (from + to);
-            let here = others.iter().filter(|(.., [from, to])| (*from..*to).contains(&middle));
+            let here: Vec<&Other> =
+                others.iter().filter(|other| (other.span[0]..other.span[1]).contains(&middle)).collect();
             let faces: Vec<(u32, u32)> =
-                own_face.into_iter().chain(here.map(|&(edge, face, _)| (edge, face))).collect();
+                own_face.into_iter().chain(here.iter().map(|other| (other.edge, other.face))).collect();
             if faces.iter().all(|&(edge, _)| edge >= number) {
-                edges.extend(self.edge(number, [from, to], &faces));
+                let is_soft = matches!(here[..], [only] if only.is_soft);
+                edges.extend(self.edge(number, [from, to], &faces, is_soft));
             }
             from = to;
         }
     }
 
     /// A part of an edge (0 to 1 from its first end to its second) at which these (edge, triangle) meet.
-    fn edge(&self, number: u32, [from, to]: [f64; 2], faces: &[(u32, u32)]) -> Option<WorldEdge> {
+    fn edge(
+        &self,
+        number: u32,
+        [from, to]: [f64; 2],
+        faces: &[(u32, u32)],
+        is_soft: bool,
+    ) -> Option<WorldEdge> {
         let place = |p: DVec3| self.placed.world_from_local.transform_point3(p);
         let [a, b] = self.ends(number)?.map(place);
         let along = (b - a).try_normalize()?;
@@ -201,6 +225,7 @@ impl Gatherer<'_> {
             ends: [a.lerp(b, from), a.lerp(b, to)],
             faces: faces.iter().map(|&(_, face)| face + self.first as u32).collect(),
             wings,
+            is_soft,
             object: self.placed.object,
             edge: Some(number),
         })

@@ -9,7 +9,7 @@ use super::frame_uniform::View;
 use super::section::{Part, Section};
 use super::stripes::{GpuStripes, SolvedStripes, StripePlace, StripeRequest};
 use crate::document::Document;
-use crate::geometry::{Bounds, FeatureEdges, Mesh, NotFlat, Plane, Topology, Weld};
+use crate::geometry::{Bodies, Bounds, CreaseRule, FeatureEdges, Mesh, NotFlat, Plane, Topology, Weld};
 use crate::gpu::geometry::{MeshRange, MeshSource};
 use crate::gpu::{GeometryBuffers, Gpu, GpuError, MaterialBindings};
 use crate::scene::{Addition, AlphaMode, Material, NodeId, Scene};
@@ -63,6 +63,8 @@ struct MeshSet {
     welds: Vec<Arc<Weld>>,
     /// Per mesh, whether it is solid; empty until topology is known.
     is_solid: Vec<bool>,
+    /// The bodies of each mesh; empty until topology is known.
+    bodies: Vec<Arc<Bodies>>,
     /// The plane of each mesh, once somebody asked for it.
     planes: Arc<[OnceLock<Result<Plane, NotFlat>>]>,
 }
@@ -76,6 +78,7 @@ impl MeshSet {
             edges: edges(topology),
             welds: welds(topology),
             is_solid: topology.iter().map(|t| t.is_solid).collect(),
+            bodies: bodies(topology),
             planes: meshes.iter().map(|_| OnceLock::new()).collect(),
         })
     }
@@ -112,6 +115,7 @@ impl GpuScene {
         model.edges = uploaded.edges;
         model.welds = uploaded.welds;
         model.is_solid = uploaded.is_solid;
+        model.bodies = uploaded.bodies;
         self.section = None;
         // Triangles lie in another order now.
         self.stripes = None;
@@ -154,8 +158,10 @@ impl GpuScene {
     ) -> Result<(), GpuError> {
         let scene = self.model.with_additions(additions);
         let (_, meshes) = scene.meshes.split_at(self.model.meshes.len());
-        let topology: Vec<_> =
-            meshes.par_iter().map(|mesh| Topology::new(mesh, ADDED_CREASE_ANGLE)).collect();
+        let topology: Vec<_> = meshes
+            .par_iter()
+            .map(|mesh| Topology::new(mesh, ADDED_CREASE_ANGLE, CreaseRule::default()))
+            .collect();
         self.meshes[1] = MeshSet::new(gpu, meshes, &topology)?;
         let (own, others) = scene.materials.split_at(self.model.materials.len());
         self.materials = self.materials.with_others(own.len(), others);
@@ -234,10 +240,16 @@ impl GpuScene {
         set.welds.get(number).map(Arc::as_ref)
     }
 
-    /// Whether a mesh is known to enclose a volume.
+    /// Whether a mesh is known to enclose a volume: all of its bodies do.
     pub fn is_solid(&self, mesh: usize) -> bool {
         let (set, number) = self.set(mesh);
         set.is_solid.get(number).copied().unwrap_or(false)
+    }
+
+    /// The bodies of a mesh, once topology is known.
+    pub fn bodies(&self, mesh: usize) -> Option<&Bodies> {
+        let (set, number) = self.set(mesh);
+        set.bodies.get(number).map(Arc::as_ref)
     }
 
     /// Cuts it open as a document asks for. Returns whether that changed anything.
@@ -369,6 +381,7 @@ pub struct UploadedTopology {
     edges: Vec<Arc<FeatureEdges>>,
     welds: Vec<Arc<Weld>>,
     is_solid: Vec<bool>,
+    bodies: Vec<Arc<Bodies>>,
 }
 
 fn edges(topology: &[Topology]) -> Vec<Arc<FeatureEdges>> {
@@ -377,6 +390,10 @@ fn edges(topology: &[Topology]) -> Vec<Arc<FeatureEdges>> {
 
 fn welds(topology: &[Topology]) -> Vec<Arc<Weld>> {
     topology.iter().map(|t| Arc::clone(&t.weld)).collect()
+}
+
+fn bodies(topology: &[Topology]) -> Vec<Arc<Bodies>> {
+    topology.iter().map(|t| Arc::clone(&t.bodies)).collect()
 }
 
 /// Uploads scenes, from any thread: large ones take longer than a window may wait. Clones share the device.
@@ -423,6 +440,7 @@ impl Uploader {
             edges: edges(topology),
             welds: welds(topology),
             is_solid: topology.iter().map(|t| t.is_solid).collect(),
+            bodies: bodies(topology),
         })
     }
 }

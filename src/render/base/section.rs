@@ -11,7 +11,7 @@ use self::neighbours::{Number, numbers};
 use super::gpu_scene::GpuScene;
 use crate::document::Document;
 use crate::document::section::{Fill, Section as Style};
-use crate::geometry::section::{Cap, Contour, cap, contours};
+use crate::geometry::section::{Cap, Contour, Filling, contours, fill};
 use crate::geometry::{Bounds, Mesh, MeshPart, Plane, Provoking};
 use crate::gpu::geometry::{MeshRange, MeshSource};
 use crate::gpu::{GeometryBuffers, Gpu, GpuError};
@@ -50,6 +50,8 @@ pub struct Opened {
     pub cap: Option<PlacedCap>,
     /// Whether what is left of it encloses a volume.
     pub is_solid: bool,
+    /// Number of bodies that the plane cuts and that have no cap because they are not solid; 0 if there are no caps.
+    pub open_count: usize,
 }
 
 /// A cap on the device.
@@ -212,7 +214,7 @@ impl Section {
     }
 }
 
-/// What becomes of an object, and the cap of a solid that is cut open.
+/// What becomes of an object, and the cap of the solid bodies that are cut open.
 fn open(scene: &GpuScene, node: NodeId, plane_from_world: &DMat4, has_caps: bool) -> (Part, Option<Cap>) {
     let place = &scene.scene.nodes[node];
     let Some(number) = place.mesh else { return (Part::Whole, None) };
@@ -225,14 +227,17 @@ fn open(scene: &GpuScene, node: NodeId, plane_from_world: &DMat4, has_caps: bool
     if heights.iter().all(|&z| z >= 0.0) {
         return (Part::Gone, None);
     }
-    let (Some(mesh), Some(weld)) = (scene.scene.meshes.get(number), scene.weld(number)) else {
+    let known = (scene.scene.meshes.get(number), scene.weld(number), scene.bodies(number));
+    let (Some(mesh), Some(weld), Some(bodies)) = known else {
         return (Part::Open(Opened { is_solid: false, ..Opened::default() }), None);
     };
     let contours = contours(mesh, weld, &plane_from_local);
-    let cap = if has_caps && scene.is_solid(number) { cap(&contours) } else { None };
-    // Where no shell is cut, each is whole or gone.
-    let is_solid = scene.is_solid(number) && (contours.is_empty() || cap.is_some());
-    (Part::Open(Opened { contours, is_solid, ..Opened::default() }), cap)
+    let Filling { cap, open_count } =
+        if has_caps { fill(&contours, bodies, &plane_from_local) } else { Filling::default() };
+    // Where no body is cut, each is whole or gone.
+    let is_closed = contours.is_empty() || cap.is_some() && open_count == 0;
+    let is_solid = scene.is_solid(number) && is_closed;
+    (Part::Open(Opened { contours, is_solid, open_count, ..Opened::default() }), cap)
 }
 
 /// A cap as a mesh, all of one surface.
