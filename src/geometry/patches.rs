@@ -133,10 +133,10 @@ impl Part {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::{Topology, primitives};
+    use crate::geometry::{CreaseRule, Topology, primitives};
 
     fn patches(mesh: &Mesh) -> Patches {
-        Patches::new(mesh, &Topology::new(mesh, 0.5).edges)
+        Patches::new(mesh, &Topology::new(mesh, 0.5, CreaseRule::default()).edges)
     }
 
     #[test]
