@@ -163,3 +163,6 @@ impl<'a> Matching<'a> {
         closed.open_gap
     }
 }
+
+#[cfg(test)]
+mod tests;

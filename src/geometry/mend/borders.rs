@@ -59,8 +59,14 @@ impl Border {
         self.outward.dot(other.outward) <= cos_limit
     }
 
+    /// Whether the gap between a point of this edge and one of the other is inside of both triangles, by more than a
+    /// share of their heights: these are the two sides of a narrow strip.
+    pub(super) fn has_material_in(&self, other: &Self, gap: DVec3, share: f64) -> bool {
+        gap.dot(self.outward) < -share * self.height && -gap.dot(other.outward) < -share * other.height
+    }
+
     /// Whether the gap between a point of this edge and one of the other is outside of both triangles, or at most a
-    /// share of the triangles' heights inside. Between the two sides of a narrow strip there is no gap but material.
+    /// share of the triangles' heights inside.
     pub(super) fn is_outside(&self, other: &Self, gap: DVec3, share: f64) -> bool {
         gap.dot(self.outward) >= -share * self.height && -gap.dot(other.outward) >= -share * other.height
     }

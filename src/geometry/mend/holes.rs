@@ -26,7 +26,7 @@ fn loops(borders: &Borders, open: &Open) -> Vec<Vec<u32>> {
     let mut next: HashMap<u32, u32> = HashMap::with_capacity(open.edges.len());
     for &edge in &open.edges {
         let [group, _] = open.ends(edge);
-        if !next.contains_key(&edge) && open.starting_at(group).first() == Some(&(group, edge)) {
+        if open.starting_at(group).first() == Some(&(group, edge)) {
             link(borders, open, group, &mut next);
         }
     }

@@ -33,7 +33,7 @@ pub(super) struct Draft {
 
 pub(super) fn join(mesh: &Mesh, weld: &[u32], borders: &Borders, places: &Places) -> Outcome {
     let mut draft = cut(mesh, weld, borders, places);
-    let positions = settle(mesh, &draft, places);
+    let positions = settle(mesh, borders, &draft, places);
     let moves = draft.mesh.positions.iter().zip(&positions).map(|(a, b)| a.distance(*b));
     let farthest_move = f64::from(moves.fold(0.0, f32::max));
     let joined_length = joined_length(borders, places, &draft, &positions);

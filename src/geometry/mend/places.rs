@@ -96,6 +96,11 @@ impl Places {
         (self.size[group as usize] > 1).then(|| low.midpoint(high).as_vec3())
     }
 
+    /// How far a place may be moved.
+    pub(super) fn reach(&self) -> f32 {
+        0.5 * self.widest * (1.0 + 1e-5)
+    }
+
     /// All members of a group, given one of them.
     pub(super) fn members(&self, place: u32) -> impl Iterator<Item = u32> {
         let mut next = Some(place);
@@ -168,7 +173,8 @@ impl Places {
         Some(number)
     }
 
-    fn unite(&mut self, borders: &Borders, a: u32, b: u32) -> bool {
+    /// Makes one group of the groups of two existing places, as [`Self::tie`].
+    pub(super) fn unite(&mut self, borders: &Borders, a: u32, b: u32) -> bool {
         let (a, b) = (self.group(a), self.group(b));
         if a == b {
             return true;

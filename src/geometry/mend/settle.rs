@@ -6,31 +6,28 @@ use glam::Vec3;
 
 use super::super::Mesh;
 use super::super::normals::face_normal;
+use super::borders::Borders;
 use super::join::Draft;
 use super::places::Places;
 
 /// Cosine of the largest angle by which joining may turn a triangle.
-const COS_TURN: f32 = 0.2;
+const COS_TURN: f32 = 0.0;
+/// Height of the triangles that may turn if nothing else helps, as a share of how far vertices may move.
+const NEEDLE: f32 = 1.0;
 /// How often groups are moved elsewhere before those that are left are not joined.
-const ROUNDS: usize = 4;
+const ROUNDS: usize = 3;
 
 /// Where the vertices of the draft go.
-pub(super) fn settle(mesh: &Mesh, draft: &Draft, places: &Places) -> Vec<Vec3> {
-    let mut settling = Settling::new(mesh, draft, places);
+pub(super) fn settle(mesh: &Mesh, borders: &Borders, draft: &Draft, places: &Places) -> Vec<Vec3> {
+    let mut settling = Settling::new(mesh, borders, draft, places);
     for round in 0..2 * ROUNDS {
         let turned = settling.turned_triangles();
         if turned.is_empty() {
             break;
         }
-        let groups: BTreeSet<u32> =
-            turned.iter().flat_map(|&t| draft.triangles[t]).map(|v| settling.groups[v as usize]).collect();
-        let around = settling.triangles_around(&groups);
-        for group in groups {
-            if round < ROUNDS {
-                settling.try_elsewhere(group, around.get(&group).map_or(&[], Vec::as_slice));
-            } else {
-                settling.targets[group as usize] = None;
-            }
+        match round {
+            0..ROUNDS => settling.try_elsewhere(&turned),
+            _ => settling.give_up(&turned, round + 1 == 2 * ROUNDS),
         }
     }
     (0..draft.places.len()).map(|v| settling.position(v as u32)).collect()
@@ -38,6 +35,7 @@ pub(super) fn settle(mesh: &Mesh, draft: &Draft, places: &Places) -> Vec<Vec3> {
 
 struct Settling<'a> {
     mesh: &'a Mesh,
+    borders: &'a Borders,
     draft: &'a Draft,
     places: &'a Places,
     /// The group of each vertex.
@@ -49,14 +47,14 @@ struct Settling<'a> {
 }
 
 impl<'a> Settling<'a> {
-    fn new(mesh: &'a Mesh, draft: &'a Draft, places: &'a Places) -> Self {
-        let groups: Vec<u32> = draft.places.iter().map(|&place| places.group(place)).collect();
+    fn new(mesh: &'a Mesh, borders: &'a Borders, draft: &'a Draft, places: &'a Places) -> Self {
         let targets: Vec<Option<Vec3>> =
             (0..places.count() as u32).map(|group| places.middle(group)).collect();
-        let is_touched = |t: &[u32; 3]| t.iter().any(|&v| targets[groups[v as usize] as usize].is_some());
-        let touched =
-            draft.triangles.iter().enumerate().filter(|(_, t)| is_touched(t)).map(|(t, _)| t).collect();
-        Self { mesh, draft, places, groups, targets, touched }
+        let groups: Vec<u32> = draft.places.iter().map(|&place| places.group(place)).collect();
+        let is_moved = |&v: &u32| targets[groups[v as usize] as usize].is_some();
+        let triangles = draft.triangles.iter().enumerate();
+        let touched = triangles.filter(|(_, t)| t.iter().any(is_moved)).map(|(t, _)| t).collect();
+        Self { mesh, borders, draft, places, groups, targets, touched }
     }
 
     fn position(&self, vertex: u32) -> Vec3 {
@@ -73,6 +71,14 @@ impl<'a> Settling<'a> {
         }
         let source = self.mesh.triangles()[self.draft.sources[triangle] as usize];
         face_normal(moved).dot(face_normal(self.mesh.corners(source)))
+    }
+
+    /// Whether a triangle was so thin that its direction says nothing beside a crack.
+    fn is_needle(&self, triangle: usize) -> bool {
+        let source = self.mesh.triangles()[self.draft.sources[triangle] as usize];
+        let [a, b, c] = self.mesh.corners(source);
+        let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
+        (b - a).cross(c - a).length() < NEEDLE * self.places.reach() * longest
     }
 
     fn turned_triangles(&self) -> Vec<usize> {
@@ -97,30 +103,59 @@ impl<'a> Settling<'a> {
         around
     }
 
-    /// Moves a group to the place of that member around which triangles turn least, unless the middle is better.
-    fn try_elsewhere(&mut self, group: u32, around: &[usize]) {
-        let Some(middle) = self.places.middle(group) else { return };
-        let members: Vec<Vec3> = self.places.members(group).map(|place| self.before(place)).collect();
-        let mut best = (f32::NEG_INFINITY, middle);
-        for target in std::iter::once(middle).chain(members) {
-            self.targets[group as usize] = Some(target);
-            let worst = around.iter().map(|&t| self.turn(t)).fold(1.0, f32::min);
-            if worst > best.0 {
-                best = (worst, target);
+    /// Moves the corners of turned triangles towards single members of their groups, if triangles turn less there.
+    fn try_elsewhere(&mut self, turned: &[usize]) {
+        let groups = turned.iter().flat_map(|&t| self.draft.triangles[t]);
+        let groups: BTreeSet<u32> = groups.map(|v| self.groups[v as usize]).collect();
+        for (group, around) in self.triangles_around(&groups) {
+            let Some(target) = self.targets[group as usize] else { continue };
+            let worst = |all: &Self| around.iter().map(|&t| all.turn(t)).fold(1.0, f32::min);
+            let mut best = (worst(self), target);
+            for target in self.alternatives(group) {
+                self.targets[group as usize] = Some(target);
+                let worst = worst(self);
+                if worst > best.0 {
+                    best = (worst, target);
+                }
             }
+            self.targets[group as usize] = Some(best.1);
         }
-        self.targets[group as usize] = Some(best.1);
     }
 
-    /// Where a place is before it moves.
-    fn before(&self, place: u32) -> Vec3 {
-        let points = self.mesh.positions.len();
-        let vertex = place as usize;
-        // Cuts are appended border by border, not in the order in which they were made.
-        if vertex < points {
-            return self.mesh.positions[vertex];
+    /// Where a group could go: its middle, and as far towards each member as that is not too far from any other.
+    fn alternatives(&self, group: u32) -> Vec<Vec3> {
+        let Some(middle) = self.places.middle(group) else { return Vec::new() };
+        let reach = self.places.reach();
+        let members: Vec<Vec3> = self.places.members(group).map(|place| self.before(place)).collect();
+        let towards = members.iter().flat_map(|m| [0.0, 0.25, 0.5, 0.75].map(|share| m.lerp(middle, share)));
+        let is_near = |p: &Vec3| members.iter().all(|m| m.distance(*p) <= reach);
+        std::iter::once(middle).chain(towards.filter(is_near)).collect()
+    }
+
+    /// Leaves members of groups where they are: for each turned triangle those of the group with which it is turned
+    /// least then, or those of all of its groups.
+    fn give_up(&mut self, turned: &[usize], all: bool) {
+        for &triangle in turned {
+            if self.is_needle(triangle) {
+                continue;
+            }
+            let groups = self.draft.triangles[triangle].map(|v| self.groups[v as usize]);
+            let mut best = (f32::NEG_INFINITY, groups[0]);
+            for group in groups {
+                let target = self.targets[group as usize].take();
+                let turn = self.turn(triangle);
+                if target.is_some() && turn > best.0 {
+                    best = (turn, group);
+                }
+                if !all {
+                    self.targets[group as usize] = target;
+                }
+            }
+            self.targets[best.1 as usize] = None;
         }
-        let found = self.draft.places[points..].iter().position(|&p| p == place);
-        found.and_then(|k| self.draft.mesh.positions.get(points + k)).copied().unwrap_or_default()
+    }
+
+    fn before(&self, place: u32) -> Vec3 {
+        self.places.position(self.borders, place, &self.mesh.positions).as_vec3()
     }
 }

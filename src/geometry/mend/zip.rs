@@ -159,7 +159,7 @@ fn misfit(side: &Side<'_>, other: &Side<'_>, cos_fold: f64) -> f64 {
             let nearest = other.nearest(middle, share);
             let partner = other.edge(nearest.step);
             let gap = partner.at(partner.nearest(middle)) - middle;
-            let fits = edge.is_unfolded(partner, cos_fold) && edge.is_outside(partner, gap, DEPTH);
+            let fits = edge.is_unfolded(partner, cos_fold) && !edge.has_material_in(partner, gap, DEPTH);
             if fits { 0.0 } else { edge.length }
         })
         .sum()
