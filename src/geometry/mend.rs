@@ -27,6 +27,7 @@ mod anchors;
 mod borders;
 mod closure;
 mod holes;
+mod intervals;
 mod join;
 mod limits;
 mod open;
@@ -157,7 +158,7 @@ impl<'a> Matching<'a> {
     fn take_near(&mut self) -> f64 {
         let stretches = Stretches::new(self.borders, &self.open(), &self.limits);
         let closed = closure::closed(self.borders, &stretches, &self.limits);
-        for tie in closure::ties(self.borders, &stretches, &closed, &self.limits) {
+        for tie in intervals::ties(self.borders, &stretches, &closed, &self.limits) {
             self.has_ties |= self.places.tie(self.borders, tie);
         }
         closed.open_gap

@@ -6,8 +6,7 @@ use rayon::prelude::*;
 
 use super::borders::{Borders, NO_BORDER};
 use super::limits::Limits;
-use super::places::{Place, Tie};
-use super::proximity::{Partner, Stretch, Stretches};
+use super::proximity::{Partner, Stretches};
 
 /// The gap must fall to this share of what it is.
 const FALL: f64 = 0.25;
@@ -66,7 +65,7 @@ fn decide(borders: &Borders, stretches: &Stretches, limits: &Limits, open_gap: f
             let Some(partner) = stretches.list[number].partner else { return false };
             let target = limits.spacing.max(FALL * partner.gap);
             let [before, after] = partner.end_gaps;
-            partner.gap <= open_gap
+            partner.widest() <= open_gap
                 || (before <= target || falls(borders, stretches, number, false, partner.gap, target))
                     && (after <= target || falls(borders, stretches, number, true, partner.gap, target))
         })
@@ -115,67 +114,4 @@ fn falls(
         }
     }
     false
-}
-
-/// The vertices at the ends of joined stretches, each with its place on the other side, the nearest ones first.
-pub(super) fn ties(borders: &Borders, stretches: &Stretches, closed: &Closed, limits: &Limits) -> Vec<Tie> {
-    let mut vertices: Vec<Vertex> = Vec::new();
-    for (stretch, _) in stretches.list.iter().zip(&closed.is_closed).filter(|(_, closed)| **closed) {
-        let Some(partner) = stretch.partner else { continue };
-        for end in 0..2 {
-            if stretch.shares[end] == end as f64 {
-                vertices.push(Vertex::new(borders, stretch, &partner, end));
-            }
-        }
-    }
-    vertices.sort_by(|a, b| a.corner.cmp(&b.corner).then(a.gap.total_cmp(&b.gap)));
-    vertices.dedup_by_key(|v| v.corner);
-    vertices.sort_by(|a, b| a.gap.total_cmp(&b.gap).then(a.corner.cmp(&b.corner)));
-    vertices.iter().map(|v| v.tie(borders, limits)).collect()
-}
-
-/// A vertex of a border that is to be tied to another border edge.
-struct Vertex {
-    /// The corner of the patch: the edge that leaves it.
-    corner: u32,
-    /// The welded point.
-    point: u32,
-    /// The edge that the stretch is on.
-    border: u32,
-    partner: u32,
-    /// The nearest place on the partner.
-    share: f64,
-    gap: f64,
-}
-
-impl Vertex {
-    fn new(borders: &Borders, stretch: &Stretch, partner: &Partner, end: usize) -> Self {
-        let border = stretch.border;
-        let edge = borders.get(border);
-        let next = borders.next[border as usize];
-        // The last corner of a border that does not go on gets a number of its own.
-        let after = if next == NO_BORDER { border + borders.list.len() as u32 } else { next };
-        Self {
-            corner: if end == 0 { border } else { after },
-            point: edge.ends[end],
-            border,
-            partner: partner.border,
-            share: borders.get(partner.border).nearest(edge.positions[end]),
-            gap: partner.end_gaps[end],
-        }
-    }
-
-    /// The tie to a vertex of the partner if one is near, else to a place on it.
-    fn tie(&self, borders: &Borders, limits: &Limits) -> Tie {
-        let other = borders.get(self.partner);
-        let end = usize::from(self.share > 0.5);
-        let apart = (self.share - end as f64).abs() * other.length;
-        let shortest = other.length.min(borders.get(self.border).length);
-        let place = if limits.is_same_place(apart, self.gap, shortest) {
-            Place::Point(other.ends[end])
-        } else {
-            Place::On { border: self.partner, share: self.share }
-        };
-        Tie { sides: [Place::Point(self.point), place] }
-    }
 }

@@ -124,7 +124,7 @@ impl Places {
         // Cuts that nothing is tied to are taken back, the last one first.
         for place in [a.max(b), a.min(b)] {
             if place as usize + 1 == self.parent.len()
-                && self.size[place as usize] == 1
+                && self.next[place as usize] == place
                 && let Some(cut) = self.cut(place).copied()
             {
                 self.cuts_of[cut.border as usize].pop();

@@ -37,6 +37,13 @@ pub(super) struct Partner {
     pub(super) opening: f64,
 }
 
+impl Partner {
+    /// The largest of the distances.
+    pub(super) fn widest(&self) -> f64 {
+        self.gap.max(self.end_gaps[0]).max(self.end_gaps[1])
+    }
+}
+
 impl Stretch {
     /// Length in units of the mesh.
     pub(super) fn length(&self, borders: &Borders) -> f64 {

@@ -5,11 +5,18 @@ use glam::DVec3;
 use super::borders::{Border, Borders};
 use super::places::Place;
 
-/// Border edges in a row, in the direction in which the seam is followed.
+/// A part of a border edge, in the direction in which a seam is followed.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Step {
+    pub(super) border: u32,
+    /// Where on the edge it starts and ends; the first is larger when the seam is followed against the edge.
+    pub(super) shares: [f64; 2],
+}
+
+/// Border edges in a row, in the direction in which the seam is followed. The first and the last may be parts of edges.
 pub(super) struct Side<'a> {
     borders: &'a Borders,
-    /// The edges, each with whether it runs against the seam.
-    steps: Vec<(u32, bool)>,
+    steps: Vec<Step>,
     /// Where the vertices are, the ends included: one more than edges.
     pub(super) points: Vec<DVec3>,
     /// How far along the side each vertex is.
@@ -30,24 +37,29 @@ pub(super) struct Nearest {
 impl<'a> Side<'a> {
     /// The side that consists of consecutive edges; `reversed` when the seam is followed against them.
     pub(super) fn new(borders: &'a Borders, run: &[u32], reversed: bool) -> Self {
-        let mut steps: Vec<(u32, bool)> = run.iter().map(|&b| (b, reversed)).collect();
+        let shares = if reversed { [1.0, 0.0] } else { [0.0, 1.0] };
+        let mut steps: Vec<Step> = run.iter().map(|&border| Step { border, shares }).collect();
         if reversed {
             steps.reverse();
         }
-        let mut side = Self { borders, points: Vec::with_capacity(run.len() + 1), along: vec![0.0], steps };
-        for &(border, reversed) in &side.steps {
-            let [from, to] = side.borders.get(border).positions;
-            if side.points.is_empty() {
-                side.points.push(if reversed { to } else { from });
+        Self::of_steps(borders, steps)
+    }
+
+    /// The side that consists of these parts, each of which starts where the one before ends.
+    pub(super) fn of_steps(borders: &'a Borders, steps: Vec<Step>) -> Self {
+        let mut points = Vec::with_capacity(steps.len() + 1);
+        let mut along = vec![0.0];
+        let mut length = 0.0;
+        for Step { border, shares } in &steps {
+            let edge = borders.get(*border);
+            if points.is_empty() {
+                points.push(edge.at(shares[0]));
             }
-            side.points.push(if reversed { from } else { to });
+            points.push(edge.at(shares[1]));
+            length += edge.length * (shares[1] - shares[0]).abs();
+            along.push(length);
         }
-        let mut along = 0.0;
-        for &(border, _) in &side.steps {
-            along += side.borders.get(border).length;
-            side.along.push(along);
-        }
-        side
+        Self { borders, steps, points, along }
     }
 
     /// Number of edges.
@@ -62,12 +74,12 @@ impl<'a> Side<'a> {
 
     /// The edges in order.
     pub(super) fn edges(&self) -> impl Iterator<Item = &Border> {
-        self.steps.iter().map(|&(border, _)| self.borders.get(border))
+        self.steps.iter().map(|step| self.borders.get(step.border))
     }
 
     /// The edge of a step.
     pub(super) fn edge(&self, step: usize) -> &Border {
-        self.borders.get(self.steps[step].0)
+        self.borders.get(self.steps[step].border)
     }
 
     /// The nearest place to a point that is at a share of the other side's length. Of places about as near, one about as
@@ -95,15 +107,15 @@ impl<'a> Side<'a> {
     /// The vertex of a number, as a place.
     pub(super) fn vertex(&self, number: usize) -> Place {
         let (step, end) = if number < self.len() { (number, 0) } else { (self.len() - 1, 1) };
-        let (border, reversed) = self.steps[step];
-        Place::Point(self.borders.get(border).ends[usize::from(reversed) ^ end])
+        let Step { border, shares } = self.steps[step];
+        Place::On { border, share: shares[end] }
     }
 
     /// The place on the edge of a step that is this far along the side.
     pub(super) fn cut(&self, step: usize, along: f64) -> Place {
-        let (border, reversed) = self.steps[step];
+        let Step { border, shares: [from, to] } = self.steps[step];
         let share = (along - self.along[step]) / (self.along[step + 1] - self.along[step]);
-        Place::On { border, share: if reversed { 1.0 - share } else { share } }
+        Place::On { border, share: from + share * (to - from) }
     }
 
     /// The shorter one of the edges at an inner vertex.

@@ -44,6 +44,20 @@ impl Fit {
         Some(Self { width, nearest })
     }
 
+    /// Two sides that are known to be a seam.
+    pub(super) fn of_seam(a: &Side<'_>, b: &Side<'_>) -> Option<Self> {
+        if a.len() == 0 || b.len() == 0 || a.len() * b.len() > MOST_COMPARISONS {
+            return None;
+        }
+        let of = |from: &Side<'_>, to: &Side<'_>| -> Vec<Nearest> {
+            let vertices = from.points.iter().zip(&from.along);
+            vertices.map(|(&point, &along)| to.nearest(point, along / from.length())).collect()
+        };
+        let nearest = [of(a, b), of(b, a)];
+        let width = nearest.iter().flatten().map(|n| n.gap).fold(0.0, f64::max);
+        Some(Self { width, nearest })
+    }
+
     /// The places that become one, so that afterwards both sides are the same polyline.
     pub(super) fn ties(&self, a: &Side<'_>, b: &Side<'_>, limits: &Limits) -> Vec<Tie> {
         let steps = self.order(a, b, limits);
