@@ -29,6 +29,8 @@ pub(super) fn ties(borders: &Borders, stretches: &Stretches, closed: &Closed, li
             ties.extend(fit.ties(&side, &other, limits));
         }
     }
+    // Where rows end at a corner, the vertices there belong together before anything is cut.
+    ties.sort_by_key(|tie| !tie.is_between_vertices());
     ties
 }
 

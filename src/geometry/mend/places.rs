@@ -22,6 +22,16 @@ pub(super) struct Tie {
     pub(super) sides: [Place; 2],
 }
 
+impl Tie {
+    /// Whether no edge needs to be cut.
+    pub(super) fn is_between_vertices(&self) -> bool {
+        self.sides.iter().all(|side| match side {
+            Place::Point(_) => true,
+            Place::On { share, .. } => *share == 0.0 || *share == 1.0,
+        })
+    }
+}
+
 /// A new vertex on a border edge.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Cut {

@@ -145,7 +145,9 @@ fn near(
         let other = open.edges[number];
         let partner = borders.get(other);
         let reach = tolerance.min(0.5 * border.length.max(partner.length));
+        let follows = [borders.next[edge as usize], borders.previous[edge as usize]].contains(&other);
         if partner.face == border.face
+            || follows
             || border.direction.dot(partner.direction).abs() < COS_ALONG
             || !border.is_unfolded(partner, COS_FOLD)
         {
@@ -210,8 +212,8 @@ fn partner(
     let middle = border.at(share);
     let mut best: Option<(f64, u32)> = None;
     for candidate in candidates {
-        let aside = (candidate.shares[0] - share).max(share - candidate.shares[1]) * border.length;
-        if aside > candidate.reach || best.is_some_and(|(gap, _)| gap < aside) {
+        // Beside its ends an edge is near to what follows on the same border.
+        if share < candidate.shares[0] || share > candidate.shares[1] {
             continue;
         }
         let gap = borders.get(candidate.border).distance(middle);
