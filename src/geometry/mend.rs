@@ -78,16 +78,20 @@ pub struct Mended {
     pub farthest_move: f64,
     /// Number of vertices that were added on edges.
     pub added_vertices: usize,
-    /// Number of triangles left out because two of their corners became one point.
+    /// Number of triangles left out because nothing of them is left: two of their corners became one point, or they lie
+    /// on another one back to back.
     pub dropped_triangles: usize,
 }
 
 /// Makes the seams of a clean mesh common edges; see the [module](self). `None` if there is nothing to join. Skinned
 /// meshes stay as they are. `adjacency` must be that of the mesh.
 pub fn mend(mesh: &Mesh, adjacency: &Adjacency, tolerance: SeamTolerance) -> Option<(Mesh, Mended)> {
-    let limits = Limits::new(tolerance, mesh.bounds().diagonal());
     let has_borders = adjacency.border_count > 0 || !adjacency.seams.is_empty();
-    if !has_borders || mesh.rig.is_some() || !(limits.tolerance > 0.0 && limits.tolerance.is_finite()) {
+    if !has_borders || mesh.rig.is_some() {
+        return None;
+    }
+    let limits = Limits::new(tolerance, mesh.bounds().diagonal());
+    if !(limits.tolerance > 0.0 && limits.tolerance.is_finite()) {
         return None;
     }
     let borders = Borders::new(mesh, adjacency);

@@ -1,13 +1,13 @@
 //! Gives both sides of every seam the same vertices, at the same places.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
-use glam::{Vec3, Vec4};
+use glam::Vec4;
 
 use super::super::{Mesh, MeshPart};
 use super::borders::Borders;
 use super::places::{Cut, Places};
-use super::settle::settle;
+use super::settle::{Settled, settle};
 use super::split::CutTriangle;
 
 /// What joining did.
@@ -33,41 +33,56 @@ pub(super) struct Draft {
 
 pub(super) fn join(mesh: &Mesh, weld: &[u32], borders: &Borders, places: &Places) -> Outcome {
     let mut draft = cut(mesh, weld, borders, places);
-    let positions = settle(mesh, borders, &draft, places);
-    let moves = draft.mesh.positions.iter().zip(&positions).map(|(a, b)| a.distance(*b));
+    let settled = settle(mesh, borders, &draft, places);
+    let moves = draft.mesh.positions.iter().zip(&settled.positions).map(|(a, b)| a.distance(*b));
     let farthest_move = f64::from(moves.fold(0.0, f32::max));
-    let joined_length = joined_length(borders, places, &draft, &positions);
-    let mut triangles = Vec::with_capacity(draft.triangles.len());
-    let mut sources = Vec::with_capacity(draft.triangles.len());
-    let mut dropped_triangles = 0;
-    for (&triangle, &source) in draft.triangles.iter().zip(&draft.sources) {
-        if is_collapsed(&draft, places, &positions, triangle) {
-            dropped_triangles += 1;
-        } else {
-            triangles.push(triangle);
-            sources.push(source);
-        }
-    }
-    draft.mesh.positions = positions;
+    let joined_length = joined_length(borders, places, &settled.points);
+    let dropped = without_area(&draft, &settled);
+    let kept = (0..).zip(&draft.triangles).zip(&draft.sources).filter(|((t, _), _)| !dropped.contains(t));
+    let (triangles, sources): (Vec<[u32; 3]>, Vec<u32>) = kept.map(|((_, t), source)| (*t, *source)).unzip();
+    draft.mesh.positions = settled.positions;
     draft.mesh.parts = parts(&mesh.parts, &sources);
     draft.mesh.indices = triangles.into_flattened();
     Outcome {
         joined_length,
         added_vertices: places.cuts.len(),
-        dropped_triangles,
+        dropped_triangles: dropped.len(),
         farthest_move,
-        mesh: if dropped_triangles > 0 { draft.mesh.without_unused_vertices() } else { draft.mesh },
+        mesh: if dropped.is_empty() { draft.mesh } else { draft.mesh.without_unused_vertices() },
     }
 }
 
-/// Whether joining made one point of two corners.
-fn is_collapsed(draft: &Draft, places: &Places, positions: &[Vec3], triangle: [u32; 3]) -> bool {
-    let [a, b, c] = triangle.map(|v| v as usize);
-    let same = |a: usize, b: usize| {
-        let [group, other] = [a, b].map(|v| places.group(draft.places[v]));
-        group == other && draft.places[a] != draft.places[b] && positions[a] == positions[b]
-    };
-    same(a, b) || same(b, c) || same(c, a)
+/// The triangles of which joining left nothing: those two of whose corners became one point, and pairs that lie on each
+/// other back to back.
+fn without_area(draft: &Draft, settled: &Settled) -> HashSet<usize> {
+    let mut dropped = HashSet::new();
+    let mut by_corners: HashMap<[u32; 3], Vec<usize>> = HashMap::new();
+    let places_of = |triangle: usize| draft.triangles[triangle].map(|v| draft.places[v as usize]);
+    let points_of = |places: [u32; 3]| places.map(|place| settled.points[place as usize]);
+    for &number in &settled.touched {
+        let places = places_of(number);
+        let [a, b, c] = points_of(places);
+        let same = |i: usize, j: usize| [a, b, c][i] == [a, b, c][j] && places[i] != places[j];
+        if same(0, 1) || same(1, 2) || same(2, 0) {
+            dropped.insert(number);
+            continue;
+        }
+        let mut corners = [a, b, c];
+        corners.sort_unstable();
+        let others = by_corners.entry(corners).or_default();
+        let is_opposite = |&other: &usize| {
+            let other_places = places_of(other);
+            let other = points_of(other_places);
+            // Two sides of a sheet that were there before stay.
+            ![[a, b, c], [b, c, a], [c, a, b]].contains(&other)
+                && !other_places.iter().all(|p| places.contains(p))
+        };
+        match others.iter().position(is_opposite) {
+            Some(other) => dropped.extend([number, others.swap_remove(other)]),
+            None => others.push(number),
+        }
+    }
+    dropped
 }
 
 /// Cuts the border edges at their new vertices, which get their attributes from their own edge.
@@ -138,30 +153,17 @@ fn parts(old: &[MeshPart], sources: &[u32]) -> Vec<MeshPart> {
         .collect()
 }
 
-/// Length of the parts of border edges both of whose ends are shared with another one.
-fn joined_length(borders: &Borders, places: &Places, draft: &Draft, positions: &[Vec3]) -> f64 {
-    // Of each place some vertex; all of them have the same position.
-    let mut vertex_of = vec![0; places.count()];
-    for (vertex, &place) in draft.places.iter().enumerate() {
-        vertex_of[place as usize] = vertex;
-    }
-    // Members of a group that could not move there are points of their own.
-    let key = |place: u32| {
-        let position = positions[vertex_of[place as usize]];
-        let group = places.group(place);
-        let is_there = places.middle(group).is_some() && position == positions[vertex_of[group as usize]];
-        if is_there { group } else { place }
-    };
+/// Length of the parts of border edges both of whose ends became those of another one.
+fn joined_length(borders: &Borders, places: &Places, points: &[u32]) -> f64 {
+    let point = |place: u32| points[place as usize];
     let mut pieces: Vec<([u32; 2], f64)> = Vec::with_capacity(borders.list.len());
     for (number, border) in (0..).zip(&borders.list) {
-        let mut cuts: Vec<(f64, u32)> = places
-            .cuts_of(number)
-            .iter()
-            .filter_map(|&place| Some((places.cut(place)?.share, key(place))))
-            .collect();
+        let cuts = places.cuts_of(number).iter();
+        let mut cuts: Vec<(f64, u32)> =
+            cuts.filter_map(|&place| Some((places.cut(place)?.share, point(place)))).collect();
         cuts.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let mut from = (0.0, key(border.ends[0]));
-        for to in cuts.into_iter().chain([(1.0, key(border.ends[1]))]) {
+        let mut from = (0.0, point(border.ends[0]));
+        for to in cuts.into_iter().chain([(1.0, point(border.ends[1]))]) {
             let ends = [from.1.min(to.1), from.1.max(to.1)];
             pieces.push((ends, (to.0 - from.0) * border.length));
             from = to;

@@ -17,8 +17,18 @@ const NEEDLE: f32 = 1.0;
 /// How often groups are moved elsewhere before those that are left are not joined.
 const ROUNDS: usize = 3;
 
-/// Where the vertices of the draft go.
-pub(super) fn settle(mesh: &Mesh, borders: &Borders, draft: &Draft, places: &Places) -> Vec<Vec3> {
+/// Where everything goes.
+pub(super) struct Settled {
+    /// The position of each vertex of the draft.
+    pub(super) positions: Vec<Vec3>,
+    /// For each place a number of the point it became; places that became one have the same.
+    pub(super) points: Vec<u32>,
+    /// The triangles with a corner that became one with another place.
+    pub(super) touched: Vec<usize>,
+}
+
+/// Finds places for the vertices of the draft.
+pub(super) fn settle(mesh: &Mesh, borders: &Borders, draft: &Draft, places: &Places) -> Settled {
     let mut settling = Settling::new(mesh, borders, draft, places);
     for round in 0..2 * ROUNDS {
         let turned = settling.turned_triangles();
@@ -30,7 +40,14 @@ pub(super) fn settle(mesh: &Mesh, borders: &Borders, draft: &Draft, places: &Pla
             _ => settling.give_up(&turned, round + 1 == 2 * ROUNDS),
         }
     }
-    (0..draft.places.len()).map(|v| settling.position(v as u32)).collect()
+    let is_joined = |group: u32| settling.targets[group as usize].is_some();
+    Settled {
+        positions: (0..draft.places.len()).map(|v| settling.position(v as u32)).collect(),
+        points: (0..places.count() as u32)
+            .map(|place| Some(places.group(place)).filter(|&group| is_joined(group)).unwrap_or(place))
+            .collect(),
+        touched: settling.touched,
+    }
 }
 
 struct Settling<'a> {
