@@ -1,0 +1,173 @@
+//! Mends the seams between separately tessellated faces.
+//!
+//! Exporters of solids tessellate every face by itself, so that two polylines of one curve lie along each other: with
+//! T-junctions, and with cracks as wide as their chords leave the curve. By their edges alone these are borders. Here
+//! both sides of every such seam get the same vertices, which moves none of them by more than a tolerance; then edges
+//! meet as in any other mesh. Each side keeps its own vertices, and with them its normals and colours.
+//!
+//! Which borders belong together, in steps that each take up what the ones before left:
+//!
+//! 1. *Pairs* of edges whose ends nearly coincide ([`pairs`]).
+//! 2. *Anchored chains*: rows of border edges between the same two points, at which more than one of them starts. Their
+//!    ends alone say that they belong together, however far they are apart between ([`anchors`]).
+//! 3. *Thin holes*: loops of border edges, after Barequet and Sharir's links at the smallest angle, split at their
+//!    farthest points ([`holes`]).
+//! 4. *Proximity*: the nearest edge within reach, if each is the other's nearest ([`proximity`]) and if the gap closes
+//!    on both sides ([`closure`]), as it does between two polylines of one curve and not at a clearance.
+//! 5. Where many gaps that do not close are overlaps instead, the corners are cracked too, and how wide gaps need not
+//!    close is taken from the mesh itself ([`closure`]).
+//!
+//! Distance alone tells little. What tells real gaps from cracks is, in all steps, that a surface does not fold back at
+//! a seam (sheets that lie on each other), and that there is no material in the gap (the sides of a narrow strip).
+//!
+//! The last step gives the matched places one position, cuts the edges between them and their triangles, and gives up
+//! where a triangle would be turned over ([`join`], [`settle`]).
+
+mod anchors;
+mod borders;
+mod closure;
+mod holes;
+mod intervals;
+mod join;
+mod limits;
+mod open;
+mod pairs;
+mod places;
+mod proximity;
+mod settle;
+mod side;
+mod split;
+mod zip;
+
+use self::anchors::{Joined, anchored};
+use self::borders::{Borders, NO_BORDER};
+use self::holes::thin_holes;
+use self::limits::Limits;
+use self::open::Open;
+use self::places::Places;
+use self::proximity::Stretches;
+use super::{Adjacency, Mesh};
+
+/// Share of the half-edges that are still open after the pairs, from which on the mesh is loose triangles and no seams
+/// between faces are looked for.
+const LOOSE: f64 = 0.5;
+
+/// How far the two sides of a seam may be apart.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum SeamTolerance {
+    /// Up to 0.1 % of the diagonal of the mesh from the middle of the gap.
+    #[default]
+    Automatic,
+    /// How far a vertex may move to the middle of the gap, as a share of the diagonal of the mesh's bounding box. 0: only
+    /// what lies exactly on each other belongs together, and nothing is mended.
+    Fraction(f32),
+}
+
+/// What [`mend`] did. Lengths are in units of the mesh.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Mended {
+    /// Length of all edges of one triangle only, before.
+    pub border_length: f64,
+    /// How much of it has a partner now.
+    pub joined_length: f64,
+    /// How far a vertex was allowed to move.
+    pub tolerance: f64,
+    /// Up to this width, gaps needed no sign that they are cracks.
+    pub open_gap: f64,
+    /// How far a vertex moved at most.
+    pub farthest_move: f64,
+    /// Number of vertices that were added on edges.
+    pub added_vertices: usize,
+    /// Number of triangles left out because nothing of them is left: two of their corners became one point, or they lie
+    /// on another one back to back.
+    pub dropped_triangles: usize,
+}
+
+/// Makes the seams of a clean mesh common edges; see the [module](self). `None` if there is nothing to join. Skinned
+/// meshes stay as they are. `adjacency` must be that of the mesh.
+pub fn mend(mesh: &Mesh, adjacency: &Adjacency, tolerance: SeamTolerance) -> Option<(Mesh, Mended)> {
+    let has_borders = adjacency.border_count > 0 || !adjacency.seams.is_empty();
+    if !has_borders || mesh.rig.is_some() {
+        return None;
+    }
+    let limits = Limits::new(tolerance, mesh.bounds().diagonal());
+    if !(limits.tolerance > 0.0 && limits.tolerance.is_finite()) {
+        return None;
+    }
+    let borders = Borders::new(mesh, adjacency);
+    let mut matching = Matching::new(mesh, &borders, limits);
+    matching.take_pairs();
+    let open = matching.open();
+    let is_loose = open.edges.len() as f64 > LOOSE * mesh.indices.len() as f64;
+    matching.take(anchored(&borders, &open, &limits));
+    matching.take(thin_holes(&borders, &matching.open(), &limits));
+    let open_gap = if is_loose { limits.open_gap } else { matching.take_near() };
+    if !matching.has_ties {
+        return None;
+    }
+    let outcome = join::join(mesh, &adjacency.weld.representative, &borders, &matching.places);
+    let report = Mended {
+        border_length: borders.length,
+        joined_length: outcome.joined_length,
+        tolerance: limits.tolerance,
+        open_gap,
+        farthest_move: outcome.farthest_move,
+        added_vertices: outcome.added_vertices,
+        dropped_triangles: outcome.dropped_triangles,
+    };
+    (report.joined_length > 0.0).then_some((outcome.mesh, report))
+}
+
+/// What is joined so far.
+struct Matching<'a> {
+    borders: &'a Borders,
+    limits: Limits,
+    places: Places,
+    is_joined: Vec<bool>,
+    has_ties: bool,
+}
+
+impl<'a> Matching<'a> {
+    fn new(mesh: &Mesh, borders: &'a Borders, limits: Limits) -> Self {
+        let count = borders.list.len();
+        let places = Places::new(&mesh.positions, count, limits.widest(), limits.spacing);
+        Self { borders, limits, places, is_joined: vec![false; count], has_ties: false }
+    }
+
+    fn open(&self) -> Open {
+        Open::new(self.borders, &self.places, &self.is_joined)
+    }
+
+    fn take_pairs(&mut self) {
+        for (border, partner) in (0..).zip(pairs::pairs(self.borders, &self.limits)) {
+            if partner != NO_BORDER && border < partner {
+                let ties = pairs::ties(self.borders.get(border), self.borders.get(partner));
+                self.take([Joined { edges: vec![border, partner], ties: ties.to_vec() }]);
+            }
+        }
+    }
+
+    fn take(&mut self, all: impl IntoIterator<Item = Joined>) {
+        for joined in all {
+            for tie in joined.ties {
+                self.has_ties |= self.places.tie(self.borders, tie);
+            }
+            for edge in joined.edges {
+                self.is_joined[edge as usize] = true;
+            }
+        }
+    }
+
+    /// Joins edges by proximity; returns the width up to which gaps needed no closure.
+    fn take_near(&mut self) -> f64 {
+        let stretches = Stretches::new(self.borders, &self.open(), &self.limits);
+        let closed = closure::closed(self.borders, &stretches, &self.limits);
+        for tie in intervals::ties(self.borders, &stretches, &closed, &self.limits) {
+            self.has_ties |= self.places.tie(self.borders, tie);
+        }
+        closed.open_gap
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,105 @@
+//! Step 1: pairs of border edges whose ends nearly coincide.
+
+use glam::{DVec3, I64Vec3};
+use rayon::prelude::*;
+
+use super::borders::{Border, Borders, NO_BORDER};
+use super::limits::{COS_FOLD, Limits};
+use super::places::{Place, Tie};
+
+/// Width of the cells in which middles are sorted, in widest gaps: few places are near a wall.
+const CELL: f64 = 8.0;
+/// Of more edges in one cell, not all are tried out.
+const MOST_IN_A_CELL: usize = 64;
+
+/// The border edge that each is paired with, or [`NO_BORDER`].
+pub(super) fn pairs(borders: &Borders, limits: &Limits) -> Vec<u32> {
+    let cells = Cells::new(borders, limits.open_gap);
+    let best: Vec<u32> =
+        (0..borders.list.len()).into_par_iter().map(|b| cells.best_partner(borders, b as u32)).collect();
+    let is_mutual = |(border, &partner): (usize, &u32)| {
+        if best.get(partner as usize) == Some(&(border as u32)) { partner } else { NO_BORDER }
+    };
+    best.iter().enumerate().map(is_mutual).collect()
+}
+
+/// What joining two edges of which both ends nearly coincide takes.
+pub(super) fn ties(a: &Border, b: &Border) -> [Tie; 2] {
+    let ends = facing_ends(a, b);
+    [0, 1].map(|k| Tie { sides: [Place::Point(a.ends[k]), Place::Point(ends[k])] })
+}
+
+/// The ends of `b` in the order in which `a` meets them.
+fn facing_ends(a: &Border, b: &Border) -> [u32; 2] {
+    if a.direction.dot(b.direction) < 0.0 { [b.ends[1], b.ends[0]] } else { b.ends }
+}
+
+/// Border edges by the cell of their middle.
+struct Cells {
+    width: f64,
+    reach: f64,
+    /// (hash of the cell, edge), sorted.
+    entries: Vec<(u64, u32)>,
+}
+
+impl Cells {
+    fn new(borders: &Borders, reach: f64) -> Self {
+        let width = CELL * reach;
+        let entries = borders.list.par_iter().enumerate();
+        let mut entries: Vec<(u64, u32)> =
+            entries.map(|(number, b)| (hash(cell(b.at(0.5), width)), number as u32)).collect();
+        entries.par_sort_unstable();
+        Self { width, reach, entries }
+    }
+
+    fn best_partner(&self, borders: &Borders, number: u32) -> u32 {
+        let border = borders.get(number);
+        let middle = border.at(0.5);
+        let low = cell(middle - self.reach, self.width);
+        let high = cell(middle + self.reach, self.width);
+        let mut best = (self.reach, NO_BORDER);
+        for x in low.x..=high.x {
+            for y in low.y..=high.y {
+                for z in low.z..=high.z {
+                    for &(_, other) in self.at(I64Vec3::new(x, y, z)) {
+                        let partner = borders.get(other);
+                        let gap = widest_end(border, partner);
+                        if other != number && (gap, other) < best && is_seam(border, partner) {
+                            best = (gap, other);
+                        }
+                    }
+                }
+            }
+        }
+        best.1
+    }
+
+    fn at(&self, cell: I64Vec3) -> &[(u64, u32)] {
+        let key = hash(cell);
+        let entries = &self.entries[self.entries.partition_point(|&(k, _)| k < key)..];
+        let count = entries.iter().take(MOST_IN_A_CELL).take_while(|&&(k, _)| k == key).count();
+        &entries[..count]
+    }
+}
+
+fn cell(point: DVec3, width: f64) -> I64Vec3 {
+    (point / width).floor().as_i64vec3()
+}
+
+fn hash(cell: I64Vec3) -> u64 {
+    let [x, y, z] = cell.to_array().map(|c| c as u64);
+    let mixed = x.wrapping_mul(0x9e37_79b9_7f4a_7c15)
+        ^ y.wrapping_mul(0xd6e8_feb8_6659_fd93).rotate_left(21)
+        ^ z.wrapping_mul(0xbf58_476d_1ce4_e5b9).rotate_left(42);
+    (mixed ^ mixed >> 31).wrapping_mul(0x94d0_49bb_1331_11eb)
+}
+
+/// The larger distance between two ends that face each other.
+fn widest_end(a: &Border, b: &Border) -> f64 {
+    let [p, q] = if a.direction.dot(b.direction) < 0.0 { [1, 0] } else { [0, 1] };
+    a.positions[0].distance(b.positions[p]).max(a.positions[1].distance(b.positions[q]))
+}
+
+fn is_seam(a: &Border, b: &Border) -> bool {
+    a.face != b.face && a.is_unfolded(b, COS_FOLD) && a.is_outside(b, b.at(0.5) - a.at(0.5), 0.5)
+}

@@ -1,0 +1,226 @@
+//! Places on borders that become one point.
+
+use glam::{DVec3, Vec3};
+
+use super::borders::Borders;
+
+/// Of more cuts, an edge gets no further ones.
+const MOST_CUTS: usize = 4096;
+
+/// A place on a border.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Place {
+    /// A welded point.
+    Point(u32),
+    /// On a border edge, at a share of it.
+    On { border: u32, share: f64 },
+}
+
+/// Two places that are to become one.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Tie {
+    pub(super) sides: [Place; 2],
+}
+
+impl Tie {
+    /// Whether no edge needs to be cut.
+    pub(super) fn is_between_vertices(&self) -> bool {
+        self.sides.iter().all(|side| match side {
+            Place::Point(_) => true,
+            Place::On { share, .. } => *share == 0.0 || *share == 1.0,
+        })
+    }
+}
+
+/// A new vertex on a border edge.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Cut {
+    pub(super) border: u32,
+    /// Where on the edge, 0 to 1.
+    pub(super) share: f64,
+}
+
+/// The welded points and the cuts of the border edges between them, in groups that become one point.
+///
+/// Two places on one edge never get into one group, so that no border edge vanishes.
+pub(super) struct Places {
+    /// The welded points come first, then the cuts.
+    parent: Vec<u32>,
+    /// The groups as rings.
+    next: Vec<u32>,
+    size: Vec<u32>,
+    /// The box around the places of each group.
+    boxes: Vec<[Vec3; 2]>,
+    pub(super) cuts: Vec<Cut>,
+    /// The cuts of each border edge, as places.
+    cuts_of: Vec<Vec<u32>>,
+    point_count: usize,
+    /// The largest diagonal of a group's box.
+    widest: f32,
+    /// The least distance of two cuts of an edge.
+    spacing: f64,
+}
+
+impl Places {
+    pub(super) fn new(positions: &[Vec3], border_count: usize, widest: f64, spacing: f64) -> Self {
+        let count = positions.len();
+        Self {
+            parent: (0..count as u32).collect(),
+            next: (0..count as u32).collect(),
+            size: vec![1; count],
+            boxes: positions.iter().map(|&p| [p; 2]).collect(),
+            cuts: Vec::new(),
+            cuts_of: vec![Vec::new(); border_count],
+            point_count: count,
+            widest: widest as f32,
+            spacing,
+        }
+    }
+
+    /// The group of a place: one of its members.
+    pub(super) fn group(&self, mut place: u32) -> u32 {
+        while self.parent[place as usize] != place {
+            place = self.parent[place as usize];
+        }
+        place
+    }
+
+    /// Number of points and cuts.
+    pub(super) fn count(&self) -> usize {
+        self.parent.len()
+    }
+
+    /// The cut of a place, unless it is a point.
+    pub(super) fn cut(&self, place: u32) -> Option<&Cut> {
+        self.cuts.get((place as usize).checked_sub(self.point_count)?)
+    }
+
+    /// The cuts of a border edge, as places, in no order.
+    pub(super) fn cuts_of(&self, border: u32) -> &[u32] {
+        &self.cuts_of[border as usize]
+    }
+
+    /// The middle of the places of a group of more than one.
+    pub(super) fn middle(&self, group: u32) -> Option<Vec3> {
+        let [low, high] = self.boxes[group as usize].map(Vec3::as_dvec3);
+        (self.size[group as usize] > 1).then(|| low.midpoint(high).as_vec3())
+    }
+
+    /// How far a place may be moved.
+    pub(super) fn reach(&self) -> f32 {
+        0.5 * self.widest * (1.0 + 1e-5)
+    }
+
+    /// All members of a group, given one of them.
+    pub(super) fn members(&self, place: u32) -> impl Iterator<Item = u32> {
+        let mut next = Some(place);
+        std::iter::from_fn(move || {
+            let member = next?;
+            next = Some(self.next[member as usize]).filter(|&n| n != place);
+            Some(member)
+        })
+    }
+
+    /// Makes one group of the groups of two places, unless it became too large, or two places of one edge became one.
+    pub(super) fn tie(&mut self, borders: &Borders, tie: Tie) -> bool {
+        let [a, b] = tie.sides.map(|side| self.settle(borders, side));
+        if let (Some(a), Some(b)) = (a, b) {
+            return self.unite(borders, a, b);
+        }
+        let [Some(a), Some(b)] = tie.sides.map(|side| self.make(borders, side)) else { return false };
+        if self.unite(borders, a, b) {
+            return true;
+        }
+        // Cuts that nothing is tied to are taken back, the last one first.
+        for place in [a.max(b), a.min(b)] {
+            if place as usize + 1 == self.parent.len()
+                && self.next[place as usize] == place
+                && let Some(cut) = self.cut(place).copied()
+            {
+                self.cuts_of[cut.border as usize].pop();
+                self.cuts.pop();
+                self.parent.pop();
+                self.next.pop();
+                self.size.pop();
+                self.boxes.pop();
+            }
+        }
+        false
+    }
+
+    /// The existing place there, if there is one.
+    fn settle(&self, borders: &Borders, place: Place) -> Option<u32> {
+        match place {
+            Place::Point(point) => Some(point),
+            Place::On { border, share } => {
+                let edge = borders.get(border);
+                let near = |other: f64| (share - other).abs() * edge.length < self.spacing;
+                let end = [0.0, 1.0].into_iter().zip(edge.ends).find(|&(s, _)| near(s));
+                let cut = || {
+                    let cuts = self.cuts_of(border).iter().copied();
+                    cuts.into_iter().find(|&c| self.cut(c).is_some_and(|cut| near(cut.share)))
+                };
+                end.map(|(_, point)| point).or_else(cut)
+            }
+        }
+    }
+
+    fn make(&mut self, borders: &Borders, place: Place) -> Option<u32> {
+        if let Some(place) = self.settle(borders, place) {
+            return Some(place);
+        }
+        let Place::On { border, share } = place else { return None };
+        if self.cuts_of(border).len() >= MOST_CUTS {
+            return None;
+        }
+        let number = self.parent.len() as u32;
+        self.parent.push(number);
+        self.next.push(number);
+        self.size.push(1);
+        self.boxes.push([borders.get(border).at(share).as_vec3(); 2]);
+        self.cuts.push(Cut { border, share });
+        self.cuts_of[border as usize].push(number);
+        Some(number)
+    }
+
+    /// Makes one group of the groups of two existing places, as [`Self::tie`].
+    pub(super) fn unite(&mut self, borders: &Borders, a: u32, b: u32) -> bool {
+        let (a, b) = (self.group(a), self.group(b));
+        if a == b {
+            return true;
+        }
+        let (small, large) = if self.size[a as usize] < self.size[b as usize] { (a, b) } else { (b, a) };
+        let [[low_a, high_a], [low_b, high_b]] = [a, b].map(|g| self.boxes[g as usize]);
+        let united = [low_a.min(low_b), high_a.max(high_b)];
+        if united[0].distance(united[1]) > self.widest * (1.0 + 1e-5)
+            || self.members(small).any(|member| self.has_neighbour_in(borders, member, large))
+        {
+            return false;
+        }
+        self.parent[small as usize] = large;
+        self.size[large as usize] += self.size[small as usize];
+        self.boxes[large as usize] = united;
+        self.next.swap(small as usize, large as usize);
+        true
+    }
+
+    /// Whether a place shares an edge with a place of a group.
+    fn has_neighbour_in(&self, borders: &Borders, place: u32, group: u32) -> bool {
+        let on_edge = |border: u32| {
+            let ends = borders.get(border).ends;
+            ends.into_iter().chain(self.cuts_of(border).iter().copied()).any(|p| self.group(p) == group)
+        };
+        match self.cut(place) {
+            Some(cut) => on_edge(cut.border),
+            None => borders.starting_at(place).iter().chain(borders.ending_at(place)).any(|&b| on_edge(b)),
+        }
+    }
+
+    /// Where a place is before anything moves.
+    pub(super) fn position(&self, borders: &Borders, place: u32, positions: &[Vec3]) -> DVec3 {
+        match self.cut(place) {
+            Some(cut) => borders.get(cut.border).at(cut.share),
+            None => positions[place as usize].as_dvec3(),
+        }
+    }
+}
