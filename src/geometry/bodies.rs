@@ -242,7 +242,18 @@ fn closed(mesh: &Mesh, adjacency: &Adjacency, bodies: &Bodies, count: usize) -> 
     for (side, number) in open.iter().zip(0..) {
         starts.extend(std::iter::repeat_n((side.ends[0], number), side.count as usize));
     }
+    if starts.is_empty() {
+        return is_closed;
+    }
     starts.par_sort_unstable();
+    // Those at a point are `starts[first_at[point]..first_at[point + 1]]`.
+    let mut first_at = vec![0; mesh.positions.len() + 1];
+    for &(point, _) in &starts {
+        first_at[point as usize + 1] += 1;
+    }
+    for point in 1..first_at.len() {
+        first_at[point] += first_at[point - 1];
+    }
     let mut is_taken = vec![false; starts.len()];
     let position = |point: u32| mesh.positions.get(point as usize).map_or(DVec3::ZERO, |p| p.as_dvec3());
     let side_of = |start: usize| &open[starts[start].1 as usize];
@@ -270,10 +281,8 @@ fn closed(mesh: &Mesh, adjacency: &Adjacency, bodies: &Bodies, count: usize) -> 
             }
             // Where several go on, the one that turns back most: the other side of a slit.
             let along = direction(side);
-            let first_there = starts.partition_point(|&(point, _)| point < end);
             let turned = |&start: &usize| along.dot(direction(side_of(start)));
-            next = (first_there..starts.len())
-                .take_while(|&start| starts[start].0 == end)
+            next = (first_at[end as usize]..first_at[end as usize + 1])
                 .take(MOST_AT_A_POINT)
                 .filter(|&start| !is_taken[start] && body_of(start) == body)
                 .min_by(|a, b| turned(a).total_cmp(&turned(b)));
