@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use crate::document::{Document, DocumentError, Glyph};
-use crate::export::session::is_document;
+use crate::document::{Document, DocumentError, Glyph, View};
+use crate::export::session::{import_options, is_document};
 use crate::geometry::Bounds;
 use crate::gpu::GpuError;
 use crate::import::{ImportError, ImportOptions, Progress};
@@ -168,14 +168,14 @@ pub enum LoadError {
 }
 
 /// Loads `paths` and uploads what is in them; the first document among them is opened and brings its models along.
-/// Where files have no normals, edges above `crease_angle` (degrees; an opened document brings its own) stay hard.
+/// Files are read as `view` asks for; an opened document brings its own.
 ///
 /// # Errors
 /// The first file that fails.
 pub fn load(
     paths: &[PathBuf],
     intent: Intent,
-    crease_angle: f32,
+    view: &View,
     loader: &Loader,
     uploader: &Uploader,
     progress: &Progress,
@@ -193,8 +193,8 @@ pub fn load(
             document = Some((path, opened));
         }
     }
-    let crease_angle = document.as_ref().map_or(crease_angle, |(_, d)| d.view.crease_angle);
-    let scene = loader(&models, &ImportOptions { crease_angle }, progress)?;
+    let view = document.as_ref().map_or(view, |(_, d)| &d.view);
+    let scene = loader(&models, &import_options(view), progress)?;
     let model = Model::new(scene);
     let on_device = uploader.scene(&model.files, &[])?;
     Ok(Loaded { model, on_device, models, document, intent })

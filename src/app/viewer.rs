@@ -28,7 +28,7 @@ use super::state::{AppState, Page, Samples};
 use super::unsaved::{Kept, Leaving};
 use super::viewport::Viewport;
 use super::{AppError, theme};
-use crate::document::{Document, DocumentError, History};
+use crate::document::{Creases, Document, DocumentError, History};
 use crate::gpu::GpuError;
 use crate::hatching::tonal_art_map::generator::Recipe;
 use crate::import::{self, ImageCache, ImportError};
@@ -116,7 +116,7 @@ pub struct Viewer {
     /// The models that the scene was made of.
     loaded: Vec<PathBuf>,
     /// The crease angle of the topology that the renderer has or is about to get.
-    topology_for: Option<f32>,
+    topology_for: Option<Creases>,
     /// Stripes of hatching that the person did not want to wait for.
     stripes_refused: Vec<StripeRequest>,
     /// Strokes that styles describe and that the person did not want to wait for.
@@ -228,7 +228,7 @@ impl Viewer {
 
     /// Whether the meshes have been examined for the present crease angle.
     pub fn has_topology(&self) -> bool {
-        self.topology_for == Some(self.document.view.crease_angle) && self.jobs.topology.is_none()
+        self.topology_for == Some(self.document.view.creases()) && self.jobs.topology.is_none()
     }
 
     /// Whether all strokes of hatching that are asked for have been found.

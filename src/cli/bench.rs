@@ -59,7 +59,7 @@ impl Row {
 pub(super) fn run(args: &BenchArgs) -> Result<(), CliError> {
     let files = if args.files.is_empty() { sample().into_iter().collect() } else { args.files.clone() };
     let started = Instant::now();
-    let opened = open(&files, None, &Progress::default())?;
+    let opened = open(&files, |_| {}, &Progress::default())?;
     let load_ms = started.elapsed().as_secs_f64() * 1e3;
     let mut bench = Bench::new(opened, args.resolution.0)?;
 
@@ -166,10 +166,10 @@ impl Bench {
         session.set_cache(Cache::of_user());
         // The window knows it too, as soon as a background job has found it out.
         let started = Instant::now();
-        let mut found = topology(scene, document.view.crease_angle);
+        let mut found = topology(scene, document.view.creases());
         let topology_ms = started.elapsed().as_secs_f64() * 1e3;
         let wall = wall(&camera.orbited(document.up(scene).vector(), MIDDLE, 0.0), scene);
-        found.extend(topology(&wall, document.view.crease_angle));
+        found.extend(topology(&wall, document.view.creases()));
         let mut with_wall = (**scene).clone();
         with_wall.append(wall);
         let with_wall = Arc::new(with_wall);

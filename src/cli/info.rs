@@ -5,11 +5,12 @@ use serde_json::json;
 use super::args::InfoArgs;
 use super::{CliError, print_json, print_line};
 use crate::export::session::{Opened, open};
+use crate::geometry::Mended;
 use crate::import::Progress;
 use crate::scene::AlphaMode;
 
 pub(super) fn run(args: &InfoArgs) -> Result<(), CliError> {
-    let opened = open(&args.files, None, &Progress::default())?;
+    let opened = open(&args.files, |_| {}, &Progress::default())?;
     if args.json { as_json(&opened) } else { as_text(&opened) }
 }
 
@@ -40,6 +41,16 @@ fn as_text(opened: &Opened) -> Result<(), CliError> {
         None => "not stated".to_owned(),
     };
     print_line(&format!("up {}, unit {unit}", document.up(scene).name()))?;
+    let mended = Mended::of_all(scene.meshes.iter().filter_map(|mesh| mesh.mended.as_ref()));
+    if let Some(mended) = mended {
+        print_line(&format!(
+            "seams: {:.1} % of {} of borders were joined, by up to {:.2e}; {} vertices were added",
+            100.0 * mended.joined_length / mended.border_length,
+            mended.border_length as f32,
+            mended.farthest_move,
+            mended.added_vertices,
+        ))?;
+    }
     for warning in &scene.warnings {
         print_line(&format!("warning: {warning}"))?;
     }
@@ -72,6 +83,15 @@ fn as_json(opened: &Opened) -> Result<(), CliError> {
                 "normals": !m.normals.is_empty(),
                 "uvs": !m.uvs.is_empty(),
                 "colors": !m.colors.is_empty(),
+                "mended": m.mended.map(|mended| json!({
+                    "border_length": mended.border_length,
+                    "joined_length": mended.joined_length,
+                    "tolerance": mended.tolerance,
+                    "open_gap": mended.open_gap,
+                    "farthest_move": mended.farthest_move,
+                    "added_vertices": mended.added_vertices,
+                    "dropped_triangles": mended.dropped_triangles,
+                })),
                 "materials": m.parts.iter().map(|p| p.material).collect::<Vec<_>>(),
             })
         })

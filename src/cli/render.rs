@@ -6,7 +6,7 @@ use serde_json::json;
 
 use super::args::{CameraArgs, LookArgs, RenderArgs, SectionAt};
 use super::{CliError, peeling, print_json};
-use crate::document::{Document, Pattern, Role, Section, glyph};
+use crate::document::{Document, Pattern, Role, Section, View, glyph};
 use crate::export::session::{OpenError, Opened, initial_camera, open};
 use crate::export::{Session, save_png};
 use crate::gpu::{Gpu, GpuError};
@@ -14,7 +14,7 @@ use crate::hatching::cache::Cache;
 use crate::import::{ImageCache, Progress};
 use crate::render::{RenderError, StyleImages};
 use crate::scene::{Camera, NodeId, Projection, Scene};
-use crate::style::{Value, preset};
+use crate::style::{Color, param, preset};
 
 /// Pixels per inch of paper, as printers expect them.
 const DPI: f64 = 300.0;
@@ -23,7 +23,7 @@ const METRES_PER_INCH: f64 = 0.0254;
 
 pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
     let device = StartingDevice::new()?;
-    let mut opened = open(&args.files, crease_angle(&args.look), &Progress::default())?;
+    let mut opened = open(&args.files, |view| look_at_files(view, &args.look), &Progress::default())?;
     apply_look(&mut opened, &args.look)?;
     opened.document.view.background = args.background.or(opened.document.view.background);
     let uses = opened.document.images();
@@ -104,13 +104,11 @@ impl Drop for StartingDevice {
     }
 }
 
-/// What `--set view.crease_angle=…` says: it matters while files are read already. Whether it is in range is checked
-/// with all other settings.
-fn crease_angle(look: &LookArgs) -> Option<f32> {
-    look.set.iter().rev().find_map(|setting| match (setting.key.as_str(), &setting.value) {
-        ("view.crease_angle", Value::Number(degrees)) => Some(degrees.clamp(0.0, 180.0) as f32),
-        _ => None,
-    })
+/// What `--set view.…` says, as far as it matters while files are read already. What is wrong is told with all other settings.
+fn look_at_files(view: &mut View, look: &LookArgs) {
+    for setting in look.set.iter().filter(|setting| setting.key.starts_with("view.")) {
+        let _ = param::set(&mut view.params(Color::WHITE), &setting.key, &setting.value);
+    }
 }
 
 fn matching(scene: &Scene, pattern: &str) -> Result<Vec<NodeId>, CliError> {

@@ -29,7 +29,7 @@ pub use lighting::Lighting;
 pub use pattern::{Pattern, PatternError};
 pub use roles::Role;
 pub use section::Section;
-pub use view::{LayersBy, Show, View};
+pub use view::{Creases, LayersBy, Show, View};
 
 /// A drawing: everything about it that is not in the model files.
 #[derive(Debug, Clone, PartialEq)]

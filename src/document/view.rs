@@ -1,5 +1,7 @@
 //! How the picture is shown, whatever the styles are.
 
+use crate::geometry::CreaseRule;
+use crate::geometry::mend::SeamTolerance;
 use crate::style::Color;
 use crate::style::choice;
 use crate::style::param::{Param, Params, Place};
@@ -15,6 +17,12 @@ pub struct View {
     pub layer: u32,
     /// Dihedral angle above which an edge separates two surfaces; degrees, 0 to 180.
     pub crease_angle: f32,
+    /// Which of those edges are creases.
+    pub creases: CreasesBy,
+    /// How far the seams of separately tessellated faces may be apart.
+    pub seams: Seams,
+    /// The same where it is a number: ‰ of the diagonal of a mesh, 0 to 5.
+    pub seam_gap: f32,
     /// Whether parallel views show how long things are.
     pub scale_bar: bool,
     /// How many mirrors in a row a line of sight follows, 0 to 8; the nearest whole number counts.
@@ -70,6 +78,30 @@ const BUFFERS: [Show; 10] = [
     Show::EdgeMap,
 ];
 choice! {
+    /// Which edges above the crease angle are creases.
+    pub enum CreasesBy {
+        /// Those where the file's own normals part; all of them where it has none.
+        #[default]
+        Normals,
+        /// All of them.
+        Angle,
+    }
+}
+
+choice! {
+    /// How far the two sides of a seam may be apart. CAD programs tessellate each face by itself, and leave cracks between them.
+    pub enum Seams {
+        /// As the mesh itself says.
+        #[default]
+        Auto,
+        /// Not at all: nothing is mended.
+        Exact,
+        /// As far as a number says.
+        Gap,
+    }
+}
+
+choice! {
     /// How depth layers are made.
     pub enum LayersBy {
         /// From lists where the device can and there is memory enough, otherwise by peeling.
@@ -89,6 +121,9 @@ impl Default for View {
             show: Show::Picture,
             layer: 1,
             crease_angle: 30.0,
+            creases: CreasesBy::Normals,
+            seams: Seams::Auto,
+            seam_gap: 1.0,
             scale_bar: false,
             reflections: 2.0,
             layers: LayersBy::Auto,
@@ -96,7 +131,34 @@ impl Default for View {
     }
 }
 
+/// What decides which edges are creases.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Creases {
+    /// Dihedral angle above which an edge may be one, degrees.
+    pub angle: f32,
+    /// Which of those are.
+    pub rule: CreaseRule,
+}
+
 impl View {
+    /// What decides which edges are creases.
+    pub fn creases(&self) -> Creases {
+        let rule = match self.creases {
+            CreasesBy::Normals => CreaseRule::Normals,
+            CreasesBy::Angle => CreaseRule::Angle,
+        };
+        Creases { angle: self.crease_angle, rule }
+    }
+
+    /// How far the two sides of a seam may be apart.
+    pub fn seam_tolerance(&self) -> SeamTolerance {
+        match self.seams {
+            Seams::Auto => SeamTolerance::Automatic,
+            Seams::Exact => SeamTolerance::Fraction(0.0),
+            Seams::Gap => SeamTolerance::Fraction(self.seam_gap.clamp(0.0, 5.0) * 1e-3),
+        }
+    }
+
     /// Every parameter, like [`crate::style::Style::params`]; `paper`: that of the document's style.
     pub fn params(&mut self, paper: Color) -> Vec<Param<'_>> {
         let mut list = Params::default();
@@ -120,6 +182,29 @@ impl View {
                 "Folds sharper than this separate surfaces; in files without normals they are hard (after a reload).",
                 &mut self.crease_angle,
             );
+            list.choice(
+                "creases",
+                "Creases by",
+                "Which folds are creases: those where the file's own normals part, or all that are sharp enough.",
+                &mut self.creases,
+            );
+            list.choice(
+                "seams",
+                "Mend seams",
+                "Cracks between separately made faces, as CAD programs leave them, are closed: as the mesh says, not at all, or up to a width.",
+                &mut self.seams,
+            );
+            list.when("view.seams", Seams::Gap, |list| {
+                list.number(
+                    "seam_gap",
+                    "Seam width",
+                    "‰",
+                    0.0..=2.0,
+                    0.0..=5.0,
+                    "How far a vertex may move to the middle of a crack, in thousandths of the mesh's diagonal.",
+                    &mut self.seam_gap,
+                );
+            });
             list.number(
                 "reflections",
                 "Reflections",

@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use image::RgbaImage;
 
-use crate::document::{Document, DocumentError};
-use crate::geometry::{CreaseRule, Topology};
+use crate::document::{Creases, Document, DocumentError, View};
+use crate::geometry::Topology;
 use crate::gpu::{Gpu, GpuError, readback};
 use crate::hatching::cache::Cache;
 use crate::import::{ImportError, ImportOptions, Progress, load_all};
@@ -44,12 +44,21 @@ pub fn is_document(path: &Path) -> bool {
     path.extension().is_some_and(|e| e.eq_ignore_ascii_case("hachure"))
 }
 
-/// Opens models, or one document with its models. Where files have no normals, edges above `crease_angle` (degrees; by
-/// default the document's) stay hard.
+/// What a view asks of importers.
+pub fn import_options(view: &View) -> ImportOptions {
+    ImportOptions { crease_angle: view.crease_angle, seams: view.seam_tolerance() }
+}
+
+/// Opens models, or one document with its models; `adjust` may change its view before, for some of that matters while models
+/// are read.
 ///
 /// # Errors
 /// [`OpenError`].
-pub fn open(files: &[PathBuf], crease_angle: Option<f32>, progress: &Progress) -> Result<Opened, OpenError> {
+pub fn open(
+    files: &[PathBuf],
+    adjust: impl FnOnce(&mut View),
+    progress: &Progress,
+) -> Result<Opened, OpenError> {
     let document = match files {
         [file] if is_document(file) => Some(Document::open(file)?),
         _ => None,
@@ -61,8 +70,9 @@ pub fn open(files: &[PathBuf], crease_angle: Option<f32>, progress: &Progress) -
     }
     let is_new = document.is_none();
     let mut document = document.unwrap_or_else(|| Document { models: files.to_vec(), ..Document::default() });
-    let crease_angle = crease_angle.unwrap_or(document.view.crease_angle);
-    let scene = load_all(&document.models, &ImportOptions { crease_angle }, progress)?;
+    let mut view = document.view.clone();
+    adjust(&mut view);
+    let scene = load_all(&document.models, &import_options(&view), progress)?;
     if is_new {
         document.use_lights_of(&scene);
     }
@@ -78,13 +88,9 @@ pub fn initial_camera(document: &Document, scene: &Scene, aspect: f64) -> Camera
         .framing(&extent, aspect)
 }
 
-/// What topology finds out about all meshes, for a crease angle in degrees. Takes about 0.1 s per million triangles.
-pub fn topology(scene: &Scene, crease_angle: f32) -> Vec<Topology> {
-    scene
-        .meshes
-        .iter()
-        .map(|mesh| Topology::new(mesh, crease_angle.to_radians(), CreaseRule::default()))
-        .collect()
+/// What topology finds out about all meshes. Takes about 0.1 s per million triangles.
+pub fn topology(scene: &Scene, creases: Creases) -> Vec<Topology> {
+    scene.meshes.iter().map(|mesh| Topology::new(mesh, creases.angle.to_radians(), creases.rule)).collect()
 }
 
 /// A renderer that gives its pictures back.
@@ -121,7 +127,7 @@ impl Session {
     /// # Errors
     /// [`RenderError`].
     pub fn set_scene(&mut self, opened: &Opened) -> Result<(), RenderError> {
-        let topology = topology(&opened.scene, opened.document.view.crease_angle);
+        let topology = topology(&opened.scene, opened.document.view.creases());
         self.renderer.set_scene(&opened.scene, &topology)
     }
 
@@ -145,7 +151,7 @@ impl Session {
         let found = SolvedStripes::solve(&self.cache, scene, &missing, &|_| true);
         let mut solved = self.renderer.solved_stripes().to_vec();
         solved.extend(found.unwrap_or_default());
-        let topology = topology(scene, document.view.crease_angle);
+        let topology = topology(scene, document.view.creases());
         let stripes = self.renderer.uploader().stripes(scene, &topology, solved)?;
         self.renderer.show_stripes(stripes);
         Ok(())

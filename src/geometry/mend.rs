@@ -83,6 +83,21 @@ pub struct Mended {
     pub dropped_triangles: usize,
 }
 
+impl Mended {
+    /// All of these together: lengths and numbers summed, the rest the greatest.
+    pub fn of_all<'a>(all: impl IntoIterator<Item = &'a Self>) -> Option<Self> {
+        all.into_iter().copied().reduce(|a, b| Self {
+            border_length: a.border_length + b.border_length,
+            joined_length: a.joined_length + b.joined_length,
+            tolerance: a.tolerance.max(b.tolerance),
+            open_gap: a.open_gap.max(b.open_gap),
+            farthest_move: a.farthest_move.max(b.farthest_move),
+            added_vertices: a.added_vertices + b.added_vertices,
+            dropped_triangles: a.dropped_triangles + b.dropped_triangles,
+        })
+    }
+}
+
 /// Makes the seams of a clean mesh common edges; see the [module](self). `None` if there is nothing to join. Skinned
 /// meshes stay as they are. `adjacency` must be that of the mesh.
 pub fn mend(mesh: &Mesh, adjacency: &Adjacency, tolerance: SeamTolerance) -> Option<(Mesh, Mended)> {
@@ -116,6 +131,19 @@ pub fn mend(mesh: &Mesh, adjacency: &Adjacency, tolerance: SeamTolerance) -> Opt
         dropped_triangles: outcome.dropped_triangles,
     };
     (report.joined_length > 0.0).then_some((outcome.mesh, report))
+}
+
+/// The mesh with its seams as common edges, where it has any, and with what was done to them ([`Mesh::mended`]).
+pub fn mended(mesh: Mesh, tolerance: SeamTolerance) -> Mesh {
+    if tolerance == SeamTolerance::Fraction(0.0) || mesh.rig.is_some() {
+        return mesh;
+    }
+    match mend(&mesh, &Adjacency::new(&mesh), tolerance) {
+        Some((mended, report)) => {
+            Mesh { mended: Some(report), position_error: report.farthest_move as f32, ..mended }
+        }
+        None => mesh,
+    }
 }
 
 /// What is joined so far.

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use glam::{Vec2, Vec3, Vec4};
 
+use super::mend::Mended;
 use super::{Bounds, Rig};
 
 /// Triangles in their node's local coordinates (the file's units).
@@ -17,6 +18,8 @@ pub struct Mesh {
     /// How far a vertex may lie from its place, in units of the mesh, where seams were mended. 0: no farther than by
     /// rounding.
     pub position_error: f32,
+    /// What was done to its seams when it was read, if anything.
+    pub mended: Option<Mended>,
     /// Shading normals, unit length, local space. Empty: every face is flat and uses its own geometric normal.
     pub normals: Vec<Vec3>,
     /// Whether `normals` were computed from the triangles. Then they say nothing about the shape that those do not.
@@ -99,6 +102,7 @@ impl Mesh {
         Self {
             positions: pick(&self.positions, sources),
             position_error: self.position_error,
+            mended: self.mended,
             normals: pick(&self.normals, sources),
             has_computed_normals: self.has_computed_normals,
             uvs: pick(&self.uvs, sources),

@@ -7,6 +7,7 @@ use glam::DMat4;
 
 use super::names::{SiblingNames, file_stem};
 use super::{ImportError, ImportOptions, Progress};
+use crate::geometry::mend::mended;
 use crate::geometry::{Mesh, Report, clean, normals};
 use crate::scene::{Node, Scene, Warning};
 
@@ -147,7 +148,7 @@ impl<'a> Assembly<'a> {
             return None;
         }
         // Vertices that nothing shows must not count for the size of the model.
-        let mesh = mesh.without_unused_vertices();
+        let mesh = mended(mesh.without_unused_vertices(), self.options.seams);
         let mesh = if mesh.normals.is_empty() {
             normals::by_crease_angle(mesh, self.options.crease_angle)
         } else {

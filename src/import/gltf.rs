@@ -34,6 +34,7 @@ use self::nodes::Hierarchy;
 use super::names::file_stem;
 use super::source::Folder;
 use super::{ImportError, ImportOptions, Progress};
+use crate::geometry::mend::mended;
 use crate::scene::{Scene, Up, Warning};
 
 /// Reads a glTF or GLB file whose content is `data`; side files are looked for beside `path`.
@@ -43,13 +44,13 @@ use crate::scene::{Scene, Up, Warning};
 pub(super) fn load(
     path: &Path,
     data: &[u8],
-    _options: &ImportOptions,
+    options: &ImportOptions,
     progress: &Progress,
 ) -> std::result::Result<Scene, ImportError> {
-    import(path, data, progress).map_err(|fault| fault.of_file(path))
+    import(path, data, options, progress).map_err(|fault| fault.of_file(path))
 }
 
-fn import(path: &Path, data: &[u8], progress: &Progress) -> Result<Scene> {
+fn import(path: &Path, data: &[u8], options: &ImportOptions, progress: &Progress) -> Result<Scene> {
     let file = path.file_name().unwrap_or(path.as_os_str());
     let file = file.to_string_lossy().into_owned();
     let warning = |place: &str, message: String| Warning {
@@ -84,7 +85,7 @@ fn import(path: &Path, data: &[u8], progress: &Progress) -> Result<Scene> {
         return Err(Fault::Empty(no_mesh_reason(root)));
     }
     progress.report(0.35);
-    let built = build_all(&document, &requests, &hierarchy, progress)?;
+    let built = build_all(&document, &requests, &hierarchy, options, progress)?;
     let mut meshes = Vec::new();
     let mut places = Vec::with_capacity(built.len());
     let (mut has_triangles, mut has_others) = (false, false);
@@ -183,6 +184,7 @@ fn build_all(
     document: &Document<'_>,
     requests: &[Request],
     hierarchy: &Hierarchy,
+    options: &ImportOptions,
     progress: &Progress,
 ) -> Result<Vec<Built>> {
     let mut poses = HashMap::new();
@@ -197,10 +199,12 @@ fn build_all(
         .map(|request| {
             progress.check()?;
             let pose = request.skin.and_then(|skin| poses.get(&skin));
-            meshes::build(document, request, pose, node_of).map_err(|f| {
+            let built = meshes::build(document, request, pose, node_of).map_err(|f| {
                 let mesh = document.root.meshes.get(request.mesh);
                 f.at(|| label("mesh", request.mesh, mesh.and_then(|m| m.name.as_ref())))
-            })
+            })?;
+            let mesh = built.mesh.map(|mesh| mended(mesh, options.seams));
+            Ok(Built { mesh, ..built })
         })
         .collect()
 }

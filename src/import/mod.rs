@@ -25,6 +25,7 @@ pub use self::image_cache::ImageCache;
 
 use self::format::Format;
 use self::names::SiblingNames;
+use crate::geometry::mend::SeamTolerance;
 use crate::scene::{Scene, Warning};
 
 /// Why a file could not become a scene. Each message says what, where and what to do.
@@ -79,11 +80,13 @@ pub struct ImportOptions {
     /// Where a format gives no normals and leaves the choice (OBJ, STL, PLY): edges with a larger dihedral angle
     /// stay hard. Degrees, 0 to 180, default 30.
     pub crease_angle: f32,
+    /// How far the seams of separately tessellated faces may be apart to be mended.
+    pub seams: SeamTolerance,
 }
 
 impl Default for ImportOptions {
     fn default() -> Self {
-        Self { crease_angle: 30.0 }
+        Self { crease_angle: 30.0, seams: SeamTolerance::default() }
     }
 }
 

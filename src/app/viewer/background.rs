@@ -48,9 +48,9 @@ impl Viewer {
             self.given_up = None;
         }
         let loader = self.loader.clone();
-        let (uploader, angle) = (self.viewport.uploader(), self.document.view.crease_angle);
+        let (uploader, view) = (self.viewport.uploader(), self.document.view.clone());
         let work =
-            move |progress: &Progress| loading::load(&paths, intent, angle, &loader, &uploader, progress);
+            move |progress: &Progress| loading::load(&paths, intent, &view, &loader, &uploader, progress);
         self.jobs.load = Some(Job::start("loading", context, work));
     }
 
@@ -175,7 +175,7 @@ impl Viewer {
         }
     }
 
-    /// Examines the meshes of a new scene beside the window, and again when the crease angle has changed.
+    /// Examines the meshes of a new scene beside the window, and again when something else decides about creases.
     fn answer_topology(&mut self, context: &egui::Context) {
         if let Some(result) = self.jobs.topology.as_ref().and_then(Job::poll) {
             self.jobs.topology = None;
@@ -191,13 +191,13 @@ impl Viewer {
                 self.notices.error(message);
             }
         }
-        let angle = self.document.view.crease_angle;
+        let creases = self.document.view.creases();
         let is_wanted = !self.model.files.meshes.is_empty();
-        if is_wanted && self.topology_for != Some(angle) && context.input(|i| !i.pointer.any_down()) {
-            self.topology_for = Some(angle);
+        if is_wanted && self.topology_for != Some(creases) && context.input(|i| !i.pointer.any_down()) {
+            self.topology_for = Some(creases);
             let scene = Arc::clone(&self.model.files);
             let uploader = self.viewport.uploader();
-            let work = move |_: &Progress| uploader.topology(&scene, &session::topology(&scene, angle));
+            let work = move |_: &Progress| uploader.topology(&scene, &session::topology(&scene, creases));
             self.jobs.topology = Some(Job::start("examining the meshes", context, work));
         }
     }
@@ -225,7 +225,7 @@ impl Viewer {
         if missing.iter().all(|request| self.stripes_refused.contains(request)) {
             return;
         }
-        let (scene, angle) = (Arc::clone(&self.model.files), self.document.view.crease_angle);
+        let (scene, creases) = (Arc::clone(&self.model.files), self.document.view.creases());
         let (uploader, known) = (self.viewport.uploader(), self.viewport.solved_stripes());
         let work = move |progress: &Progress| {
             let go_on = |share: f32| {
@@ -234,7 +234,7 @@ impl Viewer {
             };
             let found = SolvedStripes::solve(&Cache::of_user(), &scene, &missing, &go_on)?;
             let all = known.into_iter().chain(found).collect();
-            Some(uploader.stripes(&scene, &session::topology(&scene, angle), all))
+            Some(uploader.stripes(&scene, &session::topology(&scene, creases), all))
         };
         self.jobs.stripes = Some(Job::start("hatching", context, work));
     }

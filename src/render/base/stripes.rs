@@ -3,10 +3,11 @@
 use std::sync::Arc;
 
 use bytemuck::{Pod, Zeroable};
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 
+use crate::document::Document;
 use crate::geometry::stripes::{FAMILIES, LEVELS, StripeField, StripeVertex};
-use crate::geometry::{FieldOptions, Mesh, Patches, Topology};
+use crate::geometry::{CreaseRule, FieldOptions, Mesh, Patches, Topology};
 use crate::gpu::geometry::triangle_corners;
 use crate::gpu::{Gpu, GpuError, RecordTexture, Target};
 use crate::hatching::cache::Cache;
@@ -20,6 +21,22 @@ pub struct StripeRequest {
     pub mesh: usize,
     /// How they run.
     pub options: FieldOptions,
+}
+
+/// What decides where stripes run beside the style of an object.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StripesBy {
+    /// Direction to the first light, world space, if that is parallel and stands still.
+    pub fixed_light: Option<DVec3>,
+    /// Which edges are creases, which no stripe crosses.
+    pub crease_rule: CreaseRule,
+}
+
+impl StripesBy {
+    /// What a document says.
+    pub fn new(document: &Document, scene: &Scene) -> Self {
+        Self { fixed_light: document.fixed_light(scene), crease_rule: document.view.creases().rule }
+    }
 }
 
 /// Stripes that have been found.

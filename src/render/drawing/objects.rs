@@ -8,6 +8,7 @@ use crate::render::base::edge_style::EdgeUniform;
 use crate::render::base::gpu_scene::GpuScene;
 use crate::render::base::group::{Group, Parts, Visible, box_of};
 use crate::render::base::ids::object_id;
+use crate::render::base::stripes::StripesBy;
 use crate::render::base::stroke_maps::StrokeMaps;
 use crate::render::base::style_images::StyleImages;
 use crate::render::effects::blueprint::Blueprint;
@@ -53,7 +54,7 @@ impl Objects {
         strokes: &StrokeMaps,
         scale: f32,
     ) -> Self {
-        let fixed_light = document.fixed_light(&scene.scene);
+        let stripes = StripesBy::new(document, &scene.scene);
         let resolved = document.resolve(&scene.scene);
         // What is not drawn, entry 0 (the background) included, has neither shading nor lines.
         let count = resolved.len() + 1;
@@ -72,7 +73,7 @@ impl Objects {
                 scene,
                 images,
                 strokes,
-                fixed_light,
+                stripes,
                 scale,
             });
             // A look at a buffer is one at that of surfaces, which every object then is.

@@ -124,7 +124,7 @@ pub struct Hatchings {
 impl Hatchings {
     fn set(&mut self, object: &Styled<'_>) {
         let style = &object.style.hatching;
-        let request = request_of(object.scene, object.node, style, object.fixed_light);
+        let request = request_of(object.scene, object.node, style, object.stripes);
         let place = request.and_then(|request| object.scene.stripe_place(&request));
         let stroke = StrokeUniform::new(&style.stroke, object.scale);
         let known = self.tables.iter().position(|table| table.stroke == stroke);

@@ -1,14 +1,13 @@
 //! What a surface technique is: each is one file that says what it makes of the styles of objects, what it needs of a layer
 //! beyond its G-buffer, and what its shader reads. Nobody but the list in `techniques.rs` knows it by name.
 
-use glam::DVec3;
-
 use crate::gpu::{Gpu, Inputs, Recorder, Target};
 use crate::render::base::error::RenderError;
 use crate::render::base::frame_uniform::{FrameUniform, View};
 use crate::render::base::gpu_scene::GpuScene;
 use crate::render::base::instances::{DrawCall, Instance, Instances};
 use crate::render::base::scene_view::SceneView;
+use crate::render::base::stripes::StripesBy;
 use crate::render::base::stroke_maps::StrokeMaps;
 use crate::render::base::style_images::StyleImages;
 use crate::render::passes::gbuffer::GBuffer;
@@ -32,8 +31,8 @@ pub struct Styled<'a> {
     pub images: &'a StyleImages,
     /// The maps of strokes that styles describe.
     pub strokes: &'a StrokeMaps,
-    /// Direction to the first light, world space, if that is parallel and stands still.
-    pub fixed_light: Option<DVec3>,
+    /// What decides where stripes run, beside the style.
+    pub stripes: StripesBy,
     /// Pixels per reference pixel.
     pub scale: f32,
 }

@@ -12,7 +12,7 @@ use crate::hatching::tonal_art_map::generator::Recipe;
 use crate::hatching::tonal_art_map::stroke::StrokeShape;
 use crate::hatching::tonal_art_map::stroke_image::{StrokeImage, StrokeImageError};
 use crate::render::base::gpu_scene::GpuScene;
-use crate::render::base::stripes::StripeRequest;
+use crate::render::base::stripes::{StripeRequest, StripesBy};
 use crate::render::base::stroke_maps::StrokeMaps;
 use crate::render::base::style_images::StyleImages;
 use crate::scene::{NodeId, Texture};
@@ -28,7 +28,7 @@ pub(super) fn request_of(
     scene: &GpuScene,
     node: NodeId,
     style: &Hatching,
-    fixed_light: Option<DVec3>,
+    by: StripesBy,
 ) -> Option<StripeRequest> {
     let data = scene.scene.nodes.get(node)?;
     let mesh = data.mesh?;
@@ -48,13 +48,14 @@ pub(super) fn request_of(
         Direction::Y => DirectionSource::Axis(local(DVec3::Y)),
         Direction::Z => DirectionSource::Axis(local(DVec3::Z)),
         // Where the light turns with the eye, no stripe could stay.
-        Direction::Light => DirectionSource::Axis(local(fixed_light?)),
+        Direction::Light => DirectionSource::Axis(local(by.fixed_light?)),
         Direction::Curvature | Direction::TextureU | Direction::TextureV => DirectionSource::Curvature,
     };
     let options = FieldOptions {
         extent: if extent.is_finite() { extent } else { 0.0 },
         source,
         smoothing: SMOOTHING,
+        crease_rule: by.crease_rule,
         up: local(scene.scene.up.vector()),
         ..FieldOptions::default()
     };
@@ -64,12 +65,12 @@ pub(super) fn request_of(
 /// The stripes that a document asks for and that are not on the device yet, each once.
 pub fn missing(document: &Document, scene: &GpuScene) -> Vec<StripeRequest> {
     let mut missing = Vec::new();
-    let fixed_light = document.fixed_light(&scene.scene);
+    let by = StripesBy::new(document, &scene.scene);
     for (node, resolved) in document.resolve(&scene.scene).iter().enumerate() {
         if !resolved.visible || !asks(resolved.style) {
             continue;
         }
-        let request = request_of(scene, node, &resolved.style.hatching, fixed_light);
+        let request = request_of(scene, node, &resolved.style.hatching, by);
         if let Some(request) = request.filter(|r| scene.stripe_place(r).is_none() && !missing.contains(r)) {
             missing.push(request);
         }
