@@ -51,6 +51,8 @@ use super::{Adjacency, Mesh};
 /// Share of the half-edges that are still open after the pairs, from which on the mesh is loose triangles and no seams
 /// between faces are looked for.
 const LOOSE: f64 = 0.5;
+/// Fewer open edges are always looked at.
+const MANY: usize = 4096;
 
 /// How far the two sides of a seam may be apart.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -98,7 +100,7 @@ pub fn mend(mesh: &Mesh, adjacency: &Adjacency, tolerance: SeamTolerance) -> Opt
     let mut matching = Matching::new(mesh, &borders, limits);
     matching.take_pairs();
     let open = matching.open();
-    let is_loose = open.edges.len() as f64 > LOOSE * mesh.indices.len() as f64;
+    let is_loose = open.edges.len() > MANY && open.edges.len() as f64 > LOOSE * mesh.indices.len() as f64;
     matching.take(anchored(&borders, &open, &limits));
     matching.take(thin_holes(&borders, &matching.open(), &limits));
     let open_gap = if is_loose { limits.open_gap } else { matching.take_near() };
