@@ -211,6 +211,33 @@ fn solids_whose_patches_have_no_vertex_in_common_are_closed_too() {
 }
 
 #[test]
+fn only_patches_that_met_are_joined() {
+    for (name, solid) in solids() {
+        for crack in [1e-4, 1e-3] {
+            let mut patched = Repatch { crack, most_cuts: 2, planes: 6, ..Repatch::default() }.apply(&solid);
+            // The patch of a triangle, where new vertices inherit it.
+            patched.mesh.colors = vec![[0; 4]; patched.mesh.positions.len()];
+            for (triangle, patch) in patched.mesh.triangles().to_vec().iter().zip(&patched.patch_of_triangle)
+            {
+                for &v in triangle {
+                    patched.mesh.colors[v as usize] = patch.to_le_bytes();
+                }
+            }
+            let (after, _) = mended(&patched.mesh).unwrap();
+            let patch = |face: u32| {
+                let vertex = after.triangles()[face as usize][0];
+                u32::from_le_bytes(after.colors[vertex as usize])
+            };
+            for edge in Adjacency::new(&after).edges.iter().filter(|e| e.kind == EdgeKind::Manifold) {
+                let [a, b] = edge.faces.map(patch);
+                let is_right = a == b || patched.neighbours.contains(&[a.min(b), a.max(b)]);
+                assert!(is_right, "{name}, crack {crack}: {a} and {b}");
+            }
+        }
+    }
+}
+
+#[test]
 fn no_triangle_is_turned_over() {
     let solid = primitives::sphere(1.0, 12, 24);
     for crack in [1e-4, 1e-3] {
