@@ -7,21 +7,22 @@
 //!
 //! Which borders belong together, in steps that each take up what the ones before left:
 //!
-//! 1. *Pairs* of edges whose ends nearly coincide ([`pairs`]).
+//! 1. *Pairs* of edges whose ends nearly coincide (`pairs`).
 //! 2. *Anchored chains*: rows of border edges between the same two points, at which more than one of them starts. Their
-//!    ends alone say that they belong together, however far they are apart between ([`anchors`]).
-//! 3. *Thin holes*: loops of border edges, after Barequet and Sharir's links at the smallest angle, split at their
-//!    farthest points ([`holes`]).
-//! 4. *Proximity*: the nearest edge within reach, if each is the other's nearest ([`proximity`]) and if the gap closes
-//!    on both sides ([`closure`]), as it does between two polylines of one curve and not at a clearance.
+//!    ends alone say that they belong together, however far they are apart between (`anchors`).
+//! 3. *Thin holes*: loops of border edges, linked at the smallest angle, split at their farthest points (`holes`).
+//! 4. *Proximity*: the nearest edge within reach, if each is the other's nearest (`proximity`) and if the gap closes
+//!    on both sides (`closure`), as it does between two polylines of one curve and not at a clearance. Rows of such
+//!    places are taken as a whole (`intervals`).
 //! 5. Where many gaps that do not close are overlaps instead, the corners are cracked too, and how wide gaps need not
-//!    close is taken from the mesh itself ([`closure`]).
+//!    close is taken from the mesh itself (`closure`).
 //!
 //! Distance alone tells little. What tells real gaps from cracks is, in all steps, that a surface does not fold back at
 //! a seam (sheets that lie on each other), and that there is no material in the gap (the sides of a narrow strip).
 //!
-//! The last step gives the matched places one position, cuts the edges between them and their triangles, and gives up
-//! where a triangle would be turned over ([`join`], [`settle`]).
+//! What is matched is zipped: the vertices of each side get places on the other one, in the same order on both (`zip`).
+//! Then these places become one, the edges are cut there and their triangles split (`join`); where a triangle would be
+//! turned over, they meet elsewhere than in the middle of the gap, or not at all (`settle`).
 
 mod anchors;
 mod borders;
@@ -51,6 +52,8 @@ use super::{Adjacency, Mesh};
 /// Share of the half-edges that are still open after the pairs, from which on the mesh is loose triangles and no seams
 /// between faces are looked for.
 const LOOSE: f64 = 0.5;
+/// Fewer open edges are always looked at.
+const MANY: usize = 4096;
 
 /// How far the two sides of a seam may be apart.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -113,7 +116,7 @@ pub fn mend(mesh: &Mesh, adjacency: &Adjacency, tolerance: SeamTolerance) -> Opt
     let mut matching = Matching::new(mesh, &borders, limits);
     matching.take_pairs();
     let open = matching.open();
-    let is_loose = open.edges.len() as f64 > LOOSE * mesh.indices.len() as f64;
+    let is_loose = open.edges.len() > MANY && open.edges.len() as f64 > LOOSE * mesh.indices.len() as f64;
     matching.take(anchored(&borders, &open, &limits));
     matching.take(thin_holes(&borders, &matching.open(), &limits));
     let open_gap = if is_loose { limits.open_gap } else { matching.take_near() };

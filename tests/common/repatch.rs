@@ -11,7 +11,7 @@ use super::{Adjacency, Mesh, MeshPart};
 
 /// Which vertices the patches still have in common.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Common {
+pub(crate) enum Common {
     /// All vertices of the mesh; only what is cut anew differs.
     Vertices,
     /// The points where three patches or more meet.
@@ -22,17 +22,17 @@ pub enum Common {
 
 /// How a mesh is taken apart.
 #[derive(Debug, Clone, Copy)]
-pub struct Repatch {
+pub(crate) struct Repatch {
     /// Angle of the edges that separate patches, in radians.
-    pub crease_angle: f32,
+    pub(crate) crease_angle: f32,
     /// Number of planes at random places that separate patches besides.
-    pub planes: usize,
+    pub(crate) planes: usize,
     /// An edge between patches gets up to so many vertices on each side, at different places.
-    pub most_cuts: u32,
+    pub(crate) most_cuts: u32,
     /// How far a vertex of a border lies from the original edge at most, as a share of the diagonal.
-    pub crack: f32,
-    pub common: Common,
-    pub seed: u64,
+    pub(crate) crack: f32,
+    pub(crate) common: Common,
+    pub(crate) seed: u64,
 }
 
 impl Default for Repatch {
@@ -42,17 +42,17 @@ impl Default for Repatch {
 }
 
 /// A mesh in patches.
-pub struct Repatched {
-    pub mesh: Mesh,
+pub(crate) struct Repatched {
+    pub(crate) mesh: Mesh,
     /// The patch of each triangle; the triangles are sorted by it.
-    pub patch_of_triangle: Vec<u32>,
+    pub(crate) patch_of_triangle: Vec<u32>,
     /// The pairs of patches, the smaller number first, that had an edge in common.
-    pub neighbours: BTreeSet<[u32; 2]>,
+    pub(crate) neighbours: BTreeSet<[u32; 2]>,
 }
 
 impl Repatch {
     /// Takes a clean mesh apart. Normals and texture coordinates are kept.
-    pub fn apply(&self, mesh: &Mesh) -> Repatched {
+    pub(crate) fn apply(&self, mesh: &Mesh) -> Repatched {
         let adjacency = Adjacency::new(mesh);
         let mut random = Random(self.seed);
         let patches = self.patches(mesh, &adjacency, &mut random);
@@ -185,10 +185,10 @@ fn cover([a, b, c]: [u32; 3], on_edges: [Vec<u32>; 3], indices: &mut Vec<u32>) {
 }
 
 /// The generator `SplitMix64`.
-pub struct Random(pub u64);
+pub(crate) struct Random(pub(crate) u64);
 
 impl Random {
-    pub fn bits(&mut self) -> u64 {
+    pub(crate) fn bits(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let z = (self.0 ^ self.0 >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
         let z = (z ^ z >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
@@ -196,16 +196,16 @@ impl Random {
     }
 
     /// From 0 to 1.
-    pub fn unit(&mut self) -> f32 {
+    pub(crate) fn unit(&mut self) -> f32 {
         (self.bits() >> 40) as f32 / (1_u64 << 24) as f32
     }
 
-    pub fn below(&mut self, limit: u32) -> u32 {
+    pub(crate) fn below(&mut self, limit: u32) -> u32 {
         (self.bits() % u64::from(limit)) as u32
     }
 
     /// In the ball around the origin with radius 1.
-    pub fn in_ball(&mut self) -> Vec3 {
+    pub(crate) fn in_ball(&mut self) -> Vec3 {
         loop {
             let point = Vec3::new(self.unit(), self.unit(), self.unit()) * 2.0 - 1.0;
             if point.length_squared() <= 1.0 {

@@ -14,6 +14,9 @@ const MOST_EDGES: usize = 128;
 const MOST_PASSED: usize = 8;
 /// Rows that are shorter than this many times their width are chance: other borders end near a corner.
 const SHORTEST: f64 = 4.0;
+/// A row that ends within four times this share of the tolerance from a vertex ends at the vertex: near the corner of
+/// a patch, the border of a third one may be nearer.
+const CORNER: f64 = 0.0625;
 /// Unmatched pieces up to this many times the gap are stepped over.
 const STEP: f64 = 3.0;
 
@@ -140,6 +143,7 @@ impl<'a> Intervals<'a> {
     fn snap(&self, border: u32, share: f64, width: f64) -> f64 {
         let length = self.borders.get(border).length;
         let end = share.round();
+        let width = width.max(CORNER * self.limits.tolerance);
         if self.limits.is_same_place((share - end).abs() * length, width, length) { end } else { share }
     }
 

@@ -17,9 +17,9 @@ pub(super) const COS_ANCHORED_FOLD: f64 = 0.965_925_826_289;
 /// Lengths in units of the mesh.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Limits {
-    /// τ: how far a vertex may move.
+    /// `τ`: how far a vertex may move.
     pub(super) tolerance: f64,
-    /// ε_open: gaps up to this are closed wherever they are.
+    /// `ε_open`: gaps up to this are closed wherever they are.
     pub(super) open_gap: f64,
     /// Least distance between places on one edge.
     pub(super) spacing: f64,

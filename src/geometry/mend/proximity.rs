@@ -9,7 +9,7 @@ use super::limits::{COS_FOLD, Limits};
 use super::open::Open;
 
 /// Of more edges near one, only the nearest are looked at.
-const MOST_CANDIDATES: usize = 256;
+const MOST_CANDIDATES: usize = 48;
 /// Cosine of the largest angle between the directions of two edges that lie along each other.
 const COS_ALONG: f64 = 0.5;
 /// How deep in the material a gap may be, as a share of the height of the triangles.

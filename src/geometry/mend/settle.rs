@@ -12,8 +12,10 @@ use super::places::Places;
 
 /// Cosine of the largest angle by which joining may turn a triangle.
 const COS_TURN: f32 = 0.0;
-/// Height of the triangles that may turn if nothing else helps, as a share of how far vertices may move.
-const NEEDLE: f32 = 1.0;
+/// Height of the needles that may turn if nothing else helps, as a share of how far vertices may move.
+const NEEDLE: f32 = 0.5;
+/// Height of needles as a share of their longest side.
+const SLENDER: f32 = 0.1;
 /// How often groups are moved elsewhere before those that are left are not joined.
 const ROUNDS: usize = 3;
 
@@ -95,7 +97,8 @@ impl<'a> Settling<'a> {
         let source = self.mesh.triangles()[self.draft.sources[triangle] as usize];
         let [a, b, c] = self.mesh.corners(source);
         let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
-        (b - a).cross(c - a).length() < NEEDLE * self.places.reach() * longest
+        let height = (b - a).cross(c - a).length() / longest;
+        height < NEEDLE * self.places.reach() && height < SLENDER * longest
     }
 
     fn turned_triangles(&self) -> Vec<usize> {

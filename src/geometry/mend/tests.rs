@@ -1,11 +1,10 @@
-use std::time::Instant;
-
 use glam::{Vec2, Vec3};
 
 use super::*;
 use crate::geometry::normals::face_normals;
 use crate::geometry::{EdgeKind, MeshPart, Rig, primitives};
 
+mod gaps;
 #[path = "../../../tests/common/repatch.rs"]
 mod repatch;
 mod shapes;
@@ -50,64 +49,6 @@ fn solids() -> Vec<(&'static str, Mesh)> {
         ("torus", primitives::torus(1.0, 0.3, 32, 16)),
         ("cylinder", cut_cylinder()),
     ]
-}
-
-#[test]
-fn what_is_really_open_stays_open() {
-    let mut open_box = primitives::cube(1.0);
-    open_box.indices.truncate(30);
-    open_box.parts[0].index_count = 30;
-    let mut all = vec![
-        ("open box", open_box),
-        ("sheet", shapes::sheet(8, Vec3::ZERO, 1.0)),
-        ("tube", shapes::tube(0.3, 24, 0.0, std::f32::consts::TAU)),
-        ("moebius", shapes::moebius()),
-        ("leaf cards", shapes::leaf_cards(300)),
-        ("book", shapes::stack(50, 3e-4, [1, 1], false)),
-    ];
-    for gap in [1e-5, 1e-4, 1e-3, 1e-2] {
-        all.push(("plates", shapes::stack(2, gap, [6, 6], false)));
-        all.push(("opposite plates", shapes::stack(2, gap, [6, 6], true)));
-        all.push(("plates of other grids", shapes::stack(2, gap, [6, 7], false)));
-        all.push(("opposite plates of other grids", shapes::stack(2, gap, [6, 7], true)));
-        all.push(("double tube", shapes::double_tube(gap)));
-        all.push(("strip", shapes::strip(gap, false)));
-        all.push(("leaf", shapes::strip(gap, true)));
-    }
-    for gap in [1.2e-4, 1e-3] {
-        all.push(("slit tube", shapes::tube(0.3, 24, 0.0, std::f32::consts::TAU - gap / 0.3)));
-        all.push(("tiles", shapes::tiles(2, gap, 3)));
-        all.push(("tile field", shapes::tiles(8, gap, 1)));
-        all.push(("corner clearance", shapes::corner_clearance(gap)));
-        all.push(("pillow", shapes::pillow(gap)));
-        all.push(("half shells", shapes::half_shells(gap)));
-        all.push(("slit", shapes::slit_plate(gap, gap)));
-        all.push(("wedge", shapes::slit_plate(0.0, gap)));
-        all.push(("slot", shapes::slotted_plate(gap)));
-    }
-    let bad: Vec<String> = all
-        .iter()
-        .filter_map(|(name, mesh)| {
-            let (_, report) = mended(mesh)?;
-            Some(format!("{name}: {report:?}"))
-        })
-        .collect();
-    assert!(bad.is_empty(), "{bad:#?}");
-}
-
-#[test]
-fn the_same_gaps_are_closed_when_they_are_too_narrow_to_see() {
-    let gap = 1e-6;
-    let slit = shapes::tube(0.3, 24, 0.0, std::f32::consts::TAU - 4.0 * gap);
-    for (name, mesh, share) in [
-        ("tiles", shapes::tiles(2, 4.0 * gap, 3), 0.45),
-        ("half shells", shapes::half_shells(2.0 * gap), 0.86),
-        ("slit tube", slit, 0.3),
-        ("slit", shapes::slit_plate(4.0 * gap, 4.0 * gap), 0.15),
-    ] {
-        let (_, report) = mended(&mesh).unwrap();
-        assert!(report.joined_length >= share * report.border_length, "{name}: {report:?}");
-    }
 }
 
 /// One side of an arc that two strips have in common: cut at these shares of it, and as wide as `width`, inwards if
@@ -191,7 +132,7 @@ fn solids_in_patches_are_closed_again() {
 
 #[test]
 fn solids_whose_patches_have_no_vertex_in_common_are_closed_too() {
-    for (name, solid) in solids().into_iter().filter(|(name, _)| *name != "cube") {
+    for (name, solid) in solids() {
         for (common, crack) in [
             (Common::Corners, 1e-5),
             (Common::Corners, 1e-4),
@@ -203,9 +144,36 @@ fn solids_whose_patches_have_no_vertex_in_common_are_closed_too() {
             let patched = Repatch { crack, common, ..Repatch::default() }.apply(&solid).mesh;
             let (after, report) = mended(&patched).unwrap();
             let what = format!("{name}, crack {crack}, {common:?}: {report:?}");
-            assert!(report.joined_length >= 0.97 * report.border_length, "{what}");
+            assert!(report.joined_length >= 0.94 * report.border_length, "{what}");
             assert!(report.farthest_move <= report.tolerance * 1.001, "{what}");
             assert_eq!(Adjacency::new(&after).non_manifold_count, 0, "{what}");
+        }
+    }
+}
+
+#[test]
+fn only_patches_that_met_are_joined() {
+    for (name, solid) in solids() {
+        for crack in [1e-4, 1e-3] {
+            let mut patched = Repatch { crack, most_cuts: 2, planes: 6, ..Repatch::default() }.apply(&solid);
+            // The patch of a triangle, where new vertices inherit it.
+            patched.mesh.colors = vec![[0; 4]; patched.mesh.positions.len()];
+            for (triangle, patch) in patched.mesh.triangles().to_vec().iter().zip(&patched.patch_of_triangle)
+            {
+                for &v in triangle {
+                    patched.mesh.colors[v as usize] = patch.to_le_bytes();
+                }
+            }
+            let (after, _) = mended(&patched.mesh).unwrap();
+            let patch = |face: u32| {
+                let vertex = after.triangles()[face as usize][0];
+                u32::from_le_bytes(after.colors[vertex as usize])
+            };
+            for edge in Adjacency::new(&after).edges.iter().filter(|e| e.kind == EdgeKind::Manifold) {
+                let [a, b] = edge.faces.map(patch);
+                let is_right = a == b || patched.neighbours.contains(&[a.min(b), a.max(b)]);
+                assert!(is_right, "{name}, crack {crack}: {a} and {b}");
+            }
         }
     }
 }
@@ -319,15 +287,4 @@ fn a_tolerance_that_is_too_small_leaves_wide_cracks() {
         })
     };
     assert!(joined(1e-4) < 0.3 && joined(1e-3) > 0.99);
-}
-
-#[test]
-fn loose_triangles_take_linear_time() {
-    let start = Instant::now();
-    let torus = primitives::torus(1.0, 0.3, 100, 50);
-    let (_, report) = mended(&shapes::soup(&torus, 2e-5)).unwrap();
-    assert!(report.joined_length > 0.999 * report.border_length, "{report:?}");
-    assert!(mended(&shapes::loose_triangles(20_000, 0.02)).is_none());
-    let _ = mended(&shapes::bundle(5_000));
-    assert!(start.elapsed().as_secs() < 20);
 }
