@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 
 use super::limits::Limits;
-use super::places::{Place, Tie};
+use super::places::Tie;
 use super::side::{Nearest, Side};
 
 /// Sides with a larger product of their numbers of edges are not compared.
