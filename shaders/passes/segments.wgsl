@@ -189,6 +189,33 @@ fn beside(spine: Spine, along: f32, regions: vec2<u32>) -> Beside {
     return Beside(s, select(step_px(lead, spine.depth), -1e9, s.object == 0u), carries && s.object != 0u);
 }
 
+// Cosine of the angle between planes that are one.
+const ONE_PLANE: f32 = 0.97;
+
+// Whether one surface goes on under a spine, whatever topology thinks: at a seam that could not be mended, and at needles that
+// are turned over on a flat face.
+fn goes_on_under(spine: Spine, own: u32) -> bool {
+    let one_px = texel_beside(spine, PLACES[0]);
+    let other_px = texel_beside(spine, PLACES[4]);
+    let one = unpack_surfel(textureLoad(geometry_tex, one_px));
+    let other = unpack_surfel(textureLoad(geometry_tex, other_px));
+    let is_same = one.object == own && other.object == own && dot(one.face_normal, other.face_normal) > ONE_PLANE
+        && textureLoad(region_tex, one_px).x == textureLoad(region_tex, other_px).x;
+    if !is_same {
+        return false;
+    }
+    // Nothing may open between the two, such as a narrow window.
+    let plane = plane_of(one_px, one.depth, one.face_normal);
+    var greatest = 0.0;
+    for (var i = 1; i < 5; i++) {
+        let px = texel_beside(spine, PLACES[i]);
+        let between = unpack_surfel(textureLoad(geometry_tex, px));
+        let miss = nearness_at(plane, vec2<f32>(px - one_px)) - nearness_of(between.depth);
+        greatest = max(greatest, select(1e9, abs(step_px(miss, one.depth)), between.object == own));
+    }
+    return greatest < SLACK;
+}
+
 // The point of a segment's line next to the centre of a pixel.
 struct Spine {
     // px.
@@ -274,7 +301,7 @@ fn point_at(v: Segment, number: u32, px: vec2<f32>) -> SegmentPoint {
     if class_of <= OBJECT {
         // Without a threshold, what stands on a surface (or slightly in it) has a line at its foot.
         let threshold = edge_styles[own].lines[index].threshold;
-        if threshold > 0.0 && step_behind < threshold {
+        if threshold > 0.0 && step_behind < threshold || goes_on_under(tested, own) {
             return NO_POINT;
         }
         weight = 1.0;
