@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::{Duration, Instant};
 
+use hachure::document::View;
 use hachure::export::session::topology;
 use hachure::geometry::{Mesh, primitives};
 use hachure::import::{ImportOptions, Progress, load};
@@ -122,7 +123,7 @@ fn loading_with_topology_is_quick() {
         let began = Instant::now();
         let scene = load(&path, &ImportOptions::default(), &Progress::default()).unwrap();
         let loaded = began.elapsed().as_secs_f64();
-        let found = topology(&scene, 30.0);
+        let found = topology(&scene, View::default().creases());
         assert!(found[0].is_solid);
         (loaded, began.elapsed().as_secs_f64())
     });

@@ -44,7 +44,7 @@ fn check_same_layers(name: &str, opened: &Opened, side: u32) -> u32 {
 
 fn sample(name: &str) -> Opened {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("assets/models/{name}.glb"));
-    blueprint(open(&[path], None, &Progress::default()).unwrap())
+    blueprint(open(&[path], |_| {}, &Progress::default()).unwrap())
 }
 
 #[test]
