@@ -3,7 +3,7 @@
 SAMPLE := assets/models/crank.glb
 HACHURE := cargo run --quiet --release --
 
-.PHONY: run test check bench quality gallery bless models textures strokes
+.PHONY: run test check bench quality gallery bless models textures strokes docs
 
 # Opens the viewer on the sample model; without a display draws it to a file.
 run:
@@ -52,6 +52,12 @@ textures:
 strokes:
 	@sh .ci/packages build
 	cargo run --release --example strokes
+
+# The page of presets and parameters, from the program.
+docs:
+	@sh .ci/packages build
+	cargo build --quiet --release
+	target/release/hachure styles --markdown >docs/parameters.md
 
 # Every picture under screenshots/, each by one command.
 gallery:

@@ -1,4 +1,4 @@
-//! Hachure draws 3D models: edge-enhanced, as technical illustrations, and in further styles to come.
+//! Hachure draws 3D models: as technical illustrations, cartoons, prints, hatching, sketches and blueprints, with exact lines.
 //!
 //! The rooms of the house, from the top floor down; a room imports only from floors below its own:
 //! [`app`] the window, [`export`] pictures without a window, [`render`] one frame of one scene, [`import`] files

@@ -132,6 +132,18 @@ fn later_ways_to_set_a_parameter_win_over_earlier_ones() {
 }
 
 #[test]
+fn the_page_of_parameters_is_what_the_program_prints() {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/parameters.md");
+    let page = std::fs::read_to_string(file).unwrap_or_default();
+    let printed = stdout(&hachure(&["styles", "--markdown"]));
+    let differs = printed.lines().zip(page.lines()).find(|(new, old)| new != old);
+    assert!(
+        page == printed,
+        "docs/parameters.md is not up to date; run `make docs`. First change: {differs:?}"
+    );
+}
+
+#[test]
 fn info_styles_and_bench_print_what_they_promise() {
     let info: serde_json::Value =
         serde_json::from_str(&stdout(&hachure(&["info", &crank(), "--json"]))).unwrap();

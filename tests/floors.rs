@@ -8,7 +8,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-/// Rooms, top to bottom, as in the README. A room imports only from itself and from rooms below it.
+/// Rooms, top to bottom, as in ARCHITECTURE.md. A room imports only from itself and from rooms below it.
 const ROOMS: [&[&str]; 11] = [
     &["main", "cli"],
     &["app"],

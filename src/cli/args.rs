@@ -155,6 +155,9 @@ pub(super) struct StylesArgs {
     /// Print as JSON
     #[arg(long)]
     pub json: bool,
+    /// Print as a page of Markdown, `docs/parameters.md`
+    #[arg(long, conflicts_with = "json")]
+    pub markdown: bool,
 }
 
 #[derive(Debug, Args)]

@@ -108,7 +108,12 @@ fn print_json(value: &serde_json::Value) -> Result<(), CliError> {
 
 /// Prints a line of text.
 fn print_line(line: &str) -> Result<(), CliError> {
+    print_text(&format!("{line}\n"))
+}
+
+/// Prints a text as it is.
+fn print_text(text: &str) -> Result<(), CliError> {
     use std::io::Write as _;
-    writeln!(std::io::stdout().lock(), "{line}")?;
+    std::io::stdout().lock().write_all(text.as_bytes())?;
     Ok(())
 }

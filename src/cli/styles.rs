@@ -1,11 +1,13 @@
 //! `hachure styles`: presets and the reference of all parameters.
 
+mod markdown;
+
 use std::collections::BTreeMap;
 
 use serde_json::json;
 
 use super::args::StylesArgs;
-use super::{CliError, print_json, print_line};
+use super::{CliError, print_json, print_line, print_text};
 use crate::document::{Lighting, Section, View};
 use crate::style::{Param, Slot, Style, Value, preset, widened};
 
@@ -20,6 +22,9 @@ pub(super) fn run(args: &StylesArgs) -> Result<(), CliError> {
     params.extend(view.params(paper));
     params.extend(lighting.params());
     params.extend(section.params());
+    if args.markdown {
+        return print_text(&markdown::page(&presets, &params));
+    }
     if args.json {
         return print_json(&json!({
             "presets": presets.iter().map(|p| json!({
