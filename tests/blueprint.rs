@@ -177,7 +177,7 @@ fn check_layers(name: &str, opened: &Opened, side: u32, least_depth: usize) {
 
 fn sample(name: &str) -> Opened {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("assets/models/{name}.glb"));
-    open(&[path], None, &Progress::default()).unwrap()
+    open(&[path], |_| {}, &Progress::default()).unwrap()
 }
 
 #[test]

@@ -67,7 +67,7 @@ fn an_obj_without_names_is_one_node_with_normals_by_crease_angle() {
     assert!(mesh.normals.iter().all(|n| n.abs().max_element() > 0.999));
 
     let folder = Folder::with(&[("box.obj", CUBE_OBJ.as_bytes())]);
-    let soft = ImportOptions { crease_angle: 120.0 };
+    let soft = ImportOptions { crease_angle: 120.0, ..ImportOptions::default() };
     let scene = load(&folder.path("box.obj"), &soft, &Progress::default()).unwrap();
     assert_eq!(scene.meshes[0].positions.len(), 8);
 }

@@ -203,7 +203,7 @@ fn small_scenes() -> Vec<(&'static str, Arc<Scene>, Vec<LightKind>)> {
 
 fn sample(name: &str) -> Arc<Scene> {
     let path = format!("{}/assets/models/{name}.glb", env!("CARGO_MANIFEST_DIR"));
-    open(&[path.into()], None, &Progress::default()).unwrap().scene
+    open(&[path.into()], |_| {}, &Progress::default()).unwrap().scene
 }
 
 fn sample_lights(scene: &Scene) -> [LightKind; 4] {
