@@ -6,11 +6,10 @@ pub(super) mod creases;
 pub(super) mod straights;
 mod stretches;
 
-use std::f32::consts::PI;
 use std::sync::Arc;
 
 use self::stretches::Stretch;
-use super::topology::NO_FACE;
+use super::edge::{FOLDED, NO_FACE};
 use super::weld::TOLERANCE;
 use super::{Adjacency, Bounds, EdgeKind, Mesh, Surfaces};
 
@@ -49,9 +48,6 @@ impl Traits {
         if is { self } else { Self(0) }
     }
 }
-
-/// Above this angle (radians) two triangles lie on each other: a wall that was modelled twice, with one surface.
-pub(super) const FOLDED: f32 = PI - 1e-3;
 
 /// All edges of a mesh at which a line can be, one entry each: about 21 bytes, and 4 per triangle.
 ///

@@ -44,9 +44,11 @@ use self::anchors::{Joined, anchored};
 use self::borders::{Borders, NO_BORDER};
 use self::holes::thin_holes;
 use self::limits::Limits;
+pub use self::limits::SeamTolerance;
 use self::open::Open;
 use self::places::Places;
 use self::proximity::Stretches;
+use super::weld::TOLERANCE;
 use super::{Adjacency, Mesh};
 
 /// Share of the half-edges that are still open after the pairs, from which on the mesh is loose triangles and no seams
@@ -54,17 +56,6 @@ use super::{Adjacency, Mesh};
 const LOOSE: f64 = 0.5;
 /// Fewer open edges are always looked at.
 const MANY: usize = 4096;
-
-/// How far the two sides of a seam may be apart.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub enum SeamTolerance {
-    /// Up to 0.1 % of the diagonal of the mesh from the middle of the gap.
-    #[default]
-    Automatic,
-    /// How far a vertex may move to the middle of the gap, as a share of the diagonal of the mesh's bounding box. 0: only
-    /// what lies exactly on each other belongs together, and nothing is mended.
-    Fraction(f32),
-}
 
 /// What [`mend`] did. Lengths are in units of the mesh.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -141,11 +132,13 @@ pub fn mended(mesh: Mesh, tolerance: SeamTolerance) -> Mesh {
     if tolerance == SeamTolerance::Fraction(0.0) || mesh.rig.is_some() {
         return mesh;
     }
+    // Where all lies exactly on each other, seams are found without mending.
+    let least_move = TOLERANCE * mesh.bounds().diagonal();
     match mend(&mesh, &Adjacency::new(&mesh), tolerance) {
-        Some((mended, report)) => {
+        Some((mended, report)) if report.farthest_move > least_move => {
             Mesh { mended: Some(report), position_error: report.farthest_move as f32, ..mended }
         }
-        None => mesh,
+        _ => mesh,
     }
 }
 

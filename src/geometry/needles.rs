@@ -9,7 +9,7 @@
 use glam::Vec3;
 use rayon::prelude::*;
 
-use super::topology::{NO_FACE, signed_angle};
+use super::edge::{NO_FACE, signed_angle};
 use super::{Adjacency, EdgeKind, Mesh};
 
 /// Angles up to this (radians) are no creases anyway.

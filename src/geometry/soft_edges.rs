@@ -6,7 +6,7 @@
 
 use glam::{DVec3, Vec3};
 
-use super::feature_edges::FOLDED;
+use super::edge::FOLDED;
 use super::{Edge, EdgeKind, Mesh, Seam};
 
 /// Cosine of the angle between two normals up to which they agree: 5°.

@@ -7,9 +7,8 @@
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
-use super::feature_edges::FOLDED;
+use super::edge::{EdgeKind, FOLDED, signed_angle};
 use super::soft_edges::SoftNormals;
-use super::topology::{EdgeKind, signed_angle};
 use super::weld::TOLERANCE;
 use super::{Edge, Mesh, Weld};
 

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use rayon::prelude::*;
 
 use super::disjoint_sets::DisjointSets;
-use super::topology::NO_FACE;
+use super::edge::NO_FACE;
 use super::{Adjacency, Edge, EdgeKind, Mesh};
 
 /// The surfaces of a mesh for one crease angle.

@@ -3,9 +3,10 @@
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
+use crate::geometry::Adjacency;
 use crate::geometry::disjoint_sets::DisjointSets;
+use crate::geometry::edge::NO_FACE;
 use crate::geometry::normals::face_normals;
-use crate::geometry::topology::{Adjacency, NO_FACE};
 use crate::geometry::{Edge, EdgeKind, Mesh};
 
 /// A mesh in units of the extent, with what is known of its triangles.

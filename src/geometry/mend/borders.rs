@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::super::topology::NO_FACE;
+use super::super::edge::NO_FACE;
 use super::super::{Adjacency, EdgeKind, Mesh};
 
 /// Stands for "no border edge".

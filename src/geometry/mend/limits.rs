@@ -1,6 +1,15 @@
 //! The constants of matching, in units of one mesh.
 
-use super::SeamTolerance;
+/// How far the two sides of a seam may be apart.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum SeamTolerance {
+    /// Up to 0.1 % of the diagonal of the mesh from the middle of the gap.
+    #[default]
+    Automatic,
+    /// How far a vertex may move to the middle of the gap, as a share of the diagonal of the mesh's bounding box. 0: only
+    /// what lies exactly on each other belongs together, and nothing is mended.
+    Fraction(f32),
+}
 
 /// Share of the diagonal by which the two sides of a seam may leave their common middle, if nothing is set.
 const AUTOMATIC_TOLERANCE: f64 = 1e-3;
