@@ -16,7 +16,7 @@ use std::path::Path;
 
 use glam::{DVec3, Vec2, Vec3};
 use gltf_builder::Model;
-use hachure::geometry::Mesh;
+use hachure::geometry::{Mesh, SeamTolerance};
 use hachure::import::{ImportError, ImportOptions, Progress, load, load_all};
 use hachure::scene::{LightKind, Projection, Scene};
 use serde_json::{Value, json};
@@ -30,8 +30,10 @@ fn load_bytes(name: &str, bytes: &[u8]) -> Scene {
     open(&path)
 }
 
+/// What is in a file; mending seams is another matter.
 fn open(path: &Path) -> Scene {
-    load(path, &ImportOptions::default(), &Progress::default()).unwrap()
+    let options = ImportOptions { seams: SeamTolerance::Fraction(0.0), ..ImportOptions::default() };
+    load(path, &options, &Progress::default()).unwrap()
 }
 
 fn scene_of(model: &Model) -> Scene {
