@@ -30,6 +30,10 @@ struct GoochStyle {
     metal: f32,
     stripes: f32,
     is_of_view: u32,
+    // How far the key is turned to the side, 0 to 1.
+    aside: f32,
+    // How far cool and warm are multiplied by the object's own colour, 0 to 1.
+    own_hue: f32,
 }
 
 // By object id.
@@ -121,15 +125,24 @@ fn metallic(px: vec2<i32>, s: Surfel, style: GoochStyle, shade: vec3<f32>, light
     return mix(shade, color, style.metal * smoothstep(0.1, 0.5, length(across)));
 }
 
+// Where the key stands for Gooch shading: from where it is towards the side, across the line of sight, where the paper has it
+// (section 4.1), so that the faces that are seen have all tones.
+fn key_of(style: GoochStyle, l: vec3<f32>, eye: vec3<f32>) -> vec3<f32> {
+    let turned = l - style.aside * dot(l, eye) * eye;
+    return select(l, normalize(turned), dot(turned, turned) > 1e-4);
+}
+
 // cool + alpha · base to warm + beta · base by (1 + n·l) / 2, and a Phong highlight, with the first light as the key.
 fn gooch(px: vec2<i32>, s: Surfel, base: vec3<f32>, pos_view: vec3<f32>) -> vec3<f32> {
     let style = gooch_styles[s.object];
     let l = towards_light(frame.lights[0], pos_view);
-    let cool = min(style.cool + style.alpha * base, vec3(1.0));
-    let warm = min(style.warm + style.beta * base, vec3(1.0));
+    let eye = towards_eye(pos_view);
+    let hue = mix(vec3(1.0), base, style.own_hue);
+    let cool = min(style.cool * hue + style.alpha * base, vec3(1.0));
+    let warm = min(style.warm * hue + style.beta * base, vec3(1.0));
     let n_l = dot(s.normal, l);
     let lit = visibility(px, 0u);
-    var warmth = 0.5 + 0.5 * n_l;
+    var warmth = 0.5 + 0.5 * dot(s.normal, key_of(style, l, eye));
     if WITH_SHADOWS {
         warmth *= 1.0 - SHADE * shadow_at(px, 0u, n_l);
     }
@@ -138,6 +151,6 @@ fn gooch(px: vec2<i32>, s: Surfel, base: vec3<f32>, pos_view: vec3<f32>) -> vec3
         shade = metallic(px, s, style, shade, l);
     }
     let reflected = reflect(-l, s.normal);
-    let gloss = pow(max(dot(reflected, towards_eye(pos_view)), 0.0), style.shininess);
+    let gloss = pow(max(dot(reflected, eye), 0.0), style.shininess);
     return mix(shade, vec3(1.0), style.highlight * gloss * lit);
 }

@@ -23,6 +23,8 @@ pub struct GoochUniform {
     metal: f32,
     stripes: f32,
     is_of_view: u32,
+    aside: f32,
+    own_hue: f32,
 }
 
 impl GoochUniform {
@@ -41,6 +43,8 @@ impl GoochUniform {
             metal: gooch.metal.clamp(0.0, 1.0),
             stripes: gooch.stripes.clamp(2, 64) as f32,
             is_of_view: u32::from(gooch.metal_axis == MetalAxis::View),
+            aside: gooch.aside.clamp(0.0, 1.0),
+            own_hue: gooch.own_hue.clamp(0.0, 1.0),
         }
     }
 }
