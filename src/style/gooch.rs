@@ -45,7 +45,9 @@ choice! {
         Y,
         /// Its third one.
         Z,
-        /// The vertical of the picture: stripes follow the eye.
+        /// Whichever of these the surface turns about, place by place: what is flat has no stripes.
+    Form,
+    /// The vertical of the picture: stripes follow the eye.
         View,
     }
 }
@@ -138,7 +140,7 @@ impl Gooch {
         list.choice(
             "metal_axis",
             "Milled around",
-            "The object's axis around which the stripes lie, or the vertical of the view.",
+            "The object's axis around which the stripes lie, that of each of its rounded forms, or the vertical of the view.",
             &mut self.metal_axis,
         );
         list.integer(
