@@ -309,7 +309,7 @@ fn point_at(v: Segment, number: u32, px: vec2<f32>) -> SegmentPoint {
     );
     // Where segments share a pixel the widest wins, for it would hide the others; profile edges before inner ones; then
     // the nearest; last the object's number, so that the order of drawing does not decide.
-    let is_profile = class_of <= OBJECT || class_of == SECTION;
+    let is_profile = is_of_profile(class_of);
     let rank = f32(u32(min(full_width * 4.0, 126.0))) + select(0.0, 0.5, is_profile);
     let clip = frame.clip_from_view * vec4(0.0, 0.0, -depth, 1.0);
     let nearest = bitcast<f32>((bitcast<u32>(clip.z / clip.w) & ~63u) | (own & 63u));
@@ -321,7 +321,7 @@ fn point_at(v: Segment, number: u32, px: vec2<f32>) -> SegmentPoint {
     let is_rim = class_of <= OBJECT;
     // Strokes cross each other: there is no room around any line.
     let nearness = select(1.0 - range_share(depth), 0.0, WITH_STROKES);
-    let packed = spine_of(texel, halves_of(own), select(0.0, 1.0, is_profile && !WITH_STROKES), nearness);
+    let packed = spine_of(texel, halves_of(own, class_of), select(0.0, 1.0, is_profile && !WITH_STROKES), nearness);
     let mark = select(0u, 1u, is_rim || !is_hidden || (is_drawn && (v.ids.x & ELSEWHERE) != 0u));
     // Positive numbers have the order of their bits, and those below 1 leave two of them.
     return SegmentPoint(texel, packed, (bitcast<u32>(order) << 1u) | mark, u32(px.x) | (u32(px.y) << 16u), number);
