@@ -138,15 +138,6 @@ fn place_of(ends: vec4<f32>, step: u32) -> Place {
     return Place(px, is_on && all(px >= vec2(0.0)) && all(px < frame.size));
 }
 
-// Whether a pixel or one of its neighbours shows one of these surfaces.
-fn is_beside(px: vec2<i32>, regions: vec2<u32>) -> bool {
-    var found = false;
-    for (var i = 0; i < 9; i++) {
-        found = found || any(regions == vec2(textureLoad(region_tex, px + vec2(i % 3, i / 3) - 1).x));
-    }
-    return found;
-}
-
 fn texel_of(at: vec2<f32>) -> vec2<i32> {
     return clamp(vec2<i32>(floor(at)), vec2(0), vec2<i32>(frame.size) - 1);
 }
@@ -156,6 +147,15 @@ const PLACES: array<f32, 5> = array(-2.0 * BESIDE, -BESIDE, 0.0, BESIDE, 2.0 * B
 
 fn texel_beside(spine: Spine, along: f32) -> vec2<i32> {
     return texel_of(spine.at + along * spine.normal);
+}
+
+// Whether one of these surfaces is seen on either side of a spine, or on it.
+fn is_carried_beside(spine: Spine, regions: vec2<u32>) -> bool {
+    var found = false;
+    for (var i = 1; i <= 3; i++) {
+        found = found || any(regions == vec2(textureLoad(region_tex, texel_beside(spine, PLACES[i])).x));
+    }
+    return found;
 }
 
 // What a pixel near the spine shows.
@@ -246,8 +246,7 @@ fn point_at(v: Segment, number: u32, px: vec2<f32>) -> SegmentPoint {
     let own = v.ids.y;
     var is_visible = min(left.lead, right.lead) <= SLACK;
     if WITH_HOLES {
-        let there = select(vec2<i32>(px), texel_of(tested.at), hand.is_stroke);
-        is_visible = is_visible && is_beside(there, regions);
+        is_visible = is_visible && is_carried_beside(tested, regions);
     }
     if IN_LAYER {
         let is_carried = left.carries || right.carries
