@@ -97,6 +97,7 @@ impl Objects {
             };
             let edges = possible(EdgeUniform::new(&r.style.edges, scale));
             let edges = if has_layers { edges.inked(&r.style.edges, r.style.blueprint.near) } else { edges };
+            let edges = if has_layers { edges.without_fainter(r.style.blueprint.threshold) } else { edges };
             let whole = Visible { node, enhanced: r.enhanced, parts: Parts::All };
             if is_blueprint {
                 let group = Blueprint::group_of(&mut objects.blueprints, r.style, count);
