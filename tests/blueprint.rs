@@ -10,7 +10,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use common::{opened, scene, session, set, texels};
-use glam::{DMat4, DQuat, DVec3, UVec2, Vec2};
+use glam::{DMat4, DQuat, DVec3, UVec2, Vec2, Vec3};
 use hachure::export::Session;
 use hachure::export::session::{Opened, initial_camera, open};
 use hachure::geometry::bvh::Bvh;
@@ -595,6 +595,28 @@ fn a_threshold_leaves_faint_lines_out_and_makes_all_others_full() {
     let with = drawn(&mut session, &[&thin[..], &[("blueprint.threshold", "0.7")]].concat());
     let without = drawn(&mut session, &[("blueprint.threshold", "0")]);
     assert!(with == without && with.pixels().any(|p| p.0[0] < 240));
+}
+
+#[test]
+fn a_threshold_leaves_flat_folds_out_of_exact_lines() {
+    let mut session = session();
+    // A fold of 35° has as much ink as the operators of the papers would give it: 0.72.
+    let slope = 17.5_f32.to_radians().tan();
+    let corner = |x: f32, y: f32| Vec3::new(x, y, -slope * y.abs());
+    let corners = [-1.0, 0.0, 1.0].iter().flat_map(|y| [corner(-1.0, *y), corner(1.0, *y)]).collect();
+    let roof = primitives::from_triangles(corners, vec![0, 1, 3, 0, 3, 2, 2, 3, 5, 2, 5, 4]);
+    let mut opened = blueprint(opened(&scene(vec![object("roof", roof, DMat4::IDENTITY)]), DVec3::Z));
+    for (key, value) in
+        [("blueprint.opacity", "0"), ("edges.profile.width", "16"), ("edges.inner.width", "16")]
+    {
+        set(&mut opened, key, value);
+    }
+    let mut drawn = |threshold: &str| {
+        set(&mut opened, "blueprint.threshold", threshold);
+        inked(&common::image(&mut session, &opened, 96))
+    };
+    let [all, some, few] = ["0", "0.6", "0.8"].map(&mut drawn);
+    assert!(all == some && few + 40 < some, "{all} {some} {few}");
 }
 
 #[test]

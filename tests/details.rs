@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use common::line_drawing::{edge_classes, line_drawing, only, set_width};
 use common::{scene, session, texels};
-use glam::{DMat4, DVec2, DVec3};
+use glam::{DMat4, DVec2, DVec3, Vec3};
 use hachure::export::Session;
 use hachure::export::session::Opened;
 use hachure::geometry::{EdgeClass, primitives};
@@ -179,6 +179,21 @@ fn a_relief_that_folds_has_lines_only_when_asked_for() {
     assert!(spines(&mut session, &steeper, EdgeClass::Relief).is_empty());
     let default = line_drawing(&scene, opened.document.camera.unwrap());
     assert!(spines(&mut session, &default, EdgeClass::Relief).is_empty());
+}
+
+#[test]
+fn without_a_normal_map_there_is_no_relief() {
+    let columns = [-1.0_f32, -0.02, 0.02, 1.0];
+    let positions =
+        columns.iter().flat_map(|x| [Vec3::new(*x, -1.0, 0.0), Vec3::new(*x, 1.0, 0.0)]).collect();
+    let indices = [0, 2, 4].iter().flat_map(|i| [*i, i + 2, i + 3, *i, i + 3, i + 1]).collect();
+    let mut square = primitives::from_triangles(positions, indices);
+    // Shaded as if it had a fold of 60°.
+    let normal = |x: &f32| Vec3::new(x.signum() * 0.5, 0.0, 0.75_f32.sqrt());
+    square.normals = columns.iter().flat_map(|x| [normal(x); 2]).collect();
+    let scene = scene(vec![("square", square, DMat4::IDENTITY, [1.0; 3])]);
+    let opened = drawing(&scene, EdgeClass::Relief, 0.9, 0.2);
+    assert!(spines(&mut session(), &opened, EdgeClass::Relief).is_empty());
 }
 
 #[test]

@@ -17,7 +17,8 @@ use hachure::export::Session;
 use hachure::export::session::Opened;
 use hachure::geometry::primitives::{cube, from_triangles, plane};
 use hachure::geometry::{EdgeClass, Mesh};
-use hachure::scene::{Camera, Projection, Wrap};
+use hachure::scene::material::{AlphaMode, TextureRef, UvTransform};
+use hachure::scene::{Camera, Projection, Texture, Wrap};
 
 fn at(x: f64, y: f64, z: f64) -> DMat4 {
     DMat4::from_translation(DVec3::new(x, y, z))
@@ -390,5 +391,44 @@ fn holes_by_alpha_are_outlined_and_have_no_lines_in_them() {
             assert!(boundary > 800);
             assert!(gaps.is_empty() && floating.is_empty(), "gaps {gaps:?}, floating {floating:?}");
         }
+    }
+}
+
+#[test]
+fn where_alpha_fails_on_both_sides_of_an_edge_there_is_no_line() {
+    const SIDE: u32 = 100;
+    const TEXELS: u32 = 256;
+    let mut session = session();
+    // A folded card of 80 by 80 pixels, and how many texels beside the fold are holes: 4 of them are 1.25 pixels.
+    for (holes, is_drawn) in [(0, true), (4, false)] {
+        let corners = [(0.0, 0.0), (0.5, 0.0), (1.0, 0.0), (0.0, 1.0), (0.5, 1.0), (1.0, 1.0)];
+        let at = |(u, v): (f32, f32)| Vec3::new(u - 0.5, v - 0.5, 0.5 - (u - 0.5).abs()) * 80.0;
+        let mut card = from_triangles(corners.map(at).to_vec(), vec![0, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4]);
+        card.uvs = corners.map(Vec2::from).to_vec();
+        let mut scene = scene(vec![("card", card, DMat4::IDENTITY, [0.7; 3])]);
+        let changed = Arc::make_mut(&mut scene);
+        let is_hole = |i: u32| (TEXELS / 2 - holes..TEXELS / 2 + holes).contains(&(i % TEXELS));
+        let rgba = (0..TEXELS * TEXELS).flat_map(|i| [255, 255, 255, if is_hole(i) { 0 } else { 255 }]);
+        let (name, rgba) = ("leaves".to_owned(), rgba.collect());
+        changed.textures.push(Arc::new(Texture { name, width: TEXELS, height: TEXELS, rgba }));
+        let material = &mut changed.materials[0];
+        material.alpha = AlphaMode::Mask(0.5);
+        material.base_color_texture = Some(TextureRef {
+            texture: 0,
+            transform: UvTransform::default(),
+            wrap: [Wrap::Clamp; 2],
+            nearest: true,
+        });
+        let camera = Camera {
+            position: DVec3::Z * 100.0,
+            projection: Projection::Orthographic { view_height: f64::from(SIDE) },
+            ..Camera::default()
+        };
+        let mut opened = line_drawing(&scene, camera);
+        session.set_scene(&opened).unwrap();
+        only(&mut opened, &[EdgeClass::Ridge, EdgeClass::Valley]);
+        let ink = Ink::of(&mut session, &opened, [SIDE; 2]);
+        let length = ink.values.iter().filter(|value| **value > 0.0).count();
+        assert!(if is_drawn { length > 60 } else { length == 0 }, "{holes} texels of holes: {length} px");
     }
 }

@@ -81,11 +81,13 @@ fn turned(a: f32, b: f32) -> f32 {
 }
 
 /// Style of the twin's scene, and as numbers.
-const SETTINGS: [(&str, &str); 9] = [
+const SETTINGS: [(&str, &str); 11] = [
     ("gooch.cool", "#203880"),
     ("gooch.warm", "#a08030"),
     ("gooch.alpha", "0.25"),
     ("gooch.beta", "0.6"),
+    ("gooch.own_hue", "0.4"),
+    ("gooch.aside", "0.7"),
     ("gooch.highlight", "0.5"),
     ("gooch.shininess", "24"),
     ("gooch.metal", "0.8"),
@@ -117,10 +119,13 @@ impl Twin {
     /// `slope`: change of the turn per pixel.
     fn color(&self, px: [i32; 2], s: &Surfel, slope: f32) -> Vec3 {
         let base = self.objects[s.object as usize - 1].0;
-        let cool = (Color([32, 56, 128]).to_linear() + 0.25 * base).min(Vec3::ONE);
-        let warm = (Color([160, 128, 48]).to_linear() + 0.6 * base).min(Vec3::ONE);
+        let hue = Vec3::ONE.lerp(base, 0.4);
+        let cool = (Color([32, 56, 128]).to_linear() * hue + 0.25 * base).min(Vec3::ONE);
+        let warm = (Color([160, 128, 48]).to_linear() * hue + 0.6 * base).min(Vec3::ONE);
         let n_l = s.normal.dot(self.light);
-        let shade = cool.lerp(warm, 0.5 + 0.5 * n_l);
+        let eye = self.towards_eye(px);
+        let key = (self.light - 0.7 * self.light.dot(eye) * eye).normalize();
+        let shade = cool.lerp(warm, 0.5 + 0.5 * s.normal.dot(key));
 
         let across = self.across(s.object, s.normal);
         let light = self.across(s.object, self.light);
@@ -136,7 +141,7 @@ impl Twin {
         let shade = shade.lerp(metal, 0.8 * smoothstep(0.1, 0.5, across.length()));
 
         let reflected = 2.0 * n_l * s.normal - self.light;
-        let gloss = reflected.dot(self.towards_eye(px)).max(0.0).powf(24.0);
+        let gloss = reflected.dot(eye).max(0.0).powf(24.0);
         shade.lerp(Vec3::ONE, 0.5 * gloss)
     }
 }

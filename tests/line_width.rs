@@ -178,6 +178,28 @@ fn a_line_outside_or_inside_lies_there_with_all_its_width() {
 }
 
 #[test]
+fn only_profile_edges_lie_outside_or_inside_and_creases_stay_in_the_middle() {
+    const SIZE: [u32; 2] = [64; 2];
+    let mut session = session();
+    let corners = [(-20.0, -20.0), (20.0, -20.0), (20.0, 0.3), (-20.0, 0.3), (20.0, 20.0), (-20.0, 20.0)];
+    let roof = corners.map(|(x, y): (f32, f32)| Vec3::new(x, y, -y.abs()));
+    let roof = from_triangles(roof.to_vec(), vec![0, 1, 2, 0, 2, 3, 3, 2, 4, 3, 4, 5]);
+    let mut opened = bordered(&mut session, roof, SIZE);
+    set_width(&mut opened, 6.0, SIZE[1]);
+    let mut drawn = |class: EdgeClass, alignment: &str| {
+        only(&mut opened, &[class]);
+        set(&mut opened, "edges.alignment", alignment);
+        Ink::of(&mut session, &opened, SIZE).values
+    };
+    let [crease, border] = [EdgeClass::Ridge, EdgeClass::Border].map(|class| drawn(class, "centered"));
+    assert!(crease.iter().sum::<f64>() > 200.0 && border.iter().sum::<f64>() > 500.0);
+    for alignment in ["outward", "inward"] {
+        assert!(drawn(EdgeClass::Ridge, alignment) == crease, "{alignment}");
+        assert!(drawn(EdgeClass::Border, alignment) != border, "{alignment}");
+    }
+}
+
+#[test]
 fn a_circle_covers_what_its_width_covers() {
     const RADIUS: f64 = 30.0;
     let circle = |radius: f64| -> Vec<DVec2> {

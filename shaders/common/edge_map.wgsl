@@ -17,6 +17,11 @@ const SECTION: u32 = 11u;
 // Ink of the papers' operators at this very pixel.
 const PAPER: u32 = 15u;
 
+// Whether a class is of the profile edges.
+fn is_of_profile(class_of: u32) -> bool {
+    return class_of <= OBJECT || class_of == SECTION;
+}
+
 struct Edge {
     class_of: u32,
     // The object whose style draws it.

@@ -17,7 +17,7 @@ struct EdgeStyle {
     lines: array<LineStyle, 11>,
     // 0: none, 1: exact, 2: the papers' operators.
     mode: u32,
-    // Where the width goes: 0 both sides, 1 outwards, 2 inwards.
+    // Where the width of profile edges goes: 0 both sides, 1 outwards, 2 inwards.
     alignment: u32,
     // px of this picture.
     dash_period: f32,

@@ -1,5 +1,6 @@
 // How wide and how strong a line is at one point.
 #import common/frame.wgsl
+#import common/edge_map.wgsl
 #import common/edge_style.wgsl
 
 // Single fields are read, never whole structs, which software
@@ -56,9 +57,9 @@ fn half_width(object: u32, class_of: u32, pos_view: vec3<f32>, normal: vec3<f32>
     return 0.5 * max(width, 0.1 * full);
 }
 
-// How many halves of its width a line of this object has on one side of its spine.
-fn halves_of(object: u32) -> f32 {
-    return select(2.0, 1.0, edge_styles[object].alignment == 0u);
+// How many halves of its width a line of this object has on one side of its spine: inner edges have no outside.
+fn halves_of(object: u32, class_of: u32) -> f32 {
+    return select(1.0, 2.0, edge_styles[object].alignment != 0u && is_of_profile(class_of));
 }
 
 // The share of a crease's ink by its dihedral angle (radians): the paper's 1 − cos, full at 41° as the operator's.

@@ -244,6 +244,6 @@ fn fs_main(@builtin(position) position: vec4<f32>) -> Out {
         arc / edge_styles[x.object].dash_period,
         1.0,
     ));
-    let seen = seen_at(seen_tex, px, spine_of(texel, halves_of(x.object), 0.0, 1.0 - range_share(x.depth)));
+    let seen = seen_at(seen_tex, px, spine_of(texel, halves_of(x.object, class_of), 0.0, 1.0 - range_share(x.depth)));
     return Out(texel, seen.own, seen.now);
 }

@@ -229,6 +229,6 @@ fn fs_main(@builtin(position) position: vec4<f32>) -> Out {
         select(0.0, 1.0, edge_styles[x.object].lines[spine.class_of - 1u].strength > 0.0),
     ));
     let rank = select(0.0, 1.0, spine.class_of <= OBJECT);
-    let seen = seen_at(seen_tex, px, spine_of(texel, halves_of(x.object), rank, 1.0 - range_share(x.depth)));
+    let seen = seen_at(seen_tex, px, spine_of(texel, halves_of(x.object, spine.class_of), rank, 1.0 - range_share(x.depth)));
     return Out(texel, seen.own, seen.now);
 }

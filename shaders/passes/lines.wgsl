@@ -105,7 +105,7 @@ fn line_at(at: vec2<f32>, g: Surfel, found: u32) -> Line {
     var low = -edge.half_width;
     var high = edge.half_width;
     var across = distance;
-    if edge_styles[edge.object].alignment != 0u {
+    if edge_styles[edge.object].alignment != 0u && is_of_profile(edge.class_of) {
         // All of the width on one side of the spine.
         let outwards = select(-1.0, 1.0, edge_styles[edge.object].alignment == 1u) * edge.outside;
         across = distance * select(-1.0, 1.0, dot(away, left) * outwards >= 0.0);

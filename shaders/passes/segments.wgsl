@@ -138,15 +138,6 @@ fn place_of(ends: vec4<f32>, step: u32) -> Place {
     return Place(px, is_on && all(px >= vec2(0.0)) && all(px < frame.size));
 }
 
-// Whether a pixel or one of its neighbours shows one of these surfaces.
-fn is_beside(px: vec2<i32>, regions: vec2<u32>) -> bool {
-    var found = false;
-    for (var i = 0; i < 9; i++) {
-        found = found || any(regions == vec2(textureLoad(region_tex, px + vec2(i % 3, i / 3) - 1).x));
-    }
-    return found;
-}
-
 fn texel_of(at: vec2<f32>) -> vec2<i32> {
     return clamp(vec2<i32>(floor(at)), vec2(0), vec2<i32>(frame.size) - 1);
 }
@@ -156,6 +147,15 @@ const PLACES: array<f32, 5> = array(-2.0 * BESIDE, -BESIDE, 0.0, BESIDE, 2.0 * B
 
 fn texel_beside(spine: Spine, along: f32) -> vec2<i32> {
     return texel_of(spine.at + along * spine.normal);
+}
+
+// Whether one of these surfaces is seen on either side of a spine, or on it.
+fn is_carried_beside(spine: Spine, regions: vec2<u32>) -> bool {
+    var found = false;
+    for (var i = 1; i <= 3; i++) {
+        found = found || any(regions == vec2(textureLoad(region_tex, texel_beside(spine, PLACES[i])).x));
+    }
+    return found;
 }
 
 // What a pixel near the spine shows.
@@ -273,8 +273,7 @@ fn point_at(v: Segment, number: u32, px: vec2<f32>) -> SegmentPoint {
     let own = v.ids.y;
     var is_visible = min(left.lead, right.lead) <= SLACK;
     if WITH_HOLES {
-        let there = select(vec2<i32>(px), texel_of(tested.at), hand.is_stroke);
-        is_visible = is_visible && is_beside(there, regions);
+        is_visible = is_visible && is_carried_beside(tested, regions);
     }
     if IN_LAYER {
         let is_carried = left.carries || right.carries
@@ -336,7 +335,7 @@ fn point_at(v: Segment, number: u32, px: vec2<f32>) -> SegmentPoint {
     );
     // Where segments share a pixel the widest wins, for it would hide the others; profile edges before inner ones; then
     // the nearest; last the object's number, so that the order of drawing does not decide.
-    let is_profile = class_of <= OBJECT || class_of == SECTION;
+    let is_profile = is_of_profile(class_of);
     let rank = f32(u32(min(full_width * 4.0, 126.0))) + select(0.0, 0.5, is_profile);
     let clip = frame.clip_from_view * vec4(0.0, 0.0, -depth, 1.0);
     let nearest = bitcast<f32>((bitcast<u32>(clip.z / clip.w) & ~63u) | (own & 63u));
@@ -348,7 +347,7 @@ fn point_at(v: Segment, number: u32, px: vec2<f32>) -> SegmentPoint {
     let is_rim = class_of <= OBJECT;
     // Strokes cross each other: there is no room around any line.
     let nearness = select(1.0 - range_share(depth), 0.0, WITH_STROKES);
-    let packed = spine_of(texel, halves_of(own), select(0.0, 1.0, is_profile && !WITH_STROKES), nearness);
+    let packed = spine_of(texel, halves_of(own, class_of), select(0.0, 1.0, is_profile && !WITH_STROKES), nearness);
     let mark = select(0u, 1u, is_rim || !is_hidden || (is_drawn && (v.ids.x & ELSEWHERE) != 0u));
     // Positive numbers have the order of their bits, and those below 1 leave two of them.
     return SegmentPoint(texel, packed, (bitcast<u32>(order) << 1u) | mark, u32(px.x) | (u32(px.y) << 16u), number);

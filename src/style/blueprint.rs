@@ -20,7 +20,7 @@ pub struct Blueprint {
     /// How far lines fade with the distance, 0 (not at all) to 1.
     pub by_distance: f32,
     /// Lines of ink fainter than this are left out and all others are full, as in a wire frame (section 4.2); 0 to 1, 0:
-    /// ink stays as it is.
+    /// ink stays as it is. Flat folds have faint ink: 0.5 is one of 29°, 1 one of 41°.
     pub threshold: f32,
     /// Whether lines are drawn again where a nearer layer has one at the same place (section 4.1, Fig. 5).
     pub repeated: bool,
@@ -94,7 +94,8 @@ impl Blueprint {
             "",
             0.0..=1.0,
             0.0..=1.0,
-            "As in a wire frame, lines fainter than this are left out and all others are full; 0 leaves ink as it is.",
+            "As in a wire frame, lines fainter than this, such as flat folds, are left out and all others are full; 0 leaves \
+             ink as it is.",
             &mut self.threshold,
         );
         list.switch(

@@ -14,7 +14,7 @@ choice! {
 }
 
 choice! {
-    /// Where the width of a line lies.
+    /// Where the width of a profile edge lies.
     pub enum Alignment {
         /// Half on either side of the edge.
         #[default]

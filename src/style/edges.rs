@@ -12,7 +12,7 @@ use crate::geometry::EdgeClass;
 pub struct Edges {
     /// How edges are found.
     pub mode: EdgeMode,
-    /// Where the width of a line lies. Exact mode.
+    /// Where the width of profile edges lies; inner edges are centred. Exact mode.
     pub alignment: Alignment,
     /// The operator that finds depth discontinuities. Paper mode.
     pub operator: DepthOperator,
@@ -165,7 +165,7 @@ impl Edges {
             list.choice(
                 "alignment",
                 "Alignment",
-                "Where the width of a line lies: half on either side, outside of the object, or on it.",
+                "Where the width of profile edges lies: half on either side, outside of the object, or on it.",
                 &mut self.alignment,
             );
             list.number(

@@ -18,6 +18,11 @@ pub struct Gooch {
     pub alpha: f32,
     /// Share of the base colour on the warm side, 0 to 1.
     pub beta: f32,
+    /// How far blue and yellow are multiplied by the base colour, 0 (added as they are) to 1: dark and saturated ones keep
+    /// their hue.
+    pub own_hue: f32,
+    /// How far the key light is turned to the side, 0 (where it is) to 1 (across the line of sight).
+    pub aside: f32,
     /// Strength of the highlight, 0 (none) to 1 (white).
     pub highlight: f32,
     /// Phong exponent of the highlight, 1 (wide) to 256 (small).
@@ -40,7 +45,9 @@ choice! {
         Y,
         /// Its third one.
         Z,
-        /// The vertical of the picture: stripes follow the eye.
+        /// Whichever of these the surface turns about, place by place: what is flat has no stripes.
+    Form,
+    /// The vertical of the picture: stripes follow the eye.
         View,
     }
 }
@@ -52,6 +59,8 @@ impl Default for Gooch {
             warm: Color([168, 142, 62]),
             alpha: 0.3,
             beta: 0.65,
+            own_hue: 0.0,
+            aside: 0.0,
             highlight: 0.45,
             shininess: 32.0,
             metal: 0.0,
@@ -84,6 +93,24 @@ impl Gooch {
             &mut self.beta,
         );
         list.number(
+            "own_hue",
+            "Own hue",
+            "",
+            0.0..=1.0,
+            0.0..=1.0,
+            "How far blue and yellow are multiplied by the object's own colour: dark and saturated ones keep their hue.",
+            &mut self.own_hue,
+        );
+        list.number(
+            "aside",
+            "Light aside",
+            "",
+            0.0..=1.0,
+            0.0..=1.0,
+            "How far the key is turned to the side: at 1 it shines across the line of sight and sets faces apart.",
+            &mut self.aside,
+        );
+        list.number(
             "highlight",
             "Highlight",
             "",
@@ -113,7 +140,7 @@ impl Gooch {
         list.choice(
             "metal_axis",
             "Milled around",
-            "The object's axis around which the stripes lie, or the vertical of the view.",
+            "The object's axis around which the stripes lie, that of each of its rounded forms, or the vertical of the view.",
             &mut self.metal_axis,
         );
         list.integer(

@@ -316,6 +316,16 @@ impl GpuScene {
         self.alphas(node).any(|alpha| alpha != AlphaMode::Opaque)
     }
 
+    /// Whether any material of a node has a relief.
+    pub fn has_relief(&self, node: NodeId) -> bool {
+        let mesh = self.scene.nodes[node].mesh.and_then(|m| self.scene.meshes.get(m));
+        let mut materials = mesh
+            .into_iter()
+            .flat_map(|m| &m.parts)
+            .filter_map(|part| self.scene.materials.get(part.material));
+        materials.any(|material| material.normal_texture.is_some())
+    }
+
     /// Whether a node's mesh has texture coordinates.
     pub fn has_uvs(&self, node: NodeId) -> bool {
         let mesh = self.scene.nodes[node].mesh.and_then(|m| self.scene.meshes.get(m));

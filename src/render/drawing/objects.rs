@@ -90,12 +90,15 @@ impl Objects {
             if has_blended && objects.blended.is_empty() {
                 objects.blended = Group::with_hidden(count);
             }
-            // The width of lines that are nowhere would decide how all others are drawn.
+            // The width of lines that are nowhere would decide how all others are drawn; and what is only shaded smoothly has
+            // no relief.
             let possible = |edges: EdgeUniform| {
-                if scene.is_cut_open(node) { edges } else { edges.without(EdgeClass::Section) }
+                let edges = if scene.is_cut_open(node) { edges } else { edges.without(EdgeClass::Section) };
+                if scene.has_relief(node) { edges } else { edges.without(EdgeClass::Relief) }
             };
             let edges = possible(EdgeUniform::new(&r.style.edges, scale));
             let edges = if has_layers { edges.inked(&r.style.edges, r.style.blueprint.near) } else { edges };
+            let edges = if has_layers { edges.without_fainter(r.style.blueprint.threshold) } else { edges };
             let whole = Visible { node, enhanced: r.enhanced, parts: Parts::All };
             if is_blueprint {
                 let group = Blueprint::group_of(&mut objects.blueprints, r.style, count);

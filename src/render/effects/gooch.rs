@@ -23,6 +23,9 @@ pub struct GoochUniform {
     metal: f32,
     stripes: f32,
     is_of_view: u32,
+    is_of_form: u32,
+    aside: f32,
+    own_hue: f32,
 }
 
 impl GoochUniform {
@@ -41,6 +44,9 @@ impl GoochUniform {
             metal: gooch.metal.clamp(0.0, 1.0),
             stripes: gooch.stripes.clamp(2, 64) as f32,
             is_of_view: u32::from(gooch.metal_axis == MetalAxis::View),
+            is_of_form: u32::from(gooch.metal_axis == MetalAxis::Form),
+            aside: gooch.aside.clamp(0.0, 1.0),
+            own_hue: gooch.own_hue.clamp(0.0, 1.0),
         }
     }
 }
@@ -94,7 +100,7 @@ fn directions(axis: MetalAxis, world_from_local: &DMat4) -> [Vec3; 2] {
     let (axis, side, default) = match axis {
         MetalAxis::X => (x, y, DVec3::X),
         MetalAxis::Y => (y, z, DVec3::Y),
-        MetalAxis::Z => (z, x, DVec3::Z),
+        MetalAxis::Z | MetalAxis::Form => (z, x, DVec3::Z),
         MetalAxis::View => (DVec3::Y, DVec3::Z, DVec3::Y),
     };
     let axis = axis.normalize_or(default);
@@ -117,7 +123,7 @@ mod tests {
             DVec3::ZERO.extend(0.0),
             glam::DVec4::W,
         );
-        for axis in [MetalAxis::X, MetalAxis::Y, MetalAxis::Z, MetalAxis::View] {
+        for axis in [MetalAxis::X, MetalAxis::Y, MetalAxis::Z, MetalAxis::Form, MetalAxis::View] {
             let [a, b] = directions(axis, &skewed);
             assert!(
                 (a.length() - 1.0).abs() < 1e-6 && (b.length() - 1.0).abs() < 1e-6 && a.dot(b).abs() < 1e-6
