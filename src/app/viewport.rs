@@ -291,6 +291,11 @@ impl Viewport {
         self.draw_again();
     }
 
+    /// Number of bodies that the section cuts and that have no cap.
+    pub fn open_bodies(&self) -> usize {
+        self.renderer.open_bodies()
+    }
+
     /// All stripes of hatching that have been found for the scene.
     pub fn solved_stripes(&self) -> Vec<SolvedStripes> {
         self.renderer.solved_stripes().to_vec()

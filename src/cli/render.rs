@@ -6,7 +6,7 @@ use serde_json::json;
 
 use super::args::{CameraArgs, LookArgs, RenderArgs, SectionAt};
 use super::{CliError, peeling, print_json};
-use crate::document::{Document, Pattern, Role, Section, View, glyph};
+use crate::document::{Document, Pattern, Role, Section, View, glyph, section};
 use crate::export::session::{OpenError, Opened, initial_camera, open};
 use crate::export::{Session, save_png};
 use crate::gpu::{Gpu, GpuError};
@@ -55,7 +55,8 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
     let section = document.section_fault(document.up(scene), &scene.bounds());
     let roles = document.role_faults(&document.scene_with_glyphs(scene));
     let faults = roles.into_iter().chain(section).chain(document.glyph_faults(scene));
-    let faults = faults.chain(document.coordinate_faults(scene));
+    let uncapped = section::without_caps(session.renderer().open_bodies());
+    let faults = faults.chain(document.coordinate_faults(scene)).chain(uncapped);
     let peeled: Vec<_> = session.renderer().last_peeled().into_iter().flatten().collect();
     let strokes = crate::render::image_faults(session.renderer().images(), &uses);
     let warnings =

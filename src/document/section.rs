@@ -232,6 +232,19 @@ impl Document {
     }
 }
 
+/// A warning where a section cuts bodies that have no cap.
+pub fn without_caps(count: usize) -> Option<Warning> {
+    let bodies = if count == 1 {
+        "1 body that is cut encloses"
+    } else {
+        &format!("{count} bodies that are cut enclose")
+    };
+    let message = format!(
+        "{bodies} no volume and has no cap; wider `view.seams=gap` may close it, or the model has holes there"
+    );
+    (count > 0).then(|| Warning { place: "section.cap".to_owned(), message })
+}
+
 impl Hatch {
     fn params<'a>(&'a mut self, list: &mut Params<'a>) {
         list.color("color", "Colour", "Colour of the hatching.", &mut self.color);

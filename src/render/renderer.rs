@@ -11,6 +11,7 @@ use super::base::ids::node_of;
 use super::base::lights::Lights;
 use super::base::scale_bar::ScaleBar;
 use super::base::scene_view::SceneView;
+use super::base::section::Section;
 use super::base::stripes::{GpuStripes, SolvedStripes, StripeRequest};
 use super::base::stroke_maps::{StrokeMap, StrokeMaps};
 use super::base::style_images::StyleImages;
@@ -251,6 +252,11 @@ impl Renderer {
             self.scene_revision += 1;
         }
         self.images = images;
+    }
+
+    /// Number of bodies that the section cuts and that have no cap, for they enclose no volume.
+    pub fn open_bodies(&self) -> usize {
+        self.scene.as_ref().and_then(|scene| scene.section.as_ref()).map_or(0, Section::open_bodies)
     }
 
     /// The images that it has.

@@ -5,6 +5,7 @@ use eframe::egui::{self, RichText, Ui};
 use super::Editing;
 use super::params::params_ui;
 use crate::document::Section;
+use crate::document::section::without_caps;
 use crate::scene::Unit;
 use crate::style::param;
 
@@ -21,7 +22,7 @@ pub fn section_ui(ui: &mut Ui, editing: &mut Editing<'_>) {
     let mut params = section.params_within(low..=high, unit);
     param::retain_relevant(&mut params);
     params_ui(ui, "view", &mut params, &defaults);
-    if let Some(fault) = fault {
+    for fault in fault.into_iter().chain(without_caps(editing.viewport.open_bodies())) {
         ui.add(egui::Label::new(RichText::new(fault.message).weak().small()).wrap());
     }
 }

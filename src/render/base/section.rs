@@ -203,6 +203,12 @@ impl Section {
         (self.key.plane, self.key.right)
     }
 
+    /// Number of bodies that it cuts and that have no cap, for they enclose no volume.
+    pub fn open_bodies(&self) -> usize {
+        let open = |part: &Part| if let Part::Open(opened) = part { opened.open_count } else { 0 };
+        self.parts.iter().map(open).sum()
+    }
+
     /// Whether anything has a cap.
     pub fn has_caps(&self) -> bool {
         !self.caps.meshes.is_empty()
