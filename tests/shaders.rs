@@ -62,7 +62,7 @@ fn rust_and_wgsl_agree_on_every_uniform() {
     same_layout!(EdgeUniform, 27, "passes/lines.wgsl", "EdgeStyle");
     same_layout!(SurfaceUniform, 3, "effects/surface.wgsl", "SurfaceStyle");
     same_layout!(BandUniform, 3, "passes/layer_lists.wgsl", "Band");
-    same_layout!(GoochUniform, 11, "effects/surface.wgsl", "GoochStyle");
+    same_layout!(GoochUniform, 14, "effects/surface.wgsl", "GoochStyle");
     same_layout!(CapUniform, 8, "effects/section.wgsl", "Cap");
     same_layout!(MirrorUniform, 4, "effects/mirror.wgsl", "Mirror");
     same_layout!(ShadowDraw, 3, "passes/shadow_map.wgsl", "ShadowDraw");
