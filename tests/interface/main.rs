@@ -244,7 +244,7 @@ fn a_flat_object_is_made_a_mirror_in_its_row_and_undo_takes_that_back() {
 #[test]
 fn a_slider_changes_the_style_and_a_double_click_on_its_name_resets_it() {
     let mut window = window();
-    let default = window.state().document().style.gooch.alpha;
+    let default = hachure::style::Style::default().gooch.alpha;
     window.get_by_role_and_label(Role::Slider, "Base in cool").set_value_accesskit(0.9);
     settle(&mut window);
     assert_eq!(window.state().document().style.gooch.alpha, 0.9);
