@@ -197,10 +197,12 @@ const ONE_PLANE: f32 = 0.97;
 fn goes_on_under(spine: Spine, own: u32) -> bool {
     let one_px = texel_beside(spine, PLACES[0]);
     let other_px = texel_beside(spine, PLACES[4]);
+    let region = textureLoad(region_tex, one_px).x;
     let one = unpack_surfel(textureLoad(geometry_tex, one_px));
     let other = unpack_surfel(textureLoad(geometry_tex, other_px));
-    let is_same = one.object == own && other.object == own && dot(one.face_normal, other.face_normal) > ONE_PLANE
-        && textureLoad(region_tex, one_px).x == textureLoad(region_tex, other_px).x;
+    // Where a layer has nothing, region 0, its geometry is undefined.
+    let is_same = region != 0u && region == textureLoad(region_tex, other_px).x
+        && one.object == own && other.object == own && dot(one.face_normal, other.face_normal) > ONE_PLANE;
     if !is_same {
         return false;
     }
@@ -211,7 +213,8 @@ fn goes_on_under(spine: Spine, own: u32) -> bool {
         let px = texel_beside(spine, PLACES[i]);
         let between = unpack_surfel(textureLoad(geometry_tex, px));
         let miss = nearness_at(plane, vec2<f32>(px - one_px)) - nearness_of(between.depth);
-        greatest = max(greatest, select(1e9, abs(step_px(miss, one.depth)), between.object == own));
+        let is_there = between.object == own && textureLoad(region_tex, px).x != 0u;
+        greatest = max(greatest, select(1e9, abs(step_px(miss, one.depth)), is_there));
     }
     return greatest < SLACK;
 }
@@ -272,7 +275,8 @@ fn point_at(v: Segment, number: u32, px: vec2<f32>) -> SegmentPoint {
     let right = beside(tested, PLACES[1], regions);
     let own = v.ids.y;
     var is_visible = min(left.lead, right.lead) <= SLACK;
-    if WITH_HOLES {
+    // A layer is asked for what carries the line in any case.
+    if WITH_HOLES && !IN_LAYER {
         is_visible = is_visible && is_carried_beside(tested, regions);
     }
     if IN_LAYER {
