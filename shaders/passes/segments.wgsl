@@ -189,11 +189,11 @@ fn beside(spine: Spine, along: f32, regions: vec2<u32>) -> Beside {
     return Beside(s, select(step_px(lead, spine.depth), -1e9, s.object == 0u), carries && s.object != 0u);
 }
 
-// Cosine of the angle between planes that are one.
-const ONE_PLANE: f32 = 0.97;
+// Cosine of the angle between normals of one smooth surface.
+const SMOOTH: f32 = 0.96;
 
-// Whether one surface goes on under a spine, whatever topology thinks: at a seam that could not be mended, and at needles that
-// are turned over on a flat face.
+// Whether one smooth surface goes on under a spine, whatever topology thinks: at a seam that could not be mended, and at needles
+// that are turned over.
 fn goes_on_under(spine: Spine, own: u32) -> bool {
     let one_px = texel_beside(spine, PLACES[0]);
     let other_px = texel_beside(spine, PLACES[4]);
@@ -202,19 +202,26 @@ fn goes_on_under(spine: Spine, own: u32) -> bool {
     let other = unpack_surfel(textureLoad(geometry_tex, other_px));
     // Where a layer has nothing, region 0, its geometry is undefined.
     let is_same = region != 0u && region == textureLoad(region_tex, other_px).x
-        && one.object == own && other.object == own && dot(one.face_normal, other.face_normal) > ONE_PLANE;
+        && one.object == own && other.object == own && dot(one.normal, other.normal) > SMOOTH;
     if !is_same {
         return false;
     }
-    // Nothing may open between the two, such as a narrow window.
-    let plane = plane_of(one_px, one.depth, one.face_normal);
-    var greatest = 0.0;
-    for (var i = 1; i < 5; i++) {
+    // Both sides meet at the spine.
+    let here = plane_of(one_px, one.depth, one.face_normal);
+    let there = plane_of(other_px, other.depth, other.face_normal);
+    let at_spine = spine.at - 0.5;
+    let gap = nearness_at(here, at_spine - vec2<f32>(one_px)) - nearness_at(there, at_spine - vec2<f32>(other_px));
+    var greatest = abs(step_px(gap, one.depth));
+    // Nothing may open between them, such as a narrow window.
+    for (var i = 1; i < 4; i++) {
         let px = texel_beside(spine, PLACES[i]);
         let between = unpack_surfel(textureLoad(geometry_tex, px));
-        let miss = nearness_at(plane, vec2<f32>(px - one_px)) - nearness_of(between.depth);
+        let miss = min(
+            abs(nearness_at(here, vec2<f32>(px - one_px)) - nearness_of(between.depth)),
+            abs(nearness_at(there, vec2<f32>(px - other_px)) - nearness_of(between.depth)),
+        );
         let is_there = between.object == own && textureLoad(region_tex, px).x != 0u;
-        greatest = max(greatest, select(1e9, abs(step_px(miss, one.depth)), is_there));
+        greatest = max(greatest, select(1e9, step_px(miss, one.depth), is_there));
     }
     return greatest < SLACK;
 }
