@@ -30,6 +30,7 @@ use super::viewport::Viewport;
 use super::{AppError, theme};
 use crate::document::{Creases, Document, DocumentError, History};
 use crate::gpu::GpuError;
+use crate::geometry::SeamTolerance;
 use crate::hatching::tonal_art_map::generator::Recipe;
 use crate::import::{self, ImageCache, ImportError};
 use crate::render::{GpuStripes, StripeRequest, StrokeMap, UploadedTopology};
@@ -117,6 +118,8 @@ pub struct Viewer {
     loaded: Vec<PathBuf>,
     /// The crease angle of the topology that the renderer has or is about to get.
     topology_for: Option<Creases>,
+    /// How far apart seams may have been when the models were read.
+    mended_for: SeamTolerance,
     /// Stripes of hatching that the person did not want to wait for.
     stripes_refused: Vec<StripeRequest>,
     /// Strokes that styles describe and that the person did not want to wait for.
@@ -170,6 +173,7 @@ impl Viewer {
             kept: Kept::default(),
             loaded: Vec::new(),
             topology_for: None,
+            mended_for: SeamTolerance::default(),
             stripes_refused: Vec::new(),
             strokes_refused: Vec::new(),
             images: StyleImages::default(),

@@ -57,6 +57,7 @@ impl Viewer {
     pub(super) fn answer_jobs(&mut self, context: &egui::Context) {
         self.answer_load(context);
         self.answer_dialog(context);
+        self.read_again_for_seams(context);
         self.answer_topology(context);
         self.answer_stripes(context);
         self.answer_strokes(context);
@@ -149,6 +150,9 @@ impl Viewer {
             Intent::Reload | Intent::Restore => {}
         }
         self.loaded = models;
+        if intent == Intent::Open {
+            self.mended_for = self.document.view.seam_tolerance();
+        }
         if intent != Intent::Restore {
             for path in self.loaded.iter().rev().chain(&self.kept.file) {
                 self.state.note_opened(path);
@@ -172,6 +176,18 @@ impl Viewer {
             let plural = if warnings == 1 { "" } else { "s" };
             self.notices
                 .warning(format!("Loaded with {warnings} warning{plural}; the line below lists them"));
+        }
+    }
+
+    /// Reads the models again when their seams are to be mended otherwise.
+    fn read_again_for_seams(&mut self, context: &egui::Context) {
+        let wanted = self.document.view.seam_tolerance();
+        let is_idle = self.jobs.load.is_none() && context.input(|i| !i.pointer.any_down());
+        if wanted != self.mended_for && is_idle && !self.is_asking() {
+            self.mended_for = wanted;
+            if !self.loaded.is_empty() {
+                self.start_loading(context, self.loaded.clone(), Intent::Reload);
+            }
         }
     }
 
