@@ -56,16 +56,20 @@ fn unpack_tangent(tangent: u32) -> vec2<f32> {
     return vec2(cos(angle), sin(angle));
 }
 
+fn pack_offset(offset: vec2<f32>) -> u32 {
+    let both = vec2<u32>(round((clamp(offset, vec2(-1.0), vec2(1.0)) + 1.0) * 127.0));
+    return (both.x << 8u) | both.y;
+}
+
 // x: class (4 bits), extent (2), outside (1), angle of the tangent (9), offset (2 × 8); y: object; z: depth; w: weight
 // (6), phase (10), half width (f16, its sign as in `STROKE`).
 fn pack_edge(e: Edge) -> vec4<u32> {
     let outside = select(0u, 1u, e.outside > 0.0);
-    let offset = vec2<u32>(round((clamp(e.offset, vec2(-1.0), vec2(1.0)) + 1.0) * 127.0));
     let extent = u32(clamp(e.extent, 0.0, 0.75) * 4.0);
     let phase = u32(fract(e.phase) * 1023.0 + 0.5);
     let weight = u32(clamp(e.weight, 0.0, 1.0) * 63.0 + 0.5);
     return vec4(
-        (e.class_of << 28u) | (extent << 26u) | (outside << 25u) | (e.tangent << 16u) | (offset.x << 8u) | offset.y,
+        (e.class_of << 28u) | (extent << 26u) | (outside << 25u) | (e.tangent << 16u) | pack_offset(e.offset),
         e.object,
         bitcast<u32>(e.depth),
         (weight << 26u) | (phase << 16u) | pack2x16float(vec2(e.half_width, 0.0)),

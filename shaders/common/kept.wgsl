@@ -3,3 +3,9 @@ struct Kept {
     groups: vec3<u32>,
     count: u32,
 }
+
+// The same while it is being counted.
+struct Counting {
+    groups: array<atomic<u32>, 3>,
+    count: atomic<u32>,
+}

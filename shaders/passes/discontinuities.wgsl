@@ -124,10 +124,10 @@ fn between(px: vec2<i32>, x: Surfel, own: u32, plane: Plane, towards: vec2<i32>,
     let other = plane_of(q, n.depth, n.face_normal);
     let depth = min(x.depth, n.depth);
     let gap = step_px(nearness_at(plane, half) - nearness_at(other, -half), depth);
-    // Steep surfaces may seem to touch only where they are continued.
-    let jump = step_px(abs(nearness_at(plane, vec2<f32>(towards)) - other.center), depth);
-    let back = step_px(abs(nearness_at(other, -vec2<f32>(towards)) - plane.center), depth);
-    if min(jump, back) > STEP {
+    // Steep surfaces may seem to touch only where they are continued, and may run through each other between the two.
+    let jump = step_px(nearness_at(plane, vec2<f32>(towards)) - other.center, depth);
+    let back = step_px(plane.center - nearness_at(other, -vec2<f32>(towards)), depth);
+    if jump * back > 0.0 && min(abs(jump), abs(back)) > STEP {
         if WITH_LAYERS_BEFORE && goes_on_nearer(q, own) {
             return none;
         }

@@ -12,12 +12,6 @@
 // Pixels per workgroup, as in src/render/passes/offset_field.rs.
 const GROUP: u32 = 64u;
 
-// `Kept` while it is being counted.
-struct Counting {
-    groups: array<atomic<u32>, 3>,
-    count: atomic<u32>,
-}
-
 // Twin: `FieldUniform` in src/render/passes/offset_field.rs.
 struct Field {
     // Length of a wave of lines and colours, px.

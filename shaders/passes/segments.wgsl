@@ -50,12 +50,6 @@ const GROUP: u32 = 256u;
 // Steps fill whole workgroups; this stands for none.
 const NO_STEP: u32 = 0xffffffffu;
 
-// `Kept` while it is being counted.
-struct Counting {
-    groups: array<atomic<u32>, 3>,
-    count: atomic<u32>,
-}
-
 // So far, in pixels, may a surface lie before a line that is drawn on it.
 const SLACK: f32 = 0.4;
 // How far beside the spine is looked, px: just far enough that the pixel lies wholly on that side.

@@ -128,7 +128,7 @@ impl Stage {
 }
 
 /// The projector of a square picture by a camera.
-fn projector(camera: &Camera, side: u32) -> Projector {
+pub fn projector(camera: &Camera, side: u32) -> Projector {
     Projector {
         view_from_world: camera.view_from_world(),
         lens: match camera.projection {

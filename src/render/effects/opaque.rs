@@ -23,6 +23,7 @@ use crate::render::passes::composition::ink;
 use crate::render::passes::edge_map::{EdgeInputs, EdgeMap, edge_map};
 use crate::render::passes::gbuffer::GBuffer;
 use crate::render::passes::layers::Reported;
+use crate::render::passes::line_classes::LineClasses;
 use crate::render::passes::line_distance::{Reach, Widths, line_distance};
 use crate::render::passes::lines::Lines;
 use crate::render::passes::segments::Segments;
@@ -54,6 +55,7 @@ pub struct Surfaces {
 pub struct OpaqueLayer {
     draws: Instances,
     placed_segments: Segments,
+    line_classes: LineClasses,
     greatest_radius: ArrayBuffer,
     edge_styles: ArrayBuffer,
     gbuffer: Stage<GeometryKey, GBuffer>,
@@ -115,6 +117,7 @@ impl OpaqueLayer {
         Self {
             draws: Instances::new(gpu),
             placed_segments: Segments::new(gpu),
+            line_classes: LineClasses::new(gpu),
             greatest_radius: ArrayBuffer::new(gpu, "greatest radius"),
             edge_styles: ArrayBuffer::new(gpu, "edge styles"),
             gbuffer: Stage::default(),
@@ -242,7 +245,7 @@ impl OpaqueLayer {
         };
         self.edge_map.run(key, |EdgeKey { styles, .. }| {
             self.placed_segments.write(rec, &segments.value, false)?;
-            edge_map(
+            let edges = edge_map(
                 rec,
                 &EdgeInputs {
                     gbuffer: &surfaces.gbuffer.value,
@@ -257,7 +260,9 @@ impl OpaqueLayer {
                     before: None,
                     shadow_mask: shadow_mask.map(|mask| &mask.value),
                 },
-            )
+            )?;
+            self.line_classes.settle(rec, &edges, styles, self.edge_styles.buffer())?;
+            Ok(edges)
         })
     }
 

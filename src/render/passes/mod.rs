@@ -11,6 +11,7 @@ pub mod front;
 pub mod gbuffer;
 pub mod layer_lists;
 pub mod layers;
+pub mod line_classes;
 pub mod line_distance;
 pub mod lines;
 pub mod moved_edges;
@@ -28,4 +29,5 @@ pub mod shadow;
 pub mod shadow_map;
 pub mod shadows;
 pub mod show;
+
 pub mod traversal;

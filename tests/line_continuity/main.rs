@@ -1,0 +1,148 @@
+//! One line is one line: its class is that of a stretch, and stays while the camera turns. See `runs.rs` and `orbit.rs`. All of
+//! it:
+//!
+//! ```text
+//! cargo test --release --test line_continuity -- --ignored --nocapture
+//! ```
+//!
+//! `HACHURE_LINES_ONLY=crank` limits it to one model; with `HACHURE_LINES_DIR` set to a folder, pictures are written there of the
+//! lines grey, with runs that are too short in red.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+#![allow(clippy::print_stdout, reason = "the numbers are what it is for")]
+
+mod coaxial;
+#[path = "../common/mod.rs"]
+mod common;
+mod lines;
+mod orbit;
+mod runs;
+
+use std::path::PathBuf;
+
+use common::line_drawing::line_drawing;
+use common::line_scenes::{Subject, models};
+use common::line_truth::{directions, projector};
+use common::session;
+use glam::DVec3;
+use hachure::export::Session;
+use hachure::scene::Camera;
+use image::{Rgb, RgbImage};
+use lines::Lines;
+use orbit::Changes;
+use runs::{Run, alternations};
+
+/// A pixel is a reference pixel.
+const SIDE: u32 = 1080;
+const VIEWS: u32 = 6;
+/// Orbits, with so many steps of this angle, degrees.
+const ORBITS: usize = 3;
+const STEPS: u32 = 6;
+const STEP: f64 = 0.1;
+
+/// Goals over all models, in the units of [`Row::numbers`].
+const MOST_ALTERNATIONS: f64 = 0.4;
+const MOST_STRENGTHS: f64 = 0.1;
+
+/// What was found in the pictures of a model.
+#[derive(Default)]
+struct Row {
+    /// px.
+    length: f64,
+    alternations: usize,
+    changes: Changes,
+}
+
+impl Row {
+    /// Alternations per 1000 px of line; points that change their class, and inner ink that changes, in percent.
+    fn numbers(&self) -> [f64; 3] {
+        let Changes { classes, strengths, .. } = self.changes;
+        let per_px = self.alternations as f64 / self.length.max(1.0);
+        [1000.0 * per_px, self.changes.percent(classes), self.changes.percent(strengths)]
+    }
+
+    fn line(&self) -> String {
+        self.numbers().map(|number| format!("{number:6.3}")).join("  ")
+    }
+}
+
+#[test]
+fn where_parts_touch_lines_keep_their_class() {
+    let mut session = session();
+    let scene = coaxial::flange_on_hub();
+    for z in [0.5, 1.0, 2.0, 4.0] {
+        let camera = Camera::looking_from(DVec3::new(1.0, 0.6, z), DVec3::Y, &scene.extent(), 1.0);
+        let opened = line_drawing(&scene, camera);
+        session.set_scene(&opened).unwrap();
+        let lines = Lines::draw(&mut session, &opened, 400);
+        let found = alternations(&lines, 400);
+        assert!(
+            found.is_empty(),
+            "from {z}: {} runs in {:.0} px of line: {found:?}",
+            found.len(),
+            lines.length()
+        );
+    }
+}
+
+#[test]
+#[ignore = "heavy: run by `make quality`"]
+fn lines_of_models_keep_their_class() {
+    let only = std::env::var("HACHURE_LINES_ONLY").unwrap_or_default();
+    let mut session = session();
+    println!(
+        "alternations of class per 1000 px of line; changes of class and of inner ink, % of line pixels, per {STEP}°"
+    );
+    let mut all = Row::default();
+    for subject in models().into_iter().filter(|subject| subject.name.contains(&only)) {
+        let row = measure(&mut session, &subject);
+        println!("{:<20} {}", subject.name, row.line());
+        all.length += row.length;
+        all.alternations += row.alternations;
+        all.changes = all.changes.and(row.changes);
+    }
+    println!("{:<20} {}", "all", all.line());
+    let [alternations, _, strengths] = all.numbers();
+    assert!(alternations <= MOST_ALTERNATIONS, "{alternations:.3} alternations, wanted {MOST_ALTERNATIONS}");
+    assert!(strengths <= MOST_STRENGTHS, "{strengths:.3} % change their ink, wanted {MOST_STRENGTHS}");
+}
+
+fn measure(session: &mut Session, subject: &Subject) -> Row {
+    let folder = std::env::var_os("HACHURE_LINES_DIR").map(PathBuf::from);
+    let scene = &subject.scene;
+    let mut opened = line_drawing(scene, Camera::default());
+    session.set_scene(&opened).unwrap();
+    let extent = scene.extent();
+    let up = opened.document.up(scene).vector();
+    let mut row = Row::default();
+    for (view, towards_viewer) in directions(VIEWS).enumerate() {
+        let camera = Camera::looking_from(towards_viewer, up, &extent, 1.0);
+        opened.document.camera = Some(camera);
+        let mut last = Lines::draw(session, &opened, SIDE);
+        let found = alternations(&last, SIDE);
+        row.length += last.length();
+        row.alternations += found.len();
+        if let Some(folder) = &folder {
+            let file = folder.join(format!("{} {view}.png", subject.name));
+            picture(&last, &found).save(file).unwrap();
+        }
+        let mut from = projector(&camera, SIDE);
+        for step in 1..=if view < ORBITS { STEPS } else { 0 } {
+            let camera = camera.orbited(up, f64::from(step) * STEP, 0.0);
+            opened.document.camera = Some(camera);
+            let (next, to) = (Lines::draw(session, &opened, SIDE), projector(&camera, SIDE));
+            row.changes = row.changes.and(Changes::between((&last, &from), (&next, &to)));
+            (last, from) = (next, to);
+        }
+    }
+    row
+}
+
+fn picture(lines: &Lines, runs: &[Run]) -> RgbImage {
+    let mut picture = RgbImage::from_pixel(SIDE, SIDE, Rgb([255; 3]));
+    let grey = lines.points().map(|(i, _)| (i, Rgb([190; 3])));
+    for (i, color) in grey.chain(runs.iter().flat_map(|run| &run.pixels).map(|&i| (i, Rgb([230, 0, 0])))) {
+        picture.put_pixel(i as u32 % SIDE, i as u32 / SIDE, color);
+    }
+    picture
+}

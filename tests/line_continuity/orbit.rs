@@ -1,0 +1,88 @@
+//! How lines change while the camera goes round the model in small steps: each point of a line is taken to where it lies in the
+//! next picture.
+
+use glam::DVec2;
+use hachure::geometry::Projector;
+
+use crate::lines::{Lines, Point};
+
+/// A point is found again within this, px, in a line of about its direction; with another class if none there has its own.
+const NEAR: f64 = 1.5;
+/// What crosses an inner line so near, px, may hide it in the next picture.
+const CROSSING: f64 = 4.0;
+
+/// What became of the points of a picture, as numbers of them.
+#[derive(Debug, Default, Clone, Copy)]
+pub(crate) struct Changes {
+    pub(crate) points: usize,
+    /// Found again, with another class.
+    pub(crate) classes: usize,
+    /// Of inner lines whose ink has changed by more than a quarter, where nothing is that could hide them.
+    pub(crate) strengths: usize,
+}
+
+impl Changes {
+    /// Compares two pictures, each with where it is seen from.
+    pub(crate) fn between(before: (&Lines, &Projector), after: (&Lines, &Projector)) -> Self {
+        let mut changes = Self::default();
+        let view_from_view = after.1.view_from_world * before.1.view_from_world.inverse();
+        for (_, point) in before.0.points() {
+            let seen = before.1.unproject(point.at, point.depth);
+            let at = after.1.pixel(view_from_view.transform_point3(seen));
+            let is_inside = at.min_element() > 2.0 && at.max_element() < f64::from(after.1.size[0]) - 2.0;
+            if !is_inside {
+                continue;
+            }
+            changes.points += 1;
+            let found = Found::new(after.0, point, at);
+            changes.classes += usize::from(found.has_any && !found.has_same);
+            let is_weaker = (found.weight - point.weight).abs() > 0.25;
+            if !point.class.is_profile() && is_weaker && !may_hide(before.0, point, point.at) {
+                changes.strengths += usize::from(!may_hide(after.0, point, at));
+            }
+        }
+        changes
+    }
+
+    /// With those of other pictures.
+    #[must_use]
+    pub(crate) fn and(self, other: Self) -> Self {
+        Self {
+            points: self.points + other.points,
+            classes: self.classes + other.classes,
+            strengths: self.strengths + other.strengths,
+        }
+    }
+
+    /// The share of a number of points, in percent.
+    pub(crate) fn percent(&self, of: usize) -> f64 {
+        100.0 * of as f64 / self.points.max(1) as f64
+    }
+}
+
+/// What lines there are near the place of a point: any, one of the same class, and how strong the strongest is.
+struct Found {
+    has_any: bool,
+    has_same: bool,
+    weight: f64,
+}
+
+impl Found {
+    fn new(lines: &Lines, point: &Point, at: DVec2) -> Self {
+        let mut found = Self { has_any: false, has_same: false, weight: 0.0 };
+        for (_, other) in lines.around(at, 3) {
+            if other.is_parallel(point) && other.at.distance(at) < NEAR {
+                found.has_any = true;
+                found.has_same |= other.class == point.class;
+                found.weight = found.weight.max(other.weight);
+            }
+        }
+        found
+    }
+}
+
+fn may_hide(lines: &Lines, point: &Point, at: DVec2) -> bool {
+    lines.around(at, CROSSING as i64).any(|(_, other)| {
+        other.at.distance(at) < CROSSING && (other.class.is_profile() || !other.is_parallel(point))
+    })
+}
