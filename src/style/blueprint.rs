@@ -2,7 +2,7 @@
 //! Illustrating Architecture and Technical Parts using Hardware-Accelerated Non-Photorealistic Rendering", 2004).
 
 use super::Color;
-use super::param::Params;
+use super::param::{Params, Scope};
 
 /// Parameters of the technique `blueprint`.
 ///
@@ -70,34 +70,20 @@ impl Blueprint {
     pub(super) fn params<'a>(&'a mut self, list: &mut Params<'a>) {
         list.color("near", "Near", "Colour of the nearest lines.", &mut self.near);
         list.color("far", "Far", "Colour of the farthest lines.", &mut self.far);
-        list.number(
+        list.share(
             "by_layer",
             "Fade by layer",
-            "",
-            0.0..=1.0,
-            0.0..=1.0,
             "How far lines go over to the far colour with each layer before them.",
             &mut self.by_layer,
         );
-        list.number(
+        list.share(
             "by_distance",
             "Fade by distance",
-            "",
-            0.0..=1.0,
-            0.0..=1.0,
             "How far lines go over to the far colour with the distance.",
             &mut self.by_distance,
         );
-        list.number(
-            "threshold",
-            "Threshold",
-            "",
-            0.0..=1.0,
-            0.0..=1.0,
-            "As in a wire frame, lines fainter than this, such as flat folds, are left out and all others are full; 0 leaves \
-             ink as it is.",
-            &mut self.threshold,
-        );
+        list.share("threshold", "Threshold", "As in a wire frame, lines fainter than this, such as flat folds, are left out and all others are full; 0 leaves \
+             ink as it is.", &mut self.threshold);
         list.switch(
             "repeated",
             "Repeat lines",
@@ -105,7 +91,7 @@ impl Blueprint {
             &mut self.repeated,
         );
         list.color("fill", "Fill", "Colour of the surfaces between the lines.", &mut self.fill);
-        list.number(
+        list.wide_number(
             "opacity",
             "Fill opacity",
             "",
@@ -126,7 +112,7 @@ impl Blueprint {
             "Peeling ends after so many layers.",
             &mut self.layers,
         );
-        list.number(
+        list.wide_number(
             "least",
             "Least pixels",
             "%",
@@ -135,26 +121,25 @@ impl Blueprint {
             "Peeling ends before a layer that covers a smaller share of the picture.",
             &mut self.least,
         );
-        list.number(
-            "fraction",
-            "Uncover",
-            "",
-            0.0..=1.0,
-            0.0..=1.0,
-            "Peeling ends with the layer that leaves this share of the designated objects uncovered.",
-            &mut self.fraction,
-        );
-        list.switch(
-            "beyond",
-            "Draw beyond",
-            "Draws what lies farther away than the designated objects.",
-            &mut self.beyond,
-        );
-        list.color(
-            "highlight",
-            "Highlight",
-            "Colour of designated objects of this style, which are drawn as surfaces.",
-            &mut self.highlight,
-        );
+        list.only(Scope::Masks, |list| {
+            list.share(
+                "fraction",
+                "Uncover",
+                "Peeling ends with the layer that leaves this share of the designated objects uncovered.",
+                &mut self.fraction,
+            );
+            list.switch(
+                "beyond",
+                "Draw beyond",
+                "Draws what lies farther away than the designated objects.",
+                &mut self.beyond,
+            );
+            list.color(
+                "highlight",
+                "Highlight",
+                "Colour of designated objects of this style, which are drawn as surfaces.",
+                &mut self.highlight,
+            );
+        });
     }
 }

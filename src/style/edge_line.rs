@@ -108,7 +108,7 @@ impl ClassStyle {
                 places.declare(label, help, list);
                 let threshold = &mut self.threshold;
                 match class {
-                    EdgeClass::Silhouette | EdgeClass::Border | EdgeClass::Object => list.number(
+                    EdgeClass::Silhouette | EdgeClass::Border | EdgeClass::Object => list.wide_number(
                         "threshold",
                         "Least step",
                         "px",
@@ -117,7 +117,7 @@ impl ClassStyle {
                         "Drawn only where what lies behind is at least this much farther away.",
                         threshold,
                     ),
-                    EdgeClass::Ridge | EdgeClass::Valley => list.number(
+                    EdgeClass::Ridge | EdgeClass::Valley => list.wide_number(
                         "threshold",
                         "Least angle",
                         "°",
@@ -126,7 +126,7 @@ impl ClassStyle {
                         "Flatter folds draw nothing.",
                         threshold,
                     ),
-                    EdgeClass::Intersection => list.number(
+                    EdgeClass::Intersection => list.wide_number(
                         "threshold",
                         "Least angle",
                         "°",
@@ -135,7 +135,7 @@ impl ClassStyle {
                         "Surfaces that meet at a smaller angle draw nothing.",
                         threshold,
                     ),
-                    EdgeClass::Texture => list.number(
+                    EdgeClass::Texture => list.wide_number(
                         "threshold",
                         "Least contrast",
                         "",
@@ -144,7 +144,7 @@ impl ClassStyle {
                         "Colours that differ by less draw nothing; 1 is from black to white.",
                         threshold,
                     ),
-                    EdgeClass::Relief => list.number(
+                    EdgeClass::Relief => list.wide_number(
                         "threshold",
                         "Least angle",
                         "°",
@@ -193,17 +193,9 @@ impl<'a> Places<'a> {
     pub(super) fn declare(self, label: &'static str, help: &'static str, list: &mut Params<'a>) {
         list.head("show", label, help, self.show);
         list.color("color", "Colour", "Colour of these lines.", self.color);
-        list.number(
-            "strength",
-            "Strength",
-            "",
-            0.0..=1.0,
-            0.0..=1.0,
-            "Opacity of these lines.",
-            self.strength,
-        );
+        list.share("strength", "Strength", "Opacity of these lines.", self.strength);
         list.when("edges.mode", EdgeMode::Exact, |list| {
-            list.number(
+            list.wide_number(
                 "width",
                 "Width",
                 "px",

@@ -168,24 +168,8 @@ impl Edges {
                 "Where the width of profile edges lies: half on either side, outside of the object, or on it.",
                 &mut self.alignment,
             );
-            list.number(
-                "surface_color",
-                "Surface colour",
-                "",
-                0.0..=1.0,
-                0.0..=1.0,
-                "Share of the surface's own colour in the lines; 0 leaves the colours below.",
-                &mut self.surface_color,
-            );
-            list.number(
-                "darken",
-                "Darken",
-                "",
-                0.0..=1.0,
-                0.0..=1.0,
-                "How much darker than the surface its colour is in the lines.",
-                &mut self.darken,
-            );
+            list.share("surface_color", "Surface colour", "Share of the surface's own colour in the lines; 0 leaves the colours below.", &mut self.surface_color);
+            list.share("darken", "Darken", "How much darker than the surface its colour is in the lines.", &mut self.darken);
         });
         list.section("profile", |list| self.profile.params(list));
         for (class, style) in profile_classes {
@@ -207,7 +191,7 @@ impl Edges {
 impl Dash {
     fn params<'a>(&'a mut self, list: &mut Params<'a>) {
         let (soft, hard) = (1.0..=64.0, 1.0..=512.0);
-        list.number(
+        list.wide_number(
             "length",
             "Length",
             "px",
@@ -216,14 +200,14 @@ impl Dash {
             "Length of a dash.",
             &mut self.length,
         );
-        list.number("gap", "Gap", "px", soft, hard, "Length of the gap behind a dash.", &mut self.gap);
+        list.wide_number("gap", "Gap", "px", soft, hard, "Length of the gap behind a dash.", &mut self.gap);
     }
 }
 
 impl Sobel {
     fn params<'a>(&'a mut self, list: &mut Params<'a>) {
         let number = |list: &mut Params<'a>, key, label, most, help, value: &'a mut f32| {
-            list.number(key, label, "", 0.01..=most, 0.001..=8.0, help, value);
+            list.wide_number(key, label, "", 0.01..=most, 0.001..=8.0, help, value);
         };
         list.switch(
             "silhouettes",
@@ -251,40 +235,21 @@ impl Sobel {
 
 impl Variation {
     fn params<'a>(&'a mut self, list: &mut Params<'a>) {
-        let unit = 0.0..=1.0;
-        list.number(
-            "distance",
-            "By distance",
-            "",
-            unit.clone(),
-            unit.clone(),
-            "How much thinner far lines are.",
-            &mut self.distance,
-        );
-        list.number(
-            "light",
-            "By light",
-            "",
-            unit.clone(),
-            unit,
-            "How much thinner lines are on the side that faces the light.",
-            &mut self.light,
-        );
+        list.share("distance", "By distance", "How much thinner far lines are.", &mut self.distance);
+        let help = "How much thinner lines are on the side that faces the light.";
+        list.share("light", "By light", help, &mut self.light);
     }
 }
 
 impl Pressure {
     fn params<'a>(&'a mut self, list: &mut Params<'a>) {
-        list.number(
+        list.share(
             "amount",
             "Amount",
-            "",
-            0.0..=1.0,
-            0.0..=1.0,
             "How much the width changes along a line, as under a hand.",
             &mut self.amount,
         );
-        list.number(
+        list.wide_number(
             "scale",
             "Scale",
             "px",

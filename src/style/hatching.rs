@@ -212,9 +212,6 @@ impl Default for Hatching {
 
 impl Hatching {
     pub(super) fn params<'a>(&'a mut self, list: &mut Params<'a>) {
-        let share = |list: &mut Params<'a>, key, label, help, value: &'a mut f32| {
-            list.number(key, label, "", 0.0..=1.0, 0.0..=1.0, help, value);
-        };
         list.choice(
             "mapping",
             "Mapping",
@@ -231,7 +228,7 @@ impl Hatching {
             list.choice("set", "Strokes", "What the strokes look like.", &mut self.set);
         });
         list.when("hatching.mapping", Mapping::Paper, |list| {
-            list.number(
+            list.wide_number(
                 "turn_step",
                 "Turning step",
                 "°",
@@ -248,10 +245,9 @@ impl Hatching {
             );
         });
         list.color("ink", "Ink", "Colour of the ink.", &mut self.ink);
-        share(list, "ink_tint", "Own colour in ink", "Share of the object's own colour.", &mut self.ink_tint);
+        list.share("ink_tint", "Own colour in ink", "Share of the object's own colour.", &mut self.ink_tint);
         list.color("paper", "Paper", "Colour between the ink.", &mut self.paper);
-        share(
-            list,
+        list.share(
             "paper_tint",
             "Own colour on paper",
             "How far the paper is multiplied by the object's own colour.",
@@ -272,7 +268,7 @@ impl Hatching {
 
 impl Stroke {
     fn params<'a>(&'a mut self, list: &mut Params<'a>) {
-        list.number(
+        list.wide_number(
             "spacing",
             "Spacing",
             "px",
@@ -287,7 +283,7 @@ impl Stroke {
                           label,
                           (unit, soft, hard),
                           help,
-                          value: &'a mut f32| list.number(key, label, unit, soft, hard, help, value);
+                          value: &'a mut f32| list.wide_number(key, label, unit, soft, hard, help, value);
             let share = ("", 0.02..=1.0, 0.02..=1.2);
             number(list, "thin", "Thinnest", share.clone(), "Width of a stroke that just begins, as a share of the spacing.", &mut self.thin);
             number(list, "thick", "Thickest", share, "Width where all is dark, as a share of the spacing.", &mut self.thick);
@@ -311,12 +307,9 @@ impl Layers {
     fn params<'a>(&'a mut self, list: &mut Params<'a>) {
         list.integer("count", "Directions", "", 1..=3, "How many directions cross at most.", &mut self.count);
         list.when_any("hatching.layers.count", ["2", "3"], |list| {
-            list.number(
+            list.share(
                 "second",
                 "Second from",
-                "",
-                0.0..=1.0,
-                0.0..=1.0,
                 "Darkness from which on a second direction crosses the first.",
                 &mut self.second,
             );
@@ -328,12 +321,9 @@ impl Layers {
             );
         });
         list.when_any("hatching.layers.count", ["3"], |list| {
-            list.number(
+            list.share(
                 "third",
                 "Third from",
-                "",
-                0.0..=1.0,
-                0.0..=1.0,
                 "Darkness from which on a third direction crosses both.",
                 &mut self.third,
             );
@@ -356,7 +346,6 @@ impl Shadows {
                 "Turned by",
                 "°",
                 -90.0..=90.0,
-                -90.0..=90.0,
                 "How far strokes in shadows are turned against those in the light.",
                 &mut self.turn,
             );
@@ -366,24 +355,20 @@ impl Shadows {
 
 impl Tone {
     fn params<'a>(&'a mut self, list: &mut Params<'a>) {
-        let share = |list: &mut Params<'a>, key, label, help, value: &'a mut f32| {
-            list.number(key, label, "", 0.0..=1.0, 0.0..=1.0, help, value);
-        };
         list.curve(
             "curve",
             "Tone curve",
             "From the light on a surface (left: none) to the tone that is drawn (below: ink).",
             &mut self.curve,
         );
-        share(list, "ambient", "Ambient", "Light that reaches every point, lit or not.", &mut self.ambient);
-        share(
-            list,
+        list.share("ambient", "Ambient", "Light that reaches every point, lit or not.", &mut self.ambient);
+        list.share(
             "own_color",
             "Own colour",
             "How far the object's own colour darkens: 0 draws all as if white.",
             &mut self.own_color,
         );
-        share(list, "white", "White", "Darkness that is left to the paper.", &mut self.white);
-        share(list, "darkest", "Darkest", "Greatest share of ink.", &mut self.darkest);
+        list.share("white", "White", "Darkness that is left to the paper.", &mut self.white);
+        list.share("darkest", "Darkest", "Greatest share of ink.", &mut self.darkest);
     }
 }

@@ -109,7 +109,7 @@ impl Hidden {
                     &mut self.most,
                 );
             });
-            list.number(
+            list.wide_number(
                 "least",
                 "Least pixels",
                 "%",
@@ -120,12 +120,9 @@ impl Hidden {
             );
         });
         list.when_any(MODE, [Faint, Dashed], |list| {
-            list.number(
+            list.share(
                 "strength",
                 "Strength",
-                "",
-                0.0..=1.0,
-                0.0..=1.0,
                 "Opacity of hidden lines as a share of the visible ones'.",
                 &mut self.strength,
             );
@@ -140,13 +137,12 @@ impl Hidden {
                     "Width",
                     "",
                     0.1..=1.0,
-                    0.1..=1.0,
                     "Width of hidden lines as a share of the visible ones'.",
                     &mut self.narrow,
                 );
             });
             list.when(MODE, Own, |list| {
-                list.number(
+                list.wide_number(
                     "width",
                     "Width",
                     "px",
@@ -159,7 +155,7 @@ impl Hidden {
             });
             list.when_any(MODE, [Dashed, Own], |list| {
                 let (soft, hard) = (1.0..=64.0, 1.0..=512.0);
-                list.number(
+                list.wide_number(
                     "dash",
                     "Dash",
                     "px",
@@ -168,7 +164,15 @@ impl Hidden {
                     "Length of a dash of hidden lines.",
                     &mut self.dash,
                 );
-                list.number("gap", "Gap", "px", soft, hard, "Length of the gap behind it.", &mut self.gap);
+                list.wide_number(
+                    "gap",
+                    "Gap",
+                    "px",
+                    soft,
+                    hard,
+                    "Length of the gap behind it.",
+                    &mut self.gap,
+                );
             });
         });
     }

@@ -45,11 +45,11 @@ impl From<&style::Blueprint> for BlueprintUniform {
     fn from(style: &style::Blueprint) -> Self {
         Self {
             far: style.far.to_linear(),
-            by_layer: style.by_layer.clamp(0.0, 1.0),
+            by_layer: style.by_layer,
             fill: style.fill.to_linear(),
-            opacity: style.opacity.clamp(0.0, 1.0),
-            by_distance: style.by_distance.clamp(0.0, 1.0),
-            threshold: style.threshold.clamp(0.0, 1.0),
+            opacity: style.opacity,
+            by_distance: style.by_distance,
+            threshold: style.threshold,
         }
     }
 }

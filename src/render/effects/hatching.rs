@@ -23,7 +23,6 @@ pub use self::requests::{missing, missing_strokes, stroke_image_fault};
 use self::requests::{recipe_of, request_of};
 use self::sets::{OwnMap, StrokeSets, TILE, built_in};
 pub use self::strokes::StrokeUniform;
-use self::strokes::within;
 use super::technique::{Shaded, Styled, SurfaceTechnique};
 use crate::gpu::{ArrayBuffer, Gpu, Inputs, Recorder, Target};
 use crate::render::base::error::RenderError;
@@ -194,26 +193,25 @@ fn uniform(
     scale: f32,
     place: Option<StripePlace>,
 ) -> HatchingUniform {
-    let share = |value: f32| if value.is_nan() { 0.0 } else { value.clamp(0.0, 1.0) };
     let (layers, tone) = (&style.layers, &style.tone);
-    let second = share(layers.second);
+    let second = layers.second;
     HatchingUniform {
         // Depends on the camera: see `placed`.
         local_from_view: Mat4::IDENTITY,
         ink: style.ink.to_linear(),
-        ink_tint: share(style.ink_tint),
+        ink_tint: style.ink_tint,
         paper: style.paper.to_linear(),
-        paper_tint: share(style.paper_tint),
+        paper_tint: style.paper_tint,
         stroke,
         second,
-        third: share(layers.third).max(second),
+        third: layers.third.max(second),
         greatest: if mapping == STRIPES { greatest } else { GREATEST_OF_TILES },
-        directions: layers.count.clamp(1, 3),
+        directions: layers.count,
         shadows_cross: u32::from(layers.shadows_cross),
-        ambient: share(tone.ambient),
-        own_color: share(tone.own_color),
-        white: share(tone.white),
-        darkest: share(tone.darkest),
+        ambient: tone.ambient,
+        own_color: tone.own_color,
+        white: tone.white,
+        darkest: tone.darkest,
         mapping,
         frequency: place.map_or(0.0, |place| place.cycles_per_unit),
         first_triangle: place.map_or(0, |place| place.first_triangle),
@@ -222,9 +220,9 @@ fn uniform(
         // Depend on what has been drawn.
         strokes: 0,
         strokes_in_shadow: 0,
-        turn_in_shadow: within(style.shadows.turn, -90.0, 90.0).to_radians(),
+        turn_in_shadow: style.shadows.turn.to_radians(),
         shadows_differ: u32::from(style.shadows.differ && mapping != STRIPES),
-        turn_step: if style.turn_step.is_nan() { 0.0 } else { style.turn_step.clamp(0.0, 90.0).to_radians() },
+        turn_step: style.turn_step.to_radians(),
         blends_steps: u32::from(style.blend_steps),
         towards_light: u32::from(style.direction == Direction::Light),
         indication: IndicationUniform::new(&style.indication, scale),

@@ -48,7 +48,7 @@ impl Hidden {
         if !style.is_exact() && !style.is_paper() {
             return;
         }
-        let least = hidden.least.clamp(0.0, 100.0);
+        let least = hidden.least;
         self.least = if self.styles.is_empty() { least } else { self.least.min(least) };
         self.styles.resize(count, EdgeUniform::default());
         self.depths.resize(count, 0);

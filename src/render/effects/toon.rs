@@ -47,17 +47,17 @@ const NOWHERE: f32 = 2.0;
 
 impl ToonUniform {
     fn new(toon: &Toon, first_band: u32, bands: u32) -> Self {
-        let start = toon.start.clamp(-1.0, 1.0);
+        let start = toon.start;
         // A ramp that ends where it begins is one step there.
-        let range = (toon.end.clamp(-1.0, 1.0) - start).max(1e-3);
-        let angle = toon.highlight_size.clamp(1.0, 60.0).to_radians();
+        let range = (toon.end - start).max(1e-3);
+        let angle = toon.highlight_size.to_radians();
         Self {
             rim_color: toon.rim_color.to_linear(),
-            rim: toon.rim.clamp(0.0, 1.0),
-            highlight: toon.highlight.clamp(0.0, 1.0),
+            rim: toon.rim,
+            highlight: toon.highlight,
             highlight_from: if toon.highlight > 0.0 { angle.cos() } else { NOWHERE },
-            rim_to: if toon.rim > 0.0 { toon.rim_width.clamp(0.0, 1.0) } else { -NOWHERE },
-            tint: toon.tint.clamp(0.0, 1.0),
+            rim_to: if toon.rim > 0.0 { toon.rim_width } else { -NOWHERE },
+            tint: toon.tint,
             first_band,
             bands,
             start,
