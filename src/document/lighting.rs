@@ -217,7 +217,7 @@ impl Lighting {
         list.section("light", |list| {
             list.choice(
                 "source",
-                "Lights",
+                "Light source",
                 "The rig of key, fill and rim light, or the lights of the model files.",
                 &mut self.source,
             );

@@ -202,7 +202,7 @@ impl Section {
             list.color("color", "Cap colour", "Colour of the caps.", &mut self.color);
             list.switch(
                 "lit",
-                "Shaded",
+                "Shade caps",
                 "Shade caps as their object is shaded; otherwise they have their colour as it is.",
                 &mut self.lit,
             );

@@ -197,7 +197,7 @@ impl View {
             );
             list.choice(
                 "creases",
-                "Creases by",
+                "Crease detection",
                 "Which folds are creases: those where the file's own normals part, or all that are sharp enough.",
                 &mut self.creases,
             );
@@ -229,7 +229,7 @@ impl View {
             );
             list.choice(
                 "layers",
-                "Layers by",
+                "Depth layers",
                 "How the depth layers of blueprints are made: from lists of fragments, which is faster but takes memory, or by peeling.",
                 &mut self.layers,
             );

@@ -68,8 +68,8 @@ impl Default for Blueprint {
 
 impl Blueprint {
     pub(super) fn params<'a>(&'a mut self, list: &mut Params<'a>) {
-        list.color("near", "Near", "Colour of the nearest lines.", &mut self.near);
-        list.color("far", "Far", "Colour of the farthest lines.", &mut self.far);
+        list.color("near", "Near color", "Colour of the nearest lines.", &mut self.near);
+        list.color("far", "Far color", "Colour of the farthest lines.", &mut self.far);
         list.share(
             "by_layer",
             "Fade by layer",
@@ -106,7 +106,7 @@ impl Blueprint {
         });
         list.integer(
             "layers",
-            "Most layers",
+            "Maximum layers",
             "",
             1..=64,
             "Peeling ends after so many layers.",
@@ -114,7 +114,7 @@ impl Blueprint {
         );
         list.wide_number(
             "least",
-            "Least pixels",
+            "Minimum coverage",
             "%",
             0.0..=1.0,
             0.0..=100.0,
@@ -124,13 +124,13 @@ impl Blueprint {
         list.only(Scope::Masks, |list| {
             list.share(
                 "fraction",
-                "Uncover",
+                "Uncover target",
                 "Peeling ends with the layer that leaves this share of the designated objects uncovered.",
                 &mut self.fraction,
             );
             list.switch(
                 "beyond",
-                "Draw beyond",
+                "Draw beyond target",
                 "Draws what lies farther away than the designated objects.",
                 &mut self.beyond,
             );

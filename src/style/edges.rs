@@ -169,7 +169,7 @@ impl Edges {
                 &mut self.alignment,
             );
             list.share("surface_color", "Surface colour", "Share of the surface's own colour in the lines; 0 leaves the colours below.", &mut self.surface_color);
-            list.share("darken", "Darken", "How much darker than the surface its colour is in the lines.", &mut self.darken);
+            list.share("darken", "Darken surface color", "How much darker than the surface its colour is in the lines.", &mut self.darken);
         });
         list.section("profile", |list| self.profile.params(list));
         for (class, style) in profile_classes {
@@ -217,13 +217,13 @@ impl Sobel {
         );
         list.switch("normals", "Normals", "Inner edges where normals change.", &mut self.normals);
         let help = "Gradient of normals that makes an edge; 1.4 is a fold of 20°.";
-        number(list, "normal_threshold", "Normals from", 4.0, help, &mut self.normal_threshold);
+        number(list, "normal_threshold", "Normal threshold", 4.0, help, &mut self.normal_threshold);
         list.switch("depth", "Depth", "Profile edges where depth changes.", &mut self.depth);
         let help = "Gradient of depth that makes an edge; a step through the whole range gives 4.";
-        number(list, "depth_threshold", "Depth from", 2.0, help, &mut self.depth_threshold);
+        number(list, "depth_threshold", "Depth threshold", 2.0, help, &mut self.depth_threshold);
         list.switch("color", "Colour", "Inner edges where the object's own colour changes.", &mut self.color);
         let help = "Gradient of brightness that makes an edge; a step from black to white gives 4.";
-        number(list, "color_threshold", "Colour from", 2.0, help, &mut self.color_threshold);
+        number(list, "color_threshold", "Color threshold", 2.0, help, &mut self.color_threshold);
         list.switch(
             "sum",
             "Cheap gradient",

@@ -76,18 +76,18 @@ impl Gooch {
         list.color("warm", "Warm", "Yellow of the side that faces the light.", &mut self.warm);
         list.share(
             "alpha",
-            "Base in cool",
+            "Cool base color",
             "Share of the object's own colour on the cool side.",
             &mut self.alpha,
         );
         list.share(
             "beta",
-            "Base in warm",
+            "Warm base color",
             "Share of the object's own colour on the warm side.",
             &mut self.beta,
         );
-        list.share("own_hue", "Own hue", "How far blue and yellow are multiplied by the object's own colour: dark and saturated ones keep their hue.", &mut self.own_hue);
-        list.share("aside", "Light aside", "How far the key is turned to the side: at 1 it shines across the line of sight and sets faces apart.", &mut self.aside);
+        list.share("own_hue", "Keep hue", "How far blue and yellow are multiplied by the object's own colour: dark and saturated ones keep their hue.", &mut self.own_hue);
+        list.share("aside", "Light from the side", "How far the key is turned to the side: at 1 it shines across the line of sight and sets faces apart.", &mut self.aside);
         list.share(
             "highlight",
             "Highlight",
@@ -111,7 +111,7 @@ impl Gooch {
         );
         list.choice(
             "metal_axis",
-            "Milled around",
+            "Stripe axis",
             "The object's axis around which the stripes lie, that of each of its rounded forms, or the vertical of the view.",
             &mut self.metal_axis,
         );

@@ -167,18 +167,23 @@ impl Halftone {
             &mut self.smoothness,
         );
         list.color("ink", "Ink", "Colour of the ink.", &mut self.ink);
-        list.share("ink_tint", "Own colour in ink", "Share of the object's own colour.", &mut self.ink_tint);
+        list.share(
+            "ink_tint",
+            "Object color in ink",
+            "Share of the object's own colour.",
+            &mut self.ink_tint,
+        );
         list.color("paper", "Paper", "Colour between the ink.", &mut self.paper);
         list.share(
             "paper_tint",
-            "Own colour on paper",
+            "Object color on paper",
             "How far the paper is multiplied by the object's own colour.",
             &mut self.paper_tint,
         );
         list.share("ambient", "Ambient", "Light that reaches every point, lit or not.", &mut self.ambient);
         list.share(
             "own_tone",
-            "Own tone",
+            "Object tone",
             "How far the object's own colour darkens: 0 draws all as if white.",
             &mut self.own_tone,
         );

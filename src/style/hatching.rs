@@ -239,17 +239,22 @@ impl Hatching {
             );
             list.switch(
                 "blend_steps",
-                "Blend steps",
+                "Blend turning steps",
                 "Strokes of the two nearest steps are blended, so that none is cut off.",
                 &mut self.blend_steps,
             );
         });
         list.color("ink", "Ink", "Colour of the ink.", &mut self.ink);
-        list.share("ink_tint", "Own colour in ink", "Share of the object's own colour.", &mut self.ink_tint);
+        list.share(
+            "ink_tint",
+            "Object color in ink",
+            "Share of the object's own colour.",
+            &mut self.ink_tint,
+        );
         list.color("paper", "Paper", "Colour between the ink.", &mut self.paper);
         list.share(
             "paper_tint",
-            "Own colour on paper",
+            "Object color on paper",
             "How far the paper is multiplied by the object's own colour.",
             &mut self.paper_tint,
         );
@@ -285,19 +290,19 @@ impl Stroke {
                           help,
                           value: &'a mut f32| list.wide_number(key, label, unit, soft, hard, help, value);
             let share = ("", 0.02..=1.0, 0.02..=1.2);
-            number(list, "thin", "Thinnest", share.clone(), "Width of a stroke that just begins, as a share of the spacing.", &mut self.thin);
-            number(list, "thick", "Thickest", share, "Width where all is dark, as a share of the spacing.", &mut self.thick);
+            number(list, "thin", "Minimum width", share.clone(), "Width of a stroke that just begins, as a share of the spacing.", &mut self.thin);
+            number(list, "thick", "Maximum width", share, "Width where all is dark, as a share of the spacing.", &mut self.thick);
             let length = ("px", 10.0..=300.0, 5.0..=1000.0);
             number(list, "length", "Length", length, "Least length of strokes; up to twice as much.", &mut self.length);
             let taper = ("px", 0.0..=40.0, 0.0..=100.0);
-            number(list, "taper", "Pointed ends", taper, "Length of the ends that run out; 0: strokes go on and on.", &mut self.taper);
+            number(list, "taper", "Taper length", taper, "Length of the ends that run out; 0: strokes go on and on.", &mut self.taper);
             let gap = ("px", 0.0..=8.0, 0.0..=20.0);
             number(list, "gap", "Gap", gap, "Half of the gap between the ends of two strokes.", &mut self.gap);
             let unit = ("", 0.0..=1.0, 0.0..=1.0);
-            number(list, "spread", "One by one", unit.clone(), "0: all strokes get wider where it is dark, as an engraver's; 1: more and more come, as of a pen.", &mut self.spread);
-            number(list, "chance", "Chance", unit.clone(), "How much chance decides which strokes come first.", &mut self.chance);
-            number(list, "pointed", "Ends come late", ("", 0.0..=2.0, 0.0..=2.0), "How much darker it must be for the ends of a stroke than for its middle.", &mut self.pointed);
-            number(list, "inserted", "Insertion", unit.clone(), "How much darker it must be for lines that are inserted between others.", &mut self.inserted);
+            number(list, "spread", "Tone by count", unit.clone(), "0: all strokes get wider where it is dark, as an engraver's; 1: more and more come, as of a pen.", &mut self.spread);
+            number(list, "chance", "Randomness", unit.clone(), "How much chance decides which strokes come first.", &mut self.chance);
+            number(list, "pointed", "End delay", ("", 0.0..=2.0, 0.0..=2.0), "How much darker it must be for the ends of a stroke than for its middle.", &mut self.pointed);
+            number(list, "inserted", "Insertion delay", unit.clone(), "How much darker it must be for lines that are inserted between others.", &mut self.inserted);
             number(list, "variation", "Variation", unit, "How much widths vary from stroke to stroke.", &mut self.variation);
         });
     }
@@ -309,13 +314,13 @@ impl Layers {
         list.when_any("hatching.layers.count", ["2", "3"], |list| {
             list.share(
                 "second",
-                "Second from",
+                "Second direction from",
                 "Darkness from which on a second direction crosses the first.",
                 &mut self.second,
             );
             list.switch(
                 "shadows_cross",
-                "Shadows cross",
+                "Cross in shadows",
                 "Strokes of the form run on through cast shadows, which others make.",
                 &mut self.shadows_cross,
             );
@@ -323,7 +328,7 @@ impl Layers {
         list.when_any("hatching.layers.count", ["3"], |list| {
             list.share(
                 "third",
-                "Third from",
+                "Third direction from",
                 "Darkness from which on a third direction crosses both.",
                 &mut self.third,
             );
@@ -364,11 +369,11 @@ impl Tone {
         list.share("ambient", "Ambient", "Light that reaches every point, lit or not.", &mut self.ambient);
         list.share(
             "own_color",
-            "Own colour",
+            "Object color",
             "How far the object's own colour darkens: 0 draws all as if white.",
             &mut self.own_color,
         );
-        list.share("white", "White", "Darkness that is left to the paper.", &mut self.white);
-        list.share("darkest", "Darkest", "Greatest share of ink.", &mut self.darkest);
+        list.share("white", "White point", "Darkness that is left to the paper.", &mut self.white);
+        list.share("darkest", "Darkest tone", "Greatest share of ink.", &mut self.darkest);
     }
 }

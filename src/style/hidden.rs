@@ -102,7 +102,7 @@ impl Hidden {
             list.when("edges.hidden.layers", HiddenLayers::All, |list| {
                 list.integer(
                     "most",
-                    "Most layers",
+                    "Maximum layers",
                     "",
                     1..=63,
                     "So many layers behind the visible one have lines.",
@@ -111,7 +111,7 @@ impl Hidden {
             });
             list.wide_number(
                 "least",
-                "Least pixels",
+                "Minimum coverage",
                 "%",
                 0.0..=1.0,
                 0.0..=100.0,

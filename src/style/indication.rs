@@ -105,7 +105,7 @@ impl Indication {
         );
         list.choice(
             "by",
-            "Detail by",
+            "Indication by",
             "Where strokes stay: by the distance to the nearest line, or by the fields of the hatching paper.",
             &mut self.by,
         );

@@ -58,7 +58,7 @@ impl Matcap {
             );
         });
         let own_color = "How far the sphere is multiplied by the object's own colour.";
-        list.share("own_color", "Own colour", own_color, &mut self.own_color);
+        list.share("own_color", "Object color", own_color, &mut self.own_color);
         list.share("shadow", "Shadow", "How dark cast shadows are.", &mut self.shadow);
     }
 }

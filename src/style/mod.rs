@@ -211,12 +211,12 @@ pub enum StyleError {
     },
     /// No preset and no file has this name.
     #[error(
-        "unknown style `{name}`{} `hachure styles` lists the presets; the path of a .toml file works too",
+        "unknown style `{id}`{} `hachure styles` lists the presets; the path of a .toml file works too",
         sentence(nearest)
     )]
     UnknownPreset {
         /// As written.
-        name: String,
+        id: String,
         /// The most similar preset.
         nearest: Option<String>,
     },

@@ -351,7 +351,7 @@ impl Wander {
         );
         list.choice(
             "anchor",
-            "Follows",
+            "Anchored to",
             "What the wandering follows: the picture (it swims), or what of the surface controls it.",
             &mut self.anchor,
         );
@@ -371,7 +371,7 @@ impl Wander {
             list.share("detail", "Detail", "Share of a wave a quarter as long.", &mut self.detail);
             list.switch(
                 "by_object",
-                "By object",
+                "Vary by object",
                 "Each object wanders by itself, so that equal ones differ.",
                 &mut self.by_object,
             );
@@ -384,7 +384,7 @@ impl Wander {
             list.when("sketch.exterior", Exterior::Enlarged, |list| {
                 list.wide_number(
                     "enlarge",
-                    "Enlarged by",
+                    "Enlargement",
                     "px",
                     0.0..=32.0,
                     0.0..=64.0,
@@ -421,7 +421,7 @@ impl Wander {
 fn wave_param<'a>(list: &mut Params<'a>, wave: &'a mut f32) {
     list.wide_number(
         "wave",
-        "Wave",
+        "Wavelength",
         "px",
         40.0..=400.0,
         8.0..=1000.0,
@@ -558,7 +558,14 @@ impl Strokes {
             &mut self.enabled,
         );
         list.when("sketch.strokes.enabled", "true", |list| {
-            list.integer("times", "Times", "", 1..=4, "How often each edge is drawn.", &mut self.times);
+            list.integer(
+                "times",
+                "Strokes per edge",
+                "",
+                1..=4,
+                "How often each edge is drawn.",
+                &mut self.times,
+            );
             list.wide_number(
                 "overshoot",
                 "Overshoot",
@@ -570,7 +577,7 @@ impl Strokes {
             );
             list.wide_number(
                 "shift",
-                "Ends off by",
+                "End displacement",
                 "px",
                 0.0..=6.0,
                 0.0..=16.0,

@@ -134,13 +134,13 @@ impl Toon {
         list.choice("border", "Borders", "How borders between bands are smoothed.", &mut self.border);
         list.share(
             "tint",
-            "Own colour",
+            "Object color",
             "How far the bands are multiplied by the object's own colour; 0 leaves them as they are.",
             &mut self.tint,
         );
         list.number(
             "start",
-            "Ramp from",
+            "Ramp start",
             "",
             -1.0..=1.0,
             "Where the bands begin: -1 faces away from the light, 0 is lit from the side, 1 faces it.",
@@ -148,7 +148,7 @@ impl Toon {
         );
         list.number(
             "end",
-            "Ramp to",
+            "Ramp end",
             "",
             -1.0..=1.0,
             "Where the bands end: less makes the lightest one larger.",

@@ -186,7 +186,7 @@ impl Outliner {
         // Few objects are mirrors or designated: the others have the switches only where somebody looks.
         let looked_at = ui.rect_contains_pointer(rect);
         let mut left_of_switches = edges_at.left();
-        let switches = [(Role::Mirror, Icon::Mirror, "Mirror"), (Role::Mask, Icon::Mask, "Uncover")];
+        let switches = [(Role::Mirror, Icon::Mirror, "Mirror"), (Role::Mask, Icon::Mask, "Uncover target")];
         for (i, (role, icon, label)) in switches.into_iter().enumerate() {
             let has = roles.has(role);
             let can_be = role != Role::Mirror || !scene.is_added(row.node);
@@ -292,9 +292,9 @@ fn truncated(ui: &Ui, rect: Rect, text: &str, color: egui::Color32) {
     ui.painter().galley(pos2(rect.left(), rect.center().y - galley.size().y * 0.5), galley, color);
 }
 
-/// The name of a style: that of an equal preset, or `own`.
+/// The name of a style: that of an equal preset, or `Own`.
 pub fn style_name<'a>(style: &Style, presets: &'a [Preset]) -> &'a str {
-    presets.iter().find(|p| p.style == *style).map_or("own", |p| p.name.as_str())
+    presets.iter().find(|p| p.style == *style).map_or("Own", |p| p.name.as_str())
 }
 
 fn style_chip(
@@ -307,7 +307,7 @@ fn style_chip(
     targets: &[NodeId],
     editing: &mut Editing<'_>,
 ) {
-    let text = own.map_or("inherit", |style| style_name(style, editing.presets));
+    let text = own.map_or("Inherit", |style| style_name(style, editing.presets));
     let mut child = ui.new_child(
         egui::UiBuilder::new()
             .max_rect(rect)
@@ -337,11 +337,7 @@ fn style_chip(
             ui.separator();
             for preset in editing.presets {
                 let is_it = own.is_some_and(|style| *style == preset.style);
-                if ui
-                    .selectable_label(is_it, super::row::label_of(&preset.name))
-                    .on_hover_text(&preset.description)
-                    .clicked()
-                {
+                if ui.selectable_label(is_it, &preset.name).on_hover_text(&preset.description).clicked() {
                     editing.document.set_style(scene, targets, &preset.style);
                     ui.close();
                 }

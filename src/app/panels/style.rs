@@ -6,7 +6,7 @@ use eframe::egui::{RichText, Ui};
 use super::outliner::{inherit, style_name};
 use super::params::params_ui;
 use super::peeling::peeling_ui;
-use super::row::{Change, label_of, named_row};
+use super::row::{Change, named_row};
 use super::{Choosing, Editing};
 use crate::document::Document;
 use crate::scene::{Node, NodeId, Scene};
@@ -95,16 +95,14 @@ fn preset_ui(ui: &mut Ui, editing: &Editing<'_>, style: &Style) -> Option<Style>
     let help = "A named style; choosing one replaces all parameters below";
     named_row(ui, "Preset", help, |ui, label| {
         let current = style_name(style, editing.presets);
-        let text = if current == "own" { "Own".to_owned() } else { label_of(current) };
         let combo = egui::ComboBox::from_id_salt("preset")
             .width(ui.available_width())
             .height(PRESETS_HEIGHT)
-            .selected_text(text)
+            .selected_text(current)
             .show_ui(ui, |ui| {
                 for preset in editing.presets {
-                    let name = label_of(&preset.name);
                     if ui
-                        .selectable_label(preset.name == current, name)
+                        .selectable_label(preset.name == current, &preset.name)
                         .on_hover_text(&preset.description)
                         .clicked()
                     {
