@@ -115,6 +115,7 @@ impl Halftone {
         self.image.as_deref().filter(|_| self.texture == Texture::Image)
     }
 
+    // Long, as it is a list: one entry per parameter.
     pub(super) fn params<'a>(&'a mut self, list: &mut Params<'a>) {
         list.choice("texture", "Texture", "What the ink looks like.", &mut self.texture);
         list.when("halftone.texture", Texture::Image, |list| {

@@ -88,6 +88,7 @@ impl Hidden {
         }
     }
 
+    // Long, as it is a list: one entry per parameter.
     pub(super) fn params<'a>(&'a mut self, list: &mut Params<'a>) {
         use HiddenMode::{Dashed, Faint, Own};
         const MODE: &str = "edges.hidden.mode";

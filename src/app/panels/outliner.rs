@@ -146,17 +146,7 @@ impl Outliner {
         let left = rect.left() + 4.0 + 12.0 * row.depth.min(12) as f32;
         if node.descendants > 0 && self.filter.trim().is_empty() {
             let at = Rect::from_center_size(pos2(left + 5.0, rect.center().y), vec2(14.0, height));
-            let fold = ui.interact(at, id.with("fold"), Sense::click());
-            let open = self.unfolded.contains(&row.node);
-            fold.widget_info(|| {
-                let what = if open { "Fold" } else { "Unfold" };
-                egui::WidgetInfo::labeled(egui::Role::Button, true, format!("{what} {}", node.name))
-            });
-            let color = ui.visuals().text_color().gamma_multiply(if fold.hovered() { 1.0 } else { 0.6 });
-            icons::fold(ui.painter(), at.center(), open, color);
-            if fold.clicked() && !self.unfolded.remove(&row.node) {
-                self.unfolded.insert(row.node);
-            }
+            self.fold_ui(ui, at, id.with("fold"), (row.node, &node.name));
         }
 
         let square = |index: f32| {
@@ -199,15 +189,9 @@ impl Outliner {
             let switch = icons::toggle(ui, at, id.with(icon), icon, has, !visible, &label);
             let fault =
                 (role == Role::Mirror && switch.hovered()).then(|| mirror_fault(scene, row.node)).flatten();
-            let help = match (&fault, role) {
-                (Some(fault), _) => format!("Cannot be a mirror: {fault}"),
-                (None, Role::Mirror) if has => "Make this mirror an object like any other".to_owned(),
-                (None, Role::Mirror) if node.mesh.is_none() => {
-                    "Make each flat object below a mirror".to_owned()
-                }
-                (None, Role::Mirror) => "Make this flat object a mirror".to_owned(),
-                (None, Role::Mask) if has => "Let blueprints hide this object again".to_owned(),
-                (None, Role::Mask) => "Peel blueprints until this object is uncovered".to_owned(),
+            let help = match &fault {
+                Some(fault) => format!("Cannot be a mirror: {fault}"),
+                None => role_help(role, has, node.mesh.is_some()).to_owned(),
             };
             if switch.on_hover_text(help).clicked() && (fault.is_none() || has) {
                 editing.document.set_role(scene, &targets, role, !has);
@@ -220,9 +204,9 @@ impl Outliner {
             set_enhanced(editing.document, scene, &targets, !roles.enhanced);
         }
 
-        let chip = Rect::from_min_max(
-            pos2(left_of_switches - STYLE_WIDTH - 2.0, rect.top()),
-            pos2(left_of_switches - 2.0, rect.bottom()),
+        let chip = Rect::from_x_y_ranges(
+            left_of_switches - STYLE_WIDTH - 2.0..=left_of_switches - 2.0,
+            rect.y_range(),
         );
         // What is inherited is said only where somebody looks; elsewhere its place belongs to the name.
         style_chip(ui, looked_at, chip, own.style.as_ref(), roles.style, &node.name, &targets, editing);
@@ -237,19 +221,37 @@ impl Outliner {
         };
         truncated(ui, text_rect, &node.name, color);
 
-        let clicked = response.clicked();
-        if clicked {
-            let modifiers = ui.input(|i| i.modifiers);
+        self.row_clicked(&response, row, rows, editing);
+        response.on_hover_ui(|ui| {
+            let scene = &editing.model.scene;
+            let triangles = editing.model.triangle_count(scene.subtree(row.node));
+            ui.label(&node.path);
+            ui.weak(format!("{} triangles", super::status::grouped(triangles)));
+        });
+    }
+
+    fn row_clicked(&mut self, response: &egui::Response, row: &Row, rows: &[Row], editing: &mut Editing<'_>) {
+        if response.clicked() {
+            let modifiers = response.ctx.input(|i| i.modifiers);
             self.select(row.node, modifiers, rows, editing);
         }
         if response.double_clicked() {
             editing.commands.push(super::Command::FrameSelected);
         }
-        response.on_hover_ui(|ui| {
-            let triangles = editing.model.triangle_count(scene.subtree(row.node));
-            ui.label(&node.path);
-            ui.weak(format!("{} triangles", super::status::grouped(triangles)));
+    }
+
+    fn fold_ui(&mut self, ui: &Ui, at: Rect, id: egui::Id, (node, name): (NodeId, &str)) {
+        let fold = ui.interact(at, id, Sense::click());
+        let open = self.unfolded.contains(&node);
+        fold.widget_info(|| {
+            let what = if open { "Fold" } else { "Unfold" };
+            egui::WidgetInfo::labeled(egui::Role::Button, true, format!("{what} {name}"))
         });
+        let color = ui.visuals().text_color().gamma_multiply(if fold.hovered() { 1.0 } else { 0.6 });
+        icons::fold(ui.painter(), at.center(), open, color);
+        if fold.clicked() && !self.unfolded.remove(&node) {
+            self.unfolded.insert(node);
+        }
     }
 
     fn select(&mut self, node: NodeId, modifiers: egui::Modifiers, rows: &[Row], editing: &mut Editing<'_>) {
@@ -290,6 +292,17 @@ fn truncated(ui: &Ui, rect: Rect, text: &str, color: egui::Color32) {
     job.wrap = egui::text::TextWrapping::truncate_at_width(rect.width());
     let galley = ui.painter().layout_job(job);
     ui.painter().galley(pos2(rect.left(), rect.center().y - galley.size().y * 0.5), galley, color);
+}
+
+/// What a click on the switch of a role does.
+fn role_help(role: Role, has: bool, has_mesh: bool) -> &'static str {
+    match (role, has) {
+        (Role::Mirror, true) => "Make this mirror an object like any other",
+        (Role::Mirror, false) if !has_mesh => "Make each flat object below a mirror",
+        (Role::Mirror, false) => "Make this flat object a mirror",
+        (Role::Mask, true) => "Let blueprints hide this object again",
+        (Role::Mask, false) => "Peel blueprints until this object is uncovered",
+    }
 }
 
 /// The name of a style: that of an equal preset, or `Own`.
