@@ -147,7 +147,7 @@ impl HiddenLines {
             let wanted = Wanted {
                 most: bands.last().map_or(0, |band| band.last) + 1,
                 least: least_pixels(hidden.least, rec.size()),
-                mask: None,
+                uncover: None,
                 by: None,
                 with_color: any(EdgeUniform::reads_color),
                 with_normals: any(EdgeUniform::reads_normals),
