@@ -301,7 +301,9 @@ fn the_limit_of_layers_is_lifted_until_enough_is_uncovered() {
         set(&mut all, "blueprint.layers", "2");
         let limited = draw(&mut session, &all);
         assert_eq!(limited.ended, PeelingEnd::MaskUncovered);
-        assert!(limited.layers > 2 && limited.layers == unlimited.layers && limited.pixels == unlimited.pixels);
+        assert!(
+            limited.layers > 2 && limited.layers == unlimited.layers && limited.pixels == unlimited.pixels
+        );
         assert_eq!(limited.shortfall(), None);
         // Where nothing of it is in the picture there is nothing to lift it for, in the first picture and in the next.
         Arc::make_mut(&mut all.scene).nodes[0].world_from_local =
