@@ -334,8 +334,7 @@ fn how_far_blueprints_were_peeled_and_what_that_uncovered_is_printed() {
     let designated = ["--style", "blueprint", "--mask", "rod*", "--set"];
     let masked = |setting: &str| {
         blueprints(
-            &[&designated[..], &[setting, "--set", "blueprint.least=0", "--set", "blueprint.layers=64"]]
-                .concat(),
+            &[&designated[..], &[setting, "--set", "blueprint.least=0"]].concat(),
         )
     };
     let (all, warnings) = masked("blueprint.fraction=1");
@@ -355,7 +354,7 @@ fn how_far_blueprints_were_peeled_and_what_that_uncovered_is_printed() {
         folder.path(),
         "x.png",
         &crank,
-        &[&designated[..], &["blueprint.fraction=1", "--set", "blueprint.layers=1"]].concat(),
+        &[&designated[..], &["blueprint.fraction=1", "--set", "blueprint.to=1"]].concat(),
     );
     let text = String::from_utf8_lossy(&result.stderr);
     assert!(

@@ -292,19 +292,43 @@ fn what_opaque_objects_hide_of_the_mask_is_counted_and_told() {
 }
 
 #[test]
+fn the_limit_of_layers_is_lifted_until_enough_is_uncovered() {
+    let mut session = session();
+    for scene in [behind_sheets(), among_rings()] {
+        let mut all = scene;
+        set(&mut all, "blueprint.fraction", "1");
+        let unlimited = draw(&mut session, &all);
+        set(&mut all, "blueprint.layers", "2");
+        let limited = draw(&mut session, &all);
+        assert_eq!(limited.ended, PeelingEnd::MaskUncovered);
+        assert!(
+            limited.layers > 2 && limited.layers == unlimited.layers && limited.pixels == unlimited.pixels
+        );
+        assert_eq!(limited.shortfall(), None);
+        // Where nothing of it is in the picture there is nothing to lift it for, in the first picture and in the next.
+        Arc::make_mut(&mut all.scene).nodes[0].world_from_local =
+            DMat4::from_translation(DVec3::new(90.0, 0.0, -1.0));
+        for _ in 0..2 {
+            let outside = draw(&mut session, &all);
+            assert_eq!((outside.masked, outside.layers, outside.ended), (0, 2, PeelingEnd::MostLayers));
+        }
+    }
+}
+
+#[test]
 fn what_cannot_be_uncovered_is_told() {
     let mut session = session();
     let mut scene = behind_sheets();
     set(&mut scene, "blueprint.fraction", "1");
-    set(&mut scene, "blueprint.layers", "2");
+    set(&mut scene, "blueprint.to", "2");
     let peeled = draw(&mut session, &scene);
     assert_eq!((peeled.layers, peeled.ended), (2, PeelingEnd::MostLayers));
     let told = peeled.shortfall().unwrap();
-    assert!(told.contains("after 2 layers, not 100 %") && told.contains("blueprint.layers"), "{told}");
+    assert!(told.contains("after 2 layers, not 100 %") && told.contains("blueprint.to"), "{told}");
     assert!(peeled.share_uncovered() > 0.0 && peeled.share_uncovered() < 0.9);
 
     // No layer has so many pixels: not even the first one is drawn, and R is that of the layer which ended it.
-    set(&mut scene, "blueprint.layers", "64");
+    set(&mut scene, "blueprint.to", "64");
     set(&mut scene, "blueprint.least", "90");
     let peeled = draw(&mut session, &scene);
     assert_eq!((peeled.layers, peeled.ended), (0, PeelingEnd::TooFewPixels));

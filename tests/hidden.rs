@@ -300,6 +300,30 @@ fn faint_ones_are_paler_and_narrower_and_dashed_ones_have_dashes() {
 }
 
 #[test]
+fn hidden_lines_that_run_over_each_other_are_no_stronger() {
+    let mut session = session();
+    let sheet = |name, side: f32, turn: f64, z: f64| {
+        object(name, primitives::plane(side), at(0.0, 0.0, z) * DMat4::from_rotation_z(turn))
+    };
+    let sheets = vec![sheet("front", 2.2, 0.0, 0.5), sheet("a", 1.2, 0.0, 0.2), sheet("b", 1.2, 0.8, 0.0)];
+    let mut opened = red_hidden(&scene(sheets), DVec3::Z);
+    for (key, value) in [
+        ("edges.profile.width", "60"),
+        ("edges.hidden.mode", "faint"),
+        ("edges.hidden.strength", "0.5"),
+        ("edges.hidden.narrow", "0.4"),
+    ] {
+        set(&mut opened, key, value);
+    }
+    let image = image(&mut session, &opened, 128);
+    let inside = || (32..96).flat_map(|y| (32..96).map(move |x| (x, y)));
+    let values: Vec<u8> = inside().map(|(x, y)| image.get_pixel(x, y).0[0]).collect();
+    let (darkest, count) = (values.iter().min().unwrap(), values.iter().filter(|v| **v < 200).count());
+    // Black of which half is left, in sRGB.
+    assert!(count > 300 && (186..=190).contains(darkest), "{count} pixels, the darkest {darkest}");
+}
+
+#[test]
 fn mirrors_show_them() {
     let mut session = session();
     let turn = DMat4::from_quat(DQuat::from_rotation_y(0.5) * DQuat::from_rotation_x(0.4));

@@ -138,16 +138,27 @@ fn line_at(at: vec2<f32>, g: Surfel, found: u32) -> Line {
     return Line(vec4(color, 1.0) * coverage, edge.depth, false, strength, d, to_source);
 }
 
+// The line that has been found for a pixel, or without looking its own one.
+fn line_of(px: vec2<i32>) -> u32 {
+    let found = textureLoad(farthest_tex, px, 0).x;
+    if NARROW {
+        let own = vec2<u32>(px);
+        return select(0u, ((own.y << 16u) | own.x) + 1u, found != 0u);
+    }
+    return found;
+}
+
 // A hidden line may have won against one that is not: of the lines of the pixels around, the one that covers most.
 fn line_around(at: vec2<f32>, g: Surfel, hidden: u32) -> Line {
     let px = vec2<i32>(floor(at));
     let last = vec2<i32>(frame.size) - 1;
     var best = no_line();
     var tried = hidden;
-    for (var reach = 2; reach <= 16; reach *= 2) {
+    let farthest = select(16, select(1, 2, NARROW_BY_TWO), NARROW);
+    for (var reach = 1; reach <= farthest; reach *= 2) {
         for (var i = 0; i < 9; i++) {
             let q = clamp(px + reach * (vec2(i % 3, i / 3) - 1), vec2(0), last);
-            let found = textureLoad(farthest_tex, q, 0).x;
+            let found = line_of(q);
             if found != tried && found != hidden {
                 let line = line_at(at, g, found);
                 if line.ink.a > best.ink.a {
@@ -286,7 +297,7 @@ fn lines_at_place(at: vec2<f32>, g: Surfel) -> Line {
     if WITH_EXACT {
         let farthest = farthest_at(px);
         lines = line_at(at, g, farthest);
-        if !NARROW && lines.is_hidden {
+        if lines.is_hidden {
             lines = line_around(at, g, farthest);
         }
         if WITH_WIDTHS {

@@ -226,6 +226,11 @@ fn goes_on_under(spine: Spine, own: u32) -> bool {
     return greatest < SLACK;
 }
 
+// Whether another object lies so far before a line there that it hides its ink.
+fn is_covered(there: Beside, own: u32) -> bool {
+    return there.surfel.object != own && there.lead > 2.0;
+}
+
 // The point of a segment's line next to the centre of a pixel.
 struct Spine {
     // px.
@@ -345,14 +350,17 @@ fn point_at(v: Segment, number: u32, px: vec2<f32>) -> SegmentPoint {
         select(weight, 0.0, is_hidden),
     );
     // Where segments share a pixel the widest wins, for it would hide the others; profile edges before inner ones; then
-    // the nearest; last the object's number, so that the order of drawing does not decide.
+    // the nearest, so roughly that lines at one place are told apart by the object's number: which one wins does not change
+    // along them. A line that goes on behind a nearer object leaves the pixel to its outline.
+    let ends_here = is_covered(left, own) || is_covered(right, own);
     let is_profile = is_of_profile(class_of);
     let rank = f32(u32(min(full_width * 4.0, 126.0))) + select(0.0, 0.5, is_profile);
     let clip = frame.clip_from_view * vec4(0.0, 0.0, -depth, 1.0);
-    let nearest = bitcast<f32>((bitcast<u32>(clip.z / clip.w) & ~63u) | (own & 63u));
+    let nearest = bitcast<f32>((bitcast<u32>(clip.z / clip.w) & ~0xfffu) | ((own & 63u) << 6u));
     // Of strokes the same time of drawing counts everywhere, so that none tears another one along it.
     let first = select(nearest, mix(nearest, hand.precedence, 0.5), WITH_STROKES);
-    let order = select(rank + 1.0 + 0.499 * first, 0.5 * nearest, is_hidden) / 128.0;
+    let drawn = select(rank + 1.0 + 0.499 * first, 0.5 + 0.499 * first, ends_here);
+    let order = select(drawn, 0.5 * nearest, is_hidden) / 128.0;
     var texel = pack_edge(edge);
     texel.w |= select(0u, STROKE, hand.is_stroke);
     let is_rim = class_of <= OBJECT;

@@ -32,7 +32,7 @@ pub struct Blueprint {
     pub from: u32,
     /// The last layer that is drawn, 1 to 64.
     pub to: u32,
-    /// Most layers that are peeled, 1 to 64.
+    /// Most layers that are peeled, 1 to 64, where nothing is to be uncovered.
     pub layers: u32,
     /// Peeling ends before a layer with fewer pixels; percent of the picture's, 0 to 100.
     pub least: f32,
@@ -109,7 +109,7 @@ impl Blueprint {
             "Maximum layers",
             "",
             1..=64,
-            "Peeling ends after so many layers.",
+            "Peeling ends after so many layers, but goes on while designated objects have to be uncovered.",
             &mut self.layers,
         );
         list.wide_number(

@@ -71,6 +71,13 @@ const PAPER: u32 = 2;
 const C1: u32 = DepthOperator::C1 as u32;
 const SOBEL: u32 = DepthOperator::Sobel as u32;
 
+/// The width of a line, px of a picture with this many pixels per reference pixel. Where the picture is so small that lines
+/// would fade away they keep some ink, in proportion to each other.
+fn width_in_px(width: f32, scale: f32) -> f32 {
+    let width = width.clamp(0.25, 64.0);
+    (width * scale).max((0.25 * width).min(0.75))
+}
+
 impl EdgeUniform {
     /// The parameters of an object in a picture with this many pixels per reference pixel.
     pub fn new(edges: &Edges, scale: f32) -> Self {
@@ -83,7 +90,7 @@ impl EdgeUniform {
             LineUniform {
                 color: line.color.to_linear(),
                 strength: if line.show { line.strength } else { 0.0 },
-                width: line.width * scale,
+                width: width_in_px(line.width, scale),
                 threshold: match class {
                     EdgeClass::Silhouette | EdgeClass::Border | EdgeClass::Object => line.threshold * scale,
                     EdgeClass::Texture => line.threshold,
@@ -149,7 +156,7 @@ impl EdgeUniform {
             }
             if hidden.mode == HiddenMode::Own {
                 line.color = hidden.color.to_linear();
-                line.width = hidden.width * scale;
+                line.width = width_in_px(hidden.width, scale);
                 line.dashed = u32::from(hidden.dashed);
             } else {
                 line.strength *= hidden.strength;

@@ -3,7 +3,7 @@
 
 use encase::{ShaderType, StorageBuffer};
 
-use super::designated::DepthMask;
+use super::designated::{DepthMask, Uncover};
 use super::gbuffer::{GBuffer, SORT_KEYS};
 use super::peeled::{Peeled, PeelingEnd};
 use crate::gpu::{Gpu, Inputs, Program, Recorder, Target, inputs, readback};
@@ -110,8 +110,10 @@ pub struct CountedUniform {
     pub uncovered: u32,
     /// A layer that leaves this share of the depth mask uncovered, 0 to 1, ends it once it has been drawn.
     pub fraction: f32,
-    /// 1: such a layer has ended it.
-    pub has_uncovered: u32,
+    /// So many layers end it where no depth mask is in the picture.
+    pub most: u32,
+    /// What has ended it: 0: too few pixels, 1: the depth mask is uncovered, 2: `most`.
+    pub ended_by: u32,
     /// Pixels of the depth mask, the paper's Q; 0: nothing designated is in the picture.
     pub masked: u32,
     /// Those of them that opaque surfaces hide, which no peeling uncovers.
@@ -126,7 +128,7 @@ pub struct CountedUniform {
 
 impl CountedUniform {
     /// Nothing yet.
-    fn begun(least: u32, fraction: f32) -> Self {
+    fn begun(least: u32, uncover: Option<Uncover<'_>>) -> Self {
         let none = [0; MOST_LAYERS as usize];
         Self {
             least,
@@ -134,8 +136,9 @@ impl CountedUniform {
             layers: 0,
             covered: 0,
             uncovered: 0,
-            fraction: fraction.clamp(0.0, 1.0),
-            has_uncovered: 0,
+            fraction: uncover.map_or(1.0, |uncover| uncover.fraction.clamp(0.0, 1.0)),
+            most: uncover.map_or(MOST_LAYERS, |uncover| uncover.most_without),
+            ended_by: 0,
             masked: 0,
             hidden: 0,
             fragments: [0; COUNTERS],
@@ -155,7 +158,8 @@ impl CountedUniform {
             covered: next(),
             uncovered: next(),
             fraction: f32::from_bits(next()),
-            has_uncovered: next(),
+            most: next(),
+            ended_by: next(),
             masked: next(),
             hidden: next(),
             fragments: std::array::from_fn(|_| next()),
@@ -174,10 +178,10 @@ impl CountedUniform {
     fn peeled(&self) -> Peeled {
         Peeled {
             layers: self.layers,
-            ended: match (self.has_ended, self.has_uncovered) {
-                (0, _) => PeelingEnd::MostLayers,
-                (_, 0) => PeelingEnd::TooFewPixels,
-                _ => PeelingEnd::MaskUncovered,
+            ended: match (self.has_ended, self.ended_by) {
+                (1, 0) => PeelingEnd::TooFewPixels,
+                (1, 1) => PeelingEnd::MaskUncovered,
+                _ => PeelingEnd::MostLayers,
             },
             fraction: self.fraction,
             masked: self.masked,
@@ -222,10 +226,10 @@ impl PeelCount {
         &self.buffer
     }
 
-    /// Begins anew, for what is submitted next; it ends before a layer of fewer than `least` pixels, and with one that
-    /// leaves `fraction` of the depth mask uncovered.
-    pub fn begin(&self, gpu: &Gpu, least: u32, fraction: f32) {
-        let begun = CountedUniform::begun(least, fraction);
+    /// Begins anew, for what is submitted next; it ends before a layer of fewer than `least` pixels, and where `uncover`
+    /// says.
+    pub fn begin(&self, gpu: &Gpu, least: u32, uncover: Option<Uncover<'_>>) {
+        let begun = CountedUniform::begun(least, uncover);
         let mut bytes = StorageBuffer::new(Vec::new());
         // Writing into a growing vector cannot fail.
         if bytes.write(&begun).is_ok() {
@@ -260,7 +264,12 @@ impl PeelCount {
         };
         let groups = [width.div_ceil(GROUP), height.div_ceil(GROUP)];
         rec.compute("count", &program, &self.counted(layer, mask), groups)?;
-        self.decide(rec, "cs_decide", layer, mask)
+        let program = Program {
+            file: "passes/count.wgsl",
+            entry_point: "cs_decide",
+            switches: vec![("WITH_MASK", mask.is_some())],
+        };
+        self.decide(rec, &program, layer, mask)
     }
 
     /// After a layer has been drawn: shuts the recorder's gate if it left so much of the mask uncovered as is asked for.
@@ -273,7 +282,7 @@ impl PeelCount {
         layer: &Layer,
         mask: &DepthMask,
     ) -> Result<(), RenderError> {
-        self.decide(rec, "cs_uncovered", layer, Some(mask))
+        self.decide(rec, &Program::new("passes/count.wgsl", "cs_uncovered"), layer, Some(mask))
     }
 
     /// What `passes/count.wgsl` reads of a layer.
@@ -289,7 +298,7 @@ impl PeelCount {
     fn decide(
         &self,
         rec: &mut Recorder<'_>,
-        entry_point: &'static str,
+        program: &Program,
         layer: &Layer,
         mask: Option<&DepthMask>,
     ) -> Result<(), RenderError> {
@@ -297,7 +306,7 @@ impl PeelCount {
         let Some(gate) = rec.gate.take() else { return Ok(()) };
         let gated = inputs! { gate: gate.buffer(), mask: mask.map(|mask| &mask.count) };
         let inputs = self.counted(layer, mask).and(&gated);
-        let decided = rec.compute("go on", &Program::new("passes/count.wgsl", entry_point), &inputs, [1, 1]);
+        let decided = rec.compute("go on", program, &inputs, [1, 1]);
         rec.gate = Some(gate);
         Ok(decided?)
     }
