@@ -14,6 +14,8 @@ pub struct Edges {
     pub mode: EdgeMode,
     /// Where the width of profile edges lies; inner edges are centred. Exact mode.
     pub alignment: Alignment,
+    /// Shorter pieces of lines that nothing continues are left out, in reference pixels, 0 (none) to 32. Exact mode.
+    pub shortest: f32,
     /// The operator that finds depth discontinuities. Paper mode.
     pub operator: DepthOperator,
     /// What Sobel operators look at. Paper mode.
@@ -107,6 +109,7 @@ impl Default for Edges {
         Self {
             mode: EdgeMode::default(),
             alignment: Alignment::default(),
+            shortest: 4.0,
             operator: DepthOperator::default(),
             sobel: Sobel::default(),
             profile: EdgeGroup::default(),
@@ -167,6 +170,15 @@ impl Edges {
                 "Alignment",
                 "Where the width of profile edges lies: half on either side, outside of the object, or on it.",
                 &mut self.alignment,
+            );
+            list.number(
+                "shortest",
+                "Shortest piece",
+                "px",
+                0.0..=12.0,
+                0.0..=32.0,
+                "Shorter pieces of lines that nothing continues are left out; 0 draws all.",
+                &mut self.shortest,
             );
             list.number(
                 "surface_color",

@@ -63,6 +63,8 @@ pub struct EdgeUniform {
     color_gradient: f32,
     /// 1: the gradient is the sum of both changes.
     sums_changes: u32,
+    /// Shorter pieces of lines that nothing continues are left out, px of the picture.
+    pub shortest: f32,
 }
 
 // As in `shaders/common/edge_style.wgsl`.
@@ -123,6 +125,7 @@ impl EdgeUniform {
             depth_gradient: threshold(edges.sobel.depth && profile.show, edges.sobel.depth_threshold),
             color_gradient: threshold(edges.sobel.color && inner.show, edges.sobel.color_threshold),
             sums_changes: u32::from(edges.sobel.sum),
+            shortest: edges.shortest.clamp(0.0, 32.0) * scale,
         }
     }
 
