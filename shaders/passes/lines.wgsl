@@ -206,6 +206,45 @@ fn found_nearby(px: vec2<i32>) -> u32 {
     return best.found;
 }
 
+// A line that runs beside the one that was found, and how much of its width that leaves of it.
+struct Beside {
+    found: u32,
+    share: f32,
+}
+
+// So far apart, px, are spines at least that are not of one line, and so far along it at most is looked.
+const APART: f32 = 0.9;
+const ALONG: f32 = 1.0;
+// Cosine of the angle up to which lines run side by side.
+const PARALLEL: f32 = 0.97;
+
+// Where several thin lines run through a pixel, each covers its share: their sum is an even grey, the nearest one alone is not.
+fn found_beside(px: vec2<i32>, found: u32) -> Beside {
+    let first_px = vec2<i32>(vec2((found - 1u) & 0xffffu, (found - 1u) >> 16u));
+    let first = unpack_edge(textureLoad(edge_map_tex, first_px));
+    let tangent = unpack_tangent(first.tangent);
+    let left = vec2(tangent.y, -tangent.x);
+    let spine = vec2<f32>(first_px) + first.offset;
+    var spines = nine_at(farthest_tex, px);
+    var best = Nearby(0u, 0.0);
+    var gap = 0.0;
+    for (var i = 0; i < 9; i++) {
+        let away = vec2(i % 3, i / 3) - 1;
+        let offset = vec2(f32((spines[i] >> 8u) & 255u), f32(spines[i] & 255u)) / 127.0 - 1.0;
+        let d = vec2<f32>(px + away) + offset - spine;
+        let next = nearer_of(best, spines[i], px, away);
+        if next.found != best.found && abs(dot(d, left)) > APART && abs(dot(d, tangent)) < ALONG {
+            best = next;
+            gap = abs(dot(d, left));
+        }
+    }
+    let second_px = vec2<i32>(vec2((max(best.found, 1u) - 1u) & 0xffffu, (max(best.found, 1u) - 1u) >> 16u));
+    let second = unpack_edge(textureLoad(edge_map_tex, second_px));
+    let is_parallel = abs(dot(unpack_tangent(second.tangent), tangent)) > PARALLEL;
+    let width = first.half_width + second.half_width;
+    return Beside(select(0u, best.found, is_parallel), clamp(gap / max(width, 1e-6), 0.0, 1.0));
+}
+
 fn farthest_at(px: vec2<i32>) -> u32 {
     if NARROW {
         return found_nearby(px);
@@ -299,6 +338,11 @@ fn lines_at_place(at: vec2<f32>, g: Surfel) -> Line {
         lines = line_at(at, g, farthest);
         if lines.is_hidden {
             lines = line_around(at, g, farthest);
+        }
+        if NARROW && !NARROW_BY_TWO && !MOVED && farthest != 0u {
+            let beside = found_beside(px, farthest);
+            let other = line_at(at, g, beside.found);
+            lines.ink += other.ink * min(beside.share, (1.0 - lines.ink.a) / max(other.ink.a, 1e-6));
         }
         if WITH_WIDTHS {
             // A thin line inside a wide one is the nearer one.

@@ -14,6 +14,8 @@ pub struct Edges {
     pub mode: EdgeMode,
     /// Where the width of profile edges lies; inner edges are centred. Exact mode.
     pub alignment: Alignment,
+    /// Shorter pieces of lines that nothing continues are left out, in reference pixels, 0 (none) to 32. Exact mode.
+    pub shortest: f32,
     /// The operator that finds depth discontinuities. Paper mode.
     pub operator: DepthOperator,
     /// What Sobel operators look at. Paper mode.
@@ -107,6 +109,7 @@ impl Default for Edges {
         Self {
             mode: EdgeMode::default(),
             alignment: Alignment::default(),
+            shortest: 4.0,
             operator: DepthOperator::default(),
             sobel: Sobel::default(),
             profile: EdgeGroup::default(),
@@ -168,8 +171,19 @@ impl Edges {
                 "Where the width of profile edges lies: half on either side, outside of the object, or on it.",
                 &mut self.alignment,
             );
-            list.share("surface_color", "Surface colour", "Share of the surface's own colour in the lines; 0 leaves the colours below.", &mut self.surface_color);
-            list.share("darken", "Darken surface color", "How much darker than the surface its colour is in the lines.", &mut self.darken);
+            list.wide_number(
+                "shortest",
+                "Minimum length",
+                "px",
+                0.0..=12.0,
+                0.0..=32.0,
+                "Shorter pieces of lines that nothing continues are left out; 0 draws all.",
+                &mut self.shortest,
+            );
+            let help = "Share of the surface's own colour in the lines; 0 leaves the colours below.";
+            list.share("surface_color", "Surface colour", help, &mut self.surface_color);
+            let help = "How much darker than the surface its colour is in the lines.";
+            list.share("darken", "Darken surface color", help, &mut self.darken);
         });
         list.section("profile", |list| self.profile.params(list));
         for (class, style) in profile_classes {

@@ -63,6 +63,8 @@ pub struct EdgeUniform {
     color_gradient: f32,
     /// 1: the gradient is the sum of both changes.
     sums_changes: u32,
+    /// Shorter pieces of lines that nothing continues are left out, px of the picture.
+    pub shortest: f32,
 }
 
 // As in `shaders/common/edge_style.wgsl`.
@@ -74,7 +76,6 @@ const SOBEL: u32 = DepthOperator::Sobel as u32;
 /// The width of a line, px of a picture with this many pixels per reference pixel. Where the picture is so small that lines
 /// would fade away they keep some ink, in proportion to each other.
 fn width_in_px(width: f32, scale: f32) -> f32 {
-    let width = width.clamp(0.25, 64.0);
     (width * scale).max((0.25 * width).min(0.75))
 }
 
@@ -130,6 +131,7 @@ impl EdgeUniform {
             depth_gradient: threshold(edges.sobel.depth && profile.show, edges.sobel.depth_threshold),
             color_gradient: threshold(edges.sobel.color && inner.show, edges.sobel.color_threshold),
             sums_changes: u32::from(edges.sobel.sum),
+            shortest: edges.shortest.clamp(0.0, 32.0) * scale,
         }
     }
 

@@ -20,6 +20,7 @@ use crate::render::base::stage::{Output, Stage};
 use crate::render::base::strokes::StrokeStyle;
 use crate::render::effects::technique::Shaded;
 use crate::render::passes::composition::ink;
+use crate::render::passes::dots::without_dots;
 use crate::render::passes::edge_map::{EdgeInputs, EdgeMap, edge_map};
 use crate::render::passes::gbuffer::GBuffer;
 use crate::render::passes::layers::Reported;
@@ -242,7 +243,7 @@ impl OpaqueLayer {
         };
         self.edge_map.run(key, |EdgeKey { styles, .. }| {
             self.placed_segments.write(rec, &segments.value, false)?;
-            edge_map(
+            let edges = edge_map(
                 rec,
                 &EdgeInputs {
                     gbuffer: &surfaces.gbuffer.value,
@@ -257,7 +258,8 @@ impl OpaqueLayer {
                     before: None,
                     shadow_mask: shadow_mask.map(|mask| &mask.value),
                 },
-            )
+            )?;
+            without_dots(rec, edges, &surfaces.gbuffer.value, styles, self.edge_styles.buffer())
         })
     }
 
