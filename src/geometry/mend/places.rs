@@ -3,6 +3,7 @@
 use glam::{DVec3, Vec3};
 
 use super::borders::Borders;
+use super::limits::Limits;
 
 /// Of more cuts, an edge gets no further ones.
 const MOST_CUTS: usize = 4096;
@@ -55,25 +56,31 @@ pub(super) struct Places {
     /// The cuts of each border edge, as places.
     cuts_of: Vec<Vec<u32>>,
     point_count: usize,
-    /// The largest diagonal of a group's box.
-    widest: f32,
+    /// How far each group may be moved: half of the largest diagonal of its box.
+    reach: Vec<f32>,
     /// The least distance of two cuts of an edge.
     spacing: f64,
 }
 
 impl Places {
-    pub(super) fn new(positions: &[Vec3], border_count: usize, widest: f64, spacing: f64) -> Self {
+    pub(super) fn new(positions: &[Vec3], borders: &Borders, limits: &Limits) -> Self {
         let count = positions.len();
+        let mut reach = vec![0.0_f32; count];
+        for border in &borders.list {
+            for point in border.ends {
+                reach[point as usize] = limits.reach(border) as f32;
+            }
+        }
         Self {
             parent: (0..count as u32).collect(),
             next: (0..count as u32).collect(),
             size: vec![1; count],
             boxes: positions.iter().map(|&p| [p; 2]).collect(),
             cuts: Vec::new(),
-            cuts_of: vec![Vec::new(); border_count],
+            cuts_of: vec![Vec::new(); borders.list.len()],
             point_count: count,
-            widest: widest as f32,
-            spacing,
+            reach,
+            spacing: limits.spacing,
         }
     }
 
@@ -106,9 +113,9 @@ impl Places {
         (self.size[group as usize] > 1).then(|| low.midpoint(high).as_vec3())
     }
 
-    /// How far a place may be moved.
-    pub(super) fn reach(&self) -> f32 {
-        0.5 * self.widest * (1.0 + 1e-5)
+    /// How far the places of a group may be moved.
+    pub(super) fn reach(&self, group: u32) -> f32 {
+        self.reach[group as usize] * (1.0 + 1e-5)
     }
 
     /// All members of a group, given one of them.
@@ -143,6 +150,7 @@ impl Places {
                 self.next.pop();
                 self.size.pop();
                 self.boxes.pop();
+                self.reach.pop();
             }
         }
         false
@@ -178,6 +186,7 @@ impl Places {
         self.next.push(number);
         self.size.push(1);
         self.boxes.push([borders.get(border).at(share).as_vec3(); 2]);
+        self.reach.push(self.reach[borders.get(border).ends[0] as usize]);
         self.cuts.push(Cut { border, share });
         self.cuts_of[border as usize].push(number);
         Some(number)
@@ -192,7 +201,8 @@ impl Places {
         let (small, large) = if self.size[a as usize] < self.size[b as usize] { (a, b) } else { (b, a) };
         let [[low_a, high_a], [low_b, high_b]] = [a, b].map(|g| self.boxes[g as usize]);
         let united = [low_a.min(low_b), high_a.max(high_b)];
-        if united[0].distance(united[1]) > self.widest * (1.0 + 1e-5)
+        let reach = self.reach[a as usize].min(self.reach[b as usize]);
+        if united[0].distance(united[1]) > 2.0 * reach * (1.0 + 1e-5)
             || self.members(small).any(|member| self.has_neighbour_in(borders, member, large))
         {
             return false;
@@ -200,6 +210,7 @@ impl Places {
         self.parent[small as usize] = large;
         self.size[large as usize] += self.size[small as usize];
         self.boxes[large as usize] = united;
+        self.reach[large as usize] = reach;
         self.next.swap(small as usize, large as usize);
         true
     }

@@ -27,7 +27,7 @@ impl Fit {
         if a.len() * b.len() > MOST_COMPARISONS || have_common_triangle(a, b) {
             return None;
         }
-        let widest = limits.widest().min(WIDTH_TO_CHORD * extent(a).min(extent(b)));
+        let widest = widest(a, b, limits).min(WIDTH_TO_CHORD * extent(a).min(extent(b)));
         let of = |from: &Side<'_>, to: &Side<'_>| {
             let nearest = from.points.iter().zip(&from.along);
             let nearest = nearest.map(|(&point, &along)| {
@@ -127,7 +127,7 @@ impl Fit {
         let apart = (from_a.along - b.along[j]).abs().max((from_b.along - a.along[i]).abs());
         let shortest = a.shortest_at(i).min(b.shortest_at(j));
         limits.is_same_place(apart, from_a.gap.max(from_b.gap), shortest)
-            && a.points[i].distance(b.points[j]) <= limits.widest()
+            && a.points[i].distance(b.points[j]) <= widest(a, b, limits)
     }
 }
 
@@ -145,6 +145,11 @@ fn spread(values: &mut [f64], low: f64, high: f64, spacing: f64) {
         *value = value.min(most - spacing);
         most = *value;
     }
+}
+
+/// How far two sides may be apart. Each is the border of one body.
+fn widest(a: &Side<'_>, b: &Side<'_>, limits: &Limits) -> f64 {
+    limits.widest(a.edge(0), b.edge(0))
 }
 
 fn have_common_triangle(a: &Side<'_>, b: &Side<'_>) -> bool {
