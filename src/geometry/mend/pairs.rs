@@ -26,7 +26,7 @@ pub(super) fn pairs(borders: &Borders, limits: &Limits) -> Vec<u32> {
 /// What joining two edges of which both ends nearly coincide takes.
 pub(super) fn ties(a: &Border, b: &Border) -> [Tie; 2] {
     let ends = facing_ends(a, b);
-    [0, 1].map(|k| Tie { sides: [Place::Point(a.ends[k]), Place::Point(ends[k])] })
+    [0, 1].map(|k| Tie::new([Place::Point(a.ends[k]), Place::Point(ends[k])]))
 }
 
 /// The ends of `b` in the order in which `a` meets them.

@@ -17,13 +17,28 @@ pub(super) enum Place {
     On { border: u32, share: f64 },
 }
 
+/// A place on the straight line between two others.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct OnLine {
+    pub(super) ends: [Place; 2],
+    /// Share of the way from the first to the second.
+    pub(super) share: f64,
+}
+
 /// Two places that are to become one.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Tie {
     pub(super) sides: [Place; 2],
+    /// Where they meet if the seam is straight; else in the middle.
+    pub(super) on_line: Option<OnLine>,
 }
 
 impl Tie {
+    /// They meet in the middle.
+    pub(super) fn new(sides: [Place; 2]) -> Self {
+        Self { sides, on_line: None }
+    }
+
     /// Whether no edge needs to be cut.
     pub(super) fn is_between_vertices(&self) -> bool {
         self.sides.iter().all(|side| match side {
@@ -60,6 +75,8 @@ pub(super) struct Places {
     reach: Vec<f32>,
     /// The least distance of two cuts of an edge.
     spacing: f64,
+    /// The places that are on straight seams.
+    on_lines: Vec<(u32, OnLine)>,
 }
 
 impl Places {
@@ -81,6 +98,7 @@ impl Places {
             point_count: count,
             reach,
             spacing: limits.spacing,
+            on_lines: Vec::new(),
         }
     }
 
@@ -128,8 +146,43 @@ impl Places {
         })
     }
 
+    /// Where each group goes: `None` for those of one place.
+    pub(super) fn targets(&self, borders: &Borders, positions: &[Vec3]) -> Vec<Option<Vec3>> {
+        let mut targets: Vec<Option<Vec3>> = (0..self.count() as u32).map(|group| self.middle(group)).collect();
+        for &(place, OnLine { ends, share }) in &self.on_lines {
+            let ends = ends.map(|end| self.settle(borders, end));
+            let [Some(from), Some(to)] = ends.map(|end| {
+                let end = end?;
+                let target = targets[self.group(end) as usize];
+                Some(target.map_or_else(|| self.position(borders, end, positions), |target| target.as_dvec3()))
+            }) else {
+                continue;
+            };
+            let (group, target) = (self.group(place), from.lerp(to, share).as_vec3());
+            let is_near = |member| {
+                let position = self.position(borders, member, positions).as_vec3();
+                position.distance(target) <= self.reach(group)
+            };
+            if self.members(group).all(is_near) {
+                targets[group as usize] = Some(target);
+            }
+        }
+        targets
+    }
+
     /// Makes one group of the groups of two places, unless it became too large, or two places of one edge became one.
     pub(super) fn tie(&mut self, borders: &Borders, tie: Tie) -> bool {
+        let is_tied = self.tie_sides(borders, &tie);
+        if is_tied
+            && let Some(on_line) = tie.on_line
+            && let Some(place) = self.settle(borders, tie.sides[0])
+        {
+            self.on_lines.push((place, on_line));
+        }
+        is_tied
+    }
+
+    fn tie_sides(&mut self, borders: &Borders, tie: &Tie) -> bool {
         let [a, b] = tie.sides.map(|side| self.settle(borders, side));
         if let (Some(a), Some(b)) = (a, b) {
             return self.unite(borders, a, b);

@@ -67,8 +67,7 @@ struct Settling<'a> {
 
 impl<'a> Settling<'a> {
     fn new(mesh: &'a Mesh, borders: &'a Borders, draft: &'a Draft, places: &'a Places) -> Self {
-        let targets: Vec<Option<Vec3>> =
-            (0..places.count() as u32).map(|group| places.middle(group)).collect();
+        let targets = places.targets(borders, &mesh.positions);
         let groups: Vec<u32> = draft.places.iter().map(|&place| places.group(place)).collect();
         let is_moved = |&v: &u32| targets[groups[v as usize] as usize].is_some();
         let triangles = draft.triangles.iter().enumerate();
