@@ -19,7 +19,7 @@ const ERRORS: f32 = 2.0;
 /// A triangle that errors turn by less than this (radians) is believed.
 const BELIEVED: f32 = 0.3;
 /// Of so many triangles the normals are averaged if none of them is believed. More would lead around creases.
-const MOST_TRIANGLES: usize = 4;
+const MOST_TRIANGLES: usize = 8;
 /// What one pass has made smaller shows the next one the way.
 const PASSES: usize = 2;
 
@@ -103,10 +103,11 @@ impl Sides<'_> {
         [area, if longest > 0.0 { area / longest } else { 0.0 }]
     }
 
-    /// How far errors can turn a triangle, in radians.
+    /// How far errors can turn a triangle, in radians: one that is narrower than they are, in any direction.
     fn tilt(&self, face: u32) -> f32 {
         let [_, height] = self.area_and_height(face);
-        (ERRORS * self.mesh.position_error).atan2(height)
+        let error = ERRORS * self.mesh.position_error;
+        if error < height { (error / height).asin() } else { std::f32::consts::PI }
     }
 
     /// The normal on a triangle's side of an edge.

@@ -67,8 +67,7 @@ struct Settling<'a> {
 
 impl<'a> Settling<'a> {
     fn new(mesh: &'a Mesh, borders: &'a Borders, draft: &'a Draft, places: &'a Places) -> Self {
-        let targets: Vec<Option<Vec3>> =
-            (0..places.count() as u32).map(|group| places.middle(group)).collect();
+        let targets = places.targets(borders, &mesh.positions);
         let groups: Vec<u32> = draft.places.iter().map(|&place| places.group(place)).collect();
         let is_moved = |&v: &u32| targets[groups[v as usize] as usize].is_some();
         let triangles = draft.triangles.iter().enumerate();
@@ -98,7 +97,9 @@ impl<'a> Settling<'a> {
         let [a, b, c] = self.mesh.corners(source);
         let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
         let height = (b - a).cross(c - a).length() / longest;
-        height < NEEDLE * self.places.reach() && height < SLENDER * longest
+        let groups = self.draft.triangles[triangle].map(|v| self.groups[v as usize]);
+        let reach = groups.map(|group| self.places.reach(group)).into_iter().fold(0.0, f32::max);
+        height < NEEDLE * reach && height < SLENDER * longest
     }
 
     fn turned_triangles(&self) -> Vec<usize> {
@@ -145,7 +146,7 @@ impl<'a> Settling<'a> {
     /// Where a group could go: its middle, and as far towards each member as that is not too far from any other.
     fn alternatives(&self, group: u32) -> Vec<Vec3> {
         let Some(middle) = self.places.middle(group) else { return Vec::new() };
-        let reach = self.places.reach();
+        let reach = self.places.reach(group);
         let members: Vec<Vec3> = self.places.members(group).map(|place| self.before(place)).collect();
         let towards = members.iter().flat_map(|m| [0.0, 0.25, 0.5, 0.75].map(|share| m.lerp(middle, share)));
         let is_near = |p: &Vec3| members.iter().all(|m| m.distance(*p) <= reach);
