@@ -131,7 +131,7 @@ impl EdgeUniform {
             depth_gradient: threshold(edges.sobel.depth && profile.show, edges.sobel.depth_threshold),
             color_gradient: threshold(edges.sobel.color && inner.show, edges.sobel.color_threshold),
             sums_changes: u32::from(edges.sobel.sum),
-            shortest: edges.shortest.clamp(0.0, 32.0) * scale,
+            shortest: edges.shortest * scale,
         }
     }
 
