@@ -197,7 +197,7 @@ impl View {
             );
             list.choice(
                 "creases",
-                "Crease detection",
+                "Creases from",
                 "Which folds are creases: those where the file's own normals part, or all that are sharp enough.",
                 &mut self.creases,
             );

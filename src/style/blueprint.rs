@@ -72,13 +72,13 @@ impl Blueprint {
         list.color("far", "Far color", "Colour of the farthest lines.", &mut self.far);
         list.share(
             "by_layer",
-            "Fade by layer",
+            "Layer fade",
             "How far lines go over to the far colour with each layer before them.",
             &mut self.by_layer,
         );
         list.share(
             "by_distance",
-            "Fade by distance",
+            "Distance fade",
             "How far lines go over to the far colour with the distance.",
             &mut self.by_distance,
         );
@@ -106,7 +106,7 @@ impl Blueprint {
         });
         list.integer(
             "layers",
-            "Maximum layers",
+            "Max. layers",
             "",
             1..=64,
             "Peeling ends after so many layers, but goes on while designated objects have to be uncovered.",
@@ -114,7 +114,7 @@ impl Blueprint {
         );
         list.wide_number(
             "least",
-            "Minimum coverage",
+            "Min. coverage",
             "%",
             0.0..=1.0,
             0.0..=100.0,
@@ -130,7 +130,7 @@ impl Blueprint {
             );
             list.switch(
                 "beyond",
-                "Draw beyond target",
+                "Draw beyond",
                 "Draws what lies farther away than the designated objects.",
                 &mut self.beyond,
             );

@@ -110,7 +110,7 @@ impl ClassStyle {
                 match class {
                     EdgeClass::Silhouette | EdgeClass::Border | EdgeClass::Object => list.wide_number(
                         "threshold",
-                        "Minimum depth step",
+                        "Min. depth step",
                         "px",
                         0.0..=100.0,
                         0.0..=1000.0,
@@ -119,7 +119,7 @@ impl ClassStyle {
                     ),
                     EdgeClass::Ridge | EdgeClass::Valley => list.wide_number(
                         "threshold",
-                        "Minimum angle",
+                        "Min. angle",
                         "°",
                         0.0..=90.0,
                         0.0..=180.0,
@@ -128,7 +128,7 @@ impl ClassStyle {
                     ),
                     EdgeClass::Intersection => list.wide_number(
                         "threshold",
-                        "Minimum angle",
+                        "Min. angle",
                         "°",
                         0.0..=90.0,
                         0.0..=180.0,
@@ -137,7 +137,7 @@ impl ClassStyle {
                     ),
                     EdgeClass::Texture => list.wide_number(
                         "threshold",
-                        "Minimum contrast",
+                        "Min. contrast",
                         "",
                         0.0..=0.5,
                         0.0..=1.0,
@@ -146,7 +146,7 @@ impl ClassStyle {
                     ),
                     EdgeClass::Relief => list.wide_number(
                         "threshold",
-                        "Minimum angle",
+                        "Min. angle",
                         "°",
                         0.0..=90.0,
                         0.0..=180.0,

@@ -173,7 +173,7 @@ impl Edges {
             );
             list.wide_number(
                 "shortest",
-                "Minimum length",
+                "Min. length",
                 "px",
                 0.0..=12.0,
                 0.0..=32.0,
@@ -183,7 +183,7 @@ impl Edges {
             let help = "Share of the surface's own colour in the lines; 0 leaves the colours below.";
             list.share("surface_color", "Surface colour", help, &mut self.surface_color);
             let help = "How much darker than the surface its colour is in the lines.";
-            list.share("darken", "Darken surface color", help, &mut self.darken);
+            list.share("darken", "Darken color", help, &mut self.darken);
         });
         list.section("profile", |list| self.profile.params(list));
         for (class, style) in profile_classes {
@@ -231,13 +231,13 @@ impl Sobel {
         );
         list.switch("normals", "Normals", "Inner edges where normals change.", &mut self.normals);
         let help = "Gradient of normals that makes an edge; 1.4 is a fold of 20°.";
-        number(list, "normal_threshold", "Normal threshold", 4.0, help, &mut self.normal_threshold);
+        number(list, "normal_threshold", "Normals above", 4.0, help, &mut self.normal_threshold);
         list.switch("depth", "Depth", "Profile edges where depth changes.", &mut self.depth);
         let help = "Gradient of depth that makes an edge; a step through the whole range gives 4.";
-        number(list, "depth_threshold", "Depth threshold", 2.0, help, &mut self.depth_threshold);
+        number(list, "depth_threshold", "Depth above", 2.0, help, &mut self.depth_threshold);
         list.switch("color", "Colour", "Inner edges where the object's own colour changes.", &mut self.color);
         let help = "Gradient of brightness that makes an edge; a step from black to white gives 4.";
-        number(list, "color_threshold", "Color threshold", 2.0, help, &mut self.color_threshold);
+        number(list, "color_threshold", "Color above", 2.0, help, &mut self.color_threshold);
         list.switch(
             "sum",
             "Cheap gradient",

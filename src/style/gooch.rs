@@ -87,7 +87,7 @@ impl Gooch {
             &mut self.beta,
         );
         list.share("own_hue", "Keep hue", "How far blue and yellow are multiplied by the object's own colour: dark and saturated ones keep their hue.", &mut self.own_hue);
-        list.share("aside", "Light from the side", "How far the key is turned to the side: at 1 it shines across the line of sight and sets faces apart.", &mut self.aside);
+        list.share("aside", "Side light", "How far the key is turned to the side: at 1 it shines across the line of sight and sets faces apart.", &mut self.aside);
         list.share(
             "highlight",
             "Highlight",

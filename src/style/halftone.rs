@@ -168,16 +168,11 @@ impl Halftone {
             &mut self.smoothness,
         );
         list.color("ink", "Ink", "Colour of the ink.", &mut self.ink);
-        list.share(
-            "ink_tint",
-            "Object color in ink",
-            "Share of the object's own colour.",
-            &mut self.ink_tint,
-        );
+        list.share("ink_tint", "Object in ink", "Share of the object's own colour.", &mut self.ink_tint);
         list.color("paper", "Paper", "Colour between the ink.", &mut self.paper);
         list.share(
             "paper_tint",
-            "Object color on paper",
+            "Object on paper",
             "How far the paper is multiplied by the object's own colour.",
             &mut self.paper_tint,
         );

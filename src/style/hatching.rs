@@ -239,22 +239,17 @@ impl Hatching {
             );
             list.switch(
                 "blend_steps",
-                "Blend turning steps",
+                "Blend steps",
                 "Strokes of the two nearest steps are blended, so that none is cut off.",
                 &mut self.blend_steps,
             );
         });
         list.color("ink", "Ink", "Colour of the ink.", &mut self.ink);
-        list.share(
-            "ink_tint",
-            "Object color in ink",
-            "Share of the object's own colour.",
-            &mut self.ink_tint,
-        );
+        list.share("ink_tint", "Object in ink", "Share of the object's own colour.", &mut self.ink_tint);
         list.color("paper", "Paper", "Colour between the ink.", &mut self.paper);
         list.share(
             "paper_tint",
-            "Object color on paper",
+            "Object on paper",
             "How far the paper is multiplied by the object's own colour.",
             &mut self.paper_tint,
         );
@@ -290,8 +285,8 @@ impl Stroke {
                           help,
                           value: &'a mut f32| list.wide_number(key, label, unit, soft, hard, help, value);
             let share = ("", 0.02..=1.0, 0.02..=1.2);
-            number(list, "thin", "Minimum width", share.clone(), "Width of a stroke that just begins, as a share of the spacing.", &mut self.thin);
-            number(list, "thick", "Maximum width", share, "Width where all is dark, as a share of the spacing.", &mut self.thick);
+            number(list, "thin", "Min. width", share.clone(), "Width of a stroke that just begins, as a share of the spacing.", &mut self.thin);
+            number(list, "thick", "Max. width", share, "Width where all is dark, as a share of the spacing.", &mut self.thick);
             let length = ("px", 10.0..=300.0, 5.0..=1000.0);
             number(list, "length", "Length", length, "Least length of strokes; up to twice as much.", &mut self.length);
             let taper = ("px", 0.0..=40.0, 0.0..=100.0);
@@ -314,13 +309,13 @@ impl Layers {
         list.when_any("hatching.layers.count", ["2", "3"], |list| {
             list.share(
                 "second",
-                "Second direction from",
+                "Second above",
                 "Darkness from which on a second direction crosses the first.",
                 &mut self.second,
             );
             list.switch(
                 "shadows_cross",
-                "Cross in shadows",
+                "Cross shadows",
                 "Strokes of the form run on through cast shadows, which others make.",
                 &mut self.shadows_cross,
             );
@@ -328,7 +323,7 @@ impl Layers {
         list.when_any("hatching.layers.count", ["3"], |list| {
             list.share(
                 "third",
-                "Third direction from",
+                "Third above",
                 "Darkness from which on a third direction crosses both.",
                 &mut self.third,
             );
@@ -340,7 +335,7 @@ impl Shadows {
     fn params<'a>(&'a mut self, list: &mut Params<'a>) {
         list.switch(
             "differ",
-            "Own strokes in shadows",
+            "Shadows differ",
             "Other strokes where the first light does not reach: in shadows that are thrown, and on the side away from it.",
             &mut self.differ,
         );

@@ -103,7 +103,7 @@ impl Hidden {
             list.when("edges.hidden.layers", HiddenLayers::All, |list| {
                 list.integer(
                     "most",
-                    "Maximum layers",
+                    "Max. layers",
                     "",
                     1..=63,
                     "So many layers behind the visible one have lines.",
@@ -112,7 +112,7 @@ impl Hidden {
             });
             list.wide_number(
                 "least",
-                "Minimum coverage",
+                "Min. coverage",
                 "%",
                 0.0..=1.0,
                 0.0..=100.0,

@@ -239,3 +239,11 @@ fn what_no_parameter_accepts_is_clamped_before_it_is_drawn() {
         assert_eq!(Style::default().clamped(), Style::default());
     }
 }
+
+#[test]
+fn labels_fit_into_the_panel() {
+    let mut style = Style::default();
+    for param in style.params().iter().filter(|p| !p.head) {
+        assert!(param.label.chars().count() <= 15, "{}: {}", param.key, param.label);
+    }
+}

@@ -558,14 +558,7 @@ impl Strokes {
             &mut self.enabled,
         );
         list.when("sketch.strokes.enabled", "true", |list| {
-            list.integer(
-                "times",
-                "Strokes per edge",
-                "",
-                1..=4,
-                "How often each edge is drawn.",
-                &mut self.times,
-            );
+            list.integer("times", "Repetitions", "", 1..=4, "How often each edge is drawn.", &mut self.times);
             list.wide_number(
                 "overshoot",
                 "Overshoot",
@@ -577,7 +570,7 @@ impl Strokes {
             );
             list.wide_number(
                 "shift",
-                "End displacement",
+                "End offset",
                 "px",
                 0.0..=6.0,
                 0.0..=16.0,

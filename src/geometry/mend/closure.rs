@@ -67,7 +67,8 @@ fn decide(borders: &Borders, stretches: &Stretches, limits: &Limits, opening: f6
         .map(|number| {
             let Some(partner) = stretches.list[number].partner else { return false };
             let ends = [stretches.list[number].border, partner.border].map(|b| borders.get(b));
-            let open_gap = (opening * limits.open_gap(ends[0], ends[1])).min(limits.tolerance(ends[0], ends[1]));
+            let open_gap =
+                (opening * limits.open_gap(ends[0], ends[1])).min(limits.tolerance(ends[0], ends[1]));
             let target = limits.spacing.max(FALL * partner.gap);
             let [before, after] = partner.end_gaps;
             partner.widest() <= open_gap

@@ -95,11 +95,7 @@ impl Limits {
     }
 
     fn between(&self, share: f64, a: &Border, b: &Border) -> f64 {
-        if a.body == b.body {
-            share * a.body_size
-        } else {
-            self.apart(share, a.body_size.min(b.body_size))
-        }
+        if a.body == b.body { share * a.body_size } else { self.apart(share, a.body_size.min(b.body_size)) }
     }
 
     fn apart(&self, share: f64, size: f64) -> f64 {

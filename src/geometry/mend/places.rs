@@ -148,13 +148,16 @@ impl Places {
 
     /// Where each group goes: `None` for those of one place.
     pub(super) fn targets(&self, borders: &Borders, positions: &[Vec3]) -> Vec<Option<Vec3>> {
-        let mut targets: Vec<Option<Vec3>> = (0..self.count() as u32).map(|group| self.middle(group)).collect();
+        let mut targets: Vec<Option<Vec3>> =
+            (0..self.count() as u32).map(|group| self.middle(group)).collect();
         for &(place, OnLine { ends, share }) in &self.on_lines {
             let ends = ends.map(|end| self.settle(borders, end));
             let [Some(from), Some(to)] = ends.map(|end| {
                 let end = end?;
                 let target = targets[self.group(end) as usize];
-                Some(target.map_or_else(|| self.position(borders, end, positions), |target| target.as_dvec3()))
+                Some(
+                    target.map_or_else(|| self.position(borders, end, positions), |target| target.as_dvec3()),
+                )
             }) else {
                 continue;
             };

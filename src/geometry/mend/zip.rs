@@ -98,7 +98,8 @@ impl Fit {
             let is_on_line = is_straight && number > 0 && number < last;
             ties.push(Tie {
                 sides: [place(0, a), place(1, b)],
-                on_line: is_on_line.then(|| OnLine { ends: [a.vertex(0), a.vertex(a.len())], share: 0.5 * share }),
+                on_line: is_on_line
+                    .then(|| OnLine { ends: [a.vertex(0), a.vertex(a.len())], share: 0.5 * share }),
             });
             for k in 0..2 {
                 before[k] = step[k].unwrap_or(before[k]);
