@@ -354,7 +354,10 @@ fn lines_at_place(at: vec2<f32>, g: Surfel) -> Line {
                 let depth = select(lines.depth, thin.depth, ink.a > 0.0);
                 let away = select(lines.away, thin.away, ink.a > 0.0);
                 let to_source = select(lines.to_source, thin.to_source, ink.a > 0.0);
-                lines = Line(over(ink, lines.ink), depth, false, strength, away, to_source);
+                // Where both are translucent they are one ink.
+                let both = over(ink, lines.ink);
+                let most = max(thin.strength, lines.strength);
+                lines = Line(both * min(most / max(both.a, 1e-6), 1.0), depth, false, strength, away, to_source);
             }
         }
     }
