@@ -136,7 +136,7 @@ pub fn mended(mesh: Mesh, tolerance: SeamTolerance) -> Mesh {
     let least_move = TOLERANCE * mesh.bounds().diagonal();
     match mend(&mesh, &Adjacency::new(&mesh), tolerance) {
         Some((mended, report)) if report.farthest_move > least_move => {
-            Mesh { mended: Some(report), position_error: report.farthest_move as f32, ..mended }
+            Mesh { mended: Some(report), ..mended }
         }
         _ => mesh,
     }

@@ -88,6 +88,8 @@ pub(super) struct Borders {
     pub(super) previous: Vec<u32>,
     /// Total length, in units of the mesh.
     pub(super) length: f64,
+    /// For each welded point [`Border::body`].
+    pub(super) body_of_point: Vec<u32>,
     starts: PointList,
     ends: PointList,
 }
@@ -132,6 +134,7 @@ impl Borders {
             next: vec![NO_BORDER; list.len()],
             previous: vec![NO_BORDER; list.len()],
             length: list.iter().map(|b| b.length).sum(),
+            body_of_point,
             list,
         };
         for number in 0..all.list.len() {

@@ -125,10 +125,15 @@ impl Places {
         &self.cuts_of[border as usize]
     }
 
+    /// Whether a group has several places.
+    pub(super) fn is_shared(&self, group: u32) -> bool {
+        self.size[group as usize] > 1
+    }
+
     /// The middle of the places of a group of more than one.
     pub(super) fn middle(&self, group: u32) -> Option<Vec3> {
         let [low, high] = self.boxes[group as usize].map(Vec3::as_dvec3);
-        (self.size[group as usize] > 1).then(|| low.midpoint(high).as_vec3())
+        self.is_shared(group).then(|| low.midpoint(high).as_vec3())
     }
 
     /// How far the places of a group may be moved.
@@ -146,21 +151,17 @@ impl Places {
         })
     }
 
-    /// Where each group goes: `None` for those of one place.
-    pub(super) fn targets(&self, borders: &Borders, positions: &[Vec3]) -> Vec<Option<Vec3>> {
-        let mut targets: Vec<Option<Vec3>> =
-            (0..self.count() as u32).map(|group| self.middle(group)).collect();
+    /// Where the groups on straight seams are on their line, if no place is too far from it.
+    pub(super) fn on_lines(&self, borders: &Borders, positions: &[Vec3]) -> Vec<Option<Vec3>> {
+        let mut targets = vec![None; self.count()];
         for &(place, OnLine { ends, share }) in &self.on_lines {
-            let ends = ends.map(|end| self.settle(borders, end));
-            let [Some(from), Some(to)] = ends.map(|end| {
-                let end = end?;
-                let target = targets[self.group(end) as usize];
-                Some(
-                    target.map_or_else(|| self.position(borders, end, positions), |target| target.as_dvec3()),
-                )
-            }) else {
-                continue;
+            let place_of = |end: u32| {
+                let group = self.group(end);
+                let target = targets[group as usize].or_else(|| self.middle(group)).map(Vec3::as_dvec3);
+                target.unwrap_or_else(|| self.position(borders, end, positions))
             };
+            let ends = ends.map(|end| self.settle(borders, end).map(place_of));
+            let [Some(from), Some(to)] = ends else { continue };
             let (group, target) = (self.group(place), from.lerp(to, share).as_vec3());
             let is_near = |member| {
                 let position = self.position(borders, member, positions).as_vec3();
