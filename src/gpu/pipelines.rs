@@ -313,7 +313,7 @@ impl Pipelines {
 }
 
 fn compile(gpu: &Gpu, shaders: &Shaders, file: &'static str) -> Result<Shader, ShaderError> {
-    let (module, info) = shaders.module(file)?;
+    let (module, info) = shaders.module(file, gpu.integer_textures)?;
     let bindings = Bindings::of(&module, &info).map_err(|name| ShaderError::Invalid {
         file: file.to_owned(),
         line: 0,
