@@ -26,7 +26,7 @@ pub use gate::Gate;
 pub use geometry::GeometryBuffers;
 pub use integer_textures::IntegerTextures;
 pub use material::MaterialBindings;
-pub use pipelines::{DepthRule, Pipelines, Program};
+pub use pipelines::{DepthRule, Pipelines, Program, STENCIL};
 pub use pool::{Target, TargetPool};
 pub use record_texture::{RecordTexture, size_of_texels};
 pub use recorder::Recorder;
