@@ -7,7 +7,7 @@ mod common;
 
 use std::sync::Arc;
 
-use common::{opened, scene, session, set, texels};
+use common::{Object, at, object, opened, scene, session, set, texels};
 use glam::{DMat4, DVec3, UVec2, Vec2};
 use hachure::document::Role;
 use hachure::export::Session;
@@ -18,13 +18,7 @@ use hachure::render::View;
 use hachure::render::base::ids::object_id;
 use hachure::render::{Peeled, PeelingEnd};
 
-type Object = (&'static str, Mesh, DMat4, [f32; 3]);
-
 const SIDE: u32 = 96;
-
-fn object(name: &'static str, mesh: Mesh, place: DVec3) -> Object {
-    (name, mesh, DMat4::from_translation(place), [1.0; 3])
-}
 
 /// Everything as a blueprint of which all layers are drawn, and object 0 designated.
 fn designated(objects: Vec<Object>, towards_viewer: DVec3) -> Opened {
@@ -47,10 +41,10 @@ fn designate(opened: &mut Opened, nodes: &[usize], is_mask: bool) {
 
 /// A cube behind four sheets, of which each lets more of it be seen than the one before it.
 fn behind_sheets() -> Opened {
-    let sheet = |name, x: f64, z: f64| object(name, primitives::plane(2.0), DVec3::new(x, 0.0, z));
+    let sheet = |name, x: f64, z: f64| object(name, primitives::plane(2.0), at(x, 0.0, z));
     let mut opened = designated(
         vec![
-            object("cube", primitives::cube(1.0), DVec3::new(0.0, 0.0, -1.0)),
+            object("cube", primitives::cube(1.0), at(0.0, 0.0, -1.0)),
             sheet("a", -1.6, 0.8),
             sheet("b", -1.2, 0.6),
             sheet("c", -0.9, 0.4),
@@ -66,11 +60,11 @@ fn behind_sheets() -> Opened {
 fn among_rings() -> Opened {
     designated(
         vec![
-            object("ball", primitives::sphere(0.6, 24, 32), DVec3::ZERO),
-            object("around", primitives::sphere(1.2, 16, 24), DVec3::ZERO),
-            object("ring", primitives::torus(0.5, 0.2, 24, 12), DVec3::new(0.3, 0.1, 0.9)),
-            object("box", primitives::cube(0.7), DVec3::new(-0.6, 0.4, 0.7)),
-            object("beside", primitives::cube(0.5), DVec3::new(0.5, -0.6, -0.3)),
+            object("ball", primitives::sphere(0.6, 24, 32), DMat4::IDENTITY),
+            object("around", primitives::sphere(1.2, 16, 24), DMat4::IDENTITY),
+            object("ring", primitives::torus(0.5, 0.2, 24, 12), at(0.3, 0.1, 0.9)),
+            object("box", primitives::cube(0.7), at(-0.6, 0.4, 0.7)),
+            object("beside", primitives::cube(0.5), at(0.5, -0.6, -0.3)),
         ],
         DVec3::new(0.3, 0.2, 1.0),
     )
@@ -381,9 +375,9 @@ fn beyond_the_mask_nothing_is_drawn_on_demand() {
     let mut session = session();
     let mut scene = designated(
         vec![
-            object("cube", primitives::cube(0.5), DVec3::ZERO),
-            object("before", primitives::plane(1.0), DVec3::new(0.3, 0.3, 0.8)),
-            object("behind", primitives::plane(2.0), DVec3::new(0.0, 0.0, -0.8)),
+            object("cube", primitives::cube(0.5), DMat4::IDENTITY),
+            object("before", primitives::plane(1.0), at(0.3, 0.3, 0.8)),
+            object("behind", primitives::plane(2.0), at(0.0, 0.0, -0.8)),
         ],
         DVec3::Z,
     );
@@ -411,8 +405,8 @@ fn mirrors_show_what_is_peeled_for_their_own_view() {
     // A ball in a box, before a mirror that stands beside them.
     let mut scene = designated(
         vec![
-            object("ball", primitives::sphere(0.3, 16, 24), DVec3::ZERO),
-            object("box", primitives::cube(1.0), DVec3::ZERO),
+            object("ball", primitives::sphere(0.3, 16, 24), DMat4::IDENTITY),
+            object("box", primitives::cube(1.0), DMat4::IDENTITY),
             ("glass", primitives::plane(4.0), DMat4::from_translation(DVec3::NEG_Z), [1.0; 3]),
         ],
         DVec3::new(0.8, 0.3, 1.0),

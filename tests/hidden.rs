@@ -6,7 +6,7 @@ mod common;
 
 use std::sync::Arc;
 
-use common::{image, opened, scene, session, set};
+use common::{Object, at, image, object, opened, scene, session, set, set_for};
 use glam::{DMat4, DQuat, DVec2, DVec3, UVec2};
 use hachure::document::Role;
 use hachure::export::Session;
@@ -17,21 +17,6 @@ use hachure::render::View;
 use hachure::scene::Scene;
 use hachure::style::Value;
 use image::{Rgba, RgbaImage};
-
-type Object = (&'static str, Mesh, DMat4, [f32; 3]);
-
-fn object(name: &'static str, mesh: Mesh, place: DMat4) -> Object {
-    (name, mesh, place, [1.0; 3])
-}
-
-fn at(x: f64, y: f64, z: f64) -> DMat4 {
-    DMat4::from_translation(DVec3::new(x, y, z))
-}
-
-fn set_for(opened: &mut Opened, node: usize, key: &str, value: &str) {
-    let scene = Arc::clone(&opened.scene);
-    opened.document.set_for(&scene, &[node], key, &Value::parse(value)).unwrap();
-}
 
 /// White surfaces on white paper with black visible lines and solid red hidden ones, both about 2 px wide at 192 px.
 fn red_hidden(scene: &Arc<Scene>, towards_viewer: DVec3) -> Opened {

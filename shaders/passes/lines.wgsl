@@ -6,7 +6,7 @@
 #import common/edge_map.wgsl
 #import common/edge_style.wgsl
 #import common/coverage.wgsl
-#import common/neighbours.wgsl
+#import gpu/neighbours.wgsl
 #import common/placed.wgsl
 
 // Whether any object is drawn in paper or exact mode, whether widths differ, whether anything is dashed, and whether a

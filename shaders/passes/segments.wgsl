@@ -9,7 +9,7 @@
 #import common/line_width.wgsl
 #import common/kept.wgsl
 #import common/segment_point.wgsl
-#import common/records.wgsl
+#import gpu/record_texture.wgsl
 #import common/repeated.wgsl
 
 // Whether any object has holes by alpha: there a line needs one of its own surfaces beside it.

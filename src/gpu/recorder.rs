@@ -270,11 +270,7 @@ impl<'a> Recorder<'a> {
             draws.push((bound, viewport));
         }
         let color = draw.onto.attachments(draw.outputs);
-        let depth = draw.depth.map(|(target, rule)| wgpu::RenderPassDepthStencilAttachment {
-            view: target.view(),
-            depth_ops: rule.operations(),
-            stencil_ops: None,
-        });
+        let depth = draw.depth.map(|(target, rule)| rule.attachment(target));
         let gated = self.gated(&[[3, 1, 0, 0, 0]]);
         let mut pass = self.pass(draw.label, &color, depth);
         for (bound, viewport) in &draws {

@@ -8,7 +8,7 @@ use encase::ShaderType;
 use glam::{Vec3, Vec4};
 
 use super::technique::{Shaded, Styled, SurfaceTechnique};
-use crate::gpu::{ArrayBuffer, Gpu, Inputs, Program, Recorder, Target, inputs};
+use crate::gpu::{ArrayBuffer, Gpu, Inputs, Program, RecordTexture, Recorder, Target, inputs};
 use crate::render::base::error::RenderError;
 use crate::render::base::frame_uniform::FrameUniform;
 use crate::render::base::stage::Stage;
@@ -134,7 +134,7 @@ impl Toons {
 /// Toon shading on the device.
 pub struct ToonShading {
     styles: ArrayBuffer,
-    bands: ArrayBuffer,
+    bands: RecordTexture,
     cartoon_map: Stage<MapKey, Target>,
     /// That of the layer that is shaded; `None` when no object asks for it.
     map: Option<Target>,
@@ -158,7 +158,7 @@ impl SurfaceTechnique for ToonShading {
     fn new(gpu: &Gpu) -> Self {
         Self {
             styles: ArrayBuffer::new(gpu, "toon styles"),
-            bands: ArrayBuffer::new(gpu, "toon bands"),
+            bands: RecordTexture::new(gpu, "toon bands"),
             cartoon_map: Stage::default(),
             map: None,
         }
@@ -183,7 +183,7 @@ impl SurfaceTechnique for ToonShading {
     fn upload(&mut self, (): &mut (), gpu: &Gpu, toons: &Toons) -> Result<(), RenderError> {
         if !toons.styles.is_empty() {
             self.styles.write(gpu, &toons.styles);
-            self.bands.write(gpu, &toons.bands);
+            self.bands.write(gpu, &toons.bands)?;
         }
         Ok(())
     }
@@ -215,7 +215,7 @@ impl SurfaceTechnique for ToonShading {
 
     fn bind<'a>(&'a self, (): &'a (), inputs: &mut Inputs<'a>) {
         inputs.set("toon_styles", self.styles.buffer());
-        inputs.set("toon_bands", self.bands.buffer());
+        inputs.set("toon_bands", self.bands.target());
         inputs.set("cartoon_map_tex", self.map.as_ref());
     }
 

@@ -6,19 +6,11 @@ use encase::{ShaderType, StorageBuffer};
 use super::designated::{DepthMask, Uncover};
 use super::gbuffer::{GBuffer, SORT_KEYS};
 use super::peeled::{Peeled, PeelingEnd};
-use crate::gpu::{Gpu, Inputs, Program, Recorder, Target, inputs, readback};
+use crate::gpu::{Gpu, Inputs, Program, Recorder, Target, inputs, parted_counter, readback};
 use crate::render::base::error::RenderError;
 
 /// No object has more layers than this that are drawn.
 pub const MOST_LAYERS: u32 = 64;
-
-/// Parts of a picture that count fragments for themselves, and how many of one lie together, as in
-/// `passes/fragment_lists.wgsl`.
-const PARTS: u64 = 4;
-const RUN: u64 = 1024;
-
-/// Words of their counters: each has a line of the cache to itself.
-const COUNTERS: usize = 64;
 
 /// Pixels per side that a workgroup counts, as in `passes/count.wgsl`.
 const GROUP: u32 = 64;
@@ -54,25 +46,20 @@ impl Peel<'_> {
             entries: &[wgpu::BindGroupLayoutEntry {
                 binding: 0,
                 visibility: wgpu::ShaderStages::FRAGMENT,
-                // Software devices read those faster than others.
-                ty: wgpu::BindingType::StorageTexture {
-                    access: wgpu::StorageTextureAccess::ReadOnly,
-                    format: SORT_KEYS,
-                    view_dimension: wgpu::TextureViewDimension::D2,
-                },
+                ty: gpu.integer_textures.binding(SORT_KEYS),
                 count: None,
             }],
         })
     }
 
-    /// The layer before as a bind group.
-    pub fn group(&self, gpu: &Gpu, layout: &wgpu::BindGroupLayout) -> wgpu::BindGroup {
+    /// Sort keys as a bind group.
+    pub fn group_of(gpu: &Gpu, layout: &wgpu::BindGroupLayout, sort_keys: &Target) -> wgpu::BindGroup {
         gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("last layer"),
             layout,
             entries: &[wgpu::BindGroupEntry {
                 binding: 0,
-                resource: wgpu::BindingResource::TextureView(self.last.view()),
+                resource: wgpu::BindingResource::TextureView(sort_keys.view()),
             }],
         })
     }
@@ -119,7 +106,7 @@ pub struct CountedUniform {
     /// Those of them that opaque surfaces hide, which no peeling uncovers.
     pub hidden: u32,
     /// Fragments of the lists of each part of the picture, those for which there was no room included; 0 without lists.
-    pub fragments: [u32; COUNTERS],
+    pub fragments: [u32; parted_counter::COUNTER_WORDS],
     /// Pixels of each layer, that which ended it included.
     pub pixels: [u32; MOST_LAYERS as usize],
     /// Pixels of the mask that pass the depth test against each layer, the paper's R.
@@ -141,7 +128,7 @@ impl CountedUniform {
             ended_by: 0,
             masked: 0,
             hidden: 0,
-            fragments: [0; COUNTERS],
+            fragments: [0; parted_counter::COUNTER_WORDS],
             pixels: none,
             passed: none,
         }
@@ -168,12 +155,6 @@ impl CountedUniform {
         }
     }
 
-    /// So many fragments there has to be room for: each part of the picture takes as much as the fullest one.
-    fn room(&self) -> u64 {
-        let fullest = self.fragments.iter().max().map_or(0, |&most| u64::from(most));
-        fullest.next_multiple_of(RUN) * PARTS
-    }
-
     /// What it says.
     fn peeled(&self) -> Peeled {
         Peeled {
@@ -187,7 +168,7 @@ impl CountedUniform {
             masked: self.masked,
             hidden: self.hidden,
             fragments: self.fragments.iter().map(|&fragments| u64::from(fragments)).sum(),
-            room: self.room(),
+            room: parted_counter::room(&self.fragments),
             pixels: self.pixels.to_vec(),
             passed: self.passed.to_vec(),
         }
