@@ -3,7 +3,7 @@
 SAMPLE := assets/models/crank.glb
 HACHURE := cargo run --quiet --release --
 
-.PHONY: run test check bench quality gallery bless models textures strokes docs
+.PHONY: run test check check-targets bench quality gallery bless models textures strokes docs
 
 # Opens the viewer on the sample model; without a display draws it to a file.
 run:
@@ -25,6 +25,16 @@ check:
 	cargo fmt --check
 	cargo clippy --all-targets -- --deny warnings
 	RUSTDOCFLAGS="--deny warnings" cargo doc --no-deps --document-private-items
+
+# Whether it compiles for Windows and macOS, from wherever this is; nothing is linked, so no compiler of theirs is needed.
+TARGETS := x86_64-pc-windows-gnu aarch64-apple-darwin
+check-targets:
+	@sh .ci/packages build
+	rustup target add $(TARGETS)
+	for target in $(TARGETS); do \
+		name=$$(echo $$target | tr - _); \
+		env CC_$$name=true CXX_$$name=true AR_$$name=true cargo check --target $$target || exit 1; \
+	done
 
 # Milliseconds per stage and frame.
 bench:

@@ -6,7 +6,7 @@ mod common;
 
 use std::sync::Arc;
 
-use common::{image, opened, set};
+use common::{at, greatest_difference, image, opened, set, set_for};
 use glam::{DMat4, DQuat, DVec3, Vec4, vec4};
 use hachure::document::Role;
 use hachure::export::Session;
@@ -24,10 +24,6 @@ type Object = (&'static str, Mesh, DMat4, Vec4);
 
 const BLACK_GLASS: Vec4 = Vec4::new(0.0, 0.0, 0.0, 0.5);
 const WHITE: Vec4 = Vec4::ONE;
-
-fn at(x: f64, y: f64, z: f64) -> DMat4 {
-    DMat4::from_translation(DVec3::new(x, y, z))
-}
 
 fn scene(objects: Vec<Object>) -> Scene {
     let (opaque, colors): (Vec<_>, Vec<_>) =
@@ -56,11 +52,6 @@ fn unlit(scene: Scene, towards_viewer: DVec3) -> Opened {
     opened
 }
 
-fn set_for(opened: &mut Opened, node: usize, key: &str, value: &str) {
-    let scene = Arc::clone(&opened.scene);
-    opened.document.set_for(&scene, &[node], key, &Value::parse(value)).unwrap();
-}
-
 fn linear(p: Rgba<u8>) -> [f64; 3] {
     [0, 1, 2].map(|i| {
         let c = f64::from(p.0[i]) / 255.0;
@@ -80,11 +71,6 @@ fn middle(image: &RgbaImage) -> Rgba<u8> {
 /// Largest difference of any channel of two pixels.
 fn apart(a: &Rgba<u8>, b: &Rgba<u8>) -> u8 {
     a.0.iter().zip(b.0).map(|(a, b)| a.abs_diff(b)).max().unwrap()
-}
-
-/// Largest difference of any channel of two pictures.
-fn difference(a: &RgbaImage, b: &RgbaImage) -> u8 {
-    a.pixels().zip(b.pixels()).map(|(a, b)| apart(a, b)).max().unwrap()
 }
 
 #[test]
@@ -148,7 +134,7 @@ fn the_order_of_objects_changes_no_pixel() {
         let shuffled = order.map(|i: usize| objects[i].clone());
         let drawn = image(&mut session, &unlit(scene(shuffled.into()), DVec3::new(0.3, 0.2, 1.0)), SIDE);
         let first = first.get_or_insert_with(|| drawn.clone());
-        assert!(*first == drawn, "{order:?}: by up to {}", difference(first, &drawn));
+        assert!(*first == drawn, "{order:?}: by up to {}", greatest_difference(first, &drawn));
     }
 }
 
@@ -196,7 +182,7 @@ fn every_technique_shades_what_blends_as_what_does_not() {
         let glass = image(&mut session, &lit(technique, 0.4), SIDE);
         // Blueprints are drawings of lines and blank paper is paper, whatever the material.
         let expected = !["blank", "blueprint"].contains(technique);
-        assert_eq!(difference(&glass, &opaque) > 20, expected, "{technique}");
+        assert_eq!(greatest_difference(&glass, &opaque) > 20, expected, "{technique}");
     }
 }
 
@@ -402,7 +388,7 @@ fn glass_is_picked_and_throws_shadows_where_it_is_more_opaque_than_not() {
         image(session, &opened, SIDE)
     };
     let [thin, dense] = [0.4, 0.6].map(|opacity| shadow(&mut session, opacity));
-    assert!(difference(&thin, &dense) > 40, "{}", difference(&thin, &dense));
+    assert!(greatest_difference(&thin, &dense) > 40, "{}", greatest_difference(&thin, &dense));
 }
 
 #[test]

@@ -9,7 +9,7 @@ mod common;
 use std::path::Path;
 use std::sync::Arc;
 
-use common::{opened, scene, session, set, texels};
+use common::{Object, object, opened, sample, scene, session, set, set_for, texels};
 use glam::{DMat4, DQuat, DVec3, UVec2, Vec2, Vec3};
 use hachure::export::Session;
 use hachure::export::session::{Opened, initial_camera, open};
@@ -20,12 +20,6 @@ use hachure::render::View;
 use hachure::render::base::ids::object_id;
 use hachure::scene::Scene;
 use hachure::style::Value;
-
-type Object = (&'static str, Mesh, DMat4, [f32; 3]);
-
-fn object(name: &'static str, mesh: Mesh, place: DMat4) -> Object {
-    (name, mesh, place, [1.0; 3])
-}
 
 fn at(z: f64) -> DMat4 {
     DMat4::from_translation(DVec3::Z * z)
@@ -175,11 +169,6 @@ fn check_layers(name: &str, opened: &Opened, side: u32, least_depth: usize) {
     }
 }
 
-fn sample(name: &str) -> Opened {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("assets/models/{name}.glb"));
-    open(&[path], |_| {}, &Progress::default()).unwrap()
-}
-
 #[test]
 fn the_layers_of_the_samples_are_what_rays_meet() {
     check_layers("crank", &sample("crank"), 144, 8);
@@ -285,11 +274,6 @@ fn a_group_beyond_the_picture_or_without_a_triangle_is_empty_paper() {
         let image = common::image(&mut session, &opened, 32);
         assert!(image.pixels().all(|p| p == image.get_pixel(0, 0)));
     }
-}
-
-fn set_for(opened: &mut Opened, node: usize, key: &str, value: &str) {
-    let scene = Arc::clone(&opened.scene);
-    opened.document.set_for(&scene, &[node], key, &Value::parse(value)).unwrap();
 }
 
 /// A white cube at a depth and around the origin a ball whose layers are black glass, half transparent, without lines.

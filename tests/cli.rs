@@ -332,12 +332,8 @@ fn how_far_blueprints_were_peeled_and_what_that_uncovered_is_printed() {
     };
     assert_eq!(blueprints(&["--style", "gooch"]).0, serde_json::json!([]));
     let designated = ["--style", "blueprint", "--mask", "rod*", "--set"];
-    let masked = |setting: &str| {
-        blueprints(
-            &[&designated[..], &[setting, "--set", "blueprint.least=0", "--set", "blueprint.layers=64"]]
-                .concat(),
-        )
-    };
+    let masked =
+        |setting: &str| blueprints(&[&designated[..], &[setting, "--set", "blueprint.least=0"]].concat());
     let (all, warnings) = masked("blueprint.fraction=1");
     let mask = &all[0]["mask"];
     assert_eq!(warnings, serde_json::json!([]));
@@ -355,7 +351,7 @@ fn how_far_blueprints_were_peeled_and_what_that_uncovered_is_printed() {
         folder.path(),
         "x.png",
         &crank,
-        &[&designated[..], &["blueprint.fraction=1", "--set", "blueprint.layers=1"]].concat(),
+        &[&designated[..], &["blueprint.fraction=1", "--set", "blueprint.to=1"]].concat(),
     );
     let text = String::from_utf8_lossy(&result.stderr);
     assert!(

@@ -9,27 +9,17 @@
 mod planes;
 
 use std::collections::BTreeSet;
-use std::path::Path;
 
 use hachure::geometry::{CreaseRule, Topology};
-use hachure::import::{ImportOptions, Progress, load};
-use hachure::scene::Scene;
 
-use planes::shared;
-
-/// The cloister as the program imports it.
-fn cloister() -> Scene {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/models/cloister.glb");
-    load(&path, &ImportOptions::default(), &Progress::default()).unwrap()
-}
+use planes::{file, imported, shared};
 
 #[test]
 fn the_cloister_is_made_of_named_solids() {
-    let scene = cloister();
+    let scene = imported("cloister");
     assert_eq!(scene.warnings, []);
     assert!((30_000..150_000).contains(&scene.triangle_count()), "{}", scene.triangle_count());
-    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/models/cloister.glb");
-    assert!(file.metadata().unwrap().len() < 1 << 20, "larger than 1 MiB");
+    assert!(file("cloister").metadata().unwrap().len() < 1 << 20, "larger than 1 MiB");
     for path in [
         "ground",
         "floor",
@@ -68,7 +58,7 @@ fn the_cloister_is_made_of_named_solids() {
 
 #[test]
 fn the_columns_share_their_stones() {
-    let scene = cloister();
+    let scene = imported("cloister");
     let shafts: Vec<_> = scene.nodes.iter().filter(|node| node.path.ends_with("/shaft")).collect();
     let columns: Vec<_> = shafts.iter().filter(|node| node.path.contains("/column.")).collect();
     assert_eq!(columns.len(), 4 * 6 * 2);
@@ -78,7 +68,7 @@ fn the_columns_share_their_stones() {
 
 #[test]
 fn no_two_faces_of_the_cloister_lie_in_one_place() {
-    let scene = cloister();
+    let scene = imported("cloister");
     let shared = shared(&scene);
     assert!(shared.is_empty(), "{shared:#?}");
 }

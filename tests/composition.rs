@@ -8,7 +8,7 @@ mod common;
 
 use std::sync::Arc;
 
-use common::{opened, scene, session, set, surfels};
+use common::{opened, scene, session, set, set_for, set_value_for, surfels};
 use glam::{DMat4, DQuat, DVec3};
 use hachure::document::Role;
 use hachure::export::Session;
@@ -54,21 +54,16 @@ fn composed(session: &mut Session, techniques: &[&str]) -> Opened {
     let scene = scene(objects);
     let mut opened = opened(&scene, DVec3::new(0.1, 0.15, 1.0));
     for (i, technique) in techniques.iter().enumerate() {
-        set_for(&mut opened, B + i, "technique", &Value::from(*technique));
+        set_for(&mut opened, B + i, "technique", technique);
     }
     session.set_scene(&opened).unwrap();
     opened
 }
 
-fn set_for(opened: &mut Opened, node: NodeId, key: &str, value: &Value) {
-    let scene = Arc::clone(&opened.scene);
-    opened.document.set_for(&scene, &[node], key, value).unwrap();
-}
-
 /// Sets a parameter of all objects but [`A`].
 fn set_for_all(opened: &mut Opened, key: &str, value: &str) {
     for node in WALL..opened.scene.nodes.len() {
-        set_for(opened, node, key, &Value::from(value));
+        set_for(opened, node, key, value);
     }
 }
 
@@ -178,7 +173,7 @@ fn changes_with(technique: &str) -> Vec<Change> {
 fn with_conditions(opened: &Opened, node: NodeId, conditions: &[Condition]) -> Opened {
     let mut opened = opened.clone();
     for condition in conditions {
-        set_for(&mut opened, node, condition.key, &Value::parse(condition.values[0]));
+        set_for(&mut opened, node, condition.key, condition.values[0]);
     }
     opened
 }
@@ -197,11 +192,11 @@ fn a_parameter_of_one_technique_changes_no_pixel_of_an_object_of_any_technique()
         let changes = changes_with(technique);
         for Change { key, conditions, values } in &changes {
             let mut before = with_conditions(&all, A, conditions);
-            set_for(&mut before, A, "technique", &Value::from(*technique));
+            set_for(&mut before, A, "technique", technique);
             let first = drawn(&mut session, &before);
             for value in values {
                 let mut after = before.clone();
-                set_for(&mut after, A, key, value);
+                set_value_for(&mut after, A, key, value);
                 let (inside, outside) = difference(&first, &drawn(&mut session, &after), &of_a);
                 assert_eq!(outside, None, "{technique}: {key} = {value} changes another object");
                 seen += inside;
@@ -223,7 +218,7 @@ fn the_technique_of_one_object_changes_no_pixel_of_another() {
         let of_a = pixels_of(&mut session, &pair, A);
         let drawn_as = |session: &mut Session, technique: &str| {
             let mut pair = pair.clone();
-            set_for(&mut pair, A, "technique", &Value::from(technique));
+            set_for(&mut pair, A, "technique", technique);
             drawn(session, &pair)
         };
         let first = drawn_as(&mut session, other);
@@ -266,7 +261,7 @@ fn the_lines_of_one_object_change_no_pixel_beyond_their_reach() {
             let first = drawn(&mut session, &before);
             for value in values {
                 let mut after = before.clone();
-                set_for(&mut after, A, key, value);
+                set_value_for(&mut after, A, key, value);
                 let after = drawn(&mut session, &after);
                 let (inside, outside) = difference(&first, &after, near_a);
                 // Thin lines are found in another way than wide ones, and single pixels then differ by a shade.
@@ -290,7 +285,7 @@ fn in_a_mirror_a_parameter_changes_only_the_pixels_where_its_object_is_seen() {
     all.document.set_role(&scene, &[WALL], Role::Mirror, true);
     // Blueprints of equal style leave out the lines that they have in common: this one is by itself.
     let alone = B + Technique::VARIANTS.iter().position(|technique| *technique == "blueprint").unwrap();
-    set_for(&mut all, alone, "blueprint.by_layer", &Value::Number(0.3));
+    set_for(&mut all, alone, "blueprint.by_layer", "0.3");
     let eye = DVec3::new(1.2, 0.5, 1.0);
     all.document.camera = all.document.camera.map(|_| common::opened(&scene, eye).document.camera.unwrap());
     let of_a = pixels_of(&mut session, &all, A);
@@ -305,7 +300,7 @@ fn in_a_mirror_a_parameter_changes_only_the_pixels_where_its_object_is_seen() {
     // A blueprint hides nothing.
     blank.document.node_mut("/blueprint").visible = Some(false);
     let without = drawn(&mut session, &blank);
-    set_for(&mut blank, A, "technique", &Value::from("unlit"));
+    set_for(&mut blank, A, "technique", "unlit");
     let with = drawn(&mut session, &blank);
     let differs = |a: &RgbaImage, b: &RgbaImage| a.pixels().zip(b.pixels()).map(|(a, b)| a != b).collect();
     let is_seen: Vec<bool> = differs(&without, &with);
@@ -326,7 +321,7 @@ fn in_a_mirror_a_parameter_changes_only_the_pixels_where_its_object_is_seen() {
     let of_wall: Vec<bool> = of_wall.iter().zip(&of_a).map(|(wall, a)| *wall && !a).collect();
     for technique in Technique::VARIANTS {
         let mut before = all.clone();
-        set_for(&mut before, A, "technique", &Value::from(*technique));
+        set_for(&mut before, A, "technique", technique);
         let first = drawn(&mut session, &before);
         let mut is_seen = reach_of(technique, &is_seen);
         if *technique == "blueprint" {
@@ -337,7 +332,7 @@ fn in_a_mirror_a_parameter_changes_only_the_pixels_where_its_object_is_seen() {
             // Every value has been tried in front of the mirror.
             let Some(value) = values.last() else { continue };
             let mut after = before.clone();
-            set_for(&mut after, A, key, value);
+            set_value_for(&mut after, A, key, value);
             let after = drawn(&mut session, &after);
             let (_, outside) = difference(&first, &after, &is_seen);
             assert_eq!(outside, None, "{technique}: {key} = {value} in a mirror");
@@ -356,7 +351,7 @@ fn in_a_mirror_a_parameter_changes_only_the_pixels_where_its_object_is_seen() {
     let others: Vec<bool> = of_wall.clone();
     for (key, value) in [("mirror.reflectivity", 0.1), ("mirror.fresnel", 0.0)] {
         let mut after = all.clone();
-        set_for(&mut after, WALL, key, &Value::Number(value));
+        set_value_for(&mut after, WALL, key, &Value::Number(value));
         let (inside, outside) = difference(&first, &drawn(&mut session, &after), &others);
         assert!(inside > 0 && outside.is_none(), "{key}: {inside} {outside:?}");
     }

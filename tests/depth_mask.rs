@@ -7,7 +7,7 @@ mod common;
 
 use std::sync::Arc;
 
-use common::{opened, scene, session, set, texels};
+use common::{Object, at, object, opened, scene, session, set, texels};
 use glam::{DMat4, DVec3, UVec2, Vec2};
 use hachure::document::Role;
 use hachure::export::Session;
@@ -18,13 +18,7 @@ use hachure::render::View;
 use hachure::render::base::ids::object_id;
 use hachure::render::{Peeled, PeelingEnd};
 
-type Object = (&'static str, Mesh, DMat4, [f32; 3]);
-
 const SIDE: u32 = 96;
-
-fn object(name: &'static str, mesh: Mesh, place: DVec3) -> Object {
-    (name, mesh, DMat4::from_translation(place), [1.0; 3])
-}
 
 /// Everything as a blueprint of which all layers are drawn, and object 0 designated.
 fn designated(objects: Vec<Object>, towards_viewer: DVec3) -> Opened {
@@ -47,10 +41,10 @@ fn designate(opened: &mut Opened, nodes: &[usize], is_mask: bool) {
 
 /// A cube behind four sheets, of which each lets more of it be seen than the one before it.
 fn behind_sheets() -> Opened {
-    let sheet = |name, x: f64, z: f64| object(name, primitives::plane(2.0), DVec3::new(x, 0.0, z));
+    let sheet = |name, x: f64, z: f64| object(name, primitives::plane(2.0), at(x, 0.0, z));
     let mut opened = designated(
         vec![
-            object("cube", primitives::cube(1.0), DVec3::new(0.0, 0.0, -1.0)),
+            object("cube", primitives::cube(1.0), at(0.0, 0.0, -1.0)),
             sheet("a", -1.6, 0.8),
             sheet("b", -1.2, 0.6),
             sheet("c", -0.9, 0.4),
@@ -66,11 +60,11 @@ fn behind_sheets() -> Opened {
 fn among_rings() -> Opened {
     designated(
         vec![
-            object("ball", primitives::sphere(0.6, 24, 32), DVec3::ZERO),
-            object("around", primitives::sphere(1.2, 16, 24), DVec3::ZERO),
-            object("ring", primitives::torus(0.5, 0.2, 24, 12), DVec3::new(0.3, 0.1, 0.9)),
-            object("box", primitives::cube(0.7), DVec3::new(-0.6, 0.4, 0.7)),
-            object("beside", primitives::cube(0.5), DVec3::new(0.5, -0.6, -0.3)),
+            object("ball", primitives::sphere(0.6, 24, 32), DMat4::IDENTITY),
+            object("around", primitives::sphere(1.2, 16, 24), DMat4::IDENTITY),
+            object("ring", primitives::torus(0.5, 0.2, 24, 12), at(0.3, 0.1, 0.9)),
+            object("box", primitives::cube(0.7), at(-0.6, 0.4, 0.7)),
+            object("beside", primitives::cube(0.5), at(0.5, -0.6, -0.3)),
         ],
         DVec3::new(0.3, 0.2, 1.0),
     )
@@ -292,19 +286,43 @@ fn what_opaque_objects_hide_of_the_mask_is_counted_and_told() {
 }
 
 #[test]
+fn the_limit_of_layers_is_lifted_until_enough_is_uncovered() {
+    let mut session = session();
+    for scene in [behind_sheets(), among_rings()] {
+        let mut all = scene;
+        set(&mut all, "blueprint.fraction", "1");
+        let unlimited = draw(&mut session, &all);
+        set(&mut all, "blueprint.layers", "2");
+        let limited = draw(&mut session, &all);
+        assert_eq!(limited.ended, PeelingEnd::MaskUncovered);
+        assert!(
+            limited.layers > 2 && limited.layers == unlimited.layers && limited.pixels == unlimited.pixels
+        );
+        assert_eq!(limited.shortfall(), None);
+        // Where nothing of it is in the picture there is nothing to lift it for, in the first picture and in the next.
+        Arc::make_mut(&mut all.scene).nodes[0].world_from_local =
+            DMat4::from_translation(DVec3::new(90.0, 0.0, -1.0));
+        for _ in 0..2 {
+            let outside = draw(&mut session, &all);
+            assert_eq!((outside.masked, outside.layers, outside.ended), (0, 2, PeelingEnd::MostLayers));
+        }
+    }
+}
+
+#[test]
 fn what_cannot_be_uncovered_is_told() {
     let mut session = session();
     let mut scene = behind_sheets();
     set(&mut scene, "blueprint.fraction", "1");
-    set(&mut scene, "blueprint.layers", "2");
+    set(&mut scene, "blueprint.to", "2");
     let peeled = draw(&mut session, &scene);
     assert_eq!((peeled.layers, peeled.ended), (2, PeelingEnd::MostLayers));
     let told = peeled.shortfall().unwrap();
-    assert!(told.contains("after 2 layers, not 100 %") && told.contains("blueprint.layers"), "{told}");
+    assert!(told.contains("after 2 layers, not 100 %") && told.contains("blueprint.to"), "{told}");
     assert!(peeled.share_uncovered() > 0.0 && peeled.share_uncovered() < 0.9);
 
     // No layer has so many pixels: not even the first one is drawn, and R is that of the layer which ended it.
-    set(&mut scene, "blueprint.layers", "64");
+    set(&mut scene, "blueprint.to", "64");
     set(&mut scene, "blueprint.least", "90");
     let peeled = draw(&mut session, &scene);
     assert_eq!((peeled.layers, peeled.ended), (0, PeelingEnd::TooFewPixels));
@@ -357,9 +375,9 @@ fn beyond_the_mask_nothing_is_drawn_on_demand() {
     let mut session = session();
     let mut scene = designated(
         vec![
-            object("cube", primitives::cube(0.5), DVec3::ZERO),
-            object("before", primitives::plane(1.0), DVec3::new(0.3, 0.3, 0.8)),
-            object("behind", primitives::plane(2.0), DVec3::new(0.0, 0.0, -0.8)),
+            object("cube", primitives::cube(0.5), DMat4::IDENTITY),
+            object("before", primitives::plane(1.0), at(0.3, 0.3, 0.8)),
+            object("behind", primitives::plane(2.0), at(0.0, 0.0, -0.8)),
         ],
         DVec3::Z,
     );
@@ -387,8 +405,8 @@ fn mirrors_show_what_is_peeled_for_their_own_view() {
     // A ball in a box, before a mirror that stands beside them.
     let mut scene = designated(
         vec![
-            object("ball", primitives::sphere(0.3, 16, 24), DVec3::ZERO),
-            object("box", primitives::cube(1.0), DVec3::ZERO),
+            object("ball", primitives::sphere(0.3, 16, 24), DMat4::IDENTITY),
+            object("box", primitives::cube(1.0), DMat4::IDENTITY),
             ("glass", primitives::plane(4.0), DMat4::from_translation(DVec3::NEG_Z), [1.0; 3]),
         ],
         DVec3::new(0.8, 0.3, 1.0),

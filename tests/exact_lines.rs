@@ -11,7 +11,7 @@ use common::line_drawing::{Ink, edge_classes, line_drawing, only, set_width};
 use common::line_scenes::named;
 use common::line_truth::directions;
 use common::outline::{outline, projected};
-use common::{scene, session, surfels};
+use common::{at, scene, session, surfels};
 use glam::{DMat4, DQuat, DVec2, DVec3, Mat3, Vec2, Vec3};
 use hachure::export::Session;
 use hachure::export::session::Opened;
@@ -19,10 +19,6 @@ use hachure::geometry::primitives::{cube, from_triangles, plane};
 use hachure::geometry::{EdgeClass, Mesh};
 use hachure::scene::material::{AlphaMode, TextureRef, UvTransform};
 use hachure::scene::{Camera, Projection, Texture, Wrap};
-
-fn at(x: f64, y: f64, z: f64) -> DMat4 {
-    DMat4::from_translation(DVec3::new(x, y, z))
-}
 
 /// A square of many triangles that lies askew, so that its vertices are rounded.
 fn askew(size: f32, cells: u32) -> (Mesh, DQuat) {

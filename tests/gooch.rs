@@ -8,7 +8,7 @@ mod common;
 use std::f32::consts::TAU;
 use std::sync::Arc;
 
-use common::{Surfel, draw, image, opened, scene, session, set, surfels, texels};
+use common::{Surfel, draw, image, opened, scene, session, set, surfels, texels, to_srgb};
 use glam::{DMat4, DVec3, EulerRot, Mat3, UVec2, Vec2, Vec3, vec2};
 use hachure::export::Session;
 use hachure::export::session::Opened;
@@ -144,12 +144,6 @@ impl Twin {
         let gloss = reflected.dot(eye).max(0.0).powf(24.0);
         shade.lerp(Vec3::ONE, 0.5 * gloss)
     }
-}
-
-fn to_srgb(linear: f32) -> u8 {
-    let c = linear.clamp(0.0, 1.0);
-    let c = if c <= 0.003_130_8 { c * 12.92 } else { 1.055 * c.powf(1.0 / 2.4) - 0.055 };
-    (c * 255.0).round() as u8
 }
 
 #[test]

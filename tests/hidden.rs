@@ -6,7 +6,7 @@ mod common;
 
 use std::sync::Arc;
 
-use common::{image, opened, scene, session, set};
+use common::{Object, at, image, object, opened, scene, session, set, set_for};
 use glam::{DMat4, DQuat, DVec2, DVec3, UVec2};
 use hachure::document::Role;
 use hachure::export::Session;
@@ -17,21 +17,6 @@ use hachure::render::View;
 use hachure::scene::Scene;
 use hachure::style::Value;
 use image::{Rgba, RgbaImage};
-
-type Object = (&'static str, Mesh, DMat4, [f32; 3]);
-
-fn object(name: &'static str, mesh: Mesh, place: DMat4) -> Object {
-    (name, mesh, place, [1.0; 3])
-}
-
-fn at(x: f64, y: f64, z: f64) -> DMat4 {
-    DMat4::from_translation(DVec3::new(x, y, z))
-}
-
-fn set_for(opened: &mut Opened, node: usize, key: &str, value: &str) {
-    let scene = Arc::clone(&opened.scene);
-    opened.document.set_for(&scene, &[node], key, &Value::parse(value)).unwrap();
-}
 
 /// White surfaces on white paper with black visible lines and solid red hidden ones, both about 2 px wide at 192 px.
 fn red_hidden(scene: &Arc<Scene>, towards_viewer: DVec3) -> Opened {
@@ -297,6 +282,30 @@ fn faint_ones_are_paler_and_narrower_and_dashed_ones_have_dashes() {
         // Loops are stretched by up to a tenth.
         assert!((period - 80.0 * 128.0 / 1080.0).abs() < 2.0, "{changes:?}");
     }
+}
+
+#[test]
+fn hidden_lines_that_run_over_each_other_are_no_stronger() {
+    let mut session = session();
+    let sheet = |name, side: f32, turn: f64, z: f64| {
+        object(name, primitives::plane(side), at(0.0, 0.0, z) * DMat4::from_rotation_z(turn))
+    };
+    let sheets = vec![sheet("front", 2.2, 0.0, 0.5), sheet("a", 1.2, 0.0, 0.2), sheet("b", 1.2, 0.8, 0.0)];
+    let mut opened = red_hidden(&scene(sheets), DVec3::Z);
+    for (key, value) in [
+        ("edges.profile.width", "60"),
+        ("edges.hidden.mode", "faint"),
+        ("edges.hidden.strength", "0.5"),
+        ("edges.hidden.narrow", "0.4"),
+    ] {
+        set(&mut opened, key, value);
+    }
+    let image = image(&mut session, &opened, 128);
+    let inside = || (32..96).flat_map(|y| (32..96).map(move |x| (x, y)));
+    let values: Vec<u8> = inside().map(|(x, y)| image.get_pixel(x, y).0[0]).collect();
+    let (darkest, count) = (values.iter().min().unwrap(), values.iter().filter(|v| **v < 200).count());
+    // Black of which half is left, in sRGB.
+    assert!(count > 300 && (186..=190).contains(darkest), "{count} pixels, the darkest {darkest}");
 }
 
 #[test]

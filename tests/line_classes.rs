@@ -10,7 +10,7 @@ use std::sync::Arc;
 use common::line_drawing::{edge_classes, line_drawing, only, set_width};
 use common::line_scenes::named;
 use common::outline::{hull_of, outline, projected};
-use common::{scene, session, set, surfels, texels};
+use common::{at, scene, session, set, surfels, texels};
 use glam::{DMat4, DVec2, DVec3};
 use hachure::export::session::Opened;
 use hachure::geometry::primitives::{cube, plane, sphere};
@@ -20,10 +20,6 @@ use hachure::style::Value;
 use image::RgbaImage;
 
 const SIDE: u32 = 200;
-
-fn at(x: f64, y: f64, z: f64) -> DMat4 {
-    DMat4::from_translation(DVec3::new(x, y, z))
-}
 
 fn name(class: EdgeClass) -> &'static str {
     class.into()

@@ -234,7 +234,9 @@ fn a_circle_covers_what_its_width_covers() {
 fn reduced_difference(session: &mut Session, name: &str, side: u32) -> [f64; 2] {
     let scene = named(name).scene;
     let camera = Camera::looking_from(DVec3::new(0.6, 0.6, 0.7), DVec3::Y, &scene.extent(), 1.0);
-    let opened = line_drawing(&scene, camera);
+    let mut opened = line_drawing(&scene, camera);
+    // In a thumbnail thinner lines would keep more ink.
+    set_width(&mut opened, (2.5 * f64::from(side) / 1080.0).max(0.8), side);
     session.set_scene(&opened).unwrap();
     session.set_samples(64);
     let [large, small] = [2 * side, side].map(|side| Ink::of(session, &opened, [side; 2]));
@@ -266,6 +268,67 @@ fn a_large_picture_reduced_is_the_same() {
         let [all, inked] = reduced_difference(&mut session, name, 800);
         println!("{name}: mean difference {all:.4}, where there is ink {inked:.4}");
         assert!(all <= 0.01 && inked <= 0.06, "{name}: {all} {inked}");
+    }
+}
+
+#[test]
+fn thumbnails_keep_ink_in_the_proportion_of_widths() {
+    let mut session = session();
+    session.set_samples(64);
+    let line = Straight::at(0.0);
+    for side in [32, 64, 128, 256, 400] {
+        let mut opened = bordered(&mut session, line.mesh(), [side; 2]);
+        let mut ink = |width: f64| {
+            set(&mut opened, "edges.profile.width", &format!("{width}"));
+            let ink = Ink::of(&mut session, &opened, [side; 2]);
+            (0..side as i32).map(|y| ink.at(side as i32 / 2, y)).sum::<f64>()
+        };
+        for width in [1.0, 1.5, 3.0, 12.0] {
+            let wanted = (width * f64::from(side) / 1080.0).max((0.25 * width).min(0.75));
+            let drawn = ink(width);
+            assert!((drawn - wanted).abs() < 0.04, "{width} at {side}: {drawn:.3} of {wanted:.3}");
+        }
+    }
+}
+
+/// A far thing with thick creases before a near one with a thin outline.
+#[test]
+fn an_outline_has_no_gaps_where_thicker_lines_go_on_behind_it() {
+    const SIDE: u32 = 160;
+    let mut session = session();
+    // Flights of steps, seen from the front, each edge of which ends behind the sheet.
+    let steps = (0..24).flat_map(|i| {
+        let (y, z) = (3.0 * f64::from(i) - 36.0, -20.0 - 2.0 * f64::from(i));
+        [DVec2::new(y, z), DVec2::new(y + 3.0, z)]
+    });
+    let profile: Vec<DVec2> = steps.collect();
+    let positions = profile.iter().flat_map(|p| [-60.0, 60.0].map(|x| Vec3::new(x, p.x as f32, p.y as f32)));
+    let quads = (0..profile.len() as u32 - 1).flat_map(|i| {
+        let [a, b, c, d] = [2 * i, 2 * i + 1, 2 * i + 2, 2 * i + 3];
+        [a, b, d, a, d, c]
+    });
+    let stairs = from_triangles(positions.collect(), quads.collect());
+    let corners = [[0.0, -30.0], [70.0, -30.0], [70.0, 30.0], [0.0, 30.0]].map(DVec2::from_array);
+    for (profile_px, inner_px) in [(1.3, 1.7), (1.3, 2.4), (1.0, 4.0)] {
+        for tilt in [0.0, 0.01, 0.03] {
+            let sheet = DMat4::from_translation(DVec3::new(0.3, 0.0, 20.0)) * DMat4::from_rotation_z(tilt);
+            let scene = scene(vec![
+                ("stairs", stairs.clone(), DMat4::from_rotation_x(0.2), [0.7; 3]),
+                ("sheet", flat(&corners), sheet, [0.7; 3]),
+            ]);
+            let mut opened = line_drawing(&scene, camera(SIDE));
+            set_width(&mut opened, profile_px, SIDE);
+            set(&mut opened, "edges.inner.width", &format!("{}", inner_px * 1080.0 / f64::from(SIDE)));
+            session.set_scene(&opened).unwrap();
+            let ink = Ink::of(&mut session, &opened, [SIDE; 2]);
+            for y in 55..105 {
+                let drawn = (78..84).map(|x| ink.at(x, y)).sum::<f64>();
+                assert!(
+                    drawn > 0.75 * profile_px,
+                    "{profile_px} px before {inner_px} px, tilted {tilt}, row {y}: {drawn:.3}"
+                );
+            }
+        }
     }
 }
 

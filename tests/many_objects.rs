@@ -9,7 +9,7 @@ mod common;
 use std::sync::Arc;
 use std::time::Instant;
 
-use common::{opened, scene, session};
+use common::{median, opened, scene, session};
 use glam::{DMat4, DVec3};
 use hachure::document::Document;
 use hachure::export::Session;
@@ -79,11 +79,6 @@ fn frame(session: &mut Session, document: &Document, camera: &Camera) -> [f64; 2
     let recorded = began.elapsed().as_secs_f64();
     session.renderer().gpu().wait().unwrap();
     [recorded * 1e3, began.elapsed().as_secs_f64() * 1e3]
-}
-
-fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    values[values.len() / 2]
 }
 
 #[test]

@@ -4,7 +4,7 @@
 
 mod common;
 
-use common::{image, scene, session, set};
+use common::{Object, image, scene, session, set};
 use glam::{DMat4, DQuat, DVec3};
 use hachure::document::lighting::Source;
 use hachure::document::{Document, Role};
@@ -16,8 +16,6 @@ use image::RgbaImage;
 use std::sync::Arc;
 
 const SIDE: u32 = 160;
-
-type Object = (&'static str, Mesh, DMat4, [f32; 3]);
 
 /// A face in the plane z = 0 whose front is towards +z.
 fn glass() -> Mesh {

@@ -7,7 +7,7 @@ mod common;
 
 use std::sync::Arc;
 
-use common::{opened, scene, session, set};
+use common::{opened, scene, session, set, set_for};
 use glam::{DMat4, DQuat, DVec3};
 use hachure::export::Session;
 use hachure::export::session::Opened;
@@ -46,11 +46,6 @@ fn rings(order: [usize; 4]) -> Opened {
     // The range of distances is that of all objects.
     set(&mut opened, "blueprint.by_distance", "0");
     opened
-}
-
-fn set_for(opened: &mut Opened, node: NodeId, key: &str, value: &str) {
-    let scene = Arc::clone(&opened.scene);
-    opened.document.set_for(&scene, &[node], key, &Value::parse(value)).unwrap();
 }
 
 fn drawn(session: &mut Session, opened: &Opened) -> RgbaImage {

@@ -4,16 +4,12 @@
 
 mod common;
 
-use common::{draw, image, ink, opened, scene, session, set, surfels};
+use common::{at, draw, image, ink, opened, scene, session, set, surfels};
 use glam::{DMat4, DQuat, DVec3};
 use hachure::document::Document;
 use hachure::geometry::primitives;
 use hachure::render::Request;
 use std::sync::Arc;
-
-fn at(x: f64, y: f64, z: f64) -> DMat4 {
-    DMat4::from_translation(DVec3::new(x, y, z))
-}
 
 /// Directions that are spread evenly (spherical Fibonacci).
 fn directions(count: i32) -> impl Iterator<Item = DVec3> {

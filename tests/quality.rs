@@ -4,10 +4,13 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 #![allow(clippy::print_stdout, reason = "the numbers are what it is for")]
 
+mod common;
+
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::{Duration, Instant};
 
+use common::median;
 use hachure::document::View;
 use hachure::export::session::topology;
 use hachure::geometry::{Mesh, primitives};
@@ -85,11 +88,6 @@ fn run(model: &Path, output: &Path) -> (f64, f64) {
         }
         std::thread::sleep(Duration::from_millis(2));
     }
-}
-
-fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    values[values.len() / 2]
 }
 
 #[test]

@@ -8,7 +8,7 @@ use std::path::Path;
 use std::process::Command;
 use std::sync::Arc;
 
-use common::{image, scene, session, set, surfels};
+use common::{Object, image, scene, session, set, surfels};
 use glam::{DMat4, DVec3, Vec3};
 use hachure::document::{Document, Role};
 use hachure::export::session::Opened;
@@ -20,9 +20,7 @@ const SIDE: u32 = 160;
 const RED: [f32; 3] = [0.8, 0.1, 0.05];
 const GREY: [f32; 3] = [0.5; 3];
 
-type Object = (&'static str, Mesh, DMat4, [f32; 3]);
-
-fn object(name: &'static str, mesh: Mesh, color: [f32; 3]) -> Object {
+fn colored(name: &'static str, mesh: Mesh, color: [f32; 3]) -> Object {
     (name, mesh, DMat4::IDENTITY, color)
 }
 
@@ -69,18 +67,18 @@ fn a_cut_cube_looks_like_half_a_cube() {
     let floor = || {
         let mut mesh = primitives::plane(4.0);
         mesh.positions.iter_mut().for_each(|p| *p = Vec3::new(p.x, -1.2, p.y));
-        object("floor", mesh, GREY)
+        colored("floor", mesh, GREY)
     };
     let glass = || {
         let mut mesh = primitives::plane(2.0);
         mesh.positions.iter_mut().for_each(|p| *p = Vec3::new(p.x, 0.6 * p.y - 0.5, -1.9));
-        object("glass", mesh, GREY)
+        colored("glass", mesh, GREY)
     };
     let techniques = [("plain", "off"), ("gooch", "on"), ("toon", "on"), ("halftone", "off")];
     for (technique, shadows) in techniques {
         for (eye, parallel) in [(DVec3::new(1.0, 1.4, 2.0), false), (DVec3::new(-2.0, -0.4, 1.0), true)] {
             let [cut, modelled] = [primitives::cube(2.0), cube_below(0.3)].map(|mesh| {
-                let mut opened = view(vec![object("cube", mesh, RED), floor(), glass()], eye, parallel);
+                let mut opened = view(vec![colored("cube", mesh, RED), floor(), glass()], eye, parallel);
                 set_all(&mut opened, &ALIKE);
                 set_all(
                     &mut opened,
@@ -127,7 +125,7 @@ fn plan(objects: Vec<Object>, height: &str) -> Opened {
 #[test]
 fn a_capped_solid_shows_no_inside_and_is_picked_by_its_cap() {
     let mut session = session();
-    let mut opened = plan(vec![object("ball", primitives::sphere(1.5, 24, 48), RED)], "0.2");
+    let mut opened = plan(vec![colored("ball", primitives::sphere(1.5, 24, 48), RED)], "0.2");
     let picture = common::draw(&mut session, &opened, SIDE);
     let capped = surfels(&mut session, &picture);
     // All that is within the cut lies in its plane.
@@ -158,7 +156,7 @@ fn half_height(opened: &Opened) -> f64 {
 #[test]
 fn flip_leaves_what_was_cut_away() {
     let mut session = session();
-    let torus = || vec![object("torus", primitives::torus(1.0, 0.4, 48, 24), RED)];
+    let torus = || vec![colored("torus", primitives::torus(1.0, 0.4, 48, 24), RED)];
     let mut opened = view(torus(), DVec3::new(0.2, 0.3, 1.0), true);
     let mut covered = |settings: &[(&str, &str)]| -> Vec<bool> {
         set_all(&mut opened, settings);
@@ -185,7 +183,7 @@ fn hatching_covers_its_share_and_differs_between_neighbours() {
         mesh.positions.iter_mut().for_each(|p| p.x += x);
         mesh
     };
-    let mut opened = plan(vec![object("left", at(-0.75), RED), object("right", at(0.75), GREY)], "0.1");
+    let mut opened = plan(vec![colored("left", at(-0.75), RED), colored("right", at(0.75), GREY)], "0.1");
     let lines = ["edges.profile.show", "edges.inner.show", "edges.section.show"];
     set_all(&mut opened, &lines.map(|key| (key, "false")));
     // In pixels of this picture: 12 apart and 3 wide.
@@ -232,7 +230,7 @@ fn hatching_covers_its_share_and_differs_between_neighbours() {
 #[test]
 fn the_cut_has_lines_of_its_own_class() {
     let mut session = session();
-    let mut opened = plan(vec![object("ball", primitives::sphere(1.5, 24, 48), RED)], "0.2");
+    let mut opened = plan(vec![colored("ball", primitives::sphere(1.5, 24, 48), RED)], "0.2");
     let half = half_height(&opened);
     set_all(
         &mut opened,
@@ -276,7 +274,7 @@ fn the_cut_has_lines_of_its_own_class() {
 fn section_lines_do_not_count_where_nothing_is_cut() {
     let mut session = session();
     // A ridge two pixels beside a silhouette, with lines a little less wide.
-    let cube = object("cube", primitives::cube(2.0), RED);
+    let cube = colored("cube", primitives::cube(2.0), RED);
     let mut opened = view(vec![cube], DVec3::new(0.04, 0.3, 1.0), true);
     set_all(&mut opened, &[("edges.profile.width", "12"), ("edges.inner.width", "12")]);
     for (show, position) in [("false", "0"), ("true", "5")] {
@@ -292,7 +290,7 @@ fn section_lines_do_not_count_where_nothing_is_cut() {
 #[test]
 fn a_plane_that_leaves_nothing_leaves_paper_and_says_so() {
     let mut session = session();
-    let mut opened = plan(vec![object("ball", primitives::sphere(1.0, 12, 16), RED)], "-5");
+    let mut opened = plan(vec![colored("ball", primitives::sphere(1.0, 12, 16), RED)], "-5");
     let empty = Opened { scene: Arc::new(Scene::default()), ..opened.clone() };
     assert_eq!(image(&mut session, &opened, SIDE), image(&mut session, &empty, SIDE));
     set(&mut opened, "section.flip", "true");

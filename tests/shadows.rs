@@ -7,7 +7,7 @@ mod common;
 
 use std::sync::Arc;
 
-use common::{draw, image, opened, scene, session, set, surfels, texels};
+use common::{at, draw, image, opened, sample, scene, session, set, surfels, texels};
 use glam::{DMat4, DQuat, DVec3, UVec2, Vec2, Vec3};
 use hachure::document::Document;
 use hachure::export::Session;
@@ -21,10 +21,6 @@ use hachure::scene::{Camera, Light, LightKind, Scene};
 
 /// As in `shaders/passes/shadow.wgsl`: light that grazes a surface at less than this cosine lights nothing.
 const GRAZING: f64 = 1e-3;
-
-fn at(x: f64, y: f64, z: f64) -> DMat4 {
-    DMat4::from_translation(DVec3::new(x, y, z))
-}
 
 /// A square that faces up.
 fn floor(size: f64) -> DMat4 {
@@ -201,11 +197,6 @@ fn small_scenes() -> Vec<(&'static str, Arc<Scene>, Vec<LightKind>)> {
     ]
 }
 
-fn sample(name: &str) -> Arc<Scene> {
-    let path = format!("{}/assets/models/{name}.glb", env!("CARGO_MANIFEST_DIR"));
-    open(&[path.into()], |_| {}, &Progress::default()).unwrap().scene
-}
-
 fn sample_lights(scene: &Scene) -> [LightKind; 4] {
     let bounds = scene.bounds();
     let away = DVec3::new(-0.6, 0.9, 0.8).normalize() * bounds.diagonal();
@@ -224,7 +215,7 @@ fn shadows_are_where_rays_find_them() {
         check(&mut session, name, &scene, &lights, 256);
     }
     for name in ["crank", "ogre"] {
-        let scene = sample(name);
+        let scene = sample(name).scene;
         check(&mut session, name, &scene, &sample_lights(&scene), 320);
     }
 }
@@ -237,7 +228,7 @@ fn shadows_are_where_rays_find_them_in_large_pictures() {
         check(&mut session, name, &scene, &lights, 800);
     }
     for name in ["crank", "ogre"] {
-        let scene = sample(name);
+        let scene = sample(name).scene;
         check(&mut session, name, &scene, &sample_lights(&scene), 800);
     }
 }

@@ -10,20 +10,12 @@ mod planes;
 
 use std::collections::BTreeSet;
 use std::f64::consts::TAU;
-use std::path::Path;
 
 use glam::{DVec3, dvec3};
 use hachure::geometry::{Bounds, CreaseRule, Topology};
-use hachure::import::{ImportOptions, Progress, load};
 use hachure::scene::Scene;
 
-use planes::{Triangle, shared, triangles};
-
-/// The temple as the program imports it.
-fn temple() -> Scene {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/models/temple.glb");
-    load(&path, &ImportOptions::default(), &Progress::default()).unwrap()
-}
+use planes::{Triangle, file, imported, shared, triangles};
 
 /// The box around what a node and those below it show.
 fn bounds(scene: &Scene, path: &str) -> Bounds {
@@ -39,11 +31,10 @@ fn bounds(scene: &Scene, path: &str) -> Bounds {
 
 #[test]
 fn the_temple_is_made_of_named_solids() {
-    let scene = temple();
+    let scene = imported("temple");
     assert_eq!(scene.warnings, []);
     assert!((30_000..80_000).contains(&scene.triangle_count()), "{}", scene.triangle_count());
-    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/models/temple.glb");
-    assert!(file.metadata().unwrap().len() < 2 << 20, "larger than 2 MiB");
+    assert!(file("temple").metadata().unwrap().len() < 2 << 20, "larger than 2 MiB");
     for path in [
         "ground",
         "forecourt/obelisk.2/needle",
@@ -87,7 +78,7 @@ fn the_temple_is_made_of_named_solids() {
 
 #[test]
 fn two_statues_guard_the_doorway_to_the_chambers() {
-    let scene = temple();
+    let scene = imported("temple");
     let [left, right, door, hall, chambers] =
         ["statues/statue.1", "statues/statue.2", "doorway", "hall", "chambers"].map(|p| bounds(&scene, p));
     assert!(left.max.x < door.center().x && door.center().x < right.min.x);
@@ -109,7 +100,7 @@ fn two_statues_guard_the_doorway_to_the_chambers() {
 
 #[test]
 fn no_line_of_sight_leaves_the_hidden_chamber() {
-    let scene = temple();
+    let scene = imported("temple");
     let [hidden, walls, roof] =
         ["hidden_chamber", "chambers/enclosure", "chambers/roof.upper"].map(|path| match path {
             "chambers/roof.upper" => (1..=3)
@@ -139,7 +130,7 @@ fn no_line_of_sight_leaves_the_hidden_chamber() {
 
 #[test]
 fn no_two_faces_of_the_temple_lie_in_one_place() {
-    let scene = temple();
+    let scene = imported("temple");
     let shared = shared(&scene);
     assert!(shared.is_empty(), "{shared:#?}");
 }

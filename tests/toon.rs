@@ -8,7 +8,7 @@ mod common;
 use std::collections::HashSet;
 use std::sync::Arc;
 
-use common::{Surfel, draw, image, opened, scene, session, set, surfels, texels};
+use common::{Surfel, at, draw, image, opened, scene, session, set, surfels, texels, to_srgb};
 use glam::{DMat4, DVec3, UVec2, Vec2, Vec3, vec3};
 use hachure::export::Session;
 use hachure::export::session::Opened;
@@ -19,10 +19,6 @@ use hachure::style::{Color, Value};
 use image::RgbaImage;
 
 const SIDE: i32 = 160;
-
-fn at(x: f64, y: f64, z: f64) -> DMat4 {
-    DMat4::from_translation(DVec3::new(x, y, z))
-}
 
 /// A toon without lines.
 fn toon(scene: &Arc<Scene>, towards_viewer: DVec3, border: &str) -> Opened {
@@ -187,12 +183,6 @@ fn ramp_and_cartoon_map_equal_their_twins() {
         inside > 5000 && smoothed > 500 && accents == HIGHLIGHT | RIM,
         "{inside} {smoothed} {accents}: nothing to see"
     );
-}
-
-fn to_srgb(linear: f32) -> u8 {
-    let c = linear.clamp(0.0, 1.0);
-    let c = if c <= 0.003_130_8 { c * 12.92 } else { 1.055 * c.powf(1.0 / 2.4) - 0.055 };
-    (c * 255.0).round() as u8
 }
 
 fn ball() -> Arc<Scene> {

@@ -1,5 +1,10 @@
 // How far layers have come, while it is being counted. Twin: `Peeled` in src/render/passes/peel.rs.
 
+// What ends it. As in src/render/passes/peel.rs.
+const TOO_FEW_PIXELS: u32 = 0u;
+const UNCOVERED: u32 = 1u;
+const MOST_LAYERS: u32 = 2u;
+
 struct Counted {
     // A layer with fewer pixels ends it.
     least: u32,
@@ -10,9 +15,12 @@ struct Counted {
     // Pixels of the layer that is counted, and of the depth mask that pass the depth test against it.
     covered: atomic<u32>,
     uncovered: atomic<u32>,
-    // A layer that leaves this share of the depth mask uncovered, 0 to 1, ends it too; 1: one has.
+    // A layer that leaves this share of the depth mask uncovered, 0 to 1, ends it too.
     fraction: f32,
-    has_uncovered: u32,
+    // So many layers end it where no depth mask is in the picture.
+    most: u32,
+    // What has ended it.
+    ended_by: u32,
     // Pixels of the depth mask, and those of them behind opaque surfaces.
     masked: u32,
     hidden: u32,

@@ -53,6 +53,8 @@ struct EdgeStyle {
     depth_gradient: f32,
     color_gradient: f32,
     sums_changes: u32,
+    // Shorter pieces of lines that nothing continues are left out, px of this picture.
+    shortest: f32,
 }
 
 const EXACT_MODE: u32 = 1u;

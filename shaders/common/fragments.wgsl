@@ -1,7 +1,7 @@
 // Fragment lists: all that the objects of a group cover, as linked lists, one per pixel. A fragment's number is its index
 // plus 1; 0 is none. Twin: `FragmentLists` in src/render/passes/fragment_lists.rs.
 #import common/frame.wgsl
-#import common/records.wgsl
+#import gpu/record_texture.wgsl
 
 // How fragments lie behind each other: what the order of their layers depends on.
 struct Link {

@@ -63,16 +63,20 @@ struct HatchingStyle {
     indication: Indication,
     // 1: the detail that indication gives is drawn instead of strokes.
     shows_detail: u32,
+    // `CURVE` samples of the tone curve.
+    curve: array<vec4<f32>, 9>,
 }
 
 var<storage, read> hatching_styles: array<HatchingStyle>;
-// The tone curve of each object.
-var<storage, read> hatching_curves: array<f32>;
 // See passes/triangle_map.wgsl, and passes/coordinates.wgsl for objects with strokes by texture coordinates.
 var triangle_map_tex: texture_storage_2d<rgba32uint, read>;
 
 // As in src/render/effects/hatching.rs.
 const CURVE: u32 = 33u;
+
+fn tone_sample(object: u32, number: u32) -> f32 {
+    return hatching_styles[object].curve[number / 4u][number % 4u];
+}
 
 fn luminance_of(linear: vec3<f32>) -> f32 {
     return dot(linear, vec3(0.2126, 0.7152, 0.0722));
@@ -83,8 +87,7 @@ fn darkness(object: u32, light: f32) -> f32 {
     // As bright as it looks, not as it measures.
     let place = pow(clamp(light, 0.0, 1.0), 1.0 / 2.2) * f32(CURVE - 1u);
     let first = min(u32(place), CURVE - 2u);
-    let i = object * CURVE + first;
-    let tone = mix(hatching_curves[i], hatching_curves[i + 1u], place - f32(first));
+    let tone = mix(tone_sample(object, first), tone_sample(object, first + 1u), place - f32(first));
     let white = hatching_styles[object].white;
     return clamp((1.0 - tone - white) / max(1.0 - white, 1e-3), 0.0, 1.0) * hatching_styles[object].darkest;
 }

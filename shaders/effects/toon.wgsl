@@ -3,6 +3,7 @@
 #import common/fullscreen.wgsl
 #import common/gbuffer.wgsl
 #import common/light.wgsl
+#import gpu/record_texture.wgsl
 #import common/same_surface.wgsl
 
 const TOON: u32 = 4u;
@@ -40,7 +41,7 @@ struct ToonStyle {
 
 var<storage, read> toon_styles: array<ToonStyle>;
 // Linear colours of all ramps.
-var<storage, read> toon_bands: array<vec4<f32>>;
+var toon_bands: texture_storage_2d<rgba32uint, read>;
 // The bands of the objects whose borders are smoothed by it.
 var cartoon_map_tex: texture_2d<u32>;
 
@@ -70,7 +71,7 @@ fn band_at(object: u32, place: f32) -> u32 {
 }
 
 fn band_color(object: u32, band: u32) -> vec3<f32> {
-    return toon_bands[toon_styles[object].first_band + band].rgb;
+    return bitcast<vec4<f32>>(texel_at(toon_bands, toon_styles[object].first_band + band)).rgb;
 }
 
 // What there is at a point: 1 + band, highlight, rim; never 0.

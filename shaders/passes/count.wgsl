@@ -2,7 +2,7 @@
 // paper, sections 4.2 and 4.3): occlusion queries would count overdraw, and only the processor could act on them.
 #import common/frame.wgsl
 #import common/counted.wgsl
-#import common/neighbours.wgsl
+#import gpu/neighbours.wgsl
 #import common/depth_mask.wgsl
 
 // Whether there is a depth mask.
@@ -69,11 +69,13 @@ fn shut_gate(index: u32) {
     }
 }
 
-// Before a layer is drawn: too few pixels end peeling before it.
+// Before a layer is drawn: too few pixels end peeling before it, and enough layers where there is nothing to uncover.
 @compute @workgroup_size(64)
 fn cs_decide(@builtin(local_invocation_index) index: u32) {
     let had_ended = peeled.has_ended == 1u;
-    let ends = had_ended || atomicLoad(&peeled.covered) < peeled.least;
+    let has_few = atomicLoad(&peeled.covered) < peeled.least;
+    let has_all = WITH_MASK && mask.pixels == 0u && peeled.layers >= peeled.most;
+    let ends = had_ended || has_few || has_all;
     // All have read before one of them writes.
     storageBarrier();
     if ends {
@@ -86,6 +88,7 @@ fn cs_decide(@builtin(local_invocation_index) index: u32) {
     peeled.passed[peeled.layers] = atomicExchange(&peeled.uncovered, 0u);
     if ends {
         peeled.has_ended = 1u;
+        peeled.ended_by = select(MOST_LAYERS, TOO_FEW_PIXELS, has_few);
     } else {
         peeled.layers += 1u;
     }
@@ -107,7 +110,7 @@ fn cs_uncovered(@builtin(local_invocation_index) index: u32) {
         peeled.hidden = mask.hidden;
         if ends {
             peeled.has_ended = 1u;
-            peeled.has_uncovered = 1u;
+            peeled.ended_by = UNCOVERED;
         }
     }
 }

@@ -3,25 +3,18 @@
 #import common/fragments.wgsl
 #import common/counted.wgsl
 #import common/layer_color.wgsl
+#import gpu/parted_counter.wgsl
 
 @group(1) @binding(0) var<storage, read_write> counted: Counted;
 // The last fragment so far of each pixel.
 @group(1) @binding(1) var<storage, read_write> heads: array<atomic<u32>>;
-// Fragments in textures: software devices read and write their records faster than those of buffers.
 @group(1) @binding(2) var link_tex: texture_storage_2d<rgba32uint, write>;
 @group(1) @binding(3) var payload_tex: texture_storage_2d<rgba32uint, write>;
 @group(1) @binding(4) var<storage, read_write> colors: array<u32>;
 
-// Software devices draw each tile of 64 by 64 pixels on one processor. So that adjacent ones do not wait for each other's
-// memory, they count for themselves, in so many parts, and write runs of their own. Twins: in src/render/passes/peel.rs.
-const PARTS: u32 = 4u;
-const RUN: u32 = 1024u;
-
 fn next_index(px: vec2<u32>) -> u32 {
-    let tile = px / 64u % 2u;
-    let part = 2u * tile.y + tile.x;
-    let number = atomicAdd(&counted.fragments[part * 64u / PARTS], 1u);
-    return (number / RUN * PARTS + part) * RUN + number % RUN;
+    let part = part_of(px);
+    return index_of(part, atomicAdd(&counted.fragments[word_of(part)], 1u));
 }
 
 fn append(position: vec4<f32>, ids: vec4<u32>, drawn: GBuffer) {

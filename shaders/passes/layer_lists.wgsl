@@ -2,7 +2,7 @@
 #import common/frame.wgsl
 #import common/fullscreen.wgsl
 #import common/placed.wgsl
-#import common/records.wgsl
+#import gpu/record_texture.wgsl
 
 // The rows that have room now, for so many entries. Twin: `BandUniform` in src/render/passes/layer_lists.rs.
 struct Band {

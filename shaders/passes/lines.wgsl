@@ -6,7 +6,7 @@
 #import common/edge_map.wgsl
 #import common/edge_style.wgsl
 #import common/coverage.wgsl
-#import common/neighbours.wgsl
+#import gpu/neighbours.wgsl
 #import common/placed.wgsl
 
 // Whether any object is drawn in paper or exact mode, whether widths differ, whether anything is dashed, and whether a
@@ -138,16 +138,27 @@ fn line_at(at: vec2<f32>, g: Surfel, found: u32) -> Line {
     return Line(vec4(color, 1.0) * coverage, edge.depth, false, strength, d, to_source);
 }
 
+// The line that has been found for a pixel, or without looking its own one.
+fn line_of(px: vec2<i32>) -> u32 {
+    let found = textureLoad(farthest_tex, px, 0).x;
+    if NARROW {
+        let own = vec2<u32>(px);
+        return select(0u, ((own.y << 16u) | own.x) + 1u, found != 0u);
+    }
+    return found;
+}
+
 // A hidden line may have won against one that is not: of the lines of the pixels around, the one that covers most.
 fn line_around(at: vec2<f32>, g: Surfel, hidden: u32) -> Line {
     let px = vec2<i32>(floor(at));
     let last = vec2<i32>(frame.size) - 1;
     var best = no_line();
     var tried = hidden;
-    for (var reach = 2; reach <= 16; reach *= 2) {
+    let farthest = select(16, select(1, 2, NARROW_BY_TWO), NARROW);
+    for (var reach = 1; reach <= farthest; reach *= 2) {
         for (var i = 0; i < 9; i++) {
             let q = clamp(px + reach * (vec2(i % 3, i / 3) - 1), vec2(0), last);
-            let found = textureLoad(farthest_tex, q, 0).x;
+            let found = line_of(q);
             if found != tried && found != hidden {
                 let line = line_at(at, g, found);
                 if line.ink.a > best.ink.a {
@@ -193,6 +204,45 @@ fn found_nearby(px: vec2<i32>) -> u32 {
         best = nearer_of(best, spines[i], px, vec2(i % 3, i / 3) - 1);
     }
     return best.found;
+}
+
+// A line that runs beside the one that was found, and how much of its width that leaves of it.
+struct Beside {
+    found: u32,
+    share: f32,
+}
+
+// So far apart, px, are spines at least that are not of one line, and so far along it at most is looked.
+const APART: f32 = 0.9;
+const ALONG: f32 = 1.0;
+// Cosine of the angle up to which lines run side by side.
+const PARALLEL: f32 = 0.97;
+
+// Where several thin lines run through a pixel, each covers its share: their sum is an even grey, the nearest one alone is not.
+fn found_beside(px: vec2<i32>, found: u32) -> Beside {
+    let first_px = vec2<i32>(vec2((found - 1u) & 0xffffu, (found - 1u) >> 16u));
+    let first = unpack_edge(textureLoad(edge_map_tex, first_px));
+    let tangent = unpack_tangent(first.tangent);
+    let left = vec2(tangent.y, -tangent.x);
+    let spine = vec2<f32>(first_px) + first.offset;
+    var spines = nine_at(farthest_tex, px);
+    var best = Nearby(0u, 0.0);
+    var gap = 0.0;
+    for (var i = 0; i < 9; i++) {
+        let away = vec2(i % 3, i / 3) - 1;
+        let offset = vec2(f32((spines[i] >> 8u) & 255u), f32(spines[i] & 255u)) / 127.0 - 1.0;
+        let d = vec2<f32>(px + away) + offset - spine;
+        let next = nearer_of(best, spines[i], px, away);
+        if next.found != best.found && abs(dot(d, left)) > APART && abs(dot(d, tangent)) < ALONG {
+            best = next;
+            gap = abs(dot(d, left));
+        }
+    }
+    let second_px = vec2<i32>(vec2((max(best.found, 1u) - 1u) & 0xffffu, (max(best.found, 1u) - 1u) >> 16u));
+    let second = unpack_edge(textureLoad(edge_map_tex, second_px));
+    let is_parallel = abs(dot(unpack_tangent(second.tangent), tangent)) > PARALLEL;
+    let width = first.half_width + second.half_width;
+    return Beside(select(0u, best.found, is_parallel), clamp(gap / max(width, 1e-6), 0.0, 1.0));
 }
 
 fn farthest_at(px: vec2<i32>) -> u32 {
@@ -286,8 +336,13 @@ fn lines_at_place(at: vec2<f32>, g: Surfel) -> Line {
     if WITH_EXACT {
         let farthest = farthest_at(px);
         lines = line_at(at, g, farthest);
-        if !NARROW && lines.is_hidden {
+        if lines.is_hidden {
             lines = line_around(at, g, farthest);
+        }
+        if NARROW && !NARROW_BY_TWO && !MOVED && farthest != 0u {
+            let beside = found_beside(px, farthest);
+            let other = line_at(at, g, beside.found);
+            lines.ink += other.ink * min(beside.share, (1.0 - lines.ink.a) / max(other.ink.a, 1e-6));
         }
         if WITH_WIDTHS {
             // A thin line inside a wide one is the nearer one.
@@ -299,7 +354,10 @@ fn lines_at_place(at: vec2<f32>, g: Surfel) -> Line {
                 let depth = select(lines.depth, thin.depth, ink.a > 0.0);
                 let away = select(lines.away, thin.away, ink.a > 0.0);
                 let to_source = select(lines.to_source, thin.to_source, ink.a > 0.0);
-                lines = Line(over(ink, lines.ink), depth, false, strength, away, to_source);
+                // Where both are translucent they are one ink.
+                let both = over(ink, lines.ink);
+                let most = max(thin.strength, lines.strength);
+                lines = Line(both * min(most / max(both.a, 1e-6), 1.0), depth, false, strength, away, to_source);
             }
         }
     }

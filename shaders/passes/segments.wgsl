@@ -9,7 +9,7 @@
 #import common/line_width.wgsl
 #import common/kept.wgsl
 #import common/segment_point.wgsl
-#import common/records.wgsl
+#import gpu/record_texture.wgsl
 #import common/repeated.wgsl
 
 // Whether any object has holes by alpha: there a line needs one of its own surfaces beside it.
@@ -185,19 +185,40 @@ fn beside(spine: Spine, along: f32, regions: vec2<u32>) -> Beside {
 
 // Cosine of the angle between normals of one smooth surface.
 const SMOOTH: f32 = 0.96;
+// The same of both sides of a fold that only the triangles of a smooth surface have, and the most of it that may face the eye.
+const FOLDED: f32 = 0.8;
+const GRAZING: f32 = 0.5;
 
-// Whether one smooth surface goes on under a spine, whatever topology thinks: at a seam that could not be mended, and at needles
-// that are turned over.
-fn goes_on_under(spine: Spine, own: u32) -> bool {
+// The length of an edge in space, px.
+fn length_of(v: Segment, depth: f32) -> f32 {
+    let along_view = step_px(nearness_of(v.depths_arcs.x) - nearness_of(v.depths_arcs.y), depth);
+    return length(vec3(v.ends.zw - v.ends.xy, along_view));
+}
+
+// Whether one smooth surface goes on under a spine, whatever topology thinks: at a seam that could not be mended, at needles
+// that are turned over, and where coarse triangles fold to and fro around the contour of the surface that they stand for. A
+// fold of theirs is no deeper than an edge is long, and its sides are seen aslant and agree in their normals; those of a contour
+// do so only near its end.
+fn goes_on_under(spine: Spine, own: u32, edge_px: f32) -> bool {
     let one_px = texel_beside(spine, PLACES[0]);
     let other_px = texel_beside(spine, PLACES[4]);
     let region = textureLoad(region_tex, one_px).x;
     let one = unpack_surfel(textureLoad(geometry_tex, one_px));
     let other = unpack_surfel(textureLoad(geometry_tex, other_px));
     // Where a layer has nothing, region 0, its geometry is undefined.
+    let alike = dot(one.normal, other.normal);
     let is_same = region != 0u && region == textureLoad(region_tex, other_px).x
-        && one.object == own && other.object == own && dot(one.normal, other.normal) > SMOOTH;
+        && one.object == own && other.object == own && alike > FOLDED;
     if !is_same {
+        return false;
+    }
+    let towards = towards_eye(pos_view_of(one_px, one.depth));
+    let facing = max(dot(one.normal, towards), dot(other.normal, towards));
+    let step = abs(step_px(nearness_of(one.depth) - nearness_of(other.depth), spine.depth));
+    if facing < GRAZING && step < edge_px {
+        return true;
+    }
+    if alike < SMOOTH {
         return false;
     }
     // Both sides meet at the spine.
@@ -218,6 +239,11 @@ fn goes_on_under(spine: Spine, own: u32) -> bool {
         greatest = max(greatest, select(1e9, step_px(miss, one.depth), is_there));
     }
     return greatest < SLACK;
+}
+
+// Whether another object lies so far before a line there that it hides its ink.
+fn is_covered(there: Beside, own: u32) -> bool {
+    return there.surfel.object != own && there.lead > 2.0;
 }
 
 // The point of a segment's line next to the centre of a pixel.
@@ -305,7 +331,7 @@ fn point_at(v: Segment, number: u32, px: vec2<f32>) -> SegmentPoint {
     if class_of <= OBJECT {
         // Without a threshold, what stands on a surface (or slightly in it) has a line at its foot.
         let threshold = edge_styles[own].lines[index].threshold;
-        if threshold > 0.0 && step_behind < threshold || goes_on_under(tested, own) {
+        if threshold > 0.0 && step_behind < threshold || goes_on_under(tested, own, length_of(v, depth)) {
             return NO_POINT;
         }
         weight = 1.0;
@@ -339,14 +365,17 @@ fn point_at(v: Segment, number: u32, px: vec2<f32>) -> SegmentPoint {
         select(weight, 0.0, is_hidden),
     );
     // Where segments share a pixel the widest wins, for it would hide the others; profile edges before inner ones; then
-    // the nearest; last the object's number, so that the order of drawing does not decide.
+    // the nearest, so roughly that lines at one place are told apart by the object's number: which one wins does not change
+    // along them. A line that goes on behind a nearer object leaves the pixel to its outline.
+    let ends_here = is_covered(left, own) || is_covered(right, own);
     let is_profile = is_of_profile(class_of);
     let rank = f32(u32(min(full_width * 4.0, 126.0))) + select(0.0, 0.5, is_profile);
     let clip = frame.clip_from_view * vec4(0.0, 0.0, -depth, 1.0);
-    let nearest = bitcast<f32>((bitcast<u32>(clip.z / clip.w) & ~63u) | (own & 63u));
+    let nearest = bitcast<f32>((bitcast<u32>(clip.z / clip.w) & ~0xfffu) | ((own & 63u) << 6u));
     // Of strokes the same time of drawing counts everywhere, so that none tears another one along it.
     let first = select(nearest, mix(nearest, hand.precedence, 0.5), WITH_STROKES);
-    let order = select(rank + 1.0 + 0.499 * first, 0.5 * nearest, is_hidden) / 128.0;
+    let drawn = select(rank + 1.0 + 0.499 * first, 0.5 + 0.499 * first, ends_here);
+    let order = select(drawn, 0.5 * nearest, is_hidden) / 128.0;
     var texel = pack_edge(edge);
     texel.w |= select(0u, STROKE, hand.is_stroke);
     let is_rim = class_of <= OBJECT;

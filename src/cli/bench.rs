@@ -251,7 +251,8 @@ const ENDING: [&str; 2] = ["blueprint, ends after 6", "blueprint, peeled, ends s
 const WAYS: [LayersBy; 2] = [LayersBy::Lists, LayersBy::Peeling];
 
 /// `pixels`: how many each depth layer of the model has, in a picture of this size.
-fn looks(has_uvs: bool, pixels: &[u32], size: [u32; 2]) -> Result<Vec<Look>, CliError> {
+/// Styles that are timed in the usual light, by name.
+fn styles(has_uvs: bool) -> Result<Vec<(&'static str, Style)>, CliError> {
     let gooch = preset::load("gooch")?.style;
     let mut diagonal = gooch.clone();
     diagonal.edges.mode = EdgeMode::Paper;
@@ -274,13 +275,9 @@ fn looks(has_uvs: bool, pixels: &[u32], size: [u32; 2]) -> Result<Vec<Look>, Cli
         (style.halftone.space, style.halftone.mapping) = (space, mapping);
         style
     };
-    let exact = |width: f32| {
-        let mut style = gooch.clone();
-        (style.edges.profile.width, style.edges.inner.width) = (width, width);
-        style
-    };
+    let lines = exact(2.0)?;
     let hidden = |layers| {
-        let mut style = exact(2.0);
+        let mut style = lines.clone();
         (style.edges.hidden.mode, style.edges.hidden.layers) = (HiddenMode::Dashed, layers);
         style
     };
@@ -291,31 +288,25 @@ fn looks(has_uvs: bool, pixels: &[u32], size: [u32; 2]) -> Result<Vec<Look>, Cli
         style
     };
     let hatching = |mapping, directions| {
-        let mut style = exact(2.0);
+        let mut style = lines.clone();
         style.technique = Technique::Hatching;
         (style.hatching.mapping, style.hatching.layers.count) = (mapping, directions);
         style.hatching.indication.amount = if mapping == hatching::Mapping::Paper { 0.5 } else { 0.0 };
         style
     };
-    let plain = preset::load("plain")?.style;
-    let unshadowed = Lighting::default();
-    let hard = Lighting { shadows: true, ..Lighting::default() };
-    let soft = Lighting { shadow_softness: 2.0, ..hard.clone() };
-    // Without texture coordinates it would be the triplanar one again.
-    let by_uv = has_uvs.then(|| ("halftone, uv", halftone(Space::Surface, Mapping::Uv)));
-    let styles = [
-        ("plain", plain.clone()),
+    let mut styles = vec![
+        ("plain", preset::load("plain")?.style),
         ("toon, nearest", toon(Border::Nearest)),
         ("toon, cartoon map", toon(Border::CartoonMap)),
         ("toon, analytic", toon(Border::Analytic)),
         ("halftone, screen", halftone(Space::Screen, Mapping::Triplanar)),
         ("halftone, triplanar", halftone(Space::Surface, Mapping::Triplanar)),
-        ("gooch, no edges", no_edges),
+        ("gooch, no edges", no_edges.clone()),
         ("gooch, metal", metal),
         ("gooch + edges, diagonal", diagonal),
         ("gooch + edges, C1", c1),
-        ("gooch + edges, 2 px", exact(2.0)),
-        ("gooch + edges, 32 px", exact(32.0)),
+        ("gooch + edges, 2 px", lines.clone()),
+        ("gooch + edges, 32 px", exact(32.0)?),
         ("gooch + hidden lines, next", hidden(HiddenLayers::Next)),
         ("gooch + hidden lines, all", hidden(HiddenLayers::All)),
         ("hatching, one direction", hatching(hatching::Mapping::Stripes, 1)),
@@ -328,6 +319,24 @@ fn looks(has_uvs: bool, pixels: &[u32], size: [u32; 2]) -> Result<Vec<Look>, Cli
         ("sketch, four passes", sketch(Anchor::Surface, 4)),
         ("crayon", preset::load("crayon")?.style),
     ];
+    // Without texture coordinates it would be the triplanar one again.
+    if has_uvs {
+        styles.push(("halftone, uv", halftone(Space::Surface, Mapping::Uv)));
+    }
+    Ok(styles)
+}
+
+fn exact(width: f32) -> Result<Style, CliError> {
+    let mut style = preset::load("gooch")?.style;
+    (style.edges.profile.width, style.edges.inner.width) = (width, width);
+    Ok(style)
+}
+
+fn looks(has_uvs: bool, pixels: &[u32], size: [u32; 2]) -> Result<Vec<Look>, CliError> {
+    let plain = preset::load("plain")?.style;
+    let unshadowed = Lighting::default();
+    let hard = Lighting { shadows: true, ..Lighting::default() };
+    let soft = Lighting { shadow_softness: 2.0, ..hard.clone() };
     let look = |name, style, lighting: &Lighting| Look {
         name,
         style,
@@ -336,8 +345,11 @@ fn looks(has_uvs: bool, pixels: &[u32], size: [u32; 2]) -> Result<Vec<Look>, Cli
         layers_by: LayersBy::Auto,
     };
     let mut looks: Vec<Look> =
-        styles.into_iter().chain(by_uv).map(|(name, style)| look(name, style, &unshadowed)).collect();
-    let mut hatching_paper = hatching(hatching::Mapping::Paper, 3);
+        styles(has_uvs)?.into_iter().map(|(name, style)| look(name, style, &unshadowed)).collect();
+    let mut hatching_paper = exact(2.0)?;
+    hatching_paper.technique = Technique::Hatching;
+    hatching_paper.hatching.mapping = hatching::Mapping::Paper;
+    (hatching_paper.hatching.layers.count, hatching_paper.hatching.indication.amount) = (3, 0.5);
     (hatching_paper.edges.mode, hatching_paper.edges.operator) = (EdgeMode::Paper, DepthOperator::Sobel);
     hatching_paper.hatching.indication.by = DetailBy::Fields;
     looks.push(look("hatching, all of its paper", hatching_paper, &hard));
@@ -355,7 +367,7 @@ fn looks(has_uvs: bool, pixels: &[u32], size: [u32; 2]) -> Result<Vec<Look>, Cli
     looks.push(look("plain, shadow", plain.clone(), &hard));
     looks.push(look("plain, soft shadow", plain, &soft));
     for (name, behind) in [("before a wall", Behind::Wall), (MIRROR, Behind::Mirror)] {
-        looks.push(Look { behind, ..look(name, exact(2.0), &unshadowed) });
+        looks.push(Look { behind, ..look(name, exact(2.0)?, &unshadowed) });
     }
     Ok(looks)
 }

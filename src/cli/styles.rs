@@ -9,6 +9,7 @@ use serde_json::json;
 use super::args::StylesArgs;
 use super::{CliError, print_json, print_line, print_text};
 use crate::document::{Lighting, Section, View};
+use crate::style::preset::Preset;
 use crate::style::{Param, Slot, Style, Value, preset, widened};
 
 pub(super) fn run(args: &StylesArgs) -> Result<(), CliError> {
@@ -28,6 +29,7 @@ pub(super) fn run(args: &StylesArgs) -> Result<(), CliError> {
     if args.json {
         return print_json(&json!({
             "presets": presets.iter().map(|p| json!({
+                "id": p.id,
                 "name": p.name,
                 "technique": <&str>::from(p.style.technique),
                 "description": p.description,
@@ -36,10 +38,10 @@ pub(super) fn run(args: &StylesArgs) -> Result<(), CliError> {
         }));
     }
     print_line("Presets")?;
-    let width = presets.iter().map(|p| p.name.len()).max().unwrap_or_default();
-    for preset in &presets {
-        let technique: &str = preset.style.technique.into();
-        print_line(&format!("  {:<width$} {technique:<8} {}", preset.name, preset.description))?;
+    let width = presets.iter().map(|p| p.id.len()).max().unwrap_or_default();
+    for Preset { id, name, description, style } in &presets {
+        let technique: &str = style.technique.into();
+        print_line(&format!("  {id:<width$} {technique:<9} {name}: {description}"))?;
     }
     print_line("\nParameters (for --set KEY=VALUE and style files)")?;
     let width = params.iter().map(|p| p.key.len()).max().unwrap_or_default();

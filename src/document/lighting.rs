@@ -148,7 +148,6 @@ impl Lamp {
             "Azimuth",
             "°",
             -180.0..=180.0,
-            -180.0..=180.0,
             "Where it shines from: 0 is the front, 90 the right.",
             &mut self.azimuth,
         );
@@ -157,11 +156,10 @@ impl Lamp {
             "Elevation",
             "°",
             -90.0..=90.0,
-            -90.0..=90.0,
             "Where it shines from: 90 is straight above.",
             &mut self.elevation,
         );
-        list.number(
+        list.wide_number(
             "intensity",
             "Intensity",
             "",
@@ -203,24 +201,34 @@ impl Lighting {
     /// Every parameter, like [`crate::style::Style::params`].
     pub fn params(&mut self) -> Vec<Param<'_>> {
         let mut list = Params::default();
+        self.declare(&mut list);
+        list.finish()
+    }
+
+    /// The same with every number in the range of its parameter, however it was set.
+    #[must_use]
+    pub fn clamped(&self) -> Self {
+        let mut clamped = self.clone();
+        clamped.declare(&mut Params::clamping());
+        clamped
+    }
+
+    fn declare<'a>(&'a mut self, list: &mut Params<'a>) {
         list.section("light", |list| {
             list.choice(
                 "source",
-                "Lights",
+                "Light source",
                 "The rig of key, fill and rim light, or the lights of the model files.",
                 &mut self.source,
             );
             list.switch("shadows", "Shadows", "Whether lights throw shadows.", &mut self.shadows);
-            list.number(
+            list.share(
                 "shadow_density",
                 "Shadow density",
-                "",
-                0.0..=1.0,
-                0.0..=1.0,
                 "How dark shadows are: less leaves some of the light in them.",
                 &mut self.shadow_density,
             );
-            list.number(
+            list.wide_number(
                 "shadow_softness",
                 "Softness",
                 "°",
@@ -229,7 +237,7 @@ impl Lighting {
                 "Radius of the light: shadows get softer with the distance from what throws them; 0 is hard.",
                 &mut self.shadow_softness,
             );
-            list.number(
+            list.wide_number(
                 "shadow_detail",
                 "Shadow detail",
                 "",
@@ -250,7 +258,6 @@ impl Lighting {
                 });
             });
         });
-        list.finish()
     }
 }
 

@@ -215,6 +215,23 @@ impl Document {
         self.nodes.entry(path.to_owned()).or_default()
     }
 
+    /// The same with every number in the range of its parameter, however it was set. This is what is drawn.
+    #[must_use]
+    pub fn clamped(&self) -> Self {
+        let mut clamped = Self {
+            lighting: self.lighting.clamped(),
+            view: self.view.clamped(),
+            section: self.section.clamped(),
+            style: self.style.clamped(),
+            glyphs: self.glyphs.iter().map(Glyph::clamped).collect(),
+            ..self.clone()
+        };
+        for style in clamped.nodes.values_mut().filter_map(|node| node.style.as_mut()) {
+            *style = style.clamped();
+        }
+        clamped
+    }
+
     /// Removes entries that say nothing, so that equal documents compare equal.
     pub fn tidy(&mut self) {
         self.nodes.retain(|_, n| *n != NodeSettings::default());

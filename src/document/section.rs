@@ -138,8 +138,21 @@ impl Section {
 
     /// The same for a model that reaches so far along the plane's direction, in a unit.
     pub fn params_within(&mut self, reach: RangeInclusive<f32>, unit: &'static str) -> Vec<Param<'_>> {
-        let middle = 0.5 * (reach.start() + reach.end());
         let mut list = Params::default();
+        self.declare(reach, unit, &mut list);
+        list.finish()
+    }
+
+    /// The same with every number in the range of its parameter, however it was set.
+    #[must_use]
+    pub fn clamped(&self) -> Self {
+        let mut clamped = self.clone();
+        clamped.declare(0.0..=1.0, "", &mut Params::clamping());
+        clamped
+    }
+
+    fn declare<'a>(&'a mut self, reach: RangeInclusive<f32>, unit: &'static str, list: &mut Params<'a>) {
+        let middle = 0.5 * (reach.start() + reach.end());
         list.section("section", |list| {
             list.head("show", "Section plane", "Cut away what lies behind a plane.", &mut self.show);
             list.choice(
@@ -154,7 +167,6 @@ impl Section {
                     "Azimuth",
                     "°",
                     -180.0..=180.0,
-                    -180.0..=180.0,
                     "Direction of the plane: 0 faces the front of the model, 90 its right.",
                     &mut self.azimuth,
                 );
@@ -163,12 +175,11 @@ impl Section {
                     "Elevation",
                     "°",
                     -90.0..=90.0,
-                    -90.0..=90.0,
                     "Direction of the plane: 90 faces straight up.",
                     &mut self.elevation,
                 );
             });
-            list.number(
+            list.wide_number(
                 "position",
                 "Position",
                 unit,
@@ -191,7 +202,7 @@ impl Section {
             list.color("color", "Cap colour", "Colour of the caps.", &mut self.color);
             list.switch(
                 "lit",
-                "Shaded",
+                "Shade caps",
                 "Shade caps as their object is shaded; otherwise they have their colour as it is.",
                 &mut self.lit,
             );
@@ -199,7 +210,6 @@ impl Section {
                 list.section("hatch", |list| self.hatch.params(list));
             });
         });
-        list.finish()
     }
 }
 
@@ -248,7 +258,7 @@ pub fn without_caps(count: usize) -> Option<Warning> {
 impl Hatch {
     fn params<'a>(&'a mut self, list: &mut Params<'a>) {
         list.color("color", "Colour", "Colour of the hatching.", &mut self.color);
-        list.number(
+        list.wide_number(
             "spacing",
             "Spacing",
             "px",
@@ -257,12 +267,19 @@ impl Hatch {
             "Distance of the lines; the same everywhere in the picture.",
             &mut self.spacing,
         );
-        list.number("width", "Width", "px", 0.5..=6.0, 0.25..=32.0, "Width of the lines.", &mut self.width);
+        list.wide_number(
+            "width",
+            "Width",
+            "px",
+            0.5..=6.0,
+            0.25..=32.0,
+            "Width of the lines.",
+            &mut self.width,
+        );
         list.number(
             "angle",
             "Angle",
             "°",
-            -90.0..=90.0,
             -90.0..=90.0,
             "Direction of the lines in the plane; objects that touch each other differ.",
             &mut self.angle,

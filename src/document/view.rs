@@ -155,13 +155,26 @@ impl View {
         match self.seams {
             Seams::Auto => SeamTolerance::Automatic,
             Seams::Exact => SeamTolerance::Fraction(0.0),
-            Seams::Gap => SeamTolerance::Fraction(self.seam_gap.clamp(0.0, 5.0) * 1e-3),
+            Seams::Gap => SeamTolerance::Fraction(self.seam_gap * 1e-3),
         }
     }
 
     /// Every parameter, like [`crate::style::Style::params`]; `paper`: that of the document's style.
     pub fn params(&mut self, paper: Color) -> Vec<Param<'_>> {
         let mut list = Params::default();
+        self.declare(paper, &mut list);
+        list.finish()
+    }
+
+    /// The same with every number in the range of its parameter, however it was set.
+    #[must_use]
+    pub fn clamped(&self) -> Self {
+        let mut clamped = self.clone();
+        clamped.declare(Color::default(), &mut Params::clamping());
+        clamped
+    }
+
+    fn declare<'a>(&'a mut self, paper: Color, list: &mut Params<'a>) {
         list.section("view", |list| {
             list.color(
                 "background",
@@ -173,7 +186,7 @@ impl View {
                     from: "paper".to_owned(),
                 },
             );
-            list.number(
+            list.wide_number(
                 "crease_angle",
                 "Crease angle",
                 "°",
@@ -184,7 +197,7 @@ impl View {
             );
             list.choice(
                 "creases",
-                "Creases by",
+                "Creases from",
                 "Which folds are creases: those where the file's own normals part, or all that are sharp enough.",
                 &mut self.creases,
             );
@@ -195,7 +208,7 @@ impl View {
                 &mut self.seams,
             );
             list.when("view.seams", Seams::Gap, |list| {
-                list.number(
+                list.wide_number(
                     "seam_gap",
                     "Seam width",
                     "‰",
@@ -205,7 +218,7 @@ impl View {
                     &mut self.seam_gap,
                 );
             });
-            list.number(
+            list.wide_number(
                 "reflections",
                 "Reflections",
                 "",
@@ -216,7 +229,7 @@ impl View {
             );
             list.choice(
                 "layers",
-                "Layers by",
+                "Depth layers",
                 "How the depth layers of blueprints are made: from lists of fragments, which is faster but takes memory, or by peeling.",
                 &mut self.layers,
             );
@@ -238,6 +251,5 @@ impl View {
                 );
             });
         });
-        list.finish()
     }
 }

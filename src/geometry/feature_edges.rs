@@ -24,9 +24,9 @@ impl Traits {
     pub(super) const BORDER: Self = Self(2);
     /// The two triangles have different materials.
     pub(super) const MATERIAL: Self = Self(4);
-    /// Three triangles or more; all of them are in [`FeatureEdges::fans`].
+    /// Three triangles or more, or another mesh goes on; all of them are in [`FeatureEdges::fans`].
     pub(super) const FAN: Self = Self(8);
-    /// [`super::Edge::is_soft`]: no crease, whatever the angle.
+    /// [`super::Edge::is_soft`], [`super::Beyond::is_soft`]: no crease, whatever the angle.
     pub(super) const SOFT: Self = Self(16);
 
     /// All traits of both.
@@ -63,7 +63,8 @@ pub struct FeatureEdges {
     /// As [`super::Edge::dihedral`]; 0 at a border.
     pub(super) dihedral: Vec<f32>,
     pub(super) traits: Vec<Traits>,
-    /// Every (edge, triangle) of the edges with more than two triangles, in order.
+    /// Every (edge, triangle) of the edges with more than two triangles, in order. Numbers from that of the mesh's
+    /// triangles on are those of [`Mesh::beyond`].
     pub(super) fans: Vec<(u32, u32)>,
     /// The surfaces of the mesh.
     pub(super) surfaces: Arc<Surfaces>,
@@ -106,9 +107,17 @@ impl FeatureEdges {
                         all.add_stretch(&stretch, point, &materials);
                     }
                 }
-                EdgeKind::Border | EdgeKind::Stitched => {
-                    all.add(ends, [edge.faces[0]; 2], 0.0, Traits::BORDER);
-                }
+                EdgeKind::Border | EdgeKind::Stitched => match adjacency.beyond(number) {
+                    Some(beyond) => {
+                        let faces = [edge.faces[0], mesh.triangle_count() as u32 + beyond];
+                        all.add_fan(ends, [faces[0]; 2], 0.0, faces.into_iter());
+                        let is_soft = mesh.beyond.get(beyond as usize).is_some_and(|beyond| beyond.is_soft);
+                        if let Some(traits) = all.traits.last_mut() {
+                            *traits = traits.and(Traits::SOFT.when(is_soft));
+                        }
+                    }
+                    None => all.add(ends, [edge.faces[0]; 2], 0.0, Traits::BORDER),
+                },
                 EdgeKind::Manifold | EdgeKind::Flipped => {
                     let flipped = Traits::FLIPPED.when(edge.kind == EdgeKind::Flipped);
                     let traits = flipped.and(Traits::SOFT.when(edge.is_soft));

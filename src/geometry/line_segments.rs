@@ -152,7 +152,7 @@ impl<'a> Finder<'a> {
             wanted,
             picture,
             facings: Facings::new(mesh, &edges.bounds, view_from_local, lens),
-            fans: Fans::new(edges, mesh, *view_from_local, lens),
+            fans: Fans::new(placed, *view_from_local, lens),
             least_angle: angles.least_local(least_angle),
             angles,
             special,
@@ -205,7 +205,11 @@ impl<'a> Finder<'a> {
             let seen = self.fans.look(edge)?;
             return match seen.rim {
                 Some(rim) => self.rim(rim, seen.angle, seen.faces),
-                None => self.crease(seen.angle, seen.faces, Traits::MATERIAL.when(seen.materials_differ)),
+                None => {
+                    let soft = Traits::SOFT.when(traits.any(Traits::SOFT));
+                    let traits = soft.and(Traits::MATERIAL.when(seen.materials_differ));
+                    self.crease(seen.angle, seen.faces, traits)
+                }
             };
         }
         if traits.any(Traits::BORDER) {

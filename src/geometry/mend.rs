@@ -64,9 +64,9 @@ pub struct Mended {
     pub border_length: f64,
     /// How much of it has a partner now.
     pub joined_length: f64,
-    /// How far a vertex was allowed to move.
+    /// How far a vertex was allowed to move in a body as large as the mesh; in smaller ones less.
     pub tolerance: f64,
-    /// Up to this width, gaps needed no sign that they are cracks.
+    /// Up to this width, gaps in such a body needed no sign that they are cracks.
     pub open_gap: f64,
     /// How far a vertex moved at most.
     pub farthest_move: f64,
@@ -100,7 +100,7 @@ pub fn mend(mesh: &Mesh, adjacency: &Adjacency, tolerance: SeamTolerance) -> Opt
         return None;
     }
     let limits = Limits::new(tolerance, mesh.bounds().diagonal());
-    if !(limits.tolerance > 0.0 && limits.tolerance.is_finite()) {
+    if !limits.is_usable() {
         return None;
     }
     let borders = Borders::new(mesh, adjacency);
@@ -110,7 +110,7 @@ pub fn mend(mesh: &Mesh, adjacency: &Adjacency, tolerance: SeamTolerance) -> Opt
     let is_loose = open.edges.len() > MANY && open.edges.len() as f64 > LOOSE * mesh.indices.len() as f64;
     matching.take(anchored(&borders, &open, &limits));
     matching.take(thin_holes(&borders, &matching.open(), &limits));
-    let open_gap = if is_loose { limits.open_gap } else { matching.take_near() };
+    let opening = if is_loose { 1.0 } else { matching.take_near() };
     if !matching.has_ties {
         return None;
     }
@@ -118,8 +118,8 @@ pub fn mend(mesh: &Mesh, adjacency: &Adjacency, tolerance: SeamTolerance) -> Opt
     let report = Mended {
         border_length: borders.length,
         joined_length: outcome.joined_length,
-        tolerance: limits.tolerance,
-        open_gap,
+        tolerance: limits.greatest_tolerance(),
+        open_gap: (opening * limits.greatest_open_gap()).min(limits.greatest_tolerance()),
         farthest_move: outcome.farthest_move,
         added_vertices: outcome.added_vertices,
         dropped_triangles: outcome.dropped_triangles,
@@ -136,7 +136,7 @@ pub fn mended(mesh: Mesh, tolerance: SeamTolerance) -> Mesh {
     let least_move = TOLERANCE * mesh.bounds().diagonal();
     match mend(&mesh, &Adjacency::new(&mesh), tolerance) {
         Some((mended, report)) if report.farthest_move > least_move => {
-            Mesh { mended: Some(report), position_error: report.farthest_move as f32, ..mended }
+            Mesh { mended: Some(report), ..mended }
         }
         _ => mesh,
     }
@@ -154,7 +154,7 @@ struct Matching<'a> {
 impl<'a> Matching<'a> {
     fn new(mesh: &Mesh, borders: &'a Borders, limits: Limits) -> Self {
         let count = borders.list.len();
-        let places = Places::new(&mesh.positions, count, limits.widest(), limits.spacing);
+        let places = Places::new(&mesh.positions, borders, &limits);
         Self { borders, limits, places, is_joined: vec![false; count], has_ties: false }
     }
 
@@ -182,14 +182,14 @@ impl<'a> Matching<'a> {
         }
     }
 
-    /// Joins edges by proximity; returns the width up to which gaps needed no closure.
+    /// Joins edges by proximity; returns how many times wider than usual gaps were that needed no closure.
     fn take_near(&mut self) -> f64 {
         let stretches = Stretches::new(self.borders, &self.open(), &self.limits);
         let closed = closure::closed(self.borders, &stretches, &self.limits);
         for tie in intervals::ties(self.borders, &stretches, &closed, &self.limits) {
             self.has_ties |= self.places.tie(self.borders, tie);
         }
-        closed.open_gap
+        closed.opening
     }
 }
 

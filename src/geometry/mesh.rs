@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::{Vec2, Vec3, Vec4};
 
 use super::mend::Mended;
-use super::{Bounds, Rig};
+use super::{Beyond, Bounds, Rig};
 
 /// Triangles in their node's local coordinates (the file's units).
 ///
@@ -15,9 +15,9 @@ use super::{Bounds, Rig};
 pub struct Mesh {
     /// Vertex positions, local space, file units.
     pub positions: Vec<Vec3>,
-    /// How far a vertex may lie from its place, in units of the mesh, where seams were mended. 0: no farther than by
-    /// rounding.
-    pub position_error: f32,
+    /// How far each vertex may lie from its place, in units of the mesh, where seams were mended. Empty: no farther than
+    /// by rounding.
+    pub position_errors: Vec<f32>,
     /// What was done to its seams when it was read, if anything.
     pub mended: Option<Mended>,
     /// Shading normals, unit length, local space. Empty: every face is flat and uses its own geometric normal.
@@ -34,6 +34,8 @@ pub struct Mesh {
     pub indices: Vec<u32>,
     /// Consecutive ranges of `indices`, one per material, that cover all of it.
     pub parts: Vec<MeshPart>,
+    /// Its border edges at which another mesh goes on.
+    pub beyond: Vec<Beyond>,
     /// What a skinned mesh needs to be posed again; `None` for all others.
     pub rig: Option<Arc<Rig>>,
 }
@@ -92,8 +94,8 @@ impl Mesh {
         triangle.map(|v| self.positions[v as usize])
     }
 
-    /// The mesh whose vertex `i` is this mesh's vertex `sources[i]`, with all attributes; indices and parts are left
-    /// empty. Every source must be in range.
+    /// The mesh whose vertex `i` is this mesh's vertex `sources[i]`, with all attributes; indices, parts and what is beyond
+    /// are left empty. Every source must be in range.
     #[must_use]
     pub fn gather(&self, sources: &[u32]) -> Self {
         fn pick<T: Copy>(from: &[T], sources: &[u32]) -> Vec<T> {
@@ -101,7 +103,7 @@ impl Mesh {
         }
         Self {
             positions: pick(&self.positions, sources),
-            position_error: self.position_error,
+            position_errors: pick(&self.position_errors, sources),
             mended: self.mended,
             normals: pick(&self.normals, sources),
             has_computed_normals: self.has_computed_normals,
@@ -110,6 +112,7 @@ impl Mesh {
             tangents: pick(&self.tangents, sources),
             indices: Vec::new(),
             parts: Vec::new(),
+            beyond: Vec::new(),
             rig: self.rig.as_ref().map(|r| Arc::new(r.gather(sources))),
         }
     }
@@ -118,6 +121,7 @@ impl Mesh {
     pub fn append_copies(&mut self, sources: &[u32]) {
         let copies = self.gather(sources);
         self.positions.extend(copies.positions);
+        self.position_errors.extend(copies.position_errors);
         self.normals.extend(copies.normals);
         self.uvs.extend(copies.uvs);
         self.colors.extend(copies.colors);

@@ -2,6 +2,7 @@
 
 pub mod angle;
 pub mod arrow;
+pub mod beyond;
 pub mod bodies;
 pub mod bounds;
 pub mod box_frame;
@@ -39,6 +40,7 @@ pub mod visible_edges;
 pub mod weld;
 
 pub use arrow::{Heads, arrow};
+pub use beyond::Beyond;
 pub use bodies::{Bodies, BodyKind};
 pub use bounds::Bounds;
 pub use box_frame::box_frame;

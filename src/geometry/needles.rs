@@ -6,7 +6,7 @@
 //! edge itself: so creases beside it are not crossed. Angles are only ever made smaller; errors make creases, and hardly
 //! ever hide one.
 
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
 use super::edge::{NO_FACE, signed_angle};
@@ -19,13 +19,13 @@ const ERRORS: f32 = 2.0;
 /// A triangle that errors turn by less than this (radians) is believed.
 const BELIEVED: f32 = 0.3;
 /// Of so many triangles the normals are averaged if none of them is believed. More would lead around creases.
-const MOST_TRIANGLES: usize = 4;
+const MOST_TRIANGLES: usize = 8;
 /// What one pass has made smaller shows the next one the way.
 const PASSES: usize = 2;
 
 /// Makes the angles smaller that only errors of the positions have made.
 pub(super) fn judge_needles(mesh: &Mesh, normals: &[Vec3], adjacency: &mut Adjacency) {
-    if mesh.position_error > 0.0 {
+    if mesh.position_errors.iter().any(|&error| error > 0.0) {
         for _ in 0..PASSES {
             pass(mesh, normals, adjacency);
         }
@@ -103,31 +103,33 @@ impl Sides<'_> {
         [area, if longest > 0.0 { area / longest } else { 0.0 }]
     }
 
-    /// How far errors can turn a triangle, in radians.
+    /// How far errors can turn a triangle, in radians: one that is narrower than they are, in any direction.
     fn tilt(&self, face: u32) -> f32 {
         let [_, height] = self.area_and_height(face);
-        (ERRORS * self.mesh.position_error).atan2(height)
+        let triangle = self.mesh.triangles().get(face as usize).copied().unwrap_or_default();
+        let errors = triangle.map(|v| self.mesh.position_errors.get(v as usize).copied().unwrap_or(0.0));
+        let error = ERRORS * errors.into_iter().fold(0.0, f32::max);
+        if error < height { (error / height).asin() } else { std::f32::consts::PI }
     }
 
     /// The normal on a triangle's side of an edge.
     fn side_normal(&self, face: u32, edge: usize) -> Vec3 {
         let mut reached = vec![Reached { face, turning: 0.0, is_visited: false }];
-        let mut sum = Vec3::ZERO;
+        let mut sum = DVec3::ZERO;
         for _ in 0..MOST_TRIANGLES {
             let open = reached.iter_mut().filter(|r| !r.is_visited);
             let Some(next) = open.min_by(|a, b| a.turning.total_cmp(&b.turning)) else { break };
             next.is_visited = true;
             let Reached { face, turning, .. } = *next;
             let [area, height] = self.area_and_height(face);
-            // Relative to the error, so that the weights of tiny triangles are no zeros.
-            let height = height / self.mesh.position_error;
-            sum += self.normals[face as usize] * (area * height * height);
+            let [area, height] = [area, height].map(f64::from);
+            sum += self.normals[face as usize].as_dvec3() * (area * height * height);
             if self.tilt(face) <= BELIEVED {
                 break;
             }
             self.reach(face, turning, edge, &mut reached);
         }
-        sum.normalize_or(self.normals[face as usize])
+        sum.try_normalize().map_or(self.normals[face as usize], |normal| normal.as_vec3())
     }
 
     /// Adds the neighbours of a triangle, except across `barrier`.
@@ -159,6 +161,10 @@ mod tests {
 
     const CREASE: f32 = 0.4;
 
+    fn with_error(mesh: Mesh, error: f32) -> Mesh {
+        Mesh { position_errors: vec![error; mesh.positions.len()], ..mesh }
+    }
+
     /// Two walls at an angle that meet along y = 0, with a row of vertices close to the edge on either side and some of
     /// them off their places.
     fn walls(angle: f32, error: f32) -> Mesh {
@@ -178,7 +184,8 @@ mod tests {
             let b = a + columns + 1;
             [a, a + 1, b, b, a + 1, b + 1]
         });
-        Mesh { position_error: error, ..from_triangles(positions, triangles.collect()) }
+        let mesh = from_triangles(positions, triangles.collect());
+        with_error(mesh, error)
     }
 
     /// The length of the creases, in units of the mesh.
@@ -195,7 +202,7 @@ mod tests {
     fn errors_make_few_creases_and_hide_none() {
         for error in [1e-5, 1e-3] {
             let flat = walls(0.0, error);
-            let believed = creases(&Mesh { position_error: 0.0, ..flat.clone() });
+            let believed = creases(&with_error(flat.clone(), 0.0));
             assert!(believed > 0.5 && creases(&flat) < 0.25 * believed, "{error}: {believed}");
             for angle in [1.3, -1.3] {
                 let length = creases(&walls(angle, error));
@@ -208,11 +215,11 @@ mod tests {
     fn what_is_wide_keeps_its_angle_and_odd_errors_do_no_harm() {
         let cube = crate::geometry::primitives::cube(1.0);
         for error in [0.01, f32::NAN, -1.0] {
-            let mesh = Mesh { position_error: error, ..cube.clone() };
+            let mesh = with_error(cube.clone(), error);
             assert_eq!(Adjacency::new(&mesh).edges, Adjacency::new(&cube).edges);
         }
         for error in [1e30, f32::INFINITY] {
-            let found = Adjacency::new(&Mesh { position_error: error, ..cube.clone() });
+            let found = Adjacency::new(&with_error(cube.clone(), error));
             assert!(found.edges.iter().all(|edge| edge.dihedral.is_finite()));
         }
     }

@@ -13,7 +13,7 @@ use super::needles::judge_needles;
 use super::normals::face_normals;
 use super::soft_edges::{SoftNormals, judge_steep};
 use super::stitch::{Seam, stitch};
-use super::{CreaseRule, Mesh, Weld};
+use super::{Beyond, CreaseRule, Mesh, Weld};
 
 /// All edges of a mesh, sorted by their smaller, then their larger welded end.
 #[derive(Debug, Clone, PartialEq)]
@@ -29,6 +29,8 @@ pub struct Adjacency {
     pub seams: Vec<Seam>,
     /// Every (edge, triangle) of the non-manifold edges, in order.
     pub non_manifold: Vec<(u32, u32)>,
+    /// The border edges at which other meshes go on, each with an index into [`Mesh::beyond`], in order.
+    pub beyond: Vec<(u32, u32)>,
     /// Triangles with two corners at one welded point, which take part in no edge, each with a triangle that it
     /// borders on ([`NO_FACE`] if there is none).
     pub collapsed: Vec<(u32, u32)>,
@@ -90,6 +92,7 @@ impl Adjacency {
             first_edge,
             seams: Vec::new(),
             non_manifold: Vec::new(),
+            beyond: Vec::new(),
             collapsed: Vec::new(),
             face_count: mesh.triangle_count(),
             border_count: 0,
@@ -107,6 +110,12 @@ impl Adjacency {
             let stitched = all.edges.iter().filter(|e| e.kind == EdgeKind::Stitched).count();
             all.border_count -= stitched;
         }
+        all.beyond = (0..)
+            .zip(&mesh.beyond)
+            .filter_map(|(number, Beyond { vertices: [a, b], .. })| Some((all.edge_between(*a, *b)? as u32, number)))
+            .filter(|&(edge, _)| all.edges[edge as usize].kind == EdgeKind::Border)
+            .collect();
+        all.beyond.sort_unstable();
         judge_needles(mesh, &normals, &mut all);
         judge_steep(mesh, &mut all.edges, &mut all.seams);
         all.collapsed = half_edges
@@ -146,6 +155,12 @@ impl Adjacency {
             let [u, v] = self.edges[e].vertices;
             point(u) == Some(high) || point(v) == Some(high)
         })
+    }
+
+    /// How a border edge goes on in another mesh, if it does: an index into [`Mesh::beyond`].
+    pub fn beyond(&self, edge: u32) -> Option<u32> {
+        let found = self.beyond.binary_search_by_key(&edge, |&(edge, _)| edge).ok()?;
+        self.beyond.get(found).map(|&(_, beyond)| beyond)
     }
 
     /// A triangle on any edge between these vertices.

@@ -5,6 +5,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use super::faults::{Fault, Faults};
+use super::integer_textures::IntegerTextures;
 
 /// Why there is no device to draw with, or why it could not do something.
 #[derive(Debug, thiserror::Error)]
@@ -86,6 +87,8 @@ pub struct Gpu {
     pub writes_in_fragments: bool,
     /// Most layers of groups, ink and fill of each pixel counted by itself, that are put in order at a time: 16 bytes each.
     pub most_listed: u64,
+    /// How shaders read textures of whole numbers.
+    pub integer_textures: IntegerTextures,
     faults: Faults,
 }
 
@@ -115,7 +118,16 @@ impl Gpu {
             keep_freed_memory();
         }
         let faults = Faults::of(&device);
-        Self { device, queue, adapter_name: info.name, writes_in_fragments, most_listed: MOST_LISTED, faults }
+        let integer_textures = IntegerTextures::of(info.device_type, &device.limits());
+        Self {
+            device,
+            queue,
+            adapter_name: info.name,
+            writes_in_fragments,
+            most_listed: MOST_LISTED,
+            integer_textures,
+            faults,
+        }
     }
 
     /// Fails if a texture of this size cannot exist.
@@ -177,6 +189,17 @@ impl Gpu {
             }),
             None => Ok(()),
         }
+    }
+
+    /// Whether a pass can have outputs of these formats.
+    pub fn has_room_for(&self, outputs: &[wgpu::TextureFormat]) -> bool {
+        let bytes = outputs.iter().fold(0, |bytes: u32, format| {
+            let aligned = bytes.next_multiple_of(format.target_component_alignment().unwrap_or(1));
+            aligned + format.target_pixel_byte_cost().unwrap_or(0)
+        });
+        let limits = self.device.limits();
+        outputs.len() <= limits.max_color_attachments as usize
+            && bytes <= limits.max_color_attachment_bytes_per_sample
     }
 
     /// The most bytes that shaders can be given in one buffer.
@@ -309,25 +332,16 @@ pub fn instance_descriptor() -> wgpu::InstanceDescriptor {
     descriptor
 }
 
-/// So many textures of whole numbers the shader that reads most of them takes.
-const STORAGE_TEXTURES: u32 = 8;
-
 /// What is asked of a device: all that the adapter can do in size, and timers, the choice of instances in indirect draws and
 /// numbers of triangles where it has them.
 pub fn device_descriptor(adapter: &wgpu::Adapter) -> wgpu::DeviceDescriptor<'static> {
-    let limits = adapter.limits();
     wgpu::DeviceDescriptor {
         label: Some("hachure"),
         required_features: adapter.features()
             & (wgpu::Features::TIMESTAMP_QUERY
                 | wgpu::Features::INDIRECT_FIRST_INSTANCE
                 | wgpu::Features::PRIMITIVE_INDEX),
-        required_limits: wgpu::Limits {
-            max_storage_textures_per_shader_stage: limits
-                .max_storage_textures_per_shader_stage
-                .max(STORAGE_TEXTURES),
-            ..limits
-        },
+        required_limits: adapter.limits(),
         ..Default::default()
     }
 }

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 
 use super::bindings::{Bindings, Placeholders};
-use super::{Gpu, Inputs, ShaderError, Shaders};
+use super::{Gpu, Inputs, ShaderError, Shaders, Target};
 
 /// A shader of a file below `shaders/`, specialised: switches are its `override` constants, and what is switched off is
 /// compiled away. Software devices run both sides of a branch, so this is what makes an unused feature free.
@@ -38,15 +38,20 @@ pub enum DepthRule {
     Covered,
     /// Notes where it draws.
     Mark,
-    /// Draws only where an entry point of the same program, which is run before it, does not discard.
+    /// Draws only where an entry point of the same program, which is run before it, does not discard. The buffer is one of
+    /// [`STENCIL`], and holds nothing afterwards.
     Marked(&'static str),
-    /// The same, and only where something has been drawn, of which the depth is forgotten there. A buffer can be marked so up
-    /// to [`MOST_ROUNDS`] times; the number is that of the times before.
+    /// The same, and only where something has been drawn, of which the depth is forgotten there: a stencil in a depth buffer. A
+    /// device that has both in one texture is optional where depth has 32 bits. A buffer can be marked so up to
+    /// [`MOST_ROUNDS`] times; the number is that of the times before.
     MarkedCovered(&'static str, u32),
     /// Draws where something has been drawn, but not where an entry point of the same program, which is run before it, does
     /// not discard: there nothing has been drawn any more.
     Left(&'static str),
 }
+
+/// The format of the buffers of [`DepthRule::Marked`].
+pub const STENCIL: wgpu::TextureFormat = wgpu::TextureFormat::Stencil8;
 
 /// How often what is covered can be marked in one buffer.
 pub const MOST_ROUNDS: u32 = 4096;
@@ -62,6 +67,10 @@ pub enum DepthTest {
     MarkCovered,
     /// Passes where that was noted.
     Marked,
+    /// Passes everywhere, and notes where in a stencil.
+    MarkStencil,
+    /// Passes where that was noted.
+    Stencilled,
     /// Passes where something has been drawn, and forgets it.
     Uncover,
 }
@@ -72,7 +81,8 @@ impl DepthRule {
         match self {
             Self::Covered | Self::Left(_) => DepthTest::Covered,
             Self::Mark => DepthTest::Mark,
-            Self::Marked(_) | Self::MarkedCovered(..) => DepthTest::Marked,
+            Self::Marked(_) => DepthTest::Stencilled,
+            Self::MarkedCovered(..) => DepthTest::Marked,
         }
     }
 
@@ -80,7 +90,7 @@ impl DepthRule {
     pub fn marker(self) -> Option<(&'static str, DepthTest)> {
         match self {
             Self::Covered | Self::Mark => None,
-            Self::Marked(entry_point) => Some((entry_point, DepthTest::Mark)),
+            Self::Marked(entry_point) => Some((entry_point, DepthTest::MarkStencil)),
             Self::MarkedCovered(entry_point, _) => Some((entry_point, DepthTest::MarkCovered)),
             Self::Left(entry_point) => Some((entry_point, DepthTest::Uncover)),
         }
@@ -99,30 +109,45 @@ impl DepthRule {
         }
     }
 
-    /// What the pass does with what the buffer holds; `None`: it only reads it.
-    pub fn operations(self) -> Option<wgpu::Operations<f32>> {
-        let load = match self {
-            Self::Covered => return None,
-            Self::MarkedCovered(..) | Self::Left(_) => wgpu::LoadOp::Load,
-            Self::Mark | Self::Marked(_) => wgpu::LoadOp::Clear(0.0),
+    /// The buffer as the pass uses it.
+    pub fn attachment(self, target: &Target) -> wgpu::RenderPassDepthStencilAttachment<'_> {
+        let store = wgpu::StoreOp::Store;
+        let (depth_ops, stencil_ops) = match self {
+            Self::Covered => (None, None),
+            Self::Mark => (Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store }), None),
+            Self::MarkedCovered(..) | Self::Left(_) => {
+                (Some(wgpu::Operations { load: wgpu::LoadOp::Load, store }), None)
+            }
+            Self::Marked(_) => {
+                let store = wgpu::StoreOp::Discard;
+                (None, Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0), store }))
+            }
         };
-        Some(wgpu::Operations { load, store: wgpu::StoreOp::Store })
+        wgpu::RenderPassDepthStencilAttachment { view: target.view(), depth_ops, stencil_ops }
     }
 }
 
 impl DepthTest {
     fn state(self, format: wgpu::TextureFormat) -> wgpu::DepthStencilState {
-        let (compare, writes) = match self {
-            Self::Covered => (wgpu::CompareFunction::Less, false),
-            Self::Mark => (wgpu::CompareFunction::Always, true),
-            Self::MarkCovered | Self::Uncover => (wgpu::CompareFunction::Less, true),
-            Self::Marked => (wgpu::CompareFunction::Equal, false),
+        let depth = |compare, writes| (Some((compare, writes)), wgpu::StencilFaceState::IGNORE);
+        let stencil =
+            |compare, pass_op| (None, wgpu::StencilFaceState { compare, pass_op, ..Default::default() });
+        let (depth, face) = match self {
+            Self::Covered => depth(wgpu::CompareFunction::Less, false),
+            Self::Mark => depth(wgpu::CompareFunction::Always, true),
+            Self::MarkCovered | Self::Uncover => depth(wgpu::CompareFunction::Less, true),
+            Self::Marked => depth(wgpu::CompareFunction::Equal, false),
+            Self::MarkStencil => {
+                stencil(wgpu::CompareFunction::Always, wgpu::StencilOperation::IncrementClamp)
+            }
+            // The reference is 0.
+            Self::Stencilled => stencil(wgpu::CompareFunction::NotEqual, wgpu::StencilOperation::Keep),
         };
         wgpu::DepthStencilState {
             format,
-            depth_write_enabled: Some(writes),
-            depth_compare: Some(compare),
-            stencil: wgpu::StencilState::default(),
+            depth_write_enabled: depth.map(|(_, writes)| writes),
+            depth_compare: depth.map(|(compare, _)| compare),
+            stencil: wgpu::StencilState { front: face, back: face, read_mask: !0, write_mask: !0 },
             bias: wgpu::DepthBiasState::default(),
         }
     }
@@ -313,7 +338,7 @@ impl Pipelines {
 }
 
 fn compile(gpu: &Gpu, shaders: &Shaders, file: &'static str) -> Result<Shader, ShaderError> {
-    let (module, info) = shaders.module(file)?;
+    let (module, info) = shaders.module(file, gpu.integer_textures)?;
     let bindings = Bindings::of(&module, &info).map_err(|name| ShaderError::Invalid {
         file: file.to_owned(),
         line: 0,

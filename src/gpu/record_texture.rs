@@ -3,7 +3,7 @@
 
 use super::{Gpu, GpuError, Target};
 
-/// Texels per row, as in `shaders/common/records.wgsl`.
+/// Texels per row, as in `shaders/gpu/record_texture.wgsl`.
 const COLUMNS: u32 = 2048;
 
 const TEXEL_BYTES: usize = 16;

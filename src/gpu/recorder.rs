@@ -21,6 +21,8 @@ pub enum Onto {
     Blended,
     /// Drawn beneath it with premultiplied alpha: what is there hides it.
     Beneath,
+    /// The greater of both, channel by channel: with premultiplied alpha, what overlaps gets no stronger.
+    Greatest,
 }
 
 impl Onto {
@@ -29,7 +31,7 @@ impl Onto {
         let load = |number| match self {
             Self::Anything if number == 0 => wgpu::LoadOp::Load,
             Self::Nothing | Self::Anything => wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
-            Self::Old | Self::Blended | Self::Beneath => wgpu::LoadOp::Load,
+            Self::Old | Self::Blended | Self::Beneath | Self::Greatest => wgpu::LoadOp::Load,
         };
         (0..).zip(outputs).map(|(number, output)| Some(color_attachment(output, load(number)))).collect()
     }
@@ -40,10 +42,16 @@ impl Onto {
             dst_factor: wgpu::BlendFactor::One,
             operation: wgpu::BlendOperation::Add,
         };
+        let greatest = wgpu::BlendComponent {
+            src_factor: wgpu::BlendFactor::One,
+            dst_factor: wgpu::BlendFactor::One,
+            operation: wgpu::BlendOperation::Max,
+        };
         match self {
             Self::Nothing | Self::Anything | Self::Old => None,
             Self::Blended => Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING),
             Self::Beneath => Some(wgpu::BlendState { color: under, alpha: under }),
+            Self::Greatest => Some(wgpu::BlendState { color: greatest, alpha: greatest }),
         }
     }
 }
@@ -262,11 +270,7 @@ impl<'a> Recorder<'a> {
             draws.push((bound, viewport));
         }
         let color = draw.onto.attachments(draw.outputs);
-        let depth = draw.depth.map(|(target, rule)| wgpu::RenderPassDepthStencilAttachment {
-            view: target.view(),
-            depth_ops: rule.operations(),
-            stencil_ops: None,
-        });
+        let depth = draw.depth.map(|(target, rule)| rule.attachment(target));
         let gated = self.gated(&[[3, 1, 0, 0, 0]]);
         let mut pass = self.pass(draw.label, &color, depth);
         for (bound, viewport) in &draws {

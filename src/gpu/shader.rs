@@ -13,6 +13,7 @@ use wgpu::naga::front::wgsl;
 use wgpu::naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 
 use super::bindings;
+use super::integer_textures::{IntegerTextures, sampled};
 
 static SHADERS: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/shaders");
 
@@ -141,12 +142,18 @@ impl Shaders {
     ///
     /// # Errors
     /// [`ShaderError`] with the file and line of the mistake.
-    fn parse(&self, file: &str, checks: ValidationFlags) -> Result<(Module, ModuleInfo), ShaderError> {
-        let composed = self.compose(file)?;
-        let mut module = wgsl::parse_str(&composed.text).map_err(|e| {
-            let line = e.location(&composed.text).map_or(0, |l| l.line_number);
-            composed.error(line as usize, e.emit_to_string_with_path(&composed.text, file))
-        })?;
+    fn parse(
+        &self,
+        file: &str,
+        textures: IntegerTextures,
+        checks: ValidationFlags,
+    ) -> Result<(Module, ModuleInfo), ShaderError> {
+        let mut composed = self.compose(file)?;
+        let mut module = composed.parse(file)?;
+        if textures == IntegerTextures::Sampled {
+            composed.text = sampled(&composed.text, &module);
+            module = composed.parse(file)?;
+        }
         bindings::number(&mut module);
         let info =
             Validator::new(checks, Capabilities::SHADER_FLOAT16_IN_FLOAT32 | Capabilities::PRIMITIVE_INDEX)
@@ -162,8 +169,8 @@ impl Shaders {
     ///
     /// # Errors
     /// [`ShaderError`].
-    pub fn module(&self, file: &str) -> Result<(Module, ModuleInfo), ShaderError> {
-        self.parse(file, ValidationFlags::empty())
+    pub fn module(&self, file: &str, textures: IntegerTextures) -> Result<(Module, ModuleInfo), ShaderError> {
+        self.parse(file, textures, ValidationFlags::empty())
     }
 
     /// A shader, checked by naga.
@@ -171,11 +178,18 @@ impl Shaders {
     /// # Errors
     /// [`ShaderError`] with the file and line of the mistake.
     pub fn validate(&self, file: &str) -> Result<Module, ShaderError> {
-        self.parse(file, ValidationFlags::all()).map(|(module, _)| module)
+        self.parse(file, IntegerTextures::Storage, ValidationFlags::all()).map(|(module, _)| module)
     }
 }
 
 impl Composed {
+    fn parse(&self, file: &str) -> Result<Module, ShaderError> {
+        wgsl::parse_str(&self.text).map_err(|e| {
+            let line = e.location(&self.text).map_or(0, |l| l.line_number);
+            self.error(line as usize, e.emit_to_string_with_path(&self.text, file))
+        })
+    }
+
     fn error(&self, line: usize, message: String) -> ShaderError {
         let (file, line) = self
             .origins

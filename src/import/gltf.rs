@@ -34,6 +34,7 @@ use self::nodes::Hierarchy;
 use super::names::file_stem;
 use super::source::Folder;
 use super::{ImportError, ImportOptions, Progress};
+use crate::geometry::Mesh;
 use crate::geometry::mend::mended;
 use crate::scene::{Scene, Up, Warning};
 
@@ -99,17 +100,7 @@ fn import(path: &Path, data: &[u8], options: &ImportOptions, progress: &Progress
         meshes.extend(built.mesh.map(Arc::new));
     }
     if meshes.is_empty() {
-        return Err(Fault::Empty(
-            match (has_triangles, has_others) {
-                (false, true) => "it holds only points or lines, which are not drawn",
-                (false, false) => "its meshes have no triangles",
-                (true, _) => {
-                    "all its triangles are damaged or degenerate (indices out of range, coordinates that are no \
-                     numbers, or no area)"
-                }
-            }
-            .into(),
-        ));
+        return Err(Fault::Empty(no_triangles_reason(has_triangles, has_others).into()));
     }
     for (node, request) in hierarchy.nodes.iter_mut().zip(&wanted) {
         let Some(request) = *request else {
@@ -123,12 +114,7 @@ fn import(path: &Path, data: &[u8], options: &ImportOptions, progress: &Progress
     }
     progress.report(0.7);
 
-    let mut used = vec![false; root.materials.len() + 1];
-    for part in meshes.iter().flat_map(|m| &m.parts) {
-        if let Some(used) = used.get_mut(part.material) {
-            *used = true;
-        }
-    }
+    let used = used_materials(&meshes, root.materials.len() + 1);
     let mut notes = Vec::new();
     let (mut materials, textures) = materials::convert(&document, &folder, &used, progress, &mut notes)?;
     if used.last() == Some(&false) {
@@ -149,6 +135,28 @@ fn import(path: &Path, data: &[u8], options: &ImportOptions, progress: &Progress
     views::add(root, &hierarchy.sources, &hierarchy.worlds, &mut scene);
     progress.report(1.0);
     Ok(scene)
+}
+
+fn no_triangles_reason(has_triangles: bool, has_others: bool) -> &'static str {
+    match (has_triangles, has_others) {
+        (false, true) => "it holds only points or lines, which are not drawn",
+        (false, false) => "its meshes have no triangles",
+        (true, _) => {
+            "all its triangles are damaged or degenerate (indices out of range, coordinates that are no numbers, or \
+             no area)"
+        }
+    }
+}
+
+/// For each of so many materials whether any triangle has it.
+fn used_materials(meshes: &[Arc<Mesh>], count: usize) -> Vec<bool> {
+    let mut used = vec![false; count];
+    for part in meshes.iter().flat_map(|m| &m.parts) {
+        if let Some(used) = used.get_mut(part.material) {
+            *used = true;
+        }
+    }
+    used
 }
 
 /// The different meshes that the shown nodes ask for, and for each node which of them.

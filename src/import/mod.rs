@@ -11,6 +11,7 @@ mod image_cache;
 mod names;
 mod obj;
 mod ply;
+mod seams;
 mod source;
 mod stl;
 mod text;
@@ -161,7 +162,11 @@ pub fn load(path: &Path, options: &ImportOptions, progress: &Progress) -> Result
         source::read_regular_file(path).map_err(|source| ImportError::Read { path: path.into(), source })?;
     progress.report(0.05);
     // The importers check what they read; should one of them or a library panic all the same, only this file is lost.
-    let guarded = AssertUnwindSafe(|| load_bytes(path, &data, options, progress));
+    let guarded = AssertUnwindSafe(|| {
+        let mut scene = load_bytes(path, &data, options, progress)?;
+        seams::join_nodes(&mut scene, options.seams);
+        Ok(scene)
+    });
     let mut scene = std::panic::catch_unwind(guarded).unwrap_or_else(|payload| {
         let said = payload
             .downcast_ref::<&str>()

@@ -173,8 +173,9 @@ impl Renderer {
     /// The stripes of hatching that a document asks for and that nobody has given yet; until then strokes lie on the paper, and for
     /// good where a device cannot number triangles.
     pub fn missing_stripes(&self, document: &Document) -> Vec<StripeRequest> {
+        let document = document.clamped();
         let shown = document.shown();
-        let document = shown.as_ref().unwrap_or(document);
+        let document = shown.as_ref().unwrap_or(&document);
         match &self.scene {
             Some(scene) if Coordinates::Triangles.are_supported(&self.gpu) => missing(document, scene),
             _ => Vec::new(),
@@ -183,7 +184,7 @@ impl Renderer {
 
     /// The maps of strokes that a document describes and that nobody has given yet; until then a pen's are drawn.
     pub fn missing_strokes(&self, document: &Document) -> Vec<Recipe> {
-        missing_strokes(document, &self.strokes, &self.images)
+        missing_strokes(&document.clamped(), &self.strokes, &self.images)
     }
 
     /// Takes over a map of strokes.
@@ -308,10 +309,9 @@ impl Renderer {
     /// # Errors
     /// [`RenderError`].
     pub fn render(&mut self, request: &Request<'_>) -> Result<Picture, RenderError> {
-        match request.document.shown() {
-            Some(shown) => self.render_as_it_is(&Request { document: &shown, ..*request }),
-            None => self.render_as_it_is(request),
-        }
+        let document = request.document.clamped();
+        let shown = document.shown();
+        self.render_as_it_is(&Request { document: shown.as_ref().unwrap_or(&document), ..*request })
     }
 
     fn render_as_it_is(&mut self, request: &Request<'_>) -> Result<Picture, RenderError> {
@@ -374,7 +374,7 @@ impl Renderer {
                 },
                 objects: &objects,
                 shadow_maps: &[],
-                reflections: request.document.view.reflections.round().clamp(0.0, 8.0) as u32,
+                reflections: request.document.view.reflections.round() as u32,
             },
             view: views::View { show: request.document.view.show, layer: request.document.view.layer },
             scale_bar: bar.as_ref(),

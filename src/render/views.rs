@@ -142,7 +142,7 @@ impl Views {
             let wanted = Wanted {
                 most: number,
                 least: 1,
-                mask: None,
+                uncover: None,
                 // It cannot run out of room, which nobody would hear of.
                 by: Some(LayersBy::Peeling),
                 with_color: true,

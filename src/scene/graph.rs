@@ -164,6 +164,9 @@ impl Scene {
             for part in &mut moved.parts {
                 part.material += materials;
             }
+            for beyond in &mut moved.beyond {
+                beyond.mesh += meshes;
+            }
             if let Some(rig) = &mut moved.rig {
                 for joint in &mut Arc::make_mut(rig).joints {
                     *joint += nodes;

@@ -2,7 +2,7 @@
 //! Illustrating Architecture and Technical Parts using Hardware-Accelerated Non-Photorealistic Rendering", 2004).
 
 use super::Color;
-use super::param::Params;
+use super::param::{Params, Scope};
 
 /// Parameters of the technique `blueprint`.
 ///
@@ -32,7 +32,7 @@ pub struct Blueprint {
     pub from: u32,
     /// The last layer that is drawn, 1 to 64.
     pub to: u32,
-    /// Most layers that are peeled, 1 to 64.
+    /// Most layers that are peeled, 1 to 64, where nothing is to be uncovered.
     pub layers: u32,
     /// Peeling ends before a layer with fewer pixels; percent of the picture's, 0 to 100.
     pub least: f32,
@@ -68,36 +68,22 @@ impl Default for Blueprint {
 
 impl Blueprint {
     pub(super) fn params<'a>(&'a mut self, list: &mut Params<'a>) {
-        list.color("near", "Near", "Colour of the nearest lines.", &mut self.near);
-        list.color("far", "Far", "Colour of the farthest lines.", &mut self.far);
-        list.number(
+        list.color("near", "Near color", "Colour of the nearest lines.", &mut self.near);
+        list.color("far", "Far color", "Colour of the farthest lines.", &mut self.far);
+        list.share(
             "by_layer",
-            "Fade by layer",
-            "",
-            0.0..=1.0,
-            0.0..=1.0,
+            "Layer fade",
             "How far lines go over to the far colour with each layer before them.",
             &mut self.by_layer,
         );
-        list.number(
+        list.share(
             "by_distance",
-            "Fade by distance",
-            "",
-            0.0..=1.0,
-            0.0..=1.0,
+            "Distance fade",
             "How far lines go over to the far colour with the distance.",
             &mut self.by_distance,
         );
-        list.number(
-            "threshold",
-            "Threshold",
-            "",
-            0.0..=1.0,
-            0.0..=1.0,
-            "As in a wire frame, lines fainter than this, such as flat folds, are left out and all others are full; 0 leaves \
-             ink as it is.",
-            &mut self.threshold,
-        );
+        list.share("threshold", "Threshold", "As in a wire frame, lines fainter than this, such as flat folds, are left out and all others are full; 0 leaves \
+             ink as it is.", &mut self.threshold);
         list.switch(
             "repeated",
             "Repeat lines",
@@ -105,7 +91,7 @@ impl Blueprint {
             &mut self.repeated,
         );
         list.color("fill", "Fill", "Colour of the surfaces between the lines.", &mut self.fill);
-        list.number(
+        list.wide_number(
             "opacity",
             "Fill opacity",
             "",
@@ -120,41 +106,40 @@ impl Blueprint {
         });
         list.integer(
             "layers",
-            "Most layers",
+            "Max. layers",
             "",
             1..=64,
-            "Peeling ends after so many layers.",
+            "Peeling ends after so many layers, but goes on while designated objects have to be uncovered.",
             &mut self.layers,
         );
-        list.number(
+        list.wide_number(
             "least",
-            "Least pixels",
+            "Min. coverage",
             "%",
             0.0..=1.0,
             0.0..=100.0,
             "Peeling ends before a layer that covers a smaller share of the picture.",
             &mut self.least,
         );
-        list.number(
-            "fraction",
-            "Uncover",
-            "",
-            0.0..=1.0,
-            0.0..=1.0,
-            "Peeling ends with the layer that leaves this share of the designated objects uncovered.",
-            &mut self.fraction,
-        );
-        list.switch(
-            "beyond",
-            "Draw beyond",
-            "Draws what lies farther away than the designated objects.",
-            &mut self.beyond,
-        );
-        list.color(
-            "highlight",
-            "Highlight",
-            "Colour of designated objects of this style, which are drawn as surfaces.",
-            &mut self.highlight,
-        );
+        list.only(Scope::Masks, |list| {
+            list.share(
+                "fraction",
+                "Uncover target",
+                "Peeling ends with the layer that leaves this share of the designated objects uncovered.",
+                &mut self.fraction,
+            );
+            list.switch(
+                "beyond",
+                "Draw beyond",
+                "Draws what lies farther away than the designated objects.",
+                &mut self.beyond,
+            );
+            list.color(
+                "highlight",
+                "Highlight",
+                "Colour of designated objects of this style, which are drawn as surfaces.",
+                &mut self.highlight,
+            );
+        });
     }
 }

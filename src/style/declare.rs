@@ -3,7 +3,7 @@
 use std::ops::RangeInclusive;
 use std::path::PathBuf;
 
-use super::param::{Condition, Param};
+use super::param::{Condition, Param, Scope};
 use super::slot::{Choice, Place, Slot};
 use super::{Color, Curve, Matrix};
 
@@ -11,12 +11,19 @@ use super::{Color, Curve, Matrix};
 #[derive(Default)]
 pub struct Params<'a> {
     list: Vec<Param<'a>>,
+    clamps: bool,
     prefix: String,
     conditions: Vec<Condition>,
+    scope: Scope,
     detail: bool,
 }
 
 impl<'a> Params<'a> {
+    /// A list that stays empty: every value that is declared to it is moved into its range, see [`Slot::clamp`].
+    pub fn clamping() -> Self {
+        Self { clamps: true, ..Self::default() }
+    }
+
     /// Declares the parameters of one effect or group: their keys begin with `name.`.
     pub fn section(&mut self, name: &str, declare: impl FnOnce(&mut Self)) {
         let outer = self.prefix.len();
@@ -60,20 +67,32 @@ impl<'a> Params<'a> {
         }
     }
 
+    /// Declares parameters that matter only there.
+    pub fn only(&mut self, scope: Scope, declare: impl FnOnce(&mut Self)) {
+        let outer = std::mem::replace(&mut self.scope, scope);
+        declare(self);
+        self.scope = outer;
+    }
+
     fn push(
         &mut self,
         key: &str,
         label: &'static str,
         unit: &'static str,
         help: &'static str,
-        slot: Slot<'a>,
+        mut slot: Slot<'a>,
     ) {
+        if self.clamps {
+            slot.clamp();
+            return;
+        }
         self.list.push(Param {
             key: format!("{}{key}", self.prefix),
             label,
             unit,
             help,
             conditions: self.conditions.clone(),
+            scope: self.scope,
             detail: self.detail,
             head: false,
             span: None,
@@ -106,8 +125,21 @@ impl<'a> Params<'a> {
         self.push(key, label, "", help, Slot::Bool(value.into()));
     }
 
-    /// A number with the range of its slider (`soft`) and the range that is accepted (`hard`).
+    /// A number and the range that is offered and accepted.
     pub fn number(
+        &mut self,
+        key: &str,
+        label: &'static str,
+        unit: &'static str,
+        range: RangeInclusive<f32>,
+        help: &'static str,
+        value: impl Into<Place<'a, f32>>,
+    ) {
+        self.wide_number(key, label, unit, range.clone(), range, help, value);
+    }
+
+    /// A number of which more is accepted (`hard`) than its slider offers (`soft`).
+    pub fn wide_number(
         &mut self,
         key: &str,
         label: &'static str,
@@ -118,6 +150,17 @@ impl<'a> Params<'a> {
         value: impl Into<Place<'a, f32>>,
     ) {
         self.push(key, label, unit, help, Slot::Number { value: value.into(), soft, hard });
+    }
+
+    /// A share, 0 to 1.
+    pub fn share(
+        &mut self,
+        key: &str,
+        label: &'static str,
+        help: &'static str,
+        value: impl Into<Place<'a, f32>>,
+    ) {
+        self.number(key, label, "", 0.0..=1.0, help, value);
     }
 
     /// A whole number and the range that is offered and accepted.

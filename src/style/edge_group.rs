@@ -107,7 +107,7 @@ impl EdgeGroup<Profile> {
         places.declare("Profile edges", "Draw silhouettes, borders and the outlines of objects.", list);
         list.when("edges.mode", EdgeMode::Paper, |list| {
             list.when_any("edges.operator", ["diagonal", "c1"], |list| {
-                list.number(
+                list.wide_number(
                     "threshold",
                     "Threshold",
                     "",
@@ -118,7 +118,7 @@ impl EdgeGroup<Profile> {
                 );
             });
             list.when("edges.operator", DepthOperator::Diagonal, |list| {
-                list.number(
+                list.wide_number(
                     "gain",
                     "Gain",
                     "",
@@ -129,7 +129,7 @@ impl EdgeGroup<Profile> {
                 );
             });
             list.when("edges.operator", DepthOperator::C1, |list| {
-                list.number(
+                list.wide_number(
                     "gain_c1",
                     "Gain",
                     "",
@@ -154,19 +154,16 @@ impl EdgeGroup<Inner> {
         };
         places.declare("Inner edges", "Draw creases, borders of materials and intersections.", list);
         list.when("edges.mode", EdgeMode::Exact, |list| {
-            list.number(
+            list.share(
                 "by_angle",
                 "By angle",
-                "",
-                0.0..=1.0,
-                0.0..=1.0,
                 "How much weaker flat creases are than sharp ones; 0 draws all alike.",
                 &mut self.more.by_angle,
             );
         });
         list.when("edges.mode", EdgeMode::Paper, |list| {
             list.when_any("edges.operator", ["diagonal", "c1"], |list| {
-                list.number(
+                list.wide_number(
                     "threshold",
                     "Threshold",
                     "",
@@ -175,7 +172,7 @@ impl EdgeGroup<Inner> {
                     THRESHOLD,
                     &mut self.threshold,
                 );
-                list.number(
+                list.wide_number(
                     "gain",
                     "Gain",
                     "",

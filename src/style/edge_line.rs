@@ -108,45 +108,45 @@ impl ClassStyle {
                 places.declare(label, help, list);
                 let threshold = &mut self.threshold;
                 match class {
-                    EdgeClass::Silhouette | EdgeClass::Border | EdgeClass::Object => list.number(
+                    EdgeClass::Silhouette | EdgeClass::Border | EdgeClass::Object => list.wide_number(
                         "threshold",
-                        "Least step",
+                        "Min. depth step",
                         "px",
                         0.0..=100.0,
                         0.0..=1000.0,
                         "Drawn only where what lies behind is at least this much farther away.",
                         threshold,
                     ),
-                    EdgeClass::Ridge | EdgeClass::Valley => list.number(
+                    EdgeClass::Ridge | EdgeClass::Valley => list.wide_number(
                         "threshold",
-                        "Least angle",
+                        "Min. angle",
                         "°",
                         0.0..=90.0,
                         0.0..=180.0,
                         "Flatter folds draw nothing.",
                         threshold,
                     ),
-                    EdgeClass::Intersection => list.number(
+                    EdgeClass::Intersection => list.wide_number(
                         "threshold",
-                        "Least angle",
+                        "Min. angle",
                         "°",
                         0.0..=90.0,
                         0.0..=180.0,
                         "Surfaces that meet at a smaller angle draw nothing.",
                         threshold,
                     ),
-                    EdgeClass::Texture => list.number(
+                    EdgeClass::Texture => list.wide_number(
                         "threshold",
-                        "Least contrast",
+                        "Min. contrast",
                         "",
                         0.0..=0.5,
                         0.0..=1.0,
                         "Colours that differ by less draw nothing; 1 is from black to white.",
                         threshold,
                     ),
-                    EdgeClass::Relief => list.number(
+                    EdgeClass::Relief => list.wide_number(
                         "threshold",
-                        "Least angle",
+                        "Min. angle",
                         "°",
                         0.0..=90.0,
                         0.0..=180.0,
@@ -193,17 +193,9 @@ impl<'a> Places<'a> {
     pub(super) fn declare(self, label: &'static str, help: &'static str, list: &mut Params<'a>) {
         list.head("show", label, help, self.show);
         list.color("color", "Colour", "Colour of these lines.", self.color);
-        list.number(
-            "strength",
-            "Strength",
-            "",
-            0.0..=1.0,
-            0.0..=1.0,
-            "Opacity of these lines.",
-            self.strength,
-        );
+        list.share("strength", "Strength", "Opacity of these lines.", self.strength);
         list.when("edges.mode", EdgeMode::Exact, |list| {
-            list.number(
+            list.wide_number(
                 "width",
                 "Width",
                 "px",

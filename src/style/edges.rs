@@ -14,6 +14,8 @@ pub struct Edges {
     pub mode: EdgeMode,
     /// Where the width of profile edges lies; inner edges are centred. Exact mode.
     pub alignment: Alignment,
+    /// Shorter pieces of lines that nothing continues are left out, in reference pixels, 0 (none) to 32. Exact mode.
+    pub shortest: f32,
     /// The operator that finds depth discontinuities. Paper mode.
     pub operator: DepthOperator,
     /// What Sobel operators look at. Paper mode.
@@ -107,6 +109,7 @@ impl Default for Edges {
         Self {
             mode: EdgeMode::default(),
             alignment: Alignment::default(),
+            shortest: 4.0,
             operator: DepthOperator::default(),
             sobel: Sobel::default(),
             profile: EdgeGroup::default(),
@@ -168,24 +171,19 @@ impl Edges {
                 "Where the width of profile edges lies: half on either side, outside of the object, or on it.",
                 &mut self.alignment,
             );
-            list.number(
-                "surface_color",
-                "Surface colour",
-                "",
-                0.0..=1.0,
-                0.0..=1.0,
-                "Share of the surface's own colour in the lines; 0 leaves the colours below.",
-                &mut self.surface_color,
+            list.wide_number(
+                "shortest",
+                "Min. length",
+                "px",
+                0.0..=12.0,
+                0.0..=32.0,
+                "Shorter pieces of lines that nothing continues are left out; 0 draws all.",
+                &mut self.shortest,
             );
-            list.number(
-                "darken",
-                "Darken",
-                "",
-                0.0..=1.0,
-                0.0..=1.0,
-                "How much darker than the surface its colour is in the lines.",
-                &mut self.darken,
-            );
+            let help = "Share of the surface's own colour in the lines; 0 leaves the colours below.";
+            list.share("surface_color", "Surface colour", help, &mut self.surface_color);
+            let help = "How much darker than the surface its colour is in the lines.";
+            list.share("darken", "Darken color", help, &mut self.darken);
         });
         list.section("profile", |list| self.profile.params(list));
         for (class, style) in profile_classes {
@@ -207,7 +205,7 @@ impl Edges {
 impl Dash {
     fn params<'a>(&'a mut self, list: &mut Params<'a>) {
         let (soft, hard) = (1.0..=64.0, 1.0..=512.0);
-        list.number(
+        list.wide_number(
             "length",
             "Length",
             "px",
@@ -216,14 +214,14 @@ impl Dash {
             "Length of a dash.",
             &mut self.length,
         );
-        list.number("gap", "Gap", "px", soft, hard, "Length of the gap behind a dash.", &mut self.gap);
+        list.wide_number("gap", "Gap", "px", soft, hard, "Length of the gap behind a dash.", &mut self.gap);
     }
 }
 
 impl Sobel {
     fn params<'a>(&'a mut self, list: &mut Params<'a>) {
         let number = |list: &mut Params<'a>, key, label, most, help, value: &'a mut f32| {
-            list.number(key, label, "", 0.01..=most, 0.001..=8.0, help, value);
+            list.wide_number(key, label, "", 0.01..=most, 0.001..=8.0, help, value);
         };
         list.switch(
             "silhouettes",
@@ -233,13 +231,13 @@ impl Sobel {
         );
         list.switch("normals", "Normals", "Inner edges where normals change.", &mut self.normals);
         let help = "Gradient of normals that makes an edge; 1.4 is a fold of 20°.";
-        number(list, "normal_threshold", "Normals from", 4.0, help, &mut self.normal_threshold);
+        number(list, "normal_threshold", "Normals above", 4.0, help, &mut self.normal_threshold);
         list.switch("depth", "Depth", "Profile edges where depth changes.", &mut self.depth);
         let help = "Gradient of depth that makes an edge; a step through the whole range gives 4.";
-        number(list, "depth_threshold", "Depth from", 2.0, help, &mut self.depth_threshold);
+        number(list, "depth_threshold", "Depth above", 2.0, help, &mut self.depth_threshold);
         list.switch("color", "Colour", "Inner edges where the object's own colour changes.", &mut self.color);
         let help = "Gradient of brightness that makes an edge; a step from black to white gives 4.";
-        number(list, "color_threshold", "Colour from", 2.0, help, &mut self.color_threshold);
+        number(list, "color_threshold", "Color above", 2.0, help, &mut self.color_threshold);
         list.switch(
             "sum",
             "Cheap gradient",
@@ -251,40 +249,21 @@ impl Sobel {
 
 impl Variation {
     fn params<'a>(&'a mut self, list: &mut Params<'a>) {
-        let unit = 0.0..=1.0;
-        list.number(
-            "distance",
-            "By distance",
-            "",
-            unit.clone(),
-            unit.clone(),
-            "How much thinner far lines are.",
-            &mut self.distance,
-        );
-        list.number(
-            "light",
-            "By light",
-            "",
-            unit.clone(),
-            unit,
-            "How much thinner lines are on the side that faces the light.",
-            &mut self.light,
-        );
+        list.share("distance", "By distance", "How much thinner far lines are.", &mut self.distance);
+        let help = "How much thinner lines are on the side that faces the light.";
+        list.share("light", "By light", help, &mut self.light);
     }
 }
 
 impl Pressure {
     fn params<'a>(&'a mut self, list: &mut Params<'a>) {
-        list.number(
+        list.share(
             "amount",
             "Amount",
-            "",
-            0.0..=1.0,
-            0.0..=1.0,
             "How much the width changes along a line, as under a hand.",
             &mut self.amount,
         );
-        list.number(
+        list.wide_number(
             "scale",
             "Scale",
             "px",

@@ -74,52 +74,27 @@ impl Gooch {
     pub(super) fn params<'a>(&'a mut self, list: &mut Params<'a>) {
         list.color("cool", "Cool", "Blue of the side turned away from the light.", &mut self.cool);
         list.color("warm", "Warm", "Yellow of the side that faces the light.", &mut self.warm);
-        list.number(
+        list.share(
             "alpha",
-            "Base in cool",
-            "",
-            0.0..=1.0,
-            0.0..=1.0,
+            "Cool base color",
             "Share of the object's own colour on the cool side.",
             &mut self.alpha,
         );
-        list.number(
+        list.share(
             "beta",
-            "Base in warm",
-            "",
-            0.0..=1.0,
-            0.0..=1.0,
+            "Warm base color",
             "Share of the object's own colour on the warm side.",
             &mut self.beta,
         );
-        list.number(
-            "own_hue",
-            "Own hue",
-            "",
-            0.0..=1.0,
-            0.0..=1.0,
-            "How far blue and yellow are multiplied by the object's own colour: dark and saturated ones keep their hue.",
-            &mut self.own_hue,
-        );
-        list.number(
-            "aside",
-            "Light aside",
-            "",
-            0.0..=1.0,
-            0.0..=1.0,
-            "How far the key is turned to the side: at 1 it shines across the line of sight and sets faces apart.",
-            &mut self.aside,
-        );
-        list.number(
+        list.share("own_hue", "Keep hue", "How far blue and yellow are multiplied by the object's own colour: dark and saturated ones keep their hue.", &mut self.own_hue);
+        list.share("aside", "Side light", "How far the key is turned to the side: at 1 it shines across the line of sight and sets faces apart.", &mut self.aside);
+        list.share(
             "highlight",
             "Highlight",
-            "",
-            0.0..=1.0,
-            0.0..=1.0,
             "Strength of the highlight; 0 switches it off.",
             &mut self.highlight,
         );
-        list.number(
+        list.wide_number(
             "shininess",
             "Shininess",
             "",
@@ -128,18 +103,15 @@ impl Gooch {
             "Phong exponent: a larger one makes the highlight smaller.",
             &mut self.shininess,
         );
-        list.number(
+        list.share(
             "metal",
             "Metal",
-            "",
-            0.0..=1.0,
-            0.0..=1.0,
             "Strength of the stripes of milled metal; 0 switches them off.",
             &mut self.metal,
         );
         list.choice(
             "metal_axis",
-            "Milled around",
+            "Stripe axis",
             "The object's axis around which the stripes lie, that of each of its rounded forms, or the vertical of the view.",
             &mut self.metal_axis,
         );

@@ -115,6 +115,7 @@ impl Halftone {
         self.image.as_deref().filter(|_| self.texture == Texture::Image)
     }
 
+    // Long, as it is a list: one entry per parameter.
     pub(super) fn params<'a>(&'a mut self, list: &mut Params<'a>) {
         list.choice("texture", "Texture", "What the ink looks like.", &mut self.texture);
         list.when("halftone.texture", Texture::Image, |list| {
@@ -139,7 +140,7 @@ impl Halftone {
                 &mut self.mapping,
             );
         });
-        list.number(
+        list.wide_number(
             "scale",
             "Scale",
             "px",
@@ -148,7 +149,7 @@ impl Halftone {
             "Distance between dots or lines; on a surface between this and the double, whatever the distance.",
             &mut self.scale,
         );
-        list.number(
+        list.wide_number(
             "angle",
             "Angle",
             "°",
@@ -157,7 +158,7 @@ impl Halftone {
             "By how much the texture is turned.",
             &mut self.angle,
         );
-        list.number(
+        list.wide_number(
             "smoothness",
             "Smoothness",
             "px",
@@ -167,28 +168,23 @@ impl Halftone {
             &mut self.smoothness,
         );
         list.color("ink", "Ink", "Colour of the ink.", &mut self.ink);
-        let share = |list: &mut Params<'a>, key, label, help, value: &'a mut f32| {
-            list.number(key, label, "", 0.0..=1.0, 0.0..=1.0, help, value);
-        };
-        share(list, "ink_tint", "Own colour in ink", "Share of the object's own colour.", &mut self.ink_tint);
+        list.share("ink_tint", "Object in ink", "Share of the object's own colour.", &mut self.ink_tint);
         list.color("paper", "Paper", "Colour between the ink.", &mut self.paper);
-        share(
-            list,
+        list.share(
             "paper_tint",
-            "Own colour on paper",
+            "Object on paper",
             "How far the paper is multiplied by the object's own colour.",
             &mut self.paper_tint,
         );
-        share(list, "ambient", "Ambient", "Light that reaches every point, lit or not.", &mut self.ambient);
-        share(
-            list,
+        list.share("ambient", "Ambient", "Light that reaches every point, lit or not.", &mut self.ambient);
+        list.share(
             "own_tone",
-            "Own tone",
+            "Object tone",
             "How far the object's own colour darkens: 0 draws all as if white.",
             &mut self.own_tone,
         );
-        share(list, "black", "Black point", "Light at and below which all is ink.", &mut self.black);
-        list.number(
+        list.share("black", "Black point", "Light at and below which all is ink.", &mut self.black);
+        list.wide_number(
             "white",
             "White point",
             "",
@@ -197,7 +193,7 @@ impl Halftone {
             "Light at and above which there is no ink.",
             &mut self.white,
         );
-        list.number(
+        list.wide_number(
             "gamma",
             "Gamma",
             "",

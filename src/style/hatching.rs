@@ -212,9 +212,6 @@ impl Default for Hatching {
 
 impl Hatching {
     pub(super) fn params<'a>(&'a mut self, list: &mut Params<'a>) {
-        let share = |list: &mut Params<'a>, key, label, help, value: &'a mut f32| {
-            list.number(key, label, "", 0.0..=1.0, 0.0..=1.0, help, value);
-        };
         list.choice(
             "mapping",
             "Mapping",
@@ -231,7 +228,7 @@ impl Hatching {
             list.choice("set", "Strokes", "What the strokes look like.", &mut self.set);
         });
         list.when("hatching.mapping", Mapping::Paper, |list| {
-            list.number(
+            list.wide_number(
                 "turn_step",
                 "Turning step",
                 "°",
@@ -248,12 +245,11 @@ impl Hatching {
             );
         });
         list.color("ink", "Ink", "Colour of the ink.", &mut self.ink);
-        share(list, "ink_tint", "Own colour in ink", "Share of the object's own colour.", &mut self.ink_tint);
+        list.share("ink_tint", "Object in ink", "Share of the object's own colour.", &mut self.ink_tint);
         list.color("paper", "Paper", "Colour between the ink.", &mut self.paper);
-        share(
-            list,
+        list.share(
             "paper_tint",
-            "Own colour on paper",
+            "Object on paper",
             "How far the paper is multiplied by the object's own colour.",
             &mut self.paper_tint,
         );
@@ -272,7 +268,7 @@ impl Hatching {
 
 impl Stroke {
     fn params<'a>(&'a mut self, list: &mut Params<'a>) {
-        list.number(
+        list.wide_number(
             "spacing",
             "Spacing",
             "px",
@@ -287,21 +283,21 @@ impl Stroke {
                           label,
                           (unit, soft, hard),
                           help,
-                          value: &'a mut f32| list.number(key, label, unit, soft, hard, help, value);
+                          value: &'a mut f32| list.wide_number(key, label, unit, soft, hard, help, value);
             let share = ("", 0.02..=1.0, 0.02..=1.2);
-            number(list, "thin", "Thinnest", share.clone(), "Width of a stroke that just begins, as a share of the spacing.", &mut self.thin);
-            number(list, "thick", "Thickest", share, "Width where all is dark, as a share of the spacing.", &mut self.thick);
+            number(list, "thin", "Min. width", share.clone(), "Width of a stroke that just begins, as a share of the spacing.", &mut self.thin);
+            number(list, "thick", "Max. width", share, "Width where all is dark, as a share of the spacing.", &mut self.thick);
             let length = ("px", 10.0..=300.0, 5.0..=1000.0);
             number(list, "length", "Length", length, "Least length of strokes; up to twice as much.", &mut self.length);
             let taper = ("px", 0.0..=40.0, 0.0..=100.0);
-            number(list, "taper", "Pointed ends", taper, "Length of the ends that run out; 0: strokes go on and on.", &mut self.taper);
+            number(list, "taper", "Taper length", taper, "Length of the ends that run out; 0: strokes go on and on.", &mut self.taper);
             let gap = ("px", 0.0..=8.0, 0.0..=20.0);
             number(list, "gap", "Gap", gap, "Half of the gap between the ends of two strokes.", &mut self.gap);
             let unit = ("", 0.0..=1.0, 0.0..=1.0);
-            number(list, "spread", "One by one", unit.clone(), "0: all strokes get wider where it is dark, as an engraver's; 1: more and more come, as of a pen.", &mut self.spread);
-            number(list, "chance", "Chance", unit.clone(), "How much chance decides which strokes come first.", &mut self.chance);
-            number(list, "pointed", "Ends come late", ("", 0.0..=2.0, 0.0..=2.0), "How much darker it must be for the ends of a stroke than for its middle.", &mut self.pointed);
-            number(list, "inserted", "Insertion", unit.clone(), "How much darker it must be for lines that are inserted between others.", &mut self.inserted);
+            number(list, "spread", "Tone by count", unit.clone(), "0: all strokes get wider where it is dark, as an engraver's; 1: more and more come, as of a pen.", &mut self.spread);
+            number(list, "chance", "Randomness", unit.clone(), "How much chance decides which strokes come first.", &mut self.chance);
+            number(list, "pointed", "End delay", ("", 0.0..=2.0, 0.0..=2.0), "How much darker it must be for the ends of a stroke than for its middle.", &mut self.pointed);
+            number(list, "inserted", "Insertion delay", unit.clone(), "How much darker it must be for lines that are inserted between others.", &mut self.inserted);
             number(list, "variation", "Variation", unit, "How much widths vary from stroke to stroke.", &mut self.variation);
         });
     }
@@ -311,29 +307,23 @@ impl Layers {
     fn params<'a>(&'a mut self, list: &mut Params<'a>) {
         list.integer("count", "Directions", "", 1..=3, "How many directions cross at most.", &mut self.count);
         list.when_any("hatching.layers.count", ["2", "3"], |list| {
-            list.number(
+            list.share(
                 "second",
-                "Second from",
-                "",
-                0.0..=1.0,
-                0.0..=1.0,
+                "Second above",
                 "Darkness from which on a second direction crosses the first.",
                 &mut self.second,
             );
             list.switch(
                 "shadows_cross",
-                "Shadows cross",
+                "Cross shadows",
                 "Strokes of the form run on through cast shadows, which others make.",
                 &mut self.shadows_cross,
             );
         });
         list.when_any("hatching.layers.count", ["3"], |list| {
-            list.number(
+            list.share(
                 "third",
-                "Third from",
-                "",
-                0.0..=1.0,
-                0.0..=1.0,
+                "Third above",
                 "Darkness from which on a third direction crosses both.",
                 &mut self.third,
             );
@@ -345,7 +335,7 @@ impl Shadows {
     fn params<'a>(&'a mut self, list: &mut Params<'a>) {
         list.switch(
             "differ",
-            "Own strokes in shadows",
+            "Shadows differ",
             "Other strokes where the first light does not reach: in shadows that are thrown, and on the side away from it.",
             &mut self.differ,
         );
@@ -356,7 +346,6 @@ impl Shadows {
                 "Turned by",
                 "°",
                 -90.0..=90.0,
-                -90.0..=90.0,
                 "How far strokes in shadows are turned against those in the light.",
                 &mut self.turn,
             );
@@ -366,24 +355,20 @@ impl Shadows {
 
 impl Tone {
     fn params<'a>(&'a mut self, list: &mut Params<'a>) {
-        let share = |list: &mut Params<'a>, key, label, help, value: &'a mut f32| {
-            list.number(key, label, "", 0.0..=1.0, 0.0..=1.0, help, value);
-        };
         list.curve(
             "curve",
             "Tone curve",
             "From the light on a surface (left: none) to the tone that is drawn (below: ink).",
             &mut self.curve,
         );
-        share(list, "ambient", "Ambient", "Light that reaches every point, lit or not.", &mut self.ambient);
-        share(
-            list,
+        list.share("ambient", "Ambient", "Light that reaches every point, lit or not.", &mut self.ambient);
+        list.share(
             "own_color",
-            "Own colour",
+            "Object color",
             "How far the object's own colour darkens: 0 draws all as if white.",
             &mut self.own_color,
         );
-        share(list, "white", "White", "Darkness that is left to the paper.", &mut self.white);
-        share(list, "darkest", "Darkest", "Greatest share of ink.", &mut self.darkest);
+        list.share("white", "White point", "Darkness that is left to the paper.", &mut self.white);
+        list.share("darkest", "Darkest tone", "Greatest share of ink.", &mut self.darkest);
     }
 }

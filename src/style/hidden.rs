@@ -88,6 +88,7 @@ impl Hidden {
         }
     }
 
+    // Long, as it is a list: one entry per parameter.
     pub(super) fn params<'a>(&'a mut self, list: &mut Params<'a>) {
         use HiddenMode::{Dashed, Faint, Own};
         const MODE: &str = "edges.hidden.mode";
@@ -102,16 +103,16 @@ impl Hidden {
             list.when("edges.hidden.layers", HiddenLayers::All, |list| {
                 list.integer(
                     "most",
-                    "Most layers",
+                    "Max. layers",
                     "",
                     1..=63,
                     "So many layers behind the visible one have lines.",
                     &mut self.most,
                 );
             });
-            list.number(
+            list.wide_number(
                 "least",
-                "Least pixels",
+                "Min. coverage",
                 "%",
                 0.0..=1.0,
                 0.0..=100.0,
@@ -120,12 +121,9 @@ impl Hidden {
             );
         });
         list.when_any(MODE, [Faint, Dashed], |list| {
-            list.number(
+            list.share(
                 "strength",
                 "Strength",
-                "",
-                0.0..=1.0,
-                0.0..=1.0,
                 "Opacity of hidden lines as a share of the visible ones'.",
                 &mut self.strength,
             );
@@ -140,13 +138,12 @@ impl Hidden {
                     "Width",
                     "",
                     0.1..=1.0,
-                    0.1..=1.0,
                     "Width of hidden lines as a share of the visible ones'.",
                     &mut self.narrow,
                 );
             });
             list.when(MODE, Own, |list| {
-                list.number(
+                list.wide_number(
                     "width",
                     "Width",
                     "px",
@@ -159,7 +156,7 @@ impl Hidden {
             });
             list.when_any(MODE, [Dashed, Own], |list| {
                 let (soft, hard) = (1.0..=64.0, 1.0..=512.0);
-                list.number(
+                list.wide_number(
                     "dash",
                     "Dash",
                     "px",
@@ -168,7 +165,15 @@ impl Hidden {
                     "Length of a dash of hidden lines.",
                     &mut self.dash,
                 );
-                list.number("gap", "Gap", "px", soft, hard, "Length of the gap behind it.", &mut self.gap);
+                list.wide_number(
+                    "gap",
+                    "Gap",
+                    "px",
+                    soft,
+                    hard,
+                    "Length of the gap behind it.",
+                    &mut self.gap,
+                );
             });
         });
     }

@@ -97,23 +97,20 @@ impl Default for Indication {
 
 impl Indication {
     pub(super) fn params<'a>(&'a mut self, list: &mut Params<'a>) {
-        list.number(
+        list.share(
             "amount",
             "Amount",
-            "",
-            0.0..=1.0,
-            0.0..=1.0,
             "How many strokes are left out away from edges; darks keep theirs.",
             &mut self.amount,
         );
         list.choice(
             "by",
-            "Detail by",
+            "Indication by",
             "Where strokes stay: by the distance to the nearest line, or by the fields of the hatching paper.",
             &mut self.by,
         );
         list.when("hatching.indication.by", DetailBy::Lines, |list| {
-            list.number(
+            list.wide_number(
                 "distance",
                 "Distance",
                 "px",
@@ -123,8 +120,8 @@ impl Indication {
                 &mut self.distance,
             );
             let help = "How fast they do.";
-            list.number("falloff", "Falloff", "", 0.3..=3.0, 0.1..=4.0, help, &mut self.falloff);
-            list.number(
+            list.wide_number("falloff", "Falloff", "", 0.3..=3.0, 0.1..=4.0, help, &mut self.falloff);
+            list.wide_number(
                 "attraction",
                 "Attraction",
                 "",
@@ -151,12 +148,12 @@ struct Weight<'a> {
 
 impl<'a> Weight<'a> {
     fn params(self, list: &mut Params<'a>, share: &'static str) {
-        list.number("share", "Share", "", 0.0..=1.5, 0.0..=2.0, share, self.share);
+        list.wide_number("share", "Share", "", 0.0..=1.5, 0.0..=2.0, share, self.share);
         let help = "a of (a + b · x)^−c.";
-        list.number("offset", "Offset", "", 0.5..=2.0, 0.1..=4.0, help, self.offset);
+        list.wide_number("offset", "Offset", "", 0.5..=2.0, 0.1..=4.0, help, self.offset);
         let help = "b of (a + b · x)^−c: how fast details become fewer.";
-        list.number("slope", "Slope", "", 0.0..=20.0, 0.0..=50.0, help, self.slope);
-        list.number("power", "Power", "", 0.0..=3.0, 0.0..=4.0, "c of (a + b · x)^−c.", self.power);
+        list.wide_number("slope", "Slope", "", 0.0..=20.0, 0.0..=50.0, help, self.slope);
+        list.wide_number("power", "Power", "", 0.0..=3.0, 0.0..=4.0, "c of (a + b · x)^−c.", self.power);
     }
 }
 
@@ -172,11 +169,11 @@ impl SilhouetteField {
         let Self { share, radius, step, alpha, beta, lambda, offset, slope, power } = self;
         Weight { share, offset, slope, power }.params(list, "How much silhouettes nearby count.");
         let help = "How far around silhouettes are looked for.";
-        list.number("radius", "Radius", "px", 2.0..=60.0, 1.0..=200.0, help, radius);
+        list.wide_number("radius", "Radius", "px", 2.0..=60.0, 1.0..=200.0, help, radius);
         let help = "Step in depth that is a silhouette.";
-        list.number("step", "Step", "px", 0.5..=20.0, 0.1..=100.0, help, step);
-        list.number("alpha", "α", "", 0.0..=4.0, 0.0..=10.0, "α of α / (n^β + λ).", alpha);
-        list.number("beta", "β", "", 0.1..=3.0, 0.1..=4.0, "β of α / (n^β + λ).", beta);
-        list.number("lambda", "λ", "", 0.0..=2.0, 0.0..=10.0, "λ of α / (n^β + λ).", lambda);
+        list.wide_number("step", "Step", "px", 0.5..=20.0, 0.1..=100.0, help, step);
+        list.wide_number("alpha", "α", "", 0.0..=4.0, 0.0..=10.0, "α of α / (n^β + λ).", alpha);
+        list.wide_number("beta", "β", "", 0.1..=3.0, 0.1..=4.0, "β of α / (n^β + λ).", beta);
+        list.wide_number("lambda", "λ", "", 0.0..=2.0, 0.0..=10.0, "λ of α / (n^β + λ).", lambda);
     }
 }

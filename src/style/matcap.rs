@@ -57,11 +57,8 @@ impl Matcap {
                 &mut self.image,
             );
         });
-        let share = |list: &mut Params<'a>, key, label, help, value: &'a mut f32| {
-            list.number(key, label, "", 0.0..=1.0, 0.0..=1.0, help, value);
-        };
         let own_color = "How far the sphere is multiplied by the object's own colour.";
-        share(list, "own_color", "Own colour", own_color, &mut self.own_color);
-        share(list, "shadow", "Shadow", "How dark cast shadows are.", &mut self.shadow);
+        list.share("own_color", "Object color", own_color, &mut self.own_color);
+        list.share("shadow", "Shadow", "How dark cast shadows are.", &mut self.shadow);
     }
 }

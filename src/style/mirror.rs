@@ -43,21 +43,15 @@ impl Default for Mirror {
 impl Mirror {
     pub(super) fn params<'a>(&'a mut self, list: &mut Params<'a>) {
         list.choice("side", "Side", "Which side of the face reflects.", &mut self.side);
-        list.number(
+        list.share(
             "reflectivity",
             "Reflectivity",
-            "",
-            0.0..=1.0,
-            0.0..=1.0,
             "Opacity of the reflection over the object's own shading, seen from the front.",
             &mut self.reflectivity,
         );
-        list.number(
+        list.share(
             "fresnel",
             "Fresnel",
-            "",
-            0.0..=1.0,
-            0.0..=1.0,
             "How far the reflection grows stronger where the mirror is seen at a slant.",
             &mut self.fresnel,
         );

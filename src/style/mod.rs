@@ -56,7 +56,7 @@ pub use sketch::Sketch;
 pub use toml_file::{diff_to_toml, set_from_toml};
 pub use toon::Toon;
 
-use param::Params;
+use param::{Params, Scope};
 pub(crate) use slot::choice;
 pub(crate) use value::widened;
 
@@ -101,20 +101,32 @@ macro_rules! techniques {
 
             /// Every parameter, in the order of the panel, with a slot through which it is read and written.
             pub fn params(&mut self) -> Vec<Param<'_>> {
-                let ink = self.edges.profile.line().color;
                 let mut list = Params::default();
+                self.declare(&mut list);
+                list.finish()
+            }
+
+            /// The same with every number in the range of its parameter, however it was set.
+            #[must_use]
+            pub fn clamped(&self) -> Self {
+                let mut clamped = self.clone();
+                clamped.declare(&mut Params::clamping());
+                clamped
+            }
+
+            fn declare<'a>(&'a mut self, list: &mut Params<'a>) {
+                let ink = self.edges.profile.line().color;
                 list.choice("technique", "Technique", "How surfaces are shaded.", &mut self.technique);
-                self.paper.params(&mut list);
-                Self::technique_params($($(&mut self.$field,)?)+ &mut list);
+                list.only(Scope::Drawing, |list| self.paper.params(list));
+                Self::technique_params($($(&mut self.$field,)?)+ list);
                 // Blueprints have layers, sketches a single one.
                 let blueprint: &str = Technique::Blueprint.into();
                 let surfaces = <Technique as strum::VariantNames>::VARIANTS.iter().copied();
                 list.when_any("technique", surfaces.filter(|name| *name != blueprint), |list| {
                     list.section("sketch", |list| self.sketch.params(ink, list));
                 });
-                list.section("mirror", |list| self.mirror.params(list));
+                list.only(Scope::Mirrors, |list| list.section("mirror", |list| self.mirror.params(list)));
                 list.section("edges", |list| self.edges.params(list));
-                list.finish()
             }
         }
     };
@@ -199,12 +211,12 @@ pub enum StyleError {
     },
     /// No preset and no file has this name.
     #[error(
-        "unknown style `{name}`{} `hachure styles` lists the presets; the path of a .toml file works too",
+        "unknown style `{id}`{} `hachure styles` lists the presets; the path of a .toml file works too",
         sentence(nearest)
     )]
     UnknownPreset {
         /// As written.
-        name: String,
+        id: String,
         /// The most similar preset.
         nearest: Option<String>,
     },

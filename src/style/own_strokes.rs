@@ -55,14 +55,15 @@ impl Default for OwnStrokes {
 impl OwnStrokes {
     /// `is_painted`: whether the picture of a stroke is used.
     pub(super) fn params<'a>(&'a mut self, list: &mut Params<'a>) {
-        let number =
-            |list: &mut Params<'a>,
-             key,
-             label,
-             unit,
-             range: std::ops::RangeInclusive<f32>,
-             help,
-             value: &'a mut f32| list.number(key, label, unit, range.clone(), range, help, value);
+        let number = |list: &mut Params<'a>,
+                      key,
+                      label,
+                      unit,
+                      range: std::ops::RangeInclusive<f32>,
+                      help,
+                      value: &'a mut f32| {
+            list.wide_number(key, label, unit, range.clone(), range, help, value)
+        };
         list.when("hatching.set", super::hatching::Set::Painted, |list| {
             list.file(
                 "image",

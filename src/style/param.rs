@@ -26,6 +26,8 @@ pub struct Param<'a> {
     pub help: &'static str,
     /// When it matters: all must hold.
     pub conditions: Vec<Condition>,
+    /// Where it matters.
+    pub scope: Scope,
     /// Whether its section is folded in the panel at first.
     pub detail: bool,
     /// Whether it is the switch of its whole section.
@@ -34,6 +36,20 @@ pub struct Param<'a> {
     pub span: Option<&'static str>,
     /// Where the value is.
     pub slot: Slot<'a>,
+}
+
+/// Of what a parameter changes the look.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Scope {
+    /// Of any object.
+    #[default]
+    Objects,
+    /// Of the whole drawing: nothing comes of it in the style of a single object.
+    Drawing,
+    /// Of mirrors.
+    Mirrors,
+    /// Of drawings with designated objects.
+    Masks,
 }
 
 /// That a choice, a switch or a whole number has one of some values.

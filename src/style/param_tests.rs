@@ -218,3 +218,32 @@ fn whole_numbers_are_written_as_such() {
     assert_eq!(to_toml(&style), "[toon]\nbands = 5\n");
     assert_eq!(from_toml("[toon]\nbands = 5.0\n"), style);
 }
+
+#[test]
+fn what_no_parameter_accepts_is_clamped_before_it_is_drawn() {
+    for wild in [f32::NAN, f32::INFINITY, -1e30] {
+        let mut style = Style::default();
+        for param in style.params() {
+            match param.slot {
+                Slot::Number { mut value, .. } => value.set(wild),
+                Slot::Integer { value, .. } => *value = wild as u32,
+                Slot::Matrix { value, .. } => *value = Matrix([[wild; 2]; 2]),
+                _ => {}
+            }
+        }
+        let mut clamped = style.clamped();
+        for mut param in clamped.params() {
+            let value = param.value();
+            assert!(param.set(&value).is_ok(), "{} = {value}, set to {wild}", param.key);
+        }
+        assert_eq!(Style::default().clamped(), Style::default());
+    }
+}
+
+#[test]
+fn labels_fit_into_the_panel() {
+    let mut style = Style::default();
+    for param in style.params().iter().filter(|p| !p.head) {
+        assert!(param.label.chars().count() <= 15, "{}: {}", param.key, param.label);
+    }
+}

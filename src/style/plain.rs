@@ -17,14 +17,6 @@ impl Default for Plain {
 
 impl Plain {
     pub(super) fn params<'a>(&'a mut self, list: &mut Params<'a>) {
-        list.number(
-            "ambient",
-            "Ambient",
-            "",
-            0.0..=1.0,
-            0.0..=1.0,
-            "Light that reaches every point, lit or not.",
-            &mut self.ambient,
-        );
+        list.share("ambient", "Ambient", "Light that reaches every point, lit or not.", &mut self.ambient);
     }
 }

@@ -15,7 +15,9 @@ const MAX_FILE_BYTES: u64 = 1 << 20;
 /// A style with a name.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Preset {
-    /// Its name: the file's stem.
+    /// By what files and the command line call it: the file's stem.
+    pub id: String,
+    /// Its name for people; the id where the file has none.
     pub name: String,
     /// One line that says what it is good for.
     pub description: String,
@@ -23,56 +25,54 @@ pub struct Preset {
     pub style: Style,
 }
 
-/// The built-in presets, by name.
+/// The built-in presets, by id.
 pub fn all() -> Vec<Preset> {
     let mut presets: Vec<_> = STYLES
         .files()
         .filter_map(|file| {
-            let name = file.path().file_stem()?.to_str()?;
-            read(name, file.contents_utf8()?, name).ok()
+            let id = file.path().file_stem()?.to_str()?;
+            read(id, file.contents_utf8()?, id).ok()
         })
         .collect();
-    presets.sort_by(|a, b| a.name.cmp(&b.name));
+    presets.sort_by(|a, b| a.id.cmp(&b.id));
     presets
 }
 
-/// The preset of that name, or the style file at that path. Its images are sought beside it.
+/// The preset of that id, or the style file at that path. Its images are sought beside it.
 ///
 /// # Errors
 /// [`StyleError::UnknownPreset`] when there is neither, otherwise what is wrong in the file.
-pub fn load(name_or_path: &str) -> Result<Preset, StyleError> {
-    if let Some(preset) = all().into_iter().find(|p| p.name == name_or_path) {
+pub fn load(id_or_path: &str) -> Result<Preset, StyleError> {
+    if let Some(preset) = all().into_iter().find(|p| p.id == id_or_path) {
         return Ok(preset);
     }
-    let path = Path::new(name_or_path);
+    let path = Path::new(id_or_path);
     if path.extension().is_none() && !path.exists() {
         return Err(StyleError::UnknownPreset {
-            name: name_or_path.to_owned(),
-            nearest: nearest(name_or_path, all().iter().map(|p| p.name.as_str())),
+            id: id_or_path.to_owned(),
+            nearest: nearest(id_or_path, all().iter().map(|p| p.id.as_str())),
         });
     }
-    let unreadable = |reason: String| StyleError::Read { path: name_or_path.to_owned(), reason };
+    let unreadable = |reason: String| StyleError::Read { path: id_or_path.to_owned(), reason };
     let size = std::fs::metadata(path).map_err(|e| unreadable(e.to_string()))?.len();
     if size > MAX_FILE_BYTES {
         return Err(unreadable(format!("it has {size} bytes, a style file has at most {MAX_FILE_BYTES}")));
     }
     let text = std::fs::read_to_string(path).map_err(|e| unreadable(e.to_string()))?;
     let stem = path.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned());
-    let mut preset = read(&stem, &text, name_or_path)?;
+    let mut preset = read(&stem, &text, id_or_path)?;
     let folder = path.parent().unwrap_or(Path::new(""));
     map_paths(&mut preset.style.params(), |image| folder.join(image));
     Ok(preset)
 }
 
-fn read(name: &str, text: &str, place: &str) -> Result<Preset, StyleError> {
+fn read(id: &str, text: &str, place: &str) -> Result<Preset, StyleError> {
     let mut style = Style::default();
     set_from_toml(&mut style.params(), text, place)?;
-    let description = text
-        .parse::<toml::Table>()
-        .ok()
-        .and_then(|t| Some(t.get("description")?.as_str()?.to_owned()))
-        .unwrap_or_default();
-    Ok(Preset { name: name.to_owned(), description, style })
+    let table = text.parse::<toml::Table>().unwrap_or_default();
+    let said = |key: &str| table.get(key).and_then(toml::Value::as_str).map(str::to_owned);
+    let name = said("name").unwrap_or_else(|| id.to_owned());
+    Ok(Preset { id: id.to_owned(), name, description: said("description").unwrap_or_default(), style })
 }
 
 #[cfg(test)]
@@ -83,7 +83,7 @@ mod tests {
     fn every_built_in_preset_is_valid_and_described() {
         let presets = all();
         assert_eq!(presets.len(), STYLES.files().count());
-        assert!(presets.iter().all(|p| !p.description.is_empty()));
+        assert!(presets.iter().all(|p| !p.description.is_empty() && p.name != p.id));
     }
 
     #[test]

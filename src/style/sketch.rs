@@ -340,7 +340,7 @@ impl Sketch {
 
 impl Wander {
     fn params<'a>(&'a mut self, list: &mut Params<'a>) {
-        list.number(
+        list.wide_number(
             "amount",
             "Amount",
             "",
@@ -351,7 +351,7 @@ impl Wander {
         );
         list.choice(
             "anchor",
-            "Follows",
+            "Anchored to",
             "What the wandering follows: the picture (it swims), or what of the surface controls it.",
             &mut self.anchor,
         );
@@ -368,10 +368,10 @@ impl Wander {
             );
         });
         list.when_any(ANCHOR, [Anchor::Surface, Anchor::Normal, Anchor::Curvature, Anchor::Depth], |list| {
-            share(list, "detail", "Detail", "Share of a wave a quarter as long.", &mut self.detail);
+            list.share("detail", "Detail", "Share of a wave a quarter as long.", &mut self.detail);
             list.switch(
                 "by_object",
-                "By object",
+                "Vary by object",
                 "Each object wanders by itself, so that equal ones differ.",
                 &mut self.by_object,
             );
@@ -382,9 +382,9 @@ impl Wander {
                 &mut self.exterior,
             );
             list.when("sketch.exterior", Exterior::Enlarged, |list| {
-                list.number(
+                list.wide_number(
                     "enlarge",
-                    "Enlarged by",
+                    "Enlargement",
                     "px",
                     0.0..=32.0,
                     0.0..=64.0,
@@ -400,14 +400,13 @@ impl Wander {
             "Ink and colour are hidden each by its own depth, or both by the nearer one (as in the paper).",
             &mut self.depth,
         );
-        share(
-            list,
+        list.share(
             "pressure",
             "Pressure",
             "How much paler lines and colours are in places.",
             &mut self.pressure,
         );
-        list.number(
+        list.wide_number(
             "boil",
             "Boil",
             "/s",
@@ -419,14 +418,10 @@ impl Wander {
     }
 }
 
-fn share<'a>(list: &mut Params<'a>, key: &str, label: &'static str, help: &'static str, value: &'a mut f32) {
-    list.number(key, label, "", 0.0..=1.0, 0.0..=1.0, help, value);
-}
-
 fn wave_param<'a>(list: &mut Params<'a>, wave: &'a mut f32) {
-    list.number(
+    list.wide_number(
         "wave",
-        "Wave",
+        "Wavelength",
         "px",
         40.0..=400.0,
         8.0..=1000.0,
@@ -455,7 +450,7 @@ impl Pass {
                 from: "edges.profile.color".to_owned(),
             },
         );
-        list.number(
+        list.wide_number(
             "width",
             "Width",
             "",
@@ -464,7 +459,7 @@ impl Pass {
             "Width as a share of the lines' own.",
             &mut self.width,
         );
-        share(list, "density", "Density", "Opacity as a share of the lines' own.", &mut self.density);
+        list.share("density", "Density", "Opacity as a share of the lines' own.", &mut self.density);
         list.integer("seed", "Seed", "", 0..=9999, "Number of its noise.", &mut self.seed);
     }
 }
@@ -482,7 +477,7 @@ impl Fill {
                 &mut self.matrix,
             );
             wave_param(list, &mut self.wave);
-            share(list, "density", "Density", "How opaque the pigment is.", &mut self.density);
+            list.share("density", "Density", "How opaque the pigment is.", &mut self.density);
             list.choice(
                 "tone",
                 "Tone",
@@ -490,15 +485,14 @@ impl Fill {
                 &mut self.tone,
             );
             list.color("color", "Pigment", "Colour of the pigment.", &mut self.color);
-            share(
-                list,
+            list.share(
                 "surface_color",
                 "Surface colour",
                 "Share of the surface's own colour in the pigment.",
                 &mut self.surface_color,
             );
-            share(list, "strokes", "Strokes", "How visible the strokes of the hand are.", &mut self.strokes);
-            list.number(
+            list.share("strokes", "Strokes", "How visible the strokes of the hand are.", &mut self.strokes);
+            list.wide_number(
                 "stroke_width",
                 "Stroke width",
                 "px",
@@ -507,7 +501,7 @@ impl Fill {
                 "Width of a stroke of the hand.",
                 &mut self.stroke_width,
             );
-            list.number(
+            list.wide_number(
                 "angle",
                 "Angle",
                 "°",
@@ -522,9 +516,9 @@ impl Fill {
 
 impl Grain {
     fn params<'a>(&'a mut self, list: &mut Params<'a>) {
-        share(list, "amount", "Grain", "How much of the paper's tooth is seen.", &mut self.amount);
-        list.number("size", "Size", "px", 1.0..=8.0, 0.5..=32.0, "Size of the grains.", &mut self.size);
-        list.number(
+        list.share("amount", "Grain", "How much of the paper's tooth is seen.", &mut self.amount);
+        list.wide_number("size", "Size", "px", 1.0..=8.0, 0.5..=32.0, "Size of the grains.", &mut self.size);
+        list.wide_number(
             "soft",
             "Softness",
             "",
@@ -542,7 +536,7 @@ impl Grain {
                 &mut self.image,
             );
         });
-        list.number(
+        list.wide_number(
             "roughness",
             "Roughness",
             "px",
@@ -551,7 +545,7 @@ impl Grain {
             "How far single grains are off, as of chalk.",
             &mut self.roughness,
         );
-        share(list, "smudge", "Smudge", "How much lines are smudged inwards.", &mut self.smudge);
+        list.share("smudge", "Smudge", "How much lines are smudged inwards.", &mut self.smudge);
     }
 }
 
@@ -564,8 +558,8 @@ impl Strokes {
             &mut self.enabled,
         );
         list.when("sketch.strokes.enabled", "true", |list| {
-            list.integer("times", "Times", "", 1..=4, "How often each edge is drawn.", &mut self.times);
-            list.number(
+            list.integer("times", "Repetitions", "", 1..=4, "How often each edge is drawn.", &mut self.times);
+            list.wide_number(
                 "overshoot",
                 "Overshoot",
                 "px",
@@ -574,16 +568,16 @@ impl Strokes {
                 "How far strokes go on beyond corners at most.",
                 &mut self.overshoot,
             );
-            list.number(
+            list.wide_number(
                 "shift",
-                "Ends off by",
+                "End offset",
                 "px",
                 0.0..=6.0,
                 0.0..=16.0,
                 "How far the ends of strokes are from those of edges.",
                 &mut self.shift,
             );
-            list.number(
+            list.wide_number(
                 "bow",
                 "Bow",
                 "%",
@@ -592,7 +586,7 @@ impl Strokes {
                 "How far strokes are bowed, of their length.",
                 &mut self.bow,
             );
-            list.number(
+            list.wide_number(
                 "tremor",
                 "Tremor",
                 "px",

@@ -67,6 +67,19 @@ impl Slot<'_> {
         }
     }
 
+    /// Moves a number into the range that is accepted; what is no number becomes the least, in a matrix 0.
+    pub(super) fn clamp(&mut self) {
+        let within = |n: f32, range: &RangeInclusive<f32>| {
+            if n.is_nan() { *range.start() } else { n.clamp(*range.start(), *range.end()) }
+        };
+        match self {
+            Self::Number { value, hard, .. } => value.map(|n| within(n, hard)),
+            Self::Integer { value, range } => **value = (**value).clamp(*range.start(), *range.end()),
+            Self::Matrix { value, most } => **value = value.scaled(1.0, *most),
+            Self::Bool(_) | Self::Color(_) | Self::File(_) | Self::Curve(_) | Self::Choice(_) => {}
+        }
+    }
+
     /// Drops the value of its own; `false` if it inherits from nothing.
     pub(super) fn inherit(&mut self) -> bool {
         match self {
@@ -115,6 +128,14 @@ impl<T: Copy> Place<'_, T> {
         match self {
             Self::Own(value) => **value = new,
             Self::Inheriting { own, .. } => **own = Some(new),
+        }
+    }
+
+    /// Changes the value of its own, if it has one.
+    fn map(&mut self, change: impl FnOnce(T) -> T) {
+        match self {
+            Self::Own(value) => **value = change(**value),
+            Self::Inheriting { own, .. } => **own = own.map(change),
         }
     }
 

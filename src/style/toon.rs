@@ -132,43 +132,35 @@ impl Toon {
             );
         });
         list.choice("border", "Borders", "How borders between bands are smoothed.", &mut self.border);
-        list.number(
+        list.share(
             "tint",
-            "Own colour",
-            "",
-            0.0..=1.0,
-            0.0..=1.0,
+            "Object color",
             "How far the bands are multiplied by the object's own colour; 0 leaves them as they are.",
             &mut self.tint,
         );
         list.number(
             "start",
-            "Ramp from",
+            "Ramp start",
             "",
-            -1.0..=1.0,
             -1.0..=1.0,
             "Where the bands begin: -1 faces away from the light, 0 is lit from the side, 1 faces it.",
             &mut self.start,
         );
         list.number(
             "end",
-            "Ramp to",
+            "Ramp end",
             "",
-            -1.0..=1.0,
             -1.0..=1.0,
             "Where the bands end: less makes the lightest one larger.",
             &mut self.end,
         );
-        list.number(
+        list.share(
             "highlight",
             "Highlight",
-            "",
-            0.0..=1.0,
-            0.0..=1.0,
             "Opacity of the white highlight; 0 switches it off.",
             &mut self.highlight,
         );
-        list.number(
+        list.wide_number(
             "highlight_size",
             "Highlight size",
             "°",
@@ -177,16 +169,13 @@ impl Toon {
             "How far the highlight reaches around the point that mirrors the light.",
             &mut self.highlight_size,
         );
-        list.number(
+        list.share(
             "rim",
             "Rim",
-            "",
-            0.0..=1.0,
-            0.0..=1.0,
             "Opacity of a band where the surface turns away from the eye; 0 switches it off.",
             &mut self.rim,
         );
-        list.number(
+        list.wide_number(
             "rim_width",
             "Rim width",
             "",

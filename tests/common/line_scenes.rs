@@ -9,6 +9,8 @@ use hachure::geometry::primitives::{cube, cube_split, from_triangles, plane, sph
 use hachure::import::{ImportOptions, Progress, load};
 use hachure::scene::{AlphaMode, Scene, Texture, TextureRef, UvTransform, Wrap};
 
+use super::at;
+
 /// A scene with a name.
 #[derive(Clone)]
 pub struct Subject {
@@ -84,10 +86,6 @@ fn many(name: &str, objects: Vec<(Mesh, DMat4)>) -> Subject {
     let objects = objects.into_iter().zip(&names);
     let objects = objects.map(|((mesh, place), name)| (name.as_str(), mesh, place, [0.7; 3])).collect();
     Subject { name: name.to_owned(), scene: super::scene(objects) }
-}
-
-fn at(x: f64, y: f64, z: f64) -> DMat4 {
-    DMat4::from_translation(DVec3::new(x, y, z))
 }
 
 fn turned(x: f64, y: f64, z: f64) -> DMat4 {

@@ -8,17 +8,20 @@ pub mod line_scenes;
 pub mod line_truth;
 pub mod outline;
 
+use std::path::Path;
 use std::sync::Arc;
 
-use glam::{DMat4, DVec3};
+use glam::{DMat4, DVec3, DVec4};
 use hachure::document::Document;
 use hachure::export::Session;
-use hachure::export::session::Opened;
+use hachure::export::session::{Opened, open};
 use hachure::geometry::Mesh;
 use hachure::gpu::{Gpu, Target, readback};
+use hachure::import::Progress;
 use hachure::render::{LAYERS, Picture};
-use hachure::scene::{Camera, Material, Node, Scene};
-use image::RgbaImage;
+use hachure::scene::{Camera, Material, Node, NodeId, Scene};
+use hachure::style::Value;
+use image::{Rgba, RgbaImage};
 
 /// A device; without one the test fails and says what to install.
 pub fn session() -> Session {
@@ -84,6 +87,25 @@ pub fn scene(objects: Vec<(&str, Mesh, DMat4, [f32; 3])>) -> Arc<Scene> {
     Arc::new(scene)
 }
 
+/// An object of [`scene`].
+pub type Object = (&'static str, Mesh, DMat4, [f32; 3]);
+
+/// A white one.
+pub fn object(name: &'static str, mesh: Mesh, place: DMat4) -> Object {
+    (name, mesh, place, [1.0; 3])
+}
+
+/// A place.
+pub fn at(x: f64, y: f64, z: f64) -> DMat4 {
+    DMat4::from_translation(DVec3::new(x, y, z))
+}
+
+/// A sample model of `assets/models/` as the program opens it.
+pub fn sample(name: &str) -> Opened {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("assets/models/{name}.glb"));
+    open(&[path], |_| {}, &Progress::default()).unwrap()
+}
+
 /// A document on a scene, seen from a direction.
 pub fn opened(scene: &Arc<Scene>, towards_viewer: DVec3) -> Opened {
     let camera = Camera::looking_from(towards_viewer, DVec3::Y, &scene.extent(), 1.0);
@@ -92,7 +114,18 @@ pub fn opened(scene: &Arc<Scene>, towards_viewer: DVec3) -> Opened {
 
 /// Sets a parameter.
 pub fn set(opened: &mut Opened, key: &str, value: &str) {
-    opened.document.set(key, &hachure::style::Value::parse(value)).unwrap();
+    opened.document.set(key, &Value::parse(value)).unwrap();
+}
+
+/// Sets a parameter of one object.
+pub fn set_for(opened: &mut Opened, node: NodeId, key: &str, value: &str) {
+    set_value_for(opened, node, key, &Value::parse(value));
+}
+
+/// The same, with a value that has been parsed.
+pub fn set_value_for(opened: &mut Opened, node: NodeId, key: &str, value: &Value) {
+    let scene = Arc::clone(&opened.scene);
+    opened.document.set_for(&scene, &[node], key, value).unwrap();
 }
 
 /// Uploads and draws.
@@ -105,6 +138,35 @@ pub fn draw(session: &mut Session, opened: &Opened, side: u32) -> Picture {
 pub fn image(session: &mut Session, opened: &Opened, side: u32) -> RgbaImage {
     session.set_scene(opened).unwrap();
     session.image(opened, [side, side], false).unwrap()
+}
+
+/// The greatest difference of any channel of any pixel.
+pub fn greatest_difference(a: &RgbaImage, b: &RgbaImage) -> u8 {
+    assert_eq!(a.dimensions(), b.dimensions());
+    a.as_raw().iter().zip(b.as_raw()).map(|(a, b)| a.abs_diff(*b)).max().unwrap()
+}
+
+/// A channel of a picture from linear light.
+pub fn to_srgb(linear: f32) -> u8 {
+    let c = linear.clamp(0.0, 1.0);
+    let c = if c <= 0.003_130_8 { c * 12.92 } else { 1.055 * c.powf(1.0 / 2.4) - 0.055 };
+    (c * 255.0).round() as u8
+}
+
+/// Premultiplied linear light of a pixel.
+pub fn to_linear(Rgba([r, g, b, a]): Rgba<u8>) -> DVec4 {
+    let [r, g, b] = [r, g, b].map(|c| {
+        let c = f64::from(c) / 255.0;
+        if c <= 0.04045 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) }
+    });
+    let a = f64::from(a) / 255.0;
+    DVec4::new(r * a, g * a, b * a, a)
+}
+
+/// The middle one of these.
+pub fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values[values.len() / 2]
 }
 
 /// The texels of a target as numbers.

@@ -29,7 +29,8 @@ pub(crate) struct Repatch {
     pub(crate) planes: usize,
     /// An edge between patches gets up to so many vertices on each side, at different places.
     pub(crate) most_cuts: u32,
-    /// How far a vertex of a border lies from the original edge at most, as a share of the diagonal.
+    /// How far a vertex of a border lies from the original edge at most, as a share of the diagonal of its body: of all
+    /// that has points in common.
     pub(crate) crack: f32,
     pub(crate) common: Common,
     pub(crate) seed: u64,
@@ -73,16 +74,17 @@ impl Repatch {
             }
         }
 
-        let reach = self.crack * mesh.bounds().diagonal() as f32;
+        let sizes = sizes_of_bodies(mesh, &adjacency.weld.representative);
         let mut order: Vec<usize> = (0..patches.len()).collect();
         order.sort_by_key(|&t| patches[t]);
-        let mut new = Mesh::default();
+        let mut new = Mesh { has_computed_normals: mesh.has_computed_normals, ..Mesh::default() };
         let mut patch_of_triangle = Vec::new();
         let mut vertices: BTreeMap<(u32, u32), u32> = BTreeMap::new();
         let mut displaced: BTreeMap<(u32, u32), Vec3> = BTreeMap::new();
         for triangle in order {
             let patch = patches[triangle];
             let old = mesh.triangles()[triangle];
+            let reach = self.crack * sizes[point(old[0]) as usize];
             let corners = old.map(|v| {
                 *vertices.entry((patch, v)).or_insert_with(|| {
                     let around = patches_at.get(&point(v)).map_or(0, BTreeSet::len);
@@ -156,6 +158,35 @@ impl Repatch {
             })
             .collect()
     }
+}
+
+/// For each point the diagonal of the box around all that is connected with it.
+fn sizes_of_bodies(mesh: &Mesh, weld: &[u32]) -> Vec<f32> {
+    let mut parent: Vec<usize> = (0..weld.len()).collect();
+    let root = |parent: &mut Vec<usize>, mut point: usize| {
+        while parent[point] != point {
+            parent[point] = parent[parent[point]];
+            point = parent[point];
+        }
+        point
+    };
+    for triangle in mesh.triangles() {
+        let [a, b, c] = triangle.map(|v| root(&mut parent, weld[v as usize] as usize));
+        parent[b] = a;
+        let c = root(&mut parent, c);
+        parent[c] = a;
+    }
+    let mut boxes = vec![[Vec3::INFINITY, Vec3::NEG_INFINITY]; weld.len()];
+    for &v in &mesh.indices {
+        let body = root(&mut parent, weld[v as usize] as usize);
+        let [low, high] = boxes[body];
+        let position = mesh.positions[v as usize];
+        boxes[body] = [low.min(position), high.max(position)];
+    }
+    (0..weld.len())
+        .map(|point| boxes[root(&mut parent, point)])
+        .map(|[low, high]| if low.x <= high.x { low.distance(high) } else { 0.0 })
+        .collect()
 }
 
 /// Appends a vertex of another mesh, at a share of the way between two of its vertices.

@@ -174,7 +174,8 @@ fn the_outliner_hides_objects_and_their_edges_and_undo_brings_them_back() {
 fn an_object_is_designated_in_its_row_and_what_masks_need_is_then_among_the_parameters() {
     let mut window = window();
     choose(&mut window, "Preset", "Blueprint");
-    let has_slider = |window: &Window| window.query_by_role_and_label(Role::Slider, "Uncover").is_some();
+    let has_slider =
+        |window: &Window| window.query_by_role_and_label(Role::Slider, "Uncover target").is_some();
     assert!(!has_slider(&window));
     let at = window.get_by_role_and_label(Role::TreeItem, "rod").rect().center();
     window.hover_at(at);
@@ -245,10 +246,10 @@ fn a_flat_object_is_made_a_mirror_in_its_row_and_undo_takes_that_back() {
 fn a_slider_changes_the_style_and_a_double_click_on_its_name_resets_it() {
     let mut window = window();
     let default = hachure::style::Style::default().gooch.alpha;
-    window.get_by_role_and_label(Role::Slider, "Base in cool").set_value_accesskit(0.9);
+    window.get_by_role_and_label(Role::Slider, "Cool base color").set_value_accesskit(0.9);
     settle(&mut window);
     assert_eq!(window.state().document().style.gooch.alpha, 0.9);
-    let label = window.get_by_role_and_label(Role::Label, "Base in cool").rect().center();
+    let label = window.get_by_role_and_label(Role::Label, "Cool base color").rect().center();
     window.hover_at(label);
     for _ in 0..2 {
         window.drag_at(label);
@@ -333,7 +334,7 @@ fn the_style_of_a_selected_object_is_its_own_until_it_inherits_again() {
     let mut window = window();
     click(&mut window, Role::TreeItem, "rod");
     assert_eq!(selected(&window), ["rod"]);
-    window.get_by_role_and_label(Role::Slider, "Base in cool").set_value_accesskit(0.8);
+    window.get_by_role_and_label(Role::Slider, "Cool base color").set_value_accesskit(0.8);
     settle(&mut window);
     let alpha = |window: &Window| {
         let state = window.state();
@@ -796,7 +797,7 @@ fn two_thousand_objects_cost_only_the_rows_that_are_seen() {
     assert!((10..100).contains(&rows), "{rows} rows");
     ask(&mut window, Command::SelectAll);
     let began = Instant::now();
-    window.get_by_role_and_label(Role::Slider, "Base in cool").set_value_accesskit(0.7);
+    window.get_by_role_and_label(Role::Slider, "Cool base color").set_value_accesskit(0.7);
     settle(&mut window);
     assert!(began.elapsed() < Duration::from_secs(2), "{:?}", began.elapsed());
     assert!(window.root().children().count() > 0);

@@ -13,7 +13,7 @@ use hachure::import::Progress;
 use hachure::render::{LayersBy, Reason};
 use hachure::scene::{AlphaMode, Scene, Texture, TextureRef};
 
-use crate::common::{self, opened, scene, session, set};
+use crate::common::{self, opened, sample, scene, session, set};
 use crate::{blueprint, layers};
 
 /// Draws the layers of a scene in both ways and compares them texel by texel; returns how many there are.
@@ -42,15 +42,10 @@ fn check_same_layers(name: &str, opened: &Opened, side: u32) -> u32 {
     counted.layers
 }
 
-fn sample(name: &str) -> Opened {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("assets/models/{name}.glb"));
-    blueprint(open(&[path], |_| {}, &Progress::default()).unwrap())
-}
-
 #[test]
 fn lists_give_the_layers_that_peeling_gives() {
     for (name, least) in [("crank", 8), ("ogre", 4), ("still_life", 4), ("temple", 8), ("cloister", 8)] {
-        let count = check_same_layers(name, &sample(name), 160);
+        let count = check_same_layers(name, &blueprint(sample(name)), 160);
         assert!(count >= least, "{name}: {count}");
     }
 }
@@ -69,7 +64,7 @@ fn featureless() -> Session {
 #[test]
 fn a_device_without_optional_features_gives_the_same_layers() {
     for name in ["crank", "still_life"] {
-        let opened = sample(name);
+        let opened = blueprint(sample(name));
         let [all, least] = [session(), featureless()].map(|mut session| {
             session.set_scene(&opened).unwrap();
             ["auto", "peeling"].map(|by| layers(&mut session, &opened, 160, by))

@@ -2,9 +2,21 @@
 #![allow(dead_code, unreachable_pub, reason = "each test binary uses its own part")]
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
 
 use glam::{DVec2, DVec3, dvec3};
+use hachure::import::{ImportOptions, Progress, load};
 use hachure::scene::Scene;
+
+/// The file of a sample model.
+pub fn file(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("assets/models/{name}.glb"))
+}
+
+/// A sample model as the program imports it.
+pub fn imported(name: &str) -> Scene {
+    load(&file(name), &ImportOptions::default(), &Progress::default()).unwrap()
+}
 
 /// A triangle in the world, in metres.
 pub type Triangle = [DVec3; 3];

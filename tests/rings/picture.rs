@@ -1,19 +1,10 @@
 //! Pictures as numbers.
 
 use glam::{DVec4, dvec4};
-use image::{Rgba, RgbaImage};
+use image::RgbaImage;
 
 use super::SIDE;
-
-/// Of a pixel: linear colour times opacity, and opacity.
-pub fn linear(Rgba([r, g, b, a]): Rgba<u8>) -> DVec4 {
-    let [r, g, b] = [r, g, b].map(|c| {
-        let c = f64::from(c) / 255.0;
-        if c <= 0.04045 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) }
-    });
-    let a = f64::from(a) / 255.0;
-    dvec4(r * a, g * a, b * a, a)
-}
+use super::common::to_linear;
 
 fn curve(c: f64) -> f64 {
     let c = c.clamp(0.0, 1.0);
@@ -38,13 +29,13 @@ pub fn over(front: DVec4, behind: DVec4) -> DVec4 {
 
 /// A picture drawn on nothing.
 pub struct Picture {
-    /// As [`linear`].
+    /// Premultiplied linear light.
     pub colors: Vec<DVec4>,
 }
 
 impl From<RgbaImage> for Picture {
     fn from(image: RgbaImage) -> Self {
-        Self { colors: image.pixels().map(|p| linear(*p)).collect() }
+        Self { colors: image.pixels().map(|p| to_linear(*p)).collect() }
     }
 }
 

@@ -13,9 +13,9 @@ use image::RgbaImage;
 use super::common::{
     self,
     outline::{hull_of, projected},
-    set,
+    set, to_linear,
 };
-use super::{alone, apart, at, differing, drawn, linear, seen_from, set_style, sketched, style};
+use super::{alone, apart, at, differing, drawn, seen_from, set_style, sketched, style};
 
 const SIDE: u32 = 160;
 
@@ -127,7 +127,7 @@ fn composed(front: &RgbaImage, behind: &RgbaImage, all: &RgbaImage) -> (usize, u
     let mut counted = (0, 0);
     for ((front, behind), all) in front.pixels().zip(behind.pixels()).zip(all.pixels()) {
         if front.0[3] > 0 && behind.0[3] > 0 {
-            let apart = (over(linear(front), linear(behind)) - linear(all)).abs().max_element();
+            let apart = (over(to_linear(*front), to_linear(*behind)) - to_linear(*all)).abs().max_element();
             counted = (counted.0 + 1, counted.1 + usize::from(apart > 0.03));
         }
     }

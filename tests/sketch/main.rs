@@ -22,7 +22,8 @@ mod twins;
 
 use std::sync::Arc;
 
-use glam::{DMat4, DVec3, DVec4};
+use common::{at, to_linear};
+use glam::DVec3;
 use hachure::export::Session;
 use hachure::export::session::Opened;
 use hachure::scene::{Camera, NodeId};
@@ -60,10 +61,6 @@ fn sketched(mut style: Style, lines: f32, fill: f32) -> Style {
 /// A matrix that turns a little, with so great offsets on average.
 fn turned(rms: f32) -> Matrix {
     Matrix([[0.95 * rms, 0.31 * rms], [-0.31 * rms, 0.95 * rms]])
-}
-
-fn at(x: f64, y: f64, z: f64) -> DMat4 {
-    DMat4::from_translation(DVec3::new(x, y, z))
 }
 
 fn seen_from(position: DVec3, focal_point: DVec3) -> Camera {
@@ -117,18 +114,8 @@ fn differing(a: &RgbaImage, b: &RgbaImage, most: u8) -> usize {
     apart(a, b).into_iter().filter(|apart| *apart > most).count()
 }
 
-/// Linear colour times opacity, and opacity.
-fn linear(Rgba([r, g, b, a]): &Rgba<u8>) -> DVec4 {
-    let [r, g, b] = [r, g, b].map(|c| {
-        let c = f64::from(*c) / 255.0;
-        if c <= 0.04045 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) }
-    });
-    let a = f64::from(*a) / 255.0;
-    DVec4::new(r * a, g * a, b * a, a)
-}
-
 /// Whether each pixel differs by more than roundings: those of light are more of a picture's numbers where it is dark.
 fn is_other(a: &RgbaImage, b: &RgbaImage, light: f64) -> Vec<bool> {
-    let lights = a.pixels().zip(b.pixels()).map(|(a, b)| (linear(a) - linear(b)).abs().max_element());
+    let lights = a.pixels().zip(b.pixels()).map(|(a, b)| (to_linear(*a) - to_linear(*b)).abs().max_element());
     apart(a, b).into_iter().zip(lights).map(|(apart, most)| apart > 2 && most > light).collect()
 }

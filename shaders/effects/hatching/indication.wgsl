@@ -3,7 +3,7 @@
 #import common/frame.wgsl
 #import common/gbuffer.wgsl
 #import common/plane.wgsl
-#import common/records.wgsl
+#import gpu/record_texture.wgsl
 
 // Twin: `IndicationUniform` in src/render/effects/hatching/indication.rs; parameters in src/style/indication.rs.
 struct Indication {

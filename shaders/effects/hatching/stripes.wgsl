@@ -2,7 +2,7 @@
 // takes the level that is about as dense as wanted, so that strokes keep their width on paper. Lines that the denser level has more
 // than the coarser one begin as points and come last.
 #import common/octahedral.wgsl
-#import common/records.wgsl
+#import gpu/record_texture.wgsl
 
 // Twin: `StrokeUniform` in src/render/effects/hatching/strokes.rs. Lengths in px, widths as shares of the spacing.
 struct Stroke {

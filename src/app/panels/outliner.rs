@@ -146,17 +146,7 @@ impl Outliner {
         let left = rect.left() + 4.0 + 12.0 * row.depth.min(12) as f32;
         if node.descendants > 0 && self.filter.trim().is_empty() {
             let at = Rect::from_center_size(pos2(left + 5.0, rect.center().y), vec2(14.0, height));
-            let fold = ui.interact(at, id.with("fold"), Sense::click());
-            let open = self.unfolded.contains(&row.node);
-            fold.widget_info(|| {
-                let what = if open { "Fold" } else { "Unfold" };
-                egui::WidgetInfo::labeled(egui::Role::Button, true, format!("{what} {}", node.name))
-            });
-            let color = ui.visuals().text_color().gamma_multiply(if fold.hovered() { 1.0 } else { 0.6 });
-            icons::fold(ui.painter(), at.center(), open, color);
-            if fold.clicked() && !self.unfolded.remove(&row.node) {
-                self.unfolded.insert(row.node);
-            }
+            self.fold_ui(ui, at, id.with("fold"), (row.node, &node.name));
         }
 
         let square = |index: f32| {
@@ -186,7 +176,7 @@ impl Outliner {
         // Few objects are mirrors or designated: the others have the switches only where somebody looks.
         let looked_at = ui.rect_contains_pointer(rect);
         let mut left_of_switches = edges_at.left();
-        let switches = [(Role::Mirror, Icon::Mirror, "Mirror"), (Role::Mask, Icon::Mask, "Uncover")];
+        let switches = [(Role::Mirror, Icon::Mirror, "Mirror"), (Role::Mask, Icon::Mask, "Uncover target")];
         for (i, (role, icon, label)) in switches.into_iter().enumerate() {
             let has = roles.has(role);
             let can_be = role != Role::Mirror || !scene.is_added(row.node);
@@ -199,15 +189,9 @@ impl Outliner {
             let switch = icons::toggle(ui, at, id.with(icon), icon, has, !visible, &label);
             let fault =
                 (role == Role::Mirror && switch.hovered()).then(|| mirror_fault(scene, row.node)).flatten();
-            let help = match (&fault, role) {
-                (Some(fault), _) => format!("Cannot be a mirror: {fault}"),
-                (None, Role::Mirror) if has => "Make this mirror an object like any other".to_owned(),
-                (None, Role::Mirror) if node.mesh.is_none() => {
-                    "Make each flat object below a mirror".to_owned()
-                }
-                (None, Role::Mirror) => "Make this flat object a mirror".to_owned(),
-                (None, Role::Mask) if has => "Let blueprints hide this object again".to_owned(),
-                (None, Role::Mask) => "Peel blueprints until this object is uncovered".to_owned(),
+            let help = match &fault {
+                Some(fault) => format!("Cannot be a mirror: {fault}"),
+                None => role_help(role, has, node.mesh.is_some()).to_owned(),
             };
             if switch.on_hover_text(help).clicked() && (fault.is_none() || has) {
                 editing.document.set_role(scene, &targets, role, !has);
@@ -220,9 +204,9 @@ impl Outliner {
             set_enhanced(editing.document, scene, &targets, !roles.enhanced);
         }
 
-        let chip = Rect::from_min_max(
-            pos2(left_of_switches - STYLE_WIDTH - 2.0, rect.top()),
-            pos2(left_of_switches - 2.0, rect.bottom()),
+        let chip = Rect::from_x_y_ranges(
+            left_of_switches - STYLE_WIDTH - 2.0..=left_of_switches - 2.0,
+            rect.y_range(),
         );
         // What is inherited is said only where somebody looks; elsewhere its place belongs to the name.
         style_chip(ui, looked_at, chip, own.style.as_ref(), roles.style, &node.name, &targets, editing);
@@ -237,19 +221,37 @@ impl Outliner {
         };
         truncated(ui, text_rect, &node.name, color);
 
-        let clicked = response.clicked();
-        if clicked {
-            let modifiers = ui.input(|i| i.modifiers);
+        self.row_clicked(&response, row, rows, editing);
+        response.on_hover_ui(|ui| {
+            let scene = &editing.model.scene;
+            let triangles = editing.model.triangle_count(scene.subtree(row.node));
+            ui.label(&node.path);
+            ui.weak(format!("{} triangles", super::status::grouped(triangles)));
+        });
+    }
+
+    fn row_clicked(&mut self, response: &egui::Response, row: &Row, rows: &[Row], editing: &mut Editing<'_>) {
+        if response.clicked() {
+            let modifiers = response.ctx.input(|i| i.modifiers);
             self.select(row.node, modifiers, rows, editing);
         }
         if response.double_clicked() {
             editing.commands.push(super::Command::FrameSelected);
         }
-        response.on_hover_ui(|ui| {
-            let triangles = editing.model.triangle_count(scene.subtree(row.node));
-            ui.label(&node.path);
-            ui.weak(format!("{} triangles", super::status::grouped(triangles)));
+    }
+
+    fn fold_ui(&mut self, ui: &Ui, at: Rect, id: egui::Id, (node, name): (NodeId, &str)) {
+        let fold = ui.interact(at, id, Sense::click());
+        let open = self.unfolded.contains(&node);
+        fold.widget_info(|| {
+            let what = if open { "Fold" } else { "Unfold" };
+            egui::WidgetInfo::labeled(egui::Role::Button, true, format!("{what} {name}"))
         });
+        let color = ui.visuals().text_color().gamma_multiply(if fold.hovered() { 1.0 } else { 0.6 });
+        icons::fold(ui.painter(), at.center(), open, color);
+        if fold.clicked() && !self.unfolded.remove(&node) {
+            self.unfolded.insert(node);
+        }
     }
 
     fn select(&mut self, node: NodeId, modifiers: egui::Modifiers, rows: &[Row], editing: &mut Editing<'_>) {
@@ -292,9 +294,20 @@ fn truncated(ui: &Ui, rect: Rect, text: &str, color: egui::Color32) {
     ui.painter().galley(pos2(rect.left(), rect.center().y - galley.size().y * 0.5), galley, color);
 }
 
-/// The name of a style: that of an equal preset, or `own`.
+/// What a click on the switch of a role does.
+fn role_help(role: Role, has: bool, has_mesh: bool) -> &'static str {
+    match (role, has) {
+        (Role::Mirror, true) => "Make this mirror an object like any other",
+        (Role::Mirror, false) if !has_mesh => "Make each flat object below a mirror",
+        (Role::Mirror, false) => "Make this flat object a mirror",
+        (Role::Mask, true) => "Let blueprints hide this object again",
+        (Role::Mask, false) => "Peel blueprints until this object is uncovered",
+    }
+}
+
+/// The name of a style: that of an equal preset, or `Own`.
 pub fn style_name<'a>(style: &Style, presets: &'a [Preset]) -> &'a str {
-    presets.iter().find(|p| p.style == *style).map_or("own", |p| p.name.as_str())
+    presets.iter().find(|p| p.style == *style).map_or("Own", |p| p.name.as_str())
 }
 
 fn style_chip(
@@ -307,7 +320,7 @@ fn style_chip(
     targets: &[NodeId],
     editing: &mut Editing<'_>,
 ) {
-    let text = own.map_or("inherit", |style| style_name(style, editing.presets));
+    let text = own.map_or("Inherit", |style| style_name(style, editing.presets));
     let mut child = ui.new_child(
         egui::UiBuilder::new()
             .max_rect(rect)
@@ -337,11 +350,7 @@ fn style_chip(
             ui.separator();
             for preset in editing.presets {
                 let is_it = own.is_some_and(|style| *style == preset.style);
-                if ui
-                    .selectable_label(is_it, super::row::label_of(&preset.name))
-                    .on_hover_text(&preset.description)
-                    .clicked()
-                {
+                if ui.selectable_label(is_it, &preset.name).on_hover_text(&preset.description).clicked() {
                     editing.document.set_style(scene, targets, &preset.style);
                     ui.close();
                 }

@@ -10,7 +10,7 @@ use crate::style::Value;
 use crate::style::param::{Param, Place, Slot};
 
 /// Width of the column of names.
-const LABEL_WIDTH: f32 = 108.0;
+const LABEL_WIDTH: f32 = 122.0;
 
 /// Least width of the column of numbers.
 const NUMBER_WIDTH: f32 = 58.0;

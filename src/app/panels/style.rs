@@ -6,17 +6,15 @@ use eframe::egui::{RichText, Ui};
 use super::outliner::{inherit, style_name};
 use super::params::params_ui;
 use super::peeling::peeling_ui;
-use super::row::{Change, label_of, named_row};
+use super::row::{Change, named_row};
 use super::{Choosing, Editing};
 use crate::document::Document;
 use crate::scene::{Node, NodeId, Scene};
+use crate::style::param::Scope;
 use crate::style::{Style, StyleError, Value, param};
 
 /// The most that the list of presets is high, in points: all of them are seen at once.
 const PRESETS_HEIGHT: f32 = 720.0;
-
-/// Parameters that matter only while objects are designated.
-const FOR_MASKS: [&str; 3] = ["blueprint.fraction", "blueprint.beyond", "blueprint.highlight"];
 
 /// The page.
 pub fn style_ui(ui: &mut Ui, editing: &mut Editing<'_>) {
@@ -54,16 +52,13 @@ pub fn style_ui(ui: &mut Ui, editing: &mut Editing<'_>) {
     let defaults = default.params();
     let mut params = style.params();
     param::retain_relevant(&mut params);
-    // What is not the style of the whole drawing has no say in its paper.
-    if !targets.is_empty() {
-        params.retain(|param| param.key != "paper");
-    }
-    if !editing.document.has_mask(&scene) {
-        params.retain(|param| !FOR_MASKS.contains(&param.key.as_str()));
-    }
-    if !is_mirror {
-        params.retain(|param| !param.key.starts_with("mirror."));
-    }
+    let has_mask = editing.document.has_mask(&scene);
+    params.retain(|param| match param.scope {
+        Scope::Objects => true,
+        Scope::Drawing => targets.is_empty(),
+        Scope::Mirrors => is_mirror,
+        Scope::Masks => has_mask,
+    });
     let changes = params_ui(ui, "style", &mut params, &defaults);
     apply(editing, &targets, changes);
 }
@@ -100,16 +95,14 @@ fn preset_ui(ui: &mut Ui, editing: &Editing<'_>, style: &Style) -> Option<Style>
     let help = "A named style; choosing one replaces all parameters below";
     named_row(ui, "Preset", help, |ui, label| {
         let current = style_name(style, editing.presets);
-        let text = if current == "own" { "Own".to_owned() } else { label_of(current) };
         let combo = egui::ComboBox::from_id_salt("preset")
             .width(ui.available_width())
             .height(PRESETS_HEIGHT)
-            .selected_text(text)
+            .selected_text(current)
             .show_ui(ui, |ui| {
                 for preset in editing.presets {
-                    let name = label_of(&preset.name);
                     if ui
-                        .selectable_label(preset.name == current, name)
+                        .selectable_label(preset.name == current, &preset.name)
                         .on_hover_text(&preset.description)
                         .clicked()
                     {

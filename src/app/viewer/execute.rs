@@ -101,24 +101,11 @@ impl Viewer {
             Command::TransparentScreenshot => self.capture(context, true, self.numbered()),
             Command::ScreenshotAs => self.ask_for_file(context, DialogFor::Screenshot),
             Command::Quit => self.leave_for(context, Next::Close),
-            Command::AddBox => {
-                if let Some(node) = self.selection.lead_object(&self.model.files) {
-                    let glyph = Glyph::new("box".to_owned(), Shape::around(node.path.clone()));
-                    let index = self.document.add_glyph(glyph);
-                    self.select_glyph(index);
-                }
-            }
+            Command::AddBox => self.add_box(),
             Command::AddArrow => self.begin_placing(Placed::Arrow),
             Command::AddPath => self.begin_placing(Placed::Path),
             Command::AddLabel => self.begin_placing(Placed::Label),
-            Command::Delete => {
-                let own = self.model.files.nodes.len();
-                let indices: Vec<_> = self.selection.iter().filter_map(|n| n.checked_sub(own)).collect();
-                for index in indices.into_iter().rev() {
-                    self.document.remove_glyph(index);
-                }
-                self.selection.clear();
-            }
+            Command::Delete => self.delete_glyphs(),
             Command::Undo if self.placing.is_some() => self.take_point_back(),
             Command::Undo => {
                 self.history.undo(&mut self.document);
@@ -132,20 +119,10 @@ impl Viewer {
                 let objects = self.model.scene.nodes.iter().enumerate().filter(|(_, n)| n.mesh.is_some());
                 self.selection.extend(objects.map(|(id, _)| id));
             }
-            Command::SelectNone => {
-                // Esc closes what lies on top first.
-                if self.open.help || self.open.warnings {
-                    self.open = Open::default();
-                } else {
-                    self.selection.clear();
-                }
-            }
-            Command::Hide => {
-                for node in self.selection.iter().filter_map(|n| self.model.scene.nodes.get(n)) {
-                    self.document.node_mut(&node.path).visible = Some(false);
-                }
-                self.selection.clear();
-            }
+            // Esc closes what lies on top first.
+            Command::SelectNone if self.open.help || self.open.warnings => self.open = Open::default(),
+            Command::SelectNone => self.selection.clear(),
+            Command::Hide => self.hide(),
             Command::Isolate => self.isolate(),
             Command::ShowAll => self.show_all(),
             Command::Home => self.look_from(Standard::Home),
@@ -170,12 +147,7 @@ impl Viewer {
             Command::OrbitRight => self.step(STEP, 0.0),
             Command::OrbitUp => self.step(0.0, STEP),
             Command::OrbitDown => self.step(0.0, -STEP),
-            Command::Projection => {
-                if let Some(camera) = &mut self.document.camera {
-                    let parallel = matches!(camera.projection, Projection::Orthographic { .. });
-                    *camera = camera.with_orthographic(!parallel);
-                }
-            }
+            Command::Projection => self.switch_projection(),
             Command::Panels => self.state.panels = !self.state.panels,
             Command::Outliner => self.state.outliner = !self.state.outliner,
             Command::Inspector => self.state.inspector = !self.state.inspector,
@@ -191,6 +163,37 @@ impl Viewer {
             Command::Warnings => self.open.warnings = !self.open.warnings,
             Command::ReloadShaders => self.reload_shaders(),
             Command::Help => self.open.help = !self.open.help,
+        }
+    }
+
+    fn add_box(&mut self) {
+        if let Some(node) = self.selection.lead_object(&self.model.files) {
+            let glyph = Glyph::new("box".to_owned(), Shape::around(node.path.clone()));
+            let index = self.document.add_glyph(glyph);
+            self.select_glyph(index);
+        }
+    }
+
+    fn delete_glyphs(&mut self) {
+        let own = self.model.files.nodes.len();
+        let indices: Vec<_> = self.selection.iter().filter_map(|n| n.checked_sub(own)).collect();
+        for index in indices.into_iter().rev() {
+            self.document.remove_glyph(index);
+        }
+        self.selection.clear();
+    }
+
+    fn hide(&mut self) {
+        for node in self.selection.iter().filter_map(|n| self.model.scene.nodes.get(n)) {
+            self.document.node_mut(&node.path).visible = Some(false);
+        }
+        self.selection.clear();
+    }
+
+    fn switch_projection(&mut self) {
+        if let Some(camera) = &mut self.document.camera {
+            let parallel = matches!(camera.projection, Projection::Orthographic { .. });
+            *camera = camera.with_orthographic(!parallel);
         }
     }
 

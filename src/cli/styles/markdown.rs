@@ -17,10 +17,11 @@ effect otherwise. `inherit` gives a parameter back to the one that it follows.
 /// The whole page.
 pub(super) fn page(presets: &[Preset], params: &[Param<'_>]) -> String {
     let mut page = HEAD.to_owned();
-    page += "\n## Presets\n\n| `--style` | technique | |\n| --- | --- | --- |\n";
+    page += "\n## Presets\n\n| `--style` | panel | technique | |\n| --- | --- | --- | --- |\n";
     for preset in presets {
         let technique: &str = preset.style.technique.into();
-        page += &format!("| `{}` | `{technique}` | {} |\n", preset.name, cell(&preset.description));
+        let Preset { id, name, description, .. } = preset;
+        page += &format!("| `{id}` | {name} | `{technique}` | {} |\n", cell(description));
     }
     for (name, rows) in sections(params) {
         let common = common_conditions(&rows);

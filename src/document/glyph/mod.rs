@@ -185,6 +185,19 @@ impl Glyph {
     /// Its parameters, like [`Style::params`].
     pub fn params(&mut self) -> Vec<Param<'_>> {
         let mut list = Params::default();
+        self.declare(&mut list);
+        list.finish()
+    }
+
+    /// The same with every number in the range of its parameter, however it was set.
+    #[must_use]
+    pub fn clamped(&self) -> Self {
+        let mut clamped = self.clone();
+        clamped.declare(&mut Params::clamping());
+        clamped
+    }
+
+    fn declare<'a>(&'a mut self, list: &mut Params<'a>) {
         let Self { color, shape, .. } = self;
         list.section("glyph", |list| {
             list.color("color", "Colour", "Colour of the whole glyph.", color);
@@ -205,25 +218,24 @@ impl Glyph {
                 Shape::Label(shape) => label(list, shape),
             }
         });
-        list.finish()
     }
 }
 
 fn thickness<'a>(list: &mut Params<'a>, value: &'a mut f32) {
     let help = "How thick it is, in percent of the model's diagonal.";
-    list.number("thickness", "Thickness", "%", 0.1..=3.0, 0.01..=50.0, help, value);
+    list.wide_number("thickness", "Thickness", "%", 0.1..=3.0, 0.01..=50.0, help, value);
 }
 
 fn label<'a>(list: &mut Params<'a>, label: &'a mut Label) {
     let help = "Size of the letters, in the unit below.";
-    list.number("size", "Size", "", 8.0..=120.0, 0.1..=2000.0, help, &mut label.size);
+    list.wide_number("size", "Size", "", 8.0..=120.0, 0.1..=2000.0, help, &mut label.size);
     let help = "Pixels of a picture 1080 pixels high, or per mille of the model's diagonal.";
     list.choice("unit", "Unit of size", help, &mut label.unit);
     let [right, up] = &mut label.offset;
     let help =
         "From the point to the text, in sizes of the letters; 0 for both is on the point, without a line.";
-    list.number("right", "To the right", "", -8.0..=8.0, -1000.0..=1000.0, help, right);
-    list.number("up", "Up", "", -8.0..=8.0, -1000.0..=1000.0, help, up);
+    list.wide_number("right", "To the right", "", -8.0..=8.0, -1000.0..=1000.0, help, right);
+    list.wide_number("up", "Up", "", -8.0..=8.0, -1000.0..=1000.0, help, up);
     list.switch("in_front", "In front", "Nothing hides the label.", &mut label.in_front);
     list.switch("plate", "Plate", "Paper behind the letters.", &mut label.plate);
 }

@@ -163,7 +163,7 @@ impl Model<'_> {
     }
 
     fn absolute(&self, thickness: f32) -> f64 {
-        f64::from(thickness.clamp(0.01, 50.0)) / 100.0 * self.diagonal
+        f64::from(thickness) / 100.0 * self.diagonal
     }
 
     fn around(&self, shape: &BoxAround) -> Result<Made, String> {
@@ -219,7 +219,7 @@ impl Model<'_> {
         if text.mesh.indices.is_empty() {
             return Err("it has no text".to_owned());
         }
-        let size = f64::from(shape.size.clamp(0.1, 2000.0));
+        let size = f64::from(shape.size);
         let size = match shape.unit {
             Unit::Pixel => LetterSize::ReferencePixels(size),
             Unit::Model => LetterSize::Units(size * 1e-3 * self.diagonal),

@@ -1,9 +1,10 @@
-//! Edges at which three triangles or more meet. Winding decides nothing there.
+//! Edges at which three triangles or more meet, or at which another mesh goes on. Winding decides nothing there.
 
 use glam::{DMat4, DVec3};
 
+use super::PlacedEdges;
 use crate::geometry::feature_edges::Materials;
-use crate::geometry::{EdgeClass, FeatureEdges, Lens, Mesh};
+use crate::geometry::{Beyond, EdgeClass, FeatureEdges, Lens, Mesh};
 
 /// Two surfaces that leave an edge in directions closer than this (radians) lie on each other.
 const SAME_DIRECTION: f64 = 1e-3;
@@ -26,13 +27,16 @@ pub(super) struct Seen {
 pub(super) struct Fans<'a> {
     edges: &'a FeatureEdges,
     mesh: &'a Mesh,
+    /// Which meshes are shown.
+    shown: &'a [bool],
     view_from_local: DMat4,
     lens: Lens,
 }
 
 impl<'a> Fans<'a> {
-    pub(super) fn new(edges: &'a FeatureEdges, mesh: &'a Mesh, view_from_local: DMat4, lens: Lens) -> Self {
-        Self { edges, mesh, view_from_local, lens }
+    pub(super) fn new(placed: &PlacedEdges<'a>, view_from_local: DMat4, lens: Lens) -> Self {
+        let PlacedEdges { edges, mesh, shown, .. } = *placed;
+        Self { edges, mesh, shown, view_from_local, lens }
     }
 
     /// What is seen of an edge; `None`: nothing, or it has no extent.
@@ -73,8 +77,13 @@ impl<'a> Fans<'a> {
                 rim: None,
                 angle: (left + right - std::f64::consts::PI) as f32,
                 faces: [one, two],
-                materials_differ: Materials::new(self.mesh).differ([one, two]),
+                materials_differ: match self.beyond(one).or(self.beyond(two)) {
+                    Some(beyond) => beyond.materials_differ,
+                    None => Materials::new(self.mesh).differ([one, two]),
+                },
             }),
+            // The other mesh draws it.
+            (Some((_, face)), None) | (None, Some((_, face))) if self.beyond(face).is_some() => None,
             (Some((_, face)), None) | (None, Some((_, face))) => {
                 Some(Seen { rim: Some(rim), angle: 0.0, faces: [face; 2], materials_differ: false })
             }
@@ -88,10 +97,21 @@ impl<'a> Fans<'a> {
 
     /// From an edge into a triangle: a unit vector in view space, perpendicular to the edge.
     fn away(&self, face: u32, start: DVec3, along: DVec3) -> Option<DVec3> {
+        let aside = |p: DVec3| (p - start) - along * (p - start).dot(along);
+        if let Some(beyond) = self.beyond(face) {
+            let is_shown = self.shown.get(beyond.mesh).copied().unwrap_or(false);
+            let apex = self.view_from_local.transform_point3(beyond.apex.as_dvec3());
+            return aside(apex).try_normalize().filter(|_| is_shown);
+        }
         let corners = self.mesh.triangles().get(face as usize)?.map(|v| self.view_position(v));
-        let aside = corners.into_iter().flatten().map(|p| (p - start) - along * (p - start).dot(along));
         // The corner that is not on the edge.
-        aside.max_by(|p, q| p.length_squared().total_cmp(&q.length_squared()))?.try_normalize()
+        let corners = corners.into_iter().flatten().map(aside);
+        corners.max_by(|p, q| p.length_squared().total_cmp(&q.length_squared()))?.try_normalize()
+    }
+
+    /// How the mesh goes on, if that is the number of no triangle of its own.
+    fn beyond(&self, face: u32) -> Option<&Beyond> {
+        self.mesh.beyond.get((face as usize).checked_sub(self.mesh.triangle_count())?)
     }
 
     fn view_position(&self, vertex: u32) -> Option<DVec3> {

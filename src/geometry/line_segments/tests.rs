@@ -59,7 +59,7 @@ impl Subject {
 
     pub(super) fn at(&self, world_from_local: DMat4) -> PlacedEdges<'_> {
         let Self { mesh, edges, is_solid, .. } = self;
-        PlacedEdges { edges, mesh, world_from_local, object: 7, is_solid: *is_solid }
+        PlacedEdges { edges, mesh, world_from_local, object: 7, is_solid: *is_solid, shown: &[] }
     }
 
     pub(super) fn segments(&self, place: DMat4, view: &LineView, wanted: &Wanted) -> Vec<LineSegment> {

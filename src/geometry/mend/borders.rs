@@ -2,8 +2,11 @@
 
 use glam::DVec3;
 
+use rayon::prelude::*;
+
+use super::super::disjoint_sets::DisjointSets;
 use super::super::edge::NO_FACE;
-use super::super::{Adjacency, EdgeKind, Mesh};
+use super::super::{Adjacency, Bounds, EdgeKind, Mesh};
 
 /// Stands for "no border edge".
 pub(super) const NO_BORDER: u32 = u32::MAX;
@@ -35,6 +38,10 @@ pub(super) struct Border {
     pub(super) height: f64,
     /// Length of the edge, in units of the mesh.
     pub(super) length: f64,
+    /// What its triangle belongs to: all that is connected by common points.
+    pub(super) body: u32,
+    /// Diagonal of the box around that, in units of the mesh.
+    pub(super) body_size: f64,
 }
 
 impl Border {
@@ -81,6 +88,8 @@ pub(super) struct Borders {
     pub(super) previous: Vec<u32>,
     /// Total length, in units of the mesh.
     pub(super) length: f64,
+    /// For each welded point [`Border::body`].
+    pub(super) body_of_point: Vec<u32>,
     starts: PointList,
     ends: PointList,
 }
@@ -89,6 +98,7 @@ impl Borders {
     pub(super) fn new(mesh: &Mesh, adjacency: &Adjacency) -> Self {
         let weld = &adjacency.weld.representative;
         let is_border = |kind| matches!(kind, EdgeKind::Border | EdgeKind::Stitched);
+        let (body_of_point, sizes) = bodies(mesh, weld);
         let list: Vec<Border> = (0..)
             .zip(&adjacency.edges)
             .filter(|(_, edge)| is_border(edge.kind))
@@ -101,6 +111,7 @@ impl Borders {
                 let length = positions[0].distance(positions[1]);
                 let direction = (positions[1] - positions[0]).normalize_or_zero();
                 let inward = (apex - positions[0]).reject_from_normalized(direction);
+                let body = body_of_point[ends[0] as usize];
                 Border {
                     edge: number,
                     face: edge.faces[0],
@@ -111,6 +122,8 @@ impl Borders {
                     outward: -inward.normalize_or_zero(),
                     height: inward.length(),
                     length: length.max(f64::MIN_POSITIVE),
+                    body,
+                    body_size: sizes[body as usize],
                 }
             })
             .collect();
@@ -121,6 +134,7 @@ impl Borders {
             next: vec![NO_BORDER; list.len()],
             previous: vec![NO_BORDER; list.len()],
             length: list.iter().map(|b| b.length).sum(),
+            body_of_point,
             list,
         };
         for number in 0..all.list.len() {
@@ -180,6 +194,24 @@ impl Borders {
         }
         NO_BORDER
     }
+}
+
+/// The body of each point, and the diagonal of each body.
+fn bodies(mesh: &Mesh, weld: &[u32]) -> (Vec<u32>, Vec<f64>) {
+    let sets = DisjointSets::new(mesh.positions.len());
+    mesh.triangles().par_iter().with_min_len(16_384).for_each(|triangle| {
+        let [a, b, c] = triangle.map(|v| weld[v as usize]);
+        sets.unite(a, b);
+        sets.unite(a, c);
+    });
+    let (body_of_point, count) = sets.numbered();
+    let mut boxes = vec![Bounds::EMPTY; count];
+    for (&body, &position) in body_of_point.iter().zip(&mesh.positions) {
+        let bounds = &mut boxes[body as usize];
+        let point = position.as_dvec3();
+        *bounds = bounds.union(&Bounds { min: point, max: point });
+    }
+    (body_of_point, boxes.iter().map(Bounds::diagonal).collect())
 }
 
 /// For each welded point a list of border edges.

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use super::borders::{Borders, NO_BORDER};
 use super::limits::Limits;
-use super::proximity::{Partner, Stretches};
+use super::proximity::Stretches;
 
 /// The gap must fall to this share of what it is.
 const FALL: f64 = 0.25;
@@ -23,46 +23,52 @@ const OVERLAP: f64 = 0.1;
 /// The largest gap that a cracked mesh is given, as a multiple of the 95th percentile.
 const MARGIN: f64 = 2.0;
 
-/// The stretches that are joined, and the width up to which gaps need no closure.
+/// The stretches that are joined, and how many times wider than usual gaps may be that need no closure.
 pub(super) struct Closed {
     pub(super) is_closed: Vec<bool>,
-    pub(super) open_gap: f64,
+    pub(super) opening: f64,
 }
 
 /// Decides for each stretch. Where many of the gaps that do not close are overlaps, which no designer leaves, the mesh
 /// is cracked also where the corners of patches should meet, and its own gaps tell how wide cracks are (step 5).
 pub(super) fn closed(borders: &Borders, stretches: &Stretches, limits: &Limits) -> Closed {
-    let is_closed = decide(borders, stretches, limits, limits.open_gap);
-    let mut left: Vec<(Partner, f64)> = stretches
+    let is_closed = decide(borders, stretches, limits, 1.0);
+    // Those that are left: the gap in usual open gaps, whether they overlap, the length.
+    let mut left: Vec<(f64, bool, f64)> = stretches
         .list
         .iter()
         .zip(&is_closed)
         .filter(|(_, closed)| !**closed)
-        .filter_map(|(stretch, _)| Some((stretch.partner?, stretch.length(borders))))
+        .filter_map(|(stretch, _)| {
+            let partner = stretch.partner?;
+            let usual = limits.open_gap(borders.get(stretch.border), borders.get(partner.border));
+            let is_overlap = partner.opening < -OVERLAP * partner.gap;
+            Some((partner.gap / usual, is_overlap, stretch.length(borders)))
+        })
         .collect();
-    let length = |which: &dyn Fn(&Partner) -> bool| -> f64 {
-        left.iter().filter(|(partner, _)| which(partner)).map(|(_, length)| length).sum()
-    };
-    let all = length(&|_| true);
-    if all == 0.0 || length(&|partner| partner.opening < -OVERLAP * partner.gap) < CRACKED * all {
-        return Closed { is_closed, open_gap: limits.open_gap };
+    let all: f64 = left.iter().map(|&(_, _, length)| length).sum();
+    let overlapping: f64 = left.iter().filter(|stretch| stretch.1).map(|&(_, _, length)| length).sum();
+    if all == 0.0 || overlapping < CRACKED * all {
+        return Closed { is_closed, opening: 1.0 };
     }
-    left.sort_by(|a, b| a.0.gap.total_cmp(&b.0.gap));
+    left.sort_by(|a, b| a.0.total_cmp(&b.0));
     let mut so_far = 0.0;
-    let percentile = left.iter().find(|(_, length)| {
+    let percentile = left.iter().find(|(_, _, length)| {
         so_far += length;
         so_far >= 0.95 * all
     });
-    let open_gap = percentile.map_or(0.0, |(partner, _)| MARGIN * partner.gap);
-    let open_gap = open_gap.clamp(limits.open_gap, limits.tolerance);
-    Closed { is_closed: decide(borders, stretches, limits, open_gap), open_gap }
+    let opening = percentile.map_or(1.0, |&(gap, _, _)| (MARGIN * gap).max(1.0));
+    Closed { is_closed: decide(borders, stretches, limits, opening), opening }
 }
 
-fn decide(borders: &Borders, stretches: &Stretches, limits: &Limits, open_gap: f64) -> Vec<bool> {
+fn decide(borders: &Borders, stretches: &Stretches, limits: &Limits, opening: f64) -> Vec<bool> {
     (0..stretches.list.len())
         .into_par_iter()
         .map(|number| {
             let Some(partner) = stretches.list[number].partner else { return false };
+            let ends = [stretches.list[number].border, partner.border].map(|b| borders.get(b));
+            let open_gap =
+                (opening * limits.open_gap(ends[0], ends[1])).min(limits.tolerance(ends[0], ends[1]));
             let target = limits.spacing.max(FALL * partner.gap);
             let [before, after] = partner.end_gaps;
             partner.widest() <= open_gap

@@ -143,7 +143,7 @@ impl<'a> Intervals<'a> {
     fn snap(&self, border: u32, share: f64, width: f64) -> f64 {
         let length = self.borders.get(border).length;
         let end = share.round();
-        let width = width.max(CORNER * self.limits.tolerance);
+        let width = width.max(CORNER * self.limits.reach(self.borders.get(border)));
         if self.limits.is_same_place((share - end).abs() * length, width, length) { end } else { share }
     }
 

@@ -29,18 +29,23 @@ pub(super) struct Draft {
     pub(super) sources: Vec<u32>,
     /// For each vertex its place.
     pub(super) places: Vec<u32>,
+    /// For each vertex a welded point of its body: its own or, of new ones, that at an end of the edge.
+    corners: Vec<u32>,
 }
 
 pub(super) fn join(mesh: &Mesh, weld: &[u32], borders: &Borders, places: &Places) -> Outcome {
     let mut draft = cut(mesh, weld, borders, places);
     let settled = settle(mesh, borders, &draft, places);
     let moves = draft.mesh.positions.iter().zip(&settled.positions).map(|(a, b)| a.distance(*b));
-    let farthest_move = f64::from(moves.fold(0.0, f32::max));
-    let joined_length = joined_length(borders, places, &settled.points);
+    let moves: Vec<f32> = moves.collect();
+    let farthest_move = f64::from(moves.iter().copied().fold(0.0, f32::max));
+    let (joined_length, is_open) = joined(borders, places, &settled.points);
+    let errors = errors(borders, &draft, &settled, &is_open, &moves);
     let dropped = without_area(&draft, &settled);
     let kept = (0..).zip(&draft.triangles).zip(&draft.sources).filter(|((t, _), _)| !dropped.contains(t));
     let (triangles, sources): (Vec<[u32; 3]>, Vec<u32>) = kept.map(|((_, t), source)| (*t, *source)).unzip();
     draft.mesh.positions = settled.positions;
+    draft.mesh.position_errors = errors;
     draft.mesh.parts = parts(&mesh.parts, &sources);
     draft.mesh.indices = triangles.into_flattened();
     Outcome {
@@ -89,6 +94,7 @@ fn without_area(draft: &Draft, settled: &Settled) -> HashSet<usize> {
 fn cut(mesh: &Mesh, weld: &[u32], borders: &Borders, places: &Places) -> Draft {
     let mut new = Mesh { indices: Vec::new(), parts: Vec::new(), ..mesh.clone() };
     let mut place_of_vertex = weld.to_vec();
+    let mut corners_of_vertex = weld.to_vec();
     let mut cut_triangles: HashMap<u32, CutTriangle> = HashMap::new();
     for (number, border) in (0..).zip(&borders.list) {
         let mut cuts: Vec<(u32, &Cut)> =
@@ -105,6 +111,7 @@ fn cut(mesh: &Mesh, weld: &[u32], borders: &Borders, places: &Places) -> Draft {
         for (place, cut) in cuts {
             triangle.on_edges[corner].push(place_of_vertex.len() as u32);
             place_of_vertex.push(place);
+            corners_of_vertex.push(border.ends[0]);
             append_between(&mut new, border.vertices, cut.share as f32);
         }
     }
@@ -117,7 +124,7 @@ fn cut(mesh: &Mesh, weld: &[u32], borders: &Borders, places: &Places) -> Draft {
         }
         sources.resize(triangles.len(), number);
     }
-    Draft { mesh: new, triangles, sources, places: place_of_vertex }
+    Draft { mesh: new, triangles, sources, places: place_of_vertex, corners: corners_of_vertex }
 }
 
 /// Appends a vertex between two others, at a share of the way.
@@ -128,6 +135,7 @@ fn append_between(mesh: &mut Mesh, ends: [u32; 2], share: f32) {
         }
     }
     append(&mut mesh.positions, ends, |a, b| a.as_dvec3().lerp(b.as_dvec3(), f64::from(share)).as_vec3());
+    append(&mut mesh.position_errors, ends, f32::max);
     append(&mut mesh.normals, ends, |a, b| a.lerp(b, share).normalize_or(a));
     append(&mut mesh.uvs, ends, |a, b| a.lerp(b, share));
     append(&mut mesh.colors, ends, |a, b| {
@@ -153,8 +161,35 @@ fn parts(old: &[MeshPart], sources: &[u32]) -> Vec<MeshPart> {
         .collect()
 }
 
-/// Length of the parts of border edges both of whose ends became those of another one.
-fn joined_length(borders: &Borders, places: &Places, points: &[u32]) -> f64 {
+/// [`Mesh::position_errors`]: what is left open or does not meet on a straight line may be off its place by as much as
+/// anything of its body was moved.
+fn errors(
+    borders: &Borders,
+    draft: &Draft,
+    settled: &Settled,
+    is_open: &[bool],
+    moves: &[f32],
+) -> Vec<f32> {
+    let mut farthest: HashMap<u32, f32> = HashMap::new();
+    let body = |v: usize| borders.body_of_point[draft.corners[v] as usize];
+    for (v, &length) in moves.iter().enumerate().filter(|(_, length)| **length > 0.0) {
+        let farthest = farthest.entry(body(v)).or_default();
+        *farthest = farthest.max(length);
+    }
+    let old = &draft.mesh.position_errors;
+    (0..moves.len())
+        .map(|v| {
+            let point = settled.points[draft.places[v] as usize];
+            let is_doubtful = settled.is_doubtful[v] || is_open[point as usize];
+            let error = farthest.get(&body(v)).copied().filter(|_| is_doubtful).unwrap_or(0.0);
+            error.max(old.get(v).copied().unwrap_or(0.0))
+        })
+        .collect()
+}
+
+/// Length of the parts of border edges both of whose ends became those of another one, and for each place whether it is an
+/// end of one of the others.
+fn joined(borders: &Borders, places: &Places, points: &[u32]) -> (f64, Vec<bool>) {
     let point = |place: u32| points[place as usize];
     let mut pieces: Vec<([u32; 2], f64)> = Vec::with_capacity(borders.list.len());
     for (number, border) in (0..).zip(&borders.list) {
@@ -170,6 +205,13 @@ fn joined_length(borders: &Borders, places: &Places, points: &[u32]) -> f64 {
         }
     }
     pieces.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
-    let joined = pieces.chunk_by(|a, b| a.0 == b.0).filter(|pieces| pieces.len() > 1);
-    joined.flatten().map(|piece| piece.1).sum()
+    let mut joined = 0.0;
+    let mut is_open = vec![false; points.len()];
+    for same in pieces.chunk_by(|a, b| a.0 == b.0) {
+        match same {
+            [(ends, _)] => ends.iter().for_each(|&end| is_open[end as usize] = true),
+            _ => joined += same.iter().map(|piece| piece.1).sum::<f64>(),
+        }
+    }
+    (joined, is_open)
 }

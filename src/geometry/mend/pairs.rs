@@ -14,7 +14,7 @@ const MOST_IN_A_CELL: usize = 64;
 
 /// The border edge that each is paired with, or [`NO_BORDER`].
 pub(super) fn pairs(borders: &Borders, limits: &Limits) -> Vec<u32> {
-    let cells = Cells::new(borders, limits.open_gap);
+    let cells = Cells::new(borders, limits);
     let best: Vec<u32> =
         (0..borders.list.len()).into_par_iter().map(|b| cells.best_partner(borders, b as u32)).collect();
     let is_mutual = |(border, &partner): (usize, &u32)| {
@@ -26,7 +26,7 @@ pub(super) fn pairs(borders: &Borders, limits: &Limits) -> Vec<u32> {
 /// What joining two edges of which both ends nearly coincide takes.
 pub(super) fn ties(a: &Border, b: &Border) -> [Tie; 2] {
     let ends = facing_ends(a, b);
-    [0, 1].map(|k| Tie { sides: [Place::Point(a.ends[k]), Place::Point(ends[k])] })
+    [0, 1].map(|k| Tie::new([Place::Point(a.ends[k]), Place::Point(ends[k])]))
 }
 
 /// The ends of `b` in the order in which `a` meets them.
@@ -35,21 +35,23 @@ fn facing_ends(a: &Border, b: &Border) -> [u32; 2] {
 }
 
 /// Border edges by the cell of their middle.
-struct Cells {
+struct Cells<'a> {
+    limits: &'a Limits,
     width: f64,
     reach: f64,
     /// (hash of the cell, edge), sorted.
     entries: Vec<(u64, u32)>,
 }
 
-impl Cells {
-    fn new(borders: &Borders, reach: f64) -> Self {
+impl<'a> Cells<'a> {
+    fn new(borders: &Borders, limits: &'a Limits) -> Self {
+        let reach = limits.greatest_open_gap();
         let width = CELL * reach;
         let entries = borders.list.par_iter().enumerate();
         let mut entries: Vec<(u64, u32)> =
             entries.map(|(number, b)| (hash(cell(b.at(0.5), width)), number as u32)).collect();
         entries.par_sort_unstable();
-        Self { width, reach, entries }
+        Self { limits, width, reach, entries }
     }
 
     fn best_partner(&self, borders: &Borders, number: u32) -> u32 {
@@ -64,7 +66,11 @@ impl Cells {
                     for &(_, other) in self.at(I64Vec3::new(x, y, z)) {
                         let partner = borders.get(other);
                         let gap = widest_end(border, partner);
-                        if other != number && (gap, other) < best && is_seam(border, partner) {
+                        if other != number
+                            && (gap, other) < best
+                            && gap <= self.limits.open_gap(border, partner)
+                            && is_seam(border, partner)
+                        {
                             best = (gap, other);
                         }
                     }

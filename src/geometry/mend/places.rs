@@ -3,6 +3,7 @@
 use glam::{DVec3, Vec3};
 
 use super::borders::Borders;
+use super::limits::Limits;
 
 /// Of more cuts, an edge gets no further ones.
 const MOST_CUTS: usize = 4096;
@@ -16,13 +17,28 @@ pub(super) enum Place {
     On { border: u32, share: f64 },
 }
 
+/// A place on the straight line between two others.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct OnLine {
+    pub(super) ends: [Place; 2],
+    /// Share of the way from the first to the second.
+    pub(super) share: f64,
+}
+
 /// Two places that are to become one.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Tie {
     pub(super) sides: [Place; 2],
+    /// Where they meet if the seam is straight; else in the middle.
+    pub(super) on_line: Option<OnLine>,
 }
 
 impl Tie {
+    /// They meet in the middle.
+    pub(super) fn new(sides: [Place; 2]) -> Self {
+        Self { sides, on_line: None }
+    }
+
     /// Whether no edge needs to be cut.
     pub(super) fn is_between_vertices(&self) -> bool {
         self.sides.iter().all(|side| match side {
@@ -55,25 +71,34 @@ pub(super) struct Places {
     /// The cuts of each border edge, as places.
     cuts_of: Vec<Vec<u32>>,
     point_count: usize,
-    /// The largest diagonal of a group's box.
-    widest: f32,
+    /// How far each group may be moved: half of the largest diagonal of its box.
+    reach: Vec<f32>,
     /// The least distance of two cuts of an edge.
     spacing: f64,
+    /// The places that are on straight seams.
+    on_lines: Vec<(u32, OnLine)>,
 }
 
 impl Places {
-    pub(super) fn new(positions: &[Vec3], border_count: usize, widest: f64, spacing: f64) -> Self {
+    pub(super) fn new(positions: &[Vec3], borders: &Borders, limits: &Limits) -> Self {
         let count = positions.len();
+        let mut reach = vec![0.0_f32; count];
+        for border in &borders.list {
+            for point in border.ends {
+                reach[point as usize] = limits.reach(border) as f32;
+            }
+        }
         Self {
             parent: (0..count as u32).collect(),
             next: (0..count as u32).collect(),
             size: vec![1; count],
             boxes: positions.iter().map(|&p| [p; 2]).collect(),
             cuts: Vec::new(),
-            cuts_of: vec![Vec::new(); border_count],
+            cuts_of: vec![Vec::new(); borders.list.len()],
             point_count: count,
-            widest: widest as f32,
-            spacing,
+            reach,
+            spacing: limits.spacing,
+            on_lines: Vec::new(),
         }
     }
 
@@ -100,15 +125,20 @@ impl Places {
         &self.cuts_of[border as usize]
     }
 
+    /// Whether a group has several places.
+    pub(super) fn is_shared(&self, group: u32) -> bool {
+        self.size[group as usize] > 1
+    }
+
     /// The middle of the places of a group of more than one.
     pub(super) fn middle(&self, group: u32) -> Option<Vec3> {
         let [low, high] = self.boxes[group as usize].map(Vec3::as_dvec3);
-        (self.size[group as usize] > 1).then(|| low.midpoint(high).as_vec3())
+        self.is_shared(group).then(|| low.midpoint(high).as_vec3())
     }
 
-    /// How far a place may be moved.
-    pub(super) fn reach(&self) -> f32 {
-        0.5 * self.widest * (1.0 + 1e-5)
+    /// How far the places of a group may be moved.
+    pub(super) fn reach(&self, group: u32) -> f32 {
+        self.reach[group as usize] * (1.0 + 1e-5)
     }
 
     /// All members of a group, given one of them.
@@ -121,8 +151,42 @@ impl Places {
         })
     }
 
+    /// Where the groups on straight seams are on their line, if no place is too far from it.
+    pub(super) fn on_lines(&self, borders: &Borders, positions: &[Vec3]) -> Vec<Option<Vec3>> {
+        let mut targets = vec![None; self.count()];
+        for &(place, OnLine { ends, share }) in &self.on_lines {
+            let place_of = |end: u32| {
+                let group = self.group(end);
+                let target = targets[group as usize].or_else(|| self.middle(group)).map(Vec3::as_dvec3);
+                target.unwrap_or_else(|| self.position(borders, end, positions))
+            };
+            let ends = ends.map(|end| self.settle(borders, end).map(place_of));
+            let [Some(from), Some(to)] = ends else { continue };
+            let (group, target) = (self.group(place), from.lerp(to, share).as_vec3());
+            let is_near = |member| {
+                let position = self.position(borders, member, positions).as_vec3();
+                position.distance(target) <= self.reach(group)
+            };
+            if self.members(group).all(is_near) {
+                targets[group as usize] = Some(target);
+            }
+        }
+        targets
+    }
+
     /// Makes one group of the groups of two places, unless it became too large, or two places of one edge became one.
     pub(super) fn tie(&mut self, borders: &Borders, tie: Tie) -> bool {
+        let is_tied = self.tie_sides(borders, &tie);
+        if is_tied
+            && let Some(on_line) = tie.on_line
+            && let Some(place) = self.settle(borders, tie.sides[0])
+        {
+            self.on_lines.push((place, on_line));
+        }
+        is_tied
+    }
+
+    fn tie_sides(&mut self, borders: &Borders, tie: &Tie) -> bool {
         let [a, b] = tie.sides.map(|side| self.settle(borders, side));
         if let (Some(a), Some(b)) = (a, b) {
             return self.unite(borders, a, b);
@@ -143,6 +207,7 @@ impl Places {
                 self.next.pop();
                 self.size.pop();
                 self.boxes.pop();
+                self.reach.pop();
             }
         }
         false
@@ -178,6 +243,7 @@ impl Places {
         self.next.push(number);
         self.size.push(1);
         self.boxes.push([borders.get(border).at(share).as_vec3(); 2]);
+        self.reach.push(self.reach[borders.get(border).ends[0] as usize]);
         self.cuts.push(Cut { border, share });
         self.cuts_of[border as usize].push(number);
         Some(number)
@@ -192,7 +258,8 @@ impl Places {
         let (small, large) = if self.size[a as usize] < self.size[b as usize] { (a, b) } else { (b, a) };
         let [[low_a, high_a], [low_b, high_b]] = [a, b].map(|g| self.boxes[g as usize]);
         let united = [low_a.min(low_b), high_a.max(high_b)];
-        if united[0].distance(united[1]) > self.widest * (1.0 + 1e-5)
+        let reach = self.reach[a as usize].min(self.reach[b as usize]);
+        if united[0].distance(united[1]) > 2.0 * reach * (1.0 + 1e-5)
             || self.members(small).any(|member| self.has_neighbour_in(borders, member, large))
         {
             return false;
@@ -200,6 +267,7 @@ impl Places {
         self.parent[small as usize] = large;
         self.size[large as usize] += self.size[small as usize];
         self.boxes[large as usize] = united;
+        self.reach[large as usize] = reach;
         self.next.swap(small as usize, large as usize);
         true
     }

@@ -72,7 +72,7 @@ impl Stretches {
             .edges
             .par_iter()
             .map_init(Vec::new, |candidates, &edge| {
-                near(borders, open, &tree, edge, limits.tolerance, candidates);
+                near(borders, open, &tree, edge, limits, candidates);
                 stretches(borders, edge, candidates)
             })
             .collect();
@@ -134,17 +134,18 @@ fn near(
     open: &Open,
     tree: &Bvh,
     edge: u32,
-    tolerance: f64,
+    limits: &Limits,
     candidates: &mut Vec<Candidate>,
 ) {
     candidates.clear();
     let border = borders.get(edge);
     let [a, b] = border.positions;
-    let bounds = Bounds { min: a.min(b) - tolerance, max: a.max(b) + tolerance };
+    let reach = limits.reach(border);
+    let bounds = Bounds { min: a.min(b) - reach, max: a.max(b) + reach };
     tree.overlapping(&bounds, |number| {
         let other = open.edges[number];
         let partner = borders.get(other);
-        let reach = tolerance.min(0.5 * border.length.max(partner.length));
+        let reach = limits.tolerance(border, partner).min(0.5 * border.length.max(partner.length));
         let follows = [borders.next[edge as usize], borders.previous[edge as usize]].contains(&other);
         if partner.face == border.face
             || follows

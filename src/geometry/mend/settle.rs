@@ -23,6 +23,8 @@ const ROUNDS: usize = 3;
 pub(super) struct Settled {
     /// The position of each vertex of the draft.
     pub(super) positions: Vec<Vec3>,
+    /// For each vertex of the draft whether it may lie off its place as far as anything was moved.
+    pub(super) is_doubtful: Vec<bool>,
     /// For each place a number of the point it became; places that became one have the same.
     pub(super) points: Vec<u32>,
     /// The triangles with a corner that became one with another place.
@@ -44,6 +46,7 @@ pub(super) fn settle(mesh: &Mesh, borders: &Borders, draft: &Draft, places: &Pla
     }
     let is_joined = |group: u32| settling.targets[group as usize].is_some();
     Settled {
+        is_doubtful: (0..draft.places.len()).map(|v| settling.is_doubtful(v)).collect(),
         positions: (0..draft.places.len()).map(|v| settling.position(v as u32)).collect(),
         points: (0..places.count() as u32)
             .map(|place| Some(places.group(place)).filter(|&group| is_joined(group)).unwrap_or(place))
@@ -61,19 +64,30 @@ struct Settling<'a> {
     groups: Vec<u32>,
     /// Where each group goes; `None`: its members stay where they are.
     targets: Vec<Option<Vec3>>,
+    /// Where those on straight seams are on the line.
+    on_lines: Vec<Option<Vec3>>,
     /// The triangles with a vertex in a group of several places.
     touched: Vec<usize>,
 }
 
 impl<'a> Settling<'a> {
     fn new(mesh: &'a Mesh, borders: &'a Borders, draft: &'a Draft, places: &'a Places) -> Self {
+        let on_lines = places.on_lines(borders, &mesh.positions);
+        let groups = 0..places.count() as u32;
         let targets: Vec<Option<Vec3>> =
-            (0..places.count() as u32).map(|group| places.middle(group)).collect();
+            groups.zip(&on_lines).map(|(group, on_line)| on_line.or_else(|| places.middle(group))).collect();
         let groups: Vec<u32> = draft.places.iter().map(|&place| places.group(place)).collect();
         let is_moved = |&v: &u32| targets[groups[v as usize] as usize].is_some();
         let triangles = draft.triangles.iter().enumerate();
         let touched = triangles.filter(|(_, t)| t.iter().any(is_moved)).map(|(t, _)| t).collect();
-        Self { mesh, borders, draft, places, groups, targets, touched }
+        Self { mesh, borders, draft, places, groups, targets, on_lines, touched }
+    }
+
+    /// Whether a vertex belongs to others and does not meet them on a straight line.
+    fn is_doubtful(&self, vertex: usize) -> bool {
+        let group = self.groups[vertex];
+        let target = self.targets[group as usize];
+        self.places.is_shared(group) && (target.is_none() || target != self.on_lines[group as usize])
     }
 
     fn position(&self, vertex: u32) -> Vec3 {
@@ -98,7 +112,9 @@ impl<'a> Settling<'a> {
         let [a, b, c] = self.mesh.corners(source);
         let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
         let height = (b - a).cross(c - a).length() / longest;
-        height < NEEDLE * self.places.reach() && height < SLENDER * longest
+        let groups = self.draft.triangles[triangle].map(|v| self.groups[v as usize]);
+        let reach = groups.map(|group| self.places.reach(group)).into_iter().fold(0.0, f32::max);
+        height < NEEDLE * reach && height < SLENDER * longest
     }
 
     fn turned_triangles(&self) -> Vec<usize> {
@@ -145,7 +161,7 @@ impl<'a> Settling<'a> {
     /// Where a group could go: its middle, and as far towards each member as that is not too far from any other.
     fn alternatives(&self, group: u32) -> Vec<Vec3> {
         let Some(middle) = self.places.middle(group) else { return Vec::new() };
-        let reach = self.places.reach();
+        let reach = self.places.reach(group);
         let members: Vec<Vec3> = self.places.members(group).map(|place| self.before(place)).collect();
         let towards = members.iter().flat_map(|m| [0.0, 0.25, 0.5, 0.75].map(|share| m.lerp(middle, share)));
         let is_near = |p: &Vec3| members.iter().all(|m| m.distance(*p) <= reach);

@@ -123,7 +123,7 @@ fn solids_in_patches_are_closed_again() {
                 assert!(report.joined_length >= 0.99 * report.border_length, "{what}: {report:?}");
                 assert!(adjacency.is_closed() || crack > 2e-4, "{what}: {report:?}");
                 assert!(report.farthest_move <= report.tolerance * 1.001, "{what}: {report:?}");
-                assert!((area(&after) - area(&patched)).abs() < 2e-3 * area(&patched), "{what}");
+                assert!((area(&after) - area(&solid)).abs() < 2e-3 * area(&solid), "{what}");
                 assert!(before.border_count > 0 || !before.seams.is_empty());
             }
         }

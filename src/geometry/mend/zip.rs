@@ -2,14 +2,18 @@
 
 use std::collections::HashSet;
 
+use glam::DVec3;
+
 use super::limits::Limits;
-use super::places::Tie;
+use super::places::{OnLine, Tie};
 use super::side::{Nearest, Side};
 
 /// Sides with a larger product of their numbers of edges are not compared.
 const MOST_COMPARISONS: usize = 65_536;
 /// Most width of a seam, as a share of the distance of its ends.
 const WIDTH_TO_CHORD: f64 = 0.75;
+/// A seam is straight if no vertex leaves the line between its ends by more than this many times its width.
+const STRAIGHT: f64 = 2.0;
 /// How deep in the material a gap may be, as a share of the height of the triangles.
 const DEPTH: f64 = 0.9;
 
@@ -27,7 +31,7 @@ impl Fit {
         if a.len() * b.len() > MOST_COMPARISONS || have_common_triangle(a, b) {
             return None;
         }
-        let widest = limits.widest().min(WIDTH_TO_CHORD * extent(a).min(extent(b)));
+        let widest = widest(a, b, limits).min(WIDTH_TO_CHORD * extent(a).min(extent(b)));
         let of = |from: &Side<'_>, to: &Side<'_>| {
             let nearest = from.points.iter().zip(&from.along);
             let nearest = nearest.map(|(&point, &along)| {
@@ -83,17 +87,38 @@ impl Fit {
         }
         let mut before = [0; 2];
         let mut ties = Vec::with_capacity(steps.len());
+        let last = steps.len() - 1;
+        let is_straight = self.is_straight(a, b);
         for (number, step) in steps.iter().enumerate() {
             let place = |k: usize, side: &Side<'_>| match step[k] {
                 Some(vertex) => side.vertex(vertex),
                 None => side.cut(before[k], along[k][number]),
             };
-            ties.push(Tie { sides: [place(0, a), place(1, b)] });
+            let share = along[0][number] / a.length() + along[1][number] / b.length();
+            let is_on_line = is_straight && number > 0 && number < last;
+            ties.push(Tie {
+                sides: [place(0, a), place(1, b)],
+                on_line: is_on_line
+                    .then(|| OnLine { ends: [a.vertex(0), a.vertex(a.len())], share: 0.5 * share }),
+            });
             for k in 0..2 {
                 before[k] = step[k].unwrap_or(before[k]);
             }
         }
         ties
+    }
+
+    /// Whether both sides are straight but for the width of the seam. Then they meet on the line between its ends, where
+    /// they turn no triangle that lay along it.
+    fn is_straight(&self, a: &Side<'_>, b: &Side<'_>) -> bool {
+        let (start, end) = (a.points[0], a.points[a.len()]);
+        let chord = end - start;
+        let distance = |p: DVec3| {
+            let share = (p - start).dot(chord) / chord.length_squared();
+            start.lerp(end, share.clamp(0.0, 1.0)).distance(p)
+        };
+        let reach = STRAIGHT * self.width;
+        chord.length() > reach && a.points.iter().chain(&b.points).all(|&p| distance(p) <= reach)
     }
 
     /// The order in which the vertices of both sides follow each other; an entry has two where they become one.
@@ -127,7 +152,7 @@ impl Fit {
         let apart = (from_a.along - b.along[j]).abs().max((from_b.along - a.along[i]).abs());
         let shortest = a.shortest_at(i).min(b.shortest_at(j));
         limits.is_same_place(apart, from_a.gap.max(from_b.gap), shortest)
-            && a.points[i].distance(b.points[j]) <= limits.widest()
+            && a.points[i].distance(b.points[j]) <= widest(a, b, limits)
     }
 }
 
@@ -145,6 +170,11 @@ fn spread(values: &mut [f64], low: f64, high: f64, spacing: f64) {
         *value = value.min(most - spacing);
         most = *value;
     }
+}
+
+/// How far two sides may be apart. Each is the border of one body.
+fn widest(a: &Side<'_>, b: &Side<'_>, limits: &Limits) -> f64 {
+    limits.widest(a.edge(0), b.edge(0))
 }
 
 fn have_common_triangle(a: &Side<'_>, b: &Side<'_>) -> bool {

@@ -212,13 +212,20 @@ impl Gatherer<'_> {
         let [a, b] = self.ends(number)?.map(place);
         let along = (b - a).try_normalize()?;
         let mut wings: Vec<Wing> = Vec::new();
-        for &(edge, face) in faces {
-            let Some(corner) = self.opposite(edge, face) else { continue };
+        let own = faces.iter().filter_map(|&(edge, face)| Some((self.opposite(edge, face)?, self.material(face))));
+        let beyond = self.placed.adjacency.beyond(number);
+        let beyond = beyond.and_then(|beyond| self.placed.mesh.beyond.get(beyond as usize));
+        let is_soft = is_soft || beyond.is_some_and(|beyond| beyond.is_soft);
+        let apex = beyond.map(|beyond| {
+            let own = faces.first().map_or(0, |&(_, face)| self.material(face));
+            (place(beyond.apex.as_dvec3()), if beyond.materials_differ { usize::MAX } else { own })
+        });
+        for (corner, material) in own.chain(apex) {
             let Some(away) = ((corner - a) - along * (corner - a).dot(along)).try_normalize() else {
                 continue;
             };
             if wings.iter().all(|wing| wing.away.distance(away) > SAME_DIRECTION) {
-                wings.push(Wing { away, material: self.material(face) });
+                wings.push(Wing { away, material });
             }
         }
         (!wings.is_empty()).then(|| WorldEdge {

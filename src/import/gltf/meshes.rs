@@ -50,6 +50,14 @@ struct Piece {
     needs: SurfaceNeeds,
 }
 
+impl Piece {
+    fn turn_over(&mut self) {
+        for triangle in self.indices.as_chunks_mut::<3>().0 {
+            triangle.swap(1, 2);
+        }
+    }
+}
+
 /// Whether all that is drawn of the mesh has joints and weights.
 pub(super) fn is_skinnable(document: &Document<'_>, mesh: usize) -> bool {
     let has = |p: &Primitive, s| p.attributes.contains_key(&Checked::Valid(s));
@@ -102,14 +110,12 @@ pub(super) fn build(
             notes.push(format!("primitive {number} has no positions and is left out"));
             continue;
         };
-        let material = match primitive.material {
-            Some(index) if index.value() < root.materials.len() => index.value(),
-            Some(index) => {
-                notes.push(format!("primitive {number} uses material {index}, which does not exist"));
-                root.materials.len()
-            }
-            None => root.materials.len(),
-        };
+        let known =
+            primitive.material.map(|index| index.value()).filter(|index| *index < root.materials.len());
+        if let (None, Some(index)) = (known, primitive.material) {
+            notes.push(format!("primitive {number} uses material {index}, which does not exist"));
+        }
+        let material = known.unwrap_or(root.materials.len());
         let needs = materials::needs(root, material);
         let mut indices = read_indices(document, primitive, count).map_err(at)?;
         let picks = pick_used(&mut indices, count);
@@ -135,20 +141,10 @@ pub(super) fn build(
         let indices = triangles(document, mode, indices, number, &mut notes).map_err(at)?;
         pieces.push(Piece { block, indices, material, needs });
     }
-    if unfilled > 0 {
-        notes.push(format!(
-            "{unfilled} primitive{} of points or lines {} not drawn",
-            if unfilled == 1 { "" } else { "s" },
-            if unfilled == 1 { "is" } else { "are" }
-        ));
-    }
+    notes.extend(unfilled_note(unfilled));
     let has_triangles = !pieces.is_empty();
     if pose.is_some_and(Pose::mirrors) {
-        for piece in &mut pieces {
-            for triangle in piece.indices.as_chunks_mut::<3>().0 {
-                triangle.swap(1, 2);
-            }
-        }
+        pieces.iter_mut().for_each(Piece::turn_over);
     }
     complete_normals(document, &mut blocks, &mut pieces)?;
     complete_tangents(document, &mut blocks, &mut pieces, &mut notes)?;
@@ -164,6 +160,11 @@ pub(super) fn build(
         has_points_or_lines: unfilled > 0,
         has_triangles,
     })
+}
+
+fn unfilled_note(count: usize) -> Option<String> {
+    let (s, are) = if count == 1 { ("", "is") } else { ("s", "are") };
+    (count > 0).then(|| format!("{count} primitive{s} of points or lines {are} not drawn"))
 }
 
 /// The indices of a primitive, or 0, 1, 2, … where it has none.
@@ -332,17 +333,7 @@ fn merge(blocks: Vec<Block>, mut pieces: Vec<Piece>) -> Result<(Mesh, Option<Ski
                 block.normals.iter().map(|n| n.any_orthonormal_vector().extend(1.0)).collect::<Vec<Vec4>>();
         }
         if skinned {
-            let mut more = block.skinning.take().unwrap_or_default();
-            more.rest_positions.resize(count, Vec3::ZERO);
-            if has_normals {
-                more.rest_normals.resize(count, Vec3::Z);
-            }
-            more.joints.resize(count, [0; 4]);
-            more.weights.resize(count, [1.0, 0.0, 0.0, 0.0]);
-            append(&mut skin.rest_positions, more.rest_positions);
-            append(&mut skin.rest_normals, more.rest_normals);
-            append(&mut skin.joints, more.joints);
-            append(&mut skin.weights, more.weights);
+            append_skinning(&mut skin, block.skinning.take().unwrap_or_default(), count, has_normals);
         }
         append(&mut mesh.positions, block.positions);
         append(&mut mesh.normals, block.normals);
@@ -375,6 +366,20 @@ fn merge(blocks: Vec<Block>, mut pieces: Vec<Piece>) -> Result<(Mesh, Option<Ski
         append(&mut mesh.indices, indices);
     }
     Ok((mesh, skinned.then_some(skin)))
+}
+
+/// Appends the skinning of so many vertices, of which it may have none.
+fn append_skinning(skin: &mut Skinning, mut more: Skinning, count: usize, has_normals: bool) {
+    more.rest_positions.resize(count, Vec3::ZERO);
+    if has_normals {
+        more.rest_normals.resize(count, Vec3::Z);
+    }
+    more.joints.resize(count, [0; 4]);
+    more.weights.resize(count, [1.0, 0.0, 0.0, 0.0]);
+    append(&mut skin.rest_positions, more.rest_positions);
+    append(&mut skin.rest_normals, more.rest_normals);
+    append(&mut skin.joints, more.joints);
+    append(&mut skin.weights, more.weights);
 }
 
 /// Appends without a copy where there is nothing yet.

@@ -63,6 +63,8 @@ pub struct EdgeUniform {
     color_gradient: f32,
     /// 1: the gradient is the sum of both changes.
     sums_changes: u32,
+    /// Shorter pieces of lines that nothing continues are left out, px of the picture.
+    pub shortest: f32,
 }
 
 // As in `shaders/common/edge_style.wgsl`.
@@ -71,19 +73,25 @@ const PAPER: u32 = 2;
 const C1: u32 = DepthOperator::C1 as u32;
 const SOBEL: u32 = DepthOperator::Sobel as u32;
 
+/// The width of a line, px of a picture with this many pixels per reference pixel. Where the picture is so small that lines
+/// would fade away they keep some ink, in proportion to each other.
+fn width_in_px(width: f32, scale: f32) -> f32 {
+    (width * scale).max((0.25 * width).min(0.75))
+}
+
 impl EdgeUniform {
     /// The parameters of an object in a picture with this many pixels per reference pixel.
     pub fn new(edges: &Edges, scale: f32) -> Self {
         let (profile, inner) = (&edges.profile, &edges.inner);
-        let gain = |show: bool, gain: f32| if show { gain.clamp(0.0, 1000.0) } else { 0.0 };
-        let threshold = |show: bool, least: f32| if show { least.clamp(0.001, 8.0) } else { 0.0 };
-        let (length, gap) = (edges.dash.length.clamp(1.0, 512.0), edges.dash.gap.clamp(1.0, 512.0));
+        let gain = |show: bool, gain: f32| if show { gain } else { 0.0 };
+        let threshold = |show: bool, least: f32| if show { least } else { 0.0 };
+        let (length, gap) = (edges.dash.length, edges.dash.gap);
         let lines = EdgeClass::ALL.map(|class| {
             let line = edges.line(class);
             LineUniform {
                 color: line.color.to_linear(),
-                strength: if line.show { line.strength.clamp(0.0, 1.0) } else { 0.0 },
-                width: line.width.clamp(0.25, 64.0) * scale,
+                strength: if line.show { line.strength } else { 0.0 },
+                width: width_in_px(line.width, scale),
                 threshold: match class {
                     EdgeClass::Silhouette | EdgeClass::Border | EdgeClass::Object => line.threshold * scale,
                     EdgeClass::Texture => line.threshold,
@@ -101,28 +109,29 @@ impl EdgeUniform {
             alignment: edges.alignment as u32,
             dash_period: (length + gap) * scale,
             dash_share: length / (length + gap),
-            surface_color: edges.surface_color.clamp(0.0, 1.0),
-            darken: edges.darken.clamp(0.0, 1.0),
-            by_angle: edges.inner.more.by_angle.clamp(0.0, 1.0),
-            by_distance: edges.variation.distance.clamp(0.0, 1.0),
-            by_light: edges.variation.light.clamp(0.0, 1.0),
-            pressure: edges.pressure.amount.clamp(0.0, 1.0),
-            pressure_scale: edges.pressure.scale.clamp(4.0, 2000.0) * scale,
+            surface_color: edges.surface_color,
+            darken: edges.darken,
+            by_angle: edges.inner.more.by_angle,
+            by_distance: edges.variation.distance,
+            by_light: edges.variation.light,
+            pressure: edges.pressure.amount,
+            pressure_scale: edges.pressure.scale * scale,
             profile_color: profile.color.to_linear(),
-            profile_strength: profile.strength.clamp(0.0, 1.0),
+            profile_strength: profile.strength,
             inner_color: inner.color.to_linear(),
-            inner_strength: inner.strength.clamp(0.0, 1.0),
+            inner_strength: inner.strength,
             gain_z: gain(profile.show, profile.gain),
             gain_c1: gain(profile.show, profile.more.gain_c1),
             gain_n: gain(inner.show, inner.gain),
-            profile_threshold: profile.threshold.clamp(0.0, 0.99),
-            inner_threshold: inner.threshold.clamp(0.0, 0.99),
+            profile_threshold: profile.threshold,
+            inner_threshold: inner.threshold,
             found_by: edges.operator as u32,
             by_sign: u32::from(edges.sobel.silhouettes && profile.show),
             normal_gradient: threshold(edges.sobel.normals && inner.show, edges.sobel.normal_threshold),
             depth_gradient: threshold(edges.sobel.depth && profile.show, edges.sobel.depth_threshold),
             color_gradient: threshold(edges.sobel.color && inner.show, edges.sobel.color_threshold),
             sums_changes: u32::from(edges.sobel.sum),
+            shortest: edges.shortest * scale,
         }
     }
 
@@ -149,11 +158,11 @@ impl EdgeUniform {
             }
             if hidden.mode == HiddenMode::Own {
                 line.color = hidden.color.to_linear();
-                line.width = hidden.width.clamp(0.25, 64.0) * scale;
+                line.width = width_in_px(hidden.width, scale);
                 line.dashed = u32::from(hidden.dashed);
             } else {
-                line.strength *= hidden.strength.clamp(0.0, 1.0);
-                line.width *= hidden.narrow.clamp(0.1, 1.0);
+                line.strength *= hidden.strength;
+                line.width *= hidden.narrow;
                 line.dashed = u32::from(hidden.mode == HiddenMode::Dashed);
             }
         }
@@ -161,10 +170,10 @@ impl EdgeUniform {
             style.surface_color = 0.0;
             (style.profile_color, style.inner_color) = (hidden.color.to_linear(), hidden.color.to_linear());
         } else {
-            style.profile_strength *= hidden.strength.clamp(0.0, 1.0);
-            style.inner_strength *= hidden.strength.clamp(0.0, 1.0);
+            style.profile_strength *= hidden.strength;
+            style.inner_strength *= hidden.strength;
         }
-        let (length, gap) = (hidden.dash.clamp(1.0, 512.0), hidden.gap.clamp(1.0, 512.0));
+        let (length, gap) = (hidden.dash, hidden.gap);
         Self { dash_period: (length + gap) * scale, dash_share: length / (length + gap), ..style }
     }
 

@@ -39,6 +39,10 @@ fn find(
         cuts: view.cuts(),
     };
     let mut all = Strokes::default();
+    let mut shown = vec![false; scene.scene.meshes.len()];
+    for mesh in group.visible().iter().filter_map(|object| scene.scene.nodes[object.node].mesh) {
+        shown[mesh] = true;
+    }
     for object in group.visible() {
         let (node, enhanced) = (object.node, object.enhanced);
         let id = object_id(node);
@@ -57,6 +61,7 @@ fn find(
             object: id,
             // What a solid hides is left out.
             is_solid: scene.shows_no_inside(node) && object.is_whole() && !group.shows_hidden,
+            shown: &shown,
         };
         let first = all.segments.len();
         let wanted = wanted(style, crease_angle);

@@ -46,7 +46,7 @@ impl Lights {
         if !sources.iter().any(|l| l.casts_shadow) && settings.source == Source::File {
             sources.iter_mut().take(1).for_each(|key| key.casts_shadow = true);
         }
-        let density = if settings.shadows { settings.shadow_density.clamp(0.0, 1.0) } else { 0.0 };
+        let density = if settings.shadows { settings.shadow_density } else { 0.0 };
         let mut channels = 0..if density > 0.0 { MAX_SHADOWS } else { 0 };
         let lights = sources
             .iter()
@@ -59,8 +59,8 @@ impl Lights {
         Self {
             lights,
             density,
-            spread: settings.shadow_softness.clamp(0.0, 10.0).to_radians().tan(),
-            detail: settings.shadow_detail.clamp(0.25, 8.0),
+            spread: settings.shadow_softness.to_radians().tan(),
+            detail: settings.shadow_detail,
         }
     }
 

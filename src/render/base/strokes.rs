@@ -14,11 +14,11 @@ impl StrokeStyle {
         let Strokes { enabled, times, overshoot, shift, bow, tremor } = *strokes;
         enabled.then(|| {
             Self(Hand {
-                times: times.clamp(1, 4),
-                overshoot: overshoot.clamp(0.0, 64.0),
-                shift: shift.clamp(0.0, 16.0),
-                bow: bow.clamp(0.0, 10.0) / 100.0,
-                tremor: tremor.clamp(0.0, 8.0),
+                times: times,
+                overshoot: overshoot,
+                shift: shift,
+                bow: bow / 100.0,
+                tremor: tremor,
                 scale,
                 seed,
             })

@@ -47,7 +47,7 @@ pub fn place_blended(
     let wanted = Wanted {
         most: MOST_BLENDED,
         least: 1,
-        mask: None,
+        uncover: None,
         by: None,
         with_color: true,
         with_normals: true,

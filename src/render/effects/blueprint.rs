@@ -15,7 +15,7 @@ use crate::render::base::error::RenderError;
 use crate::render::base::group::Group;
 use crate::render::base::scene_view::SceneView;
 use crate::render::passes::composition::Composition;
-use crate::render::passes::designated::DepthMask;
+use crate::render::passes::designated::{DepthMask, Uncover};
 use crate::render::passes::peel::{MOST_LAYERS, PeelCount};
 use crate::render::passes::place::{LayerShader, Pending, Place};
 use crate::render::passes::traversal::GBufferPass;
@@ -45,11 +45,11 @@ impl From<&style::Blueprint> for BlueprintUniform {
     fn from(style: &style::Blueprint) -> Self {
         Self {
             far: style.far.to_linear(),
-            by_layer: style.by_layer.clamp(0.0, 1.0),
+            by_layer: style.by_layer,
             fill: style.fill.to_linear(),
-            opacity: style.opacity.clamp(0.0, 1.0),
-            by_distance: style.by_distance.clamp(0.0, 1.0),
-            threshold: style.threshold.clamp(0.0, 1.0),
+            opacity: style.opacity,
+            by_distance: style.by_distance,
+            threshold: style.threshold,
         }
     }
 }
@@ -74,9 +74,14 @@ impl Blueprint {
         style.technique == Technique::Blueprint && self.style == style.blueprint && self.edges == style.edges
     }
 
-    /// Most layers that are peeled: no more than are drawn.
+    /// Most layers that are drawn.
+    fn last(&self) -> u32 {
+        self.style.to.min(MOST_LAYERS)
+    }
+
+    /// Most that are peeled where nothing is to be uncovered.
     fn layers(&self) -> u32 {
-        self.style.layers.min(self.style.to).min(MOST_LAYERS)
+        self.style.layers.min(self.last())
     }
 
     fn shows(&self, layer: u32) -> bool {
@@ -132,9 +137,13 @@ pub fn place_blueprint(
     let any = |has: fn(&EdgeUniform) -> bool| group.edge_styles.iter().any(has);
     let is_kept = LAYERS.into_iter().any(|name| rec.keeps(name));
     let wanted = Wanted {
-        most: blueprint.layers(),
+        most: if mask.is_some() { blueprint.last() } else { blueprint.layers() },
         least: least_pixels(params.least, rec.size()),
-        mask: mask.map(|mask| (mask, params.fraction)),
+        uncover: mask.map(|mask| Uncover {
+            mask,
+            fraction: params.fraction,
+            most_without: blueprint.layers(),
+        }),
         by: None,
         with_color: is_kept || any(EdgeUniform::reads_color),
         with_normals: is_kept || any(EdgeUniform::reads_normals),

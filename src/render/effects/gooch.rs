@@ -34,19 +34,19 @@ impl GoochUniform {
         let [across, around] = directions(gooch.metal_axis, world_from_local);
         Self {
             cool: gooch.cool.to_linear(),
-            alpha: gooch.alpha.clamp(0.0, 1.0),
+            alpha: gooch.alpha,
             warm: gooch.warm.to_linear(),
-            beta: gooch.beta.clamp(0.0, 1.0),
+            beta: gooch.beta,
             across,
-            highlight: gooch.highlight.clamp(0.0, 1.0),
+            highlight: gooch.highlight,
             around,
-            shininess: gooch.shininess.clamp(1.0, 256.0),
-            metal: gooch.metal.clamp(0.0, 1.0),
-            stripes: gooch.stripes.clamp(2, 64) as f32,
+            shininess: gooch.shininess,
+            metal: gooch.metal,
+            stripes: gooch.stripes as f32,
             is_of_view: u32::from(gooch.metal_axis == MetalAxis::View),
             is_of_form: u32::from(gooch.metal_axis == MetalAxis::Form),
-            aside: gooch.aside.clamp(0.0, 1.0),
-            own_hue: gooch.own_hue.clamp(0.0, 1.0),
+            aside: gooch.aside,
+            own_hue: gooch.own_hue,
         }
     }
 }

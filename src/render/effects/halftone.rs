@@ -88,24 +88,24 @@ impl Halftones {
             self.maps.push(map);
             self.maps.len() - 1
         });
-        let black = style.black.clamp(0.0, 1.0);
+        let black = style.black;
         if let Some(slot) = object.entry(&mut self.styles) {
             *slot = HalftoneUniform {
                 // Where it lies on the surface depends on the camera: see `placed`.
                 pattern_from_view: Mat4::IDENTITY,
                 ink: style.ink.to_linear(),
-                ink_tint: style.ink_tint.clamp(0.0, 1.0),
+                ink_tint: style.ink_tint,
                 paper: style.paper.to_linear(),
-                paper_tint: style.paper_tint.clamp(0.0, 1.0),
+                paper_tint: style.paper_tint,
                 turn: Vec2::from_angle(style.angle.to_radians()),
-                tile: style.scale.clamp(1.0, 200.0) * scale * PERIODS as f32,
-                footprint: style.smoothness.clamp(0.25, 8.0),
-                ambient: style.ambient.clamp(0.0, 1.0),
-                own_tone: style.own_tone.clamp(0.0, 1.0),
+                tile: style.scale * scale * PERIODS as f32,
+                footprint: style.smoothness,
+                ambient: style.ambient,
+                own_tone: style.own_tone,
                 black,
                 // Points that meet make a step.
                 range: (style.white - black).max(1e-3),
-                gamma: style.gamma.clamp(0.2, 5.0),
+                gamma: style.gamma,
                 map: map as u32,
                 space: match (style.space, style.mapping) {
                     (Space::Screen, _) => SCREEN,

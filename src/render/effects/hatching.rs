@@ -15,7 +15,7 @@ mod strokes;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use encase::ShaderType;
-use glam::{DMat4, Mat4, Vec3};
+use glam::{DMat4, Mat4, Vec3, Vec4};
 
 use self::calibration::{calibration, greatest_ink};
 pub use self::indication::IndicationUniform;
@@ -23,7 +23,6 @@ pub use self::requests::{missing, missing_strokes, stroke_image_fault};
 use self::requests::{recipe_of, request_of};
 use self::sets::{OwnMap, StrokeSets, TILE, built_in};
 pub use self::strokes::StrokeUniform;
-use self::strokes::within;
 use super::technique::{Shaded, Styled, SurfaceTechnique};
 use crate::gpu::{ArrayBuffer, Gpu, Inputs, Recorder, Target};
 use crate::render::base::error::RenderError;
@@ -35,8 +34,8 @@ use crate::render::base::stage::Stage;
 use crate::render::base::stripes::StripePlace;
 use crate::render::passes::coordinates::{Coordinates, CoordinatesPass};
 use crate::render::passes::line_distance::nearest_lines;
-use crate::style::Technique;
 use crate::style::hatching::{Direction, Hatching, Mapping, Set};
+use crate::style::{Curve, Technique};
 
 /// Twin of `HatchingStyle` in `shaders/effects/hatching.wgsl`.
 #[derive(Debug, Clone, Copy, PartialEq, ShaderType, Default)]
@@ -69,6 +68,7 @@ pub struct HatchingUniform {
     towards_light: u32,
     indication: IndicationUniform,
     shows_detail: u32,
+    curve: [Vec4; 9],
 }
 
 // As in `shaders/effects/hatching.wgsl`.
@@ -112,8 +112,6 @@ fn table_of(stroke: &StrokeUniform) -> Table {
 pub struct Hatchings {
     /// By object id; empty when there are none.
     styles: Vec<HatchingUniform>,
-    /// Of each object id, [`CURVE`] samples.
-    curves: Vec<f32>,
     tables: Vec<Table>,
     /// Maps of strokes that styles describe; their numbers follow those of the built-in ones.
     own: Vec<OwnMap>,
@@ -149,11 +147,6 @@ impl Hatchings {
             *slot = uniform;
         }
         self.has_caps |= object.scene.section.is_some();
-        self.curves.resize(object.count * CURVE, 0.0);
-        let first = object.id * CURVE;
-        if let Some(slot) = self.curves.get_mut(first..first + CURVE) {
-            slot.copy_from_slice(&style.tone.curve.table(CURVE));
-        }
     }
 
     /// The number of a set of strokes; until those of a style have been drawn, a pen's.
@@ -194,26 +187,25 @@ fn uniform(
     scale: f32,
     place: Option<StripePlace>,
 ) -> HatchingUniform {
-    let share = |value: f32| if value.is_nan() { 0.0 } else { value.clamp(0.0, 1.0) };
     let (layers, tone) = (&style.layers, &style.tone);
-    let second = share(layers.second);
+    let second = layers.second;
     HatchingUniform {
         // Depends on the camera: see `placed`.
         local_from_view: Mat4::IDENTITY,
         ink: style.ink.to_linear(),
-        ink_tint: share(style.ink_tint),
+        ink_tint: style.ink_tint,
         paper: style.paper.to_linear(),
-        paper_tint: share(style.paper_tint),
+        paper_tint: style.paper_tint,
         stroke,
         second,
-        third: share(layers.third).max(second),
+        third: layers.third.max(second),
         greatest: if mapping == STRIPES { greatest } else { GREATEST_OF_TILES },
-        directions: layers.count.clamp(1, 3),
+        directions: layers.count,
         shadows_cross: u32::from(layers.shadows_cross),
-        ambient: share(tone.ambient),
-        own_color: share(tone.own_color),
-        white: share(tone.white),
-        darkest: share(tone.darkest),
+        ambient: tone.ambient,
+        own_color: tone.own_color,
+        white: tone.white,
+        darkest: tone.darkest,
         mapping,
         frequency: place.map_or(0.0, |place| place.cycles_per_unit),
         first_triangle: place.map_or(0, |place| place.first_triangle),
@@ -222,14 +214,22 @@ fn uniform(
         // Depend on what has been drawn.
         strokes: 0,
         strokes_in_shadow: 0,
-        turn_in_shadow: within(style.shadows.turn, -90.0, 90.0).to_radians(),
+        turn_in_shadow: style.shadows.turn.to_radians(),
         shadows_differ: u32::from(style.shadows.differ && mapping != STRIPES),
-        turn_step: if style.turn_step.is_nan() { 0.0 } else { style.turn_step.clamp(0.0, 90.0).to_radians() },
+        turn_step: style.turn_step.to_radians(),
         blends_steps: u32::from(style.blend_steps),
         towards_light: u32::from(style.direction == Direction::Light),
         indication: IndicationUniform::new(&style.indication, scale),
         shows_detail: u32::from(style.shows_detail),
+        curve: samples(&tone.curve),
     }
+}
+
+/// A tone curve as the shader reads it.
+fn samples(curve: &Curve) -> [Vec4; 9] {
+    let table = curve.table(CURVE);
+    let sample = |number: usize| table.get(number).copied().unwrap_or(0.0);
+    std::array::from_fn(|row| Vec4::from_array(std::array::from_fn(|column| sample(4 * row + column))))
 }
 
 /// From view space to local space of an object's mesh.
@@ -249,7 +249,6 @@ pub struct SharedHatching {
 /// Hatching on the device.
 pub struct HatchingShading {
     styles: ArrayBuffer,
-    curves: ArrayBuffer,
     tones: ArrayBuffer,
     stage: Stage<(u64, Vec<DrawCall>), Target>,
     /// The triangles of the layer that is shaded, and the records of all; `None` where nobody asks.
@@ -276,7 +275,6 @@ impl SurfaceTechnique for HatchingShading {
     fn new(gpu: &Gpu) -> Self {
         Self {
             styles: ArrayBuffer::new(gpu, "hatching styles"),
-            curves: ArrayBuffer::new(gpu, "tone curves"),
             tones: ArrayBuffer::new(gpu, "tones of stripes"),
             stage: Stage::default(),
             triangle_map: None,
@@ -330,7 +328,6 @@ impl SurfaceTechnique for HatchingShading {
         if !hatchings.styles.is_empty() {
             shared.sets.prepare(gpu, &hatchings.own)?;
             self.styles.write(gpu, &hatchings.styles);
-            self.curves.write(gpu, &hatchings.curves);
             let tones: Vec<f32> = hatchings.tables.iter().flat_map(|table| &table.tones).copied().collect();
             self.tones.write(gpu, &tones);
         }
@@ -392,7 +389,6 @@ impl SurfaceTechnique for HatchingShading {
             None => [None; 3],
         };
         inputs.set("hatching_styles", self.styles.buffer());
-        inputs.set("hatching_curves", self.curves.buffer());
         inputs.set("stripe_tones", self.tones.buffer());
         inputs.set("triangle_map_tex", self.triangle_map.as_ref());
         inputs.set("nearest_edge_tex", self.nearest_edges.as_ref());

@@ -2,7 +2,7 @@
 //! hides them, but not where a nearer line runs at the same place.
 //!
 //! ```text
-//! surfaces ─► layers ─► edge map of each but the first ─► lines ─► beneath those of nearer layers ─► picture
+//! surfaces ─► layers ─► edge map of each but the first ─► lines ─► with those of nearer layers ─► picture
 //!                            ▲
 //! visible edge map ──────────┘ no line twice
 //! ```
@@ -48,7 +48,7 @@ impl Hidden {
         if !style.is_exact() && !style.is_paper() {
             return;
         }
-        let least = hidden.least.clamp(0.0, 100.0);
+        let least = hidden.least;
         self.least = if self.styles.is_empty() { least } else { self.least.min(least) };
         self.styles.resize(count, EdgeUniform::default());
         self.depths.resize(count, 0);
@@ -147,7 +147,7 @@ impl HiddenLines {
             let wanted = Wanted {
                 most: bands.last().map_or(0, |band| band.last) + 1,
                 least: least_pixels(hidden.least, rec.size()),
-                mask: None,
+                uncover: None,
                 by: None,
                 with_color: any(EdgeUniform::reads_color),
                 with_normals: any(EdgeUniform::reads_normals),
@@ -175,7 +175,8 @@ impl HiddenLines {
                     entry_point: "fs_lines",
                     inputs: &inputs! { seen_tex: edges.nearer.as_ref() },
                     switches: &[],
-                    onto: Onto::Beneath,
+                    // Lines of several layers that run over each other are one ink.
+                    onto: Onto::Greatest,
                 };
                 lines(rec, &drawn, &pen, &color)
             })?;

@@ -12,7 +12,7 @@ use crate::render::base::frame_uniform::FrameUniform;
 use crate::render::base::group::Group;
 use crate::render::base::instances::{DrawCall, Instance};
 use crate::render::base::scene_view::SceneView;
-use crate::render::passes::designated::DepthMask;
+use crate::render::passes::designated::Uncover;
 use crate::render::passes::layers::{
     DrawnLayer, LayerEdges, LayerInputs, LayerLines, LayerLinesInputs, Layers, LayersBy as MadeBy, Reported,
 };
@@ -65,8 +65,8 @@ pub struct Wanted<'a> {
     pub most: u32,
     /// It ends before a layer of fewer pixels.
     pub least: u32,
-    /// The designated objects, and the share of them that is to be uncovered.
-    pub mask: Option<(&'a DepthMask, f32)>,
+    /// What is to be uncovered.
+    pub uncover: Option<Uncover<'a>>,
     /// How layers are to be made; `None`: as the document says.
     pub by: Option<LayersBy>,
     /// Whether their base colours are asked for.
@@ -204,8 +204,7 @@ impl Layered {
             is_cut: seen.view.has_cuts(),
             most: wanted.most,
             least: wanted.least,
-            mask: wanted.mask.map(|(mask, _)| mask),
-            fraction: wanted.mask.map_or(1.0, |(_, fraction)| fraction),
+            uncover: wanted.uncover,
             by: wanted.by.unwrap_or(seen.layers_by),
             with_color: wanted.with_color,
             with_normals: wanted.with_normals,
@@ -229,6 +228,6 @@ impl Layered {
 
 /// So many pixels are this share of a picture, percent: a layer of fewer ends layers, an empty one at the latest.
 pub fn least_pixels(percent: f32, [width, height]: [u32; 2]) -> u32 {
-    let share = f64::from(percent.clamp(0.0, 100.0)) / 100.0;
+    let share = f64::from(percent) / 100.0;
     ((share * f64::from(width) * f64::from(height)).ceil() as u32).max(1)
 }

@@ -94,11 +94,8 @@ impl SurfaceTechnique for MatcapShading {
             matcaps.spheres.len() - 1
         });
         if let Some(entry) = object.entry(&mut matcaps.styles) {
-            *entry = MatcapUniform {
-                own_color: style.own_color.clamp(0.0, 1.0),
-                shadow: style.shadow.clamp(0.0, 1.0),
-                sphere: number as u32,
-            };
+            *entry =
+                MatcapUniform { own_color: style.own_color, shadow: style.shadow, sphere: number as u32 };
         }
     }
 

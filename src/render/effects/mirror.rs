@@ -39,8 +39,8 @@ impl Mirror {
     pub fn new(object: u32, plane: Plane, corners: [DVec3; 8], style: &style::Mirror) -> Self {
         let uniform = MirrorUniform {
             tint: style.tint.to_linear(),
-            reflectivity: style.reflectivity.clamp(0.0, 1.0),
-            fresnel: style.fresnel.clamp(0.0, 1.0),
+            reflectivity: style.reflectivity,
+            fresnel: style.fresnel,
             object,
         };
         Self { object, plane, corners, sides: style.side, uniform }

@@ -20,6 +20,7 @@ use crate::render::base::stage::{Output, Stage};
 use crate::render::base::strokes::StrokeStyle;
 use crate::render::effects::technique::Shaded;
 use crate::render::passes::composition::ink;
+use crate::render::passes::dots::without_dots;
 use crate::render::passes::edge_map::{EdgeInputs, EdgeMap, edge_map};
 use crate::render::passes::gbuffer::GBuffer;
 use crate::render::passes::layers::Reported;
@@ -261,6 +262,7 @@ impl OpaqueLayer {
                     shadow_mask: shadow_mask.map(|mask| &mask.value),
                 },
             )?;
+            let edges = without_dots(rec, edges, &surfaces.gbuffer.value, styles, self.edge_styles.buffer())?;
             self.line_classes.settle(rec, &edges, styles, self.edge_styles.buffer())?;
             Ok(edges)
         })

@@ -57,7 +57,7 @@ fn hatching(section: &Section, view: &View, scale: f32, turn: f64, wider: f32) -
     let along = view.view_from_world.transform_vector3(right * cos + plane.normal.cross(right) * sin);
     let anchor = view.view_from_world.transform_point3(plane.point);
     let across = across(view, anchor, along);
-    let spacing = hatch.spacing.clamp(2.0, 200.0) * scale * wider;
+    let spacing = hatch.spacing * scale * wider;
     let is_seen = view.orthographic || -anchor.z > view.clip_range[0];
     let at = if is_seen { view.projector().pixel(anchor).dot(across) } else { 0.0 };
     CapUniform {
@@ -68,7 +68,7 @@ fn hatching(section: &Section, view: &View, scale: f32, turn: f64, wider: f32) -
         across: across.as_vec2(),
         spacing,
         offset: at.rem_euclid(f64::from(spacing)) as f32,
-        width: if style.cap == Fill::Hatched { hatch.width.clamp(0.25, 32.0) * scale } else { 0.0 },
+        width: if style.cap == Fill::Hatched { hatch.width * scale } else { 0.0 },
     }
 }
 

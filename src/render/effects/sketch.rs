@@ -24,7 +24,9 @@ use super::opaque::{OpaqueInputs, OpaqueLayer, Surfaces};
 use super::surface::{Look, Shading};
 use super::techniques::SharedTechniques;
 use crate::gpu::recorder::{Draw, Onto};
-use crate::gpu::{ArrayBuffer, DepthRule, Gpu, Inputs, Program, Recorder, Target, UniformBuffer, inputs};
+use crate::gpu::{
+    ArrayBuffer, DepthRule, Gpu, Inputs, Program, Recorder, STENCIL, Target, UniformBuffer, inputs,
+};
 use crate::render::base::edge_style::EdgeUniform;
 use crate::render::base::error::RenderError;
 use crate::render::base::frame_uniform::FrameUniform;
@@ -523,7 +525,7 @@ impl Placing<'_> {
         } else {
             Onto::Nothing
         };
-        let filled = rec.target("reached by color", wgpu::TextureFormat::Depth32Float)?;
+        let filled = rec.target("reached by color", STENCIL)?;
         rec.draw(Draw {
             label: "sketched color",
             program: Program {
@@ -575,7 +577,7 @@ impl Placing<'_> {
             ("WITH_OPAQUE_INK", before.is_some()),
             ("BEFORE_IS_OTHER", number == 0),
         ]);
-        let inked = rec.target("reached by ink", wgpu::TextureFormat::Depth32Float)?;
+        let inked = rec.target("reached by ink", STENCIL)?;
         rec.draw(Draw {
             label: "sketched ink",
             program: Program { file: "effects/sketch.wgsl", entry_point, switches },

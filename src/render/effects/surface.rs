@@ -27,7 +27,7 @@ impl SurfaceUniform {
     fn new(style: &Style) -> Self {
         Self {
             highlight: style.blueprint.highlight.to_linear(),
-            ambient: style.plain.ambient.clamp(0.0, 1.0),
+            ambient: style.plain.ambient,
             // The shader's constants have the same order.
             technique: style.technique as u32,
         }

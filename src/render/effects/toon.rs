@@ -8,7 +8,7 @@ use encase::ShaderType;
 use glam::{Vec3, Vec4};
 
 use super::technique::{Shaded, Styled, SurfaceTechnique};
-use crate::gpu::{ArrayBuffer, Gpu, Inputs, Program, Recorder, Target, inputs};
+use crate::gpu::{ArrayBuffer, Gpu, Inputs, Program, RecordTexture, Recorder, Target, inputs};
 use crate::render::base::error::RenderError;
 use crate::render::base::frame_uniform::FrameUniform;
 use crate::render::base::stage::Stage;
@@ -47,17 +47,17 @@ const NOWHERE: f32 = 2.0;
 
 impl ToonUniform {
     fn new(toon: &Toon, first_band: u32, bands: u32) -> Self {
-        let start = toon.start.clamp(-1.0, 1.0);
+        let start = toon.start;
         // A ramp that ends where it begins is one step there.
-        let range = (toon.end.clamp(-1.0, 1.0) - start).max(1e-3);
-        let angle = toon.highlight_size.clamp(1.0, 60.0).to_radians();
+        let range = (toon.end - start).max(1e-3);
+        let angle = toon.highlight_size.to_radians();
         Self {
             rim_color: toon.rim_color.to_linear(),
-            rim: toon.rim.clamp(0.0, 1.0),
-            highlight: toon.highlight.clamp(0.0, 1.0),
+            rim: toon.rim,
+            highlight: toon.highlight,
             highlight_from: if toon.highlight > 0.0 { angle.cos() } else { NOWHERE },
-            rim_to: if toon.rim > 0.0 { toon.rim_width.clamp(0.0, 1.0) } else { -NOWHERE },
-            tint: toon.tint.clamp(0.0, 1.0),
+            rim_to: if toon.rim > 0.0 { toon.rim_width } else { -NOWHERE },
+            tint: toon.tint,
             first_band,
             bands,
             start,
@@ -134,7 +134,7 @@ impl Toons {
 /// Toon shading on the device.
 pub struct ToonShading {
     styles: ArrayBuffer,
-    bands: ArrayBuffer,
+    bands: RecordTexture,
     cartoon_map: Stage<MapKey, Target>,
     /// That of the layer that is shaded; `None` when no object asks for it.
     map: Option<Target>,
@@ -158,7 +158,7 @@ impl SurfaceTechnique for ToonShading {
     fn new(gpu: &Gpu) -> Self {
         Self {
             styles: ArrayBuffer::new(gpu, "toon styles"),
-            bands: ArrayBuffer::new(gpu, "toon bands"),
+            bands: RecordTexture::new(gpu, "toon bands"),
             cartoon_map: Stage::default(),
             map: None,
         }
@@ -183,7 +183,7 @@ impl SurfaceTechnique for ToonShading {
     fn upload(&mut self, (): &mut (), gpu: &Gpu, toons: &Toons) -> Result<(), RenderError> {
         if !toons.styles.is_empty() {
             self.styles.write(gpu, &toons.styles);
-            self.bands.write(gpu, &toons.bands);
+            self.bands.write(gpu, &toons.bands)?;
         }
         Ok(())
     }
@@ -215,7 +215,7 @@ impl SurfaceTechnique for ToonShading {
 
     fn bind<'a>(&'a self, (): &'a (), inputs: &mut Inputs<'a>) {
         inputs.set("toon_styles", self.styles.buffer());
-        inputs.set("toon_bands", self.bands.buffer());
+        inputs.set("toon_bands", self.bands.target());
         inputs.set("cartoon_map_tex", self.map.as_ref());
     }
 

@@ -15,6 +15,17 @@ pub struct Masked {
     pub farthest: u32,
 }
 
+/// How far layers are cut to uncover the designated objects.
+#[derive(Debug, Clone, Copy)]
+pub struct Uncover<'a> {
+    /// The objects.
+    pub mask: &'a DepthMask,
+    /// The first layer that leaves this share of them uncovered, 0 to 1, is the last.
+    pub fraction: f32,
+    /// So many layers there are where nothing of them is in the picture.
+    pub most_without: u32,
+}
+
 /// The depth texture of the designated objects, hidden by nothing but themselves.
 #[derive(Debug, Clone)]
 pub struct DepthMask {

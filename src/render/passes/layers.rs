@@ -22,7 +22,7 @@ use crate::render::base::edge_style::EdgeUniform;
 use crate::render::base::error::RenderError;
 use crate::render::base::gpu_scene::GpuScene;
 use crate::render::base::instances::{DrawCall, Instance, Instances};
-use crate::render::passes::designated::DepthMask;
+use crate::render::passes::designated::Uncover;
 use crate::render::passes::edge_map::{EdgeInputs, EdgeMap, edge_map};
 use crate::render::passes::fragment_lists::Asked;
 use crate::render::passes::line_distance::{Reach, Widths, line_distance};
@@ -51,10 +51,8 @@ pub struct LayerInputs<'a> {
     pub most: u32,
     /// It ends before a layer of fewer pixels, at the latest before an empty one.
     pub least: u32,
-    /// The designated objects: it ends with the layer that leaves `fraction` (0 to 1) of them uncovered.
-    pub mask: Option<&'a DepthMask>,
-    /// See `mask`.
-    pub fraction: f32,
+    /// What it is to uncover, before it has come to `most`.
+    pub uncover: Option<Uncover<'a>>,
     /// How layers are to be made.
     pub by: document::LayersBy,
     /// Whether their base colour is asked for.
@@ -146,7 +144,7 @@ impl Layers {
             plain = inputs.calls.iter().map(DrawCall::without_attributes).collect();
             inputs.calls = &plain;
         }
-        self.count.begin(rec.gpu, inputs.least.max(1), inputs.fraction);
+        self.count.begin(rec.gpu, inputs.least.max(1), inputs.uncover);
         let mut recorded = self.room.plan(rec.gpu, rec.size(), inputs.most.min(MOST_LAYERS), inputs.by);
         let mut gate = self.gate.take().unwrap_or_else(|| Gate::new(rec.gpu));
         // Objects may be drawn once more, for their coordinates.
@@ -169,7 +167,8 @@ impl Layers {
         recorded: &mut Recorded,
         mut draw: impl FnMut(&mut Recorder<'_>, &DrawnLayer<'_>) -> Result<(), RenderError>,
     ) -> Result<(), RenderError> {
-        let LayerInputs { scene, draws, calls, is_cut, mask, with_color, .. } = *inputs;
+        let LayerInputs { scene, draws, calls, is_cut, with_color, .. } = *inputs;
+        let mask = inputs.uncover.map(|uncover| uncover.mask);
         if let Ok(room) = &mut recorded.fragments {
             *room = gbuffer_pass.lists.begin(rec, *room)?;
             let parts = (draws, calls);

@@ -5,7 +5,7 @@ use super::gbuffer::GBuffer;
 use super::line_distance::Reach;
 use crate::gpu::bindings::NOTHING;
 use crate::gpu::recorder::{Draw, Onto};
-use crate::gpu::{DepthRule, Inputs, Program, Recorder, Target, inputs};
+use crate::gpu::{DepthRule, Inputs, Program, Recorder, STENCIL, Target, inputs};
 use crate::render::base::edge_style::EdgeUniform;
 use crate::render::base::error::RenderError;
 
@@ -96,7 +96,7 @@ pub fn lines(
     pen: &Pen<'_>,
     color: &Target,
 ) -> Result<(), RenderError> {
-    let reached = rec.target("reached by lines", wgpu::TextureFormat::Depth32Float)?;
+    let reached = rec.target("reached by lines", STENCIL)?;
     let switches = [&lines.switches()[..], pen.switches].concat();
     rec.draw(Draw {
         label: "lines",

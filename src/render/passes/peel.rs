@@ -3,22 +3,14 @@
 
 use encase::{ShaderType, StorageBuffer};
 
-use super::designated::DepthMask;
+use super::designated::{DepthMask, Uncover};
 use super::gbuffer::{GBuffer, SORT_KEYS};
 use super::peeled::{Peeled, PeelingEnd};
-use crate::gpu::{Gpu, Inputs, Program, Recorder, Target, inputs, readback};
+use crate::gpu::{Gpu, Inputs, Program, Recorder, Target, inputs, parted_counter, readback};
 use crate::render::base::error::RenderError;
 
 /// No object has more layers than this that are drawn.
 pub const MOST_LAYERS: u32 = 64;
-
-/// Parts of a picture that count fragments for themselves, and how many of one lie together, as in
-/// `passes/fragment_lists.wgsl`.
-const PARTS: u64 = 4;
-const RUN: u64 = 1024;
-
-/// Words of their counters: each has a line of the cache to itself.
-const COUNTERS: usize = 64;
 
 /// Pixels per side that a workgroup counts, as in `passes/count.wgsl`.
 const GROUP: u32 = 64;
@@ -54,25 +46,20 @@ impl Peel<'_> {
             entries: &[wgpu::BindGroupLayoutEntry {
                 binding: 0,
                 visibility: wgpu::ShaderStages::FRAGMENT,
-                // Software devices read those faster than others.
-                ty: wgpu::BindingType::StorageTexture {
-                    access: wgpu::StorageTextureAccess::ReadOnly,
-                    format: SORT_KEYS,
-                    view_dimension: wgpu::TextureViewDimension::D2,
-                },
+                ty: gpu.integer_textures.binding(SORT_KEYS),
                 count: None,
             }],
         })
     }
 
-    /// The layer before as a bind group.
-    pub fn group(&self, gpu: &Gpu, layout: &wgpu::BindGroupLayout) -> wgpu::BindGroup {
+    /// Sort keys as a bind group.
+    pub fn group_of(gpu: &Gpu, layout: &wgpu::BindGroupLayout, sort_keys: &Target) -> wgpu::BindGroup {
         gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("last layer"),
             layout,
             entries: &[wgpu::BindGroupEntry {
                 binding: 0,
-                resource: wgpu::BindingResource::TextureView(self.last.view()),
+                resource: wgpu::BindingResource::TextureView(sort_keys.view()),
             }],
         })
     }
@@ -110,14 +97,16 @@ pub struct CountedUniform {
     pub uncovered: u32,
     /// A layer that leaves this share of the depth mask uncovered, 0 to 1, ends it once it has been drawn.
     pub fraction: f32,
-    /// 1: such a layer has ended it.
-    pub has_uncovered: u32,
+    /// So many layers end it where no depth mask is in the picture.
+    pub most: u32,
+    /// What has ended it: 0: too few pixels, 1: the depth mask is uncovered, 2: `most`.
+    pub ended_by: u32,
     /// Pixels of the depth mask, the paper's Q; 0: nothing designated is in the picture.
     pub masked: u32,
     /// Those of them that opaque surfaces hide, which no peeling uncovers.
     pub hidden: u32,
     /// Fragments of the lists of each part of the picture, those for which there was no room included; 0 without lists.
-    pub fragments: [u32; COUNTERS],
+    pub fragments: [u32; parted_counter::COUNTER_WORDS],
     /// Pixels of each layer, that which ended it included.
     pub pixels: [u32; MOST_LAYERS as usize],
     /// Pixels of the mask that pass the depth test against each layer, the paper's R.
@@ -126,7 +115,7 @@ pub struct CountedUniform {
 
 impl CountedUniform {
     /// Nothing yet.
-    fn begun(least: u32, fraction: f32) -> Self {
+    fn begun(least: u32, uncover: Option<Uncover<'_>>) -> Self {
         let none = [0; MOST_LAYERS as usize];
         Self {
             least,
@@ -134,11 +123,12 @@ impl CountedUniform {
             layers: 0,
             covered: 0,
             uncovered: 0,
-            fraction: fraction.clamp(0.0, 1.0),
-            has_uncovered: 0,
+            fraction: uncover.map_or(1.0, |uncover| uncover.fraction.clamp(0.0, 1.0)),
+            most: uncover.map_or(MOST_LAYERS, |uncover| uncover.most_without),
+            ended_by: 0,
             masked: 0,
             hidden: 0,
-            fragments: [0; COUNTERS],
+            fragments: [0; parted_counter::COUNTER_WORDS],
             pixels: none,
             passed: none,
         }
@@ -155,7 +145,8 @@ impl CountedUniform {
             covered: next(),
             uncovered: next(),
             fraction: f32::from_bits(next()),
-            has_uncovered: next(),
+            most: next(),
+            ended_by: next(),
             masked: next(),
             hidden: next(),
             fragments: std::array::from_fn(|_| next()),
@@ -164,26 +155,20 @@ impl CountedUniform {
         }
     }
 
-    /// So many fragments there has to be room for: each part of the picture takes as much as the fullest one.
-    fn room(&self) -> u64 {
-        let fullest = self.fragments.iter().max().map_or(0, |&most| u64::from(most));
-        fullest.next_multiple_of(RUN) * PARTS
-    }
-
     /// What it says.
     fn peeled(&self) -> Peeled {
         Peeled {
             layers: self.layers,
-            ended: match (self.has_ended, self.has_uncovered) {
-                (0, _) => PeelingEnd::MostLayers,
-                (_, 0) => PeelingEnd::TooFewPixels,
-                _ => PeelingEnd::MaskUncovered,
+            ended: match (self.has_ended, self.ended_by) {
+                (1, 0) => PeelingEnd::TooFewPixels,
+                (1, 1) => PeelingEnd::MaskUncovered,
+                _ => PeelingEnd::MostLayers,
             },
             fraction: self.fraction,
             masked: self.masked,
             hidden: self.hidden,
             fragments: self.fragments.iter().map(|&fragments| u64::from(fragments)).sum(),
-            room: self.room(),
+            room: parted_counter::room(&self.fragments),
             pixels: self.pixels.to_vec(),
             passed: self.passed.to_vec(),
         }
@@ -222,10 +207,10 @@ impl PeelCount {
         &self.buffer
     }
 
-    /// Begins anew, for what is submitted next; it ends before a layer of fewer than `least` pixels, and with one that
-    /// leaves `fraction` of the depth mask uncovered.
-    pub fn begin(&self, gpu: &Gpu, least: u32, fraction: f32) {
-        let begun = CountedUniform::begun(least, fraction);
+    /// Begins anew, for what is submitted next; it ends before a layer of fewer than `least` pixels, and where `uncover`
+    /// says.
+    pub fn begin(&self, gpu: &Gpu, least: u32, uncover: Option<Uncover<'_>>) {
+        let begun = CountedUniform::begun(least, uncover);
         let mut bytes = StorageBuffer::new(Vec::new());
         // Writing into a growing vector cannot fail.
         if bytes.write(&begun).is_ok() {
@@ -260,7 +245,12 @@ impl PeelCount {
         };
         let groups = [width.div_ceil(GROUP), height.div_ceil(GROUP)];
         rec.compute("count", &program, &self.counted(layer, mask), groups)?;
-        self.decide(rec, "cs_decide", layer, mask)
+        let program = Program {
+            file: "passes/count.wgsl",
+            entry_point: "cs_decide",
+            switches: vec![("WITH_MASK", mask.is_some())],
+        };
+        self.decide(rec, &program, layer, mask)
     }
 
     /// After a layer has been drawn: shuts the recorder's gate if it left so much of the mask uncovered as is asked for.
@@ -273,7 +263,7 @@ impl PeelCount {
         layer: &Layer,
         mask: &DepthMask,
     ) -> Result<(), RenderError> {
-        self.decide(rec, "cs_uncovered", layer, Some(mask))
+        self.decide(rec, &Program::new("passes/count.wgsl", "cs_uncovered"), layer, Some(mask))
     }
 
     /// What `passes/count.wgsl` reads of a layer.
@@ -289,7 +279,7 @@ impl PeelCount {
     fn decide(
         &self,
         rec: &mut Recorder<'_>,
-        entry_point: &'static str,
+        program: &Program,
         layer: &Layer,
         mask: Option<&DepthMask>,
     ) -> Result<(), RenderError> {
@@ -297,7 +287,7 @@ impl PeelCount {
         let Some(gate) = rec.gate.take() else { return Ok(()) };
         let gated = inputs! { gate: gate.buffer(), mask: mask.map(|mask| &mask.count) };
         let inputs = self.counted(layer, mask).and(&gated);
-        let decided = rec.compute("go on", &Program::new("passes/count.wgsl", entry_point), &inputs, [1, 1]);
+        let decided = rec.compute("go on", program, &inputs, [1, 1]);
         rec.gate = Some(gate);
         Ok(decided?)
     }

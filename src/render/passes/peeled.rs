@@ -70,7 +70,8 @@ impl Peeled {
         let reached = percent(self.share_uncovered());
         let hidden = f64::from(self.hidden) / f64::from(self.masked);
         let remedy = match self.ended {
-            PeelingEnd::MostLayers => "allow more layers (blueprint.layers, blueprint.to)",
+            PeelingEnd::MostLayers if layers as usize >= self.passed.len() => "no picture has more layers",
+            PeelingEnd::MostLayers => "allow more layers (blueprint.to)",
             PeelingEnd::TooFewPixels if self.share_uncovered() < asked => {
                 "allow smaller layers (blueprint.least)"
             }

@@ -47,6 +47,8 @@ enum Purpose {
     Enlarged,
     /// What lies behind another layer.
     Layer,
+    /// The base colour of a layer that has been drawn.
+    LayerColor,
     /// Where anything does.
     Counted,
     /// All fragments, as lists.
@@ -57,24 +59,30 @@ impl Purpose {
     fn file(self) -> &'static str {
         match self {
             Self::Surfaces | Self::Enlarged => "passes/gbuffer.wgsl",
-            Self::Layer | Self::Counted => "passes/peel.wgsl",
+            Self::Layer | Self::LayerColor | Self::Counted => "passes/peel.wgsl",
             Self::Lists => "passes/fragment_lists.wgsl",
         }
     }
 
     fn entry_points(self, detail: Detail) -> (&'static str, &'static str) {
         let (vertex, fragments) = match detail {
-            Detail::Lean => ("vs_lean", ["fs_lean", "fs_lean_layer", "fs_lean_counted", "fs_lean_list"]),
-            Detail::Smooth => {
-                ("vs_smooth", ["fs_smooth", "fs_smooth_layer", "fs_smooth_counted", "fs_smooth_list"])
+            Detail::Lean => {
+                ("vs_lean", ["fs_lean", "fs_lean_layer", "fs_lean_counted", "fs_lean_list", "fs_lean_color"])
             }
-            Detail::Full => ("vs_full", ["fs_full", "fs_full_layer", "fs_full_counted", "fs_full_list"]),
+            Detail::Smooth => (
+                "vs_smooth",
+                ["fs_smooth", "fs_smooth_layer", "fs_smooth_counted", "fs_smooth_list", "fs_smooth_color"],
+            ),
+            Detail::Full => {
+                ("vs_full", ["fs_full", "fs_full_layer", "fs_full_counted", "fs_full_list", "fs_full_color"])
+            }
         };
         let number = match self {
             Self::Surfaces | Self::Enlarged => 0,
             Self::Layer => 1,
             Self::Counted => 2,
             Self::Lists => 3,
+            Self::LayerColor => 4,
         };
         (vertex, fragments[number])
     }
@@ -82,13 +90,17 @@ impl Purpose {
     fn outputs(self, with_color: bool) -> &'static [wgpu::TextureFormat] {
         match self {
             Self::Surfaces | Self::Enlarged => &[GEOMETRY, BASE_COLOR, REGION],
-            Self::Layer if with_color => &[GEOMETRY, REGION, SORT_KEYS, BASE_COLOR],
+            Self::Layer if with_color => &LAYER_WITH_COLOR,
             Self::Layer => &[GEOMETRY, REGION, SORT_KEYS],
+            Self::LayerColor => &[BASE_COLOR],
             Self::Counted => &[REGION],
             Self::Lists => &[],
         }
     }
 }
+
+/// What a layer is drawn into at once, where a pass has room for so much.
+const LAYER_WITH_COLOR: [wgpu::TextureFormat; 4] = [GEOMETRY, REGION, SORT_KEYS, BASE_COLOR];
 
 /// A traversal of the scene.
 struct Traversal<'a> {
@@ -127,7 +139,7 @@ impl GBufferPass {
         let module = pipelines.module(gpu, key.purpose.file())?;
         let own = match key.purpose {
             Purpose::Surfaces | Purpose::Enlarged => None,
-            Purpose::Layer | Purpose::Counted => Some(&self.layer_layout),
+            Purpose::Layer | Purpose::LayerColor | Purpose::Counted => Some(&self.layer_layout),
             Purpose::Lists => Some(self.lists.layout()),
         };
         let frame = pipelines.frame_layout();
@@ -159,13 +171,25 @@ impl GBufferPass {
             Some(Peel { sort_keys: None, .. }) => ("peel", Purpose::Counted, false, true, vec![region]),
             Some(Peel { sort_keys: Some(sort_keys), with_color, is_whole, .. }) => {
                 let mut color = vec![geometry, region, *sort_keys];
+                let with_color = *with_color && rec.gpu.has_room_for(&LAYER_WITH_COLOR);
                 color.extend(with_color.then_some(base_color));
-                ("peel", Purpose::Layer, *with_color, *is_whole, color)
+                ("peel", Purpose::Layer, with_color, *is_whole, color)
             }
         };
-        let group = peel.map(|peel| peel.group(rec.gpu, &self.layer_layout));
+        let group = peel.map(|peel| Peel::group_of(rec.gpu, &self.layer_layout, peel.last));
         let traversal = Traversal { label, purpose, with_color, is_whole, color: &color, depth, group };
         self.traverse(rec, scene, instances, parts, is_cut, traversal)?;
+        if let Some(Peel { sort_keys: Some(own), with_color: true, .. }) = peel
+            && !with_color
+        {
+            let group = Some(Peel::group_of(rec.gpu, &self.layer_layout, own));
+            // Fragments are told by their sort keys.
+            let depth = &rec.target("depth", DEPTH)?;
+            let (label, purpose, color) = ("peel colors", Purpose::LayerColor, &[base_color][..]);
+            let traversal =
+                Traversal { label, purpose, with_color: true, is_whole: true, color, depth, group };
+            self.traverse(rec, scene, instances, parts, is_cut, traversal)?;
+        }
         Ok(gbuffer)
     }
 
@@ -299,9 +323,10 @@ fn build(
     }
     let constants: Vec<_> = constants.into_iter().map(|(name, on)| (name, f64::from(u8::from(on)))).collect();
     let options = wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
-    // Lists take all fragments.
-    let is_list = variant.purpose == Purpose::Lists;
-    let depth_compare = if is_list { wgpu::CompareFunction::Always } else { wgpu::CompareFunction::Greater };
+    // Lists take all fragments, and those of a layer are known.
+    let has_depth = !matches!(variant.purpose, Purpose::Lists | Purpose::LayerColor);
+    let depth_compare =
+        if has_depth { wgpu::CompareFunction::Greater } else { wgpu::CompareFunction::Always };
     gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some("g-buffer"),
         layout: Some(&layout),
@@ -315,7 +340,7 @@ fn build(
         primitive: wgpu::PrimitiveState { cull_mode: variant.hidden_side, ..Default::default() },
         depth_stencil: Some(wgpu::DepthStencilState {
             format: DEPTH,
-            depth_write_enabled: Some(!is_list),
+            depth_write_enabled: Some(has_depth),
             depth_compare: Some(depth_compare),
             stencil: wgpu::StencilState::default(),
             bias: wgpu::DepthBiasState::default(),

@@ -2,7 +2,6 @@
 
 use encase::ShaderType;
 
-use super::strokes::within;
 use crate::style::indication::{DetailBy, Indication};
 
 /// Twin of `Indication` in `shaders/effects/hatching/indication.wgsl`. Lengths in px.
@@ -36,24 +35,24 @@ impl IndicationUniform {
     pub(super) fn new(indication: &Indication, scale: f32) -> Self {
         let (patches, silhouettes) = (&indication.patches, &indication.silhouettes);
         Self {
-            amount: within(indication.amount, 0.0, 1.0),
+            amount: indication.amount,
             by_fields: u32::from(indication.by == DetailBy::Fields),
-            distance: within(indication.distance, 1.0, 300.0) * scale,
-            falloff: within(indication.falloff, 0.1, 4.0),
-            attraction: within(indication.attraction, 0.0, 8.0),
-            patch_share: within(patches.share, 0.0, 2.0),
-            patch_offset: within(patches.offset, 0.1, 4.0),
-            patch_slope: within(patches.slope, 0.0, 50.0),
-            patch_power: within(patches.power, 0.0, 4.0),
-            silhouette_share: within(silhouettes.share, 0.0, 2.0),
-            radius: within(silhouettes.radius, 1.0, 200.0) * scale,
-            step: within(silhouettes.step, 0.1, 100.0) * scale,
-            alpha: within(silhouettes.alpha, 0.0, 10.0),
-            beta: within(silhouettes.beta, 0.1, 4.0),
-            lambda: within(silhouettes.lambda, 0.0, 10.0),
-            silhouette_offset: within(silhouettes.offset, 0.1, 4.0),
-            silhouette_slope: within(silhouettes.slope, 0.0, 50.0),
-            silhouette_power: within(silhouettes.power, 0.0, 4.0),
+            distance: indication.distance * scale,
+            falloff: indication.falloff,
+            attraction: indication.attraction,
+            patch_share: patches.share,
+            patch_offset: patches.offset,
+            patch_slope: patches.slope,
+            patch_power: patches.power,
+            silhouette_share: silhouettes.share,
+            radius: silhouettes.radius * scale,
+            step: silhouettes.step * scale,
+            alpha: silhouettes.alpha,
+            beta: silhouettes.beta,
+            lambda: silhouettes.lambda,
+            silhouette_offset: silhouettes.offset,
+            silhouette_slope: silhouettes.slope,
+            silhouette_power: silhouettes.power,
         }
     }
 

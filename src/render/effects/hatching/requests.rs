@@ -4,7 +4,6 @@ use std::sync::Arc;
 
 use glam::{DVec3, Vec3};
 
-use super::strokes::within;
 use crate::document::Document;
 use crate::geometry::{DirectionSource, FieldOptions};
 use crate::hatching::tonal_art_map::composition::COMPOSED_INKS;
@@ -93,15 +92,15 @@ pub(super) fn recipe_of(style: &Hatching, set: Set, images: &StyleImages) -> Opt
         _ => return None,
     };
     let shape = StrokeShape {
-        length: within(own.length, 0.0, 1.0),
-        length_spread: within(own.length_spread, 0.0, 1.0),
-        width: within(own.width, 0.5, 16.0),
-        width_spread: within(own.width_spread, 0.0, 1.0),
-        taper: [within(own.begin, 0.0, 1.0), within(own.end, 0.0, 1.0)],
-        waviness: within(own.waviness, 0.0, 0.25),
-        angle_spread: within(own.turn_spread, 0.0, 28.0).to_radians(),
-        pressure: within(own.pressure, 0.3, 1.0),
-        grain: within(own.grain, 0.0, 0.7),
+        length: own.length,
+        length_spread: own.length_spread,
+        width: own.width,
+        width_spread: own.width_spread,
+        taper: [own.begin, own.end],
+        waviness: own.waviness,
+        angle_spread: own.turn_spread.to_radians(),
+        pressure: own.pressure,
+        grain: own.grain,
         image,
     };
     Some(Recipe {

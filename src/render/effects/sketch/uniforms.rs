@@ -57,24 +57,15 @@ pub(super) struct SketchObject {
     pub(super) middle: Vec2,
 }
 
-/// A share as it is used: 0 to 1, and 0 where it is no number.
-fn share(value: f32) -> f32 {
-    within(value, 0.0, 1.0)
-}
-
-fn within(value: f32, least: f32, most: f32) -> f32 {
-    if value.is_nan() { least } else { value.clamp(least, most) }
-}
-
 /// From noise to offsets in reference pixels, as a style asks for them.
 fn offsets(sketch: &style::Sketch, matrix: style::Matrix) -> style::Matrix {
-    matrix.scaled(within(sketch.wander.amount, 0.0, 4.0), MOST_OFFSET)
+    matrix.scaled(sketch.wander.amount, MOST_OFFSET)
 }
 
 /// How far lines and colours are off at most, px: three times what they are off on average, in whole steps, so that a
 /// little more or less does not change it.
 pub(super) fn bands(sketch: &style::Sketch, scale: f32) -> [f32; 2] {
-    let passes = sketch.pass.iter().take(sketch.passes.clamp(1, MOST_PASSES as u32) as usize);
+    let passes = sketch.pass.iter().take(sketch.passes as usize);
     let rms = |matrix: style::Matrix| offsets(sketch, matrix).rms() * scale;
     let lines = passes.map(|pass| rms(pass.matrix)).fold(0.0, f32::max);
     let fill = if sketch.fill.show { rms(sketch.fill.matrix) } else { 0.0 };
@@ -85,7 +76,7 @@ pub(super) fn bands(sketch: &style::Sketch, scale: f32) -> [f32; 2] {
 
 /// By how much grains are off at most, px.
 fn rough(sketch: &style::Sketch, scale: f32) -> f32 {
-    2.0 * within(sketch.grain.roughness, 0.0, 8.0) * scale
+    2.0 * sketch.grain.roughness * scale
 }
 
 /// How far lines are smudged, px; 0: they are not.
@@ -95,7 +86,7 @@ pub(super) fn smudged(sketch: &style::Sketch, scale: f32) -> f32 {
 
 /// Factor of the widths of a pass.
 pub(super) fn width(pass: &style::sketch::Pass) -> f32 {
-    within(pass.width, 0.1, 4.0)
+    pass.width
 }
 
 /// How a pass moves lines; `component`: which noise of a texel it has.
@@ -105,7 +96,7 @@ pub(super) fn movement(sketch: &style::Sketch, number: usize, scale: f32, compon
         matrix: rows(sketch, pass.matrix, scale),
         width: width(pass),
         margin: rough(sketch, scale),
-        pressure: share(sketch.wander.pressure),
+        pressure: sketch.wander.pressure,
         component,
     }
 }
@@ -117,12 +108,12 @@ fn rows(sketch: &style::Sketch, matrix: style::Matrix, scale: f32) -> Vec4 {
 
 /// Periods of a tile of noise per px, for waves so long (reference pixels): noise of one cell is as long as a wave.
 fn tile_scale(wave: f32, scale: f32) -> f32 {
-    1.0 / (TILE_CELLS as f32 * within(wave, 8.0, 1000.0) * scale)
+    1.0 / (TILE_CELLS as f32 * wave * scale)
 }
 
 /// How far surfaces are enlarged, px.
 pub(super) fn enlarged(sketch: &style::Sketch, scale: f32) -> f32 {
-    within(sketch.wander.enlarge, 0.0, 64.0) * scale
+    sketch.wander.enlarge * scale
 }
 
 /// What finding noise depends on; `scale`: pixels per reference pixel.
@@ -136,13 +127,13 @@ pub fn field(sketch: &style::Sketch, scale: f32) -> FieldUniform {
     let seeds: [u32; MOST_PASSES] = std::array::from_fn(|i| seed(1, sketch.pass[i].seed));
     let [a, b, c, d, e, f, g, h] = seeds;
     FieldUniform {
-        line_wave: within(wander.wave, 8.0, 1000.0) * scale,
-        fill_wave: within(sketch.fill.wave, 8.0, 1000.0) * scale,
-        detail: share(wander.detail),
+        line_wave: wander.wave * scale,
+        fill_wave: sketch.fill.wave * scale,
+        detail: wander.detail,
         control: wander.anchor as u32,
         turbulent: u32::from(wander.noise == Noise::Turbulence),
         fill_seed: seed(2, 0),
-        passes: sketch.passes.clamp(1, MOST_PASSES as u32),
+        passes: sketch.passes,
         pixels_per_reference: scale,
         seeds: [UVec4::new(a, b, c, d), UVec4::new(e, f, g, h)],
         tile_scale: tile_scale(wander.wave, scale),
@@ -158,29 +149,29 @@ impl SketchUniform {
             color: pass.color.unwrap_or_default().to_linear(),
             has_color: u32::from(pass.color.is_some()),
             width: width(pass),
-            density: share(pass.density),
+            density: pass.density,
         };
         let ink = sketch.pass[0].color.unwrap_or(fill.color);
         Self {
             passes: std::array::from_fn(|number| pass(&sketch.pass[number])),
             fill_matrix: rows(sketch, fill.matrix, scale),
             pigment: fill.color.to_linear(),
-            surface_color: share(fill.surface_color),
+            surface_color: fill.surface_color,
             smudge_color: ink.to_linear(),
-            smudge: share(grain.smudge),
-            turn: Vec2::from_angle(within(fill.angle, -180.0, 180.0).to_radians()),
-            stroke_width: within(fill.stroke_width, 1.0, 64.0) * scale,
-            strokes: share(fill.strokes),
-            density: share(fill.density),
-            pressure: share(wander.pressure),
-            grain: share(grain.amount),
-            soft: within(grain.soft, 0.02, 0.49),
-            grain_size: within(grain.size, 0.5, 32.0) * scale,
-            roughness: within(grain.roughness, 0.0, 8.0) * scale,
+            smudge: grain.smudge,
+            turn: Vec2::from_angle(fill.angle.to_radians()),
+            stroke_width: fill.stroke_width * scale,
+            strokes: fill.strokes,
+            density: fill.density,
+            pressure: wander.pressure,
+            grain: grain.amount,
+            soft: grain.soft,
+            grain_size: grain.size * scale,
+            roughness: grain.roughness * scale,
             pixels_per_reference: scale,
             line_scale: tile_scale(wander.wave, scale),
             fill_scale: tile_scale(fill.wave, scale),
-            count: (*passes).clamp(1, MOST_PASSES as u32),
+            count: *passes,
             shows_fill: u32::from(fill.show),
         }
     }
@@ -189,7 +180,7 @@ impl SketchUniform {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::style::Matrix;
+    use crate::style::{Matrix, Style};
 
     fn sketch(matrix: Matrix, amount: f32) -> style::Sketch {
         let mut sketch = style::Sketch::default();
@@ -201,10 +192,13 @@ mod tests {
     #[test]
     fn what_is_no_number_or_too_great_is_held_back() {
         for wrong in [f32::NAN, f32::INFINITY, -1e30] {
-            let mut sketch = sketch(Matrix([[wrong; 2]; 2]), wrong);
+            let mut style = Style::default();
+            let sketch = &mut style.sketch;
+            (sketch.pass[0].matrix, sketch.wander.amount) = (Matrix([[wrong; 2]; 2]), wrong);
             sketch.wander.wave = wrong;
             sketch.grain.size = wrong;
             sketch.fill.wave = wrong;
+            let sketch = style.clamped().sketch;
             let uniform = SketchUniform::new(&sketch, 1.0);
             let [lines, fill] = bands(&sketch, 1.0);
             assert!(uniform.passes[0].matrix.abs().max_element() <= MOST_OFFSET, "{wrong}");

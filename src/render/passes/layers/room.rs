@@ -146,8 +146,9 @@ impl Room {
     pub(super) fn learn(&mut self, recorded: &Recorded, peeled: &Peeled) -> bool {
         let fragments = peeled.room;
         let overflowed = recorded.fragments.is_ok_and(|room| fragments > room);
-        let is_complete =
-            !overflowed && (peeled.ended != PeelingEnd::MostLayers || recorded.layers >= recorded.most);
+        // Each layer that is recorded counts unless the device has ended them before it.
+        let has_ended = peeled.ended != PeelingEnd::MostLayers || peeled.layers < recorded.layers;
+        let is_complete = !overflowed && (has_ended || recorded.layers >= recorded.most);
         if is_complete {
             self.calm += 1;
             if self.calm >= CALM {
@@ -157,7 +158,7 @@ impl Room {
             (self.mistakes, self.calm) = ((self.mistakes + 1).min(MOST_MISTAKES), 0);
         }
         self.layers = match (is_complete, overflowed) {
-            (true, _) if peeled.ended != PeelingEnd::MostLayers => Some(peeled.layers + 1),
+            (true, _) if has_ended => Some(peeled.layers + 1),
             // As many as were asked for may not be all: what is known of those behind them is still the best guess.
             (true, _) => self.layers.filter(|&layers| layers > peeled.layers),
             (false, false) => Some(2 * recorded.layers),
