@@ -23,6 +23,8 @@ override WITH_DASHES: bool = true;
 override WITH_SURFACE_COLOR: bool = true;
 // Whether lines are tested against other surfaces than those that they were found among.
 override AMONG_OTHERS: bool = false;
+// Whether surfaces are known all around lines: then folds end where their object does.
+override ON_SURFACES: bool = false;
 // Whether lines have been moved: then surfaces hide them where they come from.
 override MOVED: bool = false;
 
@@ -31,6 +33,8 @@ var base_color_tex: texture_2d<f32>;
 // As `found_tex` in passes/line_distance.wgsl: the line that reaches farthest, and the nearest one.
 var farthest_tex: texture_2d<u32>;
 var nearest_tex: texture_storage_2d<r32uint, read>;
+// Where lines run.
+var spine_tex: texture_2d<u32>;
 // See passes/moved_edges.wgsl.
 var source_tex: texture_storage_2d<r32uint, read>;
 var<storage, read> edge_styles: array<EdgeStyle>;
@@ -123,8 +127,12 @@ fn line_at(at: vec2<f32>, g: Surfel, found: u32) -> Line {
     }
     let strength = edge_styles[edge.object].lines[index].strength * edge.weight;
     coverage *= strength;
+    // The round end of a fold that is wider than the outline there would stand out beyond it.
+    let is_fold = edge.class_of == RIDGE || edge.class_of == VALLEY;
+    let is_beyond = ON_SURFACES && !NARROW && is_fold && surface.object != edge.object && !is_stroke(texel)
+        && edge_styles[edge.object].lines[SILHOUETTE - 1u].strength > 0.0;
     let at_source = vec2<i32>(floor(at + to_source));
-    if coverage <= 0.0 || (!is_tested && is_hidden(surface, at_source, edge, spine + to_source)) {
+    if coverage <= 0.0 || is_beyond || (!is_tested && is_hidden(surface, at_source, edge, spine + to_source)) {
         return Line(vec4(0.0), edge.depth, coverage > 0.0, 0.0, d, to_source);
     }
     var color = edge_styles[edge.object].lines[index].color;
@@ -338,6 +346,14 @@ fn lines_at_place(at: vec2<f32>, g: Surfel) -> Line {
         lines = line_at(at, g, farthest);
         if lines.is_hidden {
             lines = line_around(at, g, farthest);
+        }
+        // A wide line is found farther from it than it has ink: one that ends at it is not to stop before.
+        let own = ((u32(px.y) << 16u) | u32(px.x)) + 1u;
+        if !NARROW && !MOVED && own != farthest && lines.ink.a < 1.0 && textureLoad(spine_tex, px, 0).x != 0u {
+            let ending = line_at(at, g, own);
+            lines.depth = select(lines.depth, ending.depth, lines.ink.a == 0.0);
+            lines.strength = max(lines.strength, ending.strength);
+            lines.ink = over(lines.ink, ending.ink);
         }
         if NARROW && !NARROW_BY_TWO && !MOVED && farthest != 0u {
             let beside = found_beside(px, farthest);

@@ -183,23 +183,24 @@ fn beside(spine: Spine, along: f32, regions: vec2<u32>) -> Beside {
     return Beside(s, select(step_px(lead, spine.depth), -1e9, s.object == 0u), carries && s.object != 0u);
 }
 
-// Cosine of the angle between normals of one smooth surface.
-const SMOOTH: f32 = 0.96;
-// The same of both sides of a fold that only the triangles of a smooth surface have, and the most of it that may face the eye.
-const FOLDED: f32 = 0.8;
-const GRAZING: f32 = 0.5;
-
-// The length of an edge in space, px.
-fn length_of(v: Segment, depth: f32) -> f32 {
-    let along_view = step_px(nearness_of(v.depths_arcs.x) - nearness_of(v.depths_arcs.y), depth);
-    return length(vec3(v.ends.zw - v.ends.xy, along_view));
+// The length of an edge, in scene units.
+fn length_of(v: Segment) -> f32 {
+    return distance(pos_view_at(v.ends.xy, v.depths_arcs.x), pos_view_at(v.ends.zw, v.depths_arcs.y));
 }
 
+// Cosine of the angle between normals of one smooth surface.
+const SMOOTH: f32 = 0.96;
+// The same of both sides of a fold that only the triangles of a smooth surface have, the most of it that may face the eye, and
+// how far across the surface its sides may lie apart, in lengths of its edge.
+const FOLDED: f32 = 0.8;
+const GRAZING: f32 = 0.5;
+const LIFTED: f32 = 0.05;
+
 // Whether one smooth surface goes on under a spine, whatever topology thinks: at a seam that could not be mended, at needles
-// that are turned over, and where coarse triangles fold to and fro around the contour of the surface that they stand for. A
-// fold of theirs is no deeper than an edge is long, and its sides are seen aslant and agree in their normals; those of a contour
-// do so only near its end.
-fn goes_on_under(spine: Spine, own: u32, edge_px: f32) -> bool {
+// that are turned over, and where triangles fold to and fro around the contour of the surface that they stand for. The sides of
+// such a fold are seen aslant, agree in their normals and lie in one tangent plane, as far as triangles of that size can tell;
+// those of a contour do so only at its very end.
+fn goes_on_under(spine: Spine, own: u32, edge_length: f32) -> bool {
     let one_px = texel_beside(spine, PLACES[0]);
     let other_px = texel_beside(spine, PLACES[4]);
     let region = textureLoad(region_tex, one_px).x;
@@ -212,10 +213,11 @@ fn goes_on_under(spine: Spine, own: u32, edge_px: f32) -> bool {
     if !is_same {
         return false;
     }
-    let towards = towards_eye(pos_view_of(one_px, one.depth));
+    let one_at = pos_view_of(one_px, one.depth);
+    let towards = towards_eye(one_at);
     let facing = max(dot(one.normal, towards), dot(other.normal, towards));
-    let step = abs(step_px(nearness_of(one.depth) - nearness_of(other.depth), spine.depth));
-    if facing < GRAZING && step < edge_px {
+    let across = dot(one_at - pos_view_of(other_px, other.depth), normalize(one.normal + other.normal));
+    if facing < GRAZING && abs(across) < LIFTED * edge_length {
         return true;
     }
     if alike < SMOOTH {
@@ -331,7 +333,7 @@ fn point_at(v: Segment, number: u32, px: vec2<f32>) -> SegmentPoint {
     if class_of <= OBJECT {
         // Without a threshold, what stands on a surface (or slightly in it) has a line at its foot.
         let threshold = edge_styles[own].lines[index].threshold;
-        if threshold > 0.0 && step_behind < threshold || goes_on_under(tested, own, length_of(v, depth)) {
+        if threshold > 0.0 && step_behind < threshold || goes_on_under(tested, own, length_of(v)) {
             return NO_POINT;
         }
         weight = 1.0;

@@ -137,7 +137,7 @@ pub fn ink(rec: &mut Recorder<'_>, opaque: &Lines<'_>) -> Result<Target, RenderE
         file: "passes/lines.wgsl",
         entry_point: "fs_placed",
         inputs: &NOTHING,
-        switches: &[],
+        switches: &[("ON_SURFACES", true)],
         onto: Onto::Nothing,
     };
     lines(rec, opaque, &pen, &ink)?;

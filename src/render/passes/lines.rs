@@ -45,7 +45,7 @@ impl Pen<'_> {
         file: "passes/lines.wgsl",
         entry_point: "fs_main",
         inputs: &NOTHING,
-        switches: &[],
+        switches: &[("ON_SURFACES", true)],
         onto: Onto::Blended,
     };
 }
@@ -63,6 +63,7 @@ impl<'a> Lines<'a> {
             geometry_tex: &gbuffer.geometry,
             edge_map_tex: &edge_map.edges,
             base_color_tex: &gbuffer.base_color,
+            spine_tex: edge_map.spines.as_ref(),
             farthest_tex: farthest,
             nearest_tex: nearest,
             // Lines that have been moved have some.
