@@ -30,7 +30,7 @@ use hachure::scene::{Camera, NodeId};
 use hachure::style::halftone::Space;
 use hachure::style::toon::Border;
 use hachure::style::{Matrix, Style, Technique};
-use image::RgbaImage;
+use image::{Rgba, RgbaImage};
 use strum::VariantNames as _;
 
 /// The techniques of surfaces.
