@@ -1,15 +1,12 @@
 //! Both ways to make layers give the same ones, texel by texel.
 
-use std::path::Path;
-
 use glam::{DMat4, DQuat, DVec3, Vec3};
 use hachure::document::Role;
 use hachure::export::Session;
-use hachure::export::session::{Opened, open};
+use hachure::export::session::Opened;
 use hachure::geometry::{Mesh, primitives};
 use hachure::gpu::Gpu;
 use hachure::gpu::device::{device_descriptor, instance_descriptor};
-use hachure::import::Progress;
 use hachure::render::{LayersBy, Reason};
 use hachure::scene::{AlphaMode, Scene, Texture, TextureRef};
 
