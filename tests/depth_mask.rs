@@ -132,7 +132,7 @@ fn counts_equal_a_recount_and_peeling_ends_with_the_first_layer_that_uncovers_en
             assert_eq!(peeled.uncovered(), passed[drawn - 1]);
             assert_eq!(peeled.shortfall(), None);
             // What comes after the last layer was never drawn.
-            let left = common::kept_layers(&mut session, "layer regions").split_off(drawn);
+            let left = common::kept_layers(&mut session, "layer surface ids").split_off(drawn);
             let is_empty = |regions: &hachure::gpu::Target| {
                 texels::<u32>(&mut session, regions).iter().all(|region| *region == 0)
             };
@@ -248,7 +248,7 @@ fn a_designated_object_is_in_no_layer_and_stands_in_the_picture_in_its_own_style
     let middle = mask.chunks(SIDE as usize).nth(SIDE as usize / 2).unwrap();
     let x = middle.iter().rposition(|depth| *depth > 0.0).unwrap() as u32 - 3;
     let [r, g, b, _] = image(&mut session, &scene).get_pixel(x, SIDE / 2).0;
-    assert!(r > 250 && g == 0 && b == 0, "its highlight colour: {r} {g} {b}");
+    assert!(r > 250 && g == 0 && b == 0, "its highlight color: {r} {g} {b}");
     // Of any other technique it is what it is without the role.
     for technique in ["unlit", "gooch", "toon", "halftone"] {
         let mut own = scene.clone();

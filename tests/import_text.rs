@@ -96,7 +96,7 @@ fn objects_and_groups_become_nodes_with_unique_paths_in_tree_order() {
     }
     // What came back under an old name is in the old node; the same triangle twice is one.
     let frame = &scene.meshes[scene.nodes[1].mesh.unwrap()];
-    assert_eq!((frame.triangle_count(), frame.parts.len()), (2, 2));
+    assert_eq!((frame.triangle_count(), frame.submeshes.len()), (2, 2));
     assert!(warnings(&scene).contains("duplicate"));
 }
 
@@ -113,8 +113,8 @@ fn materials_images_and_options_of_an_obj() {
     ]);
     let scene = open(&folder.path("a.obj"));
     let mesh = &scene.meshes[0];
-    assert_eq!(mesh.parts.len(), 5);
-    let material = |part: usize| &scene.materials[mesh.parts[part].material];
+    assert_eq!(mesh.submeshes.len(), 5);
+    let material = |part: usize| &scene.materials[mesh.submeshes[part].material];
     let wood = material(0);
     let image = wood.base_color_texture.as_ref().unwrap();
     assert_eq!((wood.name.as_str(), image.wrap), ("wood", [Wrap::Clamp; 2]));
@@ -134,7 +134,7 @@ fn materials_images_and_options_of_an_obj() {
 
 #[test]
 fn obj_normals_colors_concave_faces_and_odd_lines() {
-    // A letter L, with normals, colours, a continued line, a carriage return, Latin-1 bytes and a line of nonsense.
+    // A letter L, with normals, colors, a continued line, a carriage return, Latin-1 bytes and a line of nonsense.
     let text = b"# caf\xe9\r\nv 0 0 0 1 0 0\nv 3 0 0 1 0 0\nv 3 1 0\nv 1 1 0 0 1 0\nv 1 3 0 0 0 1\nv 0 3 0\nvn 0 0 1\n\
         o caf\xe9\nnonsense\nf 1//1 2//1 3//1 \\\n 4//1 5//1 6//1\nl 1 2\n";
     let scene = open_bytes("l.obj", text);
@@ -308,7 +308,7 @@ fn ply_normals_float_colors_texture_coordinates_and_strips() {
 }
 
 #[test]
-fn loading_reports_progress_and_can_be_cancelled() {
+fn loading_reports_progress_and_can_be_canceled() {
     let folder = Folder::with(&[("box.obj", CUBE_OBJ.as_bytes()), ("a.ply", &ply("ascii"))]);
     for name in ["box.obj", "a.ply"] {
         let progress = Progress::default();
@@ -316,7 +316,7 @@ fn loading_reports_progress_and_can_be_cancelled() {
         assert!((progress.share() - 1.0).abs() < 1e-6);
         progress.cancel();
         let stopped = load(&folder.path(name), &ImportOptions::default(), &progress);
-        assert!(matches!(stopped, Err(ImportError::Cancelled)));
+        assert!(matches!(stopped, Err(ImportError::Canceled)));
     }
 }
 

@@ -111,7 +111,7 @@ fn dots_are_left_out() {
 #[test]
 fn thin_lines_side_by_side_add_up() {
     let mut session = session();
-    // Strips that end a pixel apart, a little aslant: an even grey.
+    // Strips that end a pixel apart, a little aslant: an even gray.
     let (strips, step) = (60, 1.0_f32);
     let corners = |i: u32| {
         let (y, z) = (step * (i as f32 - 30.0), -(i as f32));

@@ -67,9 +67,9 @@ fn the_outline_of_a_cube_is_closed_from_any_side() {
         let ink = ink(&mut session, &picture);
         for y in 1..95 {
             for x in 1..95 {
-                let neighbours = [y * 96 + x - 1, y * 96 + x + 1, (y - 1) * 96 + x, (y + 1) * 96 + x];
+                let neighbors = [y * 96 + x - 1, y * 96 + x + 1, (y - 1) * 96 + x, (y + 1) * 96 + x];
                 let here = y * 96 + x;
-                if buffer[here].object != 0 && neighbours.iter().any(|n| buffer[*n].object == 0) {
+                if buffer[here].object != 0 && neighbors.iter().any(|n| buffer[*n].object == 0) {
                     assert!(
                         ink[here].0.max(ink[here].1) > 0.3,
                         "gap at {x},{y} from {direction}: {:?}",
@@ -244,7 +244,7 @@ fn shaders_and_program_number_surfaces_alike() {
     let mut session = session();
     let cubes = ["a", "b"].map(|name| (name, primitives::cube(2.0), DMat4::IDENTITY, [0.7; 3]));
     let picture = draw(&mut session, &opened(&scene(cubes.to_vec()), DVec3::new(0.3, 0.5, 1.0)), 64);
-    let regions = common::kept(&mut session, "regions").unwrap();
+    let regions = common::kept(&mut session, "surface ids").unwrap();
     let regions = common::texels::<u32>(&mut session, &regions);
     let surfels = common::surfels(&mut session, &picture);
     assert!(surfels.iter().any(|s| s.object != 0));

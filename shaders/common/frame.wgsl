@@ -3,7 +3,7 @@
 struct Light {
     // Directional (w = 0): towards the light. Point (w = 1): where it stands. View space.
     vector: vec4<f32>,
-    // Linear colour times intensity.
+    // Linear color times intensity.
     color: vec3<f32>,
     // Its channel in the shadow mask plus 1; 0: it throws no shadow.
     shadow: u32,
@@ -32,14 +32,14 @@ struct Frame {
     // Depth of that middle.
     center_depth: f32,
     // Depth at which the near plane cuts something; 0: it cuts nothing.
-    cut_depth: f32,
+    near_clip_depth: f32,
     // What lies behind this plane is not drawn; its product with (pos_view, 1) is the distance before it.
-    cut: vec4<f32>,
+    clip_plane: vec4<f32>,
     // The same for the section plane; 0: there is none.
     section: vec4<f32>,
     // How dark shadows are, 0 to 1.
     shadow_density: f32,
-    // Paper: linear colour and opacity.
+    // Paper: linear color and opacity.
     background: vec4<f32>,
     lights: array<Light, 8>,
 }

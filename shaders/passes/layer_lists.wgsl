@@ -8,7 +8,7 @@
 struct Band {
     first_row: u32,
     end_row: u32,
-    room: u32,
+    capacity: u32,
 }
 
 // Appending.
@@ -19,7 +19,7 @@ var<storage, read_write> heads: array<u32>;
 var<storage, read_write> deepest: array<u32>;
 // Entries of this band, then those of each row, those without room included.
 var<storage, read_write> counts: array<atomic<u32>>;
-// x: the entry before it in its pixel, plus 1; y: depth (bits of a float); z, w: colour as in common/placed.wgsl.
+// x: the entry before it in its pixel, plus 1; y: depth (bits of a float); z, w: color as in common/placed.wgsl.
 var new_entry_tex: texture_storage_2d<rgba32uint, write>;
 // A layer; see common/placed.wgsl.
 var ink_tex: texture_storage_2d<rgba32uint, read>;
@@ -42,7 +42,7 @@ fn append(index: u32, pixel: u32, texel: vec4<u32>) {
     // Depths are positive: their bits are in the same order.
     let depth = max(deepest[pixel], texel.z);
     deepest[pixel] = depth;
-    if index < band.room {
+    if index < band.capacity {
         textureStore(new_entry_tex, texel_of_record(index), vec4(heads[pixel], depth, texel.xy));
         heads[pixel] = index + 1u;
     }

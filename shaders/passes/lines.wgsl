@@ -1,4 +1,4 @@
-// Lines with their width and colour, over the shaded surfaces.
+// Lines with their width and color, over the shaded surfaces.
 #import common/frame.wgsl
 #import common/fullscreen.wgsl
 #import common/gbuffer.wgsl
@@ -6,11 +6,11 @@
 #import common/edge_map.wgsl
 #import common/edge_style.wgsl
 #import common/coverage.wgsl
-#import gpu/neighbours.wgsl
+#import gpu/neighbors.wgsl
 #import common/placed.wgsl
 
 // Whether any object is drawn in paper or exact mode, whether widths differ, whether anything is dashed, and whether a
-// line takes its colour from the surface.
+// line takes its color from the surface.
 override WITH_PAPER: bool = true;
 override WITH_EXACT: bool = true;
 override WITH_WIDTHS: bool = true;
@@ -44,7 +44,7 @@ fn slack() -> f32 {
     return select(2.0, 0.25, AMONG_OTHERS);
 }
 
-// Whether surface `g` of a pixel lies so much, px, before a line of this depth whose spine is so far from the pixel's centre.
+// Whether surface `g` of a pixel lies so much, px, before a line of this depth whose spine is so far from the pixel's center.
 fn hides(g: Surfel, px: vec2<i32>, depth: f32, to_spine: vec2<f32>, most: f32) -> bool {
     let line = nearness_of(depth);
     let plane = plane_of(px, g.depth, g.face_normal);
@@ -54,17 +54,17 @@ fn hides(g: Surfel, px: vec2<i32>, depth: f32, to_spine: vec2<f32>, most: f32) -
     return g.object != 0u && step_px(lead, depth) > most;
 }
 
-fn is_hidden(g: Surfel, px: vec2<i32>, edge: Edge, spine: vec2<f32>) -> bool {
+fn is_occluded(g: Surfel, px: vec2<i32>, edge: Edge, spine: vec2<f32>) -> bool {
     return g.object != edge.object && hides(g, px, edge.depth, spine - vec2<f32>(px) - 0.5, slack());
 }
 
 struct Line {
-    // Linear colour times coverage, and coverage.
+    // Linear color times coverage, and coverage.
     ink: vec4<f32>,
     // Linear depth of its spine.
     depth: f32,
     // Whether it would be here, were it not for a surface before it.
-    is_hidden: bool,
+    is_occluded: bool,
     // How strong its ink is where it covers all of a pixel, 0 to 1.
     strength: f32,
     // From its spine to here, px.
@@ -132,7 +132,7 @@ fn line_at(at: vec2<f32>, g: Surfel, found: u32) -> Line {
     let is_beyond = ON_SURFACES && !NARROW && is_fold && surface.object != edge.object && !is_stroke(texel)
         && edge_styles[edge.object].lines[SILHOUETTE - 1u].strength > 0.0;
     let at_source = vec2<i32>(floor(at + to_source));
-    if coverage <= 0.0 || is_beyond || (!is_tested && is_hidden(surface, at_source, edge, spine + to_source)) {
+    if coverage <= 0.0 || is_beyond || (!is_tested && is_occluded(surface, at_source, edge, spine + to_source)) {
         return Line(vec4(0.0), edge.depth, coverage > 0.0, 0.0, d, to_source);
     }
     var color = edge_styles[edge.object].lines[index].color;
@@ -194,7 +194,7 @@ fn nearer_of(best: Nearby, spine: u32, px: vec2<i32>, away: vec2<i32>) -> Nearby
     return Nearby(select(best.found, ((q.y << 16u) | q.x) + 1u, power < best.power), min(best.power, power));
 }
 
-// As `cs_rows` in passes/line_distance.wgsl finds it, among the neighbours.
+// As `cs_rows` in passes/line_distance.wgsl finds it, among the neighbors.
 fn found_nearby(px: vec2<i32>) -> u32 {
     var best = Nearby(0u, 0.0);
     if NARROW_BY_TWO {
@@ -226,7 +226,7 @@ const ALONG: f32 = 1.0;
 // Cosine of the angle up to which lines run side by side.
 const PARALLEL: f32 = 0.97;
 
-// Where several thin lines run through a pixel, each covers its share: their sum is an even grey, the nearest one alone is not.
+// Where several thin lines run through a pixel, each covers its share: their sum is an even gray, the nearest one alone is not.
 fn found_beside(px: vec2<i32>, found: u32) -> Beside {
     let first_px = vec2<i32>(vec2((found - 1u) & 0xffffu, (found - 1u) >> 16u));
     let first = unpack_edge(textureLoad(edge_map_tex, first_px));
@@ -288,30 +288,30 @@ fn over(front: vec4<f32>, back: vec4<f32>) -> vec4<f32> {
 }
 
 // Not 0 where exact lines can reach a pixel, and for some beside.
-fn reached_by_lines(px: vec2<i32>) -> u32 {
-    var reached = 0u;
+fn covered_by_lines(px: vec2<i32>) -> u32 {
+    var covered = 0u;
     if WITH_EXACT {
         if NARROW {
-            reached |= textureLoad(nearest_tex, px / 4).x;
+            covered |= textureLoad(nearest_tex, px / 4).x;
         } else {
-            reached |= textureLoad(farthest_tex, px, 0).x;
+            covered |= textureLoad(farthest_tex, px, 0).x;
         }
         if WITH_WIDTHS {
-            reached |= textureLoad(nearest_tex, px).x;
+            covered |= textureLoad(nearest_tex, px).x;
         }
     }
-    return reached;
+    return covered;
 }
 
 // Marks the pixels that lines can reach, and some beside them.
 @fragment
-fn fs_reached(@builtin(position) position: vec4<f32>) {
+fn fs_covered(@builtin(position) position: vec4<f32>) {
     let px = vec2<i32>(position.xy);
-    var reached = reached_by_lines(px);
+    var covered = covered_by_lines(px);
     if WITH_PAPER {
-        reached |= textureLoad(edge_map_tex, px).x;
+        covered |= textureLoad(edge_map_tex, px).x;
     }
-    if reached == 0u {
+    if covered == 0u {
         discard;
     }
 }
@@ -319,8 +319,8 @@ fn fs_reached(@builtin(position) position: vec4<f32>) {
 // With ink of the papers' operators over it, as far as surface `g` does not hide that; `texel`: of the edge map.
 fn with_paper_ink(lines: Line, texel: vec4<u32>, g: Surfel) -> Line {
     let depth = bitcast<f32>(texel.z);
-    let is_hidden = g.object != 0u && step_px(nearness_of(g.depth) - nearness_of(depth), depth) > slack();
-    if class_of(texel) != PAPER || is_hidden {
+    let is_occluded = g.object != 0u && step_px(nearness_of(g.depth) - nearness_of(depth), depth) > slack();
+    if class_of(texel) != PAPER || is_occluded {
         return lines;
     }
     // Edge-enhancement paper, section 5: inner edges first, then profile edges over them.
@@ -344,7 +344,7 @@ fn lines_at_place(at: vec2<f32>, g: Surfel) -> Line {
     if WITH_EXACT {
         let farthest = farthest_at(px);
         lines = line_at(at, g, farthest);
-        if lines.is_hidden {
+        if lines.is_occluded {
             lines = line_around(at, g, farthest);
         }
         // A wide line is found farther from it than it has ink: one that ends at it is not to stop before.

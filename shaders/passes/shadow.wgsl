@@ -1,6 +1,6 @@
 // How much of each light that throws shadows reaches a pixel, from the maps of passes/shadow_map.wgsl.
 //
-// Each texel of a map is compared with the depth that the receiver's own plane has at the texel's centre, which is
+// Each texel of a map is compared with the depth that the receiver's own plane has at the texel's center, which is
 // known from the G-buffer's face normal: no plane shadows itself, however it is tilted.
 #import common/frame.wgsl
 #import common/fullscreen.wgsl
@@ -76,7 +76,7 @@ struct Receiver {
     // Tangent of the angle between the light and the plane's normal, or `STEEPEST`.
     tilt: f32,
     // Greatest height above the plane at which anything may be.
-    room: f32,
+    capacity: f32,
     faces_light: bool,
 }
 

@@ -129,7 +129,7 @@ fn import(path: &Path, data: &[u8], options: &ImportOptions, progress: &Progress
         textures,
         warnings,
         up: Up::PosY,
-        metres_per_unit: Some(1.0),
+        meters_per_unit: Some(1.0),
         ..Scene::default()
     };
     views::add(root, &hierarchy.sources, &hierarchy.worlds, &mut scene);
@@ -151,7 +151,7 @@ fn no_triangles_reason(has_triangles: bool, has_others: bool) -> &'static str {
 /// For each of so many materials whether any triangle has it.
 fn used_materials(meshes: &[Arc<Mesh>], count: usize) -> Vec<bool> {
     let mut used = vec![false; count];
-    for part in meshes.iter().flat_map(|m| &m.parts) {
+    for part in meshes.iter().flat_map(|m| &m.submeshes) {
         if let Some(used) = used.get_mut(part.material) {
             *used = true;
         }

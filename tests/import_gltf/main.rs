@@ -125,7 +125,7 @@ fn primitives_become_parts_with_the_same_attributes() {
         ]),
     );
     let mesh = &scene.meshes[0];
-    let parts: Vec<_> = mesh.parts.iter().map(|p| (p.first_index, p.index_count, p.material)).collect();
+    let parts: Vec<_> = mesh.submeshes.iter().map(|p| (p.first_index, p.index_count, p.material)).collect();
     // The third primitive repeats the first, and duplicate triangles go.
     assert_eq!(parts, [(0, 6, 0), (6, 6, 1)]);
     assert_eq!(mesh.normals.len(), mesh.positions.len());
@@ -179,7 +179,7 @@ fn indices_of_every_width_are_read() {
 
 #[test]
 fn interleaved_sparse_and_quantized_accessors_are_read() {
-    // Positions as i16, normals as normalised i8, texture coordinates as normalised u16, in elements of 16 bytes.
+    // Positions as i16, normals as normalized i8, texture coordinates as normalized u16, in elements of 16 bytes.
     let mut m = Model::new();
     let mut bytes = Vec::new();
     for (x, y) in [(0_i16, 0_i16), (100, 0), (0, -100)] {
@@ -294,10 +294,10 @@ fn several_files_become_one_scene() {
     assert_eq!(paths(&scene), ["/a", "/a/tri", "/b", "/b/tri", "/a.2", "/a.2/tri"]);
     assert_eq!(scene.nodes[5].parent, Some(4));
     assert_eq!(scene.nodes[5].mesh, Some(2));
-    assert_eq!(scene.meshes[2].parts[0].material, 2);
+    assert_eq!(scene.meshes[2].submeshes[0].material, 2);
     assert!(progress.share() > 0.99, "{}", progress.share());
 
     progress.cancel();
     let stopped = load_all(&paths_given, &ImportOptions::default(), &progress);
-    assert!(matches!(stopped, Err(ImportError::Cancelled)));
+    assert!(matches!(stopped, Err(ImportError::Canceled)));
 }

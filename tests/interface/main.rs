@@ -34,7 +34,7 @@ fn engine(_: &[PathBuf]) -> Scene {
     let mut scene = Scene::default();
     scene.materials.push(Material::default());
     let mut mesh = primitives::cube(1.0);
-    for part in &mut mesh.parts {
+    for part in &mut mesh.submeshes {
         part.material = 0;
     }
     scene.meshes.push(Arc::new(mesh));
@@ -663,7 +663,7 @@ fn a_failed_load_says_so_and_keeps_what_was_there() {
 }
 
 #[test]
-fn a_load_can_be_cancelled_and_a_new_one_takes_its_place() {
+fn a_load_can_be_canceled_and_a_new_one_takes_its_place() {
     let mut slow = window_loading("/models/slow.glb", |paths, progress| {
         while paths[0].ends_with("slow.glb") {
             progress.check()?;

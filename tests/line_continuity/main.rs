@@ -6,7 +6,7 @@
 //! ```
 //!
 //! `HACHURE_LINES_ONLY=crank` limits it to one model; with `HACHURE_LINES_DIR` set to a folder, pictures are written there of the
-//! lines grey, with runs that are too short in red.
+//! lines gray, with runs that are too short in red.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 #![allow(clippy::print_stdout, reason = "the numbers are what it is for")]
@@ -140,8 +140,8 @@ fn measure(session: &mut Session, subject: &Subject) -> Row {
 
 fn picture(lines: &Lines, runs: &[Run]) -> RgbImage {
     let mut picture = RgbImage::from_pixel(SIDE, SIDE, Rgb([255; 3]));
-    let grey = lines.points().map(|(i, _)| (i, Rgb([190; 3])));
-    for (i, color) in grey.chain(runs.iter().flat_map(|run| &run.pixels).map(|&i| (i, Rgb([230, 0, 0])))) {
+    let gray = lines.points().map(|(i, _)| (i, Rgb([190; 3])));
+    for (i, color) in gray.chain(runs.iter().flat_map(|run| &run.pixels).map(|&i| (i, Rgb([230, 0, 0])))) {
         picture.put_pixel(i as u32 % SIDE, i as u32 / SIDE, color);
     }
     picture

@@ -1,5 +1,5 @@
 //! Twin columns under one abacus: a plinth, the two rolls of an Attic base, a swelling shaft, a basket capital that
-//! turns from round to square. In metres.
+//! turns from round to square. In meters.
 
 use std::f64::consts::{PI, TAU};
 
@@ -59,7 +59,7 @@ impl Pair {
 
     /// One of the two.
     pub(crate) fn column(&self, name: impl Into<String>, x: f64, z: f64) -> Node {
-        let parts = self.parts.map(|(name, mesh)| Node::new(name, Some(mesh))).to_vec();
+        let parts = self.submeshes.map(|(name, mesh)| Node::new(name, Some(mesh))).to_vec();
         Builder::placed(Node::new(name, None).with(parts), x, 0.0, z)
     }
 

@@ -1,4 +1,4 @@
-//! Columns: a round base, a shaft like a papyrus stem, an open or a closed capital, an abacus. In metres.
+//! Columns: a round base, a shaft like a papyrus stem, an open or a closed capital, an abacus. In meters.
 
 use glam::{DVec2, dvec2};
 
@@ -56,7 +56,7 @@ impl Order {
 
     /// A column.
     pub(crate) fn column(&self, number: usize, x: f64, z: f64) -> Node {
-        let parts = self.parts.iter().map(|&(name, mesh)| Node::new(name, Some(mesh))).collect();
+        let parts = self.submeshes.iter().map(|&(name, mesh)| Node::new(name, Some(mesh))).collect();
         Mason::placed(Node::new(format!("column.{number:02}"), None).with(parts), x, 0.0, z)
     }
 
@@ -66,7 +66,7 @@ impl Order {
     }
 }
 
-/// A disc with a bevelled rim.
+/// A disc with a beveled rim.
 fn base_profile(radius: f64, top: f64) -> Vec<DVec2> {
     let (wide, bevel) = (1.28 * radius, 0.12 * radius);
     vec![

@@ -1,4 +1,4 @@
-//! A seated king with striped head cloth and false beard, hands on his knees, on a throne with a back pillar. In metres;
+//! A seated king with striped head cloth and false beard, hands on his knees, on a throne with a back pillar. In meters;
 //! he looks towards +Z, his plinth stands at `y = 0`.
 
 use crate::glb::Node;
@@ -41,7 +41,7 @@ impl Statue {
 
     /// A statue.
     pub(crate) fn node(&self, name: &str) -> Node {
-        let parts = self.parts.iter().map(|&(name, mesh)| Node::new(name, Some(mesh))).collect();
+        let parts = self.submeshes.iter().map(|&(name, mesh)| Node::new(name, Some(mesh))).collect();
         Node::new(name, None).with(parts)
     }
 }

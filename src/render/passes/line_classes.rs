@@ -16,7 +16,7 @@ use crate::render::base::frame_uniform::REFERENCE_HEIGHT;
 const LEAST: f32 = 8.0;
 /// Pixels per side of a workgroup that collects lines, and lines per workgroup, as in `passes/line_classes.wgsl`.
 const LINES_GROUP: u32 = 32;
-/// Neighbours that decide differently, at the ends of stretches, agree the second time.
+/// Neighbors that decide differently, at the ends of stretches, agree the second time.
 const ROUNDS: usize = 2;
 /// Bytes of `Change` there.
 const CHANGE_BYTES: u64 = 32;
