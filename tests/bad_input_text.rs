@@ -36,7 +36,7 @@ fn check(scene: &Scene) {
                 && [0, n].contains(&mesh.colors.len())
         );
         let mut next = 0;
-        for part in &mesh.parts {
+        for part in &mesh.submeshes {
             assert_eq!(part.first_index, next);
             assert!(part.material < scene.materials.len());
             next += part.index_count;

@@ -267,17 +267,17 @@ fn a_part_that_blends_shows_the_inside_of_its_own_object() {
     let mut session = common::session();
     // The cube's last side, +Z, is a window; its other sides are opaque red.
     let mut cube = primitives::cube_split(1.0);
-    let window = cube.parts[0].index_count - 6;
-    cube.parts[0].index_count = window;
-    let mut part = cube.parts[0];
+    let window = cube.submeshes[0].index_count - 6;
+    cube.submeshes[0].index_count = window;
+    let mut part = cube.submeshes[0];
     (part.first_index, part.index_count, part.material) = (window, 6, 1);
     let mut scene = scene(vec![
         ("cube", cube, DMat4::IDENTITY, vec4(1.0, 0.0, 0.0, 1.0)),
         ("other", primitives::plane(0.1), at(0.0, 3.0, 0.0), vec4(0.0, 0.0, 1.0, 0.5)),
     ]);
     let mut mesh = Mesh::clone(&scene.meshes[0]);
-    mesh.parts = vec![mesh.parts[0], part];
-    mesh.parts[0].material = 0;
+    mesh.submeshes = vec![mesh.submeshes[0], part];
+    mesh.submeshes[0].material = 0;
     scene.meshes[0] = Arc::new(mesh);
     scene.nodes.truncate(1);
     let opened = unlit(scene, DVec3::Z);

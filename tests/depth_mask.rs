@@ -132,7 +132,7 @@ fn counts_equal_a_recount_and_peeling_ends_with_the_first_layer_that_uncovers_en
             assert_eq!(peeled.uncovered(), passed[drawn - 1]);
             assert_eq!(peeled.shortfall(), None);
             // What comes after the last layer was never drawn.
-            let left = common::kept_layers(&mut session, "layer regions").split_off(drawn);
+            let left = common::kept_layers(&mut session, "layer surface ids").split_off(drawn);
             let is_empty = |regions: &hachure::gpu::Target| {
                 texels::<u32>(&mut session, regions).iter().all(|region| *region == 0)
             };

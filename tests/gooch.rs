@@ -37,7 +37,7 @@ fn gooch(scene: &Arc<Scene>, towards_viewer: DVec3, settings: &[(&str, &str)]) -
 fn drawn(session: &mut Session, opened: &Opened) -> (RgbaImage, Vec<Surfel>, Vec<u32>) {
     let picture = draw(session, opened, SIDE as u32);
     let image = RgbaImage::from_raw(SIDE as u32, SIDE as u32, texels::<u8>(session, &picture.image)).unwrap();
-    let regions = common::kept(session, "regions").unwrap();
+    let regions = common::kept(session, "surface ids").unwrap();
     let regions = texels::<u32>(session, &regions);
     (image, surfels(session, &picture), regions)
 }
@@ -271,7 +271,7 @@ fn a_surface_is_shaded_on_the_side_that_is_seen() {
         .flatten()
         .copied()
         .collect();
-    bowl.parts[0].index_count = lower.len() as u32;
+    bowl.submeshes[0].index_count = lower.len() as u32;
     bowl.indices = lower;
     let open = scene(vec![("bowl", bowl, DMat4::IDENTITY, [0.7, 0.5, 0.3])]);
     let opened = gooch(&open, DVec3::new(0.2, 0.8, 1.0), &[]);

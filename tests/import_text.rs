@@ -96,7 +96,7 @@ fn objects_and_groups_become_nodes_with_unique_paths_in_tree_order() {
     }
     // What came back under an old name is in the old node; the same triangle twice is one.
     let frame = &scene.meshes[scene.nodes[1].mesh.unwrap()];
-    assert_eq!((frame.triangle_count(), frame.parts.len()), (2, 2));
+    assert_eq!((frame.triangle_count(), frame.submeshes.len()), (2, 2));
     assert!(warnings(&scene).contains("duplicate"));
 }
 
@@ -113,8 +113,8 @@ fn materials_images_and_options_of_an_obj() {
     ]);
     let scene = open(&folder.path("a.obj"));
     let mesh = &scene.meshes[0];
-    assert_eq!(mesh.parts.len(), 5);
-    let material = |part: usize| &scene.materials[mesh.parts[part].material];
+    assert_eq!(mesh.submeshes.len(), 5);
+    let material = |part: usize| &scene.materials[mesh.submeshes[part].material];
     let wood = material(0);
     let image = wood.base_color_texture.as_ref().unwrap();
     assert_eq!((wood.name.as_str(), image.wrap), ("wood", [Wrap::Clamp; 2]));

@@ -14,7 +14,7 @@ use common::{at, scene, session, set, surfels, texels};
 use glam::{DMat4, DVec2, DVec3};
 use hachure::export::session::Opened;
 use hachure::geometry::primitives::{cube, plane, sphere};
-use hachure::geometry::{EdgeClass, Mesh, MeshPart};
+use hachure::geometry::{EdgeClass, Mesh, Submesh};
 use hachure::scene::{Camera, Material, Scene};
 use hachure::style::Value;
 use image::RgbaImage;
@@ -47,10 +47,10 @@ fn every_class() -> Arc<Scene> {
     let second = changed.materials.len();
     changed.materials.push(Material::default());
     let sheet = Arc::make_mut(&mut changed.meshes[1]);
-    let first = sheet.parts[0].material;
-    sheet.parts = vec![
-        MeshPart { first_index: 0, index_count: 3, material: first },
-        MeshPart { first_index: 3, index_count: 3, material: second },
+    let first = sheet.submeshes[0].material;
+    sheet.submeshes = vec![
+        Submesh { first_index: 0, index_count: 3, material: first },
+        Submesh { first_index: 3, index_count: 3, material: second },
     ];
     scene
 }

@@ -15,7 +15,7 @@ use common::{session, set};
 use glam::{DMat4, DVec3, Vec3};
 use hachure::export::Session;
 use hachure::geometry::mend::mended;
-use hachure::geometry::{Adjacency, Mesh, MeshPart, SeamTolerance, primitives};
+use hachure::geometry::{Adjacency, Mesh, SeamTolerance, Submesh, primitives};
 use hachure::import::{ImportOptions, Progress, load};
 use hachure::scene::{Camera, Scene};
 
@@ -93,7 +93,7 @@ fn cylinder() -> Mesh {
             mesh.indices.extend([1, 2 * i + 3, 2 * i + 1]);
         }
     }
-    mesh.parts = vec![MeshPart { first_index: 0, index_count: mesh.indices.len() as u32, material: 0 }];
+    mesh.submeshes = vec![Submesh { first_index: 0, index_count: mesh.indices.len() as u32, material: 0 }];
     hachure::geometry::normals::by_crease_angle(mesh, 30.0)
 }
 

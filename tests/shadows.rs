@@ -341,7 +341,7 @@ fn light_falls_through_holes_and_past_what_is_hidden() {
     holes.materials[1].alpha = hachure::scene::AlphaMode::Mask(0.5);
     holes.materials[1].base_color.w = 0.2;
     let mut mesh = primitives::cube_split(1.0);
-    mesh.parts.iter_mut().for_each(|part| part.material = 1);
+    mesh.submeshes.iter_mut().for_each(|part| part.material = 1);
     holes.meshes[1] = Arc::new(mesh);
     opened.scene = Arc::new(holes);
     assert_eq!(dark(&mut session, &opened), 0, "what is all holes throws none");

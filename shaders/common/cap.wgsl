@@ -6,7 +6,7 @@ struct Cap {
     // Linear colour.
     fill: vec3<f32>,
     // The object's cap in the G-buffer; 0: it has none.
-    region: u32,
+    surface_id: u32,
     // Linear colour of the hatching.
     ink: vec3<f32>,
     // 1: it is shaded like other surfaces.

@@ -21,7 +21,7 @@ struct Payload {
     // Bits of the linear depth.
     depth: u32,
     object: u32,
-    region: u32,
+    surface_id: u32,
 }
 
 fn texel_of_link(link: Link) -> vec4<u32> {
@@ -29,7 +29,7 @@ fn texel_of_link(link: Link) -> vec4<u32> {
 }
 
 fn texel_of_payload(payload: Payload) -> vec4<u32> {
-    return vec4(payload.face, payload.depth, payload.object, payload.region);
+    return vec4(payload.face, payload.depth, payload.object, payload.surface_id);
 }
 
 fn link_of(texel: vec4<u32>) -> Link {

@@ -32,9 +32,9 @@ struct Frame {
     // Depth of that middle.
     center_depth: f32,
     // Depth at which the near plane cuts something; 0: it cuts nothing.
-    cut_depth: f32,
+    near_clip_depth: f32,
     // What lies behind this plane is not drawn; its product with (pos_view, 1) is the distance before it.
-    cut: vec4<f32>,
+    clip_plane: vec4<f32>,
     // The same for the section plane; 0: there is none.
     section: vec4<f32>,
     // How dark shadows are, 0 to 1.

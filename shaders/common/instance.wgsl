@@ -10,7 +10,7 @@ struct Instance {
     @location(11) normal_from_local_y: vec3<f32>,
     @location(12) normal_from_local_z: vec3<f32>,
     @location(13) base_color: vec4<f32>,
-    // Object id with the enhanced flag as the highest bit; order of its first surface among those of all draws; 1: the mesh
+    // Object id with the enhanced flag as the highest bit; order of its first surface among those of all instances; 1: the mesh
     // has no normals, faces are flat; number of its first triangle in its mesh.
     @location(14) ids: vec4<u32>,
     // How far vertices move along their normals where surfaces are drawn enlarged, px.

@@ -10,12 +10,12 @@ fn offset_in(spine: u32) -> vec2<f32> {
     return vec2(f32((spine >> 8u) & 255u), f32(spine & 255u)) / 127.0 - 1.0;
 }
 
-// Whether a spine is repeated; `seen_tex` holds the spines of all nearer layers.
-fn is_repeated(seen_tex: texture_storage_2d<r32uint, read>, px: vec2<i32>, spine: u32) -> bool {
+// Whether a spine is repeated; `nearer_lines_tex` holds the spines of all nearer layers.
+fn is_repeated(nearer_lines_tex: texture_storage_2d<r32uint, read>, px: vec2<i32>, spine: u32) -> bool {
     var least = 1e9;
     for (var i = 0; i < 9; i++) {
         let away = vec2(i % 3, i / 3) - 1;
-        let other = textureLoad(seen_tex, px + away).x;
+        let other = textureLoad(nearer_lines_tex, px + away).x;
         let apart = vec2<f32>(away) + offset_in(other) - offset_in(spine);
         least = select(least, min(least, dot(apart, apart)), other != 0u);
     }
@@ -23,15 +23,15 @@ fn is_repeated(seen_tex: texture_storage_2d<r32uint, read>, px: vec2<i32>, spine
 }
 
 // The spines of a pixel, without repeated ones, and all of them so far.
-struct Seen {
+struct NearerLines {
     own: u32,
     now: u32,
 }
 
-fn seen_at(seen_tex: texture_storage_2d<r32uint, read>, px: vec2<i32>, spine: u32) -> Seen {
+fn nearer_lines_at(nearer_lines_tex: texture_storage_2d<r32uint, read>, px: vec2<i32>, spine: u32) -> NearerLines {
     if !WITHOUT_REPEATED {
-        return Seen(spine, spine);
+        return NearerLines(spine, spine);
     }
-    let before = textureLoad(seen_tex, px).x;
-    return Seen(select(spine, 0u, is_repeated(seen_tex, px, spine)), select(spine, before, spine == 0u));
+    let before = textureLoad(nearer_lines_tex, px).x;
+    return NearerLines(select(spine, 0u, is_repeated(nearer_lines_tex, px, spine)), select(spine, before, spine == 0u));
 }

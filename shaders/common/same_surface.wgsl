@@ -2,7 +2,7 @@
 #import common/gbuffer.wgsl
 #import common/plane.wgsl
 
-var region_tex: texture_2d<u32>;
+var surface_id_tex: texture_2d<u32>;
 
 // A step in depth of so many pixels' widths parts a surface from itself.
 const DEPTH_STEP: f32 = 2.0;
@@ -11,7 +11,7 @@ const DEPTH_STEP: f32 = 2.0;
 // predicts the other's depth.
 fn goes_on(px: vec2<i32>, s: Surfel, other_px: vec2<i32>, other: Surfel) -> bool {
     if other.object != s.object
-        || textureLoad(region_tex, px, 0).x != textureLoad(region_tex, other_px, 0).x {
+        || textureLoad(surface_id_tex, px, 0).x != textureLoad(surface_id_tex, other_px, 0).x {
         return false;
     }
     let offset = vec2<f32>(other_px - px);

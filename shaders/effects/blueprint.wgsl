@@ -22,11 +22,11 @@ struct Blueprint {
 var<uniform> blueprint: Blueprint;
 var<uniform> peeled: Peeled;
 // Where nearer layers have lines; see passes/repeated.wgsl.
-var seen_tex: texture_2d<u32>;
+var nearer_lines_tex: texture_2d<u32>;
 var<storage, read> mask: Masked;
 
-// The regions of the layer, and caps of a section, which lie here by object id.
-var region_tex: texture_storage_2d<r32uint, read>;
+// The surface ids of the layer, and caps of a section, which lie here by object id.
+var surface_id_tex: texture_storage_2d<r32uint, read>;
 var<storage, read> caps: array<Cap>;
 
 // Whether any object has a cap.
@@ -56,7 +56,7 @@ fn is_beyond(depth: f32) -> bool {
 
 // Lines reach over the interior of their layer and beyond it: their depth is that of their spine.
 fn ink_of(px: vec2<i32>, line: Line) -> vec4<f32> {
-    if WITH_PAPER && WITHOUT_REPEATED && textureLoad(seen_tex, px, 0).x != 0u {
+    if WITH_PAPER && WITHOUT_REPEATED && textureLoad(nearer_lines_tex, px, 0).x != 0u {
         return vec4(0.0);
     }
     if is_beyond(line.depth) {
@@ -88,16 +88,16 @@ fn fs_lines_placed(@builtin(position) position: vec4<f32>) -> @location(0) vec4<
 
 fn fill_of(px: vec2<i32>, layer: Surfel) -> vec4<f32> {
     let surface = surface_at(px);
-    let is_hidden = surface.object != 0u && surface.depth < layer.depth;
-    if is_hidden || is_beyond(layer.depth) {
+    let is_occluded = surface.object != 0u && surface.depth < layer.depth;
+    if is_occluded || is_beyond(layer.depth) {
         discard;
     }
     let fill = vec4(blueprint.fill, 1.0) * blueprint.opacity;
     if !WITH_CAPS {
         return beneath_opaque_ink(px, layer.depth, fill);
     }
-    let region = textureLoad(region_tex, px).x;
-    if caps[layer.object].region == 0u || region != caps[layer.object].region {
+    let surface_id = textureLoad(surface_id_tex, px).x;
+    if caps[layer.object].surface_id == 0u || surface_id != caps[layer.object].surface_id {
         return beneath_opaque_ink(px, layer.depth, fill);
     }
     let cap = caps[layer.object];

@@ -2,7 +2,7 @@
 #import passes/lines.wgsl
 
 // Where nearer layers have lines; see passes/repeated.wgsl.
-var seen_tex: texture_2d<u32>;
+var nearer_lines_tex: texture_2d<u32>;
 
 // Ink of the papers' operators has no spine of which the repeated ones could have been left out before.
 fn is_repeated(px: vec2<i32>) -> bool {
@@ -12,7 +12,7 @@ fn is_repeated(px: vec2<i32>) -> bool {
     let last = vec2<i32>(frame.size) - 1;
     var seen = 0u;
     for (var i = 0; i < 25; i++) {
-        seen |= textureLoad(seen_tex, clamp(px + vec2(i % 5, i / 5) - 2, vec2(0), last), 0).x;
+        seen |= textureLoad(nearer_lines_tex, clamp(px + vec2(i % 5, i / 5) - 2, vec2(0), last), 0).x;
     }
     return seen != 0u;
 }

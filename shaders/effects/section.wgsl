@@ -4,7 +4,7 @@
 #import common/gbuffer.wgsl
 #import common/cap.wgsl
 
-var region_tex: texture_2d<u32>;
+var surface_id_tex: texture_2d<u32>;
 // By object id.
 var<storage, read> caps: array<Cap>;
 
@@ -12,7 +12,7 @@ var<storage, read> caps: array<Cap>;
 fn fs_main(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     let px = vec2<i32>(position.xy);
     let cap = caps[unpack_surfel(geometry_at(px)).object];
-    if cap.region == 0u || textureLoad(region_tex, px, 0).x != cap.region {
+    if cap.surface_id == 0u || textureLoad(surface_id_tex, px, 0).x != cap.surface_id {
         discard;
     }
     let ink = hatched_share(cap, px);

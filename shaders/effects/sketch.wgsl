@@ -421,14 +421,14 @@ fn inked(px: vec2<i32>) -> Inked {
         let texel = textureLoad(opaque_ink_tex, px);
         let before = placed_color(texel);
         let before_depth = bitcast<f32>(texel.z);
-        var is_hidden = false;
+        var is_occluded = false;
         if BEFORE_IS_OTHER {
             let filled = unpack_surfel(textureLoad(filled_tex, px));
             // Only what this sketch has put before it can hide it.
             let is_new = filled.object != other.object || filled.depth != other.depth;
-            is_hidden = is_new && is_behind(filled, before_depth, 2.0);
+            is_occluded = is_new && is_behind(filled, before_depth, 2.0);
         }
-        if before.a > 0.0 && !is_hidden {
+        if before.a > 0.0 && !is_occluded {
             // Earlier passes lie beneath, wherever their lines come from.
             let is_earlier = !BEFORE_IS_OTHER && texel.w == 1u;
             let is_nearer = ink.a > 0.0 && (is_earlier || depth <= before_depth);

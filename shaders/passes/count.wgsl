@@ -9,13 +9,13 @@
 override WITH_MASK: bool = false;
 
 // 0 where the layer has nothing.
-var region_tex: texture_2d<u32>;
+var surface_id_tex: texture_2d<u32>;
 // Depths of the layer and of the mask, reversed.
 var layer_depth_tex: texture_depth_2d;
 var mask_depth_tex: texture_depth_2d;
 var<storage, read_write> peeled: Counted;
 // Arguments of the draws and dispatches that stop with it.
-var<storage, read_write> gate: array<u32>;
+var<storage, read_write> predicate: array<u32>;
 var<storage, read> mask: Masked;
 
 var<workgroup> covered: atomic<u32>;
@@ -38,11 +38,11 @@ fn cs_count(
     var own = vec2(0u);
     for (var i = 0u; i < 4u; i++) {
         let first = 64u * group.xy + 32u * vec2(i % 2u, i / 2u) + 2u * id.xy;
-        var regions = four_at(region_tex, vec2<i32>(first));
+        var surface_ids = four_at(surface_id_tex, vec2<i32>(first));
         for (var j = 0u; j < 4u; j++) {
             let px = first + vec2(j % 2u, j / 2u);
             let is_in = all(px < vec2<u32>(frame.size));
-            own.x += select(0u, 1u, is_in && regions[j] != 0u);
+            own.x += select(0u, 1u, is_in && surface_ids[j] != 0u);
             if WITH_MASK && is_in {
                 own.y += select(0u, 1u, is_uncovered(px));
             }
@@ -63,9 +63,9 @@ fn cs_count(
     }
 }
 
-fn shut_gate(index: u32) {
-    for (var i = index; i < arrayLength(&gate); i += 64u) {
-        gate[i] = 0u;
+fn clear_predicate(index: u32) {
+    for (var i = index; i < arrayLength(&predicate); i += 64u) {
+        predicate[i] = 0u;
     }
 }
 
@@ -79,7 +79,7 @@ fn cs_decide(@builtin(local_invocation_index) index: u32) {
     // All have read before one of them writes.
     storageBarrier();
     if ends {
-        shut_gate(index);
+        clear_predicate(index);
     }
     if index != 0u || had_ended {
         return;
@@ -103,7 +103,7 @@ fn cs_uncovered(@builtin(local_invocation_index) index: u32) {
     let ends = went_on && mask.pixels != 0u && passed >= peeled.fraction * f32(mask.pixels);
     storageBarrier();
     if ends {
-        shut_gate(index);
+        clear_predicate(index);
     }
     if index == 0u {
         peeled.masked = mask.pixels;

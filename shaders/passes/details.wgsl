@@ -13,17 +13,17 @@ override WITH_TEXTURE: bool = true;
 override WITH_RELIEF: bool = true;
 override WITH_SHADOW: bool = true;
 
-var region_tex: texture_2d<u32>;
+var surface_id_tex: texture_2d<u32>;
 // What segments have; see common/segment_point.wgsl.
 var mark_tex: texture_2d<u32>;
 var base_color_tex: texture_2d<f32>;
 // Of passes/shadow.wgsl.
 var shadow_mask_tex: texture_2d<f32>;
 // Without repeated lines: the spines of all nearer layers.
-var seen_tex: texture_storage_2d<r32uint, read>;
+var nearer_lines_tex: texture_storage_2d<r32uint, read>;
 
-fn region_at(px: vec2<i32>) -> u32 {
-    return textureLoad(region_tex, clamp(px, vec2(0), vec2<i32>(frame.size) - 1), 0).x;
+fn surface_id_at(px: vec2<i32>) -> u32 {
+    return textureLoad(surface_id_tex, clamp(px, vec2(0), vec2<i32>(frame.size) - 1), 0).x;
 }
 
 // What changes: the colour, in steps that look even; the normal, of length 1; or which lights reach the pixel.
@@ -85,7 +85,7 @@ fn side_of(class_of: u32, px: vec2<i32>, own: u32, start: vec4<f32>, along: vec4
     var rise = 0.0;
     for (var k = 1; k <= REACH; k++) {
         let q = px + vec2<i32>(round(step * f32(k)));
-        if region_at(q) != own {
+        if surface_id_at(q) != own {
             return Side(value, true);
         }
         let next = dot(detail_at(class_of, q) - start, along);
@@ -108,7 +108,7 @@ fn step_in(class_of: u32, counts: vec4<f32>, px: vec2<i32>, own: u32, stride: i3
     for (var n = 0; n < 9; n++) {
         let o = neighbour_offset(n);
         var value = center;
-        if region_at(px + o * stride) == own {
+        if surface_id_at(px + o * stride) == own {
             value = detail_at(class_of, px + o * stride);
         }
         // Sobel.
@@ -135,7 +135,7 @@ fn step_in(class_of: u32, counts: vec4<f32>, px: vec2<i32>, own: u32, stride: i3
     var smoothed = 0.0;
     for (var n = 0; n < 9; n++) {
         let o = neighbour_offset(n);
-        if region_at(px + o * stride) == own {
+        if surface_id_at(px + o * stride) == own {
             let weight = f32((2 - abs(o.x)) * (2 - abs(o.y))) / 16.0;
             smoothed += weight * dot(detail_at(class_of, px + o * stride) - center, along);
         }
@@ -185,7 +185,7 @@ fn fs_main(@builtin(position) position: vec4<f32>) -> Out {
     let px = vec2<i32>(position.xy);
     let geometry = geometry_at(px);
     let x = unpack_surfel(geometry);
-    let own = region_at(px);
+    let own = surface_id_at(px);
     let has_texture = WITH_TEXTURE && is_drawn(x.object, TEXTURE);
     // A face that is shaded flat has no relief.
     let has_relief = WITH_RELIEF && is_drawn(x.object, RELIEF) && geometry.x != geometry.y;
@@ -197,7 +197,7 @@ fn fs_main(@builtin(position) position: vec4<f32>) -> Out {
     // Where a surface ends or folds, there is a line already.
     for (var n = 0; n < 9; n++) {
         let q = clamp(px + neighbour_offset(n), vec2(0), vec2<i32>(frame.size) - 1);
-        if region_at(q) != own || textureLoad(mark_tex, q, 0).x != 0u {
+        if surface_id_at(q) != own || textureLoad(mark_tex, q, 0).x != 0u {
             discard;
         }
     }
@@ -244,6 +244,6 @@ fn fs_main(@builtin(position) position: vec4<f32>) -> Out {
         arc / edge_styles[x.object].dash_period,
         1.0,
     ));
-    let seen = seen_at(seen_tex, px, spine_of(texel, halves_of(x.object, class_of), 0.0, 1.0 - range_share(x.depth)));
-    return Out(texel, seen.own, seen.now);
+    let lines = nearer_lines_at(nearer_lines_tex, px, spine_of(texel, halves_of(x.object, class_of), 0.0, 1.0 - range_share(x.depth)));
+    return Out(texel, lines.own, lines.now);
 }

@@ -10,26 +10,26 @@
 #import common/repeated.wgsl
 #import common/segment_point.wgsl
 
-var region_tex: texture_storage_2d<r32uint, read>;
+var surface_id_tex: texture_storage_2d<r32uint, read>;
 // What segments have; see common/segment_point.wgsl.
 var mark_tex: texture_storage_2d<r32uint, read>;
 
-// The regions of the two layers before this one, if it is a depth layer.
+// The surface ids of the two layers before this one, if it is a depth layer.
 var before_tex: texture_2d<u32>;
 var before_that_tex: texture_2d<u32>;
 // Without repeated lines: the spines of all nearer layers.
-var seen_tex: texture_storage_2d<r32uint, read>;
+var nearer_lines_tex: texture_storage_2d<r32uint, read>;
 
 // Whether a surface that goes on in one of them ends in this layer only because something before it does.
 override WITH_LAYERS_BEFORE: bool = false;
 // Whether what lies behind a mirror's plane is left out. Where the section plane cuts, there are segments.
-override WITH_CUT: bool = false;
+override WITH_CLIP_PLANE: bool = false;
 
 // A step in depth, in pixels, from which two surfaces do not touch.
 const STEP: f32 = 2.0;
 
-// The regions of a pixel and of those beside it.
-struct Regions {
+// The surface ids of a pixel and of those beside it.
+struct SurfaceIds {
     own: u32,
     left: u32,
     right: u32,
@@ -37,15 +37,15 @@ struct Regions {
     below: u32,
 }
 
-fn regions_at(px: vec2<i32>) -> Regions {
+fn surface_ids_at(px: vec2<i32>) -> SurfaceIds {
     let before = max(px - 1, vec2(0));
     let after = min(px + 1, vec2<i32>(frame.size) - 1);
-    return Regions(
-        textureLoad(region_tex, px).x,
-        textureLoad(region_tex, vec2(before.x, px.y)).x,
-        textureLoad(region_tex, vec2(after.x, px.y)).x,
-        textureLoad(region_tex, vec2(px.x, before.y)).x,
-        textureLoad(region_tex, vec2(px.x, after.y)).x,
+    return SurfaceIds(
+        textureLoad(surface_id_tex, px).x,
+        textureLoad(surface_id_tex, vec2(before.x, px.y)).x,
+        textureLoad(surface_id_tex, vec2(after.x, px.y)).x,
+        textureLoad(surface_id_tex, vec2(px.x, before.y)).x,
+        textureLoad(surface_id_tex, vec2(px.x, after.y)).x,
     );
 }
 
@@ -53,27 +53,27 @@ fn mark_at(px: vec2<i32>) -> u32 {
     return textureLoad(mark_tex, clamp(px, vec2(0), vec2<i32>(frame.size) - 1)).x;
 }
 
-// Whether (not 0) another surface begins towards a neighbour of this region, where no nearer layer has a line: an edge between
+// Whether (not 0) another surface begins towards a neighbour of this surface id, where no nearer layer has a line: an edge between
 // two pixels runs through one of them.
-fn begins_at(px: vec2<i32>, towards: vec2<i32>, region: u32, own: u32) -> u32 {
+fn begins_at(px: vec2<i32>, towards: vec2<i32>, surface_id: u32, own: u32) -> u32 {
     if !WITHOUT_REPEATED {
-        return region ^ own;
+        return surface_id ^ own;
     }
-    return select(region ^ own, 0u, textureLoad(seen_tex, px + towards).x != 0u);
+    return select(surface_id ^ own, 0u, textureLoad(nearer_lines_tex, px + towards).x != 0u);
 }
 
 // Marks the pixels beside which another surface begins that no segment explains.
 @fragment
 fn fs_borders(@builtin(position) position: vec4<f32>) {
     let px = vec2<i32>(position.xy);
-    let regions = regions_at(px);
-    let own = regions.own;
-    let begins = begins_at(px, vec2(-1, 0), regions.left, own) | begins_at(px, vec2(1, 0), regions.right, own)
-        | begins_at(px, vec2(0, -1), regions.above, own) | begins_at(px, vec2(0, 1), regions.below, own);
+    let surface_ids = surface_ids_at(px);
+    let own = surface_ids.own;
+    let begins = begins_at(px, vec2(-1, 0), surface_ids.left, own) | begins_at(px, vec2(1, 0), surface_ids.right, own)
+        | begins_at(px, vec2(0, -1), surface_ids.above, own) | begins_at(px, vec2(0, 1), surface_ids.below, own);
     // The corners are looked at later, of the few that are left.
     let marks = mark_at(px) | mark_at(px + vec2(1, 0)) | mark_at(px - vec2(1, 0)) | mark_at(px + vec2(0, 1))
         | mark_at(px - vec2(0, 1));
-    let is_repeated = WITHOUT_REPEATED && textureLoad(seen_tex, px).x != 0u;
+    let is_repeated = WITHOUT_REPEATED && textureLoad(nearer_lines_tex, px).x != 0u;
     if begins == 0u || is_repeated || (marks & DRAWN) != 0u {
         discard;
     }
@@ -89,33 +89,33 @@ struct Spine {
 }
 
 // Whether a surface would go on to a pixel but for the cut.
-fn is_cut_off(q: vec2<i32>, plane: Plane, towards: vec2<i32>) -> bool {
+fn is_clipped_off(q: vec2<i32>, plane: Plane, towards: vec2<i32>) -> bool {
     let there = pos_view_of(q, depth_of(nearness_at(plane, vec2<f32>(towards))));
-    return dot(frame.cut, vec4(there, 1.0)) < 0.0;
+    return dot(frame.clip_plane, vec4(there, 1.0)) < 0.0;
 }
 
 // Whether a surface is found at a pixel in a nearer layer: where a solid ends, what lies behind it comes two layers nearer,
 // where a sheet ends, one.
-fn goes_on_nearer(px: vec2<i32>, region: u32) -> bool {
+fn goes_on_nearer(px: vec2<i32>, surface_id: u32) -> bool {
     let q = clamp(px, vec2(0), vec2<i32>(frame.size) - 1);
-    return textureLoad(before_tex, q, 0).x == region || textureLoad(before_that_tex, q, 0).x == region;
+    return textureLoad(before_tex, q, 0).x == surface_id || textureLoad(before_that_tex, q, 0).x == surface_id;
 }
 
-// What lies between pixel `px` (surface `x`) and its neighbour of a `region`; class 0: nothing that `x` has to draw.
-fn between(px: vec2<i32>, x: Surfel, own: u32, plane: Plane, towards: vec2<i32>, region: u32) -> Spine {
+// What lies between pixel `px` (surface `x`) and its neighbour of a `surface_id`; class 0: nothing that `x` has to draw.
+fn between(px: vec2<i32>, x: Surfel, own: u32, plane: Plane, towards: vec2<i32>, surface_id: u32) -> Spine {
     let q = px + towards;
     let none = Spine(NO_EDGE, vec2(0.0), vec2(1.0, 0.0), false);
-    if region == own {
+    if surface_id == own {
         return none;
     }
-    if WITH_CUT && is_cut_off(q, plane, towards) {
+    if WITH_CLIP_PLANE && is_clipped_off(q, plane, towards) {
         return none;
     }
     let half = 0.5 * vec2<f32>(towards);
     let across = vec2(half.y, -half.x) * 2.0;
     let n = unpack_surfel(geometry_at(q));
     // There the geometry of a layer is undefined.
-    if region == 0u {
+    if surface_id == 0u {
         if WITH_LAYERS_BEFORE && goes_on_nearer(q, own) {
             return none;
         }
@@ -141,7 +141,7 @@ fn between(px: vec2<i32>, x: Surfel, own: u32, plane: Plane, towards: vec2<i32>,
     let angle = acos(clamp(abs(dot(x.face_normal, n.face_normal)), 0.0, 1.0));
     let other_draws = n.enhanced && edge_styles[n.object].lines[INTERSECTION - 1u].strength > 0.0;
     // One of the two draws it.
-    if angle < edge_styles[x.object].lines[INTERSECTION - 1u].threshold || (other_draws && region < own) {
+    if angle < edge_styles[x.object].lines[INTERSECTION - 1u].threshold || (other_draws && surface_id < own) {
         return none;
     }
     // Where the two planes meet.
@@ -172,24 +172,24 @@ struct Out {
 fn fs_main(@builtin(position) position: vec4<f32>) -> Out {
     let px = vec2<i32>(position.xy);
     let x = unpack_surfel(geometry_at(px));
-    let regions = regions_at(px);
-    let own = regions.own;
+    let surface_ids = surface_ids_at(px);
+    let own = surface_ids.own;
     // An edge near a segment is the segment's; where the near plane cuts, there is no edge.
     var marks = 0u;
     for (var i = 0; i < 9; i++) {
         marks |= mark_at(px + vec2(i % 3, i / 3) - 1);
     }
-    if !x.enhanced || (marks & DRAWN) != 0u || x.depth < 1.5 * frame.cut_depth {
+    if !x.enhanced || (marks & DRAWN) != 0u || x.depth < 1.5 * frame.near_clip_depth {
         discard;
     }
     if edge_styles[x.object].mode != EXACT_MODE {
         discard;
     }
     let plane = plane_of(px, x.depth, x.face_normal);
-    let right = between(px, x, own, plane, vec2(1, 0), regions.right);
-    let left = between(px, x, own, plane, vec2(-1, 0), regions.left);
-    let below = between(px, x, own, plane, vec2(0, 1), regions.below);
-    let above = between(px, x, own, plane, vec2(0, -1), regions.above);
+    let right = between(px, x, own, plane, vec2(1, 0), surface_ids.right);
+    let left = between(px, x, own, plane, vec2(-1, 0), surface_ids.left);
+    let below = between(px, x, own, plane, vec2(0, 1), surface_ids.below);
+    let above = between(px, x, own, plane, vec2(0, -1), surface_ids.above);
     // The line nearest to the centre; between two neighbours it runs aslant.
     var spine = right;
     if is_nearer(left, spine) {
@@ -229,6 +229,6 @@ fn fs_main(@builtin(position) position: vec4<f32>) -> Out {
         select(0.0, 1.0, edge_styles[x.object].lines[spine.class_of - 1u].strength > 0.0),
     ));
     let rank = select(0.0, 1.0, spine.class_of <= OBJECT);
-    let seen = seen_at(seen_tex, px, spine_of(texel, halves_of(x.object, spine.class_of), rank, 1.0 - range_share(x.depth)));
-    return Out(texel, seen.own, seen.now);
+    let lines = nearer_lines_at(nearer_lines_tex, px, spine_of(texel, halves_of(x.object, spine.class_of), rank, 1.0 - range_share(x.depth)));
+    return Out(texel, lines.own, lines.now);
 }

@@ -19,11 +19,11 @@ fn next_index(px: vec2<u32>) -> u32 {
 
 fn append(position: vec4<f32>, ids: vec4<u32>, drawn: GBuffer) {
     let index = next_index(vec2<u32>(position.xy));
-    let room = textureDimensions(link_tex);
+    let capacity = textureDimensions(link_tex);
     if index < room.x * room.y {
         let next = atomicExchange(&heads[list_of(vec2<u32>(position.xy))], index + 1u);
         let link = Link(next, bitcast<u32>(position.z), order_of(ids), drawn.geometry.x);
-        let payload = Payload(drawn.geometry.y, drawn.geometry.z, drawn.geometry.w, drawn.region);
+        let payload = Payload(drawn.geometry.y, drawn.geometry.z, drawn.geometry.w, drawn.surface_id);
         textureStore(link_tex, texel_of_record(index), texel_of_link(link));
         textureStore(payload_tex, texel_of_record(index), texel_of_payload(payload));
         if WITH_COLOR {

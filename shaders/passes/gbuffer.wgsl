@@ -1,12 +1,12 @@
 // Every visible object into the G-buffer, in one traversal (edge-enhancement paper, section 4.1.1).
 #import common/frame.wgsl
 #import common/octahedral.wgsl
-#import common/region.wgsl
+#import common/surface_id.wgsl
 #import common/material.wgsl
 #import common/instance.wgsl
 
 // Whether what lies behind a plane is left out: that of a mirror, that of the section, or either.
-override WITH_CUT: bool = false;
+override WITH_CLIP_PLANE: bool = false;
 // Whether vertices are moved along their normals, so that there are values around objects too (sketchy drawings paper, section
 // 4.2).
 override ENLARGED: bool = false;
@@ -22,7 +22,7 @@ struct Lean {
     @builtin(position) @invariant position: vec4<f32>,
     // View-oriented, but about the object's own origin, so that derivatives keep their digits far from the eye.
     @location(0) pos_oriented: vec3<f32>,
-    // Linear depth, and how far in front of the planes of `WITH_CUT` it lies.
+    // Linear depth, and how far in front of the planes of `WITH_CLIP_PLANE` it lies.
     @location(1) depths: vec3<f32>,
     // Surface, object, order of its first surface, whether it is flat.
     @location(2) @interpolate(flat, first) ids: vec4<u32>,
@@ -52,12 +52,12 @@ struct Full {
 struct GBuffer {
     @location(0) geometry: vec4<u32>,
     @location(1) base_color: vec4<f32>,
-    @location(2) region: u32,
+    @location(2) surface_id: u32,
 }
 
 fn depths(pos_view: vec4<f32>) -> vec3<f32> {
-    let planes = vec2(dot(frame.cut, pos_view), dot(frame.section, pos_view));
-    return vec3(-pos_view.z, select(vec2(0.0), planes, WITH_CUT));
+    let planes = vec2(dot(frame.clip_plane, pos_view), dot(frame.section, pos_view));
+    return vec3(-pos_view.z, select(vec2(0.0), planes, WITH_CLIP_PLANE));
 }
 
 fn ids(instance: Instance, surface: u32) -> vec4<u32> {
@@ -154,12 +154,12 @@ fn pack(normal: vec3<f32>, face: vec3<f32>, depth: f32, object: u32) -> vec4<u32
     );
 }
 
-fn is_cut_off(depths: vec3<f32>) -> bool {
-    return WITH_CUT && min(depths.y, depths.z) < 0.0;
+fn is_clipped_off(depths: vec3<f32>) -> bool {
+    return WITH_CLIP_PLANE && min(depths.y, depths.z) < 0.0;
 }
 
-fn region(ids: vec4<u32>) -> u32 {
-    return region_of(ids.y, ids.x);
+fn surface_id(ids: vec4<u32>) -> u32 {
+    return surface_id_of(ids.y, ids.x);
 }
 
 // What lies equally deep is ordered as it is drawn: by its draw, then by its surface, of which the triangles are drawn in
@@ -170,10 +170,10 @@ fn order_of(ids: vec4<u32>) -> u32 {
 
 fn lean(v: Lean) -> GBuffer {
     let face = face_normal(v.pos_oriented);
-    if is_cut_off(v.depths) {
+    if is_clipped_off(v.depths) {
         discard;
     }
-    return GBuffer(pack(face, face, v.depths.x, v.ids.y), v.color, region(v.ids));
+    return GBuffer(pack(face, face, v.depths.x, v.ids.y), v.color, surface_id(v.ids));
 }
 
 // Seen from behind, a surface is shaded as if it were two-sided.
@@ -188,11 +188,11 @@ fn fs_lean(v: Lean) -> GBuffer {
 
 fn smooth_surface(v: Smooth) -> GBuffer {
     let face = face_normal(v.pos_oriented);
-    if is_cut_off(v.depths) {
+    if is_clipped_off(v.depths) {
         discard;
     }
     let normal = select(turned_to(face, normalize(v.normal)), face, v.ids.w == 1u);
-    return GBuffer(pack(normal, face, v.depths.x, v.ids.y), vec4(v.color, 1.0), region(v.ids));
+    return GBuffer(pack(normal, face, v.depths.x, v.ids.y), vec4(v.color, 1.0), surface_id(v.ids));
 }
 
 @fragment
@@ -208,7 +208,7 @@ fn full(v: Full) -> GBuffer {
     let color = textureSampleGrad(base_tex, base_sampler, base.uv, base.dx, base.dy) * material.base_color * v.color;
     let fine = transformed(uv, material.normal_uv);
     let bump = textureSampleGrad(normal_tex, normal_sampler, fine.uv, fine.dx, fine.dy).xyz * 2.0 - 1.0;
-    if color.a < material.alpha_cutoff || is_cut_off(v.depths) {
+    if color.a < material.alpha_cutoff || is_clipped_off(v.depths) {
         discard;
     }
     var normal = face;
@@ -223,7 +223,7 @@ fn full(v: Full) -> GBuffer {
         normal = turned_to(face, normal);
     }
     let base_color = vec4(color.rgb, select(1.0, color.a, material.blends == 1u));
-    return GBuffer(pack(normal, face, v.depths.x, v.ids.y), base_color, region(v.ids));
+    return GBuffer(pack(normal, face, v.depths.x, v.ids.y), base_color, surface_id(v.ids));
 }
 
 @fragment

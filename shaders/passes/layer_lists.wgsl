@@ -8,7 +8,7 @@
 struct Band {
     first_row: u32,
     end_row: u32,
-    room: u32,
+    capacity: u32,
 }
 
 // Appending.
@@ -42,7 +42,7 @@ fn append(index: u32, pixel: u32, texel: vec4<u32>) {
     // Depths are positive: their bits are in the same order.
     let depth = max(deepest[pixel], texel.z);
     deepest[pixel] = depth;
-    if index < band.room {
+    if index < band.capacity {
         textureStore(new_entry_tex, texel_of_record(index), vec4(heads[pixel], depth, texel.xy));
         heads[pixel] = index + 1u;
     }

@@ -50,7 +50,7 @@ fn hides(g: Surfel, px: vec2<i32>, depth: f32, to_spine: vec2<f32>, most: f32) -
     return g.object != 0u && step_px(lead, depth) > most;
 }
 
-fn is_hidden(g: Surfel, px: vec2<i32>, edge: Edge, spine: vec2<f32>) -> bool {
+fn is_occluded(g: Surfel, px: vec2<i32>, edge: Edge, spine: vec2<f32>) -> bool {
     return g.object != edge.object && hides(g, px, edge.depth, spine - vec2<f32>(px) - 0.5, slack());
 }
 
@@ -60,7 +60,7 @@ struct Line {
     // Linear depth of its spine.
     depth: f32,
     // Whether it would be here, were it not for a surface before it.
-    is_hidden: bool,
+    is_occluded: bool,
     // How strong its ink is where it covers all of a pixel, 0 to 1.
     strength: f32,
     // From its spine to here, px.
@@ -124,7 +124,7 @@ fn line_at(at: vec2<f32>, g: Surfel, found: u32) -> Line {
     let strength = edge_styles[edge.object].lines[index].strength * edge.weight;
     coverage *= strength;
     let at_source = vec2<i32>(floor(at + to_source));
-    if coverage <= 0.0 || (!is_tested && is_hidden(surface, at_source, edge, spine + to_source)) {
+    if coverage <= 0.0 || (!is_tested && is_occluded(surface, at_source, edge, spine + to_source)) {
         return Line(vec4(0.0), edge.depth, coverage > 0.0, 0.0, d, to_source);
     }
     var color = edge_styles[edge.object].lines[index].color;
@@ -280,30 +280,30 @@ fn over(front: vec4<f32>, back: vec4<f32>) -> vec4<f32> {
 }
 
 // Not 0 where exact lines can reach a pixel, and for some beside.
-fn reached_by_lines(px: vec2<i32>) -> u32 {
-    var reached = 0u;
+fn covered_by_lines(px: vec2<i32>) -> u32 {
+    var covered = 0u;
     if WITH_EXACT {
         if NARROW {
-            reached |= textureLoad(nearest_tex, px / 4).x;
+            covered |= textureLoad(nearest_tex, px / 4).x;
         } else {
-            reached |= textureLoad(farthest_tex, px, 0).x;
+            covered |= textureLoad(farthest_tex, px, 0).x;
         }
         if WITH_WIDTHS {
-            reached |= textureLoad(nearest_tex, px).x;
+            covered |= textureLoad(nearest_tex, px).x;
         }
     }
-    return reached;
+    return covered;
 }
 
 // Marks the pixels that lines can reach, and some beside them.
 @fragment
-fn fs_reached(@builtin(position) position: vec4<f32>) {
+fn fs_covered(@builtin(position) position: vec4<f32>) {
     let px = vec2<i32>(position.xy);
-    var reached = reached_by_lines(px);
+    var covered = covered_by_lines(px);
     if WITH_PAPER {
-        reached |= textureLoad(edge_map_tex, px).x;
+        covered |= textureLoad(edge_map_tex, px).x;
     }
-    if reached == 0u {
+    if covered == 0u {
         discard;
     }
 }
@@ -311,8 +311,8 @@ fn fs_reached(@builtin(position) position: vec4<f32>) {
 // With ink of the papers' operators over it, as far as surface `g` does not hide that; `texel`: of the edge map.
 fn with_paper_ink(lines: Line, texel: vec4<u32>, g: Surfel) -> Line {
     let depth = bitcast<f32>(texel.z);
-    let is_hidden = g.object != 0u && step_px(nearness_of(g.depth) - nearness_of(depth), depth) > slack();
-    if class_of(texel) != PAPER || is_hidden {
+    let is_occluded = g.object != 0u && step_px(nearness_of(g.depth) - nearness_of(depth), depth) > slack();
+    if class_of(texel) != PAPER || is_occluded {
         return lines;
     }
     // Edge-enhancement paper, section 5: inner edges first, then profile edges over them.
@@ -336,7 +336,7 @@ fn lines_at_place(at: vec2<f32>, g: Surfel) -> Line {
     if WITH_EXACT {
         let farthest = farthest_at(px);
         lines = line_at(at, g, farthest);
-        if lines.is_hidden {
+        if lines.is_occluded {
             lines = line_around(at, g, farthest);
         }
         if NARROW && !NARROW_BY_TWO && !MOVED && farthest != 0u {

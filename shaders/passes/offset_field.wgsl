@@ -155,7 +155,7 @@ fn stretch_at(px: vec2<i32>, edge: Edge, spine: vec2<f32>) -> f32 {
 
 // Lists the pixels in which lines run: software devices run both sides of a branch.
 @compute @workgroup_size(8, 8)
-fn cs_sift(@builtin(global_invocation_id) id: vec3<u32>) {
+fn cs_compact(@builtin(global_invocation_id) id: vec3<u32>) {
     let px = vec2<i32>(id.xy);
     if any(px >= vec2<i32>(frame.size)) {
         return;

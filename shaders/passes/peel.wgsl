@@ -8,7 +8,7 @@
 
 struct Layer {
     @location(0) geometry: vec4<u32>,
-    @location(1) region: u32,
+    @location(1) surface_id: u32,
     // Reversed depth, as bits, and of which draw and surface it is; 0: nothing.
     @location(2) sort_key: vec2<u32>,
     // Where it is asked for.
@@ -27,7 +27,7 @@ fn layer(position: vec4<f32>, ids: vec4<u32>, drawn: GBuffer) -> Layer {
     if !is_behind {
         discard;
     }
-    return Layer(drawn.geometry, drawn.region, sort_key, unpack_color(pack_color(drawn.base_color)));
+    return Layer(drawn.geometry, drawn.surface_id, sort_key, unpack_color(pack_color(drawn.base_color)));
 }
 
 @fragment
@@ -49,17 +49,17 @@ fn fs_full_layer(v: Full) -> Layer {
 
 @fragment
 fn fs_lean_counted(v: Lean) -> @location(0) u32 {
-    return layer(v.position, v.ids, lean(v)).region;
+    return layer(v.position, v.ids, lean(v)).surface_id;
 }
 
 @fragment
 fn fs_smooth_counted(v: Smooth) -> @location(0) u32 {
-    return layer(v.position, v.ids, smooth_surface(v)).region;
+    return layer(v.position, v.ids, smooth_surface(v)).surface_id;
 }
 
 @fragment
 fn fs_full_counted(v: Full) -> @location(0) u32 {
-    return layer(v.position, v.ids, full(v)).region;
+    return layer(v.position, v.ids, full(v)).surface_id;
 }
 
 // The base colour of a layer that has been drawn, where a pass has no room for it beside the rest.

@@ -16,8 +16,8 @@ var spine_tex: texture_storage_2d<r32uint, write>;
 var mark_tex: texture_storage_2d<r32uint, write>;
 
 // Without repeated lines: the spines of all nearer layers, and to which of them those of this one are added.
-var seen_tex: texture_storage_2d<r32uint, read>;
-var now_seen_tex: texture_storage_2d<r32uint, write>;
+var nearer_lines_tex: texture_storage_2d<r32uint, read>;
+var accumulated_lines_tex: texture_storage_2d<r32uint, write>;
 
 // Whether more points follow that have to be compared with these.
 override KEEP_KEYS: bool = false;
@@ -65,12 +65,12 @@ fn cs_put(@builtin(global_invocation_id) id: vec3<u32>) {
 }
 
 @compute @workgroup_size(256)
-fn cs_put_unseen(@builtin(global_invocation_id) id: vec3<u32>) {
+fn cs_put_unrepeated(@builtin(global_invocation_id) id: vec3<u32>) {
     let point = points[id.x];
     if is_winner(point, id.x) {
         let px = pixel_of(point);
-        let seen = seen_at(seen_tex, px, point.spine);
-        put(point, px, seen.own);
-        textureStore(now_seen_tex, px, vec4(seen.now, 0u, 0u, 0u));
+        let lines = nearer_lines_at(nearer_lines_tex, px, point.spine);
+        put(point, px, lines.own);
+        textureStore(accumulated_lines_tex, px, vec4(lines.now, 0u, 0u, 0u));
     }
 }

@@ -1,5 +1,5 @@
 // The lines that topology knows (silhouettes, borders, creases, material boundaries), where something of them is visible:
-// the pixels of each segment, one per step along it. Software devices run both sides of a branch, so steps are sifted first,
+// the pixels of each segment, one per step along it. Software devices run both sides of a branch, so steps are culled first,
 // and only those that are left are looked at closely. passes/segment_points.wgsl puts what is found into the edge map.
 #import common/frame.wgsl
 #import common/gbuffer.wgsl
@@ -19,7 +19,7 @@ override IN_LAYER: bool = false;
 // Whether segments are drawn elsewhere than they are tested.
 override WITH_STROKES: bool = false;
 
-var region_tex: texture_storage_2d<r32uint, read>;
+var surface_id_tex: texture_storage_2d<r32uint, read>;
 // `LineSegment` of src/geometry/line_segments.rs, four texels each.
 var segment_tex: texture_storage_2d<rgba32uint, read>;
 // With strokes: `Tested` of src/geometry/line_segments/strokes.rs, two texels each.
@@ -28,14 +28,14 @@ var tested_tex: texture_storage_2d<rgba32uint, read>;
 var step_tex: texture_storage_2d<rgba32uint, read>;
 // Where layers are asked about each step, once for all of them: its pixel (column in the lower 16 bits, row in the upper
 // ones; `NO_STEP`: nowhere), five pixels around it, of which each lies three bits (plus 4) farther in x and in y, and the
-// regions of its two sides.
+// surface ids of its two sides.
 var placed_tex: texture_storage_2d<rgba32uint, write>;
-// While steps are sifted: those that are kept, in any order.
+// While steps are culled: those that are kept, in any order.
 var<storage, read_write> keeping: Counting;
 var<storage, read_write> keeping_steps: array<u32>;
 var place_tex: texture_storage_2d<rgba32uint, read>;
 // Without repeated lines: the spines of all nearer layers.
-var seen_tex: texture_storage_2d<r32uint, read>;
+var nearer_lines_tex: texture_storage_2d<r32uint, read>;
 // Afterwards the same.
 var<storage, read> kept: Kept;
 var<storage, read> kept_steps: array<u32>;
@@ -61,7 +61,7 @@ const SLACK: f32 = 0.4;
 // How far beside the spine is looked, px: just far enough that the pixel lies wholly on that side.
 const BESIDE: f32 = 0.8;
 // Set in the class of a segment that nobody asked for: it is not drawn, but explains why two surfaces meet here.
-const HIDDEN: u32 = 0x80000000u;
+const SUPPRESSED: u32 = 0x80000000u;
 // Set too in that of one which is drawn as strokes: it explains as much as if it were drawn.
 const ELSEWHERE: u32 = 0x40000000u;
 
@@ -72,7 +72,7 @@ struct Segment {
     depths_arcs: vec4<f32>,
     // Dihedral angle, radians.
     angle: f32,
-    // Class, object, regions of the two sides.
+    // Class, object, surface ids of the two sides.
     ids: vec4<u32>,
 }
 
@@ -150,10 +150,10 @@ fn texel_beside(spine: Spine, along: f32) -> vec2<i32> {
 }
 
 // Whether one of these surfaces is seen on either side of a spine, or on it.
-fn is_carried_beside(spine: Spine, regions: vec2<u32>) -> bool {
+fn is_carried_beside(spine: Spine, surface_ids: vec2<u32>) -> bool {
     var found = false;
     for (var i = 1; i <= 3; i++) {
-        found = found || any(regions == vec2(textureLoad(region_tex, texel_beside(spine, PLACES[i])).x));
+        found = found || any(surface_ids == vec2(textureLoad(surface_id_tex, texel_beside(spine, PLACES[i])).x));
     }
     return found;
 }
@@ -169,14 +169,14 @@ struct Beside {
 }
 
 // So far along the normal of the spine, px.
-fn beside(spine: Spine, along: f32, regions: vec2<u32>) -> Beside {
+fn beside(spine: Spine, along: f32, surface_ids: vec2<u32>) -> Beside {
     let px = texel_beside(spine, along);
-    var region = 0u;
+    var surface_id = 0u;
     var texel = textureLoad(geometry_tex, px);
     if IN_LAYER {
-        region = textureLoad(region_tex, px).x;
+        surface_id = textureLoad(surface_id_tex, px).x;
         // Where a layer has nothing its geometry is undefined.
-        texel = select(texel, vec4(0u), region == 0u);
+        texel = select(texel, vec4(0u), surface_id == 0u);
     }
     let s = unpack_surfel(texel);
     let plane = plane_of(px, s.depth, s.face_normal);
@@ -184,7 +184,7 @@ fn beside(spine: Spine, along: f32, regions: vec2<u32>) -> Beside {
     var carries = false;
     if IN_LAYER {
         let miss = abs(lead) - length(plane.slope);
-        carries = any(regions == vec2(region)) && step_px(miss, spine.depth) <= 2.0;
+        carries = any(surface_ids == vec2(surface_id)) && step_px(miss, spine.depth) <= 2.0;
     }
     return Beside(s, select(step_px(lead, spine.depth), -1e9, s.object == 0u), carries && s.object != 0u);
 }
@@ -208,12 +208,12 @@ fn length_of(v: Segment, depth: f32) -> f32 {
 fn goes_on_under(spine: Spine, own: u32, edge_px: f32) -> bool {
     let one_px = texel_beside(spine, PLACES[0]);
     let other_px = texel_beside(spine, PLACES[4]);
-    let region = textureLoad(region_tex, one_px).x;
+    let surface_id = textureLoad(surface_id_tex, one_px).x;
     let one = unpack_surfel(textureLoad(geometry_tex, one_px));
     let other = unpack_surfel(textureLoad(geometry_tex, other_px));
-    // Where a layer has nothing, region 0, its geometry is undefined.
+    // Where a layer has nothing, surface id 0, its geometry is undefined.
     let alike = dot(one.normal, other.normal);
-    let is_same = region != 0u && region == textureLoad(region_tex, other_px).x
+    let is_same = surface_id != 0u && surface_id == textureLoad(surface_id_tex, other_px).x
         && one.object == own && other.object == own && alike > FOLDED;
     if !is_same {
         return false;
@@ -241,7 +241,7 @@ fn goes_on_under(spine: Spine, own: u32, edge_px: f32) -> bool {
             abs(nearness_at(here, vec2<f32>(px - one_px)) - nearness_of(between.depth)),
             abs(nearness_at(there, vec2<f32>(px - other_px)) - nearness_of(between.depth)),
         );
-        let is_there = between.object == own && textureLoad(region_tex, px).x != 0u;
+        let is_there = between.object == own && textureLoad(surface_id_tex, px).x != 0u;
         greatest = max(greatest, select(1e9, step_px(miss, one.depth), is_there));
     }
     return greatest < SLACK;
@@ -301,22 +301,22 @@ fn spine_along(v: Segment, direction: vec3<f32>, t: f32) -> Spine {
 fn point_at(v: Segment, number: u32, px: vec2<f32>) -> SegmentPoint {
     let spine = spine_at(v, px);
     let depth = spine.depth;
-    let regions = v.ids.zw;
+    let surface_ids = v.ids.zw;
     let tested = tested_spine(v, number, spine);
     let hand = hand_at(number);
-    let left = beside(tested, PLACES[3], regions);
-    let right = beside(tested, PLACES[1], regions);
+    let left = beside(tested, PLACES[3], surface_ids);
+    let right = beside(tested, PLACES[1], surface_ids);
     let own = v.ids.y;
     var is_visible = min(left.lead, right.lead) <= SLACK;
     // A layer is asked for what carries the line in any case.
     if WITH_HOLES && !IN_LAYER {
-        is_visible = is_visible && is_carried_beside(tested, regions);
+        is_visible = is_visible && is_carried_beside(tested, surface_ids);
     }
     if IN_LAYER {
         let is_carried = left.carries || right.carries
-            || beside(spine, PLACES[2], regions).carries
-            || beside(spine, PLACES[4], regions).carries
-            || beside(spine, PLACES[0], regions).carries;
+            || beside(spine, PLACES[2], surface_ids).carries
+            || beside(spine, PLACES[4], surface_ids).carries
+            || beside(spine, PLACES[0], surface_ids).carries;
         is_visible = is_visible && is_carried;
     }
     if !is_visible {
@@ -345,7 +345,7 @@ fn point_at(v: Segment, number: u32, px: vec2<f32>) -> SegmentPoint {
         weight = 1.0;
     }
     let is_drawn = edge_styles[own].lines[index].strength > 0.0 && weight > 0.0;
-    let is_hidden = (v.ids.x & HIDDEN) != 0u || !is_drawn;
+    let is_suppressed = (v.ids.x & SUPPRESSED) != 0u || !is_drawn;
     let pos_view = pos_view_of(vec2<i32>(px), depth);
     let front = select(left.surfel.normal, right.surfel.normal, left_is_outside);
     let full_width = half_width(own, class_of, pos_view, front);
@@ -368,7 +368,7 @@ fn point_at(v: Segment, number: u32, px: vec2<f32>) -> SegmentPoint {
         depth,
         width,
         arc / edge_styles[own].dash_period,
-        select(weight, 0.0, is_hidden),
+        select(weight, 0.0, is_suppressed),
     );
     // Where segments share a pixel the widest wins, for it would hide the others; profile edges before inner ones; then
     // the nearest, so roughly that lines at one place are told apart by the object's number: which one wins does not change
@@ -381,14 +381,14 @@ fn point_at(v: Segment, number: u32, px: vec2<f32>) -> SegmentPoint {
     // Of strokes the same time of drawing counts everywhere, so that none tears another one along it.
     let first = select(nearest, mix(nearest, hand.precedence, 0.5), WITH_STROKES);
     let drawn = select(rank + 1.0 + 0.499 * first, 0.5 + 0.499 * first, ends_here);
-    let order = select(drawn, 0.5 * nearest, is_hidden) / 128.0;
+    let order = select(drawn, 0.5 * nearest, is_suppressed) / 128.0;
     var texel = pack_edge(edge);
     texel.w |= select(0u, STROKE, hand.is_stroke);
     let is_rim = class_of <= OBJECT;
     // Strokes cross each other: there is no room around any line.
     let nearness = select(1.0 - range_share(depth), 0.0, WITH_STROKES);
     let packed = spine_of(texel, halves_of(own, class_of), select(0.0, 1.0, is_profile && !WITH_STROKES), nearness);
-    let mark = select(0u, 1u, is_rim || !is_hidden || (is_drawn && (v.ids.x & ELSEWHERE) != 0u));
+    let mark = select(0u, 1u, is_rim || !is_suppressed || (is_drawn && (v.ids.x & ELSEWHERE) != 0u));
     // Positive numbers have the order of their bits, and those below 1 leave two of them.
     return SegmentPoint(texel, packed, (bitcast<u32>(order) << 1u) | mark, u32(px.x) | (u32(px.y) << 16u), number);
 }
@@ -420,15 +420,15 @@ fn keep(number: u32) {
 // In a layer a step is worth a closer look if one of its surfaces is seen nearby, as few are, and no nearer layer has a line in
 // this very pixel, as one has of every outline.
 @compute @workgroup_size(GROUP)
-fn cs_sift_layer(@builtin(global_invocation_id) id: vec3<u32>) {
+fn cs_cull_layer(@builtin(global_invocation_id) id: vec3<u32>) {
     let place = texel_at(place_tex, id.x);
     let px = vec2<i32>(vec2(place.x & 0xffffu, place.x >> 16u));
     var is_seen = false;
     for (var i = 0u; i < 5u; i++) {
         let away = vec2<i32>(vec2(place.y >> (6u * i), place.y >> (6u * i + 3u)) & vec2(7u)) - 4;
-        is_seen = is_seen || any(place.zw == vec2(textureLoad(region_tex, px + away).x));
+        is_seen = is_seen || any(place.zw == vec2(textureLoad(surface_id_tex, px + away).x));
     }
-    let is_repeated = WITHOUT_REPEATED && textureLoad(seen_tex, px).x != 0u;
+    let is_repeated = WITHOUT_REPEATED && textureLoad(nearer_lines_tex, px).x != 0u;
     if place.x != NO_STEP && is_seen && !is_repeated {
         keep(id.x);
     }
@@ -436,7 +436,7 @@ fn cs_sift_layer(@builtin(global_invocation_id) id: vec3<u32>) {
 
 // Otherwise, if no surface lies before it.
 @compute @workgroup_size(GROUP)
-fn cs_sift(@builtin(global_invocation_id) id: vec3<u32>) {
+fn cs_cull(@builtin(global_invocation_id) id: vec3<u32>) {
     let step = step_at(id.x);
     let segment = segment_at(step.x);
     let place = place_of(segment.ends, step.y);

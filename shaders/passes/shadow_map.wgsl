@@ -20,7 +20,7 @@ fn vs_main(@location(0) position: vec3<f32>) -> @builtin(position) @invariant ve
     return draw.clip_from_local * vec4(position, 1.0);
 }
 
-struct Cut {
+struct Clipped {
     @builtin(position) @invariant position: vec4<f32>,
     // Distance before the section plane.
     @location(0) lead: f32,
@@ -31,12 +31,12 @@ fn lead_of(position: vec3<f32>) -> f32 {
 }
 
 @vertex
-fn vs_cut(@location(0) position: vec3<f32>) -> Cut {
-    return Cut(draw.clip_from_local * vec4(position, 1.0), lead_of(position));
+fn vs_clipped(@location(0) position: vec3<f32>) -> Clipped {
+    return Clipped(draw.clip_from_local * vec4(position, 1.0), lead_of(position));
 }
 
 @fragment
-fn fs_cut(v: Cut) {
+fn fs_clipped(v: Clipped) {
     if v.lead < 0.0 {
         discard;
     }

@@ -13,7 +13,7 @@ const CLASS_COLORS = array<vec3<f32>, 10>(
     vec3(0.6, 0.3, 0.5), vec3(0.35, 0.35, 0.45),
 );
 
-var region_tex: texture_2d<u32>;
+var surface_id_tex: texture_2d<u32>;
 var base_color_tex: texture_2d<f32>;
 var edge_map_tex: texture_storage_2d<rgba32uint, read>;
 var operators_tex: texture_2d<f32>;
@@ -63,8 +63,8 @@ fn fs_objects(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> 
 fn fs_surfaces(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     let px = vec2<i32>(position.xy);
     let s = surfel(px);
-    let region = textureLoad(region_tex, px, 0).x;
-    return vec4(select(vec3(1.0), color_of(region), s.object != 0u), 1.0);
+    let surface_id = textureLoad(surface_id_tex, px, 0).x;
+    return vec4(select(vec3(1.0), color_of(surface_id), s.object != 0u), 1.0);
 }
 
 @fragment

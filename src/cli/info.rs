@@ -92,7 +92,7 @@ fn as_json(opened: &Opened) -> Result<(), CliError> {
                     "added_vertices": mended.added_vertices,
                     "dropped_triangles": mended.dropped_triangles,
                 })),
-                "materials": m.parts.iter().map(|p| p.material).collect::<Vec<_>>(),
+                "materials": m.submeshes.iter().map(|p| p.material).collect::<Vec<_>>(),
             })
         })
         .collect();

@@ -8,7 +8,7 @@ use glam::{Vec2, Vec3, Vec4};
 
 use super::edge::FOLDED;
 use super::mend::{SeamTolerance, mend};
-use super::{Adjacency, EdgeKind, Mesh, MeshPart};
+use super::{Adjacency, EdgeKind, Mesh, Submesh};
 
 /// A border edge at which another mesh in the same place goes on.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -136,9 +136,9 @@ impl Whole {
                 whole.tangents.extend(&mesh.tangents);
                 whole.tangents.resize(count, Vec4::ZERO);
             }
-            for part in &mesh.parts {
+            for part in &mesh.submeshes {
                 let first_index = whole.indices.len() as u32 + part.first_index;
-                whole.parts.push(MeshPart { first_index, material: parts.len(), ..*part });
+                whole.submeshes.push(Submesh { first_index, material: parts.len(), ..*part });
                 parts.push(Part { member, material: part.material });
             }
             whole.indices.extend(mesh.indices.iter().map(|v| first + v));
@@ -147,9 +147,9 @@ impl Whole {
     }
 
     fn part_of(&self, face: u32) -> Part {
-        let parts = &self.mesh.parts;
+        let parts = &self.mesh.submeshes;
         let number = parts.partition_point(|part| part.first_index <= 3 * face).saturating_sub(1);
-        self.parts[parts[number].material]
+        self.submeshes[parts[number].material]
     }
 
     /// One of the meshes again.
@@ -158,12 +158,16 @@ impl Whole {
         let mut sources = Vec::new();
         let mut indices = Vec::new();
         let mut parts = Vec::new();
-        for part in &self.mesh.parts {
-            let Part { member: owner, material } = self.parts[part.material];
+        for part in &self.mesh.submeshes {
+            let Part { member: owner, material } = self.submeshes[part.material];
             if owner != member {
                 continue;
             }
-            parts.push(MeshPart { first_index: indices.len() as u32, index_count: part.index_count, material });
+            parts.push(Submesh {
+                first_index: indices.len() as u32,
+                index_count: part.index_count,
+                material,
+            });
             for &v in &self.mesh.indices[part.first_index as usize..][..part.index_count as usize] {
                 let new = &mut new_index[v as usize];
                 if *new == u32::MAX {
@@ -180,7 +184,8 @@ impl Whole {
             mended: old.mended,
             ..self.mesh.gather(&sources)
         };
-        let lacks = [old.normals.is_empty(), old.uvs.is_empty(), old.colors.is_empty(), old.tangents.is_empty()];
+        let lacks =
+            [old.normals.is_empty(), old.uvs.is_empty(), old.colors.is_empty(), old.tangents.is_empty()];
         if lacks[0] {
             mesh.normals.clear();
         }

@@ -4,7 +4,7 @@ use glam::{Vec2, Vec3};
 use rayon::prelude::*;
 
 use super::normals::face_normal;
-use super::{Mesh, MeshPart};
+use super::{Mesh, Submesh};
 
 /// What [`clean`] dropped or repaired.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -104,7 +104,7 @@ pub fn clean(mut mesh: Mesh) -> (Mesh, Report) {
     if report.dropped() > 0 {
         keep(&mut mesh, &verdicts);
     }
-    mesh.parts.retain(|part| part.index_count > 0);
+    mesh.submeshes.retain(|part| part.index_count > 0);
     if report.dropped() > 0 || !all_finite {
         mesh = mesh.without_unused_vertices();
     }
@@ -247,7 +247,7 @@ fn select(items: impl ExactSizeIterator<Item = u32>, wanted: impl Fn(u32) -> boo
 fn keep(mesh: &mut Mesh, verdicts: &[Verdict]) {
     let mut indices = Vec::with_capacity(mesh.indices.len());
     let triangles = mesh.indices.as_chunks::<3>().0;
-    for part in &mut mesh.parts {
+    for part in &mut mesh.submeshes {
         let first = (part.first_index as usize / 3).min(triangles.len());
         let end = (first + part.index_count as usize / 3).min(triangles.len());
         let new_first = indices.len();
@@ -256,7 +256,7 @@ fn keep(mesh: &mut Mesh, verdicts: &[Verdict]) {
                 indices.extend_from_slice(triangle);
             }
         }
-        *part = MeshPart {
+        *part = Submesh {
             first_index: new_first as u32,
             index_count: (indices.len() - new_first) as u32,
             ..*part

@@ -38,7 +38,7 @@ fn every_fault_is_counted_and_dropped() {
         ]
         .as_flattened(),
     );
-    mesh.parts.push(MeshPart { first_index: sound, index_count: 24, material: 1 });
+    mesh.submeshes.push(Submesh { first_index: sound, index_count: 24, material: 1 });
     let (after, report) = clean(mesh);
     assert_eq!(
         report,
@@ -56,14 +56,14 @@ fn every_fault_is_counted_and_dropped() {
 fn parts_move_up_when_triangles_before_them_go() {
     let mut mesh = cube(2.0);
     mesh.indices[1] = mesh.indices[0];
-    mesh.parts = vec![
-        MeshPart { first_index: 0, index_count: 6, material: 4 },
-        MeshPart { first_index: 6, index_count: 30, material: 7 },
+    mesh.submeshes = vec![
+        Submesh { first_index: 0, index_count: 6, material: 4 },
+        Submesh { first_index: 6, index_count: 30, material: 7 },
     ];
     let (after, report) = clean(mesh);
     assert_eq!(report.degenerate, 1);
-    assert_eq!(after.parts[0], MeshPart { first_index: 0, index_count: 3, material: 4 });
-    assert_eq!(after.parts[1], MeshPart { first_index: 3, index_count: 30, material: 7 });
+    assert_eq!(after.submeshes[0], Submesh { first_index: 0, index_count: 3, material: 4 });
+    assert_eq!(after.submeshes[1], Submesh { first_index: 3, index_count: 30, material: 7 });
     assert_eq!(after.indices.len(), 33);
 }
 
@@ -113,7 +113,7 @@ fn many_duplicates_are_all_found() {
     let sound = mesh.clone();
     let copy = mesh.indices.clone();
     mesh.indices.extend(copy.as_chunks::<3>().0.iter().flat_map(|&[a, b, c]| [b, a, c]));
-    mesh.parts[0].index_count *= 2;
+    mesh.submeshes[0].index_count *= 2;
     let (after, report) = clean(mesh);
     assert_eq!(report.duplicate, sound.triangle_count());
     assert!(after == sound);

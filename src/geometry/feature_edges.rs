@@ -220,11 +220,11 @@ impl<'a> Materials<'a> {
     }
 
     pub(super) fn differ(&self, [a, b]: [u32; 2]) -> bool {
-        self.mesh.parts.len() > 1 && a != NO_FACE && b != NO_FACE && self.of(a) != self.of(b)
+        self.mesh.submeshes.len() > 1 && a != NO_FACE && b != NO_FACE && self.of(a) != self.of(b)
     }
 
     fn of(&self, face: u32) -> usize {
-        let parts = &self.mesh.parts;
+        let parts = &self.mesh.submeshes;
         let part = parts.partition_point(|part| part.first_index <= 3 * face).saturating_sub(1);
         parts.get(part).map_or(0, |part| part.material)
     }

@@ -23,7 +23,7 @@ use self::clip::PictureMap;
 pub use self::contours::{PlacedContours, contour_segments};
 use self::facing::Facings;
 use self::fan::Fans;
-pub use self::segment::{Dashes, LineSegment, LineView, NO_SURFACE, PlacedEdges, Wanted};
+pub use self::segment::{Dashes, LineSegment, LineSelection, LineView, NO_SURFACE, PlacedEdges};
 pub use self::strokes::{Strokes, Tested, draw_strokes};
 use super::feature_edges::Traits;
 use super::{ClassSet, EdgeClass};
@@ -36,7 +36,12 @@ const BLOCK: usize = 64;
 
 /// Appends the segments of an object that are lines for a camera, in the order of its edges: the same for any number of
 /// threads. Costs one look at each triangle and edge, about 4 ms per million triangles on two cores.
-pub fn line_segments(placed: &PlacedEdges<'_>, view: &LineView, wanted: &Wanted, out: &mut Vec<LineSegment>) {
+pub fn line_segments(
+    placed: &PlacedEdges<'_>,
+    view: &LineView,
+    wanted: &LineSelection,
+    out: &mut Vec<LineSegment>,
+) {
     find_segments(placed, view, wanted, false, out);
 }
 
@@ -44,7 +49,7 @@ pub fn line_segments(placed: &PlacedEdges<'_>, view: &LineView, wanted: &Wanted,
 fn find_segments<'a>(
     placed: &'a PlacedEdges<'a>,
     view: &LineView,
-    wanted: &'a Wanted,
+    wanted: &'a LineSelection,
     is_traced: bool,
     out: &mut Vec<LineSegment>,
 ) -> Option<(Finder<'a>, Trace)> {
@@ -107,7 +112,7 @@ struct Line {
 /// One object before one camera.
 struct Finder<'a> {
     placed: &'a PlacedEdges<'a>,
-    wanted: &'a Wanted,
+    wanted: &'a LineSelection,
     picture: PictureMap,
     facings: Facings,
     fans: Fans<'a>,
@@ -126,7 +131,7 @@ impl<'a> Finder<'a> {
     fn new(
         placed: &'a PlacedEdges<'a>,
         view: &LineView,
-        wanted: &'a Wanted,
+        wanted: &'a LineSelection,
         view_from_local: &DMat4,
         picture: PictureMap,
     ) -> Self {
@@ -236,7 +241,7 @@ impl<'a> Finder<'a> {
     fn rim(&self, class: EdgeClass, angle: f32, faces: [u32; 2]) -> Option<Line> {
         let is_wanted =
             self.wanted.classes.contains(class) || self.wanted.classes.contains(EdgeClass::Object);
-        let class = if is_wanted { class as u32 } else { self.hidden(class, angle, faces)? };
+        let class = if is_wanted { class as u32 } else { self.suppressed(class, angle, faces)? };
         Some(Line { class, angle, faces })
     }
 
@@ -251,18 +256,18 @@ impl<'a> Finder<'a> {
         let first = candidates.into_iter().find(|&(is, class)| is && self.wanted.classes.contains(class));
         let class = match first {
             Some((_, class)) => class as u32,
-            None if angle < 0.0 => self.hidden(EdgeClass::Valley, angle, faces)?,
-            None => self.hidden(EdgeClass::Ridge, angle, faces)?,
+            None if angle < 0.0 => self.suppressed(EdgeClass::Valley, angle, faces)?,
+            None => self.suppressed(EdgeClass::Ridge, angle, faces)?,
         };
         Some(Line { class, angle, faces })
     }
 
     /// The class of a line that nobody wants, if it has to be known.
-    fn hidden(&self, class: EdgeClass, angle: f32, faces: [u32; 2]) -> Option<u32> {
+    fn suppressed(&self, class: EdgeClass, angle: f32, faces: [u32; 2]) -> Option<u32> {
         let [one, two] = faces.map(|face| self.surface(face));
         let is_boundary = angle.abs() >= self.wanted.suppress_angle
             || one != two && self.wanted.suppress_angle < f32::INFINITY;
-        is_boundary.then_some(class as u32 | LineSegment::HIDDEN)
+        is_boundary.then_some(class as u32 | LineSegment::SUPPRESSED)
     }
 
     fn surface(&self, face: u32) -> u32 {

@@ -33,7 +33,7 @@ pub struct Mesh {
     /// Three vertex indices per triangle, counter-clockwise seen from the front.
     pub indices: Vec<u32>,
     /// Consecutive ranges of `indices`, one per material, that cover all of it.
-    pub parts: Vec<MeshPart>,
+    pub submeshes: Vec<Submesh>,
     /// Its border edges at which another mesh goes on.
     pub beyond: Vec<Beyond>,
     /// What a skinned mesh needs to be posed again; `None` for all others.
@@ -42,7 +42,7 @@ pub struct Mesh {
 
 /// A range of a mesh's triangles that share one material.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct MeshPart {
+pub struct Submesh {
     /// First element of `Mesh::indices`, a multiple of 3.
     pub first_index: u32,
     /// Number of elements of `Mesh::indices`, a multiple of 3.
@@ -111,7 +111,7 @@ impl Mesh {
             colors: pick(&self.colors, sources),
             tangents: pick(&self.tangents, sources),
             indices: Vec::new(),
-            parts: Vec::new(),
+            submeshes: Vec::new(),
             beyond: Vec::new(),
             rig: self.rig.as_ref().map(|r| Arc::new(r.gather(sources))),
         }
@@ -153,7 +153,7 @@ impl Mesh {
         }
         Self {
             indices: std::mem::take(&mut self.indices),
-            parts: std::mem::take(&mut self.parts),
+            submeshes: std::mem::take(&mut self.submeshes),
             ..self.gather(&sources)
         }
     }

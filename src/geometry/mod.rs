@@ -53,7 +53,7 @@ pub use feature_edges::FeatureEdges;
 pub use flat::{NotFlat, Plane};
 pub use line_segments::{LineSegment, line_segments};
 pub use mend::{Mended, SeamTolerance, mend};
-pub use mesh::{Mesh, MeshPart};
+pub use mesh::{Mesh, Submesh};
 pub use patches::Patches;
 pub use projector::{Lens, Projector};
 pub use rig::Rig;

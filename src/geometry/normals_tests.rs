@@ -6,7 +6,7 @@ use crate::geometry::{Adjacency, clean};
 fn soup(mesh: &Mesh) -> Mesh {
     let mut soup = mesh.gather(&mesh.indices);
     soup.indices = (0..mesh.indices.len() as u32).collect();
-    soup.parts.clone_from(&mesh.parts);
+    soup.submeshes.clone_from(&mesh.submeshes);
     soup
 }
 

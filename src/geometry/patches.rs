@@ -29,7 +29,7 @@ pub struct Patches {
 
 /// What is gathered about a part.
 #[derive(Clone, Copy, Default)]
-struct Part {
+struct FlatPart {
     /// Twice the area times the normal.
     normal: Vec3,
     /// The longest edge of the outline, and the length of all of it.
@@ -52,7 +52,7 @@ impl Patches {
             }
         }
         let (part_of, count) = sets.numbered();
-        let mut parts = vec![Part::default(); count];
+        let mut parts = vec![FlatPart::default(); count];
         let normal_of = |t: usize| {
             let [a, b, c] = mesh.corners(mesh.triangles()[t]);
             (b - a).cross(c - a)
@@ -81,7 +81,7 @@ impl Patches {
         Self::mapped(mesh, part_of, &parts)
     }
 
-    fn mapped(mesh: &Mesh, mut part_of: Vec<u32>, parts: &[Part]) -> Self {
+    fn mapped(mesh: &Mesh, mut part_of: Vec<u32>, parts: &[FlatPart]) -> Self {
         let mut planes = Vec::new();
         let numbers: Vec<u32> = parts
             .iter()
@@ -112,7 +112,7 @@ impl Patches {
     }
 }
 
-impl Part {
+impl FlatPart {
     fn add_outline(&mut self, edge: Vec3, is_fold: bool) {
         let length = edge.length();
         self.outline += length;

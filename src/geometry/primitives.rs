@@ -4,12 +4,12 @@ use std::f32::consts::{PI, TAU};
 
 use glam::{Vec2, Vec3};
 
-use super::{Mesh, MeshPart};
+use super::{Mesh, Submesh};
 
-/// A mesh of these positions and triangles, in one part with material 0.
+/// A mesh of these positions and triangles, in one submesh with material 0.
 pub fn from_triangles(positions: Vec<Vec3>, indices: Vec<u32>) -> Mesh {
-    let parts = vec![MeshPart { first_index: 0, index_count: indices.len() as u32, material: 0 }];
-    Mesh { positions, indices, parts, ..Mesh::default() }
+    let submeshes = vec![Submesh { first_index: 0, index_count: indices.len() as u32, material: 0 }];
+    Mesh { positions, indices, submeshes, ..Mesh::default() }
 }
 
 /// A flat-shaded cube with edges of length `size`: 8 shared corners, 12 triangles, no normals.
@@ -39,7 +39,7 @@ pub fn cube_split(size: f32) -> Mesh {
         mesh.uvs.extend([Vec2::new(0.0, 1.0), Vec2::new(1.0, 1.0), Vec2::new(1.0, 0.0), Vec2::new(0.0, 0.0)]);
         mesh.indices.extend([0, 1, 2, 0, 2, 3].map(|k| base + k));
     }
-    mesh.parts[0].index_count = mesh.indices.len() as u32;
+    mesh.submeshes[0].index_count = mesh.indices.len() as u32;
     mesh
 }
 
@@ -68,7 +68,7 @@ pub fn sphere(radius: f32, rings: u32, segments: u32) -> Mesh {
         })
         .flat_map(|(_, triangle)| *triangle)
         .collect();
-    mesh.parts[0].index_count = mesh.indices.len() as u32;
+    mesh.submeshes[0].index_count = mesh.indices.len() as u32;
     mesh.without_unused_vertices()
 }
 
@@ -116,7 +116,7 @@ fn grid(columns: u32, rows: u32, point: impl Fn(f32, f32) -> (Vec3, Vec3)) -> Me
             mesh.indices.extend([upper, lower, lower + 1, upper, lower + 1, upper + 1]);
         }
     }
-    mesh.parts[0].index_count = mesh.indices.len() as u32;
+    mesh.submeshes[0].index_count = mesh.indices.len() as u32;
     mesh
 }
 

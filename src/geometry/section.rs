@@ -61,13 +61,13 @@ struct Stretch {
 /// The contours of a clean mesh (see [`super::clean()`]), whose vertices are welded as `weld` says. Takes about 5 ms per
 /// million triangles on two cores.
 pub fn contours(mesh: &Mesh, weld: &Weld, plane_from_local: &DMat4) -> Vec<Contour> {
-    let cut = Cut { mesh, plane_from_local };
+    let plane = PlaneOf { mesh, plane_from_local };
     let height = plane_from_local.row(2);
     let is_kept: Vec<bool> = weld
         .representative
         .par_iter()
         .with_min_len(VERTICES_PER_TASK)
-        .map(|&point| cut.corner(point).is_some_and(|p| height.dot(p) < 0.0))
+        .map(|&point| plane.corner(point).is_some_and(|p| height.dot(p) < 0.0))
         .collect();
     // Turned inside out by its place, a mesh has its material on the other side of each contour.
     let is_mirrored = plane_from_local.determinant() < 0.0;
@@ -87,7 +87,10 @@ pub fn contours(mesh: &Mesh, weld: &Weld, plane_from_local: &DMat4) -> Vec<Conto
             })
         })
         .collect();
-    chained(&stretches).iter().map(|(chain, is_closed)| cut.contour(&stretches, chain, *is_closed)).collect()
+    chained(&stretches)
+        .iter()
+        .map(|(chain, is_closed)| plane.contour(&stretches, chain, *is_closed))
+        .collect()
 }
 
 /// Where the plane runs through a triangle, if it does.
@@ -151,12 +154,12 @@ fn chained(stretches: &[Stretch]) -> Vec<(Vec<u32>, bool)> {
 }
 
 /// A mesh before a plane.
-struct Cut<'a> {
+struct PlaneOf<'a> {
     mesh: &'a Mesh,
     plane_from_local: &'a DMat4,
 }
 
-impl Cut<'_> {
+impl PlaneOf<'_> {
     fn corner(&self, point: u32) -> Option<DVec4> {
         self.mesh.positions.get(point as usize).map(|p| p.as_dvec3().extend(1.0))
     }

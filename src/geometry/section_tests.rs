@@ -284,7 +284,7 @@ fn contours_lie_on_the_mesh_and_know_their_triangles() {
 fn open_surfaces_have_contours_and_no_cap() {
     let mut open = primitives::cube(2.0);
     open.indices.truncate(30);
-    open.parts[0].index_count = 30;
+    open.submeshes[0].index_count = 30;
     let found: Vec<_> =
         [DVec3::X, DVec3::Y, DVec3::Z].into_iter().map(|n| cut(&open, DVec3::ZERO, n).0).collect();
     assert!(found.iter().all(|c| !c.is_empty()));

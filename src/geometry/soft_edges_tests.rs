@@ -36,7 +36,7 @@ fn together(one: &Mesh, other: &Mesh) -> Mesh {
     both.normals = [one.normals.as_slice(), &other.normals].concat();
     both.positions.extend(&other.positions);
     both.indices.extend(other.indices.iter().map(|v| v + one.positions.len() as u32));
-    both.parts[0].index_count = both.indices.len() as u32;
+    both.submeshes[0].index_count = both.indices.len() as u32;
     both
 }
 

@@ -60,7 +60,7 @@ mod tests {
         assert!(!is_solid(&one_flipped));
         let mut open = primitives::cube(1.0);
         open.indices.truncate(33);
-        open.parts[0].index_count = 33;
+        open.submeshes[0].index_count = 33;
         assert!(!is_solid(&open));
     }
 }

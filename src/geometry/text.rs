@@ -38,7 +38,7 @@ pub struct Text {
     /// What the font has no letters for, each once; boxes stand in their place.
     pub missing: Vec<char>,
     /// Whether letters beyond [`MOST_LETTERS`] were left out.
-    pub is_cut: bool,
+    pub is_truncated: bool,
 }
 
 impl Text {
@@ -49,7 +49,7 @@ impl Text {
             min: Vec2::ZERO,
             max: Vec2::ZERO,
             missing: Vec::new(),
-            is_cut: text.chars().nth(MOST_LETTERS).is_some(),
+            is_truncated: text.chars().nth(MOST_LETTERS).is_some(),
         };
         // The font is part of the program.
         let Ok(font) = FontRef::new(FONT) else { return laid };
@@ -90,7 +90,7 @@ impl Text {
             let more = if self.missing.len() > 8 { "…" } else { "" };
             fault = format!("the font has no `{missing}`{more}; boxes are drawn instead");
         }
-        if self.is_cut {
+        if self.is_truncated {
             let and = if fault.is_empty() { "" } else { "; " };
             // Writing into a string cannot fail.
             let _ = write!(fault, "{and}only its first {MOST_LETTERS} letters are drawn");
@@ -265,6 +265,6 @@ mod tests {
             assert_eq!((Text::new(nothing).mesh, Text::new(nothing).fault()), (Mesh::default(), None));
         }
         let long = Text::new(&"x".repeat(10_000));
-        assert!(long.is_cut && long.fault().unwrap().contains("first 1000"));
+        assert!(long.is_truncated && long.fault().unwrap().contains("first 1000"));
     }
 }

@@ -112,7 +112,9 @@ impl Adjacency {
         }
         all.beyond = (0..)
             .zip(&mesh.beyond)
-            .filter_map(|(number, Beyond { vertices: [a, b], .. })| Some((all.edge_between(*a, *b)? as u32, number)))
+            .filter_map(|(number, Beyond { vertices: [a, b], .. })| {
+                Some((all.edge_between(*a, *b)? as u32, number))
+            })
             .filter(|&(edge, _)| all.edges[edge as usize].kind == EdgeKind::Border)
             .collect();
         all.beyond.sort_unstable();

@@ -2,8 +2,8 @@
 
 use glam::{DVec2, DVec3, Vec3};
 
-/// Cuts polygons, also concave ones, into triangles. One value serves a whole file, so that the time spent on hostile
-/// polygons stays bounded: when it is used up, the rest are cut as fans.
+/// Divides polygons, also concave ones, into triangles. One value serves a whole file, so that the time spent on hostile
+/// polygons stays bounded: when it is used up, the rest become fans.
 #[derive(Debug, Clone)]
 pub struct Triangulator {
     tests_left: usize,
@@ -21,7 +21,7 @@ impl Triangulator {
     /// Calls `emit` with the triangles of a polygon, as places in `corners`, with its orientation: always
     /// `corners.len() - 2`, none below three corners. Triangles keep the order of the corners, so that a convex
     /// polygon is a fan around its first corner.
-    pub fn cut(&mut self, corners: &[Vec3], mut emit: impl FnMut([u32; 3])) {
+    pub fn triangulate(&mut self, corners: &[Vec3], mut emit: impl FnMut([u32; 3])) {
         match corners.len() {
             0..3 => {}
             3 => emit([0, 1, 2]),
@@ -136,15 +136,15 @@ fn best_quad(corners: [Vec3; 4]) -> [[u32; 3]; 2] {
 mod tests {
     use super::*;
 
-    fn cut(corners: &[Vec3]) -> Vec<[u32; 3]> {
+    fn triangulated(corners: &[Vec3]) -> Vec<[u32; 3]> {
         let mut triangles = Vec::new();
-        Triangulator::default().cut(corners, |t| triangles.push(t));
+        Triangulator::default().triangulate(corners, |t| triangles.push(t));
         triangles
     }
 
     /// The sum of the triangles' areas is the polygon's, and none is turned round.
     fn check(corners: &[Vec3]) {
-        let triangles = cut(corners);
+        let triangles = triangulated(corners);
         assert_eq!(triangles.len(), corners.len() - 2);
         let whole = normal(corners);
         let mut sum = 0.0;
@@ -164,9 +164,9 @@ mod tests {
     #[test]
     fn convex_polygons_are_fans() {
         let square = on_a_slope(&[(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]);
-        assert_eq!(cut(&square), [[0, 1, 2], [0, 2, 3]]);
+        assert_eq!(triangulated(&square), [[0, 1, 2], [0, 2, 3]]);
         let pentagon = on_a_slope(&[(0.0, 0.0), (2.0, 0.0), (3.0, 1.0), (1.0, 3.0), (-1.0, 1.0)]);
-        assert_eq!(cut(&pentagon), [[0, 1, 2], [0, 2, 3], [0, 3, 4]]);
+        assert_eq!(triangulated(&pentagon), [[0, 1, 2], [0, 2, 3], [0, 3, 4]]);
     }
 
     #[test]
@@ -190,12 +190,12 @@ mod tests {
 
     #[test]
     fn hopeless_polygons_end() {
-        assert!(cut(&[]).is_empty() && cut(&[Vec3::ZERO; 2]).is_empty());
-        assert_eq!(cut(&[Vec3::ZERO; 9]).len(), 7);
-        assert_eq!(cut(&[Vec3::NAN; 9]).len(), 7);
+        assert!(triangulated(&[]).is_empty() && triangulated(&[Vec3::ZERO; 2]).is_empty());
+        assert_eq!(triangulated(&[Vec3::ZERO; 9]).len(), 7);
+        assert_eq!(triangulated(&[Vec3::NAN; 9]).len(), 7);
         let zigzag: Vec<Vec3> = (0..5000)
             .map(|i| Vec3::new((i * 7919 % 5003) as f32, (i * 104_729 % 4999) as f32, 0.0))
             .collect();
-        assert_eq!(cut(&zigzag).len(), 4998);
+        assert_eq!(triangulated(&zigzag).len(), 4998);
     }
 }

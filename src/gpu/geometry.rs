@@ -174,7 +174,7 @@ fn by_surface<'a>(mesh: &Mesh, surfaces: &'a Provoking) -> Cow<'a, [u32]> {
     let surface = |triangle: &[u32; 3]| surfaces.surface_of_vertex.get(triangle[0] as usize).copied();
     let is_ordered = |triangles: &[[u32; 3]]| triangles.is_sorted_by_key(surface);
     let mut ordered = Cow::Borrowed(surfaces.indices.as_slice());
-    for part in &mesh.parts {
+    for part in &mesh.submeshes {
         let range = part.first_index as usize..(part.first_index + part.index_count) as usize;
         let triangles = ordered.get(range.clone()).map(|indices| indices.as_chunks().0);
         if triangles.is_none_or(is_ordered) {
@@ -195,7 +195,7 @@ pub fn triangle_corners(mesh: &Mesh, surfaces: Option<&Provoking>) -> Vec<[u32; 
     };
     let drawn: &[[u32; 3]] = surfaces.indices.as_chunks().0;
     let first = |t: &u32| drawn.get(*t as usize).map_or(0, |triangle| triangle[0]);
-    for part in &mesh.parts {
+    for part in &mesh.submeshes {
         let range = part.first_index as usize / 3..(part.first_index + part.index_count) as usize / 3;
         if let Some(order) = order.get_mut(range) {
             order.sort_by_key(|t| surfaces.surface_of_vertex.get(first(t) as usize).copied());

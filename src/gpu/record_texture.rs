@@ -67,13 +67,13 @@ impl RecordTexture {
         u64::from(COLUMNS) * u64::from(gpu.device.limits().max_texture_dimension_2d)
     }
 
-    /// Gives its room back.
+    /// Gives its memory back.
     pub fn clear(&mut self, gpu: &Gpu) {
         self.target = create(gpu, self.label, 1);
     }
 
-    /// How many texels there is room for.
-    pub fn room(&self) -> u64 {
+    /// Capacity in texels.
+    pub fn capacity(&self) -> u64 {
         self.target.size().map(u64::from).iter().product()
     }
 

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 
 use super::bindings::INPUTS;
 use super::pipelines::{DepthRule, Pipelines, Program, RasterKey};
-use super::{Gate, Gpu, GpuError, Inputs, ShaderError, Target, TargetPool, Timers};
+use super::{Gpu, GpuError, Inputs, Predicate, ShaderError, Target, TargetPool, Timers};
 
 /// What a pass does with what its outputs hold.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -77,7 +77,7 @@ pub struct Draw<'a> {
 pub enum Workgroups<'a> {
     /// Columns and rows of them.
     Counted([u32; 2]),
-    /// As many as a compute shader has written here, whether the gate is open or shut: there had better be none if what
+    /// As many as a compute shader has written here, whether the predicate is set or cleared: there had better be none if what
     /// writes them stands behind it.
     Written(&'a wgpu::Buffer),
 }
@@ -106,9 +106,9 @@ pub struct Recorder<'a> {
     pub frame: wgpu::BindGroup,
     /// The part of the picture into which render passes draw from here on, though all of it is cleared: left, top, right and
     /// bottom edge; `None`: all of it.
-    pub part: Option<[u32; 4]>,
+    pub scissor_rect: Option<[u32; 4]>,
     /// Passes from here on draw and compute only while it is open.
-    pub gate: Option<Gate>,
+    pub predicate: Option<Predicate>,
     pool: &'a mut TargetPool,
     timers: Option<&'a mut Timers>,
     size: [u32; 2],
@@ -131,7 +131,18 @@ impl<'a> Recorder<'a> {
         intermediates: &'a mut Intermediates,
     ) -> Self {
         let encoder = encoder(gpu);
-        Self { gpu, pipelines, encoder, frame, part: None, gate: None, pool, timers, size, intermediates }
+        Self {
+            gpu,
+            pipelines,
+            encoder,
+            frame,
+            scissor_rect: None,
+            predicate: None,
+            pool,
+            timers,
+            size,
+            intermediates,
+        }
     }
 
     /// Whether anybody looks at what has this name.
@@ -215,7 +226,7 @@ impl<'a> Recorder<'a> {
             multiview_mask: None,
         });
         pass.set_bind_group(0, &self.frame, &[]);
-        if let Some([left, top, right, bottom]) = self.part {
+        if let Some([left, top, right, bottom]) = self.scissor_rect {
             pass.set_scissor_rect(left, top, right - left, bottom - top);
         }
         pass
@@ -271,7 +282,7 @@ impl<'a> Recorder<'a> {
         }
         let color = draw.onto.attachments(draw.outputs);
         let depth = draw.depth.map(|(target, rule)| rule.attachment(target));
-        let gated = self.gated(&[[3, 1, 0, 0, 0]]);
+        let predicated = self.predicated(&[[3, 1, 0, 0, 0]]);
         let mut pass = self.pass(draw.label, &color, depth);
         for (bound, viewport) in &draws {
             pass.set_pipeline(&bound.pipeline);
@@ -279,7 +290,7 @@ impl<'a> Recorder<'a> {
             if let Some(([width, height], [least, greatest])) = *viewport {
                 pass.set_viewport(0.0, 0.0, width, height, least, greatest);
             }
-            match &gated {
+            match &predicated {
                 Some((buffer, offset)) => pass.draw_indirect(buffer, *offset),
                 None => pass.draw(0..3, 0..1),
             }
@@ -287,11 +298,11 @@ impl<'a> Recorder<'a> {
         Ok(())
     }
 
-    /// Where the arguments of draws or dispatches lie that the gate may stop; `None`: they are not to be stopped.
-    pub fn gated(&mut self, args: &[[u32; 5]]) -> Option<(wgpu::Buffer, u64)> {
-        let gate = self.gate.as_mut()?;
-        let offset = gate.offset(args)?;
-        Some((gate.buffer().clone(), offset))
+    /// Where the arguments of draws or dispatches lie that the predicate may stop; `None`: they are not to be stopped.
+    pub fn predicated(&mut self, args: &[[u32; 5]]) -> Option<(wgpu::Buffer, u64)> {
+        let predicate = self.predicate.as_mut()?;
+        let offset = predicate.offset(args)?;
+        Some((predicate.buffer().clone(), offset))
     }
 
     /// Clears targets.
@@ -321,8 +332,8 @@ impl<'a> Recorder<'a> {
     ) -> Result<(), ShaderError> {
         let bound = self.pipelines.compute(self.gpu, program, inputs)?;
         let workgroups = workgroups.into();
-        let gated = match workgroups {
-            Workgroups::Counted([columns, rows]) => self.gated(&[[columns, rows, 1, 0, 0]]),
+        let predicated = match workgroups {
+            Workgroups::Counted([columns, rows]) => self.predicated(&[[columns, rows, 1, 0, 0]]),
             Workgroups::Written(_) => None,
         };
         let timestamp_writes = self.timers.as_mut().and_then(|t| t.pass(label));
@@ -337,7 +348,7 @@ impl<'a> Recorder<'a> {
         pass.set_pipeline(&bound.pipeline);
         pass.set_bind_group(0, &self.frame, &[]);
         pass.set_bind_group(INPUTS, &bound.inputs, &[]);
-        match (&gated, workgroups) {
+        match (&predicated, workgroups) {
             (Some((buffer, offset)), _) => pass.dispatch_workgroups_indirect(buffer, *offset),
             (None, Workgroups::Counted([columns, rows])) => pass.dispatch_workgroups(columns, rows, 1),
             (None, Workgroups::Written(buffer)) => pass.dispatch_workgroups_indirect(buffer, 0),

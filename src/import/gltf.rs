@@ -151,7 +151,7 @@ fn no_triangles_reason(has_triangles: bool, has_others: bool) -> &'static str {
 /// For each of so many materials whether any triangle has it.
 fn used_materials(meshes: &[Arc<Mesh>], count: usize) -> Vec<bool> {
     let mut used = vec![false; count];
-    for part in meshes.iter().flat_map(|m| &m.parts) {
+    for part in meshes.iter().flat_map(|m| &m.submeshes) {
         if let Some(used) = used.get_mut(part.material) {
             *used = true;
         }

@@ -16,7 +16,7 @@ use glam::{Vec2, Vec3};
 use super::assemble::{Assembly, Branch};
 use super::text::linear;
 use super::{ImportError, ImportOptions, Progress};
-use crate::geometry::{Mesh, MeshPart, Triangulator};
+use crate::geometry::{Mesh, Submesh, Triangulator};
 use crate::scene::Scene;
 use scrub::Scrubbed;
 
@@ -185,13 +185,13 @@ impl Mesher<'_> {
                 mesh.normals.extend(triples(&model.normals));
             }
             mesh.colors.extend(triples(&model.vertex_color).map(|c| self.color(c)));
-            self.cut(model, first_vertex, &mut mesh);
+            self.triangulate(model, first_vertex, &mut mesh);
         }
         mesh
     }
 
-    /// Cuts the polygons of a model into the triangles of a part.
-    fn cut(&mut self, model: &tobj::Mesh, first_vertex: usize, mesh: &mut Mesh) {
+    /// Divides the polygons of a model into the triangles of a part.
+    fn triangulate(&mut self, model: &tobj::Mesh, first_vertex: usize, mesh: &mut Mesh) {
         let first_index = mesh.indices.len() as u32;
         let mut rest = &model.indices[..];
         let mut points = Vec::new();
@@ -206,7 +206,7 @@ impl Mesher<'_> {
                 let point = mesh.positions.get(first_vertex + v as usize);
                 point.copied().unwrap_or(Vec3::NAN)
             }));
-            self.triangulator.cut(&points, |triangle| {
+            self.triangulator.triangulate(&points, |triangle| {
                 for corner in triangle {
                     let vertex = face.get(corner as usize);
                     mesh.indices.push(vertex.map_or(u32::MAX, |v| first_vertex as u32 + v));
@@ -216,9 +216,9 @@ impl Mesher<'_> {
         let material = model.material_id.and_then(|id| self.material_of.get(id));
         let material = material.or(self.material_of.last()).copied().unwrap_or(0);
         let index_count = mesh.indices.len() as u32 - first_index;
-        match mesh.parts.last_mut().filter(|part| part.material == material) {
+        match mesh.submeshes.last_mut().filter(|part| part.material == material) {
             Some(part) => part.index_count += index_count,
-            None => mesh.parts.push(MeshPart { first_index, index_count, material }),
+            None => mesh.submeshes.push(Submesh { first_index, index_count, material }),
         }
     }
 

@@ -309,7 +309,7 @@ impl Faces {
                 let position = positions.get(v as usize);
                 position.copied().unwrap_or(Vec3::NAN)
             }));
-            triangulator.cut(&points, |triangle| {
+            triangulator.triangulate(&points, |triangle| {
                 for corner in triangle {
                     indices.push(corners.get(corner as usize).copied().unwrap_or(u32::MAX));
                 }

@@ -130,7 +130,7 @@ impl FrameState {
         let FrameInputs { drawing: eye, view, scale_bar, selected } = *inputs;
         let shadow_maps = self.draw_shadow_maps(rec, &eye)?;
         let eye = DrawingInputs { shadow_maps: &shadow_maps, ..eye };
-        let (sample, background) = (eye.seen.sample, eye.seen.background);
+        let (sample, background) = (eye.scene_view.sample, eye.scene_view.background);
         let is_picture = view.show == Show::Picture;
         let (image, front) = if is_picture {
             self.views.forget();
@@ -143,7 +143,7 @@ impl FrameState {
             (viewed.image, viewed.front)
         };
         let (front, revisions) = front;
-        let selected = (selected, &*eye.seen.scene.scene);
+        let selected = (selected, &*eye.scene_view.scene.scene);
         let selection = self.selection.run(rec, (&front, revisions), selected, sample)?;
         Ok(Picture { image: image.value, revision: image.revision, sample, selection, front })
     }
@@ -157,6 +157,6 @@ impl FrameState {
         let opaque = objects.opaque();
         let fitted_to = objects.mirrors.is_empty().then_some(opaque.as_slice());
         let groups = [&opaque[..], &[&objects.blended]].concat();
-        self.shadow_maps.run(rec, &eye.seen, &groups, fitted_to, &self.shared.gbuffer.material_layout)
+        self.shadow_maps.run(rec, &eye.scene_view, &groups, fitted_to, &self.shared.gbuffer.material_layout)
     }
 }

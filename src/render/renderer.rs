@@ -271,7 +271,7 @@ impl Renderer {
     }
 
     /// Keeps the textures that have a name from now on, among those that pictures are made of, for a look at them: `geometry`,
-    /// `regions`, `base color`, `depth` (see `passes/gbuffer.rs`), `edge map`, `shadow mask`, `cartoon map`, `coordinates`,
+    /// `surface ids`, `base color`, `depth` (see `passes/gbuffer.rs`), `edge map`, `shadow mask`, `cartoon map`, `coordinates`,
     /// `operators`, `depth mask`, `triangles`, of the last sketch `noise of lines`, and of the layers of a blueprint
     /// [`crate::render::LAYERS`].
     pub fn keep(&mut self, name: &'static str) {
@@ -323,7 +323,7 @@ impl Renderer {
         let Some(scene) = &mut self.scene else {
             return Err(GpuError::Lost("no scene".to_owned()).into());
         };
-        if scene.cut(&self.gpu, request.document)? {
+        if scene.set_section(&self.gpu, request.document)? {
             self.scene_revision += 1;
         }
         let size = request.size.map(|s| s.max(1));
@@ -341,7 +341,8 @@ impl Renderer {
         let view = View::new(request.camera, &objects.visible_bounds, UVec2::from_array(size));
         scene.face(&view);
         let scene = &*scene;
-        let view = view.moved(sample.jitter()).cut_at(scene.section.as_ref().map(|section| section.plane));
+        let view =
+            view.moved(sample.jitter()).with_section(scene.section.as_ref().map(|section| section.plane));
         let paper = request.document.paper().to_linear();
         let background = paper.extend(if request.transparent { 0.0 } else { 1.0 });
         let timers = self.timers.as_mut();
@@ -361,7 +362,7 @@ impl Renderer {
         let bar = shows_bar.then(|| ScaleBar::new(request.camera, metres, size, scale, paper)).flatten();
         let inputs = FrameInputs {
             drawing: DrawingInputs {
-                seen: SceneView {
+                scene_view: SceneView {
                     scene,
                     scene_revision: self.scene_revision,
                     view: &view,

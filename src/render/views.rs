@@ -4,8 +4,8 @@ use glam::Vec2;
 
 use super::base::error::RenderError;
 use super::base::stage::{Output, Stage};
-use super::drawing::{Drawing, DrawingInputs, Seen, Shared};
-use super::effects::layered::{Layered, LayeredGroup, Visit, Wanted, WantedLines};
+use super::drawing::{Drawing, DrawingInputs, DrawnSurfaces, Shared};
+use super::effects::layered::{LayerRequest, Layered, LayeredGroup, LineRequest, Visit};
 use super::passes::front::Front;
 use super::passes::gbuffer::GBuffer;
 use super::passes::operators::operators;
@@ -85,12 +85,12 @@ impl Views {
         view: View,
     ) -> Result<Viewed, RenderError> {
         drawing.forget_picture();
-        let seen = drawing.draw_surfaces(rec, shared, inputs)?;
-        let edges = drawing.find_edges(rec, inputs, &seen)?;
+        let drawn = drawing.draw_surfaces(rec, shared, inputs)?;
+        let edges = drawing.find_edges(rec, inputs, &drawn)?;
         rec.note("edge map", Some(&edges.value.edges));
-        let visible = &seen.surfaces.gbuffer;
+        let visible = &drawn.surfaces.gbuffer;
         let deeper = if view.layer > 1 {
-            Some(self.layer(rec, shared, inputs, &seen, view.layer)?)
+            Some(self.layer(rec, shared, inputs, &drawn, view.layer)?)
         } else {
             self.layer.clear();
             None
@@ -101,7 +101,7 @@ impl Views {
         };
         let operators = match view.show {
             Show::NormalOperator | Show::DepthOperator | Show::C1Operator => {
-                let key = (revision, view.layer, seen.uniform.depth_range());
+                let key = (revision, view.layer, drawn.uniform.depth_range());
                 Some(self.operators.run(key, |_| operators(rec, gbuffer, drawing.edge_styles()))?)
             }
             _ => {
@@ -131,15 +131,15 @@ impl Views {
         rec: &mut Recorder<'_>,
         shared: &mut Shared,
         inputs: &DrawingInputs<'_>,
-        seen: &Seen,
+        drawn: &DrawnSurfaces,
         number: u32,
     ) -> Result<Output<(GBuffer, Target)>, RenderError> {
         let mut group = inputs.objects.surfaces.clone();
-        group.shows_hidden = true;
-        let key = LayeredGroup::new(rec, &inputs.seen, &seen.uniform, group);
+        group.is_unculled = true;
+        let key = LayeredGroup::new(rec, &inputs.scene_view, &drawn.uniform, group);
         let Self { layered, layer, .. } = self;
         layer.run((key, number), |(key, _)| {
-            let wanted = Wanted {
+            let request = LayerRequest {
                 most: number,
                 least: 1,
                 uncover: None,
@@ -150,22 +150,22 @@ impl Views {
                 with_depth: true,
                 whole: MOST_LAYERS,
                 line_styles: &[&key.group.edge_styles],
-                seen: None,
+                nearer: None,
             };
             let mut found = None;
             // A layer that has ended is empty, and nobody waits for the report about it.
             layered.walk(
                 rec,
                 &mut shared.gbuffer,
-                &inputs.seen,
+                &inputs.scene_view,
                 key,
-                &wanted,
+                &request,
                 |rec, mut visit: Visit<'_>| {
                     if visit.drawn.number + 1 < number {
                         return Ok(());
                     }
-                    let wanted = WantedLines { is_whole: true, repeated: true, ..WantedLines::default() };
-                    let edges = visit.edges(rec, wanted)?;
+                    let request = LineRequest { is_whole: true, repeated: true, ..LineRequest::default() };
+                    let edges = visit.edges(rec, request)?;
                     let gbuffer = visit.drawn.layer.gbuffer.clone();
                     found = edges.map(|edges| (gbuffer, edges.edge_map.edges));
                     Ok(())

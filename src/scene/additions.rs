@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::{DMat4, DVec3};
 
 use super::{Material, Node, NodeId, Scene};
-use crate::geometry::{Mesh, MeshPart};
+use crate::geometry::{Mesh, Submesh};
 
 /// An object that the program made.
 #[derive(Debug, Clone, PartialEq)]
@@ -66,7 +66,8 @@ impl Scene {
             scene.added += 1;
             if has_triangles {
                 let index_count = mesh.indices.len() as u32;
-                mesh.parts = vec![MeshPart { first_index: 0, index_count, material: scene.materials.len() }];
+                mesh.submeshes =
+                    vec![Submesh { first_index: 0, index_count, material: scene.materials.len() }];
                 scene.meshes.push(Arc::new(mesh));
                 scene.materials.push(material);
             }
@@ -120,7 +121,7 @@ mod tests {
         assert_eq!((scene.meant_by(0), scene.meant_by(1), scene.meant_by(2)), (0, 0, 2));
         assert!(!scene.is_added(0) && scene.is_added(1) && scene.is_added(2));
         assert!(Arc::ptr_eq(&scene.meshes[0], &model.meshes[0]), "the model's meshes are shared");
-        assert_eq!(scene.meshes[1].parts[0].material, 1);
+        assert_eq!(scene.meshes[1].submeshes[0].material, 1);
         assert_eq!((scene.nodes[1].name.as_str(), scene.nodes[2].mesh), ("0", None));
     }
 }

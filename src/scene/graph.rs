@@ -161,7 +161,7 @@ impl Scene {
         }));
         self.meshes.extend(other.meshes.into_iter().map(|mut mesh| {
             let moved = Arc::make_mut(&mut mesh);
-            for part in &mut moved.parts {
+            for part in &mut moved.submeshes {
                 part.material += materials;
             }
             for beyond in &mut moved.beyond {

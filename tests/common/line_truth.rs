@@ -157,7 +157,7 @@ fn near_changes(numbers: &[u32], side: usize) -> Vec<bool> {
 /// The alpha test of the renderer, at full resolution.
 fn is_hole(scene: &Scene, node: usize, point: SurfacePoint) -> bool {
     let mesh = &scene.meshes[scene.nodes[node].mesh.unwrap()];
-    let part = mesh.parts.iter().rfind(|part| part.first_index as usize <= 3 * point.triangle).unwrap();
+    let part = mesh.submeshes.iter().rfind(|part| part.first_index as usize <= 3 * point.triangle).unwrap();
     let Some(material) = scene.materials.get(part.material) else { return false };
     let AlphaMode::Mask(cutoff) = material.alpha else { return false };
     let corners = mesh.triangles()[point.triangle].map(|v| v as usize);

@@ -40,7 +40,7 @@ pub fn session() -> Session {
 /// What tests look at of the textures that pictures are made of, where they use [`session`].
 const LOOKED_AT: [&str; 8] = [
     "geometry",
-    "regions",
+    "surface ids",
     "edge map",
     "operators",
     "shadow mask",
@@ -70,7 +70,7 @@ pub fn keep_layers(session: &mut Session) {
 pub fn scene(objects: Vec<(&str, Mesh, DMat4, [f32; 3])>) -> Arc<Scene> {
     let mut scene = Scene::default();
     for (name, mut mesh, world_from_local, [r, g, b]) in objects {
-        for part in &mut mesh.parts {
+        for part in &mut mesh.submeshes {
             part.material = scene.materials.len();
         }
         scene.materials.push(Material { base_color: glam::vec4(r, g, b, 1.0), ..Material::default() });

@@ -1,13 +1,13 @@
 //! Takes meshes apart into patches, each with vertices of its own and with its border tessellated by itself: what
 //! exporters of solids leave behind.
 //!
-//! The module that includes this one names `Adjacency`, `Mesh` and `MeshPart`.
+//! The module that includes this one names `Adjacency`, `Mesh` and `Submesh`.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use glam::Vec3;
 
-use super::{Adjacency, Mesh, MeshPart};
+use super::{Adjacency, Mesh, Submesh};
 
 /// Which vertices the patches still have in common.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -130,7 +130,7 @@ impl Repatch {
             cover(corners, on_edges, &mut new.indices);
             patch_of_triangle.resize(new.indices.len() / 3, patch);
         }
-        new.parts = vec![MeshPart { first_index: 0, index_count: new.indices.len() as u32, material: 0 }];
+        new.submeshes = vec![Submesh { first_index: 0, index_count: new.indices.len() as u32, material: 0 }];
         Repatched { mesh: new, patch_of_triangle, neighbours }
     }
 

@@ -125,7 +125,7 @@ fn primitives_become_parts_with_the_same_attributes() {
         ]),
     );
     let mesh = &scene.meshes[0];
-    let parts: Vec<_> = mesh.parts.iter().map(|p| (p.first_index, p.index_count, p.material)).collect();
+    let parts: Vec<_> = mesh.submeshes.iter().map(|p| (p.first_index, p.index_count, p.material)).collect();
     // The third primitive repeats the first, and duplicate triangles go.
     assert_eq!(parts, [(0, 6, 0), (6, 6, 1)]);
     assert_eq!(mesh.normals.len(), mesh.positions.len());
@@ -294,7 +294,7 @@ fn several_files_become_one_scene() {
     assert_eq!(paths(&scene), ["/a", "/a/tri", "/b", "/b/tri", "/a.2", "/a.2/tri"]);
     assert_eq!(scene.nodes[5].parent, Some(4));
     assert_eq!(scene.nodes[5].mesh, Some(2));
-    assert_eq!(scene.meshes[2].parts[0].material, 2);
+    assert_eq!(scene.meshes[2].submeshes[0].material, 2);
     assert!(progress.share() > 0.99, "{}", progress.share());
 
     progress.cancel();

@@ -34,7 +34,7 @@ fn engine(_: &[PathBuf]) -> Scene {
     let mut scene = Scene::default();
     scene.materials.push(Material::default());
     let mut mesh = primitives::cube(1.0);
-    for part in &mut mesh.parts {
+    for part in &mut mesh.submeshes {
         part.material = 0;
     }
     scene.meshes.push(Arc::new(mesh));

@@ -50,7 +50,7 @@ fn layers(session: &mut Session, opened: &Opened, side: u32, by: &str) -> (Vec<T
     session.draw(&opened, [side; 2], false).unwrap();
     assert_eq!(session.renderer().last_peeled().len(), 1, "one group");
     let [geometry, colors, regions, depths] =
-        ["layer geometry", "layer base color", "layer regions", "layer depth"]
+        ["layer geometry", "layer base color", "layer surface ids", "layer depth"]
             .map(|name| common::kept_layers(session, name));
     let layers = (0..geometry.len()).map(|i| {
         (

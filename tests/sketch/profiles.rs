@@ -26,7 +26,7 @@ fn bowl() -> Mesh {
     let indices = ball.indices.chunks_exact(3).filter(|t| is_low(t)).flatten().copied().collect();
     let mut mesh = ball.clone();
     mesh.indices = indices;
-    mesh.parts[0].index_count = mesh.indices.len() as u32;
+    mesh.submeshes[0].index_count = mesh.indices.len() as u32;
     mesh
 }
 

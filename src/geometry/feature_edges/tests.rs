@@ -1,7 +1,7 @@
 use glam::Vec3;
 
 use super::*;
-use crate::geometry::{MeshPart, primitives};
+use crate::geometry::{Submesh, primitives};
 
 fn edges_of(mesh: &Mesh) -> FeatureEdges {
     let adjacency = Adjacency::new(mesh);
@@ -41,13 +41,13 @@ fn edges_of_split_vertices_meet() {
 #[test]
 fn materials_and_flips_and_borders_are_known() {
     let mut mesh = primitives::plane(1.0);
-    mesh.parts = vec![
-        MeshPart { first_index: 0, index_count: 3, material: 4 },
-        MeshPart { first_index: 3, index_count: 3, material: 2 },
+    mesh.submeshes = vec![
+        Submesh { first_index: 0, index_count: 3, material: 4 },
+        Submesh { first_index: 3, index_count: 3, material: 2 },
     ];
     let edges = edges_of(&mesh);
     assert_eq!((count(&edges, Traits::MATERIAL), count(&edges, Traits::BORDER)), (1, 4));
-    mesh.parts[1].material = 4;
+    mesh.submeshes[1].material = 4;
     assert_eq!(count(&edges_of(&mesh), Traits::MATERIAL), 0);
     mesh.indices.swap(0, 1);
     let edges = edges_of(&mesh);

@@ -5,13 +5,13 @@ use std::f64::consts::TAU;
 use glam::{DMat4, DVec2, DVec3, Vec3};
 
 use super::tests::{EYE, LENSES, Subject, everything, look_from};
-use super::{Dashes, LineSegment, LineView, Wanted};
+use super::{Dashes, LineSegment, LineSelection, LineView};
 use crate::geometry::{ClassSet, EdgeClass, Lens, Mesh, Projector, primitives};
 
 const PERIOD: f64 = 14.0;
 
-fn dashed() -> Wanted {
-    Wanted { dashes: Some(Dashes { classes: ClassSet::ALL, period: PERIOD as f32 }), ..everything() }
+fn dashed() -> LineSelection {
+    LineSelection { dashes: Some(Dashes { classes: ClassSet::ALL, period: PERIOD as f32 }), ..everything() }
 }
 
 fn ends(segment: &LineSegment) -> [DVec2; 2] {
@@ -63,12 +63,13 @@ fn no_dashes_no_arcs() {
     let plain = cube.segments(DMat4::IDENTITY, &view, &everything());
     assert!(plain.iter().all(|s| s.arcs == [0.0; 2]));
     let classes = ClassSet::of(&[EdgeClass::Ridge]);
-    let some = Wanted { dashes: Some(Dashes { classes, period: 10.0 }), ..everything() };
+    let some = LineSelection { dashes: Some(Dashes { classes, period: 10.0 }), ..everything() };
     for segment in cube.segments(DMat4::IDENTITY, &view, &some) {
         assert_eq!(segment.arcs != [0.0; 2], segment.edge_class() == Some(EdgeClass::Ridge));
     }
     for period in [0.0, -1.0, f32::NAN, f32::INFINITY] {
-        let broken = Wanted { dashes: Some(Dashes { classes: ClassSet::ALL, period }), ..everything() };
+        let broken =
+            LineSelection { dashes: Some(Dashes { classes: ClassSet::ALL, period }), ..everything() };
         assert_eq!(cube.segments(DMat4::IDENTITY, &view, &broken), plain);
     }
 }
@@ -132,7 +133,7 @@ fn arcs_go_on_beyond_the_sides_and_the_near_plane() {
     let projector =
         Projector { view_from_world: DMat4::IDENTITY, lens, size: [400, 300], near: 0.1, far: 100.0 };
     let found = |margin: f64| {
-        let view = LineView { projector, jitter: DVec2::ZERO, margin, cuts: [glam::DVec4::ZERO; 2] };
+        let view = LineView { projector, jitter: DVec2::ZERO, margin, clip_planes: [glam::DVec4::ZERO; 2] };
         let segments = roof.segments(DMat4::IDENTITY, &view, &dashed());
         segments.into_iter().filter(|s| s.class == EdgeClass::Ridge as u32).collect::<Vec<_>>()
     };

@@ -178,7 +178,7 @@ impl Dashes {
     fn wants(&self, segment: &LineSegment) -> bool {
         let rims = ClassSet::of(&[EdgeClass::Silhouette, EdgeClass::Border]);
         segment.edge_class().is_some_and(|class| {
-            !segment.is_hidden()
+            !segment.is_suppressed()
                 && (self.classes.contains(class)
                     || self.classes.contains(EdgeClass::Object) && rims.contains(class))
         })

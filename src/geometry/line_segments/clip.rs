@@ -21,7 +21,7 @@ struct Homogeneous {
     px: DVec2,
     w: f64,
     depth: f64,
-    /// Distances before the planes that cut.
+    /// Distances before the clip planes.
     leads: DVec2,
 }
 
@@ -42,7 +42,7 @@ pub(super) struct PictureMap {
 
 impl PictureMap {
     pub(super) fn new(view: &LineView, view_from_local: &DMat4) -> Self {
-        let LineView { projector, jitter, margin, cuts } = view;
+        let LineView { projector, jitter, margin, clip_planes } = view;
         let size = DVec2::from(projector.size.map(f64::from));
         let depth = -view_from_local.row(2);
         let (w, pixels_per_unit, nearest) = match projector.lens {
@@ -55,7 +55,7 @@ impl PictureMap {
             y: -view_from_local.row(1) * pixels_per_unit + w * center.y,
             w,
             depth,
-            leads: cuts.map(|cut| view_from_local.transpose() * cut),
+            leads: clip_planes.map(|plane| view_from_local.transpose() * plane),
             near: projector.near.max(nearest),
             far: projector.far,
             low: DVec2::splat(-margin),
@@ -65,13 +65,13 @@ impl PictureMap {
 
     /// The part of a segment in local space that the picture and its margin show, if any.
     pub(super) fn segment(&self, ends: [Vec3; 2]) -> Option<[PicturePoint; 2]> {
-        self.cut(ends, |p| self.inside(p))
+        self.clip(ends, |p| self.inside(p))
     }
 
     /// Where the ends of a segment in local space are, in pixels, if the near plane leaves anything of it, and whether
     /// it leaves each end. The sides of the picture cut nothing off.
     pub(super) fn before(&self, ends: [Vec3; 2]) -> Option<[(DVec2, bool); 2]> {
-        let [from, to] = self.cut(ends, |p| [p.depth - self.near])?;
+        let [from, to] = self.clip(ends, |p| [p.depth - self.near])?;
         let is_before = |p: Vec3| self.map(p.as_dvec3()).depth >= self.near;
         Some([(from.px, is_before(ends[0])), (to.px, is_before(ends[1]))])
     }
@@ -97,7 +97,7 @@ impl PictureMap {
         (0..8).all(|side| corners.iter().any(|inside| inside[side] >= 0.0))
     }
 
-    fn cut<const N: usize>(
+    fn clip<const N: usize>(
         &self,
         ends: [Vec3; 2],
         inside: impl Fn(&Homogeneous) -> [f64; N],

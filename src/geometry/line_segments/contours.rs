@@ -6,7 +6,7 @@ use glam::{DMat4, DVec2, Vec3};
 
 use super::clip::PictureMap;
 use super::scale::Scale;
-use super::segment::{Dashes, LineSegment, LineView, NO_SURFACE, Wanted};
+use super::segment::{Dashes, LineSegment, LineSelection, LineView, NO_SURFACE};
 use crate::geometry::section::Contour;
 use crate::geometry::{EdgeClass, FeatureEdges};
 
@@ -25,11 +25,11 @@ pub struct PlacedContours<'a> {
     pub cap: Option<u32>,
 }
 
-/// Appends the segments of contours, which are [`LineSegment::HIDDEN`] unless sections are wanted.
+/// Appends the segments of contours, which are [`LineSegment::SUPPRESSED`] unless sections are wanted.
 pub fn contour_segments(
     placed: &PlacedContours<'_>,
     view: &LineView,
-    wanted: &Wanted,
+    wanted: &LineSelection,
     out: &mut Vec<LineSegment>,
 ) {
     let picture = PictureMap::new(view, &(view.projector.view_from_world * placed.world_from_plane));
@@ -37,7 +37,7 @@ pub fn contour_segments(
     if !is_wanted && wanted.suppress_angle == f32::INFINITY {
         return;
     }
-    let class = EdgeClass::Section as u32 | if is_wanted { 0 } else { LineSegment::HIDDEN };
+    let class = EdgeClass::Section as u32 | if is_wanted { 0 } else { LineSegment::SUPPRESSED };
     let dashes = wanted.dashes.filter(|d| d.classes.contains(EdgeClass::Section));
     for contour in placed.contours {
         let scale = dashes.map(|dashes| Lengths::new(contour, &picture, &dashes));

@@ -23,7 +23,7 @@ pub struct LineSegment {
     /// Angle between the two surfaces as they are placed, in radians, −π to π: positive if they are convex as seen from
     /// the eye's side (at a silhouette, from the first triangle's front), 0 at a border.
     pub angle: f32,
-    /// [`EdgeClass`] as a number; plus [`LineSegment::HIDDEN`], [`LineSegment::ELSEWHERE`]. Never [`EdgeClass::Object`] nor
+    /// [`EdgeClass`] as a number; plus [`LineSegment::SUPPRESSED`], [`LineSegment::ELSEWHERE`]. Never [`EdgeClass::Object`] nor
     /// [`EdgeClass::Intersection`].
     pub class: u32,
     /// [`PlacedEdges::object`].
@@ -34,18 +34,18 @@ pub struct LineSegment {
 
 impl LineSegment {
     /// A bit of `class`: nobody asked for this line, but its surfaces differ, which is to be taken for no other line.
-    pub const HIDDEN: u32 = 1 << 31;
-    /// A bit of `class`: this line is drawn by others, see [`super::draw_strokes`]. Always with [`Self::HIDDEN`].
+    pub const SUPPRESSED: u32 = 1 << 31;
+    /// A bit of `class`: this line is drawn by others, see [`super::draw_strokes`]. Always with [`Self::SUPPRESSED`].
     pub const ELSEWHERE: u32 = 1 << 30;
 
-    /// What kind of line it is, hidden or not.
+    /// What kind of line it is, suppressed or not.
     pub fn edge_class(&self) -> Option<EdgeClass> {
-        EdgeClass::ALL.get((self.class & !(Self::HIDDEN | Self::ELSEWHERE)) as usize).copied()
+        EdgeClass::ALL.get((self.class & !(Self::SUPPRESSED | Self::ELSEWHERE)) as usize).copied()
     }
 
     /// Whether nobody asked for it.
-    pub fn is_hidden(&self) -> bool {
-        self.class & Self::HIDDEN != 0
+    pub fn is_suppressed(&self) -> bool {
+        self.class & Self::SUPPRESSED != 0
     }
 }
 
@@ -60,12 +60,12 @@ pub struct LineView {
     pub margin: f64,
     /// What lies behind one of these planes is left out: view space, the product with (point, 1) is the distance before
     /// it. 0: no plane.
-    pub cuts: [DVec4; 2],
+    pub clip_planes: [DVec4; 2],
 }
 
 /// Which lines are looked for.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Wanted {
+pub struct LineSelection {
     /// The classes. With [`EdgeClass::Object`], silhouettes and borders are found too. Intersections are not found
     /// here.
     pub classes: ClassSet,
@@ -74,7 +74,7 @@ pub struct Wanted {
     /// Concave ones of at least this angle are valleys; radians.
     pub valley_angle: f32,
     /// Creases of at least this angle (radians), and all edges between different surfaces, are found as
-    /// [`LineSegment::HIDDEN`] if they are nothing that is wanted. Infinite: none.
+    /// [`LineSegment::SUPPRESSED`] if they are nothing that is wanted. Infinite: none.
     pub suppress_angle: f32,
     /// Which lines have [`LineSegment::arcs`]; `None`: no line has.
     pub dashes: Option<Dashes>,

@@ -9,7 +9,7 @@ use super::*;
 use crate::geometry::primitives;
 
 /// The median of some runs over all objects, in milliseconds, and the number of segments.
-fn measure(subject: &Subject, places: &[DMat4], wanted: &Wanted) -> (f64, usize) {
+fn measure(subject: &Subject, places: &[DMat4], wanted: &LineSelection) -> (f64, usize) {
     let view = look_from(EYE, LENSES[0]);
     let mut out = Vec::new();
     let mut times: Vec<f64> = (0..31)

@@ -20,7 +20,7 @@ fn straights(mesh: Mesh) -> Straights {
     Straights::clone(&subject.edges.straights(&subject.mesh, angles))
 }
 
-fn drawn(subject: &Subject, place: DMat4, view: &LineView, wanted: &Wanted, hand: &Hand) -> Strokes {
+fn drawn(subject: &Subject, place: DMat4, view: &LineView, wanted: &LineSelection, hand: &Hand) -> Strokes {
     let mut out = Strokes::default();
     draw_strokes(&subject.at(place), view, wanted, (hand, ANGLE), &mut out);
     out.complete();
@@ -150,7 +150,7 @@ fn a_steady_hand_draws_lines_where_they_are() {
             let elsewhere: Vec<_> =
                 strokes.segments.iter().filter(|s| s.class & LineSegment::ELSEWHERE != 0).collect();
             assert_eq!(elsewhere.len(), plain.len());
-            assert!(elsewhere.iter().zip(&plain).all(|(a, b)| a.ends == b.ends && a.is_hidden()));
+            assert!(elsewhere.iter().zip(&plain).all(|(a, b)| a.ends == b.ends && a.is_suppressed()));
             let mut length = 0.0;
             for (segment, tested) in pieces(&strokes) {
                 assert!((0..2).all(|end| px(segment.ends[end]).distance(px(tested.ends[end])) < 1e-3));
@@ -200,7 +200,7 @@ const INSIDE_MOST: f64 = 2.1;
 #[test]
 fn overshoots_lie_beyond_corners() {
     let (subject, view) = (Subject::new(primitives::cube(1.0)), look_from(EYE, LENSES[0]));
-    let wanted = Wanted { classes: ClassSet::of(&[EdgeClass::Silhouette]), ..everything() };
+    let wanted = LineSelection { classes: ClassSet::of(&[EdgeClass::Silhouette]), ..everything() };
     let plain = subject.segments(DMat4::IDENTITY, &view, &wanted);
     let low = |of: &mut dyn Iterator<Item = [f32; 2]>| of.map(|[_, y]| y).fold(f32::INFINITY, f32::min);
     let top = low(&mut plain.iter().flat_map(|s| s.ends));
@@ -245,9 +245,14 @@ fn what_is_too_short_or_hidden_is_drawn_as_it_is() {
     let strokes = drawn(&subject, small, &view, &everything(), &HAND);
     assert_eq!(strokes.segments, subject.segments(small, &view, &everything()));
     assert!(pieces(&strokes).next().is_none());
-    let wanted =
-        Wanted { classes: ClassSet::of(&[EdgeClass::Silhouette]), suppress_angle: 0.5, ..everything() };
+    let wanted = LineSelection {
+        classes: ClassSet::of(&[EdgeClass::Silhouette]),
+        suppress_angle: 0.5,
+        ..everything()
+    };
     let strokes = drawn(&subject, DMat4::IDENTITY, &view, &wanted, &HAND);
-    assert!(pieces(&strokes).all(|(s, _)| s.edge_class() == Some(EdgeClass::Silhouette) && !s.is_hidden()));
-    assert!(strokes.segments.iter().any(|s| s.edge_class() == Some(EdgeClass::Ridge) && s.is_hidden()));
+    assert!(
+        pieces(&strokes).all(|(s, _)| s.edge_class() == Some(EdgeClass::Silhouette) && !s.is_suppressed())
+    );
+    assert!(strokes.segments.iter().any(|s| s.edge_class() == Some(EdgeClass::Ridge) && s.is_suppressed()));
 }

@@ -3,7 +3,7 @@
 use bytemuck::{Pod, Zeroable};
 use glam::DVec2;
 
-use super::segment::{LineSegment, LineView, PlacedEdges, Wanted};
+use super::segment::{LineSegment, LineSelection, LineView, PlacedEdges};
 use super::{Finder, find_segments};
 use crate::geometry::feature_edges::creases::CreaseAngles;
 use crate::geometry::feature_edges::straights::Straight;
@@ -70,7 +70,7 @@ impl Strokes {
 pub fn draw_strokes(
     placed: &PlacedEdges<'_>,
     view: &LineView,
-    wanted: &Wanted,
+    wanted: &LineSelection,
     (hand, crease_angle): (&Hand, f32),
     out: &mut Strokes,
 ) {
@@ -90,7 +90,7 @@ pub fn draw_strokes(
     let mut by_edge = straights.by_edge.iter().peekable();
     for (segment, &edge) in found.iter().zip(&trace.edges) {
         while by_edge.next_if(|(e, _)| *e < edge).is_some() {}
-        let line = by_edge.peek().filter(|(e, _)| *e == edge && !segment.is_hidden());
+        let line = by_edge.peek().filter(|(e, _)| *e == edge && !segment.is_suppressed());
         let drawn = line.and_then(|&&(_, line)| {
             let found = drawn.get_mut(line as usize)?;
             let line = straights.lines.get(line as usize)?;
@@ -140,8 +140,10 @@ impl DrawnLine {
     }
 
     fn draw(&self, segment: &LineSegment, lens: Lens, hand: &Hand, out: &mut Strokes) {
-        let there =
-            LineSegment { class: segment.class | LineSegment::HIDDEN | LineSegment::ELSEWHERE, ..*segment };
+        let there = LineSegment {
+            class: segment.class | LineSegment::SUPPRESSED | LineSegment::ELSEWHERE,
+            ..*segment
+        };
         out.push(there, Tested::at(segment));
         let spot = Spots::new(segment, lens);
         let length = spot.ends[0].distance(spot.ends[1]);

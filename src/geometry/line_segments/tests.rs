@@ -26,13 +26,13 @@ pub(super) fn look_at(eye: DVec3) -> DMat4 {
 pub(super) fn look_from(eye: DVec3, lens: Lens) -> LineView {
     let projector =
         Projector { view_from_world: look_at(eye), lens, size: [800, 800], near: 0.01, far: 100.0 };
-    LineView { projector, jitter: DVec2::ZERO, margin: 64.0, cuts: [glam::DVec4::ZERO; 2] }
+    LineView { projector, jitter: DVec2::ZERO, margin: 64.0, clip_planes: [glam::DVec4::ZERO; 2] }
 }
 
 /// All classes, creases from 30°.
-pub(super) fn everything() -> Wanted {
+pub(super) fn everything() -> LineSelection {
     let angle = 30_f32.to_radians();
-    Wanted {
+    LineSelection {
         classes: ClassSet::ALL,
         ridge_angle: angle,
         valley_angle: angle,
@@ -62,7 +62,7 @@ impl Subject {
         PlacedEdges { edges, mesh, world_from_local, object: 7, is_solid: *is_solid, shown: &[] }
     }
 
-    pub(super) fn segments(&self, place: DMat4, view: &LineView, wanted: &Wanted) -> Vec<LineSegment> {
+    pub(super) fn segments(&self, place: DMat4, view: &LineView, wanted: &LineSelection) -> Vec<LineSegment> {
         let mut out = Vec::new();
         line_segments(&self.at(place), view, wanted, &mut out);
         out
@@ -123,7 +123,7 @@ fn ends_are_where_the_projector_says() {
 #[test]
 fn outlines_of_closed_meshes_are_closed() {
     let meshes = [primitives::sphere(1.0, 24, 48), primitives::torus(1.0, 0.4, 40, 24)];
-    let wanted = Wanted { classes: ClassSet::of(&[EdgeClass::Silhouette]), ..everything() };
+    let wanted = LineSelection { classes: ClassSet::of(&[EdgeClass::Silhouette]), ..everything() };
     for subject in meshes.map(Subject::new) {
         for (i, lens) in LENSES.into_iter().cycle().take(40).enumerate() {
             let (sin, cos) = (0.37 * i as f64).sin_cos();
@@ -151,25 +151,29 @@ fn outlines_of_closed_meshes_are_closed() {
 }
 
 #[test]
-fn unwanted_creases_are_found_as_hidden() {
+fn unwanted_creases_are_found_as_suppressed() {
     let cube = Subject::new(primitives::cube(1.0));
     let view = look_from(EYE, LENSES[0]);
-    let wanted =
-        Wanted { classes: ClassSet::of(&[EdgeClass::Silhouette]), suppress_angle: 0.5, ..everything() };
+    let wanted = LineSelection {
+        classes: ClassSet::of(&[EdgeClass::Silhouette]),
+        suppress_angle: 0.5,
+        ..everything()
+    };
     let segments = cube.segments(DMat4::IDENTITY, &view, &wanted);
     assert_eq!((segments.len(), count(&segments, EdgeClass::Silhouette)), (9, 6));
-    let hidden: Vec<_> = segments.iter().filter(|s| s.is_hidden()).collect();
+    let hidden: Vec<_> = segments.iter().filter(|s| s.is_suppressed()).collect();
     assert!(hidden.len() == 3 && hidden.iter().all(|s| s.edge_class() == Some(EdgeClass::Ridge)));
     // Too blunt for a ridge, not for a boundary of surfaces.
-    let wanted = Wanted { ridge_angle: 1.6, suppress_angle: 1.0, ..everything() };
+    let wanted = LineSelection { ridge_angle: 1.6, suppress_angle: 1.0, ..everything() };
     let segments = cube.segments(DMat4::IDENTITY, &view, &wanted);
     assert_eq!((segments.len(), count(&segments, EdgeClass::Silhouette)), (9, 6));
-    let wanted = Wanted { classes: ClassSet::of(&[EdgeClass::Ridge]), suppress_angle: 0.5, ..everything() };
+    let wanted =
+        LineSelection { classes: ClassSet::of(&[EdgeClass::Ridge]), suppress_angle: 0.5, ..everything() };
     let segments = cube.segments(DMat4::IDENTITY, &view, &wanted);
     assert_eq!((segments.len(), count(&segments, EdgeClass::Ridge)), (9, 3));
-    let wanted = Wanted { classes: ClassSet::of(&[EdgeClass::Intersection]), ..everything() };
+    let wanted = LineSelection { classes: ClassSet::of(&[EdgeClass::Intersection]), ..everything() };
     assert!(cube.segments(DMat4::IDENTITY, &view, &wanted).is_empty());
-    let wanted = Wanted { classes: ClassSet::of(&[EdgeClass::Object]), ..everything() };
+    let wanted = LineSelection { classes: ClassSet::of(&[EdgeClass::Object]), ..everything() };
     assert_eq!(count(&cube.segments(DMat4::IDENTITY, &view, &wanted), EdgeClass::Silhouette), 6);
 }
 
@@ -188,7 +192,7 @@ fn scales_change_angles() {
             let place = DMat4::from_scale(DVec3::new(scale.signum(), scale.abs(), 1.0));
             let found = |least: f64| {
                 let least = least.to_radians() as f32;
-                let wanted = Wanted { ridge_angle: least, valley_angle: least, ..everything() };
+                let wanted = LineSelection { ridge_angle: least, valley_angle: least, ..everything() };
                 count(&roof.segments(place, &view, &wanted), angle)
             };
             let silhouette = count(&roof.segments(place, &view, &everything()), EdgeClass::Silhouette);
@@ -207,7 +211,8 @@ fn segments_end_at_the_near_plane_and_beyond_the_sides() {
     for lens in LENSES {
         let projector =
             Projector { view_from_world: DMat4::IDENTITY, lens, size: [800, 600], near: 0.5, far: 100.0 };
-        let view = LineView { projector, jitter: DVec2::ZERO, margin: 64.0, cuts: [glam::DVec4::ZERO; 2] };
+        let view =
+            LineView { projector, jitter: DVec2::ZERO, margin: 64.0, clip_planes: [glam::DVec4::ZERO; 2] };
         let segments = bar.segments(place, &view, &everything());
         assert!(segments.len() >= 3, "{lens:?}: {}", segments.len());
         for segment in &segments {

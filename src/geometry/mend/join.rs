@@ -4,7 +4,7 @@ use std::collections::{HashMap, HashSet};
 
 use glam::Vec4;
 
-use super::super::{Mesh, MeshPart};
+use super::super::{Mesh, Submesh};
 use super::borders::Borders;
 use super::places::{Cut, Places};
 use super::settle::{Settled, settle};
@@ -46,7 +46,7 @@ pub(super) fn join(mesh: &Mesh, weld: &[u32], borders: &Borders, places: &Places
     let (triangles, sources): (Vec<[u32; 3]>, Vec<u32>) = kept.map(|((_, t), source)| (*t, *source)).unzip();
     draft.mesh.positions = settled.positions;
     draft.mesh.position_errors = errors;
-    draft.mesh.parts = parts(&mesh.parts, &sources);
+    draft.mesh.submeshes = parts(&mesh.submeshes, &sources);
     draft.mesh.indices = triangles.into_flattened();
     Outcome {
         joined_length,
@@ -92,7 +92,7 @@ fn without_area(draft: &Draft, settled: &Settled) -> HashSet<usize> {
 
 /// Cuts the border edges at their new vertices, which get their attributes from their own edge.
 fn cut(mesh: &Mesh, weld: &[u32], borders: &Borders, places: &Places) -> Draft {
-    let mut new = Mesh { indices: Vec::new(), parts: Vec::new(), ..mesh.clone() };
+    let mut new = Mesh { indices: Vec::new(), submeshes: Vec::new(), ..mesh.clone() };
     let mut place_of_vertex = weld.to_vec();
     let mut corners_of_vertex = weld.to_vec();
     let mut cut_triangles: HashMap<u32, CutTriangle> = HashMap::new();
@@ -149,13 +149,13 @@ fn append_between(mesh: &mut Mesh, ends: [u32; 2], share: f32) {
 }
 
 /// The same materials for the triangles that came from each part.
-fn parts(old: &[MeshPart], sources: &[u32]) -> Vec<MeshPart> {
+fn parts(old: &[Submesh], sources: &[u32]) -> Vec<Submesh> {
     let index = |first_index: u32| 3 * sources.partition_point(|&s| 3 * s < first_index) as u32;
     old.iter()
         .map(|part| {
             let first_index = index(part.first_index);
             let end = index(part.first_index + part.index_count);
-            MeshPart { first_index, index_count: end - first_index, ..*part }
+            Submesh { first_index, index_count: end - first_index, ..*part }
         })
         .filter(|part| part.index_count > 0)
         .collect()
@@ -163,13 +163,7 @@ fn parts(old: &[MeshPart], sources: &[u32]) -> Vec<MeshPart> {
 
 /// [`Mesh::position_errors`]: what is left open or does not meet on a straight line may be off its place by as much as
 /// anything of its body was moved.
-fn errors(
-    borders: &Borders,
-    draft: &Draft,
-    settled: &Settled,
-    is_open: &[bool],
-    moves: &[f32],
-) -> Vec<f32> {
+fn errors(borders: &Borders, draft: &Draft, settled: &Settled, is_open: &[bool], moves: &[f32]) -> Vec<f32> {
     let mut farthest: HashMap<u32, f32> = HashMap::new();
     let body = |v: usize| borders.body_of_point[draft.corners[v] as usize];
     for (v, &length) in moves.iter().enumerate().filter(|(_, length)| **length > 0.0) {

@@ -2,7 +2,7 @@ use glam::{Vec2, Vec3};
 
 use super::*;
 use crate::geometry::normals::face_normals;
-use crate::geometry::{EdgeKind, MeshPart, Rig, primitives};
+use crate::geometry::{EdgeKind, Rig, Submesh, primitives};
 
 mod gaps;
 #[path = "../../../tests/common/repatch.rs"]
@@ -226,19 +226,19 @@ fn triangles_keep_their_materials() {
     let mut mesh = Repatch { crack: 1e-4, ..Repatch::default() }.apply(&solid).mesh;
     let count = mesh.indices.len() as u32;
     let first = count / 9 * 3;
-    mesh.parts = vec![
-        MeshPart { first_index: 0, index_count: first, material: 4 },
-        MeshPart { first_index: first, index_count: count - first, material: 2 },
+    mesh.submeshes = vec![
+        Submesh { first_index: 0, index_count: first, material: 4 },
+        Submesh { first_index: first, index_count: count - first, material: 2 },
     ];
     let (after, _) = mended(&mesh).unwrap();
     let area_of = |mesh: &Mesh, part: usize| {
-        let MeshPart { first_index, index_count, .. } = mesh.parts[part];
+        let Submesh { first_index, index_count, .. } = mesh.submeshes[part];
         let indices = mesh.indices[first_index as usize..][..index_count as usize].to_vec();
         area(&primitives::from_triangles(mesh.positions.clone(), indices))
     };
-    assert_eq!(after.parts.iter().map(|p| p.material).collect::<Vec<_>>(), [4, 2]);
-    assert_eq!(after.parts[1].first_index, after.parts[0].index_count);
-    assert_eq!(after.parts[0].index_count + after.parts[1].index_count, after.indices.len() as u32);
+    assert_eq!(after.submeshes.iter().map(|p| p.material).collect::<Vec<_>>(), [4, 2]);
+    assert_eq!(after.submeshes[1].first_index, after.submeshes[0].index_count);
+    assert_eq!(after.submeshes[0].index_count + after.submeshes[1].index_count, after.indices.len() as u32);
     for part in 0..2 {
         assert!((area_of(&after, part) / area_of(&mesh, part) - 1.0).abs() < 1e-3);
     }

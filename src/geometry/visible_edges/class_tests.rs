@@ -2,7 +2,7 @@ use EdgeClass::{Border, Intersection, Material, Object, Ridge, Silhouette, Valle
 
 use super::tests::{LENSES, length, look_from, see, see_by};
 use super::*;
-use crate::geometry::{Lens, MeshPart, primitives};
+use crate::geometry::{Lens, Submesh, primitives};
 
 const EYE: DVec3 = DVec3::new(2.1, 2.9, 4.3);
 
@@ -168,12 +168,12 @@ fn winding_and_doubled_walls_change_nothing() {
 #[test]
 fn materials_meet_only_where_asked_for() {
     let mut mesh = primitives::plane(1.0);
-    mesh.parts = vec![
-        MeshPart { first_index: 0, index_count: 3, material: 4 },
-        MeshPart { first_index: 3, index_count: 3, material: 2 },
+    mesh.submeshes = vec![
+        Submesh { first_index: 0, index_count: 3, material: 4 },
+        Submesh { first_index: 3, index_count: 3, material: 2 },
     ];
     let mut same = mesh.clone();
-    same.parts[1].material = 4;
+    same.submeshes[1].material = 4;
     let rules = LineRules { classes: &EdgeClass::ALL, ..LineRules::default() };
     for lens in LENSES {
         let projector = look_from(DVec3::new(0.4, 0.3, 5.0), lens);

@@ -212,7 +212,8 @@ impl Gatherer<'_> {
         let [a, b] = self.ends(number)?.map(place);
         let along = (b - a).try_normalize()?;
         let mut wings: Vec<Wing> = Vec::new();
-        let own = faces.iter().filter_map(|&(edge, face)| Some((self.opposite(edge, face)?, self.material(face))));
+        let own =
+            faces.iter().filter_map(|&(edge, face)| Some((self.opposite(edge, face)?, self.material(face))));
         let beyond = self.placed.adjacency.beyond(number);
         let beyond = beyond.and_then(|beyond| self.placed.mesh.beyond.get(beyond as usize));
         let is_soft = is_soft || beyond.is_some_and(|beyond| beyond.is_soft);
@@ -249,7 +250,7 @@ impl Gatherer<'_> {
     }
 
     fn material(&self, face: u32) -> usize {
-        let parts = &self.placed.mesh.parts;
+        let parts = &self.placed.mesh.submeshes;
         let part = parts.partition_point(|part| part.first_index <= 3 * face).saturating_sub(1);
         parts.get(part).map_or(0, |part| part.material)
     }

@@ -14,7 +14,7 @@ use super::materials::{self, SurfaceNeeds};
 use super::skin::{Pose, Skinning};
 use super::tangents;
 use crate::geometry::clean::clean;
-use crate::geometry::{Mesh, MeshPart, Rig};
+use crate::geometry::{Mesh, Rig, Submesh};
 use crate::scene::NodeId;
 
 /// A mesh with what changes its vertices: nodes with equal requests share the result.
@@ -355,9 +355,9 @@ fn merge(blocks: Vec<Block>, mut pieces: Vec<Piece>) -> Result<(Mesh, Option<Ski
             }
         }
         let index_count = indices.len() as u32;
-        match mesh.parts.last_mut() {
+        match mesh.submeshes.last_mut() {
             Some(last) if last.material == piece.material => last.index_count += index_count,
-            _ => mesh.parts.push(MeshPart {
+            _ => mesh.submeshes.push(Submesh {
                 first_index: mesh.indices.len() as u32,
                 index_count,
                 material: piece.material,

@@ -146,7 +146,7 @@ impl EdgeUniform {
     }
 
     /// The same for hidden lines, which are not aligned to any side; of an object that has none, nothing.
-    pub fn hidden(edges: &Edges, scale: f32) -> Self {
+    pub fn of_hidden_lines(edges: &Edges, scale: f32) -> Self {
         let hidden = &edges.hidden;
         if hidden.mode == HiddenMode::Off {
             return Self::default();

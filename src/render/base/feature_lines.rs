@@ -4,10 +4,10 @@ use super::edge_style::EdgeUniform;
 use super::frame_uniform::View;
 use super::gpu_scene::GpuScene;
 use super::group::Group;
-use super::ids::{object_id, region};
+use super::ids::{object_id, surface_id};
 use super::strokes::StrokeStyle;
 use crate::geometry::line_segments::{
-    Dashes, LineView, PlacedContours, PlacedEdges, Strokes, Wanted, contour_segments, draw_strokes,
+    Dashes, LineSelection, LineView, PlacedContours, PlacedEdges, Strokes, contour_segments, draw_strokes,
 };
 use crate::geometry::{ClassSet, EdgeClass, line_segments};
 
@@ -36,7 +36,7 @@ fn find(
         projector: view.projector(),
         jitter: glam::DVec2::ZERO,
         margin: f64::from(group.greatest_radius() + 2.0) + reach,
-        cuts: view.cuts(),
+        clip_planes: view.clip_planes(),
     };
     let mut all = Strokes::default();
     let mut shown = vec![false; scene.scene.meshes.len()];
@@ -60,7 +60,7 @@ fn find(
             world_from_local: found.world_from_local,
             object: id,
             // What a solid hides is left out.
-            is_solid: scene.shows_no_inside(node) && object.is_whole() && !group.shows_hidden,
+            is_solid: scene.shows_no_inside(node) && object.is_whole() && !group.is_unculled,
             shown: &shown,
         };
         let first = all.segments.len();
@@ -71,18 +71,19 @@ fn find(
             }
             None => line_segments(&placed, &view, &wanted, &mut all.segments),
         }
-        if let Some((section, opened)) = scene.section.as_ref().and_then(|s| Some((s, s.opened(node)?))) {
+        if let Some((section, sectioned)) = scene.section.as_ref().and_then(|s| Some((s, s.sectioned(node)?)))
+        {
             let placed = PlacedContours {
-                contours: &opened.contours,
-                world_from_plane: section.world_from_cap(opened),
+                contours: &sectioned.contours,
+                world_from_plane: section.world_from_cap(sectioned),
                 edges,
                 object: id,
-                cap: opened.cap.map(|cap| cap.surface),
+                cap: sectioned.cap.map(|cap| cap.surface),
             };
             contour_segments(&placed, &view, &wanted, &mut all.segments);
         }
         for segment in all.segments.iter_mut().skip(first) {
-            segment.surfaces = segment.surfaces.map(|surface| region(id, surface));
+            segment.surfaces = segment.surfaces.map(|surface| surface_id(id, surface));
         }
     }
     if strokes.is_some() {
@@ -93,7 +94,7 @@ fn find(
 
 /// What an object's style asks for. Creases that separate surfaces are found even where they are not drawn: they tell
 /// that there is no intersection, nor a step in depth where one of the surfaces is steep.
-fn wanted(style: &EdgeUniform, crease_angle: f32) -> Wanted {
+fn wanted(style: &EdgeUniform, crease_angle: f32) -> LineSelection {
     let of = |class: EdgeClass| &style.lines[class as usize];
     let classes = style.drawn().fold(ClassSet::NONE, |classes, (class, _)| classes.with(class));
     let dashed = style.drawn().filter(|(_, line)| line.dashed == 1);
@@ -101,7 +102,7 @@ fn wanted(style: &EdgeUniform, crease_angle: f32) -> Wanted {
     let with_discontinuities = [EdgeClass::Silhouette, EdgeClass::Object, EdgeClass::Intersection]
         .into_iter()
         .any(|class| classes.contains(class));
-    Wanted {
+    LineSelection {
         dashes: (!dashed.is_empty()).then_some(Dashes { classes: dashed, period: style.dash_period }),
         classes,
         ridge_angle: of(EdgeClass::Ridge).threshold,

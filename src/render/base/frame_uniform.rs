@@ -13,7 +13,7 @@ use crate::scene::{Camera, LightKind, Projection};
 pub const REFERENCE_HEIGHT: f64 = 1080.0;
 
 /// What lies this close before a mirror belongs to the mirror; share of the diagonal of everything visible.
-const CUT_MARGIN: f64 = 1e-5;
+const CLIP_MARGIN: f64 = 1e-5;
 
 /// Twin of `Light` in `shaders/common/frame.wgsl`.
 #[derive(Debug, Clone, Copy, PartialEq, ShaderType, Default)]
@@ -37,8 +37,8 @@ pub struct FrameUniform {
     orthographic: u32,
     light_count: u32,
     center_depth: f32,
-    cut_depth: f32,
-    cut: Vec4,
+    near_clip_depth: f32,
+    clip_plane: Vec4,
     section: Vec4,
     shadow_density: f32,
     background: Vec4,
@@ -63,17 +63,17 @@ pub struct View {
     /// Depths of the nearest and farthest plane, scene units.
     pub clip_range: [f64; 2],
     /// Whether the nearest plane cuts something.
-    pub is_cut: bool,
+    pub near_plane_clips: bool,
     /// The middle of everything visible, world space.
     pub center: DVec3,
     /// How far the picture is moved, right and down; pixels, −0.5 to 0.5.
     pub jitter: Vec2,
     /// What lies behind this plane is not drawn: view space, its product with (point, 1) is the distance before it.
-    pub cut: Option<DVec4>,
+    pub clip_plane: Option<DVec4>,
     /// What lies behind the section plane is not drawn either: the same in world space.
     pub section: Option<DVec4>,
     /// The part of the picture that is wanted: left, top, right and bottom edge in pixels; `None`: all of it.
-    pub part: Option<[u32; 4]>,
+    pub scissor_rect: Option<[u32; 4]>,
 }
 
 /// Nearest and farthest depth of a box in view space; `None` when it is empty or wholly behind the eye.
@@ -86,7 +86,7 @@ fn depth_range(bounds: &Bounds, view_from_world: &DMat4) -> Option<(f64, f64)> {
 impl View {
     /// The part of the picture that a box covers at most, with a margin: left, top, right and bottom edge in pixels. `None`
     /// if it is empty. `corners`: world space, in the order of [`Bounds::corners`].
-    pub fn part_of(&self, corners: &[DVec3; 8], margin: f32) -> Option<[u32; 4]> {
+    pub fn rect_of(&self, corners: &[DVec3; 8], margin: f32) -> Option<[u32; 4]> {
         let projector = self.projector();
         let [near, _] = self.clip_range;
         let in_view = corners.map(|corner| self.view_from_world.transform_point3(corner));
@@ -110,13 +110,13 @@ impl View {
         let (low, high) = (low - margin, high + margin);
         let edge = |at: f64, size: u32| at.clamp(0.0, f64::from(size)) as u32;
         let UVec2 { x: width, y: height } = self.size;
-        let part = [
+        let rect = [
             edge(low.x.floor(), width),
             edge(low.y.floor(), height),
             edge(high.x.ceil(), width),
             edge(high.y.ceil(), height),
         ];
-        (part[0] < part[2] && part[1] < part[3]).then_some(part)
+        (rect[0] < rect[2] && rect[1] < rect[3]).then_some(rect)
     }
 
     /// The view of `camera` on a scene of which `visible` is the box around everything that is drawn.
@@ -175,28 +175,28 @@ impl View {
             orthographic,
             projection,
             clip_range,
-            is_cut: !orthographic && near < clip_range[0],
+            near_plane_clips: !orthographic && near < clip_range[0],
             center: if visible.is_empty() { DVec3::ZERO } else { visible.center() },
             jitter: Vec2::ZERO,
-            cut: None,
+            clip_plane: None,
             section: None,
-            part: None,
+            scissor_rect: None,
         }
     }
 
     /// What this view shows in a mirror: the view of the eye's mirror image, flipped left to right so that nothing is
     /// inside out. A pixel of the mirror shows the pixel of this view that lies as far from the opposite side of the
-    /// picture. What lies behind the mirror or on it is left out; `part` as in [`View::part`], for this view.
+    /// picture. What lies behind the mirror or on it is left out; `rect` as in [`View::rect`], for this view.
     #[must_use]
-    pub fn mirrored(&self, plane: &Plane, visible: &Bounds, part: [u32; 4]) -> Self {
+    pub fn mirrored(&self, plane: &Plane, visible: &Bounds, rect: [u32; 4]) -> Self {
         let flipped = DMat4::from_scale(DVec3::new(-1.0, 1.0, 1.0));
         let view_from_world = flipped * self.view_from_world * plane.reflection();
-        let [left, top, right, bottom] = part;
-        let margin = visible.diagonal() * CUT_MARGIN;
-        let cut = plane.equation() - DVec4::W * margin;
+        let [left, top, right, bottom] = rect;
+        let margin = visible.diagonal() * CLIP_MARGIN;
+        let plane = plane.equation() - DVec4::W * margin;
         Self {
-            cut: Some(view_from_world.inverse().transpose() * cut),
-            part: Some([self.size.x - right, top, self.size.x - left, bottom]),
+            clip_plane: Some(view_from_world.inverse().transpose() * plane),
+            scissor_rect: Some([self.size.x - right, top, self.size.x - left, bottom]),
             center: self.center,
             section: self.section,
             ..Self::through(view_from_world, self.projection, visible, self.size)
@@ -206,19 +206,19 @@ impl View {
 
     /// The same with everything behind a plane cut away: world space, its product with (point, 1) is the distance before it.
     #[must_use]
-    pub fn cut_at(self, section: Option<DVec4>) -> Self {
+    pub fn with_section(self, section: Option<DVec4>) -> Self {
         Self { section, ..self }
     }
 
     /// The planes behind which nothing is drawn, in view space: that of a mirror and that of the section; 0: none.
-    pub fn cuts(&self) -> [DVec4; 2] {
+    pub fn clip_planes(&self) -> [DVec4; 2] {
         let section = self.section.map(|plane| self.view_from_world.inverse().transpose() * plane);
-        [self.cut, section].map(Option::unwrap_or_default)
+        [self.clip_plane, section].map(Option::unwrap_or_default)
     }
 
-    /// Whether anything is cut off.
-    pub fn has_cuts(&self) -> bool {
-        self.cut.is_some() || self.section.is_some()
+    /// Whether anything is clipped.
+    pub fn is_clipped(&self) -> bool {
+        self.clip_plane.is_some() || self.section.is_some()
     }
 
     /// Where something lies that faces the eye: local to world space. It is seen where its anchor is, nothing of size where
@@ -249,9 +249,9 @@ impl View {
             * DMat4::from_scale(DVec3::splat(size))
     }
 
-    /// Whether the cuts leave nothing of what lies between these points, in view space.
-    pub fn cuts_off(&self, corners: &[DVec3]) -> bool {
-        self.cuts().iter().any(|cut| corners.iter().all(|c| cut.dot(c.extend(1.0)) < 0.0))
+    /// Whether the clip planes leave nothing of what lies between these points, in view space.
+    pub fn clips_away(&self, corners: &[DVec3]) -> bool {
+        self.clip_planes().iter().any(|plane| corners.iter().all(|c| plane.dot(c.extend(1.0)) < 0.0))
     }
 
     /// The same with the picture moved by so many pixels, right and down; less than one in each direction.
@@ -317,7 +317,7 @@ impl View {
 impl FrameUniform {
     /// All that the shaders know of camera, lights and paper. `background`: linear colour and opacity.
     pub fn new(view: &View, sample: Sample, depth_range: Vec2, lights: &Lights, background: Vec4) -> Self {
-        let [cut, section] = view.cuts();
+        let [clip_plane, section] = view.clip_planes();
         let mut uniforms = [LightUniform::default(); MAX_LIGHTS];
         for (uniform, light) in uniforms.iter_mut().zip(&lights.lights) {
             *uniform = light_uniform(light, &view.view_from_world);
@@ -340,8 +340,8 @@ impl FrameUniform {
             orthographic: u32::from(view.orthographic),
             light_count: lights.lights.len().min(MAX_LIGHTS) as u32,
             center_depth: -view.view_from_world.transform_point3(view.center).z as f32,
-            cut_depth: if view.is_cut { view.clip_range[0] as f32 } else { 0.0 },
-            cut: cut.as_vec4(),
+            near_clip_depth: if view.near_plane_clips { view.clip_range[0] as f32 } else { 0.0 },
+            clip_plane: clip_plane.as_vec4(),
             section: section.as_vec4(),
             shadow_density: lights.density,
             background,

@@ -6,7 +6,7 @@ use glam::{DMat4, DVec3};
 use rayon::prelude::*;
 
 use super::frame_uniform::View;
-use super::section::{Part, Section};
+use super::section::{Section, SectionResult};
 use super::stripes::{GpuStripes, SolvedStripes, StripePlace, StripeRequest};
 use crate::document::Document;
 use crate::geometry::{Bodies, Bounds, CreaseRule, FeatureEdges, Mesh, NotFlat, Plane, Topology, Weld};
@@ -30,7 +30,7 @@ pub struct GpuScene {
     blends: Arc<[bool]>,
     /// The meshes of the model, and those that were added: changing these touches nothing of the model.
     meshes: [MeshSet; 2],
-    /// Where it is cut open, if it is.
+    /// Its section, if it has one.
     pub section: Option<Section>,
     /// Diagonal of the box around the model, scene units.
     diagonal: f64,
@@ -252,14 +252,14 @@ impl GpuScene {
         set.bodies.get(number).map(Arc::as_ref)
     }
 
-    /// Cuts it open as a document asks for. Returns whether that changed anything.
+    /// Sections it as a document asks for. Returns whether that changed anything.
     ///
     /// # Errors
     /// [`GpuError::TooLarge`].
-    pub fn cut(&mut self, gpu: &Gpu, document: &Document) -> Result<bool, GpuError> {
+    pub fn set_section(&mut self, gpu: &Gpu, document: &Document) -> Result<bool, GpuError> {
         let section = Section::new(gpu, document, self, self.section.as_ref())?;
         let is_same = match (&section, &self.section) {
-            (Some(new), Some(old)) => new.is_same_cut(old),
+            (Some(new), Some(old)) => new.is_same_section(old),
             (new, old) => new.is_none() && old.is_none(),
         };
         self.section = section;
@@ -267,25 +267,25 @@ impl GpuScene {
     }
 
     /// Whether a section leaves nothing of a node's mesh.
-    pub fn is_cut_away(&self, node: NodeId) -> bool {
-        self.section.as_ref().is_some_and(|section| *section.part(node) == Part::Gone)
+    pub fn is_clipped_away(&self, node: NodeId) -> bool {
+        self.section.as_ref().is_some_and(|section| *section.result_for(node) == SectionResult::Removed)
     }
 
     /// Whether a section cuts a node's mesh open.
-    pub fn is_cut_open(&self, node: NodeId) -> bool {
-        self.section.as_ref().is_some_and(|section| section.opened(node).is_some())
+    pub fn is_sectioned(&self, node: NodeId) -> bool {
+        self.section.as_ref().is_some_and(|section| section.sectioned(node).is_some())
     }
 
     /// Whether a node shows no inside: its mesh, or what a section leaves of it with its cap, encloses a volume.
     pub fn shows_no_inside(&self, node: NodeId) -> bool {
-        match self.section.as_ref().and_then(|section| section.opened(node)) {
-            Some(opened) => opened.is_solid,
+        match self.section.as_ref().and_then(|section| section.sectioned(node)) {
+            Some(sectioned) => sectioned.is_solid,
             None => self.scene.nodes[node].mesh.is_some_and(|mesh| self.is_solid(mesh)),
         }
     }
 
     /// Which side of a node's triangles nobody can see: solids wholly before the eye show no back face.
-    pub fn hidden_side(
+    pub fn culled_face(
         &self,
         node: NodeId,
         view_from_local: &DMat4,
@@ -308,7 +308,7 @@ impl GpuScene {
     /// How the materials of a node's parts use their alpha.
     pub fn alphas(&self, node: NodeId) -> impl Iterator<Item = AlphaMode> {
         let mesh = self.scene.nodes[node].mesh.and_then(|m| self.scene.meshes.get(m));
-        mesh.into_iter().flat_map(|mesh| mesh.parts.iter().map(|part| self.alpha(part.material)))
+        mesh.into_iter().flat_map(|mesh| mesh.submeshes.iter().map(|part| self.alpha(part.material)))
     }
 
     /// Whether any material of a node has holes by alpha.
@@ -321,7 +321,7 @@ impl GpuScene {
         let mesh = self.scene.nodes[node].mesh.and_then(|m| self.scene.meshes.get(m));
         let mut materials = mesh
             .into_iter()
-            .flat_map(|m| &m.parts)
+            .flat_map(|m| &m.submeshes)
             .filter_map(|part| self.scene.materials.get(part.material));
         materials.any(|material| material.normal_texture.is_some())
     }
@@ -378,7 +378,7 @@ fn diagonal_of(scene: &Scene) -> f64 {
 fn blends(scene: &Scene, number: usize, material: &Material) -> bool {
     let image = material.base_color_texture.as_ref().and_then(|t| scene.textures.get(t.texture));
     let has_alpha = |texels: &[u8]| texels.chunks_exact(4).any(|texel| texel[3] < u8::MAX);
-    let mut meshes = scene.meshes.iter().filter(|m| m.parts.iter().any(|part| part.material == number));
+    let mut meshes = scene.meshes.iter().filter(|m| m.submeshes.iter().any(|part| part.material == number));
     material.alpha == AlphaMode::Blend
         && (material.base_color.w < 1.0
             || image.is_some_and(|image| has_alpha(&image.rgba))

@@ -1,4 +1,4 @@
-//! Objects that are drawn together, and the parts of them that are drawn.
+//! Objects that are drawn together, and their submeshes that are drawn.
 
 use glam::{DMat4, Mat3, Mat4};
 
@@ -12,9 +12,9 @@ use crate::geometry::Bounds;
 use crate::gpu::material::MaterialUniform;
 use crate::scene::{AlphaMode, NodeId};
 
-/// A part of a visible object: what has one material.
+/// The triangles of a visible object that have one material.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct VisiblePart {
+pub struct VisibleSubmesh {
     /// The object.
     pub node: NodeId,
     /// Whether its edges are drawn.
@@ -51,12 +51,12 @@ pub struct Visible {
     /// Whether its edges are drawn.
     pub enhanced: bool,
     /// Which of its parts are in the group.
-    pub parts: Parts,
+    pub submeshes: Submeshes,
 }
 
 /// Which parts of an object are in a group.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Parts {
+pub enum Submeshes {
     /// All of them.
     All,
     /// Those through which nothing shows.
@@ -68,32 +68,32 @@ pub enum Parts {
 impl Visible {
     /// Whether all of its parts are in the group.
     pub fn is_whole(&self) -> bool {
-        self.parts == Parts::All
+        self.submeshes == Submeshes::All
     }
 
     fn has(&self, material: usize, scene: &GpuScene) -> bool {
         let blends = scene.alpha(material) == AlphaMode::Blend;
-        let is_in = match self.parts {
-            Parts::All => true,
-            Parts::Opaque => !blends,
-            Parts::Blended => blends,
+        let is_in = match self.submeshes {
+            Submeshes::All => true,
+            Submeshes::Opaque => !blends,
+            Submeshes::Blended => blends,
         };
         // Nothing is left of what has no opacity at all.
         is_in && !(blends && scene.scene.materials.get(material).is_some_and(|m| m.base_color.w <= 0.0))
     }
 }
 
-impl VisiblePart {
+impl VisibleSubmesh {
     /// Which side of its triangles nobody can see.
-    pub fn hidden_side(
+    pub fn culled_face(
         &self,
         scene: &GpuScene,
         view_from_local: &DMat4,
         orthographic: bool,
     ) -> Option<wgpu::Face> {
         // A cap closes what is cut open, whatever the side that it is seen from.
-        let hidden = || scene.hidden_side(self.node, view_from_local, orthographic);
-        (self.origin != Origin::Caps && self.is_whole).then(hidden).flatten()
+        let culled = || scene.culled_face(self.node, view_from_local, orthographic);
+        (self.origin != Origin::Caps && self.is_whole).then(culled).flatten()
     }
 
     /// What it is made of; a cap of the section's colour.
@@ -115,15 +115,15 @@ pub struct Group {
     /// Whether any object with lines has holes by alpha.
     pub has_holes: bool,
     /// Whether what faces away from the eye or lies behind a solid's front is drawn too.
-    pub shows_hidden: bool,
+    pub is_unculled: bool,
     /// How straight lines are drawn, unless the group is cut into layers; `None`: as they are.
     pub strokes: Option<StrokeStyle>,
 }
 
 impl Group {
-    /// Nothing of a scene with so many object ids; what is hidden is drawn too.
-    pub fn with_hidden(count: usize) -> Self {
-        Self { shows_hidden: true, ..Self::new(count) }
+    /// Nothing of a scene with so many object ids; nothing is culled.
+    pub fn unculled(count: usize) -> Self {
+        Self { is_unculled: true, ..Self::new(count) }
     }
 
     /// Nothing of a scene with so many object ids.
@@ -151,9 +151,9 @@ impl Group {
         }
     }
 
-    /// The same objects, what is hidden too, with lines by object id.
-    pub fn with_hidden_lines(&self, edge_styles: &[EdgeUniform]) -> Self {
-        Self { edge_styles: edge_styles.to_vec(), shows_hidden: true, ..self.clone() }
+    /// The same objects, nothing culled, with lines by object id.
+    pub fn unculled_with_lines(&self, edge_styles: &[EdgeUniform]) -> Self {
+        Self { edge_styles: edge_styles.to_vec(), is_unculled: true, ..self.clone() }
     }
 
     /// Whether there are none.
@@ -186,16 +186,16 @@ impl Group {
         self.visible.iter().filter_map(|object| box_of(object.node, scene))
     }
 
-    /// The part of the picture that they and their lines cover at most: left, top, right and bottom edge in pixels.
-    pub fn part(&self, scene: &GpuScene, view: &View) -> [u32; 4] {
+    /// The rectangle of the picture that they and their lines cover at most: left, top, right and bottom edge in pixels.
+    pub fn scissor_rect(&self, scene: &GpuScene, view: &View) -> [u32; 4] {
         let margin = self.greatest_reach();
         let boxes = self.boxes(scene).filter(|(bounds, _)| !bounds.is_empty());
-        let parts = boxes.filter_map(|(bounds, place)| {
-            view.part_of(&bounds.corners().map(|corner| place.transform_point3(corner)), margin)
+        let rects = boxes.filter_map(|(bounds, place)| {
+            view.rect_of(&bounds.corners().map(|corner| place.transform_point3(corner)), margin)
         });
         let [width, height] = view.size.to_array();
-        let [left, top, right, bottom] = view.part.unwrap_or([0, 0, width, height]);
-        let [x0, y0, x1, y1] = parts.fold([right, bottom, left, top], |a, b| {
+        let [left, top, right, bottom] = view.scissor_rect.unwrap_or([0, 0, width, height]);
+        let [x0, y0, x1, y1] = rects.fold([right, bottom, left, top], |a, b| {
             [a[0].min(b[0]), a[1].min(b[1]), a[2].max(b[2]), a[3].max(b[3])]
         });
         let [x1, y1] = [x1.min(right), y1.min(bottom)];
@@ -203,55 +203,57 @@ impl Group {
     }
 
     /// The parts of all visible objects, and the caps of those that are cut open.
-    pub fn parts<'a>(&'a self, scene: &'a GpuScene) -> impl Iterator<Item = VisiblePart> + 'a {
-        self.parts_of_meshes(scene).chain(self.caps(scene))
+    pub fn submeshes<'a>(&'a self, scene: &'a GpuScene) -> impl Iterator<Item = VisibleSubmesh> + 'a {
+        self.submeshes_of_meshes(scene).chain(self.caps(scene))
     }
 
-    fn caps<'a>(&'a self, scene: &'a GpuScene) -> impl Iterator<Item = VisiblePart> + 'a {
+    fn caps<'a>(&'a self, scene: &'a GpuScene) -> impl Iterator<Item = VisibleSubmesh> + 'a {
         scene.section.iter().flat_map(move |section| {
-            self.visible.iter().filter(|object| object.parts != Parts::Blended).filter_map(move |object| {
-                let Visible { node, enhanced, .. } = *object;
-                let opened = section.opened(node)?;
-                let cap = opened.cap?;
-                Some(VisiblePart {
-                    node,
-                    enhanced,
-                    bounds: cap.bounds,
-                    surfaces: cap.surface + 1,
-                    is_flat: true,
-                    world_from_local: section.world_from_cap(opened),
-                    material: usize::MAX,
-                    is_whole: true,
-                    origin: Origin::Caps,
-                    first_index: cap.range.first_index,
-                    index_count: cap.index_count,
-                    first_triangle: 0,
-                    base_vertex: cap.range.base_vertex,
-                })
-            })
+            self.visible.iter().filter(|object| object.submeshes != Submeshes::Blended).filter_map(
+                move |object| {
+                    let Visible { node, enhanced, .. } = *object;
+                    let sectioned = section.sectioned(node)?;
+                    let cap = sectioned.cap?;
+                    Some(VisibleSubmesh {
+                        node,
+                        enhanced,
+                        bounds: cap.bounds,
+                        surfaces: cap.surface + 1,
+                        is_flat: true,
+                        world_from_local: section.world_from_cap(sectioned),
+                        material: usize::MAX,
+                        is_whole: true,
+                        origin: Origin::Caps,
+                        first_index: cap.range.first_index,
+                        index_count: cap.index_count,
+                        first_triangle: 0,
+                        base_vertex: cap.range.base_vertex,
+                    })
+                },
+            )
         })
     }
 
-    fn parts_of_meshes<'a>(&'a self, scene: &'a GpuScene) -> impl Iterator<Item = VisiblePart> + 'a {
+    fn submeshes_of_meshes<'a>(&'a self, scene: &'a GpuScene) -> impl Iterator<Item = VisibleSubmesh> + 'a {
         self.visible.iter().flat_map(move |object| {
             let Visible { node: id, enhanced, .. } = *object;
             let node = &scene.scene.nodes[id];
             let found = node.mesh.and_then(|m| Some((m, scene.scene.meshes.get(m)?, scene.range_of(m)?)));
             found.into_iter().flat_map(move |(mesh, source, (origin, range))| {
-                let parts = source.parts.iter().filter(|part| object.has(part.material, scene));
-                parts.map(move |part| VisiblePart {
+                let submeshes = source.submeshes.iter().filter(|submesh| object.has(submesh.material, scene));
+                submeshes.map(move |submesh| VisibleSubmesh {
                     node: id,
                     enhanced,
                     bounds: scene.mesh_bounds(mesh),
                     surfaces: source.triangle_count() as u32,
                     is_flat: source.normals.is_empty(),
                     world_from_local: node.world_from_local,
-                    material: part.material,
+                    material: submesh.material,
                     is_whole: object.is_whole(),
                     origin,
-                    first_index: range.first_index + part.first_index,
-                    index_count: part.index_count,
-                    first_triangle: part.first_index / 3,
+                    first_index: range.first_index + submesh.first_index,
+                    index_count: submesh.index_count,
+                    first_triangle: submesh.first_index / 3,
                     base_vertex: range.base_vertex,
                 })
             })
@@ -259,74 +261,75 @@ impl Group {
     }
 
     /// What the G-buffer depends on: for each visible part its matrices, object and material, ordered by pipeline.
-    pub fn draws(&self, scene: &GpuScene, view: &View) -> (Vec<Instance>, Vec<DrawCall>) {
-        let mut draws = Vec::new();
+    pub fn instances(&self, scene: &GpuScene, view: &View) -> (Vec<Instance>, Vec<DrawCall>) {
+        let mut instances = Vec::new();
         let mut calls = Vec::new();
-        for part in self.parts(scene) {
+        for submesh in self.submeshes(scene) {
             // Combined in double precision, so that models far from the origin do not jitter.
-            let view_from_local = view.view_from_world * part.world_from_local;
+            let view_from_local = view.view_from_world * submesh.world_from_local;
             // What faces the eye does not face its mirror images.
-            if view.cut.is_some() && scene.scene.facing_of(part.node).is_some() {
+            if view.clip_plane.is_some() && scene.scene.facing_of(submesh.node).is_some() {
                 continue;
             }
-            if view.has_cuts()
-                && view
-                    .cuts_off(&part.bounds.corners().map(|corner| view_from_local.transform_point3(corner)))
+            if view.is_clipped()
+                && view.clips_away(
+                    &submesh.bounds.corners().map(|corner| view_from_local.transform_point3(corner)),
+                )
             {
                 continue;
             }
-            let material = scene.scene.materials.get(part.material);
-            let alpha = scene.alpha(part.material);
+            let material = scene.scene.materials.get(submesh.material);
+            let alpha = scene.alpha(submesh.material);
             let has_images =
                 material.is_some_and(|m| m.base_color_texture.is_some() || m.normal_texture.is_some());
-            let depth = -part.bounds.transformed(&view_from_local).max.z;
+            let depth = -submesh.bounds.transformed(&view_from_local).max.z;
             let call = DrawCall {
-                draw: draws.len() as u32,
-                origin: part.origin,
-                first_index: part.first_index,
-                index_count: part.index_count,
-                surfaces: part.surfaces,
-                base_vertex: part.base_vertex,
-                material_group: scene.materials.group_index(part.material),
-                detail: if scene.geometry(part.origin).attributes.is_none() {
+                instance: instances.len() as u32,
+                origin: submesh.origin,
+                first_index: submesh.first_index,
+                index_count: submesh.index_count,
+                surfaces: submesh.surfaces,
+                base_vertex: submesh.base_vertex,
+                material_group: scene.materials.group_index(submesh.material),
+                detail: if scene.geometry(submesh.origin).attributes.is_none() {
                     Detail::Lean
                 } else if has_images || alpha != AlphaMode::Opaque {
                     Detail::Full
                 } else {
                     Detail::Smooth
                 },
-                hidden_side: if alpha == AlphaMode::Opaque && !self.shows_hidden {
-                    part.hidden_side(scene, &view_from_local, view.orthographic)
+                culled_face: if alpha == AlphaMode::Opaque && !self.is_unculled {
+                    submesh.culled_face(scene, &view_from_local, view.orthographic)
                 } else {
                     None
                 },
             };
             calls.push((depth, call));
-            let draw = Instance {
+            let instance = Instance {
                 view_from_local: view_from_local.as_mat4(),
                 normal_from_local: normal_matrix(&view_from_local),
-                object: object_id(part.node) | if part.enhanced { ENHANCED } else { 0 },
-                material: part.material(scene),
-                is_flat: part.is_flat,
+                object: object_id(submesh.node) | if submesh.enhanced { ENHANCED } else { 0 },
+                material: submesh.material(scene),
+                is_flat: submesh.is_flat,
                 first_surface: 0,
-                first_triangle: part.first_triangle,
+                first_triangle: submesh.first_triangle,
                 enlarged: 0.0,
             };
-            draws.push(draw);
+            instances.push(instance);
         }
         // Near ones first: what lies behind them is then never shaded.
         calls.sort_by(|(a, _), (b, _)| a.total_cmp(b));
-        calls.sort_by_key(|(_, c)| (c.origin, c.detail, c.hidden_side.map(|s| s as u32)));
+        calls.sort_by_key(|(_, c)| (c.origin, c.detail, c.culled_face.map(|s| s as u32)));
         let calls: Vec<DrawCall> = calls.into_iter().map(|(_, call)| call).collect();
         // 0 is left for nothing.
         let mut first_surface = 1_u32;
         for call in &calls {
-            if let Some(draw) = draws.get_mut(call.draw as usize) {
-                draw.first_surface = first_surface;
+            if let Some(instance) = instances.get_mut(call.instance as usize) {
+                instance.first_surface = first_surface;
                 first_surface = first_surface.saturating_add(call.surfaces);
             }
         }
-        (draws, calls)
+        (instances, calls)
     }
 }
 

@@ -15,7 +15,7 @@ pub fn node_of(object: u32) -> Option<NodeId> {
     (object & !ENHANCED).checked_sub(1).map(|n| n as usize)
 }
 
-/// The number in the G-buffer for a surface of an object; twin of `region_of` in `shaders/common/region.wgsl`.
-pub fn region(object: u32, surface: u32) -> u32 {
+/// The number in the G-buffer for a surface of an object; twin of `surface_id_of` in `shaders/common/surface_id.wgsl`.
+pub fn surface_id(object: u32, surface: u32) -> u32 {
     object.wrapping_mul(2_654_435_769).wrapping_add(surface).max(1)
 }

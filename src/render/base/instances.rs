@@ -1,5 +1,5 @@
-//! What is drawn: instances, and the draw calls that draw them. Consecutive calls that need nothing else bound make up runs;
-//! one that the gate may stop is recorded as one call, which software devices rasterise in one go.
+//! What is drawn: instances, and the draw calls that draw them. Consecutive calls that need nothing else bound make up batches;
+//! one that the predicate may stop is recorded as one call, which software devices rasterise in one go.
 
 use bytemuck::{Pod, Zeroable};
 use glam::{Mat3, Mat4};
@@ -21,7 +21,7 @@ pub struct Instance {
     pub object: u32,
     /// It has no normals, faces are flat.
     pub is_flat: bool,
-    /// Order of its first surface among those of all draws; at least 1.
+    /// Order of its first surface among those of all instances; at least 1.
     pub first_surface: u32,
     /// Number of its first triangle in its mesh.
     pub first_triangle: u32,
@@ -72,7 +72,7 @@ pub enum Detail {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DrawCall {
     /// Index of its instance.
-    pub draw: u32,
+    pub instance: u32,
     /// The buffers that hold it.
     pub origin: Origin,
     /// Range of the index buffer.
@@ -88,7 +88,7 @@ pub struct DrawCall {
     /// Which vertex and fragment shader it needs.
     pub detail: Detail,
     /// The side of its triangles that is left out.
-    pub hidden_side: Option<wgpu::Face>,
+    pub culled_face: Option<wgpu::Face>,
 }
 
 impl DrawCall {
@@ -102,7 +102,7 @@ impl DrawCall {
     /// Whether another one needs nothing else bound.
     fn joins(&self, other: &Self) -> bool {
         self.detail != Detail::Full
-            && (self.detail, self.origin, self.hidden_side) == (other.detail, other.origin, other.hidden_side)
+            && (self.detail, self.origin, self.culled_face) == (other.detail, other.origin, other.culled_face)
     }
 }
 
@@ -119,27 +119,27 @@ pub const INSTANCES: wgpu::VertexBufferLayout<'static> = wgpu::VertexBufferLayou
 };
 
 /// Instances on the device.
-pub struct Instances {
+pub struct InstanceBuffer {
     records: RecordBuffer,
     materials: DynamicBuffer,
 }
 
-/// A run of so many indices is not made longer: software devices rasterise it while they place the next one.
+/// A batch of so many indices is not made longer: software devices rasterise it while they place the next one.
 const ENOUGH: u32 = 3 << 12;
 
 /// Calls that need nothing bound between them.
-pub struct Run {
+pub struct Batch {
     /// The first of them.
     pub call: DrawCall,
     /// Where in the buffer of instances their own begin to be counted.
     first: u32,
     /// Arguments of each as the device reads them.
     args: Vec<[u32; 5]>,
-    /// Where they lie if the gate may stop them.
-    gated: Option<(wgpu::Buffer, u64)>,
+    /// Where they lie if the predicate may stop them.
+    predicated: Option<(wgpu::Buffer, u64)>,
 }
 
-impl Instances {
+impl InstanceBuffer {
     /// Without any.
     pub fn new(gpu: &Gpu) -> Self {
         Self {
@@ -182,41 +182,41 @@ impl Instances {
 
     /// The offset of the material of a call in that group.
     pub fn material_of(&self, call: &DrawCall) -> u32 {
-        self.materials.offset(call.draw)
+        self.materials.offset(call.instance)
     }
 
-    /// Records a run. Its vertices are bound already.
-    pub fn draw(&self, pass: &mut wgpu::RenderPass<'_>, run: &Run) {
-        pass.set_vertex_buffer(0, self.records.buffer().slice(u64::from(run.first) * RECORD_BYTES..));
-        if let Some((buffer, offset)) = &run.gated {
-            pass.multi_draw_indexed_indirect(buffer, *offset, run.args.len() as u32);
+    /// Records a batch. Its vertices are bound already.
+    pub fn draw(&self, pass: &mut wgpu::RenderPass<'_>, batch: &Batch) {
+        pass.set_vertex_buffer(0, self.records.buffer().slice(u64::from(batch.first) * RECORD_BYTES..));
+        if let Some((buffer, offset)) = &batch.predicated {
+            pass.multi_draw_indexed_indirect(buffer, *offset, batch.args.len() as u32);
             return;
         }
-        for [count, _, first, base, instance] in run.args.iter().copied() {
+        for [count, _, first, base, instance] in batch.args.iter().copied() {
             pass.draw_indexed(first..first + count, base as i32, instance..instance + 1);
         }
     }
 }
 
-/// Cuts draw calls into runs. Where the device cannot choose instances in indirect draws, each call is one.
-pub fn runs(rec: &mut Recorder<'_>, calls: &[DrawCall]) -> Vec<Run> {
+/// Groups draw calls into batches. Where the device cannot choose instances in indirect draws, each call is one.
+pub fn batches(rec: &mut Recorder<'_>, calls: &[DrawCall]) -> Vec<Batch> {
     let chooses = rec.gpu.device.features().contains(wgpu::Features::INDIRECT_FIRST_INSTANCE);
-    let mut runs: Vec<Run> = Vec::new();
+    let mut batches: Vec<Batch> = Vec::new();
     let mut indices = 0;
     for call in calls {
-        let joined = runs.last_mut().filter(|run| chooses && indices < ENOUGH && run.call.joins(call));
+        let joined = batches.last_mut().filter(|batch| chooses && indices < ENOUGH && batch.call.joins(call));
         indices = if joined.is_some() { indices + call.index_count } else { call.index_count };
-        let first = if chooses { 0 } else { call.draw };
-        let args = [call.index_count, 1, call.first_index, call.base_vertex as u32, call.draw - first];
+        let first = if chooses { 0 } else { call.instance };
+        let args = [call.index_count, 1, call.first_index, call.base_vertex as u32, call.instance - first];
         match joined {
-            Some(run) => run.args.push(args),
-            None => runs.push(Run { call: *call, first, args: vec![args], gated: None }),
+            Some(batch) => batch.args.push(args),
+            None => batches.push(Batch { call: *call, first, args: vec![args], predicated: None }),
         }
     }
-    for run in &mut runs {
-        run.gated = rec.gated(&run.args);
+    for batch in &mut batches {
+        batch.predicated = rec.predicated(&batch.args);
     }
-    runs
+    batches
 }
 
 #[cfg(test)]

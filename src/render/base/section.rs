@@ -12,7 +12,7 @@ use super::gpu_scene::GpuScene;
 use crate::document::Document;
 use crate::document::section::{Fill, Section as Style};
 use crate::geometry::section::{Cap, Contour, Filling, contours, fill};
-use crate::geometry::{Bounds, Mesh, MeshPart, Plane, Provoking};
+use crate::geometry::{Bounds, Mesh, Plane, Provoking, Submesh};
 use crate::gpu::geometry::{MeshRange, MeshSource};
 use crate::gpu::{GeometryBuffers, Gpu, GpuError};
 use crate::scene::NodeId;
@@ -30,18 +30,18 @@ const LOWEST: u32 = 24;
 
 /// What becomes of an object.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Part {
+pub enum SectionResult {
     /// The plane leaves all of it.
-    Whole,
+    Untouched,
     /// The plane leaves nothing of it.
-    Gone,
+    Removed,
     /// The plane cuts it open.
-    Open(Opened),
+    Open(SectionedObject),
 }
 
 /// An object that is cut open.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Opened {
+pub struct SectionedObject {
     /// Where; empty while topology is not known.
     pub contours: Vec<Contour>,
     /// How far below the other caps' plane its cap and its contours lie, scene units.
@@ -69,7 +69,7 @@ pub struct PlacedCap {
     pub pattern: u32,
 }
 
-/// What the cuts depend on.
+/// What sections depend on.
 #[derive(Debug, Clone, PartialEq)]
 struct Key {
     plane: Plane,
@@ -89,7 +89,7 @@ pub struct Section {
     world_from_plane: DMat4,
     /// Vertices of the caps.
     pub caps: GeometryBuffers,
-    parts: Arc<Vec<Part>>,
+    results: Arc<Vec<SectionResult>>,
     numbers: Arc<Vec<Number>>,
     key: Key,
 }
@@ -130,10 +130,10 @@ impl Section {
             Some(last) => Arc::clone(&last.numbers),
             None => Arc::new(numbers(scene, &key.visible, margin)),
         };
-        Self::cut(gpu, scene, style, margin, numbers, key).map(Some)
+        Self::build(gpu, scene, style, margin, numbers, key).map(Some)
     }
 
-    fn cut(
+    fn build(
         gpu: &Gpu,
         scene: &GpuScene,
         style: &Style,
@@ -150,7 +150,7 @@ impl Section {
             .with_max_len(1)
             .map(|&node| open(scene, node, &plane_from_world, key.has_caps))
             .collect();
-        let mut parts = vec![Part::Whole; scene.scene.nodes.len()];
+        let mut results = vec![SectionResult::Untouched; scene.scene.nodes.len()];
         let (mut meshes, mut capped) = (Vec::new(), Vec::new());
         for (&node, (part, cap)) in key.visible.iter().zip(found) {
             if let Some(cap) = cap {
@@ -159,43 +159,44 @@ impl Section {
                 meshes.push(mesh_of(&cap, surface));
                 capped.push((node, surface));
             }
-            parts[node] = part;
-            if let Part::Open(opened) = &mut parts[node] {
+            results[node] = part;
+            if let SectionResult::Open(sectioned) = &mut results[node] {
                 let level = numbers.get(node).copied().unwrap_or_default().level;
-                opened.depth = STEP * margin * f64::from(level.min(LOWEST));
+                sectioned.depth = STEP * margin * f64::from(level.min(LOWEST));
             }
         }
         let sources: Vec<_> =
             meshes.iter().map(|(mesh, surfaces)| MeshSource { mesh, surfaces: Some(surfaces) }).collect();
         let caps = GeometryBuffers::new(gpu, &sources)?;
         for (((node, surface), (mesh, _)), &range) in capped.into_iter().zip(&meshes).zip(&caps.meshes) {
-            if let Part::Open(opened) = &mut parts[node] {
+            if let SectionResult::Open(sectioned) = &mut results[node] {
                 let index_count = mesh.indices.len() as u32;
                 let pattern = numbers.get(node).copied().unwrap_or_default().pattern;
-                opened.cap = Some(PlacedCap { range, index_count, surface, bounds: mesh.bounds(), pattern });
+                sectioned.cap =
+                    Some(PlacedCap { range, index_count, surface, bounds: mesh.bounds(), pattern });
             }
         }
         let plane = -(key.plane.equation() + DVec4::W * (0.5 * margin));
-        let parts = Arc::new(parts);
-        Ok(Self { style: style.clone(), plane, world_from_plane, caps, parts, numbers, key })
+        let results = Arc::new(results);
+        Ok(Self { style: style.clone(), plane, world_from_plane, caps, results, numbers, key })
     }
 
     /// What becomes of an object.
-    pub fn part(&self, node: NodeId) -> &Part {
-        self.parts.get(node).unwrap_or(&Part::Whole)
+    pub fn result_for(&self, node: NodeId) -> &SectionResult {
+        self.results.get(node).unwrap_or(&SectionResult::Untouched)
     }
 
     /// An object, if it is cut open.
-    pub fn opened(&self, node: NodeId) -> Option<&Opened> {
-        match self.part(node) {
-            Part::Open(opened) => Some(opened),
-            Part::Whole | Part::Gone => None,
+    pub fn sectioned(&self, node: NodeId) -> Option<&SectionedObject> {
+        match self.result_for(node) {
+            SectionResult::Open(sectioned) => Some(sectioned),
+            SectionResult::Untouched | SectionResult::Removed => None,
         }
     }
 
     /// Where the contours of an object and its cap lie: x and y run in the plane, z is 0.
-    pub fn world_from_cap(&self, opened: &Opened) -> DMat4 {
-        self.world_from_plane * DMat4::from_translation(DVec3::new(0.0, 0.0, -opened.depth))
+    pub fn world_from_cap(&self, sectioned: &SectionedObject) -> DMat4 {
+        self.world_from_plane * DMat4::from_translation(DVec3::new(0.0, 0.0, -sectioned.depth))
     }
 
     /// The plane itself, and a direction in it that is as horizontal as it allows.
@@ -205,8 +206,10 @@ impl Section {
 
     /// Number of bodies that it cuts and that have no cap, for they enclose no volume.
     pub fn open_bodies(&self) -> usize {
-        let open = |part: &Part| if let Part::Open(opened) = part { opened.open_count } else { 0 };
-        self.parts.iter().map(open).sum()
+        let open = |part: &SectionResult| {
+            if let SectionResult::Open(sectioned) = part { sectioned.open_count } else { 0 }
+        };
+        self.results.iter().map(open).sum()
     }
 
     /// Whether anything has a cap.
@@ -215,27 +218,35 @@ impl Section {
     }
 
     /// Whether both cut the same objects at the same place.
-    pub fn is_same_cut(&self, other: &Self) -> bool {
-        Arc::ptr_eq(&self.parts, &other.parts)
+    pub fn is_same_section(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.results, &other.results)
     }
 }
 
 /// What becomes of an object, and the cap of the solid bodies that are cut open.
-fn open(scene: &GpuScene, node: NodeId, plane_from_world: &DMat4, has_caps: bool) -> (Part, Option<Cap>) {
+fn open(
+    scene: &GpuScene,
+    node: NodeId,
+    plane_from_world: &DMat4,
+    has_caps: bool,
+) -> (SectionResult, Option<Cap>) {
     let place = &scene.scene.nodes[node];
-    let Some(number) = place.mesh else { return (Part::Whole, None) };
+    let Some(number) = place.mesh else { return (SectionResult::Untouched, None) };
     let plane_from_local = *plane_from_world * place.world_from_local;
     let bounds = scene.mesh_bounds(number);
     let heights = bounds.corners().map(|corner| plane_from_local.transform_point3(corner).z);
     if bounds.is_empty() || heights.iter().all(|&z| z < 0.0) {
-        return (Part::Whole, None);
+        return (SectionResult::Untouched, None);
     }
     if heights.iter().all(|&z| z >= 0.0) {
-        return (Part::Gone, None);
+        return (SectionResult::Removed, None);
     }
     let known = (scene.scene.meshes.get(number), scene.weld(number), scene.bodies(number));
     let (Some(mesh), Some(weld), Some(bodies)) = known else {
-        return (Part::Open(Opened { is_solid: false, ..Opened::default() }), None);
+        return (
+            SectionResult::Open(SectionedObject { is_solid: false, ..SectionedObject::default() }),
+            None,
+        );
     };
     let contours = contours(mesh, weld, &plane_from_local);
     let Filling { cap, open_count } =
@@ -243,15 +254,18 @@ fn open(scene: &GpuScene, node: NodeId, plane_from_world: &DMat4, has_caps: bool
     // Where no body is cut, each is whole or gone.
     let is_closed = contours.is_empty() || cap.is_some() && open_count == 0;
     let is_solid = scene.is_solid(number) && is_closed;
-    (Part::Open(Opened { contours, is_solid, open_count, ..Opened::default() }), cap)
+    (
+        SectionResult::Open(SectionedObject { contours, is_solid, open_count, ..SectionedObject::default() }),
+        cap,
+    )
 }
 
 /// A cap as a mesh, all of one surface.
 fn mesh_of(cap: &Cap, surface: u32) -> (Mesh, Provoking) {
     let indices = cap.triangles.as_flattened().to_vec();
-    let parts = vec![MeshPart { first_index: 0, index_count: indices.len() as u32, material: 0 }];
+    let submeshes = vec![Submesh { first_index: 0, index_count: indices.len() as u32, material: 0 }];
     let positions: Vec<_> = cap.points.iter().map(|p| p.as_vec2().extend(0.0)).collect();
     let surface_of_vertex = vec![surface; positions.len()];
     let surfaces = Provoking { indices: indices.clone(), duplicates: Vec::new(), surface_of_vertex };
-    (Mesh { positions, indices, parts, ..Mesh::default() }, surfaces)
+    (Mesh { positions, indices, submeshes, ..Mesh::default() }, surfaces)
 }

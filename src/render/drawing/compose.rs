@@ -3,7 +3,7 @@
 use super::objects::Objects;
 use super::reflections::Reflected;
 use super::stages::{ColorKey, TogetherKey};
-use super::{Drawing, DrawingInputs, Drawn, Seen, Shared, surfaces_of};
+use super::{Drawing, DrawingInputs, Drawn, DrawnSurfaces, Shared, surfaces_of};
 use crate::gpu::{Recorder, Target};
 use crate::render::base::error::RenderError;
 use crate::render::base::stage::Output;
@@ -16,19 +16,19 @@ use crate::render::effects::translucent::{TranslucentGroups, TranslucentInputs, 
 use crate::render::passes::composition::Composition;
 use crate::render::passes::designated::DepthMask;
 use crate::render::passes::edge_map::EdgeMap;
-use crate::render::passes::line_distance::Reach;
-use crate::render::passes::lines::{Pen, lines};
+use crate::render::passes::line_distance::LineDistance;
+use crate::render::passes::lines::{LineShader, lines};
 use crate::render::passes::overlay::overlay;
 use crate::render::passes::shadows::ShadowMap;
 
 /// What the colour of the opaque surfaces is made of.
-struct Parts<'a> {
+struct ColorInputs<'a> {
     look: &'a Look,
     edges: Option<&'a Output<EdgeMap>>,
     reflected: Vec<Reflected>,
     hidden: Option<Output<Target>>,
     /// The lines, if they are drawn with the surfaces.
-    lines: Option<(&'a Output<EdgeMap>, Option<&'a Output<Reach>>)>,
+    lines: Option<(&'a Output<EdgeMap>, Option<&'a Output<LineDistance>>)>,
 }
 
 impl Drawing {
@@ -38,15 +38,16 @@ impl Drawing {
         rec: &mut Recorder<'_>,
         shared: &mut Shared,
         inputs: &DrawingInputs<'_>,
-        drawn: &Seen,
+        drawn: &DrawnSurfaces,
         edges: Option<&Output<EdgeMap>>,
     ) -> Result<Drawn, RenderError> {
-        let DrawingInputs { seen, objects, .. } = *inputs;
-        let look = Look::new(&objects.styles, &seen, caps(seen.scene, seen.view, objects.scale));
+        let DrawingInputs { scene_view, objects, .. } = *inputs;
+        let look =
+            Look::new(&objects.styles, &scene_view, caps(scene_view.scene, scene_view.view, objects.scale));
         let reflected = self.reflect(rec, shared, inputs)?;
         let own = surfaces_of(inputs, &drawn.uniform);
         let hidden = self.surfaces.hidden_lines(rec, &mut shared.gbuffer, &own, &objects.hidden, edges)?;
-        let reach = self.surfaces.reach(rec, own.group, edges)?;
+        let line_distance = self.surfaces.line_distance(rec, own.group, edges)?;
         let gbuffer = &drawn.surfaces.gbuffer;
         let geometry = Output { value: gbuffer.value.geometry.clone(), revision: gbuffer.revision };
         let mut composition = Composition::of_surfaces(geometry, !objects.surfaces.is_empty());
@@ -56,14 +57,14 @@ impl Drawing {
         if is_opaque && !has_sketches {
             self.surfaces.forget_ink();
         } else {
-            let ink = self.surfaces.ink(rec, &own, &drawn.surfaces, edges, reach.as_ref())?;
+            let ink = self.surfaces.ink(rec, &own, &drawn.surfaces, edges, line_distance.as_ref())?;
             composition.place_ink(ink);
         }
-        let lines = edges.filter(|_| !has_sketches).map(|edges| (edges, reach.as_ref()));
-        let parts = Parts { look: &look, edges, reflected, hidden, lines };
+        let lines = edges.filter(|_| !has_sketches).map(|edges| (edges, line_distance.as_ref()));
+        let color_inputs = ColorInputs { look: &look, edges, reflected, hidden, lines };
         let color = if has_sketches {
             let alone = Composition::of_surfaces(composition.surfaces.clone(), composition.has_surfaces);
-            let color = self.color_surfaces(rec, shared, inputs, drawn, &parts, &alone)?;
+            let color = self.color_surfaces(rec, shared, inputs, drawn, &color_inputs, &alone)?;
             let color = self.place_sketches(rec, shared, inputs, drawn, &look, &mut composition, color)?;
             self.see_through(rec, shared, inputs, drawn, &look, &mut composition)?;
             if composition.is_laid() {
@@ -87,7 +88,7 @@ impl Drawing {
             self.sketches.clear();
             self.together.clear();
             self.see_through(rec, shared, inputs, drawn, &look, &mut composition)?;
-            self.color_surfaces(rec, shared, inputs, drawn, &parts, &composition)?
+            self.color_surfaces(rec, shared, inputs, drawn, &color_inputs, &composition)?
         };
         let mut revisions = vec![composition.surfaces.revision];
         revisions.extend(composition.translucent_revisions());
@@ -100,24 +101,26 @@ impl Drawing {
         rec: &mut Recorder<'_>,
         shared: &mut Shared,
         inputs: &DrawingInputs<'_>,
-        drawn: &Seen,
-        parts: &Parts<'_>,
+        drawn: &DrawnSurfaces,
+        color_inputs: &ColorInputs<'_>,
         composition: &Composition,
     ) -> Result<Output<Target>, RenderError> {
-        let DrawingInputs { seen, objects, .. } = *inputs;
-        let Parts { look, edges, reflected, hidden, lines: drawn_lines } = parts;
+        let DrawingInputs { scene_view, objects, .. } = *inputs;
+        let ColorInputs { look, edges, reflected, hidden, lines: drawn_lines } = color_inputs;
         let spines = look.lines(*edges);
-        let Seen { uniform, surfaces } = drawn;
+        let DrawnSurfaces { uniform, surfaces } = drawn;
         let key = ColorKey {
             gbuffer: surfaces.gbuffer.revision,
             shadows: surfaces.shadow_mask.as_ref().map(|mask| mask.revision),
-            lines: drawn_lines.map(|(edges, reach)| (edges.revision, reach.map(|reach| reach.revision))),
+            lines: drawn_lines.map(|(edges, line_distance)| {
+                (edges.revision, line_distance.map(|line_distance| line_distance.revision))
+            }),
             shaded_by_lines: spines.map(|(_, revision)| revision),
             look: (*look).clone(),
             edge_styles: objects.surfaces.edge_styles.clone(),
             uniform: uniform.without_background(),
             reflected: reflected.iter().map(|r| (r.color.revision, r.uniform)).collect(),
-            paper_in_mirrors: (!reflected.is_empty()).then_some(seen.background),
+            paper_in_mirrors: (!reflected.is_empty()).then_some(scene_view.background),
             hidden: hidden.as_ref().map(|hidden| hidden.revision),
             translucent: composition.translucent_revisions(),
         };
@@ -125,21 +128,21 @@ impl Drawing {
             if let Some(only) = composition.only_translucent() {
                 return Ok(only.clone());
             }
-            let layer = self.surfaces.shaded(surfaces, seen, &key.uniform, spines);
+            let layer = self.surfaces.shaded(surfaces, scene_view, &key.uniform, spines);
             let color = self.shading.shade(rec, &mut shared.techniques, &key.look, &layer, false)?;
-            for seen in reflected {
-                let Some(reflection) = self.reflections.get_mut(seen.index) else { continue };
-                reflection.uniform.write(rec.gpu, &vec![seen.uniform]);
+            for mirrored in reflected {
+                let Some(reflection) = self.reflections.get_mut(mirrored.index) else { continue };
+                reflection.uniform.write(rec.gpu, &vec![drawn.uniform]);
                 let uniform = reflection.uniform.buffer();
-                mirror(rec, &surfaces.gbuffer.value.geometry, &seen.color.value, uniform, &color)?;
+                mirror(rec, &surfaces.gbuffer.value.geometry, &mirrored.color.value, uniform, &color)?;
             }
             if let Some(hidden) = hidden {
                 overlay(rec, &hidden.value, &color)?;
             }
-            if let Some((edges, reach)) = *drawn_lines {
-                let reach = reach.map(|reach| &reach.value);
-                let drawn = self.surfaces.lines(&objects.surfaces, surfaces, &edges.value, reach);
-                lines(rec, &drawn, &Pen::PLAIN, &color)?;
+            if let Some((edges, line_distance)) = *drawn_lines {
+                let line_distance = line_distance.map(|line_distance| &line_distance.value);
+                let drawn = self.surfaces.lines(&objects.surfaces, surfaces, &edges.value, line_distance);
+                lines(rec, &drawn, &LineShader::PLAIN, &color)?;
             }
             composition.lay_translucent(rec, &color)?;
             Ok::<_, RenderError>(color)
@@ -152,18 +155,18 @@ impl Drawing {
         rec: &mut Recorder<'_>,
         shared: &mut Shared,
         inputs: &DrawingInputs<'_>,
-        drawn: &Seen,
+        drawn: &DrawnSurfaces,
         look: &Look,
         composition: &mut Composition,
         mut color: Output<Target>,
     ) -> Result<Output<Target>, RenderError> {
-        let DrawingInputs { seen, objects, shadow_maps, .. } = *inputs;
+        let DrawingInputs { scene_view, objects, shadow_maps, .. } = *inputs;
         self.sketches.truncate(objects.sketches.len());
         self.sketches.resize_with(objects.sketches.len(), || SketchState::new(rec.gpu));
         let is_opaque = objects.blended.is_empty() && objects.blueprints.is_empty();
         let count = objects.sketches.len();
         for (number, (sketch, state)) in (1..).zip(objects.sketches.iter().zip(&mut self.sketches)) {
-            let inputs = SketchInputs { seen, sketch, uniform: &drawn.uniform, look, shadow_maps };
+            let inputs = SketchInputs { scene_view, sketch, uniform: &drawn.uniform, look, shadow_maps };
             let with = Sketching {
                 gbuffer: &mut shared.gbuffer,
                 techniques: &mut shared.techniques,
@@ -180,11 +183,11 @@ impl Drawing {
         rec: &mut Recorder<'_>,
         shared: &mut Shared,
         inputs: &DrawingInputs<'_>,
-        drawn: &Seen,
+        drawn: &DrawnSurfaces,
         look: &Look,
         composition: &mut Composition,
     ) -> Result<(), RenderError> {
-        let DrawingInputs { seen, objects, shadow_maps, .. } = *inputs;
+        let DrawingInputs { scene_view, objects, shadow_maps, .. } = *inputs;
         if objects.blended.is_empty() && objects.blueprints.is_empty() {
             self.blueprinted += self.translucent.take().map_or(0, |state| state.blueprint_runs());
             self.depth_mask.forget();
@@ -201,7 +204,7 @@ impl Drawing {
             shadow_maps,
         };
         let inputs = TranslucentInputs {
-            seen,
+            scene_view,
             uniform: &drawn.uniform,
             caps,
             mask: mask.as_ref(),
@@ -219,7 +222,7 @@ impl Drawing {
         rec: &mut Recorder<'_>,
         shared: &mut Shared,
         inputs: &DrawingInputs<'_>,
-        drawn: &Seen,
+        drawn: &DrawnSurfaces,
         composition: &Composition,
     ) -> Result<Option<Output<DepthMask>>, RenderError> {
         let Objects { blueprints, masks, surfaces, .. } = inputs.objects;
@@ -230,8 +233,8 @@ impl Drawing {
             // Where nothing else is opaque, they have been drawn.
             let is_all = masks.visible() == surfaces.visible();
             let drawn = is_all.then_some(&drawn.surfaces.gbuffer.value);
-            let (gbuffer_pass, seen) = (&mut shared.gbuffer, &inputs.seen);
-            Some(self.depth_mask.run(rec, gbuffer_pass, seen, (masks, drawn), &composition.surfaces)?)
+            let (gbuffer_pass, scene_view) = (&mut shared.gbuffer, &inputs.scene_view);
+            Some(self.depth_mask.run(rec, gbuffer_pass, scene_view, (masks, drawn), &composition.surfaces)?)
         };
         rec.note("depth mask", mask.as_ref().map(|mask| &mask.value.depth));
         Ok(mask)

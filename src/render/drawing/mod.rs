@@ -31,7 +31,7 @@ use crate::style::Style;
 #[derive(Clone, Copy)]
 pub struct DrawingInputs<'a> {
     /// The scene as the camera sees it.
-    pub seen: SceneView<'a>,
+    pub scene_view: SceneView<'a>,
     /// Styles and roles, resolved.
     pub objects: &'a Objects,
     /// The maps of the lights that throw shadows, by channel; they are for all cameras.
@@ -41,7 +41,7 @@ pub struct DrawingInputs<'a> {
 }
 
 /// The opaque surfaces of a drawing that lie in their place.
-pub struct Seen {
+pub struct DrawnSurfaces {
     /// All that is in bind group 0.
     pub uniform: FrameUniform,
     /// The surfaces.
@@ -193,16 +193,16 @@ impl Drawing {
         shared: &mut Shared,
         inputs: &DrawingInputs<'_>,
     ) -> Result<Drawn, RenderError> {
-        let seen = self.draw_surfaces(rec, shared, inputs)?;
+        let drawn = self.draw_surfaces(rec, shared, inputs)?;
         let edges = match inputs.objects.surfaces.have_lines() {
-            true => Some(self.find_edges(rec, inputs, &seen)?),
+            true => Some(self.find_edges(rec, inputs, &drawn)?),
             false => {
                 self.surfaces.forget_edges();
                 None
             }
         };
         rec.note("edge map", edges.as_ref().map(|edges| &edges.value.edges));
-        self.compose(rec, shared, inputs, &seen, edges.as_ref())
+        self.compose(rec, shared, inputs, &drawn, edges.as_ref())
     }
 
     /// Draws the opaque surfaces and the shadows on them; all later passes see through this camera.
@@ -214,30 +214,31 @@ impl Drawing {
         rec: &mut Recorder<'_>,
         shared: &mut Shared,
         inputs: &DrawingInputs<'_>,
-    ) -> Result<Seen, RenderError> {
-        let DrawingInputs { seen, objects, .. } = *inputs;
-        let SceneView { scene, view, .. } = seen;
+    ) -> Result<DrawnSurfaces, RenderError> {
+        let DrawingInputs { scene_view, objects, .. } = *inputs;
+        let SceneView { scene, view, .. } = scene_view;
         let depth_range = view.fitted_depth_range(objects.enhanced_boxes(scene));
-        let uniform = FrameUniform::new(view, seen.sample, depth_range, seen.lights, seen.background);
+        let uniform =
+            FrameUniform::new(view, scene_view.sample, depth_range, scene_view.lights, scene_view.background);
         self.uniform.write(rec.gpu, &uniform);
-        self.look_through(rec, &seen);
+        self.look_through(rec, &scene_view);
         let surfaces = self.surfaces.surfaces(rec, &mut shared.gbuffer, &surfaces_of(inputs, &uniform))?;
         let gbuffer = &surfaces.gbuffer.value;
         for (name, target) in [
             ("geometry", &gbuffer.geometry),
-            ("regions", &gbuffer.region),
+            ("surface ids", &gbuffer.surface_id),
             ("base color", &gbuffer.base_color),
             ("depth", &gbuffer.depth),
         ] {
             rec.note(name, Some(target));
         }
         rec.note("shadow mask", surfaces.shadow_mask.as_ref().map(|mask| &mask.value));
-        Ok(Seen { uniform, surfaces })
+        Ok(DrawnSurfaces { uniform, surfaces })
     }
 
-    fn look_through(&self, rec: &mut Recorder<'_>, seen: &SceneView<'_>) {
+    fn look_through(&self, rec: &mut Recorder<'_>, scene_view: &SceneView<'_>) {
         rec.frame = self.frame_group.clone();
-        rec.part = seen.view.part;
+        rec.scissor_rect = scene_view.view.scissor_rect;
     }
 
     /// The edges of surfaces.
@@ -248,9 +249,9 @@ impl Drawing {
         &mut self,
         rec: &mut Recorder<'_>,
         inputs: &DrawingInputs<'_>,
-        seen: &Seen,
+        drawn: &DrawnSurfaces,
     ) -> Result<Output<EdgeMap>, RenderError> {
-        self.surfaces.edges(rec, &surfaces_of(inputs, &seen.uniform), &seen.surfaces)
+        self.surfaces.edges(rec, &surfaces_of(inputs, &drawn.uniform), &drawn.surfaces)
     }
 
     /// Lets go of what only a picture needs.
@@ -268,6 +269,6 @@ impl Drawing {
 
 /// The opaque surfaces that lie in their place, as a camera sees them.
 fn surfaces_of<'a>(inputs: &DrawingInputs<'a>, uniform: &'a FrameUniform) -> OpaqueInputs<'a> {
-    let DrawingInputs { seen, objects, shadow_maps, .. } = *inputs;
-    OpaqueInputs { seen, group: &objects.surfaces, uniform, shadow_maps }
+    let DrawingInputs { scene_view, objects, shadow_maps, .. } = *inputs;
+    OpaqueInputs { scene_view, group: &objects.surfaces, uniform, shadow_maps }
 }

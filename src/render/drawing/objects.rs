@@ -6,7 +6,7 @@ use crate::document::{Document, Show};
 use crate::geometry::{Bounds, EdgeClass};
 use crate::render::base::edge_style::EdgeUniform;
 use crate::render::base::gpu_scene::GpuScene;
-use crate::render::base::group::{Group, Parts, Visible, box_of};
+use crate::render::base::group::{Group, Submeshes, Visible, box_of};
 use crate::render::base::ids::object_id;
 use crate::render::base::stripes::StripesBy;
 use crate::render::base::stroke_maps::StrokeMaps;
@@ -61,7 +61,7 @@ impl Objects {
         let (surfaces, styles) = (Group::new(count), SurfaceStyles::new(count));
         let mut objects = Self { scale, surfaces, styles, ..Self::default() };
         for (node, r) in resolved.iter().enumerate() {
-            if !r.visible || scene.scene.nodes[node].mesh.is_none() || scene.is_cut_away(node) {
+            if !r.visible || scene.scene.nodes[node].mesh.is_none() || scene.is_clipped_away(node) {
                 continue;
             }
             let id = object_id(node) as usize;
@@ -88,18 +88,18 @@ impl Objects {
             let has_blended = scene.alphas(node).any(is_blended);
             let is_opaque = !has_blended || !scene.alphas(node).all(is_blended);
             if has_blended && objects.blended.is_empty() {
-                objects.blended = Group::with_hidden(count);
+                objects.blended = Group::unculled(count);
             }
             // The width of lines that are nowhere would decide how all others are drawn; and what is only shaded smoothly has
             // no relief.
             let possible = |edges: EdgeUniform| {
-                let edges = if scene.is_cut_open(node) { edges } else { edges.without(EdgeClass::Section) };
+                let edges = if scene.is_sectioned(node) { edges } else { edges.without(EdgeClass::Section) };
                 if scene.has_relief(node) { edges } else { edges.without(EdgeClass::Relief) }
             };
             let edges = possible(EdgeUniform::new(&r.style.edges, scale));
             let edges = if has_layers { edges.inked(&r.style.edges, r.style.blueprint.near) } else { edges };
             let edges = if has_layers { edges.without_fainter(r.style.blueprint.threshold) } else { edges };
-            let whole = Visible { node, enhanced: r.enhanced, parts: Parts::All };
+            let whole = Visible { node, enhanced: r.enhanced, submeshes: Submeshes::All };
             if is_blueprint {
                 let group = Blueprint::group_of(&mut objects.blueprints, r.style, count);
                 group.add(whole, edges, scene);
@@ -108,20 +108,20 @@ impl Objects {
                 sketch.group.add(whole, edges, scene);
                 sketch.add_alphas(scene.alphas(node));
                 if r.enhanced {
-                    let style = possible(EdgeUniform::hidden(&r.style.edges, scale));
+                    let style = possible(EdgeUniform::of_hidden_lines(&r.style.edges, scale));
                     sketch.hidden.add((count, id), style, &r.style.edges.hidden);
                 }
             } else if is_opaque {
-                let parts = if has_blended { Parts::Opaque } else { Parts::All };
-                objects.surfaces.add(Visible { parts, ..whole }, edges, scene);
+                let submeshes = if has_blended { Submeshes::Opaque } else { Submeshes::All };
+                objects.surfaces.add(Visible { submeshes, ..whole }, edges, scene);
                 if r.enhanced && document.view.show == Show::Picture {
-                    let style = possible(EdgeUniform::hidden(&r.style.edges, scale));
+                    let style = possible(EdgeUniform::of_hidden_lines(&r.style.edges, scale));
                     objects.hidden.add((count, id), style, &r.style.edges.hidden);
                 }
             }
             if has_blended {
-                let parts = if is_opaque { Parts::Blended } else { Parts::All };
-                objects.blended.add(Visible { parts, ..whole }, edges, scene);
+                let submeshes = if is_opaque { Submeshes::Blended } else { Submeshes::All };
+                objects.blended.add(Visible { submeshes, ..whole }, edges, scene);
             }
             if r.mask {
                 objects.masks.add_without_lines(whole);

@@ -33,16 +33,16 @@ impl Drawing {
         let objects = inputs.objects;
         let mirrors = if inputs.reflections > 0 { objects.mirrors.as_slice() } else { &[] };
         let margin = objects.greatest_reach();
-        let seen: Vec<_> = mirrors
+        let mirrors_in_view: Vec<_> = mirrors
             .iter()
-            .filter_map(|m| Some((m, m.seen_from(inputs.seen.view, &objects.visible_bounds, margin)?)))
+            .filter_map(|m| Some((m, m.seen_from(inputs.scene_view.view, &objects.visible_bounds, margin)?)))
             .collect();
-        self.reflections.retain(|r| seen.iter().any(|(mirror, _)| mirror.object == r.object));
-        if seen.is_empty() {
+        self.reflections.retain(|r| mirrors_in_view.iter().any(|(mirror, _)| mirror.object == r.object));
+        if mirrors_in_view.is_empty() {
             return Ok(Vec::new());
         }
         let mut reflected = Vec::new();
-        for (mirror, view) in &seen {
+        for (mirror, view) in &mirrors_in_view {
             let index = match self.reflections.iter().position(|r| r.object == mirror.object) {
                 Some(index) => index,
                 None => {
@@ -55,15 +55,15 @@ impl Drawing {
                 }
             };
             let Some(reflection) = self.reflections.get_mut(index) else { continue };
-            let seen = SceneView { view, ..inputs.seen };
-            let inner = DrawingInputs { seen, reflections: inputs.reflections - 1, ..*inputs };
+            let scene_view = SceneView { view, ..inputs.scene_view };
+            let inner = DrawingInputs { scene_view, reflections: inputs.reflections - 1, ..*inputs };
             let before = reflection.drawing.drawn();
             // Whoever looks at what a picture is made of means that of the eye.
             let color = rec.unwatched(|rec| reflection.drawing.draw(rec, shared, &inner))?.color;
             self.reflected += reflection.drawing.drawn() - before;
             reflected.push(Reflected { color, uniform: mirror.uniform(), index });
         }
-        self.look_through(rec, &inputs.seen);
+        self.look_through(rec, &inputs.scene_view);
         Ok(reflected)
     }
 

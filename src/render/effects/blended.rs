@@ -1,7 +1,7 @@
-//! Materials that blend, in the surface techniques: their parts are cut into depth layers, and each is shaded as surfaces are and
+//! Materials that blend, in the surface techniques: their parts are split into depth layers, and each is shaded as surfaces are and
 //! placed with its lines, so that the order of objects does not matter.
 
-use super::layered::{Layered, LayeredGroup, Visit, Wanted, WantedLines};
+use super::layered::{LayerRequest, Layered, LayeredGroup, LineRequest, Visit};
 use super::surface::{Look, Shading};
 use super::technique::Shaded;
 use super::techniques::SharedTechniques;
@@ -39,12 +39,12 @@ pub fn place_blended(
     rec: &mut Recorder<'_>,
     gbuffer_pass: &mut GBufferPass,
     (layered, key): (&mut Layered, &LayeredGroup),
-    seen: &SceneView<'_>,
+    scene_view: &SceneView<'_>,
     composition: &Composition,
     with: &mut BlendedShading<'_>,
     place: &mut Place<'_>,
 ) -> Result<Option<Target>, RenderError> {
-    let wanted = Wanted {
+    let request = LayerRequest {
         most: MOST_BLENDED,
         least: 1,
         uncover: None,
@@ -54,23 +54,23 @@ pub fn place_blended(
         with_depth: true,
         whole: MOST_LAYERS,
         line_styles: &[&key.group.edge_styles],
-        seen: None,
+        nearer: None,
     };
     let mut front = None;
-    layered.walk(rec, gbuffer_pass, seen, key, &wanted, |rec, mut visit: Visit<'_>| {
+    layered.walk(rec, gbuffer_pass, scene_view, key, &request, |rec, mut visit: Visit<'_>| {
         let drawn = visit.drawn;
         let gbuffer = &drawn.layer.gbuffer;
         front.get_or_insert_with(|| gbuffer.geometry.clone());
-        let mask = with.shadow_mask.of_layer(rec, gbuffer, seen, with.shadow_maps)?;
+        let mask = with.shadow_mask.of_layer(rec, gbuffer, scene_view, with.shadow_maps)?;
         let layer = Shaded {
             gbuffer,
             revision: None,
             shadow_mask: mask.as_ref().map(|mask| (mask, 0)),
             spines: None,
-            seen: *seen,
+            scene_view: *scene_view,
             uniform: &key.uniform,
-            instances: drawn.instances,
-            draws: &key.draws,
+            instance_buffer: drawn.instance_buffer,
+            instances: &key.instances,
             calls: &key.calls,
         };
         let shaded = with.shading.shade(rec, with.shared, with.look, &layer, true)?;
@@ -78,11 +78,11 @@ pub fn place_blended(
         let switches = composition.switches();
         let mut pending = Pending::default();
         if key.group.have_lines()
-            && let Some(edges) = visit.edges(rec, WantedLines::default())?
+            && let Some(edges) = visit.edges(rec, LineRequest::default())?
             && let Some(lines) = visit.lines(&edges, 0)
         {
             let switches = [&[("AMONG_OTHERS", true)][..], &switches].concat();
-            let inputs = tested.clone().and(&inputs! { seen_tex: edges.nearer.as_ref() });
+            let inputs = tested.clone().and(&inputs! { nearer_lines_tex: edges.nearer.as_ref() });
             let shader = LayerShader { file: "effects/blended.wgsl", inputs: &inputs, switches: &switches };
             place.lines(rec, &mut pending, &lines, shader)?;
         }

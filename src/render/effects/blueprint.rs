@@ -7,7 +7,7 @@
 use encase::ShaderType;
 use glam::Vec3;
 
-use super::layered::{Layered, LayeredGroup, Visit, Wanted, WantedLines, least_pixels};
+use super::layered::{LayerRequest, Layered, LayeredGroup, LineRequest, Visit, least_pixels};
 use super::section::CapUniform;
 use crate::gpu::{ArrayBuffer, Gpu, Inputs, Recorder, Target, UniformBuffer, inputs};
 use crate::render::base::edge_style::EdgeUniform;
@@ -61,7 +61,7 @@ impl Blueprint {
         let index = found.unwrap_or(all.len());
         if found.is_none() {
             all.push(Self {
-                group: Group::with_hidden(count),
+                group: Group::unculled(count),
                 style: style.blueprint.clone(),
                 edges: style.edges.clone(),
             });
@@ -122,7 +122,7 @@ pub fn place_blueprint(
     rec: &mut Recorder<'_>,
     gbuffer_pass: &mut GBufferPass,
     (layered, key): (&mut Layered, &LayeredGroup),
-    seen: &SceneView<'_>,
+    scene_view: &SceneView<'_>,
     composition: &Composition,
     (inputs, buffers): (BlueprintInputs<'_>, &mut BlueprintBuffers),
     place: &mut Place<'_>,
@@ -136,7 +136,7 @@ pub fn place_blueprint(
     buffers.style.write(rec.gpu, &BlueprintUniform::from(params));
     let any = |has: fn(&EdgeUniform) -> bool| group.edge_styles.iter().any(has);
     let is_kept = LAYERS.into_iter().any(|name| rec.keeps(name));
-    let wanted = Wanted {
+    let request = LayerRequest {
         most: if mask.is_some() { blueprint.last() } else { blueprint.layers() },
         least: least_pixels(params.least, rec.size()),
         uncover: mask.map(|mask| Uncover {
@@ -151,19 +151,19 @@ pub fn place_blueprint(
         // The first one that is drawn is what a click means.
         whole: if is_kept || any(EdgeUniform::compares_geometry) { MOST_LAYERS } else { params.from },
         line_styles: &[&group.edge_styles],
-        seen: None,
+        nearer: None,
     };
     for name in LAYERS {
         rec.note(name, None);
     }
     let mut front = None;
-    let outer = rec.part.replace(group.part(seen.scene, seen.view));
+    let outer = rec.scissor_rect.replace(group.scissor_rect(scene_view.scene, scene_view.view));
     let buffers = &*buffers;
-    let drawn = layered.walk(rec, gbuffer_pass, seen, key, &wanted, |rec, mut visit: Visit<'_>| {
+    let drawn = layered.walk(rec, gbuffer_pass, scene_view, key, &request, |rec, mut visit: Visit<'_>| {
         let drawn = visit.drawn;
         let gbuffer = &drawn.layer.gbuffer;
         if is_kept {
-            let buffers = [&gbuffer.geometry, &gbuffer.region, &gbuffer.base_color, &gbuffer.depth];
+            let buffers = [&gbuffer.geometry, &gbuffer.surface_id, &gbuffer.base_color, &gbuffer.depth];
             for (name, target) in LAYERS.into_iter().zip(buffers) {
                 rec.note_another(name, target);
             }
@@ -181,20 +181,20 @@ pub fn place_blueprint(
         };
         let (own, switches) = (sprite.inputs(), sprite.switches());
         let mut pending = Pending::default();
-        let lines = WantedLines { repeated: params.repeated, ..WantedLines::default() };
+        let lines = LineRequest { repeated: params.repeated, ..LineRequest::default() };
         if group.have_lines()
             && let Some(edges) = visit.edges(rec, lines)?
             && let Some(lines) = visit.lines(&edges, 0)
         {
             let repeated = [("WITHOUT_REPEATED", edges.nearer.is_some()), ("AMONG_OTHERS", true)];
             let switches = [&repeated[..], &switches].concat();
-            let inputs = own.clone().and(&inputs! { seen_tex: edges.nearer.as_ref() });
+            let inputs = own.clone().and(&inputs! { nearer_lines_tex: edges.nearer.as_ref() });
             let shader = LayerShader { file: "effects/blueprint.wgsl", inputs: &inputs, switches: &switches };
             place.lines(rec, &mut pending, &lines, shader)?;
         }
         if params.opacity > 0.0 || has_caps {
             let inputs = own.and(&inputs! {
-                region_tex: &gbuffer.region,
+                surface_id_tex: &gbuffer.surface_id,
                 edge_styles: visit.edge_styles(0),
                 caps: has_caps.then_some(buffers.caps.buffer()),
             });
@@ -204,13 +204,13 @@ pub fn place_blueprint(
         }
         place.end(rec, &pending)
     });
-    rec.part = outer;
+    rec.scissor_rect = outer;
     drawn?;
     Ok(front)
 }
 
 /// Names under which the layers of blueprints can be looked at, each several targets, the nearest first.
-pub const LAYERS: [&str; 4] = ["layer geometry", "layer regions", "layer base color", "layer depth"];
+pub const LAYERS: [&str; 4] = ["layer geometry", "layer surface ids", "layer base color", "layer depth"];
 
 /// What layers are drawn with and tested against.
 #[derive(Clone, Copy)]

@@ -215,13 +215,13 @@ impl SurfaceTechnique for HalftoneShading {
         layer: &Shaded<'_>,
     ) -> Result<(), RenderError> {
         let asks = |call: &&DrawCall| {
-            let object = layer.draws.get(call.draw as usize).map(|draw| draw.object);
+            let object = layer.instances.get(call.instance as usize).map(|instance| instance.object);
             call.origin != Origin::Caps && object.is_some_and(|object| halftones.need_coordinates(object))
         };
         let calls: Vec<DrawCall> = layer.calls.iter().filter(asks).copied().collect();
-        let (scene, has_any) = (layer.seen.scene, !calls.is_empty());
+        let (scene, has_any) = (layer.scene_view.scene, !calls.is_empty());
         let mut draw = |calls: &[DrawCall]| {
-            shared.coordinates.run(rec, scene, layer.gbuffer, layer.instances, calls, None)
+            shared.coordinates.run(rec, scene, layer.gbuffer, layer.instance_buffer, calls, None)
         };
         self.coordinates = match layer.revision {
             Some(revision) if has_any => {

@@ -342,21 +342,21 @@ impl SurfaceTechnique for HatchingShading {
         layer: &Shaded<'_>,
     ) -> Result<(), RenderError> {
         let needs = |call: &DrawCall| {
-            let object = layer.draws.get(call.draw as usize).map(|draw| draw.object)?;
+            let object = layer.instances.get(call.instance as usize).map(|instance| instance.object)?;
             hatchings.needs(object).filter(|_| call.origin != Origin::Caps)
         };
         let calls: Vec<DrawCall> = layer.calls.iter().filter(|call| needs(call).is_some()).copied().collect();
-        let (scene, has_any) = (layer.seen.scene, !calls.is_empty());
+        let (scene, has_any) = (layer.scene_view.scene, !calls.is_empty());
         let SharedHatching { triangles, coordinates, .. } = shared;
         let mut draw = |calls: &[DrawCall]| {
             let (on_triangles, by_uv): (Vec<_>, Vec<_>) =
                 calls.iter().partition(|call| needs(call) == Some(Coordinates::Triangles));
-            let (gbuffer, instances) = (layer.gbuffer, layer.instances);
-            let drawn = triangles.run(rec, scene, gbuffer, instances, &on_triangles, None)?;
+            let (gbuffer, instance_buffer) = (layer.gbuffer, layer.instance_buffer);
+            let drawn = triangles.run(rec, scene, gbuffer, instance_buffer, &on_triangles, None)?;
             if by_uv.is_empty() {
                 return Ok(drawn);
             }
-            coordinates.run(rec, scene, gbuffer, instances, &by_uv, Some(&drawn))
+            coordinates.run(rec, scene, gbuffer, instance_buffer, &by_uv, Some(&drawn))
         };
         self.triangle_map = match layer.revision {
             Some(revision) if has_any => {

@@ -1,4 +1,4 @@
-//! Hidden lines: the surfaces are cut into depth layers, and the lines of those behind the visible one are drawn over what
+//! Hidden lines: the surfaces are split into depth layers, and the lines of those behind the visible one are drawn over what
 //! hides them, but not where a nearer line runs at the same place.
 //!
 //! ```text
@@ -7,7 +7,7 @@
 //! visible edge map ──────────┘ no line twice
 //! ```
 
-use super::layered::{Layered, LayeredGroup, Visit, Wanted, WantedLines, least_pixels};
+use super::layered::{LayerRequest, Layered, LayeredGroup, LineRequest, Visit, least_pixels};
 use crate::gpu::recorder::Onto;
 use crate::gpu::{Gpu, Recorder, Target, inputs};
 use crate::render::base::edge_style::EdgeUniform;
@@ -18,7 +18,7 @@ use crate::render::base::scene_view::SceneView;
 use crate::render::base::stage::{Output, Stage};
 use crate::render::passes::edge_map::EdgeMap;
 use crate::render::passes::layers::Reported;
-use crate::render::passes::lines::{Pen, lines};
+use crate::render::passes::lines::{LineShader, lines};
 use crate::render::passes::peel::MOST_LAYERS;
 use crate::render::passes::traversal::GBufferPass;
 use crate::style;
@@ -122,14 +122,14 @@ impl HiddenLines {
         &mut self,
         rec: &mut Recorder<'_>,
         gbuffer_pass: &mut GBufferPass,
-        seen: &SceneView<'_>,
+        scene_view: &SceneView<'_>,
         uniform: &FrameUniform,
         (surfaces, hidden): (&Group, &Hidden),
         visible: Option<&Output<EdgeMap>>,
     ) -> Result<Output<Target>, RenderError> {
-        let group = surfaces.with_hidden_lines(&hidden.styles);
+        let group = surfaces.unculled_with_lines(&hidden.styles);
         let asked = Key {
-            layered: LayeredGroup::new(rec, seen, uniform, group),
+            layered: LayeredGroup::new(rec, scene_view, uniform, group),
             hidden: hidden.clone(),
             visible: visible.map(|edges| edges.revision),
         };
@@ -139,12 +139,12 @@ impl HiddenLines {
             let color = rec.target("hidden lines", wgpu::TextureFormat::Rgba16Float)?;
             rec.clear("hidden lines", &[&color]);
             let visible = match visible {
-                Some(edges) => Some(edges.value.seen(rec)?),
+                Some(edges) => Some(edges.value.all_lines(rec)?),
                 None => None,
             };
             let any = |has: fn(&EdgeUniform) -> bool| bands.iter().any(|band| band.styles.iter().any(has));
             let line_styles: Vec<_> = bands.iter().map(|band| &band.styles).collect();
-            let wanted = Wanted {
+            let request = LayerRequest {
                 most: bands.last().map_or(0, |band| band.last) + 1,
                 least: least_pixels(hidden.least, rec.size()),
                 uncover: None,
@@ -154,32 +154,39 @@ impl HiddenLines {
                 with_depth: false,
                 whole: if any(EdgeUniform::compares_geometry) { MOST_LAYERS } else { 0 },
                 line_styles: &line_styles,
-                seen: visible.as_ref(),
+                nearer: visible.as_ref(),
             };
             let mut before: Option<[Target; 2]> = None;
-            layered.walk(rec, gbuffer_pass, seen, &asked.layered, &wanted, |rec, mut visit: Visit<'_>| {
-                let number = visit.drawn.number;
-                let region = &visit.drawn.layer.gbuffer.region;
-                let regions = before.take();
-                let last = regions.as_ref().map_or(region, |[last, _]| last);
-                before = Some([region.clone(), last.clone()]);
-                // The nearest layer is in sight.
-                let band = bands.iter().position(|band| band.last >= number).filter(|_| number > 0);
-                let Some(style) = band else { return Ok(()) };
-                let before = regions.as_ref().map(|[last, before_that]| [last, before_that]);
-                let wanted = WantedLines { style, before, ..WantedLines::default() };
-                let Some(edges) = visit.edges(rec, wanted)? else { return Ok(()) };
-                let Some(drawn) = visit.lines(&edges, style) else { return Ok(()) };
-                let pen = Pen {
-                    file: "effects/hidden.wgsl",
-                    entry_point: "fs_lines",
-                    inputs: &inputs! { seen_tex: edges.nearer.as_ref() },
-                    switches: &[],
-                    // Lines of several layers that run over each other are one ink.
-                    onto: Onto::Greatest,
-                };
-                lines(rec, &drawn, &pen, &color)
-            })?;
+            layered.walk(
+                rec,
+                gbuffer_pass,
+                scene_view,
+                &asked.layered,
+                &request,
+                |rec, mut visit: Visit<'_>| {
+                    let number = visit.drawn.number;
+                    let surface_id = &visit.drawn.layer.gbuffer.surface_id;
+                    let surface_ids = before.take();
+                    let last = surface_ids.as_ref().map_or(surface_id, |[last, _]| last);
+                    before = Some([surface_id.clone(), last.clone()]);
+                    // The nearest layer is in sight.
+                    let band = bands.iter().position(|band| band.last >= number).filter(|_| number > 0);
+                    let Some(style) = band else { return Ok(()) };
+                    let before = surface_ids.as_ref().map(|[last, before_that]| [last, before_that]);
+                    let request = LineRequest { style, before, ..LineRequest::default() };
+                    let Some(edges) = visit.edges(rec, request)? else { return Ok(()) };
+                    let Some(drawn) = visit.lines(&edges, style) else { return Ok(()) };
+                    let shader = LineShader {
+                        file: "effects/hidden.wgsl",
+                        entry_point: "fs_lines",
+                        inputs: &inputs! { nearer_lines_tex: edges.nearer.as_ref() },
+                        switches: &[],
+                        // Lines of several layers that run over each other are one ink.
+                        onto: Onto::Greatest,
+                    };
+                    lines(rec, &drawn, &shader, &color)
+                },
+            )?;
             Ok(color)
         })
     }

@@ -1,4 +1,4 @@
-//! A group that is cut into depth layers, each with lines of its own: the walk that glass, blueprints, hidden lines and looks
+//! A group that is split into depth layers, each with lines of its own: the walk that glass, blueprints, hidden lines and looks
 //! at one layer have in common. They differ in what they ask of the layers, and in what they make of each.
 
 use glam::Vec2;
@@ -30,37 +30,37 @@ pub struct LayeredGroup {
     /// The objects.
     pub group: Group,
     /// What is drawn of them.
-    pub draws: Vec<Instance>,
+    pub instances: Vec<Instance>,
     /// How.
     pub calls: Vec<DrawCall>,
     /// Bind group 0, without the paper.
     pub uniform: FrameUniform,
-    part: Option<[u32; 4]>,
+    scissor_rect: Option<[u32; 4]>,
     crease_angle: f32,
     layers_by: LayersBy,
 }
 
 impl LayeredGroup {
     /// A group as `seen`; `uniform`: bind group 0.
-    pub fn new(rec: &Recorder<'_>, seen: &SceneView<'_>, uniform: &FrameUniform, group: Group) -> Self {
-        let (draws, calls) = group.draws(seen.scene, seen.view);
+    pub fn new(rec: &Recorder<'_>, scene_view: &SceneView<'_>, uniform: &FrameUniform, group: Group) -> Self {
+        let (instances, calls) = group.instances(scene_view.scene, scene_view.view);
         Self {
             shaders: rec.pipelines.generation(),
-            scene_revision: seen.scene_revision,
+            scene_revision: scene_view.scene_revision,
             group,
-            draws,
+            instances,
             calls,
             uniform: uniform.without_background(),
-            part: seen.view.part,
-            crease_angle: seen.crease_angle,
-            layers_by: seen.layers_by,
+            scissor_rect: scene_view.view.scissor_rect,
+            crease_angle: scene_view.crease_angle,
+            layers_by: scene_view.layers_by,
         }
     }
 }
 
 /// What is asked of the layers of a group; see [`LayerInputs`].
 #[derive(Clone, Copy)]
-pub struct Wanted<'a> {
+pub struct LayerRequest<'a> {
     /// Most layers.
     pub most: u32,
     /// It ends before a layer of fewer pixels.
@@ -80,13 +80,13 @@ pub struct Wanted<'a> {
     /// How lines look, by object id; objects may differ from layer to layer, so there are as many as are told apart.
     pub line_styles: &'a [&'a Vec<EdgeUniform>],
     /// Lines before the first layer, which are not repeated.
-    pub seen: Option<&'a Target>,
+    pub nearer: Option<&'a Target>,
 }
 
 /// What is asked of the lines of one layer; see [`LayerLinesInputs`].
 #[derive(Clone, Copy, Default)]
-pub struct WantedLines<'a> {
-    /// Index of [`Wanted::line_styles`].
+pub struct LineRequest<'a> {
+    /// Index of [`LayerRequest::line_styles`].
     pub style: usize,
     /// Whether the edge map is looked at by itself.
     pub is_whole: bool,
@@ -104,8 +104,8 @@ pub struct Visit<'w> {
     line_styles: &'w [&'w Vec<EdgeUniform>],
     segments: &'w Segments,
     has_holes: bool,
-    is_cut: bool,
-    seen: &'w mut Option<Target>,
+    is_clipped: bool,
+    nearer: &'w mut Option<Target>,
 }
 
 impl Visit<'_> {
@@ -116,22 +116,23 @@ impl Visit<'_> {
     pub fn edges(
         &mut self,
         rec: &mut Recorder<'_>,
-        wanted: WantedLines<'_>,
+        request: LineRequest<'_>,
     ) -> Result<Option<LayerEdges>, RenderError> {
-        let Some((lines, styles)) = self.lines.get_mut(wanted.style).zip(self.line_styles.get(wanted.style))
+        let Some((lines, styles)) =
+            self.lines.get_mut(request.style).zip(self.line_styles.get(request.style))
         else {
             return Ok(None);
         };
         let inputs = LayerLinesInputs {
             styles,
-            is_whole: wanted.is_whole,
+            is_whole: request.is_whole,
             segments: self.segments,
             has_holes: self.has_holes,
-            is_cut: self.is_cut,
-            before: wanted.before,
-            repeated: wanted.repeated,
+            is_clipped: self.is_clipped,
+            before: request.before,
+            repeated: request.repeated,
         };
-        lines.edges(rec, &inputs, self.drawn.layer, self.seen).map(Some)
+        lines.edges(rec, &inputs, self.drawn.layer, self.nearer).map(Some)
     }
 
     /// What draws them.
@@ -174,7 +175,7 @@ impl Layered {
         self.layers.count()
     }
 
-    /// Cuts a group into layers, and hands each to `draw`, the nearest first.
+    /// Splits a group into layers, and hands each to `draw`, the nearest first.
     ///
     /// # Errors
     /// [`RenderError`].
@@ -182,44 +183,48 @@ impl Layered {
         &mut self,
         rec: &mut Recorder<'_>,
         gbuffer_pass: &mut GBufferPass,
-        seen: &SceneView<'_>,
+        scene_view: &SceneView<'_>,
         layered: &LayeredGroup,
-        wanted: &Wanted<'_>,
+        request: &LayerRequest<'_>,
         mut draw: impl FnMut(&mut Recorder<'_>, Visit<'_>) -> Result<(), RenderError>,
     ) -> Result<(), RenderError> {
         let Self { layers, lines, segments } = self;
-        let LayeredGroup { group, draws, calls, .. } = layered;
-        lines.resize_with(wanted.line_styles.len(), || LayerLines::new(rec.gpu));
-        for (lines, styles) in lines.iter_mut().zip(wanted.line_styles) {
+        let LayeredGroup { group, instances, calls, .. } = layered;
+        lines.resize_with(request.line_styles.len(), || LayerLines::new(rec.gpu));
+        for (lines, styles) in lines.iter_mut().zip(request.line_styles) {
             lines.begin(rec.gpu, styles);
         }
         // Which edges are lines does not change from sample to sample.
-        let view = seen.view.moved(Vec2::ZERO);
-        segments.write(rec, &plain_feature_lines(seen.scene, group, &view, seen.crease_angle), true)?;
-        let mut seen_lines = wanted.seen.cloned();
+        let view = scene_view.view.moved(Vec2::ZERO);
+        segments.write(
+            rec,
+            &plain_feature_lines(scene_view.scene, group, &view, scene_view.crease_angle),
+            true,
+        )?;
+        let mut nearer_lines = request.nearer.cloned();
         let inputs = LayerInputs {
-            scene: seen.scene,
-            draws,
+            scene: scene_view.scene,
+            instances,
             calls,
-            is_cut: seen.view.has_cuts(),
-            most: wanted.most,
-            least: wanted.least,
-            uncover: wanted.uncover,
-            by: wanted.by.unwrap_or(seen.layers_by),
-            with_color: wanted.with_color,
-            with_normals: wanted.with_normals,
-            with_depth: wanted.with_depth,
-            whole: wanted.whole,
+            is_clipped: scene_view.view.is_clipped(),
+            most: request.most,
+            least: request.least,
+            uncover: request.uncover,
+            by: request.by.unwrap_or(scene_view.layers_by),
+            with_color: request.with_color,
+            with_normals: request.with_normals,
+            with_depth: request.with_depth,
+            whole: request.whole,
         };
         layers.each(rec, gbuffer_pass, &inputs, |rec, drawn| {
             let visit = Visit {
                 drawn: *drawn,
                 lines: &mut *lines,
-                line_styles: wanted.line_styles,
+                line_styles: request.line_styles,
                 segments,
                 has_holes: group.has_holes,
-                is_cut: seen.view.cut.is_some(),
-                seen: &mut seen_lines,
+                is_clipped: scene_view.view.clip_plane.is_some(),
+                nearer: &mut nearer_lines,
             };
             draw(rec, visit)
         })

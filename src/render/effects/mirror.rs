@@ -55,7 +55,7 @@ impl Mirror {
     /// nothing. `margin`: how far the lines in it may reach, in pixels; `visible`: the box around everything visible.
     pub fn seen_from(&self, view: &View, visible: &Bounds, margin: f32) -> Option<View> {
         if self.uniform.reflectivity <= 0.0 && self.uniform.fresnel <= 0.0
-            || view.cuts_off(&self.corners.map(|corner| view.view_from_world.transform_point3(corner)))
+            || view.clips_away(&self.corners.map(|corner| view.view_from_world.transform_point3(corner)))
         {
             return None;
         }
@@ -72,7 +72,7 @@ impl Mirror {
             Side::Back => lead < 0.0,
             Side::Both => lead != 0.0,
         };
-        let part = view.part_of(&self.corners, margin)?;
+        let part = view.rect_of(&self.corners, margin)?;
         let facing = Plane { normal: self.plane.normal * lead.signum(), ..self.plane };
         is_seen.then(|| view.mirrored(&facing, visible, part))
     }

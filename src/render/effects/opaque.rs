@@ -14,7 +14,7 @@ use crate::render::base::error::RenderError;
 use crate::render::base::feature_lines::feature_lines;
 use crate::render::base::frame_uniform::{FrameUniform, View};
 use crate::render::base::group::Group;
-use crate::render::base::instances::{DrawCall, Instance, Instances};
+use crate::render::base::instances::{DrawCall, Instance, InstanceBuffer};
 use crate::render::base::scene_view::SceneView;
 use crate::render::base::stage::{Output, Stage};
 use crate::render::base::strokes::StrokeStyle;
@@ -24,7 +24,7 @@ use crate::render::passes::dots::without_dots;
 use crate::render::passes::edge_map::{EdgeInputs, EdgeMap, edge_map};
 use crate::render::passes::gbuffer::GBuffer;
 use crate::render::passes::layers::Reported;
-use crate::render::passes::line_distance::{Reach, Widths, line_distance};
+use crate::render::passes::line_distance::{LineDistance, Widths, line_distance};
 use crate::render::passes::lines::Lines;
 use crate::render::passes::segments::Segments;
 use crate::render::passes::shadows::{ShadowMap, ShadowMask};
@@ -34,7 +34,7 @@ use crate::render::passes::traversal::GBufferPass;
 #[derive(Clone, Copy)]
 pub struct OpaqueInputs<'a> {
     /// The scene as the camera sees it.
-    pub seen: SceneView<'a>,
+    pub scene_view: SceneView<'a>,
     /// The objects.
     pub group: &'a Group,
     /// All that is in bind group 0.
@@ -53,14 +53,14 @@ pub struct Surfaces {
 
 /// What of a group of one layer lives across frames.
 pub struct OpaqueLayer {
-    draws: Instances,
+    instances: InstanceBuffer,
     placed_segments: Segments,
     greatest_radius: ArrayBuffer,
     edge_styles: ArrayBuffer,
     gbuffer: Stage<GeometryKey, GBuffer>,
     segments: Stage<SegmentsKey, Arc<Strokes>>,
     edge_map: Stage<EdgeKey, EdgeMap>,
-    reach: Stage<u64, Reach>,
+    line_distance: Stage<u64, LineDistance>,
     ink: Stage<InkKey, Target>,
     shadow_mask: ShadowMask,
     /// `None` while no object has any.
@@ -75,7 +75,7 @@ struct GeometryKey {
     size: UVec2,
     /// `None` where nothing is drawn: that looks the same from everywhere.
     through: Option<View>,
-    draws: Vec<Instance>,
+    instances: Vec<Instance>,
     calls: Vec<DrawCall>,
 }
 
@@ -105,7 +105,7 @@ struct EdgeKey {
 struct InkKey {
     gbuffer: u64,
     edges: u64,
-    reach: Option<u64>,
+    line_distance: Option<u64>,
     edge_styles: Vec<EdgeUniform>,
     uniform: FrameUniform,
 }
@@ -114,14 +114,14 @@ impl OpaqueLayer {
     /// Nothing drawn yet.
     pub fn new(gpu: &Gpu) -> Self {
         Self {
-            draws: Instances::new(gpu),
+            instances: InstanceBuffer::new(gpu),
             placed_segments: Segments::new(gpu),
             greatest_radius: ArrayBuffer::new(gpu, "greatest radius"),
             edge_styles: ArrayBuffer::new(gpu, "edge styles"),
             gbuffer: Stage::default(),
             segments: Stage::default(),
             edge_map: Stage::default(),
-            reach: Stage::default(),
+            line_distance: Stage::default(),
             ink: Stage::default(),
             shadow_mask: ShadowMask::new(gpu),
             hidden: None,
@@ -143,7 +143,7 @@ impl OpaqueLayer {
         [
             ("g-buffer", self.gbuffer.runs()),
             ("edge map", self.edge_map.runs()),
-            ("line distance", self.reach.runs()),
+            ("line distance", self.line_distance.runs()),
             ("shadow", self.shadow_mask.runs()),
             ("hidden lines", self.hidden.as_ref().map_or(0, HiddenLines::runs)),
         ]
@@ -164,22 +164,22 @@ impl OpaqueLayer {
         pass: &mut GBufferPass,
         inputs: &OpaqueInputs<'_>,
     ) -> Result<Surfaces, RenderError> {
-        let OpaqueInputs { seen, group, shadow_maps, .. } = *inputs;
-        let SceneView { scene, view, .. } = seen;
+        let OpaqueInputs { scene_view, group, shadow_maps, .. } = *inputs;
+        let SceneView { scene, view, .. } = scene_view;
         self.edge_styles.write(rec.gpu, &group.edge_styles);
-        let (draws, calls) = group.draws(scene, view);
+        let (instances, calls) = group.instances(scene, view);
         let key = GeometryKey {
             shaders: rec.pipelines.generation(),
-            scene_revision: seen.scene_revision,
+            scene_revision: scene_view.scene_revision,
             size: view.size,
             through: (!calls.is_empty()).then_some(*view),
-            draws,
+            instances,
             calls,
         };
-        let gbuffer = self.gbuffer.run(key, |GeometryKey { draws, calls, .. }| {
-            pass.run(rec, scene, &mut self.draws, (draws, calls), view.has_cuts(), None)
+        let gbuffer = self.gbuffer.run(key, |GeometryKey { instances, calls, .. }| {
+            pass.run(rec, scene, &mut self.instances, (instances, calls), view.is_clipped(), None)
         })?;
-        let shadow_mask = self.shadow_mask.run(rec, &gbuffer, &seen, shadow_maps)?;
+        let shadow_mask = self.shadow_mask.run(rec, &gbuffer, &scene_view, shadow_maps)?;
         Ok(Surfaces { gbuffer, shadow_mask })
     }
 
@@ -187,7 +187,7 @@ impl OpaqueLayer {
     pub fn shaded<'a>(
         &'a self,
         surfaces: &'a Surfaces,
-        seen: SceneView<'a>,
+        scene_view: SceneView<'a>,
         uniform: &'a FrameUniform,
         spines: Option<(&'a Target, u64)>,
     ) -> Shaded<'a> {
@@ -197,10 +197,10 @@ impl OpaqueLayer {
             revision: Some(surfaces.gbuffer.revision),
             shadow_mask: surfaces.shadow_mask.as_ref().map(|mask| (&mask.value, mask.revision)),
             spines,
-            seen,
+            scene_view,
             uniform,
-            instances: &self.draws,
-            draws: drawn.map_or(&[], |key| &key.draws),
+            instance_buffer: &self.instances,
+            instances: drawn.map_or(&[], |key| &key.instances),
             calls: drawn.map_or(&[], |key| &key.calls),
         }
     }
@@ -215,21 +215,26 @@ impl OpaqueLayer {
         inputs: &OpaqueInputs<'_>,
         surfaces: &Surfaces,
     ) -> Result<Output<EdgeMap>, RenderError> {
-        let OpaqueInputs { seen, group, uniform, .. } = *inputs;
+        let OpaqueInputs { scene_view, group, uniform, .. } = *inputs;
         let styles: Vec<_> = group.edge_styles.iter().map(EdgeUniform::for_finding).collect();
         // Only widths that follow the light depend on more than the geometry.
         let light = styles.iter().any(|s| s.by_light > 0.0).then(|| uniform.without_background());
         // Which edges are lines does not change from sample to sample.
-        let view = seen.view.moved(Vec2::ZERO);
+        let view = scene_view.view.moved(Vec2::ZERO);
         let key = SegmentsKey {
-            scene_revision: seen.scene_revision,
+            scene_revision: scene_view.scene_revision,
             view,
             styles: styles.clone(),
-            crease_angle: seen.crease_angle,
+            crease_angle: scene_view.crease_angle,
             strokes: group.strokes,
         };
         let segments = self.segments.run(key, |_| {
-            Ok::<_, RenderError>(Arc::new(feature_lines(seen.scene, group, &view, seen.crease_angle)))
+            Ok::<_, RenderError>(Arc::new(feature_lines(
+                scene_view.scene,
+                group,
+                &view,
+                scene_view.crease_angle,
+            )))
         })?;
         let has_borders = styles.iter().any(|s| s.draws(EdgeClass::Shadow));
         let shadow_mask = surfaces.shadow_mask.as_ref().filter(|_| has_borders);
@@ -250,11 +255,11 @@ impl OpaqueLayer {
                     styles,
                     edge_styles: self.edge_styles.buffer(),
                     is_whole: true,
-                    seen: None,
+                    nearer: None,
                     marked: None,
                     segments: &self.placed_segments,
                     has_holes: group.has_holes,
-                    is_cut: view.cut.is_some(),
+                    is_clipped: view.clip_plane.is_some(),
                     before: None,
                     shadow_mask: shadow_mask.map(|mask| &mask.value),
                 },
@@ -272,19 +277,19 @@ impl OpaqueLayer {
     ///
     /// # Errors
     /// [`RenderError`].
-    pub fn reach(
+    pub fn line_distance(
         &mut self,
         rec: &mut Recorder<'_>,
         group: &Group,
         edges: Option<&Output<EdgeMap>>,
-    ) -> Result<Option<Output<Reach>>, RenderError> {
+    ) -> Result<Option<Output<LineDistance>>, RenderError> {
         let spines = edges.and_then(|edges| Some((edges.revision, edges.value.spines.as_ref()?)));
         let Some((revision, spines)) = spines else {
-            self.reach.clear();
+            self.line_distance.clear();
             return Ok(None);
         };
         let (radius, widths) = (&mut self.greatest_radius, Widths::of(&group.edge_styles));
-        self.reach.run(revision, |_| line_distance(rec, spines, widths, radius)).map(Some)
+        self.line_distance.run(revision, |_| line_distance(rec, spines, widths, radius)).map(Some)
     }
 
     /// The lines of the surfaces.
@@ -293,12 +298,12 @@ impl OpaqueLayer {
         group: &'a Group,
         surfaces: &'a Surfaces,
         edges: &'a EdgeMap,
-        reach: Option<&'a Reach>,
+        line_distance: Option<&'a LineDistance>,
     ) -> Lines<'a> {
         Lines {
             gbuffer: &surfaces.gbuffer.value,
             edge_map: edges,
-            reach,
+            line_distance,
             styles: &group.edge_styles,
             edge_styles: self.edge_styles.buffer(),
         }
@@ -314,7 +319,7 @@ impl OpaqueLayer {
         inputs: &OpaqueInputs<'_>,
         surfaces: &Surfaces,
         edges: Option<&Output<EdgeMap>>,
-        reach: Option<&Output<Reach>>,
+        line_distance: Option<&Output<LineDistance>>,
     ) -> Result<Option<Output<Target>>, RenderError> {
         let OpaqueInputs { group, uniform, .. } = *inputs;
         let Some(edges) = edges.filter(|_| !group.is_empty()) else {
@@ -324,14 +329,14 @@ impl OpaqueLayer {
         let key = InkKey {
             gbuffer: surfaces.gbuffer.revision,
             edges: edges.revision,
-            reach: reach.map(|reach| reach.revision),
+            line_distance: line_distance.map(|line_distance| line_distance.revision),
             edge_styles: group.edge_styles.clone(),
             uniform: uniform.without_background(),
         };
         let drawn = Lines {
             gbuffer: &surfaces.gbuffer.value,
             edge_map: &edges.value,
-            reach: reach.map(|reach| &reach.value),
+            line_distance: line_distance.map(|line_distance| &line_distance.value),
             styles: &group.edge_styles,
             edge_styles: self.edge_styles.buffer(),
         };
@@ -361,12 +366,12 @@ impl OpaqueLayer {
         }
         let hidden = self.hidden.get_or_insert_with(|| HiddenLines::new(rec.gpu));
         let asked = (inputs.group, asked);
-        hidden.run(rec, pass, &inputs.seen, inputs.uniform, asked, edges).map(Some)
+        hidden.run(rec, pass, &inputs.scene_view, inputs.uniform, asked, edges).map(Some)
     }
 
     /// Lets go of what only a picture needs.
     pub fn forget_picture(&mut self) {
-        self.reach.clear();
+        self.line_distance.clear();
         self.ink.clear();
         self.hidden = None;
     }

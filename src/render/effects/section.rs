@@ -9,7 +9,7 @@ use crate::gpu::{DepthRule, Program, Recorder, Target, inputs};
 use crate::render::base::error::RenderError;
 use crate::render::base::frame_uniform::View;
 use crate::render::base::gpu_scene::GpuScene;
-use crate::render::base::ids::{object_id, region};
+use crate::render::base::ids::{object_id, surface_id};
 use crate::render::base::section::Section;
 use crate::render::passes::gbuffer::GBuffer;
 
@@ -21,7 +21,7 @@ const PATTERNS: [(f64, f32); 6] = [(0.0, 1.0), (90.0, 1.0), (0.0, 0.6), (90.0, 0
 #[derive(Debug, Clone, Copy, PartialEq, ShaderType, Default)]
 pub struct CapUniform {
     fill: Vec3,
-    region: u32,
+    surface_id: u32,
     ink: Vec3,
     lit: u32,
     across: Vec2,
@@ -38,11 +38,11 @@ pub fn caps(scene: &GpuScene, view: &View, scale: f32) -> Vec<CapUniform> {
     let nodes = 0..scene.scene.nodes.len();
     let patterns = PATTERNS.map(|(turn, spacing)| hatching(section, view, scale, turn, spacing));
     let cap = |node| {
-        let Some(cap) = section.opened(node).and_then(|opened| opened.cap) else {
+        let Some(cap) = section.sectioned(node).and_then(|sectioned| sectioned.cap) else {
             return CapUniform::default();
         };
-        let region = region(object_id(node), cap.surface);
-        CapUniform { region, ..patterns[cap.pattern as usize % PATTERNS.len()] }
+        let surface_id = surface_id(object_id(node), cap.surface);
+        CapUniform { surface_id, ..patterns[cap.pattern as usize % PATTERNS.len()] }
     };
     // Entry 0 is the background.
     std::iter::once(CapUniform::default()).chain(nodes.map(cap)).collect()
@@ -62,7 +62,7 @@ fn hatching(section: &Section, view: &View, scale: f32, turn: f64, wider: f32) -
     let at = if is_seen { view.projector().pixel(anchor).dot(across) } else { 0.0 };
     CapUniform {
         fill: style.color.to_linear(),
-        region: 0,
+        surface_id: 0,
         ink: hatch.color.to_linear(),
         lit: u32::from(style.lit),
         across: across.as_vec2(),
@@ -96,7 +96,7 @@ pub fn section(
     rec.draw(Draw {
         label: "section",
         program: Program::new("effects/section.wgsl", "fs_main"),
-        inputs: &inputs! { geometry_tex: &gbuffer.geometry, region_tex: &gbuffer.region, caps: caps },
+        inputs: &inputs! { geometry_tex: &gbuffer.geometry, surface_id_tex: &gbuffer.surface_id, caps: caps },
         outputs: &[color],
         onto: Onto::Blended,
         depth: Some((&gbuffer.depth, DepthRule::Covered)),

@@ -30,7 +30,7 @@ use crate::gpu::{
 use crate::render::base::edge_style::EdgeUniform;
 use crate::render::base::error::RenderError;
 use crate::render::base::frame_uniform::FrameUniform;
-use crate::render::base::instances::{Instance, Instances};
+use crate::render::base::instances::{Instance, InstanceBuffer};
 use crate::render::base::scene_view::SceneView;
 use crate::render::base::stage::{Output, Stage};
 use crate::render::passes::composition::{Composition, PLACED};
@@ -74,7 +74,7 @@ pub struct Sketching<'a> {
 #[derive(Clone, Copy)]
 pub struct SketchInputs<'a> {
     /// The scene as the camera sees it.
-    pub seen: SceneView<'a>,
+    pub scene_view: SceneView<'a>,
     /// What is drawn.
     pub sketch: &'a Sketch,
     /// All that is in bind group 0.
@@ -147,7 +147,7 @@ pub struct SketchState {
     /// For smudges.
     near_lines: Stage<(u64, u32), Target>,
     enlarged: Stage<(u64, f32), GBuffer>,
-    instances: Instances,
+    instance_buffer: InstanceBuffer,
     nearest_surfaces: Stage<(u64, u32), Target>,
     field: UniformBuffer<FieldUniform>,
     field_objects: ArrayBuffer,
@@ -183,7 +183,7 @@ impl SketchState {
             near_radius: ArrayBuffer::new(gpu, "distance of lines"),
             near_lines: Stage::default(),
             enlarged: Stage::default(),
-            instances: Instances::new(gpu),
+            instance_buffer: InstanceBuffer::new(gpu),
             nearest_surfaces: Stage::default(),
             field: UniformBuffer::new(gpu, "offset field"),
             field_objects: ArrayBuffer::new(gpu, "objects of an offset field"),
@@ -228,10 +228,10 @@ impl SketchState {
         color: &Output<Target>,
         is_last: bool,
     ) -> Result<Output<Target>, RenderError> {
-        let SketchInputs { seen, sketch, uniform, shadow_maps, .. } = *inputs;
+        let SketchInputs { scene_view, sketch, uniform, shadow_maps, .. } = *inputs;
         let Sketching { gbuffer: pass, techniques, shared } = with;
         let group = &sketch.group;
-        let own = OpaqueInputs { seen, group, uniform, shadow_maps };
+        let own = OpaqueInputs { scene_view, group, uniform, shadow_maps };
         let surfaces = self.layer.surfaces(rec, pass, &own)?;
         let edges = if group.have_lines() { Some(self.layer.edges(rec, &own, &surfaces)?) } else { None };
         let hidden = self.layer.hidden_lines(rec, pass, &own, &sketch.hidden, edges.as_ref())?;
@@ -239,7 +239,7 @@ impl SketchState {
         let noise = sketch.is_on_screen().then_some(&sketch.style.wander);
         let paper = sketch.has_paper().then_some(&sketch.paper);
         let images = shared.images.prepare(rec.gpu, noise, paper)?;
-        let (field_objects, objects) = sketch.objects(&seen);
+        let (field_objects, objects) = sketch.objects(&scene_view);
         let enlarged = self.enlarge(rec, pass, inputs, &surfaces)?;
         let key = |of| FieldKey {
             of,
@@ -263,7 +263,7 @@ impl SketchState {
             near_lines: near_lines.as_ref().map(|near| near.revision),
             hidden: hidden.as_ref().map(|hidden| hidden.revision),
             fill_field: fill_field.revision,
-            moved: moved.iter().map(|moved| moved.reach.revision).collect(),
+            moved: moved.iter().map(|moved| moved.line_distance.revision).collect(),
             before: [
                 Some(composition.surfaces.revision),
                 composition.ink.as_ref().map(|ink| ink.revision),
@@ -331,7 +331,7 @@ impl SketchState {
         let pass = &mut self.line_field_pass;
         let count = sketch.passes().len();
         let field = self.line_field.run(key([edges.revision, revision]), |_| {
-            pass.sift(rec, spines)?;
+            pass.compact(rec, spines)?;
             pass.run(rec, buffers, &edges.value.edges, source, count as u32)
         })?;
         rec.note("noise of lines", Some(&field.value.first));
@@ -373,7 +373,7 @@ impl SketchState {
         inputs: &SketchInputs<'_>,
         surfaces: &Surfaces,
     ) -> Result<Option<Output<GBuffer>>, RenderError> {
-        let SketchInputs { seen, sketch, uniform, .. } = *inputs;
+        let SketchInputs { scene_view, sketch, uniform, .. } = *inputs;
         if !sketch.is_enlarged() {
             self.enlarged.clear();
             return Ok(None);
@@ -381,12 +381,19 @@ impl SketchState {
         let [lines, fill] = uniforms::bands(&sketch.style, sketch.scale);
         // No less than the largest offset, or there were none for it.
         let px = uniforms::enlarged(&sketch.style, sketch.scale).max(lines).max(fill);
-        let Self { layer, enlarged, instances, .. } = self;
+        let Self { layer, enlarged, instance_buffer, .. } = self;
         let key = (surfaces.gbuffer.revision, px);
         let drawn = enlarged.run(key, |_| {
-            let layer = layer.shaded(surfaces, seen, uniform, None);
-            let draws: Vec<_> = layer.draws.iter().map(|draw| Instance { enlarged: px, ..*draw }).collect();
-            pass.run_enlarged(rec, seen.scene, instances, (&draws, layer.calls), seen.view.has_cuts())
+            let layer = layer.shaded(surfaces, scene_view, uniform, None);
+            let instances: Vec<_> =
+                layer.instances.iter().map(|instance| Instance { enlarged: px, ..*instance }).collect();
+            pass.run_enlarged(
+                rec,
+                scene_view.scene,
+                instance_buffer,
+                (&instances, layer.calls),
+                scene_view.view.is_clipped(),
+            )
         })?;
         Ok(Some(drawn))
     }
@@ -399,7 +406,7 @@ impl SketchState {
         surfaces: &Surfaces,
         edges: Option<&Output<EdgeMap>>,
     ) -> Result<Output<Target>, RenderError> {
-        let SketchInputs { seen, sketch, uniform, look, .. } = *inputs;
+        let SketchInputs { scene_view, sketch, uniform, look, .. } = *inputs;
         self.shading.upload(techniques, rec.gpu, look)?;
         let spines = look.lines(edges);
         let key = ShadeKey {
@@ -412,7 +419,7 @@ impl SketchState {
         };
         let Self { layer, shading, color, .. } = self;
         color.run(key, |key| {
-            let layer = layer.shaded(surfaces, seen, &key.uniform, spines);
+            let layer = layer.shaded(surfaces, scene_view, &key.uniform, spines);
             shading.shade(rec, techniques, &key.look, &layer, sketch.blends)
         })
     }
@@ -525,7 +532,7 @@ impl Placing<'_> {
         } else {
             Onto::Nothing
         };
-        let filled = rec.target("reached by color", STENCIL)?;
+        let filled = rec.target("covered by color", STENCIL)?;
         rec.draw(Draw {
             label: "sketched color",
             program: Program {
@@ -556,8 +563,8 @@ impl Placing<'_> {
         let mut inputs = self.inputs();
         let mut switches = self.switches();
         if let Some(edges) = edges {
-            let reach = moved.map(|moved| &moved.reach.value);
-            let lines = layer.lines(&sketch.group, fetched.surfaces, edges, reach);
+            let line_distance = moved.map(|moved| &moved.line_distance.value);
+            let lines = layer.lines(&sketch.group, fetched.surfaces, edges, line_distance);
             inputs.extend(&lines.inputs());
             switches.extend(lines.switches());
         } else {
@@ -577,7 +584,7 @@ impl Placing<'_> {
             ("WITH_OPAQUE_INK", before.is_some()),
             ("BEFORE_IS_OTHER", number == 0),
         ]);
-        let inked = rec.target("reached by ink", STENCIL)?;
+        let inked = rec.target("covered by ink", STENCIL)?;
         rec.draw(Draw {
             label: "sketched ink",
             program: Program { file: "effects/sketch.wgsl", entry_point, switches },

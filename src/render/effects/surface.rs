@@ -139,7 +139,7 @@ impl Shading {
         switches.extend(techniques.switches());
         let mut inputs = inputs! {
             geometry_tex: &gbuffer.geometry,
-            region_tex: &gbuffer.region,
+            surface_id_tex: &gbuffer.surface_id,
             base_color_tex: &gbuffer.base_color,
             shadow_mask_tex: layer.shadow_mask.map(|(mask, _)| mask),
             surface_styles: self.surfaces.buffer(),
@@ -167,8 +167,8 @@ impl Look {
     }
 
     /// How objects of these styles look to a camera, with these caps.
-    pub fn new(styles: &SurfaceStyles, seen: &SceneView<'_>, caps: Vec<CapUniform>) -> Self {
-        let techniques = styles.techniques.placed(seen.scene, seen.view);
+    pub fn new(styles: &SurfaceStyles, scene_view: &SceneView<'_>, caps: Vec<CapUniform>) -> Self {
+        let techniques = styles.techniques.placed(scene_view.scene, scene_view.view);
         Self { styles: SurfaceStyles { surfaces: styles.surfaces.clone(), techniques }, caps }
     }
 }

@@ -5,7 +5,7 @@ use crate::gpu::{Gpu, Inputs, Recorder, Target};
 use crate::render::base::error::RenderError;
 use crate::render::base::frame_uniform::{FrameUniform, View};
 use crate::render::base::gpu_scene::GpuScene;
-use crate::render::base::instances::{DrawCall, Instance, Instances};
+use crate::render::base::instances::{DrawCall, Instance, InstanceBuffer};
 use crate::render::base::scene_view::SceneView;
 use crate::render::base::stripes::StripesBy;
 use crate::render::base::stroke_maps::StrokeMaps;
@@ -57,13 +57,13 @@ pub struct Shaded<'a> {
     /// Where lines run on it, and what changes when that does; `None` where nobody asks, or there are none.
     pub spines: Option<(&'a Target, u64)>,
     /// The scene as the camera sees it.
-    pub seen: SceneView<'a>,
+    pub scene_view: SceneView<'a>,
     /// Bind group 0, without the paper.
     pub uniform: &'a FrameUniform,
     /// What was drawn, on the device.
-    pub instances: &'a Instances,
+    pub instance_buffer: &'a InstanceBuffer,
     /// The same.
-    pub draws: &'a [Instance],
+    pub instances: &'a [Instance],
     /// How it was drawn.
     pub calls: &'a [DrawCall],
 }

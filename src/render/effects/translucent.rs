@@ -1,4 +1,4 @@
-//! What is seen through: groups that are cut into layers, each by itself. A group that overlaps no other on the screen is drawn
+//! What is seen through: groups that are split into layers, each by itself. A group that overlaps no other on the screen is drawn
 //! into a picture of its own, each layer beneath those before it; where groups overlap, their layers go to lists, in which they
 //! are put in order by depth, pixel by pixel.
 
@@ -34,7 +34,7 @@ pub struct TranslucentGroups<'a> {
 /// What they are drawn with.
 pub struct TranslucentInputs<'a> {
     /// The scene as the camera sees it.
-    pub seen: SceneView<'a>,
+    pub scene_view: SceneView<'a>,
     /// Bind group 0.
     pub uniform: &'a FrameUniform,
     /// The caps of a section by object id; empty when there are none.
@@ -169,8 +169,10 @@ impl TranslucentState {
         }
         let peeled = blueprints.iter().zip(&mut self.blueprints);
         all.extend(peeled.map(|(blueprint, state)| (Some(blueprint), state, &blueprint.group)));
-        let parts: Vec<_> =
-            all.iter().map(|(.., group)| group.part(inputs.seen.scene, inputs.seen.view)).collect();
+        let parts: Vec<_> = all
+            .iter()
+            .map(|(.., group)| group.scissor_rect(inputs.scene_view.scene, inputs.scene_view.view))
+            .collect();
         let (mut overlapping, mut keys) = (Vec::new(), Vec::new());
         for (number, (blueprint, state, group)) in all.into_iter().enumerate() {
             let key = Key::new(rec, blueprint, group, &inputs, composition);
@@ -247,13 +249,29 @@ impl GroupDrawing<'_> {
         place: &mut Place<'_>,
     ) -> Result<Option<Target>, RenderError> {
         let layered = (&mut *self.layered, &self.key.layered);
-        let seen = inputs.seen;
+        let scene_view = inputs.scene_view;
         match self.blueprint {
-            None => place_blended(rec, gbuffer_pass, layered, &seen, composition, &mut inputs.shading, place),
+            None => place_blended(
+                rec,
+                gbuffer_pass,
+                layered,
+                &scene_view,
+                composition,
+                &mut inputs.shading,
+                place,
+            ),
             Some(blueprint) => {
                 let mask = inputs.mask.map(|mask| &mask.value);
                 let own = BlueprintInputs { blueprint, caps: inputs.caps, mask };
-                place_blueprint(rec, gbuffer_pass, layered, &seen, composition, (own, self.buffers), place)
+                place_blueprint(
+                    rec,
+                    gbuffer_pass,
+                    layered,
+                    &scene_view,
+                    composition,
+                    (own, self.buffers),
+                    place,
+                )
             }
         }
     }
@@ -267,9 +285,9 @@ impl Key {
         inputs: &TranslucentInputs<'_>,
         composition: &Composition,
     ) -> Self {
-        let TranslucentInputs { seen, uniform, caps, mask, shading, shadow_revisions } = inputs;
+        let TranslucentInputs { scene_view, uniform, caps, mask, shading, shadow_revisions } = inputs;
         Self {
-            layered: LayeredGroup::new(rec, seen, uniform, group.clone()),
+            layered: LayeredGroup::new(rec, scene_view, uniform, group.clone()),
             opaque: composition.revisions(),
             manner: match blueprint {
                 None => Manner::Blended {

@@ -8,7 +8,7 @@
 //! ```
 
 use super::front::Front;
-use super::lines::{Lines, Pen, lines};
+use super::lines::{LineShader, Lines, lines};
 use super::overlay::overlay;
 use crate::gpu::bindings::NOTHING;
 use crate::gpu::recorder::{Draw, Onto};
@@ -133,13 +133,13 @@ impl Composition {
 /// [`RenderError`].
 pub fn ink(rec: &mut Recorder<'_>, opaque: &Lines<'_>) -> Result<Target, RenderError> {
     let ink = rec.target("ink", PLACED)?;
-    let pen = Pen {
+    let shader = LineShader {
         file: "passes/lines.wgsl",
         entry_point: "fs_placed",
         inputs: &NOTHING,
         switches: &[],
         onto: Onto::Nothing,
     };
-    lines(rec, opaque, &pen, &ink)?;
+    lines(rec, opaque, &shader, &ink)?;
     Ok(ink)
 }

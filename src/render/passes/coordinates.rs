@@ -10,7 +10,7 @@ use crate::gpu::recorder::Onto;
 use crate::gpu::{Gpu, Recorder, Target};
 use crate::render::base::error::RenderError;
 use crate::render::base::gpu_scene::GpuScene;
-use crate::render::base::instances::{DrawCall, INSTANCES, Instances, runs};
+use crate::render::base::instances::{DrawCall, INSTANCES, InstanceBuffer, batches};
 
 /// What both shaders of this pass write.
 const COORDINATES: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Uint;
@@ -68,7 +68,7 @@ impl CoordinatesPass {
         rec: &mut Recorder<'_>,
         scene: &GpuScene,
         gbuffer: &GBuffer,
-        instances: &Instances,
+        instance_buffer: &InstanceBuffer,
         calls: &[DrawCall],
         beside: Option<&Target>,
     ) -> Result<Target, RenderError> {
@@ -82,12 +82,12 @@ impl CoordinatesPass {
             self.generation = rec.pipelines.generation();
         }
         for call in calls {
-            if let Entry::Vacant(place) = self.pipelines.entry(call.hidden_side) {
+            if let Entry::Vacant(place) = self.pipelines.entry(call.culled_face) {
                 let module = rec.pipelines.module(rec.gpu, what.file())?;
-                place.insert(build(rec.gpu, &module, rec.pipelines.frame_layout(), call.hidden_side, what));
+                place.insert(build(rec.gpu, &module, rec.pipelines.frame_layout(), call.culled_face, what));
             }
         }
-        let runs = runs(rec, calls);
+        let batches = batches(rec, calls);
         let color = onto.attachments(&[&target]);
         let depth = wgpu::RenderPassDepthStencilAttachment {
             view: gbuffer.depth.view(),
@@ -96,8 +96,8 @@ impl CoordinatesPass {
         };
         let mut pass = rec.pass(what.label(), &color, Some(depth));
         let mut origin = None;
-        for run in &runs {
-            let call = &run.call;
+        for batch in &batches {
+            let call = &batch.call;
             let geometry = scene.geometry(call.origin);
             let attributes = geometry.attributes.as_ref().filter(|_| what == Coordinates::Texture);
             if attributes.is_none() && what == Coordinates::Texture {
@@ -107,9 +107,9 @@ impl CoordinatesPass {
                 geometry.bind(&mut pass, 1, &[Some(&geometry.positions), attributes]);
                 origin = Some(call.origin);
             }
-            let Some(pipeline) = self.pipelines.get(&call.hidden_side) else { continue };
+            let Some(pipeline) = self.pipelines.get(&call.culled_face) else { continue };
             pass.set_pipeline(pipeline);
-            instances.draw(&mut pass, run);
+            instance_buffer.draw(&mut pass, batch);
         }
         drop(pass);
         Ok(target)
@@ -120,7 +120,7 @@ fn build(
     gpu: &Gpu,
     module: &wgpu::ShaderModule,
     frame_layout: &wgpu::BindGroupLayout,
-    hidden_side: Option<wgpu::Face>,
+    culled_face: Option<wgpu::Face>,
     what: Coordinates,
 ) -> wgpu::RenderPipeline {
     let label = Some(what.label());
@@ -140,7 +140,7 @@ fn build(
             compilation_options: wgpu::PipelineCompilationOptions::default(),
             buffers: &buffers[..count],
         },
-        primitive: wgpu::PrimitiveState { cull_mode: hidden_side, ..Default::default() },
+        primitive: wgpu::PrimitiveState { cull_mode: culled_face, ..Default::default() },
         // What the G-buffer shows lies exactly there; holes by alpha too are none of it.
         depth_stencil: Some(wgpu::DepthStencilState {
             format: DEPTH,

@@ -14,7 +14,7 @@ use crate::gpu::{Gpu, Program, Recorder, Target, inputs};
 use crate::render::base::error::RenderError;
 use crate::render::base::frame_uniform::View;
 use crate::render::base::group::Group;
-use crate::render::base::instances::{DrawCall, Instance, Instances};
+use crate::render::base::instances::{DrawCall, Instance, InstanceBuffer};
 use crate::render::base::scene_view::SceneView;
 use crate::render::base::stage::{Output, Stage};
 
@@ -23,7 +23,7 @@ const GROUP: u32 = 16;
 
 /// What of the depth mask lives across frames.
 pub struct DepthMaskPass {
-    draws: Instances,
+    instances: InstanceBuffer,
     count: wgpu::Buffer,
     stage: Stage<Key, DepthMask>,
 }
@@ -34,7 +34,7 @@ struct Key {
     shaders: u64,
     scene_revision: u64,
     view: View,
-    draws: Vec<Instance>,
+    instances: Vec<Instance>,
     calls: Vec<DrawCall>,
     surfaces: u64,
 }
@@ -44,7 +44,7 @@ impl DepthMaskPass {
     pub fn new(gpu: &Gpu) -> Self {
         let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST;
         Self {
-            draws: Instances::new(gpu),
+            instances: InstanceBuffer::new(gpu),
             count: gpu.device.create_buffer(&wgpu::BufferDescriptor {
                 label: Some("depth mask"),
                 size: Masked::min_size().get(),
@@ -69,25 +69,25 @@ impl DepthMaskPass {
         &mut self,
         rec: &mut Recorder<'_>,
         gbuffer_pass: &mut GBufferPass,
-        seen: &SceneView<'_>,
+        scene_view: &SceneView<'_>,
         (designated, drawn): (&Group, Option<&GBuffer>),
         surfaces: &Output<Target>,
     ) -> Result<Output<DepthMask>, RenderError> {
-        let SceneView { scene, view, .. } = *seen;
-        let (draws, calls) = designated.draws(scene, view);
+        let SceneView { scene, view, .. } = *scene_view;
+        let (instances, calls) = designated.instances(scene, view);
         let key = Key {
             shaders: rec.pipelines.generation(),
-            scene_revision: seen.scene_revision,
+            scene_revision: scene_view.scene_revision,
             view: *view,
-            draws,
+            instances,
             calls,
             surfaces: surfaces.revision,
         };
-        let Self { draws: buffer, count, stage } = self;
-        stage.run(key, |Key { view, draws, calls, .. }| {
+        let Self { instances: buffer, count, stage } = self;
+        stage.run(key, |Key { view, instances, calls, .. }| {
             let designated = match drawn {
                 Some(drawn) => drawn.clone(),
-                None => gbuffer_pass.run(rec, scene, buffer, (draws, calls), view.has_cuts(), None)?,
+                None => gbuffer_pass.run(rec, scene, buffer, (instances, calls), view.is_clipped(), None)?,
             };
             rec.encoder.clear_buffer(count, 0, None);
             let [width, height] = rec.size();

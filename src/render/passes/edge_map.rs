@@ -6,7 +6,7 @@
 
 use super::gbuffer::GBuffer;
 use super::operators::paper_edges;
-use super::repeated::{SPINES, Seen, add_ink};
+use super::repeated::{NearerLines, SPINES, add_ink};
 use super::segments::{MARKS, SegmentInputs, Segments};
 use crate::geometry::EdgeClass;
 use crate::gpu::recorder::{Draw, Onto};
@@ -33,12 +33,12 @@ impl EdgeMap {
     ///
     /// # Errors
     /// [`RenderError`].
-    pub fn seen(&self, rec: &mut Recorder<'_>) -> Result<Target, RenderError> {
-        let seen = Seen::behind(rec, self.spines.clone())?;
+    pub fn all_lines(&self, rec: &mut Recorder<'_>) -> Result<Target, RenderError> {
+        let nearer = NearerLines::behind(rec, self.spines.clone())?;
         if self.has_paper {
-            add_ink(rec, &self.edges, &seen.before, &seen.now)?;
+            add_ink(rec, &self.edges, &nearer.before, &nearer.now)?;
         }
-        Ok(seen.now)
+        Ok(nearer.now)
     }
 }
 
@@ -58,14 +58,14 @@ pub struct EdgeInputs<'a> {
     /// Whether any material of an object with lines has holes.
     pub has_holes: bool,
     /// Whether what lies behind a mirror's plane is left out.
-    pub is_cut: bool,
-    /// Of a depth layer the regions of the last one before it and of that before that: what goes on there has no outline
+    pub is_clipped: bool,
+    /// Of a depth layer the surface ids of the last one before it and of that before that: what goes on there has no outline
     /// where it leaves the layer. `None`: it has.
     pub before: Option<[&'a Target; 2]>,
     /// Which lights reach each pixel; `None` when no light throws shadows.
     pub shadow_mask: Option<&'a Target>,
     /// The lines of nearer layers, which are left out, and to which these are added; `None`: all are drawn.
-    pub seen: Option<&'a Seen>,
+    pub nearer: Option<&'a NearerLines>,
     /// The depth of the G-buffer only tells where it has anything, and has been marked so often; `None`: it is asked for.
     pub marked: Option<u32>,
 }
@@ -86,7 +86,7 @@ pub fn edge_map(rec: &mut Recorder<'_>, inputs: &EdgeInputs<'_>) -> Result<EdgeM
     // Without exact edges it is this that clears the map.
     if onto == Onto::Nothing || has_paper {
         paper_edges(rec, inputs.gbuffer, inputs.styles, inputs.edge_styles, &edge_map, onto)?;
-        if let Some(Seen { before, now }) = inputs.seen.filter(|_| has_paper) {
+        if let Some(NearerLines { before, now }) = inputs.nearer.filter(|_| has_paper) {
             // Where it had been seen before that stays so.
             add_ink(rec, &edge_map, spines.as_ref().unwrap_or(before), now)?;
         }
@@ -106,10 +106,10 @@ fn exact_edges(
         is_whole,
         segments,
         has_holes,
-        is_cut,
+        is_clipped,
         before,
         shadow_mask,
-        seen,
+        nearer,
         marked,
     } = *inputs;
     let any = |has: fn(&EdgeUniform) -> bool| styles.iter().any(|s| s.is_exact() && has(s));
@@ -123,26 +123,31 @@ fn exact_edges(
     let switches: Vec<_> =
         [("WITH_HOLES", has_holes), ("WITH_ANGLES", with_angles)].into_iter().chain(variation).collect();
     let tested = SegmentInputs { gbuffer, edge_styles, switches: &switches };
-    segments.put(rec, &tested, [edge_map, &spines, &marks], seen)?;
-    let outputs: Vec<_> = [edge_map, &spines].into_iter().chain(seen.map(|seen| &seen.now)).collect();
-    let unseen = ("WITHOUT_REPEATED", seen.is_some());
+    segments.put(rec, &tested, [edge_map, &spines, &marks], nearer)?;
+    let outputs: Vec<_> = [edge_map, &spines].into_iter().chain(nearer.map(|nearer| &nearer.now)).collect();
+    let without_repeated = ("WITHOUT_REPEATED", nearer.is_some());
     let found = inputs! {
         geometry_tex: &gbuffer.geometry,
-        region_tex: &gbuffer.region,
+        surface_id_tex: &gbuffer.surface_id,
         edge_styles: edge_styles,
         mark_tex: &marks,
-        seen_tex: seen.map(|seen| &seen.before),
+        nearer_lines_tex: nearer.map(|nearer| &nearer.before),
     };
-    let switches = [("WITH_CUT", is_cut), ("WITH_LAYERS_BEFORE", before.is_some()), unseen]
-        .into_iter()
-        .chain(variation)
-        .collect::<Vec<_>>();
+    let switches =
+        [("WITH_CLIP_PLANE", is_clipped), ("WITH_LAYERS_BEFORE", before.is_some()), without_repeated]
+            .into_iter()
+            .chain(variation)
+            .collect::<Vec<_>>();
     let [texture, relief, shadow] = [EdgeClass::Texture, EdgeClass::Relief, EdgeClass::Shadow]
         .map(|class| styles.iter().any(|s| s.is_exact() && s.draws(class)));
     let shadow = shadow && shadow_mask.is_some();
     if texture || relief || shadow {
-        let mut switches =
-            vec![("WITH_TEXTURE", texture), ("WITH_RELIEF", relief), ("WITH_SHADOW", shadow), unseen];
+        let mut switches = vec![
+            ("WITH_TEXTURE", texture),
+            ("WITH_RELIEF", relief),
+            ("WITH_SHADOW", shadow),
+            without_repeated,
+        ];
         switches.extend(variation);
         rec.draw(Draw {
             label: "details",

@@ -1,4 +1,4 @@
-//! Fragment lists: all that a group covers, collected per pixel in one traversal of the scene and cut into the same depth
+//! Fragment lists: all that a group covers, collected per pixel in one traversal of the scene and split into the same depth
 //! layers as peeling gives (Yang et al. 2010, "Real-Time Concurrent Linked List Construction on the GPU").
 //!
 //! A list holds as many fragments as there is room for, and all are counted: who finds out later that there were more
@@ -22,14 +22,14 @@ const NUMBERS: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;
 /// More fragments are never kept: they take 288 MiB.
 const MOST_FRAGMENTS: u64 = 1 << 23;
 
-/// Room for the fragments of one group after the other.
+/// Memory for the fragments of one group after the other.
 pub struct FragmentLists {
     layout: wgpu::BindGroupLayout,
     heads: wgpu::Buffer,
     links: RecordTexture,
     payloads: RecordTexture,
     colors: wgpu::Buffer,
-    /// The most room that was asked for since the last [`Self::shrink`].
+    /// The most memory that was asked for since the last [`Self::shrink`].
     asked: u64,
 }
 
@@ -105,7 +105,7 @@ impl FragmentLists {
         })
     }
 
-    /// Empties all lists, for so many fragments; returns how many there is room for.
+    /// Empties all lists, for so many fragments; returns their capacity.
     ///
     /// # Errors
     /// [`GpuError::TooLarge`].
@@ -119,13 +119,13 @@ impl FragmentLists {
         rec.encoder.clear_buffer(&self.heads, 0, None);
         self.asked = self.asked.max(fragments);
         self.reserve(gpu, fragments)?;
-        Ok(self.links.room())
+        Ok(self.links.capacity())
     }
 
     fn reserve(&mut self, gpu: &Gpu, fragments: u64) -> Result<(), GpuError> {
         self.links.reserve(gpu, fragments as usize)?;
         self.payloads.reserve(gpu, fragments as usize)?;
-        let bytes = self.links.room() * COLOR_BYTES;
+        let bytes = self.links.capacity() * COLOR_BYTES;
         if self.colors.size() < bytes {
             self.colors = create(gpu, "colours of fragments", bytes);
         }
@@ -135,19 +135,19 @@ impl FragmentLists {
     /// Gives memory back of which the last frame that used any needed little.
     pub fn shrink(&mut self, gpu: &Gpu) {
         let asked = std::mem::take(&mut self.asked);
-        if asked > 0 && self.links.room() > 4 * asked.next_power_of_two() {
+        if asked > 0 && self.links.capacity() > 4 * asked.next_power_of_two() {
             self.links.clear(gpu);
             self.payloads.clear(gpu);
             self.colors = create(gpu, "colours of fragments", COLOR_BYTES);
         }
     }
 
-    /// Begins to cut so many layers.
+    /// Begins to extract so many layers.
     ///
     /// # Errors
     /// [`RenderError`].
-    pub fn cut(&self, rec: &mut Recorder<'_>, layers: u32) -> Result<CutLists, RenderError> {
-        let lists = CutLists {
+    pub fn extract(&self, rec: &mut Recorder<'_>, layers: u32) -> Result<LayerExtraction, RenderError> {
+        let lists = LayerExtraction {
             heads: self.heads.clone(),
             fragments: [&self.links, &self.payloads].map(|texture| texture.target().clone()),
             colors: self.colors.clone(),
@@ -160,7 +160,7 @@ impl FragmentLists {
         let inputs = lists.inputs(None);
         rec.draw(Draw {
             label: "listed",
-            program: Program::new("passes/cut.wgsl", "fs_listed"),
+            program: Program::new("passes/extract_layers.wgsl", "fs_listed"),
             inputs: &inputs,
             outputs: &[],
             onto: Onto::Nothing,
@@ -172,7 +172,7 @@ impl FragmentLists {
 
 /// What is asked of the layers of a group.
 #[derive(Debug, Clone, Copy)]
-pub struct Asked {
+pub struct LayerOutputs {
     /// Their base colours.
     pub with_color: bool,
     /// Their shading normals; otherwise they are those of the faces.
@@ -183,31 +183,31 @@ pub struct Asked {
     pub is_whole: bool,
 }
 
-/// The lists of one group while they are cut into layers.
-pub struct CutLists {
+/// The lists of one group while they are split into layers.
+pub struct LayerExtraction {
     heads: wgpu::Buffer,
     /// Links and payloads.
     fragments: [Target; 2],
     colors: wgpu::Buffer,
-    /// A depth buffer that is covered where there are any fragments, of the layer that was cut last or of those behind it.
+    /// A depth buffer that is covered where there are any fragments, of the layer that was extracted last or of those behind it.
     listed: Target,
     /// The fragments of the next layers, the nearest one last.
     numbers: Vec<Target>,
-    /// Those of the layer that was cut last.
+    /// Those of the layer that was extracted last.
     last: Option<Target>,
-    /// So many are left to be cut.
+    /// So many are left to be extracted.
     layers: u32,
     /// So many have been.
     done: u32,
 }
 
-impl CutLists {
+impl LayerExtraction {
     /// The next layer, of fragments that were collected for the same.
     ///
     /// # Errors
     /// [`RenderError`].
-    pub fn next(&mut self, rec: &mut Recorder<'_>, asked: Asked) -> Result<Layer, RenderError> {
-        let Asked { with_color, with_normals, with_depth, is_whole } = asked;
+    pub fn next(&mut self, rec: &mut Recorder<'_>, asked: LayerOutputs) -> Result<Layer, RenderError> {
+        let LayerOutputs { with_color, with_normals, with_depth, is_whole } = asked;
         let numbers = match self.numbers.pop() {
             Some(numbers) => numbers,
             None => self.sort(rec)?,
@@ -216,7 +216,7 @@ impl CutLists {
         let mut layer = Layer { gbuffer: GBuffer::new(rec)?, marked: None };
         let mut rule = DepthRule::Covered;
         let inputs = self.inputs(Some(&numbers));
-        let program = |entry_point| Program::new("passes/cut.wgsl", entry_point);
+        let program = |entry_point| Program::new("passes/extract_layers.wgsl", entry_point);
         if with_depth {
             rec.draw(Draw {
                 label: "depth of layer",
@@ -234,11 +234,11 @@ impl CutLists {
                 rule = DepthRule::Left("fs_ended");
             }
         }
-        let GBuffer { geometry, base_color, region, depth } = &layer.gbuffer;
-        let mut outputs = vec![geometry, region];
+        let GBuffer { geometry, base_color, surface_id, depth } = &layer.gbuffer;
+        let mut outputs = vec![geometry, surface_id];
         outputs.extend(with_color.then_some(base_color));
         rec.draw(Draw {
-            label: "cut",
+            label: "extract layer",
             program: Program {
                 switches: vec![("WITH_COLOR", with_color), ("WITH_NORMALS", with_normals)],
                 ..program("fs_layer")
@@ -263,7 +263,7 @@ impl CutLists {
         rec.draw(Draw {
             label: "sort",
             program: Program {
-                file: "passes/cut.wgsl",
+                file: "passes/extract_layers.wgsl",
                 entry_point: if self.last.is_some() { "fs_sort_behind" } else { "fs_sort" },
                 switches: vec![
                     ("THREE_OR_MORE", layers >= 3),
@@ -280,7 +280,7 @@ impl CutLists {
         Ok(nearest)
     }
 
-    /// What `passes/cut.wgsl` reads.
+    /// What `passes/extract_layers.wgsl` reads.
     fn inputs<'a>(&'a self, numbers: Option<&'a Target>) -> Inputs<'a> {
         let [links, payloads] = &self.fragments;
         inputs! {

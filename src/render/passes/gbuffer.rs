@@ -8,7 +8,7 @@ pub(super) const GEOMETRY: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Uint
 /// Unlit base colour.
 pub(super) const BASE_COLOR: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
 /// Which surface of which object.
-pub(super) const REGION: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;
+pub(super) const SURFACE_ID: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;
 /// Of a layer that was peeled: depth of each pixel, and which draw and surface it is of, see [`crate::render::base::instances::Instance::first_surface`].
 pub(super) const SORT_KEYS: wgpu::TextureFormat = wgpu::TextureFormat::Rg32Uint;
 /// Reversed: 1 at the near plane.
@@ -22,7 +22,7 @@ pub struct GBuffer {
     /// Unlit base colour.
     pub base_color: Target,
     /// A number for each surface of each object; 0: background.
-    pub region: Target,
+    pub surface_id: Target,
     /// Reversed depth. Of a layer from fragment lists of which it was not asked for, only 0 where no layer has anything.
     pub depth: Target,
 }
@@ -33,7 +33,7 @@ impl GBuffer {
         Ok(Self {
             geometry: rec.target("geometry", GEOMETRY)?,
             base_color: rec.target("base color", BASE_COLOR)?,
-            region: rec.target("regions", REGION)?,
+            surface_id: rec.target("surface ids", SURFACE_ID)?,
             depth: rec.target("depth", DEPTH)?,
         })
     }

@@ -2,7 +2,7 @@
 //! depths, to one list per pixel, which is then put in order and blended once (Yang et al. 2010, "Real-Time Concurrent Linked
 //! List Construction on the GPU"). Within a group the order of layers stays: a depth counts as no less than those before it.
 //!
-//! There is room for a limited number of entries. The device counts them all, row by row; where there were more than room, the
+//! There is room for a limited number of entries. The device counts them all, row by row; where there were more than that, the
 //! picture is drawn again with more of it, at last in bands of rows, one after the other.
 
 use std::ops::Range;
@@ -27,7 +27,7 @@ const GROUP: u32 = 64;
 pub struct BandUniform {
     first_row: u32,
     end_row: u32,
-    room: u32,
+    capacity: u32,
 }
 
 /// The lists of a picture.
@@ -49,7 +49,7 @@ pub struct LayerLists {
 #[derive(Debug, Clone)]
 struct Recorded {
     /// Entries of each band.
-    room: u64,
+    capacity: u64,
     bands: Vec<Range<u32>>,
 }
 
@@ -77,9 +77,9 @@ impl LayerLists {
                 let rows = known.get(band.start as usize..band.end as usize).unwrap_or_default();
                 rows.iter().map(|&row| u64::from(row)).sum::<u64>()
             };
-            let has_room = recorded.bands.iter().all(|band| entries(band) <= recorded.room);
+            let fits = recorded.bands.iter().all(|band| entries(band) <= recorded.capacity);
             self.known = known;
-            if !has_room {
+            if !fits {
                 return Reported::Incomplete;
             }
         }
@@ -99,15 +99,15 @@ impl LayerLists {
         let total: u64 = self.known.iter().map(|&row| u64::from(row)).sum();
         // A quarter more than there were, as there may be more by now.
         let wanted = if self.known.is_empty() { FIRST_GUESS * width * height } else { total + total / 4 + 1 };
-        let room = wanted.min(most);
-        let bands = if total <= room {
+        let capacity = wanted.min(most);
+        let bands = if total <= capacity {
             std::iter::once(0..size[1]).collect()
         } else {
             // A row has fewer entries than there is room for.
-            bands_of(&self.known, room * 4 / 5)
+            bands_of(&self.known, capacity * 4 / 5)
                 .unwrap_or_else(|| (0..size[1]).map(|row| row..row + 1).collect())
         };
-        self.entries.reserve(gpu, room as usize)?;
+        self.entries.reserve(gpu, capacity as usize)?;
         self.heads.reserve(gpu, width * height * 4)?;
         self.deepest.reserve(gpu, width * height * 4)?;
         self.counts.reserve(gpu, (1 + height) * 4)?;
@@ -116,8 +116,8 @@ impl LayerLists {
 
     /// Begins a band; what is recorded for it has to be submitted before the next one begins.
     pub fn begin_band(&mut self, rec: &mut Recorder<'_>, band: &Range<u32>, is_first: bool) {
-        let room = u32::try_from(self.entries.room()).unwrap_or(u32::MAX);
-        self.band.write(rec.gpu, &BandUniform { first_row: band.start, end_row: band.end, room });
+        let capacity = u32::try_from(self.entries.capacity()).unwrap_or(u32::MAX);
+        self.band.write(rec.gpu, &BandUniform { first_row: band.start, end_row: band.end, capacity });
         rec.encoder.clear_buffer(self.heads.buffer(), 0, None);
         // The rows are counted through all bands.
         rec.encoder.clear_buffer(self.counts.buffer(), 0, (!is_first).then_some(4));
@@ -167,7 +167,7 @@ impl LayerLists {
         color: &Target,
     ) -> Result<(), RenderError> {
         let [width, _] = rec.size();
-        let outer = rec.part.replace([0, band.start, width, band.end]);
+        let outer = rec.scissor_rect.replace([0, band.start, width, band.end]);
         let inputs = inputs! { listed: self.heads.buffer(), entry_tex: self.entries.target() };
         let blended = rec.draw(Draw {
             label: "blend layers",
@@ -177,28 +177,28 @@ impl LayerLists {
             onto: Onto::Old,
             depth: None,
         });
-        rec.part = outer;
+        rec.scissor_rect = outer;
         Ok(blended?)
     }
 
     /// Reports how many entries all bands had.
     pub fn report(&mut self, rec: &mut Recorder<'_>, bands: Vec<Range<u32>>) {
-        let recorded = Recorded { room: self.entries.room(), bands };
+        let recorded = Recorded { capacity: self.entries.capacity(), bands };
         self.reports.send(rec, self.counts.buffer(), recorded);
     }
 }
 
 /// Consecutive rows that together have no more entries than there is room for; `None` if a row alone has more.
-fn bands_of(rows: &[u32], room: u64) -> Option<Vec<Range<u32>>> {
+fn bands_of(rows: &[u32], capacity: u64) -> Option<Vec<Range<u32>>> {
     let mut bands: Vec<Range<u32>> = Vec::new();
     let mut sum = 0;
     for (row, &entries) in (0..).zip(rows) {
         let entries = u64::from(entries);
-        if entries > room {
+        if entries > capacity {
             return None;
         }
         match bands.last_mut() {
-            Some(band) if sum + entries <= room => {
+            Some(band) if sum + entries <= capacity => {
                 band.end = row + 1;
                 sum += entries;
             }
@@ -217,8 +217,8 @@ mod tests {
 
     #[test]
     fn bands_have_no_more_entries_than_room_and_leave_no_row_out() {
-        let ends = |rows: &[u32], room| -> Option<Vec<[u32; 2]>> {
-            Some(bands_of(rows, room)?.iter().map(|band| [band.start, band.end]).collect())
+        let ends = |rows: &[u32], capacity| -> Option<Vec<[u32; 2]>> {
+            Some(bands_of(rows, capacity)?.iter().map(|band| [band.start, band.end]).collect())
         };
         assert_eq!(ends(&[3, 3, 3], 9), Some(vec![[0, 3]]));
         assert_eq!(ends(&[3, 3, 3], 8), Some(vec![[0, 2], [2, 3]]));

@@ -1,52 +1,52 @@
-//! A group cut into depth layers, one behind the other, and the lines of each (blueprints paper, sections 3 and 4.1).
+//! A group split into depth layers, one behind the other, and the lines of each (blueprints paper, sections 3 and 4.1).
 //!
 //! ```text
 //! draws ─► fragment lists, where the device can
 //!            │┌──────────────────────────────────────────────┐
 //!            ▼▼                                              │
 //! (draws ─►) layer i ─► count ─► what the caller makes of it ─┘
-//!                       └─► gate: too few pixels shut it, or enough of the depth mask, and nothing after that runs
+//!                       └─► predicate: too few pixels clear it, or enough of the depth mask, and nothing after that runs
 //! ```
 //!
-//! How many layers are recorded, and how much room there is for fragments, is guessed from reports about earlier pictures;
+//! How many layers are recorded, and how many fragments there is memory for, is guessed from reports about earlier pictures;
 //! a wrong guess is reported too, and the picture drawn again.
 
-mod room;
+mod budget;
 
-pub use self::room::{LayersBy, Reason, Reported};
+pub use self::budget::{LayersBy, Reason, Reported};
 
-use self::room::{Recorded, Room};
+use self::budget::{Budget, Recorded};
 use crate::document;
-use crate::gpu::{ArrayBuffer, Gate, Gpu, Recorder, Reports, Target};
+use crate::gpu::{ArrayBuffer, Gpu, Predicate, Recorder, Reports, Target};
 use crate::render::base::edge_style::EdgeUniform;
 use crate::render::base::error::RenderError;
 use crate::render::base::gpu_scene::GpuScene;
-use crate::render::base::instances::{DrawCall, Instance, Instances};
+use crate::render::base::instances::{DrawCall, Instance, InstanceBuffer};
 use crate::render::passes::designated::Uncover;
 use crate::render::passes::edge_map::{EdgeInputs, EdgeMap, edge_map};
-use crate::render::passes::fragment_lists::Asked;
-use crate::render::passes::line_distance::{Reach, Widths, line_distance};
+use crate::render::passes::fragment_lists::LayerOutputs;
+use crate::render::passes::line_distance::{LineDistance, Widths, line_distance};
 use crate::render::passes::lines::Lines;
 use crate::render::passes::peel::{Layer, MOST_LAYERS, Peel, PeelCount, before_all, peeled_from_bytes};
 use crate::render::passes::peeled::Peeled;
-use crate::render::passes::repeated::Seen;
+use crate::render::passes::repeated::NearerLines;
 use crate::render::passes::segments::Segments;
 use crate::render::passes::traversal::GBufferPass;
 
-/// Kinds of passes that a layer has beside the draws of its objects: room in the gate.
+/// Kinds of passes that a layer has beside the draw calls of its objects: entries of the predicate.
 const PASSES: usize = 32;
 
-/// What is cut into layers, and how far.
+/// What is split into layers, and how far.
 #[derive(Clone, Copy)]
 pub struct LayerInputs<'a> {
     /// The scene on the device.
     pub scene: &'a GpuScene,
-    /// The uniforms of all draws.
-    pub draws: &'a [Instance],
-    /// The draws.
+    /// The device buffer of all instances.
+    pub instances: &'a [Instance],
+    /// The instances.
     pub calls: &'a [DrawCall],
     /// Whether what lies behind a plane is left out.
-    pub is_cut: bool,
+    pub is_clipped: bool,
     /// Most layers, up to [`MOST_LAYERS`].
     pub most: u32,
     /// It ends before a layer of fewer pixels, at the latest before an empty one.
@@ -65,7 +65,7 @@ pub struct LayerInputs<'a> {
     pub whole: u32,
 }
 
-/// A layer that has been cut.
+/// A layer that has been extracted.
 #[derive(Clone, Copy)]
 pub struct DrawnLayer<'a> {
     /// Its number, from 0 on.
@@ -75,30 +75,30 @@ pub struct DrawnLayer<'a> {
     /// How far layers have come, this one included.
     pub count: &'a PeelCount,
     /// What was drawn.
-    pub instances: &'a Instances,
+    pub instance_buffer: &'a InstanceBuffer,
 }
 
 /// What of the layers of a group lives across frames.
 pub struct Layers {
-    draws: Instances,
-    gate: Option<Gate>,
+    instances: InstanceBuffer,
+    predicate: Option<Predicate>,
     count: PeelCount,
     reports: Reports<Recorded>,
     /// The latest report, and how those layers were made.
     last: Option<(Peeled, LayersBy)>,
-    room: Room,
+    budget: Budget,
 }
 
 impl Layers {
     /// Nothing drawn yet.
     pub fn new(gpu: &Gpu) -> Self {
         Self {
-            draws: Instances::new(gpu),
-            gate: None,
+            instances: InstanceBuffer::new(gpu),
+            predicate: None,
             count: PeelCount::new(gpu),
             reports: Reports::default(),
             last: None,
-            room: Room::default(),
+            budget: Budget::default(),
         }
     }
 
@@ -108,7 +108,7 @@ impl Layers {
             return if self.reports.is_waiting() { Reported::Waiting } else { Reported::Complete };
         };
         let peeled = peeled_from_bytes(&bytes);
-        let is_complete = self.room.learn(&recorded, &peeled);
+        let is_complete = self.budget.learn(&recorded, &peeled);
         self.last = Some((peeled, recorded.by()));
         match is_complete {
             false => Reported::Incomplete,
@@ -145,16 +145,16 @@ impl Layers {
             inputs.calls = &plain;
         }
         self.count.begin(rec.gpu, inputs.least.max(1), inputs.uncover);
-        let mut recorded = self.room.plan(rec.gpu, rec.size(), inputs.most.min(MOST_LAYERS), inputs.by);
-        let mut gate = self.gate.take().unwrap_or_else(|| Gate::new(rec.gpu));
+        let mut recorded = self.budget.plan(rec.gpu, rec.size(), inputs.most.min(MOST_LAYERS), inputs.by);
+        let mut predicate = self.predicate.take().unwrap_or_else(|| Predicate::new(rec.gpu));
         // Objects may be drawn once more, for their coordinates.
-        gate.clear(rec.gpu, 2 * inputs.calls.len() + PASSES)?;
-        rec.gate = Some(gate);
+        predicate.clear(rec.gpu, 2 * inputs.calls.len() + PASSES)?;
+        rec.predicate = Some(predicate);
         let drawn = self.draw_each(rec, gbuffer_pass, &inputs, &mut recorded, draw);
-        self.gate = rec.gate.take();
+        self.predicate = rec.predicate.take();
         self.reports.send(rec, self.count.buffer(), recorded);
-        if let Some(gate) = &self.gate {
-            gate.open(rec.gpu);
+        if let Some(predicate) = &self.predicate {
+            predicate.enable(rec.gpu);
         }
         drawn
     }
@@ -167,15 +167,23 @@ impl Layers {
         recorded: &mut Recorded,
         mut draw: impl FnMut(&mut Recorder<'_>, &DrawnLayer<'_>) -> Result<(), RenderError>,
     ) -> Result<(), RenderError> {
-        let LayerInputs { scene, draws, calls, is_cut, with_color, .. } = *inputs;
+        let LayerInputs { scene, instances, calls, is_clipped, with_color, .. } = *inputs;
         let mask = inputs.uncover.map(|uncover| uncover.mask);
-        if let Ok(room) = &mut recorded.fragments {
-            *room = gbuffer_pass.lists.begin(rec, *room)?;
-            let parts = (draws, calls);
-            gbuffer_pass.collect(rec, scene, &mut self.draws, parts, is_cut, with_color, &self.count)?;
+        if let Ok(budget) = &mut recorded.fragments {
+            *budget = gbuffer_pass.lists.begin(rec, *budget)?;
+            let parts = (instances, calls);
+            gbuffer_pass.collect(
+                rec,
+                scene,
+                &mut self.instances,
+                parts,
+                is_clipped,
+                with_color,
+                &self.count,
+            )?;
         }
         let mut lists = match recorded.by() {
-            LayersBy::Lists => Some(gbuffer_pass.lists.cut(rec, recorded.layers)?),
+            LayersBy::Lists => Some(gbuffer_pass.lists.extract(rec, recorded.layers)?),
             LayersBy::Peeling(_) => None,
         };
         let with_depth = inputs.with_depth || mask.is_some();
@@ -185,7 +193,7 @@ impl Layers {
             let layer = match &mut lists {
                 Some(lists) => {
                     let with_normals = inputs.with_normals;
-                    lists.next(rec, Asked { with_color, with_normals, with_depth, is_whole })?
+                    lists.next(rec, LayerOutputs { with_color, with_normals, with_depth, is_whole })?
                 }
                 None => {
                     let before = match last.take() {
@@ -197,8 +205,14 @@ impl Layers {
                         false => Some(rec.target("sort keys", before.format())?),
                     };
                     let peel = Peel { last: &before, sort_keys: last.as_ref(), with_color, is_whole };
-                    let gbuffer =
-                        gbuffer_pass.run(rec, scene, &mut self.draws, (draws, calls), is_cut, Some(&peel))?;
+                    let gbuffer = gbuffer_pass.run(
+                        rec,
+                        scene,
+                        &mut self.instances,
+                        (instances, calls),
+                        is_clipped,
+                        Some(&peel),
+                    )?;
                     Layer { gbuffer, marked: None }
                 }
             };
@@ -206,8 +220,8 @@ impl Layers {
             if recorded.only_counts(number) {
                 break;
             }
-            let Self { count, draws: instances, .. } = &*self;
-            draw(rec, &DrawnLayer { number, layer: &layer, count, instances })?;
+            let Self { count, instances: instance_buffer, .. } = &*self;
+            draw(rec, &DrawnLayer { number, layer: &layer, count, instance_buffer })?;
             if let Some(mask) = mask {
                 self.count.end_where_uncovered(rec, &layer, mask)?;
             }
@@ -234,7 +248,7 @@ pub struct LayerLinesInputs<'a> {
     /// Whether any material of an object with lines has holes.
     pub has_holes: bool,
     /// Whether what lies behind a mirror's plane is left out.
-    pub is_cut: bool,
+    pub is_clipped: bool,
     /// See [`EdgeInputs::before`].
     pub before: Option<[&'a Target; 2]>,
     /// Whether a line is drawn again where a nearer layer has one at the same place (Fig. 5).
@@ -246,7 +260,7 @@ pub struct LayerEdges {
     /// The edge map, without repeated ones if they are left out.
     pub edge_map: EdgeMap,
     /// How far its lines reach; `None` without exact ones.
-    pub reach: Option<Reach>,
+    pub line_distance: Option<LineDistance>,
     /// Where nearer layers have lines; `None` if repeated ones are drawn.
     pub nearer: Option<Target>,
 }
@@ -262,7 +276,7 @@ impl LayerEdges {
         Lines {
             gbuffer: &layer.gbuffer,
             edge_map: &self.edge_map,
-            reach: self.reach.as_ref(),
+            line_distance: self.line_distance.as_ref(),
             styles,
             edge_styles: lines.edge_styles.buffer(),
         }
@@ -297,11 +311,11 @@ impl LayerLines {
         rec: &mut Recorder<'_>,
         inputs: &LayerLinesInputs<'_>,
         layer: &Layer,
-        seen: &mut Option<Target>,
+        nearer: &mut Option<Target>,
     ) -> Result<LayerEdges, RenderError> {
         let own = match inputs.repeated {
             true => None,
-            false => Some(Seen::behind(rec, seen.take())?),
+            false => Some(NearerLines::behind(rec, nearer.take())?),
         };
         let edge_map = edge_map(
             rec,
@@ -312,21 +326,21 @@ impl LayerLines {
                 is_whole: inputs.is_whole,
                 segments: inputs.segments,
                 has_holes: inputs.has_holes,
-                is_cut: inputs.is_cut,
+                is_clipped: inputs.is_clipped,
                 before: inputs.before,
                 shadow_mask: None,
-                seen: own.as_ref(),
+                nearer: own.as_ref(),
                 marked: layer.marked,
             },
         )?;
-        let (before, now) = own.map(|Seen { before, now }| (before, now)).unzip();
-        *seen = now;
-        let reach = match &edge_map.spines {
+        let (before, now) = own.map(|NearerLines { before, now }| (before, now)).unzip();
+        *nearer = now;
+        let line_distance = match &edge_map.spines {
             Some(spines) => {
                 Some(line_distance(rec, spines, Widths::of(inputs.styles), &mut self.greatest_radius)?)
             }
             None => None,
         };
-        Ok(LayerEdges { edge_map, reach, nearer: before })
+        Ok(LayerEdges { edge_map, line_distance, nearer: before })
     }
 }

@@ -18,7 +18,7 @@ const NARROW_BY_TWO: f32 = 1.95;
 
 /// How the lines that reach a pixel are found.
 #[derive(Debug, Clone)]
-pub enum Reach {
+pub enum LineDistance {
     /// All lines are thin: by looking at the spines in the neighbouring pixels.
     Narrow {
         /// Where lines run.
@@ -38,8 +38,8 @@ pub enum Reach {
     },
 }
 
-/// Finds the nearest spine of each pixel, as far as any is within `distance` (px); `radius` is room for what the device is told.
-/// The result is as [`Reach::Wide`] describes.
+/// Finds the nearest spine of each pixel, as far as any is within `distance` (px); `radius` is a buffer for the greatest radius.
+/// The result is as [`LineDistance::Wide`] describes.
 ///
 /// # Errors
 /// [`RenderError`].
@@ -53,7 +53,7 @@ pub fn nearest_lines(
     transform(rec, spines, radius.buffer(), true)
 }
 
-/// Finds the lines that reach each pixel from where spines run; `radius` is room for what the device is told.
+/// Finds the lines that reach each pixel from where spines run; `radius` is a buffer for the greatest radius.
 ///
 /// # Errors
 /// [`RenderError`].
@@ -62,7 +62,7 @@ pub fn line_distance(
     spines: &Target,
     widths: Widths,
     radius: &mut ArrayBuffer,
-) -> Result<Reach, RenderError> {
+) -> Result<LineDistance, RenderError> {
     let by_two = widths.greatest_radius > NARROW;
     if !by_two || (widths.greatest_radius <= NARROW_BY_TWO && widths.are_moved && !widths.differ) {
         let blocks = rec.size().map(|side| side.div_ceil(BLOCK));
@@ -74,12 +74,12 @@ pub fn line_distance(
         };
         let inputs = inputs! { spine_tex: spines, near_tex: &near };
         rec.compute("near lines", &program, &inputs, blocks.map(|side| side.div_ceil(BLOCK_GROUP)))?;
-        return Ok(Reach::Narrow { spines: spines.clone(), near, by_two });
+        return Ok(LineDistance::Narrow { spines: spines.clone(), near, by_two });
     }
     radius.write(rec.gpu, &vec![widths.greatest_radius]);
     let farthest = transform(rec, spines, radius.buffer(), false)?;
     let nearest = if widths.differ { Some(transform(rec, spines, radius.buffer(), true)?) } else { None };
-    Ok(Reach::Wide { farthest, nearest })
+    Ok(LineDistance::Wide { farthest, nearest })
 }
 
 /// How wide lines are.

@@ -2,7 +2,7 @@
 
 use super::edge_map::EdgeMap;
 use super::gbuffer::GBuffer;
-use super::line_distance::Reach;
+use super::line_distance::LineDistance;
 use crate::gpu::bindings::NOTHING;
 use crate::gpu::recorder::{Draw, Onto};
 use crate::gpu::{DepthRule, Inputs, Program, Recorder, STENCIL, Target, inputs};
@@ -17,7 +17,7 @@ pub struct Lines<'a> {
     /// Where lines run.
     pub edge_map: &'a EdgeMap,
     /// Which line reaches each pixel; needed where any object is drawn in exact mode.
-    pub reach: Option<&'a Reach>,
+    pub line_distance: Option<&'a LineDistance>,
     /// Edge styles by object id.
     pub styles: &'a [EdgeUniform],
     /// The same on the device.
@@ -26,7 +26,7 @@ pub struct Lines<'a> {
 
 /// What draws lines: a shader that imports `passes/lines.wgsl`.
 #[derive(Clone, Copy)]
-pub struct Pen<'a> {
+pub struct LineShader<'a> {
     /// File below `shaders/`.
     pub file: &'static str,
     /// Its entry point.
@@ -39,7 +39,7 @@ pub struct Pen<'a> {
     pub onto: Onto,
 }
 
-impl Pen<'_> {
+impl LineShader<'_> {
     /// Lines in the colours of their styles, over everything.
     pub const PLAIN: Self = Self {
         file: "passes/lines.wgsl",
@@ -53,10 +53,10 @@ impl Pen<'_> {
 impl<'a> Lines<'a> {
     /// What `passes/lines.wgsl` reads of them.
     pub fn inputs(&self) -> Inputs<'a> {
-        let Lines { gbuffer, edge_map, reach, edge_styles, .. } = *self;
-        let (farthest, nearest) = match reach {
-            Some(Reach::Narrow { spines, near, .. }) => (Some(spines), Some(near)),
-            Some(Reach::Wide { farthest, nearest }) => (Some(farthest), nearest.as_ref()),
+        let Lines { gbuffer, edge_map, line_distance, edge_styles, .. } = *self;
+        let (farthest, nearest) = match line_distance {
+            Some(LineDistance::Narrow { spines, near, .. }) => (Some(spines), Some(near)),
+            Some(LineDistance::Wide { farthest, nearest }) => (Some(farthest), nearest.as_ref()),
             None => (None, None),
         };
         inputs! {
@@ -76,10 +76,10 @@ impl<'a> Lines<'a> {
         let any = |has: fn(&EdgeUniform) -> bool| self.styles.iter().any(has);
         vec![
             ("WITH_PAPER", any(EdgeUniform::is_paper)),
-            ("WITH_EXACT", self.reach.is_some()),
-            ("WITH_WIDTHS", matches!(self.reach, Some(Reach::Wide { nearest: Some(_), .. }))),
-            ("NARROW", matches!(self.reach, Some(Reach::Narrow { .. }))),
-            ("NARROW_BY_TWO", matches!(self.reach, Some(Reach::Narrow { by_two: true, .. }))),
+            ("WITH_EXACT", self.line_distance.is_some()),
+            ("WITH_WIDTHS", matches!(self.line_distance, Some(LineDistance::Wide { nearest: Some(_), .. }))),
+            ("NARROW", matches!(self.line_distance, Some(LineDistance::Narrow { .. }))),
+            ("NARROW_BY_TWO", matches!(self.line_distance, Some(LineDistance::Narrow { by_two: true, .. }))),
             ("WITH_DASHES", any(|s| s.drawn().any(|(_, l)| l.dashed == 1))),
             ("WITH_SURFACE_COLOR", any(EdgeUniform::takes_surface_color)),
         ]
@@ -93,18 +93,18 @@ impl<'a> Lines<'a> {
 pub fn lines(
     rec: &mut Recorder<'_>,
     lines: &Lines<'_>,
-    pen: &Pen<'_>,
+    shader: &LineShader<'_>,
     color: &Target,
 ) -> Result<(), RenderError> {
-    let reached = rec.target("reached by lines", STENCIL)?;
-    let switches = [&lines.switches()[..], pen.switches].concat();
+    let covered = rec.target("covered by lines", STENCIL)?;
+    let switches = [&lines.switches()[..], shader.switches].concat();
     rec.draw(Draw {
         label: "lines",
-        program: Program { file: pen.file, entry_point: pen.entry_point, switches },
-        inputs: &lines.inputs().and(pen.inputs),
+        program: Program { file: shader.file, entry_point: shader.entry_point, switches },
+        inputs: &lines.inputs().and(shader.inputs),
         outputs: &[color],
-        onto: pen.onto,
-        depth: Some((&reached, DepthRule::Marked("fs_reached"))),
+        onto: shader.onto,
+        depth: Some((&covered, DepthRule::Marked("fs_covered"))),
     })?;
     Ok(())
 }

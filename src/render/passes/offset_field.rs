@@ -159,16 +159,15 @@ impl LineFieldPass {
     ///
     /// # Errors
     /// [`RenderError`].
-    pub fn sift(&mut self, rec: &mut Recorder<'_>, spines: &Target) -> Result<(), RenderError> {
+    pub fn compact(&mut self, rec: &mut Recorder<'_>, spines: &Target) -> Result<(), RenderError> {
         rec.gpu.check_bytes_of_pixels("as a sketch", rec.size(), 4)?;
         let [width, height] = rec.size();
         self.pixels.reserve(rec.gpu, u64::from(width) * u64::from(height) * 4)?;
         rec.encoder.copy_buffer_to_buffer(&self.none, 0, &self.kept, 0, None);
-        let program = Program::new("passes/offset_field.wgsl", "cs_sift");
-        let sifting =
-            inputs! { spine_tex: spines, keeping: &self.kept, keeping_pixels: self.pixels.buffer() };
+        let program = Program::new("passes/offset_field.wgsl", "cs_compact");
+        let inputs = inputs! { spine_tex: spines, keeping: &self.kept, keeping_pixels: self.pixels.buffer() };
         let groups = [width, height].map(|side| side.div_ceil(GROUP));
-        rec.compute("sift pixels of lines", &program, &sifting, groups)?;
+        rec.compute("compact pixels of lines", &program, &inputs, groups)?;
         Ok(())
     }
 

@@ -30,7 +30,7 @@ pub struct Layer {
 pub struct Peel<'a> {
     /// Sort keys of the layer before.
     pub last: &'a Target,
-    /// Those of the layer that is drawn; `None`: it is only counted, and nothing is known of it but its regions and depth.
+    /// Those of the layer that is drawn; `None`: it is only counted, and nothing is known of it but its surface ids and depth.
     pub sort_keys: Option<&'a Target>,
     /// Whether it has a base colour.
     pub with_color: bool,
@@ -115,7 +115,7 @@ pub struct CountedUniform {
 
 impl CountedUniform {
     /// Nothing yet.
-    fn begun(least: u32, uncover: Option<Uncover<'_>>) -> Self {
+    fn initial(least: u32, uncover: Option<Uncover<'_>>) -> Self {
         let none = [0; MOST_LAYERS as usize];
         Self {
             least,
@@ -168,7 +168,7 @@ impl CountedUniform {
             masked: self.masked,
             hidden: self.hidden,
             fragments: self.fragments.iter().map(|&fragments| u64::from(fragments)).sum(),
-            room: parted_counter::room(&self.fragments),
+            capacity: parted_counter::room(&self.fragments),
             pixels: self.pixels.to_vec(),
             passed: self.passed.to_vec(),
         }
@@ -210,10 +210,10 @@ impl PeelCount {
     /// Begins anew, for what is submitted next; it ends before a layer of fewer than `least` pixels, and where `uncover`
     /// says.
     pub fn begin(&self, gpu: &Gpu, least: u32, uncover: Option<Uncover<'_>>) {
-        let begun = CountedUniform::begun(least, uncover);
+        let initial = CountedUniform::initial(least, uncover);
         let mut bytes = StorageBuffer::new(Vec::new());
         // Writing into a growing vector cannot fail.
-        if bytes.write(&begun).is_ok() {
+        if bytes.write(&initial).is_ok() {
             gpu.queue.write_buffer(&self.buffer, 0, bytes.as_ref());
         }
     }
@@ -226,7 +226,7 @@ impl PeelCount {
         Ok(peeled_from_bytes(&readback::read_buffer(gpu, &self.buffer)?))
     }
 
-    /// Counts the pixels of a layer, and those of the depth mask that it leaves uncovered, and shuts the recorder's gate if
+    /// Counts the pixels of a layer, and those of the depth mask that it leaves uncovered, and clears the recorder's predicate if
     /// the layer has too few.
     ///
     /// # Errors
@@ -253,7 +253,7 @@ impl PeelCount {
         self.decide(rec, &program, layer, mask)
     }
 
-    /// After a layer has been drawn: shuts the recorder's gate if it left so much of the mask uncovered as is asked for.
+    /// After a layer has been drawn: clears the recorder's predicate if it left so much of the mask uncovered as is asked for.
     ///
     /// # Errors
     /// [`RenderError`].
@@ -269,7 +269,7 @@ impl PeelCount {
     /// What `passes/count.wgsl` reads of a layer.
     fn counted<'a>(&'a self, layer: &'a Layer, mask: Option<&'a DepthMask>) -> Inputs<'a> {
         inputs! {
-            region_tex: &layer.gbuffer.region,
+            surface_id_tex: &layer.gbuffer.surface_id,
             layer_depth_tex: &layer.gbuffer.depth,
             mask_depth_tex: mask.map(|mask| &mask.depth),
             peeled: &self.buffer,
@@ -283,12 +283,12 @@ impl PeelCount {
         layer: &Layer,
         mask: Option<&DepthMask>,
     ) -> Result<(), RenderError> {
-        // What shuts the gate cannot stand behind it.
-        let Some(gate) = rec.gate.take() else { return Ok(()) };
-        let gated = inputs! { gate: gate.buffer(), mask: mask.map(|mask| &mask.count) };
-        let inputs = self.counted(layer, mask).and(&gated);
+        // What clears the predicate cannot stand behind it.
+        let Some(predicate) = rec.predicate.take() else { return Ok(()) };
+        let predicated = inputs! { predicate: predicate.buffer(), mask: mask.map(|mask| &mask.count) };
+        let inputs = self.counted(layer, mask).and(&predicated);
         let decided = rec.compute("go on", program, &inputs, [1, 1]);
-        rec.gate = Some(gate);
+        rec.predicate = Some(predicate);
         Ok(decided?)
     }
 }

@@ -39,7 +39,7 @@ pub struct Peeled {
     /// Fragments of its lists, those for which there was no room included; 0 without lists.
     pub fragments: u64,
     /// So many fragments there had to be room for.
-    pub room: u64,
+    pub capacity: u64,
     /// Pixels of each layer, that which ended it included; 0 behind it.
     pub pixels: Vec<u32>,
     /// Pixels of the mask that pass the depth test against each layer, the paper's R.

@@ -3,7 +3,7 @@
 
 use super::composition::PLACED;
 use super::layer_lists::LayerLists;
-use super::lines::{Lines, Pen, lines};
+use super::lines::{LineShader, Lines, lines};
 use super::peel::Layer;
 use crate::gpu::recorder::{Draw, Onto};
 use crate::gpu::{DepthRule, Inputs, Program, Recorder, Target};
@@ -51,13 +51,20 @@ impl Place<'_> {
         let LayerShader { file, inputs, switches } = shader;
         match self {
             Self::Beneath(color) => {
-                let pen = Pen { file, entry_point: "fs_lines", inputs, switches, onto: Onto::Beneath };
-                lines(rec, drawn, &pen, color)
+                let shader =
+                    LineShader { file, entry_point: "fs_lines", inputs, switches, onto: Onto::Beneath };
+                lines(rec, drawn, &shader, color)
             }
             Self::Listed(_) => {
                 let ink = rec.target("ink of layer", PLACED)?;
-                let pen = Pen { file, entry_point: "fs_lines_placed", inputs, switches, onto: Onto::Nothing };
-                lines(rec, drawn, &pen, &ink)?;
+                let shader = LineShader {
+                    file,
+                    entry_point: "fs_lines_placed",
+                    inputs,
+                    switches,
+                    onto: Onto::Nothing,
+                };
+                lines(rec, drawn, &shader, &ink)?;
                 pending.ink = Some(ink);
                 Ok(())
             }

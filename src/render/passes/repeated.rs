@@ -9,14 +9,14 @@ pub(super) const SPINES: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;
 
 /// The lines of layers; see `shaders/common/repeated.wgsl`.
 #[derive(Debug, Clone)]
-pub struct Seen {
+pub struct NearerLines {
     /// Of all nearer ones.
     pub before: Target,
     /// Of this one too, once its edge map has been made.
     pub now: Target,
 }
 
-impl Seen {
+impl NearerLines {
     /// For the layer behind those whose lines `before` holds; `None`: there are none.
     ///
     /// # Errors
@@ -26,19 +26,19 @@ impl Seen {
             Some(before) => before,
             None => none(rec)?,
         };
-        let now = rec.target("seen lines", SPINES)?;
+        let now = rec.target("nearer lines", SPINES)?;
         rec.copy(&before, &now);
         Ok(Self { before, now })
     }
 }
 
 fn none(rec: &mut Recorder<'_>) -> Result<Target, RenderError> {
-    let seen = rec.target("seen lines", SPINES)?;
-    rec.clear("no line seen", &[&seen]);
-    Ok(seen)
+    let lines = rec.target("nearer lines", SPINES)?;
+    rec.clear("no nearer lines", &[&lines]);
+    Ok(lines)
 }
 
-/// Adds the ink of the papers' operators, where an edge map has no `spines`, to what has been seen.
+/// Adds the ink of the papers' operators, where an edge map has no `spines`, to the nearer lines.
 ///
 /// # Errors
 /// [`RenderError`].
@@ -46,13 +46,13 @@ pub(super) fn add_ink(
     rec: &mut Recorder<'_>,
     edges: &Target,
     spines: &Target,
-    seen: &Target,
+    lines: &Target,
 ) -> Result<(), RenderError> {
     rec.draw(Draw {
-        label: "seen ink",
+        label: "ink of nearer lines",
         program: Program::new("passes/repeated.wgsl", "fs_ink"),
         inputs: &inputs! { edge_map_tex: edges, spine_tex: spines },
-        outputs: &[seen],
+        outputs: &[lines],
         onto: Onto::Old,
         depth: None,
     })?;

@@ -2,14 +2,14 @@
 //! left is put into the edge map.
 //!
 //! ```text
-//! steps (─► places, for layers) ─► sift ─► points ─► compare ─► put ─► edge map, spines
+//! steps (─► places, for layers) ─► cull ─► points ─► compare ─► put ─► edge map, spines
 //!                                            └─► keys: which of the points of a pixel counts
 //! ```
 
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
 
 use super::gbuffer::GBuffer;
-use super::repeated::Seen;
+use super::repeated::NearerLines;
 use crate::geometry::LineSegment;
 use crate::geometry::line_segments::Strokes;
 use crate::gpu::{Gpu, Program, RecordBuffer, RecordTexture, Recorder, Target, inputs, size_of_texels};
@@ -192,11 +192,11 @@ impl Segments {
         rec: &mut Recorder<'_>,
         inputs: &SegmentInputs<'_>,
         [edge_map, spines, marks]: [&Target; 3],
-        seen: Option<&Seen>,
+        nearer: Option<&NearerLines>,
     ) -> Result<(), RenderError> {
         let has_chunks = self.steps.len() > 1;
         for part in &self.steps {
-            self.find(rec, inputs, part, seen)?;
+            self.find(rec, inputs, part, nearer)?;
             let found = inputs! {
                 points: self.points.buffer(),
                 found: &self.found,
@@ -205,20 +205,20 @@ impl Segments {
                 edge_tex: edge_map,
                 spine_tex: spines,
                 mark_tex: marks,
-                seen_tex: seen.map(|seen| &seen.before),
-                now_seen_tex: seen.map(|seen| &seen.now),
+                nearer_lines_tex: nearer.map(|nearer| &nearer.before),
+                accumulated_lines_tex: nearer.map(|nearer| &nearer.now),
             };
             let program = |entry_point| Program {
                 file: "passes/segment_points.wgsl",
                 entry_point,
                 switches: vec![
-                    ("WITHOUT_REPEATED", seen.is_some()),
+                    ("WITHOUT_REPEATED", nearer.is_some()),
                     ("KEEP_KEYS", has_chunks),
                     ("WITHOUT_MARKS", part.of_strokes),
                 ],
             };
             rec.compute("compare points", &program("cs_compare"), &found, &self.found)?;
-            let put = if seen.is_some() { "cs_put_unseen" } else { "cs_put" };
+            let put = if nearer.is_some() { "cs_put_unrepeated" } else { "cs_put" };
             rec.compute("put points", &program(put), &found, &self.found)?;
         }
         if has_chunks {
@@ -233,37 +233,37 @@ impl Segments {
         rec: &mut Recorder<'_>,
         inputs: &SegmentInputs<'_>,
         part: &Steps,
-        seen: Option<&Seen>,
+        nearer: Option<&NearerLines>,
     ) -> Result<(), RenderError> {
         let own = [("IN_LAYER", self.for_layers), ("WITH_STROKES", self.has_strokes)];
         let switches: Vec<_> = inputs.switches.iter().copied().chain(own).collect();
         let tested = inputs! {
             geometry_tex: &inputs.gbuffer.geometry,
-            region_tex: &inputs.gbuffer.region,
+            surface_id_tex: &inputs.gbuffer.surface_id,
             edge_styles: inputs.edge_styles,
             segment_tex: self.records.target(),
             tested_tex: self.has_strokes.then(|| self.tested.target()),
             step_tex: part.steps.target(),
         };
-        // Where the recorder's gate is shut nobody counts any.
+        // Where the recorder's predicate is cleared nobody counts any.
         for counted in [&self.kept, &self.found] {
             rec.encoder.copy_buffer_to_buffer(&self.none, 0, counted, 0, None);
         }
-        let sifting = inputs! {
+        let culling = inputs! {
             keeping: &self.kept,
             keeping_steps: self.kept_steps.buffer(),
             place_tex: part.places.as_ref(),
-            seen_tex: seen.map(|seen| &seen.before),
+            nearer_lines_tex: nearer.map(|nearer| &nearer.before),
         };
-        let (mut sift, mut sift_switches) = ("cs_sift", switches.clone());
+        let (mut cull, mut cull_switches) = ("cs_cull", switches.clone());
         if part.places.is_some() {
-            sift = "cs_sift_layer";
-            sift_switches.push(("WITHOUT_REPEATED", seen.is_some()));
+            cull = "cs_cull_layer";
+            cull_switches.push(("WITHOUT_REPEATED", nearer.is_some()));
         }
         rec.compute(
-            "sift segments",
-            &program(sift, &sift_switches),
-            &sifting.and(&tested),
+            "cull segments",
+            &program(cull, &cull_switches),
+            &culling.and(&tested),
             [part.count.div_ceil(GROUP), 1],
         )?;
         let found = inputs! {

@@ -47,9 +47,9 @@ pub struct ShadowCall {
     /// Whether light falls through holes.
     pub has_holes: bool,
     /// Whether the section plane cuts it open.
-    pub is_cut: bool,
+    pub is_clipped: bool,
     /// The side of its triangles that is left out.
-    pub hidden_side: Option<wgpu::Face>,
+    pub culled_face: Option<wgpu::Face>,
 }
 
 /// Everything that the map of one light depends on.
@@ -69,14 +69,14 @@ pub struct ShadowScene {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 struct Key {
     has_holes: bool,
-    is_cut: bool,
-    hidden_side: Option<wgpu::Face>,
+    is_clipped: bool,
+    culled_face: Option<wgpu::Face>,
 }
 
 impl From<&ShadowCall> for Key {
     fn from(call: &ShadowCall) -> Self {
-        let ShadowCall { has_holes, is_cut, hidden_side, .. } = *call;
-        Self { has_holes, is_cut, hidden_side }
+        let ShadowCall { has_holes, is_clipped, culled_face, .. } = *call;
+        Self { has_holes, is_clipped, culled_face }
     }
 }
 
@@ -184,7 +184,7 @@ fn build(
     gpu: &Gpu,
     module: &wgpu::ShaderModule,
     layouts: &[Option<&wgpu::BindGroupLayout>],
-    Key { has_holes, is_cut, hidden_side }: Key,
+    Key { has_holes, is_clipped, culled_face }: Key,
 ) -> wgpu::RenderPipeline {
     let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
         label: Some("shadow map"),
@@ -197,15 +197,15 @@ fn build(
         layout: Some(&layout),
         vertex: wgpu::VertexState {
             module,
-            entry_point: Some(match (has_holes, is_cut) {
+            entry_point: Some(match (has_holes, is_clipped) {
                 (true, _) => "vs_holes",
-                (false, true) => "vs_cut",
+                (false, true) => "vs_clipped",
                 (false, false) => "vs_main",
             }),
             compilation_options: wgpu::PipelineCompilationOptions::default(),
             buffers: if has_holes { &buffers } else { &buffers[..1] },
         },
-        primitive: wgpu::PrimitiveState { cull_mode: hidden_side, ..Default::default() },
+        primitive: wgpu::PrimitiveState { cull_mode: culled_face, ..Default::default() },
         depth_stencil: Some(wgpu::DepthStencilState {
             format: DEPTH,
             depth_write_enabled: Some(true),
@@ -214,9 +214,9 @@ fn build(
             bias: wgpu::DepthBiasState::default(),
         }),
         multisample: wgpu::MultisampleState::default(),
-        fragment: (has_holes || is_cut).then(|| wgpu::FragmentState {
+        fragment: (has_holes || is_clipped).then(|| wgpu::FragmentState {
             module,
-            entry_point: Some(if has_holes { "fs_holes" } else { "fs_cut" }),
+            entry_point: Some(if has_holes { "fs_holes" } else { "fs_clipped" }),
             compilation_options: wgpu::PipelineCompilationOptions::default(),
             targets: &[],
         }),

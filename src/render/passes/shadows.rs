@@ -9,7 +9,7 @@ use super::shadow_map::{ShadowCall, ShadowDraw, ShadowMapPass, ShadowScene};
 use crate::gpu::{Gpu, Recorder, Target};
 use crate::render::base::error::RenderError;
 use crate::render::base::gpu_scene::{GpuScene, Origin};
-use crate::render::base::group::{Group, VisiblePart};
+use crate::render::base::group::{Group, VisibleSubmesh};
 use crate::render::base::light_view::{LightView, LookedAt, light_views};
 use crate::render::base::lights::{MAX_SHADOWS, WorldLight};
 use crate::render::base::scene_view::SceneView;
@@ -62,12 +62,12 @@ impl ShadowMaps {
     pub fn run(
         &mut self,
         rec: &mut Recorder<'_>,
-        seen: &SceneView<'_>,
+        scene_view: &SceneView<'_>,
         groups: &[&Group],
         fitted_to: Option<&[&Group]>,
         material_layout: &wgpu::BindGroupLayout,
     ) -> Result<Vec<ShadowMap>, RenderError> {
-        let SceneView { scene, scene_revision, lights, view, .. } = *seen;
+        let SceneView { scene, scene_revision, lights, view, .. } = *scene_view;
         let shaders = rec.pipelines.generation();
         let [width, height] = rec.size();
         let limit = rec.gpu.device.limits().max_texture_dimension_2d.min(MOST_TEXELS);
@@ -120,8 +120,8 @@ fn seen_by(
     };
     for (number, view) in seen.views.iter().enumerate() {
         let clip_from_world = view.clip_from_light() * view.light_from_world;
-        let throws = |part: &VisiblePart| scene.scene.facing_of(part.node).is_none();
-        for part in groups.iter().flat_map(|group| group.parts(scene)).filter(throws) {
+        let throws = |part: &VisibleSubmesh| scene.scene.facing_of(part.node).is_none();
+        for part in groups.iter().flat_map(|group| group.submeshes(scene)).filter(throws) {
             let alpha = scene.alpha(part.material);
             let has_attributes = scene.geometry(part.origin).attributes.is_some();
             let has_holes = alpha != AlphaMode::Opaque && has_attributes;
@@ -130,7 +130,7 @@ fn seen_by(
                 continue;
             }
             let light_from_local = view.light_from_world * part.world_from_local;
-            let section = scene.section.as_ref().filter(|s| s.opened(part.node).is_some());
+            let section = scene.section.as_ref().filter(|s| s.sectioned(part.node).is_some());
             let section = section.filter(|_| part.origin != Origin::Caps).map(|section| section.plane);
             seen.calls.push(ShadowCall {
                 draw: seen.draws.len() as u32,
@@ -141,11 +141,11 @@ fn seen_by(
                 base_vertex: part.base_vertex,
                 material_group: scene.materials.group_index(part.material),
                 has_holes,
-                is_cut: section.is_some(),
-                hidden_side: if has_holes {
+                is_clipped: section.is_some(),
+                culled_face: if has_holes {
                     None
                 } else {
-                    part.hidden_side(scene, &light_from_local, !view.is_central)
+                    part.culled_face(scene, &light_from_local, !view.is_central)
                 },
             });
             seen.draws.push(ShadowDraw {
@@ -156,7 +156,8 @@ fn seen_by(
             });
         }
     }
-    seen.calls.sort_by_key(|c| (c.view, c.origin, c.has_holes, c.is_cut, c.hidden_side.map(|s| s as u32)));
+    seen.calls
+        .sort_by_key(|c| (c.view, c.origin, c.has_holes, c.is_clipped, c.culled_face.map(|s| s as u32)));
     seen
 }
 
@@ -196,11 +197,11 @@ impl ShadowMask {
         &mut self,
         rec: &mut Recorder<'_>,
         layer: &GBuffer,
-        seen: &SceneView<'_>,
+        scene_view: &SceneView<'_>,
         maps: &[ShadowMap],
     ) -> Result<Option<Target>, RenderError> {
         let maps: Vec<_> = maps.iter().map(|m| (m.views.as_slice(), &m.map.value)).collect();
-        self.pass.run(rec, layer, &seen.view.view_from_world, &maps, seen.lights.spread)
+        self.pass.run(rec, layer, &scene_view.view.view_from_world, &maps, scene_view.lights.spread)
     }
 
     /// Channel i: how much of the light of channel i reaches each pixel; `None` when no light throws shadows.
@@ -211,11 +212,11 @@ impl ShadowMask {
         &mut self,
         rec: &mut Recorder<'_>,
         gbuffer: &Output<GBuffer>,
-        seen: &SceneView<'_>,
+        scene_view: &SceneView<'_>,
         maps: &[ShadowMap],
     ) -> Result<Option<Output<Target>>, RenderError> {
-        let view_from_world = &seen.view.view_from_world;
-        let spread = seen.lights.spread;
+        let view_from_world = &scene_view.view.view_from_world;
+        let spread = scene_view.lights.spread;
         if maps.is_empty() {
             self.stage.clear();
             return Ok(None);

@@ -38,7 +38,7 @@ pub fn show(rec: &mut Recorder<'_>, what: Show, shown: Shown<'_>) -> Result<Targ
     let image = rec.target("final image", FINAL)?;
     let inputs = inputs! {
         geometry_tex: &gbuffer.geometry,
-        region_tex: &gbuffer.region,
+        surface_id_tex: &gbuffer.surface_id,
         base_color_tex: &gbuffer.base_color,
         edge_map_tex: edge_map,
         operators_tex: operators,

@@ -4,14 +4,14 @@
 use std::collections::HashMap;
 
 use super::fragment_lists::FragmentLists;
-use super::gbuffer::{BASE_COLOR, DEPTH, GBuffer, GEOMETRY, REGION, SORT_KEYS};
+use super::gbuffer::{BASE_COLOR, DEPTH, GBuffer, GEOMETRY, SORT_KEYS, SURFACE_ID};
 use super::peel::{Peel, PeelCount};
 use crate::gpu::geometry::{Attributes, POSITIONS, SURFACES};
 use crate::gpu::recorder::Onto;
 use crate::gpu::{Gpu, MaterialBindings, Pipelines, Recorder, Target};
 use crate::render::base::error::RenderError;
 use crate::render::base::gpu_scene::GpuScene;
-use crate::render::base::instances::{Detail, DrawCall, INSTANCES, Instance, Instances, runs};
+use crate::render::base::instances::{Detail, DrawCall, INSTANCES, Instance, InstanceBuffer, batches};
 
 /// The pipelines of the pass, made when first needed.
 pub struct GBufferPass {
@@ -30,9 +30,9 @@ pub struct GBufferPass {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 struct Variant {
     detail: Detail,
-    hidden_side: Option<wgpu::Face>,
+    culled_face: Option<wgpu::Face>,
     /// Whether what lies behind a plane is left out.
-    is_cut: bool,
+    is_clipped: bool,
     /// Whether layers have a base colour.
     with_color: bool,
     purpose: Purpose,
@@ -89,18 +89,18 @@ impl Purpose {
 
     fn outputs(self, with_color: bool) -> &'static [wgpu::TextureFormat] {
         match self {
-            Self::Surfaces | Self::Enlarged => &[GEOMETRY, BASE_COLOR, REGION],
+            Self::Surfaces | Self::Enlarged => &[GEOMETRY, BASE_COLOR, SURFACE_ID],
             Self::Layer if with_color => &LAYER_WITH_COLOR,
-            Self::Layer => &[GEOMETRY, REGION, SORT_KEYS],
+            Self::Layer => &[GEOMETRY, SURFACE_ID, SORT_KEYS],
             Self::LayerColor => &[BASE_COLOR],
-            Self::Counted => &[REGION],
+            Self::Counted => &[SURFACE_ID],
             Self::Lists => &[],
         }
     }
 }
 
 /// What a layer is drawn into at once, where a pass has room for so much.
-const LAYER_WITH_COLOR: [wgpu::TextureFormat; 4] = [GEOMETRY, REGION, SORT_KEYS, BASE_COLOR];
+const LAYER_WITH_COLOR: [wgpu::TextureFormat; 4] = [GEOMETRY, SURFACE_ID, SORT_KEYS, BASE_COLOR];
 
 /// A traversal of the scene.
 struct Traversal<'a> {
@@ -122,7 +122,7 @@ impl GBufferPass {
             pipelines: HashMap::new(),
             generation: 0,
             material_layout: MaterialBindings::layout(gpu),
-            instance_layout: Instances::material_layout(gpu),
+            instance_layout: InstanceBuffer::material_layout(gpu),
             layer_layout: Peel::layout(gpu),
             lists: FragmentLists::new(gpu),
         }
@@ -149,7 +149,7 @@ impl GBufferPass {
         Ok(())
     }
 
-    /// Draws the given parts of a scene, which go to `instances`; of a layer only what lies behind the last one.
+    /// Draws the given parts of a scene, which go to `instance_buffer`; of a layer only what lies behind the last one.
     ///
     /// # Errors
     /// [`RenderError`].
@@ -157,20 +157,20 @@ impl GBufferPass {
         &mut self,
         rec: &mut Recorder<'_>,
         scene: &GpuScene,
-        instances: &mut Instances,
+        instance_buffer: &mut InstanceBuffer,
         parts: (&[Instance], &[DrawCall]),
-        is_cut: bool,
+        is_clipped: bool,
         peel: Option<&Peel<'_>>,
     ) -> Result<GBuffer, RenderError> {
         let gbuffer = GBuffer::new(rec)?;
-        let GBuffer { geometry, base_color, region, depth } = &gbuffer;
+        let GBuffer { geometry, base_color, surface_id, depth } = &gbuffer;
         let (label, purpose, with_color, is_whole, color) = match peel {
-            // Nobody looks at colours and regions where nothing is.
+            // Nobody looks at colours and surface ids where nothing is.
             None if parts.1.is_empty() => ("g-buffer", Purpose::Surfaces, true, true, vec![geometry]),
-            None => ("g-buffer", Purpose::Surfaces, true, true, vec![geometry, base_color, region]),
-            Some(Peel { sort_keys: None, .. }) => ("peel", Purpose::Counted, false, true, vec![region]),
+            None => ("g-buffer", Purpose::Surfaces, true, true, vec![geometry, base_color, surface_id]),
+            Some(Peel { sort_keys: None, .. }) => ("peel", Purpose::Counted, false, true, vec![surface_id]),
             Some(Peel { sort_keys: Some(sort_keys), with_color, is_whole, .. }) => {
-                let mut color = vec![geometry, region, *sort_keys];
+                let mut color = vec![geometry, surface_id, *sort_keys];
                 let with_color = *with_color && rec.gpu.has_room_for(&LAYER_WITH_COLOR);
                 color.extend(with_color.then_some(base_color));
                 ("peel", Purpose::Layer, with_color, *is_whole, color)
@@ -178,7 +178,7 @@ impl GBufferPass {
         };
         let group = peel.map(|peel| Peel::group_of(rec.gpu, &self.layer_layout, peel.last));
         let traversal = Traversal { label, purpose, with_color, is_whole, color: &color, depth, group };
-        self.traverse(rec, scene, instances, parts, is_cut, traversal)?;
+        self.traverse(rec, scene, instance_buffer, parts, is_clipped, traversal)?;
         if let Some(Peel { sort_keys: Some(own), with_color: true, .. }) = peel
             && !with_color
         {
@@ -188,7 +188,7 @@ impl GBufferPass {
             let (label, purpose, color) = ("peel colors", Purpose::LayerColor, &[base_color][..]);
             let traversal =
                 Traversal { label, purpose, with_color: true, is_whole: true, color, depth, group };
-            self.traverse(rec, scene, instances, parts, is_cut, traversal)?;
+            self.traverse(rec, scene, instance_buffer, parts, is_clipped, traversal)?;
         }
         Ok(gbuffer)
     }
@@ -202,17 +202,17 @@ impl GBufferPass {
         &mut self,
         rec: &mut Recorder<'_>,
         scene: &GpuScene,
-        instances: &mut Instances,
+        instance_buffer: &mut InstanceBuffer,
         parts: (&[Instance], &[DrawCall]),
-        is_cut: bool,
+        is_clipped: bool,
     ) -> Result<GBuffer, RenderError> {
         let gbuffer = GBuffer::new(rec)?;
-        let GBuffer { geometry, base_color, region, depth } = &gbuffer;
-        let color = &[geometry, base_color, region];
+        let GBuffer { geometry, base_color, surface_id, depth } = &gbuffer;
+        let color = &[geometry, base_color, surface_id];
         let (label, purpose) = ("enlarged", Purpose::Enlarged);
         let traversal =
             Traversal { label, purpose, with_color: true, is_whole: true, color, depth, group: None };
-        self.traverse(rec, scene, instances, parts, is_cut, traversal)?;
+        self.traverse(rec, scene, instance_buffer, parts, is_clipped, traversal)?;
         Ok(gbuffer)
     }
 
@@ -224,9 +224,9 @@ impl GBufferPass {
         &mut self,
         rec: &mut Recorder<'_>,
         scene: &GpuScene,
-        instances: &mut Instances,
+        instance_buffer: &mut InstanceBuffer,
         parts: (&[Instance], &[DrawCall]),
-        is_cut: bool,
+        is_clipped: bool,
         with_color: bool,
         count: &PeelCount,
     ) -> Result<(), RenderError> {
@@ -235,30 +235,30 @@ impl GBufferPass {
         let depth = &rec.target("depth", DEPTH)?;
         let (label, purpose) = ("fragment lists", Purpose::Lists);
         let traversal = Traversal { label, purpose, with_color, is_whole: true, color: &[], depth, group };
-        self.traverse(rec, scene, instances, parts, is_cut, traversal)
+        self.traverse(rec, scene, instance_buffer, parts, is_clipped, traversal)
     }
 
     fn traverse(
         &mut self,
         rec: &mut Recorder<'_>,
         scene: &GpuScene,
-        instances: &mut Instances,
+        instance_buffer: &mut InstanceBuffer,
         (drawn, calls): (&[Instance], &[DrawCall]),
-        is_cut: bool,
+        is_clipped: bool,
         traversal: Traversal<'_>,
     ) -> Result<(), RenderError> {
         let Traversal { label, purpose, with_color, is_whole, color, depth, group: own } = traversal;
         let gpu = rec.gpu;
         let variant = |call: &DrawCall| {
-            let DrawCall { detail, hidden_side, .. } = *call;
-            Variant { detail, hidden_side, is_cut, with_color, purpose }
+            let DrawCall { detail, culled_face, .. } = *call;
+            Variant { detail, culled_face, is_clipped, with_color, purpose }
         };
         for call in calls {
             self.prepare(gpu, rec.pipelines, variant(call))?;
         }
-        instances.write(gpu, drawn, calls)?;
-        let materials = instances.material_group(gpu, &self.instance_layout);
-        let runs = runs(rec, calls);
+        instance_buffer.write(gpu, drawn, calls)?;
+        let materials = instance_buffer.material_group(gpu, &self.instance_layout);
+        let batches = batches(rec, calls);
         let onto = if is_whole { Onto::Nothing } else { Onto::Anything };
         let color: Vec<_> = onto.attachments(color);
         let depth = wgpu::RenderPassDepthStencilAttachment {
@@ -271,8 +271,8 @@ impl GBufferPass {
             pass.set_bind_group(1, own, &[]);
         }
         let (mut bound, mut images, mut origin) = (None, None, None);
-        for run in &runs {
-            let call = &run.call;
+        for batch in &batches {
+            let call = &batch.call;
             if origin != Some(call.origin) {
                 let geometry = scene.geometry(call.origin);
                 let buffers =
@@ -291,9 +291,9 @@ impl GBufferPass {
                     pass.set_bind_group(2, scene.materials.group(call.material_group), &[]);
                     images = Some(call.material_group);
                 }
-                pass.set_bind_group(3, &materials, &[instances.material_of(call)]);
+                pass.set_bind_group(3, &materials, &[instance_buffer.material_of(call)]);
             }
-            instances.draw(&mut pass, run);
+            instance_buffer.draw(&mut pass, batch);
         }
         drop(pass);
         Ok(())
@@ -315,7 +315,7 @@ fn build(
     let (vertex, fragment) = variant.purpose.entry_points(variant.detail);
     let targets: Vec<_> =
         variant.purpose.outputs(variant.with_color).iter().map(|&format| Some(format.into())).collect();
-    let mut constants = vec![("WITH_CUT", variant.is_cut)];
+    let mut constants = vec![("WITH_CLIP_PLANE", variant.is_clipped)];
     match variant.purpose {
         Purpose::Surfaces => {}
         Purpose::Enlarged => constants.push(("ENLARGED", true)),
@@ -337,7 +337,7 @@ fn build(
             buffers: if variant.detail == Detail::Lean { &buffers[..3] } else { &buffers },
         },
         // Unless a mesh is known to be solid, both sides are drawn: flipped or mixed winding is common in files.
-        primitive: wgpu::PrimitiveState { cull_mode: variant.hidden_side, ..Default::default() },
+        primitive: wgpu::PrimitiveState { cull_mode: variant.culled_face, ..Default::default() },
         depth_stencil: Some(wgpu::DepthStencilState {
             format: DEPTH,
             depth_write_enabled: Some(has_depth),

@@ -12,7 +12,7 @@ use crate::geometry::primitives;
 fn what_is_really_open_stays_open() {
     let mut open_box = primitives::cube(1.0);
     open_box.indices.truncate(30);
-    open_box.parts[0].index_count = 30;
+    open_box.submeshes[0].index_count = 30;
     let mut all = vec![
         ("open box", open_box),
         ("sheet", shapes::sheet(8, Vec3::ZERO, 1.0)),

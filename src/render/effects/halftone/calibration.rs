@@ -89,10 +89,10 @@ fn measure_tones(layers: &[Vec<Level>], place: usize, size: f32) -> [f32; TONES]
     }
     // The ink falls from 1 at the threshold 0 to nothing at 1.
     std::array::from_fn(|tone| {
-        let wanted = 1.0 - tone as f32 / (TONES - 1) as f32;
-        let after = inks.iter().position(|ink| *ink < wanted).unwrap_or(TRIED).clamp(1, TRIED);
+        let request = 1.0 - tone as f32 / (TONES - 1) as f32;
+        let after = inks.iter().position(|ink| *ink < request).unwrap_or(TRIED).clamp(1, TRIED);
         let (before, after_ink) = (inks[after - 1], inks[after]);
         let fall = (before - after_ink).max(1e-6);
-        ((after - 1) as f32 + ((before - wanted) / fall).clamp(0.0, 1.0)) / TRIED as f32
+        ((after - 1) as f32 + ((before - request) / fall).clamp(0.0, 1.0)) / TRIED as f32
     })
 }

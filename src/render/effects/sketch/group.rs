@@ -126,16 +126,16 @@ impl Sketch {
     }
 
     /// How noise is found for each of its objects, and where their middles are.
-    pub(super) fn objects(&self, seen: &SceneView<'_>) -> (Vec<ObjectUniform>, Vec<SketchObject>) {
+    pub(super) fn objects(&self, scene_view: &SceneView<'_>) -> (Vec<ObjectUniform>, Vec<SketchObject>) {
         let count = self.group.edge_styles.len();
         let mut fields = vec![ObjectUniform::default(); count];
         let mut places = vec![SketchObject::default(); count];
         // The noise does not shake with the samples of a picture.
-        let view = seen.view.moved(Vec2::ZERO);
+        let view = scene_view.view.moved(Vec2::ZERO);
         let projector = view.projector();
         for object in self.group.visible() {
             let id = object_id(object.node);
-            let Some(axes) = ObjectAxes::of(seen.scene, id, &view) else { continue };
+            let Some(axes) = ObjectAxes::of(scene_view.scene, id, &view) else { continue };
             let (Some(field), Some(place)) = (fields.get_mut(id as usize), places.get_mut(id as usize))
             else {
                 continue;

@@ -5,7 +5,7 @@ use crate::gpu::{ArrayBuffer, Gpu, Recorder, Target, UniformBuffer};
 use crate::render::base::error::RenderError;
 use crate::render::base::stage::{Output, Stage};
 use crate::render::passes::edge_map::EdgeMap;
-use crate::render::passes::line_distance::{Reach, Widths, line_distance};
+use crate::render::passes::line_distance::{LineDistance, Widths, line_distance};
 use crate::render::passes::moved_edges::{MovedEdges, MovedEdgesPass, MovementUniform};
 use crate::render::passes::offset_field::{LineField, LinePixels};
 
@@ -21,7 +21,7 @@ struct MovedKey {
 #[derive(Clone)]
 pub(super) struct Moved {
     pub(super) edges: MovedEdges,
-    pub(super) reach: Output<Reach>,
+    pub(super) line_distance: Output<LineDistance>,
 }
 
 /// What of a pass lives across frames.
@@ -30,7 +30,7 @@ pub(super) struct SketchPass {
     number: UniformBuffer<u32>,
     greatest_radius: ArrayBuffer,
     moved: Stage<MovedKey, MovedEdges>,
-    reach: Stage<(u64, Widths), Reach>,
+    line_distance: Stage<(u64, Widths), LineDistance>,
 }
 
 impl SketchPass {
@@ -41,7 +41,7 @@ impl SketchPass {
             number: UniformBuffer::new(gpu, "number of a pass"),
             greatest_radius: ArrayBuffer::new(gpu, "greatest radius of moved lines"),
             moved: Stage::default(),
-            reach: Stage::default(),
+            line_distance: Stage::default(),
         }
     }
 
@@ -54,7 +54,7 @@ impl SketchPass {
     /// Lets go of the lines.
     pub(super) fn forget(&mut self) {
         self.moved.clear();
-        self.reach.clear();
+        self.line_distance.clear();
     }
 
     /// How often lines were moved.
@@ -81,9 +81,9 @@ impl SketchPass {
             pass.run(rec, buffer.buffer(), (&edges.value.edges, spines), noise, pixels)
         })?;
         let radius = &mut self.greatest_radius;
-        let reach = self
-            .reach
+        let line_distance = self
+            .line_distance
             .run((moved.revision, widths), |_| line_distance(rec, &moved.value.spines, widths, radius))?;
-        Ok(Moved { edges: moved.value, reach })
+        Ok(Moved { edges: moved.value, line_distance })
     }
 }

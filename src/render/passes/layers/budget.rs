@@ -1,4 +1,4 @@
-//! How much room a frame has for layers and for the fragments that they are made of: guessed before it, known after it.
+//! The budget of a frame: how many layers and fragments: guessed before it, known after it.
 
 use crate::document;
 use crate::gpu::Gpu;
@@ -14,7 +14,7 @@ const TILES: u32 = 128;
 /// After so many complete pictures in a row, more than one has samples, guesses may be tight again.
 const CALM: u32 = 2 * crate::render::base::sample::MAX_SAMPLES;
 
-/// Wrong guesses after which room does not grow any more: then all layers are recorded.
+/// Wrong guesses after which the budget does not grow any more: then all layers are recorded.
 const MOST_MISTAKES: u32 = 6;
 
 /// What is known of pictures that were drawn, from reports that come back some time after them.
@@ -24,7 +24,7 @@ pub enum Reported {
     Complete,
     /// Not yet all about the last one.
     Waiting,
-    /// One was incomplete, as there was not room enough. Whoever wants it asks for it again: there is now.
+    /// One was incomplete, as the budget was too small. Whoever wants it asks for it again: there is now.
     Incomplete,
 }
 
@@ -46,7 +46,7 @@ pub enum Reason {
     Single,
     /// The device cannot do otherwise.
     Device,
-    /// Room for so many fragments is more than there ever is.
+    /// Memory for so many fragments is more than there ever is.
     TooMany(u64),
 }
 
@@ -59,7 +59,7 @@ impl LayersBy {
                 "layers are peeled, as fragment shaders cannot write with this graphics driver".to_owned(),
             ),
             Self::Peeling(Reason::TooMany(fragments)) => Some(format!(
-                "layers are peeled, as lists with room for {fragments} fragments would take too much memory"
+                "layers are peeled, as lists with budget for {fragments} fragments would take too much memory"
             )),
         }
     }
@@ -74,13 +74,13 @@ impl std::fmt::Display for LayersBy {
     }
 }
 
-/// What a frame has room for.
+/// What is recorded for a frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Recorded {
     /// So many layers are recorded, of so many that were asked for.
     pub(super) layers: u32,
     most: u32,
-    /// Room for so many fragments, or why it is peeled.
+    /// Memory for so many fragments, or why it is peeled.
     pub(super) fragments: Result<u64, Reason>,
 }
 
@@ -97,7 +97,7 @@ impl Recorded {
 
 /// What reports have taught. It decides nothing: when it is wrong, the next report says so.
 #[derive(Debug, Default)]
-pub(super) struct Room {
+pub(super) struct Budget {
     /// Layers there were, that which ended them included, or twice as many as were recorded where those were too few;
     /// `None`: nobody knows.
     layers: Option<u32>,
@@ -109,11 +109,11 @@ pub(super) struct Room {
     mistakes: u32,
     /// Complete pictures since the last wrong guess.
     calm: u32,
-    /// Since lists needed more room than there can be: pixels of all layers when it was first peeled.
+    /// Since lists needed more memory than there can be: pixels of all layers when it was first peeled.
     peeled: Option<u64>,
 }
 
-impl Room {
+impl Budget {
     /// What to record for a picture of which up to `most` layers are wanted.
     pub(super) fn plan(&self, gpu: &Gpu, size: [u32; 2], most: u32, by: document::LayersBy) -> Recorded {
         let bound = match (by, FragmentLists::most(gpu)) {
@@ -130,10 +130,10 @@ impl Room {
         let first = FIRST_GUESS * width * height;
         // More than there were, as there may be more by now: a quarter.
         let reserve = 1 << self.mistakes;
-        let room = self.fragments.map_or(first, |counted| counted + counted / 4 * reserve);
+        let budget = self.fragments.map_or(first, |counted| counted + counted / 4 * reserve);
         let fragments = bound.and_then(|bound| match self.fragments {
             Some(counted) if counted > bound => Err(Reason::TooMany(counted)),
-            _ => Ok(room.clamp(1, bound)),
+            _ => Ok(budget.clamp(1, bound)),
         });
         Recorded {
             layers: self.layers.map_or(most, |layers| (layers + reserve as u32 - 1).min(most)),
@@ -144,8 +144,8 @@ impl Room {
 
     /// Learns from a report; returns whether the picture was complete.
     pub(super) fn learn(&mut self, recorded: &Recorded, peeled: &Peeled) -> bool {
-        let fragments = peeled.room;
-        let overflowed = recorded.fragments.is_ok_and(|room| fragments > room);
+        let fragments = peeled.capacity;
+        let overflowed = recorded.fragments.is_ok_and(|budget| fragments > budget);
         // Each layer that is recorded counts unless the device has ended them before it.
         let has_ended = peeled.ended != PeelingEnd::MostLayers || peeled.layers < recorded.layers;
         let is_complete = !overflowed && (has_ended || recorded.layers >= recorded.most);
@@ -184,7 +184,7 @@ mod tests {
     use super::*;
 
     /// As much room as one fragment takes at least.
-    const RUN: u64 = 4096;
+    const CHUNK: u64 = 4096;
     /// Of which the first guess is 400 times that much.
     const SIZE: [u32; 2] = [640; 2];
 
@@ -193,74 +193,84 @@ mod tests {
         let mut pixels = vec![0; 64];
         pixels[..layers as usize].fill(100);
         let ended = if has_ended { PeelingEnd::TooFewPixels } else { PeelingEnd::MostLayers };
-        let (passed, room) = (vec![0; 64], RUN * u64::from(runs));
-        Peeled { layers, ended, fraction: 1.0, masked: 0, hidden: 0, fragments: room, room, pixels, passed }
+        let (passed, budget) = (vec![0; 64], CHUNK * u64::from(runs));
+        Peeled {
+            layers,
+            ended,
+            fraction: 1.0,
+            masked: 0,
+            hidden: 0,
+            fragments: budget,
+            budget,
+            pixels,
+            passed,
+        }
     }
 
     #[test]
     fn without_a_report_all_layers_are_recorded_and_after_one_as_many_as_there_were() {
-        let mut room = Room::default();
-        let first = room.plan_within(Ok(1000 * RUN), SIZE, 64);
-        assert_eq!((first.layers, first.fragments), (64, Ok(400 * RUN)));
-        assert!(room.learn(&first, &peeled(5, true, 80)));
-        let second = room.plan_within(Ok(1000 * RUN), SIZE, 64);
-        assert_eq!((second.layers, second.fragments), (6, Ok(100 * RUN)));
+        let mut budget = Budget::default();
+        let first = budget.plan_within(Ok(1000 * CHUNK), SIZE, 64);
+        assert_eq!((first.layers, first.fragments), (64, Ok(400 * CHUNK)));
+        assert!(budget.learn(&first, &peeled(5, true, 80)));
+        let second = budget.plan_within(Ok(1000 * CHUNK), SIZE, 64);
+        assert_eq!((second.layers, second.fragments), (6, Ok(100 * CHUNK)));
         assert_eq!([4, 5].map(|layer| second.only_counts(layer)), [false, true]);
         // A layer more: nobody reached their end.
-        assert!(!room.learn(&second, &peeled(6, false, 90)));
-        assert_eq!(room.plan_within(Ok(1000 * RUN), SIZE, 64).layers, 13);
+        assert!(!budget.learn(&second, &peeled(6, false, 90)));
+        assert_eq!(budget.plan_within(Ok(1000 * CHUNK), SIZE, 64).layers, 13);
         // As many as were asked for need no end, and say nothing about it,
-        assert!(room.learn(&room.plan_within(Ok(1000 * RUN), SIZE, 7), &peeled(7, false, 90)));
-        assert_eq!(room.plan_within(Ok(1000 * RUN), SIZE, 64).layers, 13);
+        assert!(budget.learn(&budget.plan_within(Ok(1000 * CHUNK), SIZE, 7), &peeled(7, false, 90)));
+        assert_eq!(budget.plan_within(Ok(1000 * CHUNK), SIZE, 64).layers, 13);
         // unless there were more than were ever seen.
-        assert!(room.learn(&room.plan_within(Ok(1000 * RUN), SIZE, 12), &peeled(12, false, 90)));
-        assert_eq!(room.plan_within(Ok(1000 * RUN), SIZE, 64).layers, 64);
+        assert!(budget.learn(&budget.plan_within(Ok(1000 * CHUNK), SIZE, 12), &peeled(12, false, 90)));
+        assert_eq!(budget.plan_within(Ok(1000 * CHUNK), SIZE, 64).layers, 64);
     }
 
     #[test]
     fn fragments_without_room_get_it_or_are_peeled_until_there_are_far_fewer() {
-        let mut room = Room::default();
-        let first = room.plan_within(Ok(1000 * RUN), SIZE, 8);
-        assert!(!room.learn(&first, &peeled(3, true, 700)));
-        let second = room.plan_within(Ok(1000 * RUN), SIZE, 8);
-        assert_eq!((second.fragments, second.by()), (Ok(1000 * RUN), LayersBy::Lists));
-        assert!(!room.learn(&second, &peeled(3, true, 1001)));
-        let third = room.plan_within(Ok(1000 * RUN), SIZE, 8);
-        let peeling = LayersBy::Peeling(Reason::TooMany(1001 * RUN));
+        let mut budget = Budget::default();
+        let first = budget.plan_within(Ok(1000 * CHUNK), SIZE, 8);
+        assert!(!budget.learn(&first, &peeled(3, true, 700)));
+        let second = budget.plan_within(Ok(1000 * CHUNK), SIZE, 8);
+        assert_eq!((second.fragments, second.by()), (Ok(1000 * CHUNK), LayersBy::Lists));
+        assert!(!budget.learn(&second, &peeled(3, true, 1001)));
+        let third = budget.plan_within(Ok(1000 * CHUNK), SIZE, 8);
+        let peeling = LayersBy::Peeling(Reason::TooMany(1001 * CHUNK));
         assert_eq!(third.by(), peeling);
-        assert!(peeling.shortfall().is_some_and(|why| why.contains(&(1001 * RUN).to_string())));
+        assert!(peeling.shortfall().is_some_and(|why| why.contains(&(1001 * CHUNK).to_string())));
         for (layers, by) in [(8, peeling), (4, peeling), (3, LayersBy::Lists)] {
-            assert!(room.learn(&room.plan_within(Ok(1000 * RUN), SIZE, 8), &peeled(layers, true, 0)));
-            assert_eq!(room.plan_within(Ok(1000 * RUN), SIZE, 8).by(), by, "{layers}");
+            assert!(budget.learn(&budget.plan_within(Ok(1000 * CHUNK), SIZE, 8), &peeled(layers, true, 0)));
+            assert_eq!(budget.plan_within(Ok(1000 * CHUNK), SIZE, 8).by(), by, "{layers}");
         }
     }
 
     #[test]
     fn a_picture_whose_samples_differ_gets_done() {
-        let mut room = Room::default();
+        let mut budget = Budget::default();
         let (mut sample, mut drawn) = (0_u32, 0);
         while sample < 64 {
-            let recorded = room.plan_within(Ok(100_000 * RUN), SIZE, 64);
+            let recorded = budget.plan_within(Ok(100_000 * CHUNK), SIZE, 64);
             // Each fifth sample has many more layers and fragments.
             let (layers, fragments) = if sample % 5 == 4 { (20, 900) } else { (9, 300) };
             let has_ended = recorded.layers > layers;
-            let is_complete = room.learn(&recorded, &peeled(layers, has_ended, fragments));
+            let is_complete = budget.learn(&recorded, &peeled(layers, has_ended, fragments));
             sample = if is_complete { sample + 1 } else { 0 };
             drawn += 1;
             assert!(drawn < 200, "begun anew for ever");
         }
         // Long after that it is guessed tightly again.
         for _ in 0..CALM {
-            let recorded = room.plan_within(Ok(100_000 * RUN), SIZE, 64);
-            assert!(room.learn(&recorded, &peeled(9, true, 300)));
+            let recorded = budget.plan_within(Ok(100_000 * CHUNK), SIZE, 64);
+            assert!(budget.learn(&recorded, &peeled(9, true, 300)));
         }
-        assert_eq!(room.plan_within(Ok(100_000 * RUN), SIZE, 64).layers, 10);
+        assert_eq!(budget.plan_within(Ok(100_000 * CHUNK), SIZE, 64).layers, 10);
     }
 
     #[test]
     fn a_device_without_lists_peels_and_says_so_unless_that_was_asked_for() {
         for (reason, is_said) in [(Reason::Device, true), (Reason::Asked, false)] {
-            let by = Room::default().plan_within(Err(reason), SIZE, 8).by();
+            let by = Budget::default().plan_within(Err(reason), SIZE, 8).by();
             assert_eq!((by, by.shortfall().is_some()), (LayersBy::Peeling(reason), is_said));
         }
     }

@@ -8,14 +8,14 @@ use super::{Gpu, GpuError};
 /// Words of a draw or dispatch in the buffer; not all use the last ones.
 const WORDS: usize = 5;
 
-/// The arguments of all draws and dispatches that stop together. Once shut, it stays so until it is opened again.
-pub struct Gate {
+/// The arguments of all draws and dispatches that stop together. Once disabled, they stay so until they are enabled again.
+pub struct Predicate {
     buffer: wgpu::Buffer,
     args: Vec<[u32; WORDS]>,
     offsets: HashMap<Vec<[u32; WORDS]>, u64>,
 }
 
-impl Gate {
+impl Predicate {
     /// Without room for anything.
     pub fn new(gpu: &Gpu) -> Self {
         Self { buffer: create(gpu, 4), args: Vec::new(), offsets: HashMap::new() }
@@ -50,12 +50,12 @@ impl Gate {
         Some(offset)
     }
 
-    /// Opens it for everything that was recorded, which is submitted next.
-    pub fn open(&self, gpu: &Gpu) {
+    /// Enables everything that was recorded, which is submitted next.
+    pub fn enable(&self, gpu: &Gpu) {
         gpu.queue.write_buffer(&self.buffer, 0, bytemuck::cast_slice(&self.args));
     }
 
-    /// Words that a compute shader sets to 0 to shut it.
+    /// Words that a compute shader sets to 0 to disable them.
     pub fn buffer(&self) -> &wgpu::Buffer {
         &self.buffer
     }
@@ -63,7 +63,7 @@ impl Gate {
 
 fn create(gpu: &Gpu, size: u64) -> wgpu::Buffer {
     gpu.device.create_buffer(&wgpu::BufferDescriptor {
-        label: Some("gate"),
+        label: Some("predicate"),
         size,
         usage: wgpu::BufferUsages::INDIRECT | wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST,
         mapped_at_creation: false,

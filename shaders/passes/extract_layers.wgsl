@@ -146,7 +146,7 @@ fn fs_depth(@builtin(position) position: vec4<f32>) -> Depth {
 
 struct Layer {
     @location(0) geometry: vec4<u32>,
-    @location(1) region: u32,
+    @location(1) surface_id: u32,
     @location(2) base_color: vec4<f32>,
 }
 
@@ -171,5 +171,5 @@ fn fs_layer(@builtin(position) position: vec4<f32>) -> Layer {
         color = colors[number - 1u];
     }
     let geometry = vec4(normal, payload.face, payload.depth, payload.object);
-    return Layer(geometry, payload.region, unpack_color(color));
+    return Layer(geometry, payload.surface_id, unpack_color(color));
 }

@@ -1,4 +1,0 @@
-// Tells the surfaces of all objects apart; 0 is the background. Twin: `region` in src/render/base/ids.rs.
-fn region_of(object: u32, surface: u32) -> u32 {
-    return max((object & 0x7fffffffu) * 2654435769u + surface, 1u);
-}
