@@ -55,7 +55,7 @@ draw dashed "$crank" --style lines --set edges.inner.dashed=true --set edges.inn
 draw pressure "$ogre" --style lines --set edges.profile.width=7 --set edges.inner.width=4 \
 	--set edges.pressure.amount=0.9 --set edges.pressure.scale=70
 
-# Lines in the surface's own colour, darkened.
+# Lines in the surface's own color, darkened.
 draw surface_color "$ogre" --style statue --set edges.surface_color=1 --set edges.darken=0.65 \
 	--set edges.profile.width=5 --set edges.inner.width=3
 
@@ -82,14 +82,14 @@ draw sketch_cloister_above "$cloister" --style architects-sketch --camera-azimut
 	--camera-view-angle 30
 size=1000,1000
 draw preset_architects-sketch assets/models/temple.glb --style architects-sketch
-# Edges and colours before and after they were moved by noise of the picture (Fig. 3).
+# Edges and colors before and after they were moved by noise of the picture (Fig. 3).
 target/release/hachure render "$ogre" --output screenshots/sketch_map.png --resolution 800,800 --samples 64 \
 	--style loose-ink --set sketch.enabled=off
 draw sketch_map_after "$ogre" --style loose-ink --set sketch.anchor=screen --set sketch.noise=turbulence
 # A sketch among objects in other styles, each before others and behind them (Fig. 5 and 6).
 draw sketch_sprite "$crank" --style gooch --object-style 'piston*=crayon' --object-style 'rod*=comic' \
 	--object-style 'flywheel=loose-ink' --object-style 'crankshaft*=pencil-draft'
-# Edges twice, in two colours (Fig. 7).
+# Edges twice, in two colors (Fig. 7).
 draw sketch_twice "$ogre" --style ballpoint --set sketch.passes=2 --set sketch.pass1.color=#20306a \
 	--set sketch.pass2.color=#b04a20 --set sketch.amount=1.6
 # Chalk on rough paper (Fig. 8).

@@ -85,7 +85,7 @@ fn changed(change: impl FnOnce(&mut Model)) -> Vec<u8> {
     model.glb()
 }
 
-/// The triangle with a colour image.
+/// The triangle with a color image.
 fn with_image(image: serde_json::Value, view: Option<&[u8]>) -> Vec<u8> {
     changed(|m| {
         let mut image = image;

@@ -19,7 +19,7 @@ use strum::VariantNames as _;
 
 const SIDE: u32 = 96;
 
-/// Name, mesh, place, and the linear colour with its opacity; less than 1 blends.
+/// Name, mesh, place, and the linear color with its opacity; less than 1 blends.
 type Object = (&'static str, Mesh, DMat4, Vec4);
 
 const BLACK_GLASS: Vec4 = Vec4::new(0.0, 0.0, 0.0, 0.5);
@@ -59,7 +59,7 @@ fn linear(p: Rgba<u8>) -> [f64; 3] {
     })
 }
 
-/// Largest difference of any channel between a pixel and linear colours.
+/// Largest difference of any channel between a pixel and linear colors.
 fn miss(p: Rgba<u8>, expected: [f64; 3]) -> f64 {
     linear(p).iter().zip(expected).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }

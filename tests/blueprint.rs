@@ -348,13 +348,13 @@ fn layers_are_drawn_from_and_to_where_they_are_told() {
     }
 }
 
-/// Pixels with the colour of a line.
+/// Pixels with the color of a line.
 fn inked(image: &image::RgbaImage) -> usize {
     image.pixels().filter(|p| p.0[0] < 200).count()
 }
 
 #[test]
-fn hidden_lines_are_drawn_in_the_colour_of_their_layer() {
+fn hidden_lines_are_drawn_in_the_color_of_their_layer() {
     let mut session = session();
     // A cube in a cube: the inner one is hidden from all sides.
     let objects = vec![
@@ -604,7 +604,7 @@ fn a_threshold_leaves_flat_folds_out_of_exact_lines() {
 }
 
 #[test]
-fn a_class_with_a_colour_of_its_own_keeps_it_in_a_blueprint() {
+fn a_class_with_a_color_of_its_own_keeps_it_in_a_blueprint() {
     let mut session = session();
     let mut opened = outlined();
     let count = |session: &mut Session, opened: &Opened, is: fn([u8; 4]) -> bool| {
@@ -625,7 +625,7 @@ fn a_class_with_a_colour_of_its_own_keeps_it_in_a_blueprint() {
 }
 
 #[test]
-fn lines_of_all_layers_take_the_colour_of_their_surfaces() {
+fn lines_of_all_layers_take_the_color_of_their_surfaces() {
     let mut session = session();
     let red = ("red", primitives::cube(1.0), DMat4::IDENTITY, [1.0, 0.0, 0.0]);
     let green = ("green", primitives::cube(0.4), DMat4::IDENTITY, [0.0, 1.0, 0.0]);

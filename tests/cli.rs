@@ -53,7 +53,7 @@ fn mistakes_end_with_the_right_code_and_a_message_that_helps() {
         (&["--samples", "2000"], 2, "from 1 to 1024"),
         (&["--samples", "many"], 2, "`many` is no number of samples"),
         (&["--samples=-4"], 2, "is no number of samples"),
-        (&["--background", "red"], 2, "is no colour"),
+        (&["--background", "red"], 2, "is no color"),
         (&["--look-from", "side"], 2, "use one of front, back"),
         (&["--scale", "1:50"], 2, "--camera-orthographic"),
         (&["--camera-orthographic", "--scale", "50"], 2, "such as 1:50"),
@@ -239,7 +239,7 @@ fn a_scale_is_true_on_paper_and_seen_from_straight_above() {
     let (without_unit, _) = render(folder.path(), "x.png", model, &scaled);
     assert!(String::from_utf8_lossy(&without_unit.stderr).contains("add --unit mm"));
 
-    // A centimetre is 20 px at 50.8 pixels per inch.
+    // A centimeter is 20 px at 50.8 pixels per inch.
     for (unit, factor) in [("cm", 0.1), ("mm", 0.01)] {
         let scale = format!("1:{}", 10.0 * factor);
         let args = [&plan[..], &["--scale", &scale, "--dpi", "50.8", "--unit", unit]].concat();

@@ -248,7 +248,7 @@ fn a_designated_object_is_in_no_layer_and_stands_in_the_picture_in_its_own_style
     let middle = mask.chunks(SIDE as usize).nth(SIDE as usize / 2).unwrap();
     let x = middle.iter().rposition(|depth| *depth > 0.0).unwrap() as u32 - 3;
     let [r, g, b, _] = image(&mut session, &scene).get_pixel(x, SIDE / 2).0;
-    assert!(r > 250 && g == 0 && b == 0, "its highlight colour: {r} {g} {b}");
+    assert!(r > 250 && g == 0 && b == 0, "its highlight color: {r} {g} {b}");
     // Of any other technique it is what it is without the role.
     for technique in ["unlit", "gooch", "toon", "halftone"] {
         let mut own = scene.clone();

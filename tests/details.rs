@@ -1,4 +1,4 @@
-//! Lines within a surface: where its colour or its relief changes suddenly, and nowhere else.
+//! Lines within a surface: where its color or its relief changes suddenly, and nowhere else.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 #![allow(clippy::print_stdout, reason = "what was measured is worth reading")]
@@ -29,7 +29,7 @@ fn painted(color: impl Fn(DVec2) -> [u8; 3]) -> Texture {
     Texture { name: "painted".to_owned(), width: TEXELS, height: TEXELS, rgba: rgba.collect() }
 }
 
-/// A square with an image on it: its colour, or its relief.
+/// A square with an image on it: its color, or its relief.
 fn picture(image: Texture, is_relief: bool) -> Arc<Scene> {
     let mut square = primitives::plane(2.0);
     square.normals = vec![glam::Vec3::Z; 4];
@@ -114,7 +114,7 @@ fn a_disc_on_a_texture_is_outlined_at_every_zoom_and_nothing_else_is() {
 }
 
 #[test]
-fn slopes_of_colour_and_faint_steps_have_no_lines() {
+fn slopes_of_color_and_faint_steps_have_no_lines() {
     let mut session = session();
     let slope = picture(painted(|at| [(at.x * 255.0) as u8, (at.y * 255.0) as u8, 128]), false);
     let faint = picture(painted(|at| if at.x < 0.5 { [200; 3] } else { [215; 3] }), false);

@@ -18,8 +18,8 @@ struct Sample {
     object: u32,
 }
 
-/// What the operators see of a neighbour of `x`.
-fn neighbour(buffer: &[Surfel], px: [i32; 2], x: &Surfel, range: [f32; 2]) -> Sample {
+/// What the operators see of a neighbor of `x`.
+fn neighbor(buffer: &[Surfel], px: [i32; 2], x: &Surfel, range: [f32; 2]) -> Sample {
     let [i, j] = px.map(|c| c.clamp(0, SIDE - 1));
     let s = &buffer[(j * SIDE + i) as usize];
     let scaled = |s: &Surfel| Sample {
@@ -39,7 +39,7 @@ fn neighbour(buffer: &[Surfel], px: [i32; 2], x: &Surfel, range: [f32; 2]) -> Sa
 /// `I_N`, `I_Z` and C1 at a pixel, letter for letter.
 fn operators(buffer: &[Surfel], px: [i32; 2], range: [f32; 2]) -> ([f32; 3], u32) {
     let x = &buffer[(px[1] * SIDE + px[0]) as usize];
-    let at = |i: i32, j: i32| neighbour(buffer, [px[0] + i, px[1] + j], x, range);
+    let at = |i: i32, j: i32| neighbor(buffer, [px[0] + i, px[1] + j], x, range);
     let [a, b, c] = [at(-1, -1), at(0, -1), at(1, -1)];
     let [d, center, e] = [at(-1, 0), at(0, 0), at(1, 0)];
     let [f, g, h] = [at(-1, 1), at(0, 1), at(1, 1)];
@@ -171,7 +171,7 @@ fn sobel(buffer: &[Surfel], colors: &[[u8; 4]], px: [i32; 2], range: [f32; 2], s
     let (mut along, mut down, mut signs) = ([0.0; 5], [0.0; 5], [0; 2]);
     for (j, i) in (0..3).flat_map(|j| (0..3).map(move |i| (j, i))) {
         let at = [px[0] + i as i32 - 1, px[1] + j as i32 - 1].map(|c: i32| c.clamp(0, SIDE - 1));
-        let s = neighbour(buffer, at, x, range);
+        let s = neighbor(buffer, at, x, range);
         for (k, value) in images(s, at).into_iter().enumerate() {
             along[k] += S_X[j][i] * value;
             down[k] += S_Y[j][i] * value;
@@ -229,7 +229,7 @@ fn sobel_edges_equal_their_twins() {
         for (i, surfel) in buffer.iter().enumerate() {
             let px = [i as i32 % SIDE, i as i32 / SIDE];
             let g = sobel(&buffer, &colors, px, range, sums);
-            // On the threshold itself rounding decides, of colours that of the device's conversion to linear ones.
+            // On the threshold itself rounding decides, of colors that of the device's conversion to linear ones.
             let is_close = |value: f32, threshold: f32, by: f32| (value - threshold).abs() < by;
             if is_close(g.normal, 1.4, 2e-3) || is_close(g.depth, 0.3, 2e-3) || is_close(g.color, 0.6, 0.01) {
                 continue;

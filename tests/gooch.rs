@@ -99,7 +99,7 @@ struct Twin {
     view: View,
     light: Vec3,
     world_from_view: Mat3,
-    /// Of each object: its colour, and its Z and X axes, across its Y axis.
+    /// Of each object: its color, and its Z and X axes, across its Y axis.
     objects: [(Vec3, Vec3, Vec3); 2],
 }
 

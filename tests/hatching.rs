@@ -70,14 +70,14 @@ fn mean(inks: &[Option<f64>]) -> f64 {
     all.iter().sum::<f64>() / all.len().max(1) as f64
 }
 
-fn mid_greys(inks: &[Option<f64>]) -> f64 {
+fn mid_grays(inks: &[Option<f64>]) -> f64 {
     let inked = inks.iter().flatten().filter(|ink| **ink > 0.05);
-    let (mut all, mut grey) = (0.0, 0.0);
+    let (mut all, mut gray) = (0.0, 0.0);
     for ink in inked {
         all += 1.0;
-        grey += f64::from(u8::from((0.2..=0.8).contains(ink)));
+        gray += f64::from(u8::from((0.2..=0.8).contains(ink)));
     }
-    grey / f64::max(all, 1.0)
+    gray / f64::max(all, 1.0)
 }
 
 /// The presets that are hatched with stripes.
@@ -93,7 +93,7 @@ fn presets() -> Vec<(String, Hatching)> {
 /// Measures the tones of a preset over zooms and tilts; greatest deviation below the greatest ink that it reaches.
 fn worst_tone(hatching: &Hatching, tones: u32, zooms: u32, tilts: u32) -> (f64, f64) {
     let mut session = session();
-    let (mut worst, mut greyest) = (0.0_f64, 0.0_f64);
+    let (mut worst, mut grayest) = (0.0_f64, 0.0_f64);
     for zoom in 0..zooms {
         for tilt in 0..tilts {
             let turn = DMat4::from_rotation_y(f64::from(tilt) * 0.2) * DMat4::from_rotation_z(0.3);
@@ -114,19 +114,19 @@ fn worst_tone(hatching: &Hatching, tones: u32, zooms: u32, tilts: u32) -> (f64, 
                 }
                 if darkness <= 0.7 {
                     worst = worst.max((ink - darkness).abs());
-                    greyest = greyest.max(mid_greys(&inks));
+                    grayest = grayest.max(mid_grays(&inks));
                 }
             }
         }
     }
-    (worst, greyest)
+    (worst, grayest)
 }
 
 #[test]
 fn tones_are_as_dark_as_asked() {
     for (name, hatching) in presets() {
-        let (worst, greyest) = worst_tone(&hatching, 8, 2, 2);
-        println!("{name}: tones off by {worst:.4} at most; {greyest:.3} of the ink is grey");
+        let (worst, grayest) = worst_tone(&hatching, 8, 2, 2);
+        println!("{name}: tones off by {worst:.4} at most; {grayest:.3} of the ink is gray");
         assert!(worst <= 0.03, "{name}: {worst}");
     }
 }
@@ -135,8 +135,8 @@ fn tones_are_as_dark_as_asked() {
 #[ignore = "heavy: run by `make quality`"]
 fn all_tones_are_as_dark_as_asked() {
     for (name, hatching) in presets() {
-        let (worst, greyest) = worst_tone(&hatching, 64, 8, 6);
-        println!("{name}: tones off by {worst:.4} at most; {greyest:.3} of the ink is grey");
+        let (worst, grayest) = worst_tone(&hatching, 64, 8, 6);
+        println!("{name}: tones off by {worst:.4} at most; {grayest:.3} of the ink is gray");
         assert!(worst <= 0.03, "{name}: {worst}");
     }
 }

@@ -327,7 +327,7 @@ fn mirrors_show_them() {
 }
 
 #[test]
-fn hidden_lines_take_the_colour_of_their_surfaces() {
+fn hidden_lines_take_the_color_of_their_surfaces() {
     let mut session = session();
     let outer = ("outer", primitives::cube(2.0), DMat4::IDENTITY, [1.0; 3]);
     let inner = ("inner", primitives::cube(0.8), DMat4::IDENTITY, [1.0, 0.0, 0.0]);

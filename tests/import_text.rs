@@ -134,7 +134,7 @@ fn materials_images_and_options_of_an_obj() {
 
 #[test]
 fn obj_normals_colors_concave_faces_and_odd_lines() {
-    // A letter L, with normals, colours, a continued line, a carriage return, Latin-1 bytes and a line of nonsense.
+    // A letter L, with normals, colors, a continued line, a carriage return, Latin-1 bytes and a line of nonsense.
     let text = b"# caf\xe9\r\nv 0 0 0 1 0 0\nv 3 0 0 1 0 0\nv 3 1 0\nv 1 1 0 0 1 0\nv 1 3 0 0 0 1\nv 0 3 0\nvn 0 0 1\n\
         o caf\xe9\nnonsense\nf 1//1 2//1 3//1 \\\n 4//1 5//1 6//1\nl 1 2\n";
     let scene = open_bytes("l.obj", text);
@@ -308,7 +308,7 @@ fn ply_normals_float_colors_texture_coordinates_and_strips() {
 }
 
 #[test]
-fn loading_reports_progress_and_can_be_cancelled() {
+fn loading_reports_progress_and_can_be_canceled() {
     let folder = Folder::with(&[("box.obj", CUBE_OBJ.as_bytes()), ("a.ply", &ply("ascii"))]);
     for name in ["box.obj", "a.ply"] {
         let progress = Progress::default();
@@ -316,7 +316,7 @@ fn loading_reports_progress_and_can_be_cancelled() {
         assert!((progress.share() - 1.0).abs() < 1e-6);
         progress.cancel();
         let stopped = load(&folder.path(name), &ImportOptions::default(), &progress);
-        assert!(matches!(stopped, Err(ImportError::Cancelled)));
+        assert!(matches!(stopped, Err(ImportError::Canceled)));
     }
 }
 

@@ -85,7 +85,7 @@ fn the_least_device_draws_what_the_best_one_here_draws() {
     assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
 
-/// Layers with colours of their own, in both ways to make them.
+/// Layers with colors of their own, in both ways to make them.
 #[test]
 fn what_is_translucent_is_the_same_too() {
     let (mut best, mut least) = (session(), least());

@@ -59,7 +59,7 @@ fn camera(scene: &Scene, towards_viewer: DVec3) -> Camera {
     Camera::looking_from(towards_viewer, DVec3::Y, &scene.extent(), 1.0)
 }
 
-/// All classes, in colours of their own.
+/// All classes, in colors of their own.
 fn colored(scene: &Arc<Scene>) -> Opened {
     let mut opened = line_drawing(scene, camera(scene, DVec3::new(-0.5, 0.4, 1.0)));
     only(&mut opened, &shapes().collect::<Vec<_>>());
@@ -179,7 +179,7 @@ fn every_class_has_its_own_width() {
     assert!(shapes().all(|class| seen[class as usize] > 5), "{seen:?}");
 }
 
-/// How much of a colour a pixel has beyond grey, 0 to 1; the most among it and its neighbours.
+/// How much of a color a pixel has beyond gray, 0 to 1; the most among it and its neighbors.
 fn tint_near(picture: &RgbaImage, place: DVec2, of: impl Fn([f64; 3]) -> f64) -> f64 {
     let (x, y) = (place.x.floor() as i64, place.y.floor() as i64);
     let around = (-1..=1).flat_map(|dy| (-1..=1).map(move |dx| (x + dx, y + dy)));

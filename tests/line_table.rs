@@ -4,7 +4,7 @@
 //! The goals of exact mode over the models are asserted, if all of them are measured.
 //!
 //! With `HACHURE_LINES_ONLY` set to a part of a name, only scenes of such names are measured. With
-//! `HACHURE_LINES_DIR` set to a folder, the worst view of each is written there: what was found grey, what was missed
+//! `HACHURE_LINES_DIR` set to a folder, the worst view of each is written there: what was found gray, what was missed
 //! red, ink without an edge blue; and the edges by class.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
@@ -191,11 +191,11 @@ fn measure(session: &mut Session, subject: &Subject, modes: &[&str], folder: Opt
     rows
 }
 
-/// Edges that were found (grey) and missed (red), and ink without an edge (blue); light: pixels that do not count.
+/// Edges that were found (gray) and missed (red), and ink without an edge (blue); light: pixels that do not count.
 fn errors(measured: &Measured) -> RgbImage {
     let side = measured.side as usize;
     let edges: Vec<bool> = classes(measured).pixels().map(|p| *p != Rgb([255; 3])).collect();
-    // Within 1.5 pixels lie the eight neighbours.
+    // Within 1.5 pixels lie the eight neighbors.
     let is_near = |set: &[bool], x: usize, y: usize| {
         let rows = y.saturating_sub(1)..(y + 2).min(side);
         rows.into_iter().any(|y| (x.saturating_sub(1)..(x + 2).min(side)).any(|x| set[y * side + x]))
@@ -215,7 +215,7 @@ fn errors(measured: &Measured) -> RgbImage {
     })
 }
 
-/// The edges in a colour per class.
+/// The edges in a color per class.
 fn classes(measured: &Measured) -> RgbImage {
     let colors = EdgeClass::ALL.map(|class| match class {
         EdgeClass::Silhouette => [0, 0, 0],

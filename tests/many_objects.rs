@@ -39,7 +39,7 @@ fn many() -> Arc<Scene> {
     scene(objects.collect())
 }
 
-/// Twenty looks of surfaces, of every technique that shades them; with `lines` also of as many colours and widths.
+/// Twenty looks of surfaces, of every technique that shades them; with `lines` also of as many colors and widths.
 fn styles(lines: bool) -> Vec<Style> {
     // Blueprints are not shaded, but peeled, each group by itself.
     let techniques: Vec<_> =

@@ -133,7 +133,7 @@ impl Part {
         }
     }
 
-    /// The angles between neighbouring faces, in degrees.
+    /// The angles between neighboring faces, in degrees.
     fn bends(&self) -> Vec<f64> {
         let edges = self.edges();
         let faces = |edge: &(Key, Key)| edges.get(edge).map(|faces| faces[0]);

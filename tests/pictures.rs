@@ -208,7 +208,7 @@ fn render(model: &str, args: &[&str], output: &Path) {
     assert!(result.status.success(), "{}", String::from_utf8_lossy(&result.stderr));
 }
 
-/// Structural similarity of colour over white and of alpha, the worse of the two.
+/// Structural similarity of color over white and of alpha, the worse of the two.
 fn similarity(a: &RgbaImage, b: &RgbaImage) -> f64 {
     if a.dimensions() != b.dimensions() {
         return 0.0;

@@ -67,9 +67,9 @@ fn the_outline_of_a_cube_is_closed_from_any_side() {
         let ink = ink(&mut session, &picture);
         for y in 1..95 {
             for x in 1..95 {
-                let neighbours = [y * 96 + x - 1, y * 96 + x + 1, (y - 1) * 96 + x, (y + 1) * 96 + x];
+                let neighbors = [y * 96 + x - 1, y * 96 + x + 1, (y - 1) * 96 + x, (y + 1) * 96 + x];
                 let here = y * 96 + x;
-                if buffer[here].object != 0 && neighbours.iter().any(|n| buffer[*n].object == 0) {
+                if buffer[here].object != 0 && neighbors.iter().any(|n| buffer[*n].object == 0) {
                     assert!(
                         ink[here].0.max(ink[here].1) > 0.3,
                         "gap at {x},{y} from {direction}: {:?}",

@@ -20,7 +20,7 @@ use hachure::scene::{Camera, NodeId, Projection, Scene};
 
 const SIDE: u32 = 48;
 
-/// A cube in one flat colour without lines.
+/// A cube in one flat color without lines.
 fn cube(turn: DQuat) -> Opened {
     let scene = scene(vec![("cube", primitives::cube(2.0), DMat4::from_quat(turn), [0.8, 0.3, 0.1])]);
     let mut opened = opened(&scene, DVec3::Z);
@@ -153,7 +153,7 @@ fn the_first_sample_and_what_is_flat_are_the_plain_picture() {
     assert!(first == plain);
     // So the picture of something that moved is the first sample of what rests.
     assert_eq!(sample(&mut session, &opened, 64, &[]).sample, Sample { index: 1, of: 64 });
-    // Inside the cube and outside of it, the mean of equal colours is that colour, bit for bit.
+    // Inside the cube and outside of it, the mean of equal colors is that color, bit for bit.
     let many = smooth(&mut session, &opened, 64);
     let polygon = outline(&opened, [SIDE; 2]);
     let differing = (0..many.len()).filter(|&i| many[i] != plain[i]).collect::<Vec<_>>();
@@ -242,7 +242,7 @@ fn a_screenshot_is_drawn_beside_the_window_and_disturbs_nothing() {
     assert_eq!((same.sample.index, finer.sample.index), (15, 16));
     assert!(pixels(&mut session, &same) == pixels(&mut session, &complete));
     progress.cancel();
-    assert!(matches!(shot(&mut session).take(&progress), Err(ScreenshotError::Cancelled)));
+    assert!(matches!(shot(&mut session).take(&progress), Err(ScreenshotError::Canceled)));
 }
 
 #[test]

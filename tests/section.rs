@@ -1,4 +1,4 @@
-//! The section plane: what is cut open looks as if it had been modelled so.
+//! The section plane: what is cut open looks as if it had been modeled so.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
@@ -18,7 +18,7 @@ use image::RgbaImage;
 
 const SIDE: u32 = 160;
 const RED: [f32; 3] = [0.8, 0.1, 0.05];
-const GREY: [f32; 3] = [0.5; 3];
+const GRAY: [f32; 3] = [0.5; 3];
 
 fn colored(name: &'static str, mesh: Mesh, color: [f32; 3]) -> Object {
     (name, mesh, DMat4::IDENTITY, color)
@@ -67,17 +67,17 @@ fn a_cut_cube_looks_like_half_a_cube() {
     let floor = || {
         let mut mesh = primitives::plane(4.0);
         mesh.positions.iter_mut().for_each(|p| *p = Vec3::new(p.x, -1.2, p.y));
-        colored("floor", mesh, GREY)
+        colored("floor", mesh, GRAY)
     };
     let glass = || {
         let mut mesh = primitives::plane(2.0);
         mesh.positions.iter_mut().for_each(|p| *p = Vec3::new(p.x, 0.6 * p.y - 0.5, -1.9));
-        colored("glass", mesh, GREY)
+        colored("glass", mesh, GRAY)
     };
     let techniques = [("plain", "off"), ("gooch", "on"), ("toon", "on"), ("halftone", "off")];
     for (technique, shadows) in techniques {
         for (eye, parallel) in [(DVec3::new(1.0, 1.4, 2.0), false), (DVec3::new(-2.0, -0.4, 1.0), true)] {
-            let [cut, modelled] = [primitives::cube(2.0), cube_below(0.3)].map(|mesh| {
+            let [cut, modeled] = [primitives::cube(2.0), cube_below(0.3)].map(|mesh| {
                 let mut opened = view(vec![colored("cube", mesh, RED), floor(), glass()], eye, parallel);
                 set_all(&mut opened, &ALIKE);
                 set_all(
@@ -105,7 +105,7 @@ fn a_cut_cube_looks_like_half_a_cube() {
                     ("section.color", &own.to_string()),
                 ],
             );
-            let (one, other) = (image(&mut session, &cut, SIDE), image(&mut session, &modelled, SIDE));
+            let (one, other) = (image(&mut session, &cut, SIDE), image(&mut session, &modeled, SIDE));
             let differing = differing(&one, &other);
             assert!(differing <= 40, "{technique} from {eye}: {differing} pixels differ");
             set(&mut cut, "section.show", "false");
@@ -176,14 +176,14 @@ fn flip_leaves_what_was_cut_away() {
 }
 
 #[test]
-fn hatching_covers_its_share_and_differs_between_neighbours() {
+fn hatching_covers_its_share_and_differs_between_neighbors() {
     let mut session = session();
     let at = |x: f32| {
         let mut mesh = primitives::cube(1.5);
         mesh.positions.iter_mut().for_each(|p| p.x += x);
         mesh
     };
-    let mut opened = plan(vec![colored("left", at(-0.75), RED), colored("right", at(0.75), GREY)], "0.1");
+    let mut opened = plan(vec![colored("left", at(-0.75), RED), colored("right", at(0.75), GRAY)], "0.1");
     let lines = ["edges.profile.show", "edges.inner.show", "edges.section.show"];
     set_all(&mut opened, &lines.map(|key| (key, "false")));
     // In pixels of this picture: 12 apart and 3 wide.

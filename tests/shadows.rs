@@ -365,8 +365,8 @@ fn soft_borders_are_wider_the_farther_they_fall_and_smooth_in_the_mean() {
     let mask = common::kept(&mut session, "shadow mask").unwrap();
     let mask: Vec<[u8; 4]> = texels(&mut session, &mask);
     // How wide the soft border along the shadow's side is in a column.
-    let grey = |x: usize| (0..256).filter(|y| (16..240).contains(&mask[y * 256 + x][0])).count();
-    let (near, far) = (grey(133), grey(180));
+    let gray = |x: usize| (0..256).filter(|y| (16..240).contains(&mask[y * 256 + x][0])).count();
+    let (near, far) = (gray(133), gray(180));
     assert!(near <= 4 && far >= near + 4, "near {near} px, far {far} px");
     session.set_samples(16);
     set(&mut opened, "technique", "plain");

@@ -81,7 +81,7 @@ struct Twin {
 }
 
 impl Twin {
-    /// The direction through a pixel's centre, of depth 1.
+    /// The direction through a pixel's center, of depth 1.
     fn ray(&self, px: [i32; 2]) -> Vec3 {
         let ndc = (Vec2::new(px[0] as f32, px[1] as f32) + 0.5) / SIDE as f32 * 2.0 - 1.0;
         (ndc * Vec2::new(1.0, -1.0) * self.view.half_extent).extend(-1.0)
@@ -134,7 +134,7 @@ fn ramp_and_cartoon_map_equal_their_twins() {
     let twin = Twin {
         view: View::new(&opened.document.camera.unwrap(), &unit, UVec2::splat(SIDE as u32)),
         light: opened.document.lighting.key.direction().as_vec3(),
-        // As 8-bit colours, which is what the G-buffer holds.
+        // As 8-bit colors, which is what the G-buffer holds.
         base: base.map(|c| Color(c.map(to_srgb)).to_linear()),
     };
 
@@ -189,14 +189,14 @@ fn ball() -> Arc<Scene> {
     scene(vec![("ball", primitives::sphere(1.0, 64, 96), DMat4::IDENTITY, [0.9, 0.6, 0.3])])
 }
 
-/// The colours of an object.
+/// The colors of an object.
 fn colors(drawn: &Drawn, object: u32) -> HashSet<[u8; 4]> {
     let pixels = drawn.image.pixels().zip(&drawn.surfels);
     pixels.filter(|(_, s)| s.object == object).map(|(p, _)| p.0).collect()
 }
 
 #[test]
-fn a_ball_has_as_many_colours_as_bands_and_others_only_beside_their_borders() {
+fn a_ball_has_as_many_colors_as_bands_and_others_only_beside_their_borders() {
     let mut session = session();
     let ball = ball();
     for bands in 2..=8 {

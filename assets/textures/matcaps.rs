@@ -12,7 +12,7 @@ const SIZE: u32 = 512;
 /// Samples along each side of a pixel; the bands on metal are finer than a pixel near the rim.
 const SAMPLES: u32 = 4;
 
-/// The colour in linear light for a normal of length 1, with x to the right, y up and z to the viewer.
+/// The color in linear light for a normal of length 1, with x to the right, y up and z to the viewer.
 type Look = fn(Vec3) -> Vec3;
 
 const LOOKS: [(&str, Look); 4] = [("clay", clay), ("porcelain", porcelain), ("metal", metal), ("jade", jade)];
@@ -40,7 +40,7 @@ fn pixel(look: Look, x: u32, y: u32) -> Rgb<u8> {
 }
 
 /// The normal of the unit sphere seen at `at`. Outside of the disc it is that of the rim, so that
-/// filtering at a silhouette never mixes in a foreign colour.
+/// filtering at a silhouette never mixes in a foreign color.
 fn normal(at: Vec2) -> Vec3 {
     let at = at.clamp_length_max(1.0);
     at.extend((1.0 - at.length_squared()).max(0.0).sqrt())
@@ -129,9 +129,9 @@ fn softbox(ray: Vec3, lamp: Vec3, size: Vec2, soft: f32) -> f32 {
     smooth(soft, -soft, outside) * smooth(0.0, 0.1, ahead)
 }
 
-/// A smooth hill of height 1 at `centre`.
-fn bump(x: f32, centre: f32, width: f32) -> f32 {
-    (-((x - centre) / width).powi(2)).exp()
+/// A smooth hill of height 1 at `center`.
+fn bump(x: f32, center: f32, width: f32) -> f32 {
+    (-((x - center) / width).powi(2)).exp()
 }
 
 /// A smooth step from 0 at `from` to 1 at `to`, which may be the smaller one.

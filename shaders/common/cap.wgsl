@@ -3,11 +3,11 @@
 
 // Twin: `CapUniform` in src/render/effects/section.rs.
 struct Cap {
-    // Linear colour.
+    // Linear color.
     fill: vec3<f32>,
     // The object's cap in the G-buffer; 0: it has none.
     surface_id: u32,
-    // Linear colour of the hatching.
+    // Linear color of the hatching.
     ink: vec3<f32>,
     // 1: it is shaded like other surfaces.
     lit: u32,

@@ -1,8 +1,8 @@
 // How much of a pixel straight shapes cover.
 #import common/frame.wgsl
 
-// The share of a unit square on the near side of a straight edge at this signed distance from its centre (positive:
-// the centre is inside); `normal` is the edge's.
+// The share of a unit square on the near side of a straight edge at this signed distance from its center (positive:
+// the center is inside); `normal` is the edge's.
 fn square_share(distance: f32, normal: vec2<f32>) -> f32 {
     let n = abs(normal) * frame.coverage_ramp;
     // The square's shadow on the normal is a trapezoid.
@@ -17,7 +17,7 @@ fn square_share(distance: f32, normal: vec2<f32>) -> f32 {
     return select(beyond, 1.0 - beyond, distance > 0.0);
 }
 
-// The share of a pixel that a strip covers: from `low` to `high` along `normal`, the pixel's centre at `at`.
+// The share of a pixel that a strip covers: from `low` to `high` along `normal`, the pixel's center at `at`.
 fn strip_share(at: f32, low: f32, high: f32, normal: vec2<f32>) -> f32 {
     return max(square_share(high - at, normal) - square_share(low - at, normal), 0.0);
 }

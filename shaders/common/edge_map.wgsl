@@ -1,5 +1,5 @@
 // The edge map: one texel per pixel, before lines get their width. Each texel of an exact line holds the point of the
-// line's spine that is nearest to the pixel's centre. Written by passes/{operators,segments,discontinuities,details}.wgsl.
+// line's spine that is nearest to the pixel's center. Written by passes/{operators,segments,discontinuities,details}.wgsl.
 
 const NO_EDGE: u32 = 0u;
 // Classes as in src/geometry/edge_class.rs, plus 1.
@@ -26,7 +26,7 @@ struct Edge {
     class_of: u32,
     // The object whose style draws it.
     object: u32,
-    // From the pixel's centre to the spine, px, each within ±1.
+    // From the pixel's center to the spine, px, each within ±1.
     offset: vec2<f32>,
     // Direction of the line, see `pack_tangent`.
     tangent: u32,

@@ -23,7 +23,7 @@ struct EdgeStyle {
     dash_period: f32,
     // Share of the period that has ink.
     dash_share: f32,
-    // Share of the surface's own colour in the lines, and how far it is darkened.
+    // Share of the surface's own color in the lines, and how far it is darkened.
     surface_color: f32,
     darken: f32,
     // How far the strength of creases is weighed by their angle.

@@ -3,7 +3,7 @@
 struct Light {
     // Directional (w = 0): towards the light. Point (w = 1): where it stands. View space.
     vector: vec4<f32>,
-    // Linear colour times intensity.
+    // Linear color times intensity.
     color: vec3<f32>,
     // Its channel in the shadow mask plus 1; 0: it throws no shadow.
     shadow: u32,
@@ -39,7 +39,7 @@ struct Frame {
     section: vec4<f32>,
     // How dark shadows are, 0 to 1.
     shadow_density: f32,
-    // Paper: linear colour and opacity.
+    // Paper: linear color and opacity.
     background: vec4<f32>,
     lights: array<Light, 8>,
 }

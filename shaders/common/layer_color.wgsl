@@ -1,4 +1,4 @@
-// The base colour of a layer as fragment lists keep it, so that both ways to make layers round it alike.
+// The base color of a layer as fragment lists keep it, so that both ways to make layers round it alike.
 #import common/color.wgsl
 
 // Whether anybody asks for it; otherwise it is black.

@@ -27,7 +27,7 @@ fn shadow_at(px: vec2<i32>, light: u32, n_l: f32) -> f32 {
     return max(1.0 - visibility(px, light), own * f32(frame.lights[light].shadow != 0u));
 }
 
-// What reaches a surface from all lights together, as a factor of its colour.
+// What reaches a surface from all lights together, as a factor of its color.
 fn light_at(px: vec2<i32>, normal: vec3<f32>, pos_view: vec3<f32>) -> vec3<f32> {
     var light = vec3(0.0);
     for (var i = 0u; i < frame.light_count; i++) {

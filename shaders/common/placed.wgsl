@@ -1,4 +1,4 @@
-// A colour that is placed by depth. x, y: linear colour times opacity, and opacity, as halves; z: linear depth (bits of a float); w:
+// A color that is placed by depth. x, y: linear color times opacity, and opacity, as halves; z: linear depth (bits of a float); w:
 // 1 where the sketch that was placed last is in front; all 0: nothing.
 
 fn pack_placed(color: vec4<f32>, depth: f32) -> vec4<u32> {

@@ -16,7 +16,7 @@ fn step_px(difference: f32, depth: f32) -> f32 {
     return difference * select(depth, 1.0, frame.orthographic == 1u) / pixel;
 }
 
-// Nearness of a plane at a pixel's centre, and its change per pixel in x and y.
+// Nearness of a plane at a pixel's center, and its change per pixel in x and y.
 struct Plane {
     center: f32,
     slope: vec2<f32>,

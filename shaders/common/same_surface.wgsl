@@ -1,4 +1,4 @@
-// Whether neighbouring pixels show one surface.
+// Whether neighboring pixels show one surface.
 #import common/gbuffer.wgsl
 #import common/plane.wgsl
 

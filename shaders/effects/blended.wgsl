@@ -4,7 +4,7 @@
 
 // Where nearer layers have lines; see passes/repeated.wgsl.
 var nearer_lines_tex: texture_2d<u32>;
-// Linear colour times opacity, and opacity.
+// Linear color times opacity, and opacity.
 var shaded_tex: texture_2d<f32>;
 
 // What lies so little behind an opaque surface, px, lies on it.

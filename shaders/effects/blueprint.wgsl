@@ -9,7 +9,7 @@
 
 // Twin: `BlueprintUniform` in src/render/effects/blueprint.rs.
 struct Blueprint {
-    // Linear colours.
+    // Linear colors.
     far: vec3<f32>,
     by_layer: f32,
     fill: vec3<f32>,
@@ -38,7 +38,7 @@ override WITH_THRESHOLD: bool = true;
 // Whether ink of the papers' operators is left out where nearer layers have some.
 override WITHOUT_REPEATED: bool = false;
 
-// The share of the far colour.
+// The share of the far color.
 fn faded(depth: f32) -> f32 {
     let range = frame.depth_range;
     let distance = clamp((depth - range.x) / max(range.y - range.x, 1e-20), 0.0, 1.0);

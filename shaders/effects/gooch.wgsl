@@ -15,9 +15,9 @@ override WITH_METAL: bool = true;
 
 // Twin: `GoochUniform` in src/render/effects/gooch.rs.
 struct GoochStyle {
-    // Linear colours.
+    // Linear colors.
     cool: vec3<f32>,
-    // Shares of the object's own colour.
+    // Shares of the object's own color.
     alpha: f32,
     warm: vec3<f32>,
     beta: f32,
@@ -34,7 +34,7 @@ struct GoochStyle {
     is_of_form: u32,
     // How far the key is turned to the side, 0 to 1.
     aside: f32,
-    // How far cool and warm are multiplied by the object's own colour, 0 to 1.
+    // How far cool and warm are multiplied by the object's own color, 0 to 1.
     own_hue: f32,
 }
 

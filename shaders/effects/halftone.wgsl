@@ -1,4 +1,4 @@
-// Halftone: a smooth threshold of a prioritised texture (Freudenberg et al. 2002, "Real-Time Halftoning: A Primitive For
+// Halftone: a smooth threshold of a prioritized texture (Freudenberg et al. 2002, "Real-Time Halftoning: A Primitive For
 // Non-Photorealistic Shading"), of which the mean ink is exactly what the tone asks for.
 #import common/frame.wgsl
 #import common/gbuffer.wgsl
@@ -21,7 +21,7 @@ override WITH_UV: bool = true;
 struct HalftoneStyle {
     // To the object's own axes, about its middle; its diagonal is 1.
     pattern_from_view: mat4x4<f32>,
-    // Linear colours, and shares of the object's own.
+    // Linear colors, and shares of the object's own.
     ink: vec3<f32>,
     ink_tint: f32,
     paper: vec3<f32>,

@@ -28,7 +28,7 @@ const BY_UV: u32 = 3u;
 struct HatchingStyle {
     // To local space of the object's mesh.
     local_from_view: mat4x4<f32>,
-    // Linear colours, and shares of the object's own.
+    // Linear colors, and shares of the object's own.
     ink: vec3<f32>,
     ink_tint: f32,
     paper: vec3<f32>,

@@ -1,4 +1,4 @@
-// Matcap: the colour that a picture of a shaded sphere has for the normal (Sloan et al. 2001).
+// Matcap: the color that a picture of a shaded sphere has for the normal (Sloan et al. 2001).
 #import common/frame.wgsl
 #import common/gbuffer.wgsl
 #import common/light.wgsl
@@ -10,7 +10,7 @@ override WITH_MATCAP: bool = true;
 
 // Twin: `MatcapUniform` in src/render/effects/matcap.rs.
 struct MatcapStyle {
-    // Share of the object's own colour.
+    // Share of the object's own color.
     own_color: f32,
     shadow: f32,
     // Layer of `spheres`.

@@ -12,7 +12,7 @@ struct Mirror {
     object: u32,
 }
 
-// Linear colour times opacity, and opacity; flipped left to right.
+// Linear color times opacity, and opacity; flipped left to right.
 var reflection_tex: texture_2d<f32>;
 var<storage, read> mirrors: array<Mirror>;
 

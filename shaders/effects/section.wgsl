@@ -1,4 +1,4 @@
-// The caps of a section over the shaded surfaces: their own colour, and hatching.
+// The caps of a section over the shaded surfaces: their own color, and hatching.
 #import common/frame.wgsl
 #import common/fullscreen.wgsl
 #import common/gbuffer.wgsl

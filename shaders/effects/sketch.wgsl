@@ -1,7 +1,7 @@
-// A sketch: lines and colours of a group of one layer, each fetched from beside where it goes, with the depth of what was fetched
+// A sketch: lines and colors of a group of one layer, each fetched from beside where it goes, with the depth of what was fetched
 // (sketchy drawings paper, sections 3.2 to 3.4), rubbed onto rough paper.
 //
-// Colour, and ink of the papers' operators, that is drawn at x comes from y = x + F(x), as in the paper. Lines of exact mode have
+// Color, and ink of the papers' operators, that is drawn at x comes from y = x + F(x), as in the paper. Lines of exact mode have
 // been moved, each as a whole (passes/moved_edges.wgsl).
 #import passes/lines.wgsl
 #import common/composition.wgsl
@@ -11,7 +11,7 @@
 struct Pass {
     // From noise to offsets, px, by rows.
     matrix: vec4<f32>,
-    // Linear colour instead of that of the lines.
+    // Linear color instead of that of the lines.
     color: vec3<f32>,
     has_color: u32,
     width: f32,
@@ -23,10 +23,10 @@ struct Sketch {
     passes: array<Pass, 8>,
     // From noise to offsets of the fill, px, by rows.
     fill_matrix: vec4<f32>,
-    // Linear colour of the pigment.
+    // Linear color of the pigment.
     pigment: vec3<f32>,
     surface_color: f32,
-    // Colour that lines are smudged with.
+    // Color that lines are smudged with.
     smudge_color: vec3<f32>,
     smudge: f32,
     // Direction of the strokes of the hand: its cosine and sine.
@@ -58,7 +58,7 @@ struct SketchObject {
 override ON_SCREEN: bool = false;
 // Whether noise beyond outlines is that of enlarged surfaces, as in the paper.
 override ENLARGED: bool = false;
-// Whether ink and colour have the nearer depth of both, as in the paper.
+// Whether ink and color have the nearer depth of both, as in the paper.
 override WITH_NEARER: bool = false;
 // Whether ink that has been placed before is that of other objects.
 override BEFORE_IS_OTHER: bool = true;
@@ -81,7 +81,7 @@ var<storage, read> sketch_objects: array<SketchObject>;
 var<uniform> pass_number: u32;
 // The edge map where lines come from, for the papers' operators.
 var paper_map_tex: texture_storage_2d<rgba32uint, read>;
-// Linear colour times opacity, and opacity, of the surfaces.
+// Linear color times opacity, and opacity, of the surfaces.
 var shaded_tex: texture_2d<f32>;
 // The same of hidden lines.
 var hidden_tex: texture_2d<f32>;
@@ -95,7 +95,7 @@ var paper: texture_2d_array<f32>;
 var tile_sampler: sampler;
 // What has been placed before.
 var before_tex: texture_2d<f32>;
-// Geometry after this sketch's colour has been placed.
+// Geometry after this sketch's color has been placed.
 var filled_tex: texture_storage_2d<rgba32uint, read>;
 
 // As in src/render/base/noise.rs.
@@ -150,14 +150,14 @@ struct Source {
     noise: vec2<f32>,
 }
 
-// Where the colour comes from that is drawn at x.
+// Where the color comes from that is drawn at x.
 fn fill_source(x: vec2<f32>) -> Source {
     if ON_SCREEN {
         let noise = fill_noise(x, 0u);
         return Source(inside(x + applied(sketch.fill_matrix, noise)), noise);
     }
     let near = inside(x + applied(sketch.fill_matrix, fill_noise(x, 0u)));
-    // Beyond the outline, as what is nearest. Waves of colour are so long that one step finds it.
+    // Beyond the outline, as what is nearest. Waves of color are so long that one step finds it.
     let object = geometry_at(vec2<i32>(floor(near))).w & ~ENHANCED;
     // Enlarged surfaces overlap others.
     let noise = fill_noise(near, select(object, 0u, ENLARGED));
@@ -231,7 +231,7 @@ fn tolerance(px: vec2<i32>, y: vec2<f32>, depth: f32, other: Surfel, least: f32)
     return clamp(lower, least * away, STEEPEST * away);
 }
 
-// Ink may lie farther behind than colour, which must not cover what lies just before its own surface.
+// Ink may lie farther behind than color, which must not cover what lies just before its own surface.
 const INK_TOLERANCE: f32 = 4.0;
 const FILL_TOLERANCE: f32 = 1.0;
 
@@ -269,7 +269,7 @@ fn fs_filled(@builtin(position) position: vec4<f32>) {
 
 struct Filled {
     @location(0) geometry: vec4<u32>,
-    // Linear colour times opacity, and opacity.
+    // Linear color times opacity, and opacity.
     @location(1) color: vec4<f32>,
 }
 
@@ -449,7 +449,7 @@ fn fs_ink(@builtin(position) position: vec4<f32>) -> @location(0) vec4<u32> {
     return texel;
 }
 
-// Ink over the colour.
+// Ink over the color.
 @fragment
 fn fs_lay_ink(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     return inked(vec2<i32>(position.xy)).ink;

@@ -16,7 +16,7 @@ const UNLIT: u32 = 2u;
 // Only what is designated among blueprints is a surface.
 const BLUEPRINT: u32 = 8u;
 
-// A surface seen edge on has this share of its highlight colour: it is lit from the eye.
+// A surface seen edge on has this share of its highlight color: it is lit from the eye.
 const HIGHLIGHT_RIM: f32 = 0.55;
 
 // Whether any object is drawn so.
@@ -26,7 +26,7 @@ override WITH_OPACITY: bool = false;
 
 // Twin: `SurfaceUniform` in src/render/effects/surface.rs.
 struct SurfaceStyle {
-    // Linear colour of what stands out among blueprints.
+    // Linear color of what stands out among blueprints.
     highlight: vec3<f32>,
     ambient: f32,
     technique: u32,
@@ -35,7 +35,7 @@ struct SurfaceStyle {
 var base_color_tex: texture_2d<f32>;
 var<storage, read> surface_styles: array<SurfaceStyle>;
 
-// Linear colour times opacity, and opacity.
+// Linear color times opacity, and opacity.
 @fragment
 fn fs_main(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     let px = vec2<i32>(position.xy);

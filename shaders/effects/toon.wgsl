@@ -27,7 +27,7 @@ struct ToonStyle {
     // The highlight is where N·H is at least this, the rim where N·V is at most that.
     highlight_from: f32,
     rim_to: f32,
-    // Share of the object's own colour.
+    // Share of the object's own color.
     tint: f32,
     // Its ramp in `toon_bands`, from shadow to light.
     first_band: u32,
@@ -40,7 +40,7 @@ struct ToonStyle {
 }
 
 var<storage, read> toon_styles: array<ToonStyle>;
-// Linear colours of all ramps.
+// Linear colors of all ramps.
 var toon_bands: texture_storage_2d<rgba32uint, read>;
 // The bands of the objects whose borders are smoothed by it.
 var cartoon_map_tex: texture_2d<u32>;
@@ -82,7 +82,7 @@ fn toon_code(object: u32, fields: vec4<f32>) -> u32 {
     return code;
 }
 
-// The bands' colour with the object's own, and shares of highlight and rim over it.
+// The bands' color with the object's own, and shares of highlight and rim over it.
 fn toon_layers(object: u32, base: vec3<f32>, ramp: vec3<f32>, highlight: f32, rim: f32) -> vec3<f32> {
     let tinted = ramp * mix(vec3(1.0), base, toon_styles[object].tint);
     let lit = mix(tinted, vec3(1.0), toon_styles[object].highlight * highlight);
@@ -111,8 +111,8 @@ fn code_at(px: vec2<i32>) -> u32 {
     return textureLoad(cartoon_map_tex, px, 0).x;
 }
 
-// From a pixel to itself and its eight neighbours, row by row.
-fn neighbour_offset(n: u32) -> vec2<i32> {
+// From a pixel to itself and its eight neighbors, row by row.
+fn neighbor_offset(n: u32) -> vec2<i32> {
     return vec2<i32>(vec2(n % 3u, n / 3u)) - 1;
 }
 
@@ -120,22 +120,22 @@ fn inside(px: vec2<i32>) -> vec2<i32> {
     return clamp(px, vec2(0), vec2<i32>(frame.size) - 1);
 }
 
-// The mean of the neighbours' shades in the cartoon map, weighted 1 2 1, 2 8 2, 1 2 1: a mean that is wider smooths
-// more, but errs more than it mends. The more samples are averaged anyway, the less the neighbours count. Where the
-// surface does not go on, the pixel stands for its neighbour. Only the bands are averaged, never the object's own
-// colour, so that images on it stay sharp.
+// The mean of the neighbors' shades in the cartoon map, weighted 1 2 1, 2 8 2, 1 2 1: a mean that is wider smooths
+// more, but errs more than it mends. The more samples are averaged anyway, the less the neighbors count. Where the
+// surface does not go on, the pixel stands for its neighbor. Only the bands are averaged, never the object's own
+// color, so that images on it stay sharp.
 fn smoothed(px: vec2<i32>, s: Surfel, base: vec3<f32>) -> vec3<f32> {
     let code = code_at(px);
     let color = toon_color(s.object, base, code);
-    // Bit by bit the neighbours that differ: nearly everywhere there are none, and then nothing more is read.
+    // Bit by bit the neighbors that differ: nearly everywhere there are none, and then nothing more is read.
     var differing = 0u;
     for (var n = 0u; n < 9u; n++) {
-        let other = code_at(inside(px + neighbour_offset(n)));
+        let other = code_at(inside(px + neighbor_offset(n)));
         differing |= select(0u, 1u << n, other != code && other != 0u);
     }
     var change = vec3(0.0);
     while differing != 0u {
-        let offset = neighbour_offset(firstTrailingBit(differing));
+        let offset = neighbor_offset(firstTrailingBit(differing));
         let q = inside(px + offset);
         differing &= differing - 1u;
         if goes_on(px, s, q, unpack_surfel(geometry_at(q))) {

@@ -2,7 +2,7 @@
 // paper, sections 4.2 and 4.3): occlusion queries would count overdraw, and only the processor could act on them.
 #import common/frame.wgsl
 #import common/counted.wgsl
-#import gpu/neighbours.wgsl
+#import gpu/neighbors.wgsl
 #import common/depth_mask.wgsl
 
 // Whether there is a depth mask.

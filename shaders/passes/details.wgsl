@@ -1,4 +1,4 @@
-// The lines within a surface that have nothing to do with its shape: where its colour, its relief (the shading normal)
+// The lines within a surface that have nothing to do with its shape: where its color, its relief (the shading normal)
 // or the shadow on it changes suddenly.
 #import common/frame.wgsl
 #import common/fullscreen.wgsl
@@ -26,7 +26,7 @@ fn surface_id_at(px: vec2<i32>) -> u32 {
     return textureLoad(surface_id_tex, clamp(px, vec2(0), vec2<i32>(frame.size) - 1), 0).x;
 }
 
-// What changes: the colour, in steps that look even; the normal, of length 1; or which lights reach the pixel.
+// What changes: the color, in steps that look even; the normal, of length 1; or which lights reach the pixel.
 fn detail_at(class_of: u32, px: vec2<i32>) -> vec4<f32> {
     let q = clamp(px, vec2(0), vec2<i32>(frame.size) - 1);
     if WITH_RELIEF && class_of == RELIEF {
@@ -57,13 +57,13 @@ fn counted(class_of: u32, x: Surfel, pos_view: vec3<f32>) -> vec4<f32> {
     return counts;
 }
 
-// From a pixel to itself and its eight neighbours, row by row.
-fn neighbour_offset(n: i32) -> vec2<i32> {
+// From a pixel to itself and its eight neighbors, row by row.
+fn neighbor_offset(n: i32) -> vec2<i32> {
     return vec2(n % 3, n / 3) - 1;
 }
 
 struct Step {
-    // From the pixel's centre to where the middle between both sides is, px.
+    // From the pixel's center to where the middle between both sides is, px.
     offset: vec2<f32>,
     // Difference of the two sides; negative: of a slope, how steep it is, per px.
     contrast: f32,
@@ -98,7 +98,7 @@ fn side_of(class_of: u32, px: vec2<i32>, own: u32, start: vec4<f32>, along: vec4
     return Side(value, rise < 0.1 * value);
 }
 
-// The step of a value near the centre of a pixel, if there is one: across the direction of greatest change (Di Zenzo
+// The step of a value near the center of a pixel, if there is one: across the direction of greatest change (Di Zenzo
 // 1986), the place half way between the two sides; seen in strides of so many pixels.
 fn step_in(class_of: u32, counts: vec4<f32>, px: vec2<i32>, own: u32, stride: i32) -> Step {
     let none = Step(vec2(0.0), 0.0, vec2(0.0));
@@ -106,7 +106,7 @@ fn step_in(class_of: u32, counts: vec4<f32>, px: vec2<i32>, own: u32, stride: i3
     var dx = vec4(0.0);
     var dy = vec4(0.0);
     for (var n = 0; n < 9; n++) {
-        let o = neighbour_offset(n);
+        let o = neighbor_offset(n);
         var value = center;
         if surface_id_at(px + o * stride) == own {
             value = detail_at(class_of, px + o * stride);
@@ -131,10 +131,10 @@ fn step_in(class_of: u32, counts: vec4<f32>, px: vec2<i32>, own: u32, stride: i3
     if !high.is_level || !low.is_level {
         return Step(vec2(0.0), -slope / f32(stride), normal);
     }
-    // The centre's own value, as smooth as the slope is.
+    // The center's own value, as smooth as the slope is.
     var smoothed = 0.0;
     for (var n = 0; n < 9; n++) {
-        let o = neighbour_offset(n);
+        let o = neighbor_offset(n);
         if surface_id_at(px + o * stride) == own {
             let weight = f32((2 - abs(o.x)) * (2 - abs(o.y))) / 16.0;
             smoothed += weight * dot(detail_at(class_of, px + o * stride) - center, along);
@@ -144,7 +144,7 @@ fn step_in(class_of: u32, counts: vec4<f32>, px: vec2<i32>, own: u32, stride: i3
     return Step(normal * (middle - smoothed) / slope * f32(stride), high.value + low.value, normal);
 }
 
-// A wider look at what is no step: between the texels of an enlarged image colours change over many pixels.
+// A wider look at what is no step: between the texels of an enlarged image colors change over many pixels.
 const WIDE_STRIDE: i32 = 4;
 
 fn step_near(class_of: u32, x: Surfel, px: vec2<i32>, own: u32) -> Step {
@@ -172,7 +172,7 @@ fn is_drawn(object: u32, class_of: u32) -> bool {
     return edge_styles[object].lines[class_of - 1u].strength > 0.0;
 }
 
-// Whether a step is so near to the centre that the pixel holds it.
+// Whether a step is so near to the center that the pixel holds it.
 fn is_at(step: Step) -> bool {
     return all(abs(step.offset) <= vec2(0.75));
 }
@@ -196,7 +196,7 @@ fn fs_main(@builtin(position) position: vec4<f32>) -> Out {
     }
     // Where a surface ends or folds, there is a line already.
     for (var n = 0; n < 9; n++) {
-        let q = clamp(px + neighbour_offset(n), vec2(0), vec2<i32>(frame.size) - 1);
+        let q = clamp(px + neighbor_offset(n), vec2(0), vec2<i32>(frame.size) - 1);
         if surface_id_at(q) != own || textureLoad(mark_tex, q, 0).x != 0u {
             discard;
         }

@@ -1,4 +1,4 @@
-// The lines that topology does not know, found where neighbouring pixels show different surfaces: intersections,
+// The lines that topology does not know, found where neighboring pixels show different surfaces: intersections,
 // outlines of holes, objects before others.
 #import common/frame.wgsl
 #import common/fullscreen.wgsl
@@ -53,7 +53,7 @@ fn mark_at(px: vec2<i32>) -> u32 {
     return textureLoad(mark_tex, clamp(px, vec2(0), vec2<i32>(frame.size) - 1)).x;
 }
 
-// Whether (not 0) another surface begins towards a neighbour of this surface id, where no nearer layer has a line: an edge between
+// Whether (not 0) another surface begins towards a neighbor of this surface id, where no nearer layer has a line: an edge between
 // two pixels runs through one of them.
 fn begins_at(px: vec2<i32>, towards: vec2<i32>, surface_id: u32, own: u32) -> u32 {
     if !WITHOUT_REPEATED {
@@ -79,7 +79,7 @@ fn fs_borders(@builtin(position) position: vec4<f32>) {
     }
 }
 
-// The spine between the centre of a pixel and that of its neighbour.
+// The spine between the center of a pixel and that of its neighbor.
 struct Spine {
     class_of: u32,
     offset: vec2<f32>,
@@ -101,7 +101,7 @@ fn goes_on_nearer(px: vec2<i32>, surface_id: u32) -> bool {
     return textureLoad(before_tex, q, 0).x == surface_id || textureLoad(before_that_tex, q, 0).x == surface_id;
 }
 
-// What lies between pixel `px` (surface `x`) and its neighbour of a `surface_id`; class 0: nothing that `x` has to draw.
+// What lies between pixel `px` (surface `x`) and its neighbor of a `surface_id`; class 0: nothing that `x` has to draw.
 fn between(px: vec2<i32>, x: Surfel, own: u32, plane: Plane, towards: vec2<i32>, surface_id: u32) -> Spine {
     let q = px + towards;
     let none = Spine(NO_EDGE, vec2(0.0), vec2(1.0, 0.0), false);
@@ -155,7 +155,7 @@ fn between(px: vec2<i32>, x: Surfel, own: u32, plane: Plane, towards: vec2<i32>,
     return Spine(INTERSECTION, offset, normalize(vec2(slope.y, -slope.x)), false);
 }
 
-// Whether the first is an edge, and the second none or farther from the pixel's centre.
+// Whether the first is an edge, and the second none or farther from the pixel's center.
 fn is_nearer(first: Spine, second: Spine) -> bool {
     return first.class_of != NO_EDGE
         && (second.class_of == NO_EDGE || dot(first.offset, first.offset) < dot(second.offset, second.offset));
@@ -190,7 +190,7 @@ fn fs_main(@builtin(position) position: vec4<f32>) -> Out {
     let left = between(px, x, own, plane, vec2(-1, 0), surface_ids.left);
     let below = between(px, x, own, plane, vec2(0, 1), surface_ids.below);
     let above = between(px, x, own, plane, vec2(0, -1), surface_ids.above);
-    // The line nearest to the centre; between two neighbours it runs aslant.
+    // The line nearest to the center; between two neighbors it runs aslant.
     var spine = right;
     if is_nearer(left, spine) {
         spine = left;
@@ -214,7 +214,7 @@ fn fs_main(@builtin(position) position: vec4<f32>) -> Out {
     }
     let pos_view = pos_view_of(px, x.depth);
     let normal = vec2(spine.tangent.y, -spine.tangent.x);
-    // Without a neighbour along the line nobody knows how long it is: dashes count along its direction.
+    // Without a neighbor along the line nobody knows how long it is: dashes count along its direction.
     let arc = dot(vec2<f32>(px) + 0.5 + spine.offset, spine.tangent);
     let texel = pack_edge(Edge(
         spine.class_of,

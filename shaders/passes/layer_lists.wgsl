@@ -19,7 +19,7 @@ var<storage, read_write> heads: array<u32>;
 var<storage, read_write> deepest: array<u32>;
 // Entries of this band, then those of each row, those without room included.
 var<storage, read_write> counts: array<atomic<u32>>;
-// x: the entry before it in its pixel, plus 1; y: depth (bits of a float); z, w: colour as in common/placed.wgsl.
+// x: the entry before it in its pixel, plus 1; y: depth (bits of a float); z, w: color as in common/placed.wgsl.
 var new_entry_tex: texture_storage_2d<rgba32uint, write>;
 // A layer; see common/placed.wgsl.
 var ink_tex: texture_storage_2d<rgba32uint, read>;

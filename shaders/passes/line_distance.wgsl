@@ -31,7 +31,7 @@ fn power(p: Parabola, at: f32) -> f32 {
     return (at - p.apex) * (at - p.apex) + p.height;
 }
 
-// First whole number p, counted from 0, whose centre p + 0.5 lies where the right parabola is lower.
+// First whole number p, counted from 0, whose center p + 0.5 lies where the right parabola is lower.
 fn begins(left: Parabola, right: Parabola) -> i32 {
     let gap = right.apex - left.apex;
     if gap < 1e-4 {

@@ -1,4 +1,4 @@
-// Lines with their width and colour, over the shaded surfaces.
+// Lines with their width and color, over the shaded surfaces.
 #import common/frame.wgsl
 #import common/fullscreen.wgsl
 #import common/gbuffer.wgsl
@@ -6,11 +6,11 @@
 #import common/edge_map.wgsl
 #import common/edge_style.wgsl
 #import common/coverage.wgsl
-#import gpu/neighbours.wgsl
+#import gpu/neighbors.wgsl
 #import common/placed.wgsl
 
 // Whether any object is drawn in paper or exact mode, whether widths differ, whether anything is dashed, and whether a
-// line takes its colour from the surface.
+// line takes its color from the surface.
 override WITH_PAPER: bool = true;
 override WITH_EXACT: bool = true;
 override WITH_WIDTHS: bool = true;
@@ -40,7 +40,7 @@ fn slack() -> f32 {
     return select(2.0, 0.25, AMONG_OTHERS);
 }
 
-// Whether surface `g` of a pixel lies so much, px, before a line of this depth whose spine is so far from the pixel's centre.
+// Whether surface `g` of a pixel lies so much, px, before a line of this depth whose spine is so far from the pixel's center.
 fn hides(g: Surfel, px: vec2<i32>, depth: f32, to_spine: vec2<f32>, most: f32) -> bool {
     let line = nearness_of(depth);
     let plane = plane_of(px, g.depth, g.face_normal);
@@ -55,7 +55,7 @@ fn is_occluded(g: Surfel, px: vec2<i32>, edge: Edge, spine: vec2<f32>) -> bool {
 }
 
 struct Line {
-    // Linear colour times coverage, and coverage.
+    // Linear color times coverage, and coverage.
     ink: vec4<f32>,
     // Linear depth of its spine.
     depth: f32,
@@ -186,7 +186,7 @@ fn nearer_of(best: Nearby, spine: u32, px: vec2<i32>, away: vec2<i32>) -> Nearby
     return Nearby(select(best.found, ((q.y << 16u) | q.x) + 1u, power < best.power), min(best.power, power));
 }
 
-// As `cs_rows` in passes/line_distance.wgsl finds it, among the neighbours.
+// As `cs_rows` in passes/line_distance.wgsl finds it, among the neighbors.
 fn found_nearby(px: vec2<i32>) -> u32 {
     var best = Nearby(0u, 0.0);
     if NARROW_BY_TWO {
@@ -218,7 +218,7 @@ const ALONG: f32 = 1.0;
 // Cosine of the angle up to which lines run side by side.
 const PARALLEL: f32 = 0.97;
 
-// Where several thin lines run through a pixel, each covers its share: their sum is an even grey, the nearest one alone is not.
+// Where several thin lines run through a pixel, each covers its share: their sum is an even gray, the nearest one alone is not.
 fn found_beside(px: vec2<i32>, found: u32) -> Beside {
     let first_px = vec2<i32>(vec2((found - 1u) & 0xffffu, (found - 1u) >> 16u));
     let first = unpack_edge(textureLoad(edge_map_tex, first_px));

@@ -1,6 +1,6 @@
 // Whether any thin line can reach a block of 4 by 4 pixels: software devices shade whole ones.
 #import common/frame.wgsl
-#import gpu/neighbours.wgsl
+#import gpu/neighbors.wgsl
 
 var spine_tex: texture_2d<u32>;
 var near_tex: texture_storage_2d<r32uint, write>;

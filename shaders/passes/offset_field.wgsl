@@ -1,6 +1,6 @@
-// The noise that says where lines and colours of a sketch go (sketchy drawings paper, section 4): it is that of a place on the
-// object, so that it moves with it. Lines have that of their own place, each as a whole; colours that of their surface, and beyond
-// it that of the nearest one. Software devices take their time for noise: lines ask for it where they run, colours for one pixel of
+// The noise that says where lines and colors of a sketch go (sketchy drawings paper, section 4): it is that of a place on the
+// object, so that it moves with it. Lines have that of their own place, each as a whole; colors that of their surface, and beyond
+// it that of the nearest one. Software devices take their time for noise: lines ask for it where they run, colors for one pixel of
 // each block.
 #import common/frame.wgsl
 #import common/gbuffer.wgsl
@@ -20,7 +20,7 @@ struct Counting {
 
 // Twin: `FieldUniform` in src/render/passes/offset_field.rs.
 struct Field {
-    // Length of a wave of lines and colours, px.
+    // Length of a wave of lines and colors, px.
     line_wave: f32,
     fill_wave: f32,
     // Share of the finer wave.
@@ -78,7 +78,7 @@ var more_line_field_tex: texture_storage_2d<rgba32uint, write>;
 // Per block, a pixel with a surface (column in the lower 16 bits, row in the upper ones) plus 1; 0: none.
 var near_tex: texture_2d<u32>;
 var found_tex: texture_storage_2d<r32uint, write>;
-// Per block, noise of the colours (two halves), the pixel plus 1 that it is of, the object, and how far away that is, px.
+// Per block, noise of the colors (two halves), the pixel plus 1 that it is of, the object, and how far away that is, px.
 var fill_field_tex: texture_storage_2d<rgba32uint, write>;
 
 // Width of a pixel at a depth, scene units.

@@ -7,7 +7,7 @@
 
 // Whether any object uses the C1 operator.
 override WITH_C1: bool = true;
-// Whether any uses Sobel operators, and whether on base colours.
+// Whether any uses Sobel operators, and whether on base colors.
 override WITH_SOBEL: bool = false;
 override WITH_COLOR: bool = false;
 
@@ -32,9 +32,9 @@ fn sample_of(s: Surfel) -> Sample {
     return Sample(s.normal, clamp((s.depth - range.x) / (range.y - range.x), 0.0, 1.0), s.object);
 }
 
-// A neighbour of the enhanced texel `x`. What is not enhanced is background to the operators, unless it hides `x`'s
+// A neighbor of the enhanced texel `x`. What is not enhanced is background to the operators, unless it hides `x`'s
 // own surroundings: then nothing is known there and no edge may come of it.
-fn neighbour(px: vec2<i32>, x: Surfel) -> Sample {
+fn neighbor(px: vec2<i32>, x: Surfel) -> Sample {
     let s = unpack_surfel(geometry_at(px));
     if s.enhanced {
         return sample_of(s);
@@ -60,23 +60,23 @@ fn nearer(a: Sample, b: Sample) -> Sample {
     return a;
 }
 
-// Neighbours A to H of the paper's Fig. 2, row by row, without X.
+// Neighbors A to H of the paper's Fig. 2, row by row, without X.
 fn operators(px: vec2<i32>, x: Surfel, use_c1: bool) -> Operators {
     let center = sample_of(x);
-    let a = neighbour(px + vec2(-1, -1), x);
-    let c = neighbour(px + vec2(1, -1), x);
-    let f = neighbour(px + vec2(-1, 1), x);
-    let h = neighbour(px + vec2(1, 1), x);
+    let a = neighbor(px + vec2(-1, -1), x);
+    let c = neighbor(px + vec2(1, -1), x);
+    let f = neighbor(px + vec2(-1, 1), x);
+    let h = neighbor(px + vec2(1, 1), x);
     let i_n = 0.5 * (dot(a.normal, h.normal) + dot(c.normal, f.normal));
     let ah = 1.0 - 0.5 * abs(a.depth - h.depth);
     let cf = 1.0 - 0.5 * abs(c.depth - f.depth);
     var nearest = nearer(nearer(center, nearer(a, h)), nearer(c, f));
     var c1 = 0.0;
     if WITH_C1 && use_c1 {
-        let b = neighbour(px + vec2(0, -1), x);
-        let d = neighbour(px + vec2(-1, 0), x);
-        let e = neighbour(px + vec2(1, 0), x);
-        let g = neighbour(px + vec2(0, 1), x);
+        let b = neighbor(px + vec2(0, -1), x);
+        let d = neighbor(px + vec2(-1, 0), x);
+        let e = neighbor(px + vec2(1, 0), x);
+        let g = neighbor(px + vec2(0, 1), x);
         let z = center.depth;
         c1 = (abs(a.depth - z) + 2.0 * abs(b.depth - z) + abs(c.depth - z)
             + 2.0 * abs(d.depth - z) + 2.0 * abs(e.depth - z)
@@ -117,7 +117,7 @@ fn magnitude(x: f32, y: f32, sums: bool) -> f32 {
 fn gradients(px: vec2<i32>, x: Surfel, sums: bool) -> Gradients {
     let center = sample_of(x);
     var nearest = center;
-    // Of normals, depth and colour, in both directions.
+    // Of normals, depth and color, in both directions.
     var nx = vec3(0.0);
     var ny = vec3(0.0);
     var z = vec2(0.0);
@@ -128,7 +128,7 @@ fn gradients(px: vec2<i32>, x: Surfel, sums: bool) -> Gradients {
             let at = px + vec2(i, j);
             var s = center;
             if i != 0 || j != 0 {
-                s = neighbour(at, x);
+                s = neighbor(at, x);
             }
             nearest = nearer(nearest, s);
             // The background has the other sign.

@@ -2,7 +2,7 @@
 #import common/fullscreen.wgsl
 #import common/placed.wgsl
 
-// Linear colour times opacity, and opacity.
+// Linear color times opacity, and opacity.
 var overlay_tex: texture_2d<f32>;
 // Ink; see common/placed.wgsl.
 var ink_tex: texture_storage_2d<rgba32uint, read>;

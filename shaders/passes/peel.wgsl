@@ -62,7 +62,7 @@ fn fs_full_counted(v: Full) -> @location(0) u32 {
     return layer(v.position, v.ids, full(v)).surface_id;
 }
 
-// The base colour of a layer that has been drawn, where a pass has no room for it beside the rest.
+// The base color of a layer that has been drawn, where a pass has no room for it beside the rest.
 
 fn color(position: vec4<f32>, ids: vec4<u32>, drawn: GBuffer) -> vec4<f32> {
     if any(sort_key_of(position, ids) != textureLoad(last_key_tex, vec2<i32>(position.xy)).xy) {

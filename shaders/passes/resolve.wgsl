@@ -5,7 +5,7 @@
 
 // Twin: `ScaleBarUniform` in src/render/scale_bar.rs.
 struct ScaleBar {
-    // Linear colour.
+    // Linear color.
     ink: vec4<f32>,
     // Width and height of the mask; from the lower left corner of the picture.
     size: vec2<u32>,

@@ -252,7 +252,7 @@ fn is_covered(there: Beside, own: u32) -> bool {
     return there.surfel.object != own && there.lead > 2.0;
 }
 
-// The point of a segment's line next to the centre of a pixel.
+// The point of a segment's line next to the center of a pixel.
 struct Spine {
     // px.
     at: vec2<f32>,

@@ -1,6 +1,6 @@
 // How much of each light that throws shadows reaches a pixel, from the maps of passes/shadow_map.wgsl.
 //
-// Each texel of a map is compared with the depth that the receiver's own plane has at the texel's centre, which is
+// Each texel of a map is compared with the depth that the receiver's own plane has at the texel's center, which is
 // known from the G-buffer's face normal: no plane shadows itself, however it is tilted.
 #import common/frame.wgsl
 #import common/fullscreen.wgsl

@@ -22,7 +22,7 @@ fn surfel(px: vec2<i32>) -> Surfel {
     return unpack_surfel(geometry_at(px));
 }
 
-// A light colour for each number; none is close to the white of the background.
+// A light color for each number; none is close to the white of the background.
 fn color_of(number: u32) -> vec3<f32> {
     var h = number * 2654435769u;
     h ^= h >> 15u;
@@ -96,7 +96,7 @@ fn fs_edge_map(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32>
         let ink = paper_ink(texel);
         return vec4(vec3(1.0 - max(ink.x, ink.y)), 1.0);
     }
-    // A colour for each class.
+    // A color for each class.
     let weight = unpack_edge(texel).weight * select(0.0, 1.0, texel.x != 0u);
     return vec4(mix(vec3(1.0), CLASS_COLORS[max(class_of(texel), 1u) - 1u], weight), 1.0);
 }

@@ -113,7 +113,7 @@ mod tests {
         let context = egui::Context::default();
         let (sender, receiver) = channel();
         let job = Job::start("waiting", &context, move |progress| {
-            while !progress.is_cancelled() {
+            while !progress.is_canceled() {
                 std::thread::sleep(std::time::Duration::from_millis(1));
             }
             sender.send(()).unwrap();

@@ -38,7 +38,7 @@ pub fn moved(camera: &Camera, by: DVec3) -> Camera {
 }
 
 /// Zooms in by some notches of the wheel (out when negative). What lies in the plane of the focal point under
-/// `cursor` stays there; the cursor is in shares of the picture's height from the centre, y upwards.
+/// `cursor` stays there; the cursor is in shares of the picture's height from the center, y upwards.
 ///
 /// `diagonal` is the size of the model; it limits how near and how far one can get.
 pub fn zoom(camera: &Camera, notches: f64, cursor: DVec2, diagonal: f64) -> Camera {
@@ -85,7 +85,7 @@ mod tests {
         Bounds { min: DVec3::splat(-size), max: DVec3::splat(size) }
     }
 
-    /// Where a point appears, in shares of the picture's height from the centre.
+    /// Where a point appears, in shares of the picture's height from the center.
     fn on_screen(camera: &Camera, point: DVec3) -> DVec2 {
         let p = camera.view_from_world().transform_point3(point);
         let scale = match camera.projection {

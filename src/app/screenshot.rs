@@ -33,7 +33,7 @@ pub enum Destination {
 pub enum ScreenshotError {
     /// It was not wanted any more.
     #[error("no picture was saved")]
-    Cancelled,
+    Canceled,
     /// The picture could not be drawn.
     #[error("the picture could not be drawn: {0}")]
     Render(#[from] RenderError),
@@ -71,7 +71,7 @@ impl Shot {
     /// Draws the picture, one sample after the other, so that the window gets its turn between them.
     ///
     /// # Errors
-    /// [`ScreenshotError::Render`] or [`ScreenshotError::Cancelled`].
+    /// [`ScreenshotError::Render`] or [`ScreenshotError::Canceled`].
     pub fn take(mut self, progress: &Progress) -> Result<RgbaImage, ScreenshotError> {
         let camera = self.document.camera.unwrap_or_default();
         let request = Request {
@@ -84,9 +84,9 @@ impl Shot {
         };
         loop {
             let picture = self.renderer.render(&request)?;
-            self.renderer.gpu().submitted().wait(|| progress.is_cancelled());
-            if progress.is_cancelled() {
-                return Err(ScreenshotError::Cancelled);
+            self.renderer.gpu().submitted().wait(|| progress.is_canceled());
+            if progress.is_canceled() {
+                return Err(ScreenshotError::Canceled);
             }
             progress.report((picture.sample.index + 1) as f32 / picture.sample.of as f32);
             if self.renderer.take_reports() != Reported::Incomplete && picture.sample.is_last() {
@@ -99,7 +99,7 @@ impl Shot {
 fn read(gpu: &Gpu, image: &Target, progress: &Progress) -> Result<RgbaImage, RenderError> {
     let [width, height] = image.size();
     let readback = Readback::start(gpu, image, [0, 0], [width, height])?;
-    gpu.submitted().wait(|| progress.is_cancelled());
+    gpu.submitted().wait(|| progress.is_canceled());
     let image = RgbaImage::from_raw(width, height, readback.wait(gpu)?);
     Ok(image.ok_or_else(|| GpuError::Lost("the picture came back incomplete".to_owned()))?)
 }

@@ -100,7 +100,7 @@ pub struct FileMemory {
     /// The axis that was chosen as up.
     pub up: Option<Up>,
     /// The unit that was chosen.
-    pub metres_per_unit: Option<f64>,
+    pub meters_per_unit: Option<f64>,
 }
 
 impl Default for AppState {
@@ -143,7 +143,7 @@ impl AppState {
         let Some(first) = document.models.first() else { return };
         if let Some(memory) = self.files.iter_mut().find(|f| f.path == *first) {
             memory.up = document.up;
-            memory.metres_per_unit = document.metres_per_unit;
+            memory.meters_per_unit = document.meters_per_unit;
         }
     }
 

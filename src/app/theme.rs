@@ -1,4 +1,4 @@
-//! How the panels look: quiet greys, so that the paper is the brightest thing in the window.
+//! How the panels look: quiet grays, so that the paper is the brightest thing in the window.
 
 use eframe::egui;
 use eframe::egui::{Color32, CornerRadius, FontFamily, FontId, Stroke, TextStyle, Theme, Visuals};

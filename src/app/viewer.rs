@@ -88,7 +88,7 @@ struct Jobs {
     load: Option<Job<Result<Loaded, LoadError>>>,
     dialog: Option<(DialogFor, Job<Vec<PathBuf>>)>,
     topology: Option<Job<Result<UploadedTopology, GpuError>>>,
-    /// `None` comes of it when it was cancelled.
+    /// `None` comes of it when it was canceled.
     stripes: Option<Job<Option<Result<GpuStripes, GpuError>>>>,
     strokes: Option<Job<Option<StrokeMap>>>,
     save: Option<Job<Result<(PathBuf, Document), DocumentError>>>,
@@ -325,15 +325,15 @@ impl Viewer {
                 strokes: self.jobs.strokes.as_ref().map(|job| job.progress().share()),
             };
             match status::status_ui(ui, &status, &mut self.commands) {
-                Some(status::Cancelled::Saving) => {
+                Some(status::Canceled::Saving) => {
                     self.jobs.picture = None;
                     self.jobs.waiting.clear();
                 }
-                Some(status::Cancelled::Hatching) => {
+                Some(status::Canceled::Hatching) => {
                     self.jobs.stripes = None;
                     self.stripes_refused = self.viewport.missing_stripes(&self.document);
                 }
-                Some(status::Cancelled::Strokes) => {
+                Some(status::Canceled::Strokes) => {
                     self.jobs.strokes = None;
                     self.strokes_refused = self.viewport.missing_strokes(&self.document);
                 }

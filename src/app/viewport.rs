@@ -220,7 +220,7 @@ impl Viewport {
         }
         let submitted = self.renderer.gpu().submitted();
         self.measuring = Some(Job::start("measuring", context, move |progress| {
-            submitted.wait(|| progress.is_cancelled());
+            submitted.wait(|| progress.is_canceled());
             began.elapsed().as_secs_f64() * 1000.0
         }));
     }
@@ -236,7 +236,7 @@ impl Viewport {
         if reported == Reported::Waiting && self.awaiting.is_none() {
             let submitted = self.renderer.gpu().submitted();
             self.awaiting = Some(Job::start("awaiting reports", context, move |progress| {
-                submitted.wait(|| progress.is_cancelled());
+                submitted.wait(|| progress.is_canceled());
             }));
         }
     }

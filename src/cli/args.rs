@@ -55,7 +55,7 @@ pub(super) struct RenderArgs {
     pub look: LookArgs,
     #[command(flatten)]
     pub camera: CameraArgs,
-    /// Colour of the paper
+    /// Color of the paper
     #[arg(long, value_name = "#RRGGBB")]
     pub background: Option<Color>,
     /// Pixels per inch of paper, written into the file [default with --scale: 300]

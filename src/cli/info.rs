@@ -36,8 +36,8 @@ fn as_text(opened: &Opened) -> Result<(), CliError> {
         scene.lights.len(),
     ))?;
     print_line(&format!("bounds {} to {}, size {size}", bounds.min, bounds.max))?;
-    let unit = match document.metres_per_unit(scene) {
-        Some(metres) => format!("{metres} m"),
+    let unit = match document.meters_per_unit(scene) {
+        Some(meters) => format!("{meters} m"),
         None => "not stated".to_owned(),
     };
     print_line(&format!("up {}, unit {unit}", document.up(scene).name()))?;
@@ -118,7 +118,7 @@ fn as_json(opened: &Opened) -> Result<(), CliError> {
         "triangles": scene.triangle_count(),
         "bounds": (!bounds.is_empty()).then(|| json!({ "min": bounds.min.to_array(), "max": bounds.max.to_array() })),
         "up": document.up(scene).name(),
-        "metres_per_unit": document.metres_per_unit(scene),
+        "meters_per_unit": document.meters_per_unit(scene),
         "nodes": nodes,
         "meshes": meshes,
         "materials": materials,

@@ -19,7 +19,7 @@ use crate::style::{Color, param, preset};
 /// Pixels per inch of paper, as printers expect them.
 const DPI: f64 = 300.0;
 
-const METRES_PER_INCH: f64 = 0.0254;
+const METERS_PER_INCH: f64 = 0.0254;
 
 pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
     let device = StartingDevice::new()?;
@@ -33,9 +33,9 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
     let mut camera = camera(&opened, &args.camera, aspect);
     let dpi = args.dpi.or(args.camera.scale.map(|_| DPI));
     if let (Some(scale), Some(dpi)) = (args.camera.scale, dpi) {
-        let metres = opened.document.metres_per_unit(&opened.scene).ok_or(CliError::NoUnit)?;
-        let paper_height = f64::from(size[1]) / dpi * METRES_PER_INCH;
-        camera.projection = Projection::Orthographic { view_height: paper_height * scale.0 / metres };
+        let meters = opened.document.meters_per_unit(&opened.scene).ok_or(CliError::NoUnit)?;
+        let paper_height = f64::from(size[1]) / dpi * METERS_PER_INCH;
+        camera.projection = Projection::Orthographic { view_height: paper_height * scale.0 / meters };
     }
     opened.document.camera = Some(camera);
 
@@ -159,7 +159,7 @@ pub(super) fn apply_look(opened: &mut Opened, look: &LookArgs) -> Result<(), Cli
         document.set_role(scene, &matching(scene, pattern)?, Role::Mask, true);
     }
     document.up = look.up.or(document.up);
-    document.metres_per_unit = look.unit.map(|unit| unit.metres).or(document.metres_per_unit);
+    document.meters_per_unit = look.unit.map(|unit| unit.meters).or(document.meters_per_unit);
     document.tidy();
     Ok(())
 }

@@ -62,7 +62,7 @@ struct Form {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     up: Option<Up>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    metres_per_unit: Option<f64>,
+    meters_per_unit: Option<f64>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     camera: Option<Camera>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -144,7 +144,7 @@ impl Document {
         let mut document = Self {
             models: form.models.iter().map(|m| folder.join(m)).collect(),
             up: form.up,
-            metres_per_unit: form.metres_per_unit.filter(|u| u.is_finite() && *u > 0.0),
+            meters_per_unit: form.meters_per_unit.filter(|u| u.is_finite() && *u > 0.0),
             camera: form.camera,
             lighting: default_lighting(form.lights.is_some()),
             lights: form.lights.unwrap_or_default(),
@@ -211,7 +211,7 @@ impl Document {
         let form = Form {
             models: self.models.iter().map(|m| relative_to(m, path)).collect(),
             up: self.up,
-            metres_per_unit: self.metres_per_unit,
+            meters_per_unit: self.meters_per_unit,
             camera: self.camera,
             lights: has_lights.then(|| self.lights.clone()),
             light: section("light", light),

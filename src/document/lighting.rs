@@ -39,7 +39,7 @@ pub struct Lamp {
     pub elevation: f32,
     /// Brightness, 0 to 4; 1 lights a white surface facing it fully white.
     pub intensity: f32,
-    /// Its colour.
+    /// Its color.
     pub color: Color,
     /// What its direction is fixed to.
     pub attached: Attached,
@@ -168,7 +168,7 @@ impl Lamp {
             "Brightness; at 1 a white surface that faces it is white.",
             &mut self.intensity,
         );
-        list.color("color", "Colour", "Colour of the light.", &mut self.color);
+        list.color("color", "Color", "Color of the light.", &mut self.color);
         list.choice(
             "attached",
             "Fixed to",

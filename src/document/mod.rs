@@ -38,8 +38,8 @@ pub struct Document {
     pub models: Vec<PathBuf>,
     /// The axis that is up, for navigation and standard views; `None`: as the file's format has it.
     pub up: Option<Up>,
-    /// The unit of the files' coordinates in metres; `None`: as the file states, if it does.
-    pub metres_per_unit: Option<f64>,
+    /// The unit of the files' coordinates in meters; `None`: as the file states, if it does.
+    pub meters_per_unit: Option<f64>,
     /// Where the eye is; `None` until a scene has been framed.
     pub camera: Option<Camera>,
     /// Which lights there are, and their shadows.
@@ -106,7 +106,7 @@ impl Default for Document {
         Self {
             models: Vec::new(),
             up: None,
-            metres_per_unit: None,
+            meters_per_unit: None,
             camera: None,
             lighting: Lighting::default(),
             lights: Vec::new(),
@@ -126,7 +126,7 @@ fn default_style() -> Style {
 }
 
 impl Document {
-    /// Colour of the paper behind everything.
+    /// Color of the paper behind everything.
     pub fn paper(&self) -> Color {
         self.view.background.unwrap_or(self.style.paper.color)
     }
@@ -136,9 +136,9 @@ impl Document {
         self.up.unwrap_or(scene.up)
     }
 
-    /// Metres per unit of a scene, where anybody said so.
-    pub fn metres_per_unit(&self, scene: &Scene) -> Option<f64> {
-        self.metres_per_unit.or(scene.metres_per_unit)
+    /// Meters per unit of a scene, where anybody said so.
+    pub fn meters_per_unit(&self, scene: &Scene) -> Option<f64> {
+        self.meters_per_unit.or(scene.meters_per_unit)
     }
 
     /// The lights that shine; `up`: the model's.

@@ -27,9 +27,9 @@ pub struct Section {
     pub flip: bool,
     /// What fills the cut through a solid.
     pub cap: Fill,
-    /// Colour of the caps.
+    /// Color of the caps.
     pub color: Color,
-    /// Whether caps are shaded like other surfaces, or have their colour as it is.
+    /// Whether caps are shaded like other surfaces, or have their color as it is.
     pub lit: bool,
     /// The lines of hatched caps.
     pub hatch: Hatch,
@@ -38,7 +38,7 @@ pub struct Section {
 /// Parallel lines on caps; where objects meet, they differ in direction or distance.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Hatch {
-    /// Colour of the lines.
+    /// Color of the lines.
     pub color: Color,
     /// Distance of the lines' middles in reference pixels, 2 to 200.
     pub spacing: f32,
@@ -68,7 +68,7 @@ choice! {
     pub enum Fill {
         /// Nothing: the solid shows its inside.
         None,
-        /// The colour of the caps.
+        /// The color of the caps.
         Plain,
         /// Parallel lines on it.
         #[default]
@@ -199,11 +199,11 @@ impl Section {
                 "What fills the cut through a solid; surfaces that enclose nothing have no cap.",
                 &mut self.cap,
             );
-            list.color("color", "Cap colour", "Colour of the caps.", &mut self.color);
+            list.color("color", "Cap color", "Color of the caps.", &mut self.color);
             list.switch(
                 "lit",
                 "Shade caps",
-                "Shade caps as their object is shaded; otherwise they have their colour as it is.",
+                "Shade caps as their object is shaded; otherwise they have their color as it is.",
                 &mut self.lit,
             );
             list.when("section.cap", Fill::Hatched, |list| {
@@ -257,7 +257,7 @@ pub fn without_caps(count: usize) -> Option<Warning> {
 
 impl Hatch {
     fn params<'a>(&'a mut self, list: &mut Params<'a>) {
-        list.color("color", "Colour", "Colour of the hatching.", &mut self.color);
+        list.color("color", "Color", "Color of the hatching.", &mut self.color);
         list.wide_number(
             "spacing",
             "Spacing",

@@ -9,7 +9,7 @@ use crate::style::param::{Param, Params, Place};
 /// View settings of a document.
 #[derive(Debug, Clone, PartialEq)]
 pub struct View {
-    /// Colour of the paper behind everything; `None`: that of the document's style.
+    /// Color of the paper behind everything; `None`: that of the document's style.
     pub background: Option<Color>,
     /// The picture, or one of the buffers it is made from.
     pub show: Show,
@@ -37,17 +37,17 @@ choice! {
         /// The drawing.
         #[default]
         Picture,
-        /// Eye-space shading normals as colours, 0.5 + 0.5 n.
+        /// Eye-space shading normals as colors, 0.5 + 0.5 n.
         Normals,
-        /// Eye-space face normals as colours.
+        /// Eye-space face normals as colors.
         FaceNormals,
         /// Linear depth over the range of the enhanced objects: black near, white far.
         Depth,
-        /// A colour per object.
+        /// A color per object.
         Objects,
-        /// A colour per connected smooth surface.
+        /// A color per connected smooth surface.
         Surfaces,
-        /// Unlit base colour.
+        /// Unlit base color.
         BaseColor,
         /// Normal discontinuities `I_N` (1 = none).
         NormalOperator,
@@ -179,7 +179,7 @@ impl View {
             list.color(
                 "background",
                 "Background",
-                "Colour of the paper behind everything.",
+                "Color of the paper behind everything.",
                 Place::Inheriting {
                     own: &mut self.background,
                     inherited: paper,

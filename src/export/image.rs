@@ -56,8 +56,8 @@ fn encode(image: RgbaImage, dpi: Option<f64>) -> Result<Vec<u8>, png::EncodingEr
     encoder.set_compression(png::Compression::Fast);
     encoder.set_filter(png::Filter::Adaptive);
     encoder.set_pixel_dims(dpi.map(|dpi| {
-        let per_metre = (dpi / 0.0254).round().clamp(1.0, f64::from(u32::MAX)) as u32;
-        png::PixelDimensions { xppu: per_metre, yppu: per_metre, unit: png::Unit::Meter }
+        let per_meter = (dpi / 0.0254).round().clamp(1.0, f64::from(u32::MAX)) as u32;
+        png::PixelDimensions { xppu: per_meter, yppu: per_meter, unit: png::Unit::Meter }
     }));
     let mut writer = encoder.write_header()?;
     if is_opaque {

@@ -46,7 +46,7 @@ struct Ring {
     radius: f64,
 }
 
-/// A closed mesh along `points` (at least two different neighbours, finite; equal neighbours count once), smooth in its
+/// A closed mesh along `points` (at least two different neighbors, finite; equal neighbors count once), smooth in its
 /// corners, with sharp heads whose tips are the first and the last point. `radius`: that of the tube, above 0. Empty if there
 /// is nothing to be drawn.
 pub fn arrow(points: &[DVec3], radius: f64, heads: Heads) -> Mesh {
@@ -162,7 +162,7 @@ fn corner_rings(
     }
 }
 
-/// Triangles with normals, band after band; neighbours share no vertices, so that edges between them can be sharp.
+/// Triangles with normals, band after band; neighbors share no vertices, so that edges between them can be sharp.
 #[derive(Default)]
 struct Skin {
     positions: Vec<Vec3>,
@@ -171,7 +171,7 @@ struct Skin {
 }
 
 impl Skin {
-    /// The surface between two rings, each with the direction from its centre to its first point.
+    /// The surface between two rings, each with the direction from its center to its first point.
     fn band(&mut self, (a, a_side): (&Ring, DVec3), (b, b_side): (&Ring, DVec3)) {
         let along = (b.center - a.center).length();
         if along <= 0.0 && a.radius == b.radius && a.forward == b.forward {

@@ -108,7 +108,7 @@ impl Bodies {
             missing -= usize::from(origin.is_none());
             origin.get_or_insert(corners(triangle)[0]);
         }
-        // Neighbours in the list mostly belong to one body; their sum is added at once.
+        // Neighbors in the list mostly belong to one body; their sum is added at once.
         let sums: Vec<Vec<(usize, f64)>> = mesh
             .triangles()
             .par_chunks(TRIANGLES_PER_TASK)

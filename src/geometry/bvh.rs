@@ -9,7 +9,7 @@ const LEAF_SIZE: usize = 4;
 /// Subtrees with more triangles than this are built on several threads.
 const PARALLEL_SIZE: usize = 8192;
 /// How far outside a triangle, in barycentric coordinates, a ray still meets it, so that none slips through between
-/// two neighbours.
+/// two neighbors.
 const BARYCENTRIC_SLACK: f64 = 1e-12;
 /// How many places along an axis are tried for a split.
 const BINS: usize = 12;

@@ -6,7 +6,7 @@ use glam::Vec3;
 
 use super::angle;
 
-/// Above this angle (radians) two triangles lie on each other: a wall that was modelled twice, with one surface.
+/// Above this angle (radians) two triangles lie on each other: a wall that was modeled twice, with one surface.
 pub(super) const FOLDED: f32 = PI - 1e-3;
 
 /// Stands for "no triangle".

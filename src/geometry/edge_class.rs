@@ -19,7 +19,7 @@ pub enum EdgeClass {
     Material,
     /// Two surfaces run through each other.
     Intersection,
-    /// The colour of a surface changes.
+    /// The color of a surface changes.
     Texture,
     /// The relief of a surface changes, which only its normal map knows.
     Relief,

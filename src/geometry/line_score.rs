@@ -74,7 +74,7 @@ impl LineScore {
     }
 }
 
-/// Compares pixel centres: those with ink with those that visible edges pass through, both ways. `tolerance` is in
+/// Compares pixel centers: those with ink with those that visible edges pass through, both ways. `tolerance` is in
 /// pixels.
 pub fn score(picture: InkImage<'_>, truth: &VisibleEdges, tolerance: f64) -> LineScore {
     let width = picture.size[0];

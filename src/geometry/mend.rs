@@ -3,7 +3,7 @@
 //! Exporters of solids tessellate every face by itself, so that two polylines of one curve lie along each other: with
 //! T-junctions, and with cracks as wide as their chords leave the curve. By their edges alone these are borders. Here
 //! both sides of every such seam get the same vertices, which moves none of them by more than a tolerance; then edges
-//! meet as in any other mesh. Each side keeps its own vertices, and with them its normals and colours.
+//! meet as in any other mesh. Each side keeps its own vertices, and with them its normals and colors.
 //!
 //! Which borders belong together, in steps that each take up what the ones before left:
 //!

@@ -26,7 +26,7 @@ pub struct Mesh {
     pub has_computed_normals: bool,
     /// Texture coordinates, (0,0) = upper left of the image as in glTF. Empty: none.
     pub uvs: Vec<Vec2>,
-    /// Vertex colours, linear RGBA as 8-bit unorm, multiplied into the base colour. Empty: white.
+    /// Vertex colors, linear RGBA as 8-bit unorm, multiplied into the base color. Empty: white.
     pub colors: Vec<[u8; 4]>,
     /// Tangents (xyz, unit length) and the sign of the bitangent (w, ±1). Empty: none.
     pub tangents: Vec<Vec4>,

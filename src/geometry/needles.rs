@@ -132,7 +132,7 @@ impl Sides<'_> {
         sum.try_normalize().map_or(self.normals[face as usize], |normal| normal.as_vec3())
     }
 
-    /// Adds the neighbours of a triangle, except across `barrier`.
+    /// Adds the neighbors of a triangle, except across `barrier`.
     fn reach(&self, face: u32, turning: f32, barrier: usize, reached: &mut Vec<Reached>) {
         let Some(&[a, b, c]) = self.mesh.triangles().get(face as usize) else { return };
         for [from, to] in [[a, b], [b, c], [c, a]] {

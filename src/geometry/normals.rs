@@ -30,7 +30,7 @@ pub fn flat(mesh: Mesh) -> Mesh {
 
 /// The mesh with smooth normals: at each point, the triangles that are connected across edges with a dihedral angle of
 /// at most `degrees` (0 to 180) share the mean of their normals, weighted by their angle at the point. A vertex on a
-/// crease is split, with all its attributes; vertices that differ in texture coordinates or colour stay apart but get
+/// crease is split, with all its attributes; vertices that differ in texture coordinates or color stay apart but get
 /// the same normal. Points are welded by position first. The mesh must be clean (see [`super::clean()`]). The normals are
 /// marked as computed.
 ///
@@ -202,7 +202,7 @@ impl Smoother<'_> {
             while end < scratch.spokes.len() && scratch.spokes[end] >> 32 == point {
                 end += 1;
             }
-            // Of many triangles at one edge, neighbours in the list are compared, to stay linear.
+            // Of many triangles at one edge, neighbors in the list are compared, to stay linear.
             let reach = if end - start <= 8 { end - start } else { 2 };
             for i in start..end {
                 for j in i + 1..(i + reach).min(end) {

@@ -1,4 +1,4 @@
-//! Simple shapes for tests, examples and benchmarks, centred on the origin, with material 0.
+//! Simple shapes for tests, examples and benchmarks, centered on the origin, with material 0.
 
 use std::f32::consts::{PI, TAU};
 

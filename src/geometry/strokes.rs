@@ -1,4 +1,4 @@
-//! How a practised hand draws a straight line: its ends are off and overshot, it is slightly bowed, it trembles, and it is
+//! How a practiced hand draws a straight line: its ends are off and overshot, it is slightly bowed, it trembles, and it is
 //! firm at its ends.
 //!
 //! All of it depends on the line and on the number of the time that it is drawn, and is continuous in its length: strokes

@@ -40,9 +40,9 @@ impl Adjacency {
             }
         }
         // A triangle that welding made a line belongs to whatever it borders on.
-        for &(face, neighbour) in &self.collapsed {
-            if neighbour != NO_FACE {
-                sets.unite(face, neighbour);
+        for &(face, neighbor) in &self.collapsed {
+            if neighbor != NO_FACE {
+                sets.unite(face, neighbor);
             }
         }
         let (of_triangle, count) = sets.numbered();

@@ -14,7 +14,7 @@ use skrifa::{FontRef, MetadataProvider as _};
 use super::Mesh;
 use super::primitives::from_triangles;
 
-/// The font: Hack, under the MIT and the Bitstream Vera licence, which egui brings along.
+/// The font: Hack, under the MIT and the Bitstream Vera license, which egui brings along.
 const FONT: &[u8] = epaint_default_fonts::HACK_REGULAR;
 
 /// Greatest distance between a letter's curve and its triangles, em: a pixel of letters 4000 pixels high.

@@ -123,7 +123,7 @@ impl Adjacency {
         all.collapsed = half_edges
             .collapsed
             .iter()
-            .map(|&face| (face, all.neighbour_of(mesh.triangles()[face as usize])))
+            .map(|&face| (face, all.neighbor_of(mesh.triangles()[face as usize])))
             .collect();
         all
     }
@@ -166,7 +166,7 @@ impl Adjacency {
     }
 
     /// A triangle on any edge between these vertices.
-    fn neighbour_of(&self, [a, b, c]: [u32; 3]) -> u32 {
+    fn neighbor_of(&self, [a, b, c]: [u32; 3]) -> u32 {
         [(a, b), (b, c), (c, a)]
             .into_iter()
             .find_map(|(from, to)| self.edge_between(from, to))

@@ -155,7 +155,7 @@ impl EdgeScene {
         visible
     }
 
-    /// How many holes the centre of each pixel is seen through, row by row from the top. Where that changes is the
+    /// How many holes the center of each pixel is seen through, row by row from the top. Where that changes is the
     /// outline of a hole, which is no edge.
     pub fn holes_before(&self, projector: &Projector, rules: &LineRules<'_>) -> Vec<u32> {
         let sight = Sight::new(self, projector, rules);

@@ -1,6 +1,6 @@
 //! Which vertices lie at the same place.
 //!
-//! Files split vertices at seams of texture, normals and colour, and STL gives every triangle its own three; topology
+//! Files split vertices at seams of texture, normals and color, and STL gives every triangle its own three; topology
 //! and normals need to know which of them are one point. The vertices themselves stay as they are.
 
 use std::sync::atomic::{AtomicU32, Ordering};

@@ -294,8 +294,8 @@ pub struct Submitted {
 impl Submitted {
     /// Waits for it, or until nobody is interested any more. Unlike [`Gpu::wait`], that does not keep other threads
     /// from submitting work.
-    pub fn wait(&self, is_cancelled: impl Fn() -> bool) {
-        while !self.done.load(Ordering::Acquire) && !is_cancelled() {
+    pub fn wait(&self, is_canceled: impl Fn() -> bool) {
+        while !self.done.load(Ordering::Acquire) && !is_canceled() {
             std::thread::sleep(Duration::from_millis(1));
             // A lost device shows elsewhere.
             let _ = self.device.poll(wgpu::PollType::Poll);

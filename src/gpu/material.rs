@@ -52,12 +52,12 @@ impl From<&Material> for MaterialUniform {
 }
 
 impl MaterialUniform {
-    /// Its base colour, linear, and its opacity.
+    /// Its base color, linear, and its opacity.
     pub fn base_color(&self) -> Vec4 {
         self.base_color.truncate().extend(if self.blends == 1 { self.base_color.w } else { 1.0 })
     }
 
-    /// The same in another colour, linear.
+    /// The same in another color, linear.
     #[must_use]
     pub fn with_color(self, color: Vec3) -> Self {
         Self { base_color: color.extend(1.0), ..self }
@@ -75,7 +75,7 @@ pub struct MaterialBindings {
 }
 
 impl MaterialBindings {
-    /// The layout of bind group 2: base colour texture and sampler, normal texture and sampler.
+    /// The layout of bind group 2: base color texture and sampler, normal texture and sampler.
     pub fn layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
         let texture = wgpu::BindingType::Texture {
             sample_type: wgpu::TextureSampleType::Float { filterable: true },

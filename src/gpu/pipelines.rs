@@ -7,7 +7,7 @@ use std::collections::hash_map::Entry;
 use super::bindings::{Bindings, Placeholders};
 use super::{Gpu, Inputs, ShaderError, Shaders, Target};
 
-/// A shader of a file below `shaders/`, specialised: switches are its `override` constants, and what is switched off is
+/// A shader of a file below `shaders/`, specialized: switches are its `override` constants, and what is switched off is
 /// compiled away. Software devices run both sides of a branch, so this is what makes an unused feature free.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub struct Program {

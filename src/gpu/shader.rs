@@ -138,7 +138,7 @@ impl Shaders {
         Ok(())
     }
 
-    /// A shader, parsed, its variables numbered, and analysed as far as `checks` say; needs no device.
+    /// A shader, parsed, its variables numbered, and analyzed as far as `checks` say; needs no device.
     ///
     /// # Errors
     /// [`ShaderError`] with the file and line of the mistake.

@@ -75,7 +75,7 @@ impl<'a> Assembly<'a> {
     /// after the file.
     ///
     /// # Errors
-    /// `Empty` when no triangle is left (`reason` says why the file might hold none), `Cancelled`.
+    /// `Empty` when no triangle is left (`reason` says why the file might hold none), `Canceled`.
     pub(super) fn finish(mut self, branches: Vec<Branch>, reason: &str) -> Result<Scene, ImportError> {
         self.meshes = branches.iter().map(Branch::count).sum();
         let root = Branch { name: file_stem(self.path), mesh: None, children: branches };

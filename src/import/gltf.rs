@@ -129,7 +129,7 @@ fn import(path: &Path, data: &[u8], options: &ImportOptions, progress: &Progress
         textures,
         warnings,
         up: Up::PosY,
-        metres_per_unit: Some(1.0),
+        meters_per_unit: Some(1.0),
         ..Scene::default()
     };
     views::add(root, &hierarchy.sources, &hierarchy.worlds, &mut scene);

@@ -71,8 +71,8 @@ pub enum ImportError {
         reason: String,
     },
     /// The person stopped it.
-    #[error("loading was cancelled")]
-    Cancelled,
+    #[error("loading was canceled")]
+    Canceled,
 }
 
 /// Choices that change what an importer makes of a file.
@@ -108,7 +108,7 @@ impl Default for Progress {
 #[derive(Debug, Default)]
 struct ProgressState {
     permille: AtomicU32,
-    cancelled: AtomicBool,
+    canceled: AtomicBool,
 }
 
 impl Progress {
@@ -135,17 +135,17 @@ impl Progress {
 
     /// Asks the job to stop at the next opportunity.
     pub fn cancel(&self) {
-        self.state.cancelled.store(true, Ordering::Relaxed);
+        self.state.canceled.store(true, Ordering::Relaxed);
     }
 
     /// Whether the job was asked to stop.
-    pub fn is_cancelled(&self) -> bool {
-        self.state.cancelled.load(Ordering::Relaxed)
+    pub fn is_canceled(&self) -> bool {
+        self.state.canceled.load(Ordering::Relaxed)
     }
 
-    /// `Err(ImportError::Cancelled)` once the job was asked to stop.
+    /// `Err(ImportError::Canceled)` once the job was asked to stop.
     pub fn check(&self) -> Result<(), ImportError> {
-        if self.is_cancelled() { Err(ImportError::Cancelled) } else { Ok(()) }
+        if self.is_canceled() { Err(ImportError::Canceled) } else { Ok(()) }
     }
 }
 

@@ -24,7 +24,7 @@ use scrub::Scrubbed;
 /// below it. An object that gives every corner a normal keeps them; else they come from the crease angle.
 ///
 /// # Errors
-/// `Empty` when no triangle can be drawn, `Malformed` when no line makes sense, `Cancelled`.
+/// `Empty` when no triangle can be drawn, `Malformed` when no line makes sense, `Canceled`.
 pub(super) fn load(
     path: &Path,
     data: &[u8],
@@ -84,7 +84,7 @@ fn warn(text: &Scrubbed<'_>, assembly: &mut Assembly<'_>) {
     }
 }
 
-/// Bytes that report how far they are read, and can be read no more once the person has cancelled.
+/// Bytes that report how far they are read, and can be read no more once the person has canceled.
 struct Watched<'a> {
     rest: &'a [u8],
     size: usize,
@@ -161,7 +161,7 @@ fn hang(branches: &mut Vec<Branch>, name: &str, mesh: Mesh) {
 struct Mesher<'a> {
     /// Material in the scene for each name in the file, and for none at the end.
     material_of: &'a [usize],
-    /// Divisor of vertex colours: 255 when one of them exceeds 1.
+    /// Divisor of vertex colors: 255 when one of them exceeds 1.
     color_range: f32,
     triangulator: Triangulator,
 }

@@ -1,4 +1,4 @@
-//! PLY, ASCII and binary of either byte order: vertices with normals, colours and texture coordinates, polygons and
+//! PLY, ASCII and binary of either byte order: vertices with normals, colors and texture coordinates, polygons and
 //! triangle strips. Unknown elements and properties are skipped.
 
 mod header;
@@ -17,11 +17,11 @@ use header::{Element, Header, Kind, Number};
 use values::{Ascii, Binary, Values};
 
 /// Makes a scene of a PLY file: one node with one mesh. Where the vertices have no normals they come from the crease
-/// angle. Colours are taken to be sRGB.
+/// angle. Colors are taken to be sRGB.
 ///
 /// # Errors
 /// `Malformed` when the header is wrong or declares more than the file can hold, `Empty` when no triangle can be
-/// drawn, `Cancelled`.
+/// drawn, `Canceled`.
 pub(super) fn load(
     path: &Path,
     data: &[u8],
@@ -42,7 +42,7 @@ pub(super) fn load(
         Some(false) => read(&header, Binary::<false>::new(body), progress),
     };
     let content = content.map_err(|fault| match fault {
-        Fault::Cancelled => ImportError::Cancelled,
+        Fault::Canceled => ImportError::Canceled,
         Fault::Malformed(message) => assembly.malformed(message),
     })?;
     for warning in content.warnings {
@@ -63,7 +63,7 @@ pub(super) fn load(
 }
 
 enum Fault {
-    Cancelled,
+    Canceled,
     Malformed(String),
 }
 
@@ -78,7 +78,7 @@ fn read(header: &Header, mut values: impl Values, progress: &Progress) -> Result
     let mut faces = Faces::default();
     let mut warnings = Vec::new();
     for element in &header.elements {
-        progress.check().map_err(|_cancelled| Fault::Cancelled)?;
+        progress.check().map_err(|_canceled| Fault::Canceled)?;
         if element.properties.is_empty() {
             continue;
         }

@@ -10,7 +10,7 @@ use crate::geometry::{Adjacency, SeamTolerance};
 use crate::scene::Scene;
 
 /// Joins the seams between nodes that stand in the same place. What a file places by itself may be moved by itself, and
-/// what is shown several times or has bones has other neighbours each time; these stay as they are.
+/// what is shown several times or has bones has other neighbors each time; these stay as they are.
 pub(super) fn join_nodes(scene: &mut Scene, tolerance: SeamTolerance) {
     let mut uses = vec![0; scene.meshes.len()];
     for mesh in scene.nodes.iter().filter_map(|node| node.mesh) {

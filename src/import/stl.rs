@@ -22,7 +22,7 @@ const RECORD: usize = 50;
 ///
 /// # Errors
 /// `Malformed` when it is neither kind of STL, `Empty` when no triangle can be drawn, `Unsupported` above 1.4 billion
-/// triangles, `Cancelled`.
+/// triangles, `Canceled`.
 pub(super) fn load(
     path: &Path,
     data: &[u8],

@@ -357,9 +357,9 @@ impl Renderer {
             &mut self.intermediates,
         );
         let lights = Lights::new(request.document, &scene.scene, &view.view_from_world);
-        let metres = request.document.metres_per_unit(&scene.scene);
+        let meters = request.document.meters_per_unit(&scene.scene);
         let shows_bar = request.document.view.scale_bar;
-        let bar = shows_bar.then(|| ScaleBar::new(request.camera, metres, size, scale, paper)).flatten();
+        let bar = shows_bar.then(|| ScaleBar::new(request.camera, meters, size, scale, paper)).flatten();
         let inputs = FrameInputs {
             drawing: DrawingInputs {
                 scene_view: SceneView {

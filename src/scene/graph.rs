@@ -36,8 +36,8 @@ pub struct Scene {
     pub warnings: Vec<Warning>,
     /// The axis that the first file's format declares to be up: 1 for +Y (glTF, OBJ, PLY), 2 for +Z (STL).
     pub up: Up,
-    /// Metres per unit where the format states it (glTF: 1).
-    pub metres_per_unit: Option<f64>,
+    /// Meters per unit where the format states it (glTF: 1).
+    pub meters_per_unit: Option<f64>,
 }
 
 /// A signed coordinate axis that points up.
@@ -150,7 +150,7 @@ impl Scene {
 
     /// Adds the contents of another scene behind this one's. Root names are not made unique.
     ///
-    /// `up` and `metres_per_unit` stay those of this scene.
+    /// `up` and `meters_per_unit` stay those of this scene.
     pub fn append(&mut self, other: Self) {
         let (nodes, meshes) = (self.nodes.len(), self.meshes.len());
         let (materials, textures) = (self.materials.len(), self.textures.len());

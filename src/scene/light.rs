@@ -7,7 +7,7 @@ use glam::{DMat4, DVec3, Vec3};
 pub struct Light {
     /// Kind of source.
     pub kind: LightKind,
-    /// Linear RGB colour, 0 to 1.
+    /// Linear RGB color, 0 to 1.
     pub color: Vec3,
     /// Relative brightness; 1 lights a white surface facing it fully white.
     pub intensity: f32,

@@ -7,15 +7,15 @@ use glam::{Mat3, Vec4};
 pub struct Material {
     /// Name in the file; may be empty.
     pub name: String,
-    /// Linear RGBA factor, 0 to 1, multiplied with the texture and the vertex colour.
+    /// Linear RGBA factor, 0 to 1, multiplied with the texture and the vertex color.
     pub base_color: Vec4,
-    /// Base colour image (sRGB).
+    /// Base color image (sRGB).
     pub base_color_texture: Option<TextureRef>,
     /// Tangent-space normal map (linear).
     pub normal_texture: Option<TextureRef>,
     /// Scale of the normal map's x and y.
     pub normal_scale: f32,
-    /// How the alpha of the base colour is used.
+    /// How the alpha of the base color is used.
     pub alpha: AlphaMode,
     /// Whether back faces are meant to be seen.
     pub double_sided: bool,
@@ -57,7 +57,7 @@ pub struct TextureRef {
     pub texture: usize,
     /// Applied to the mesh's texture coordinates first (`KHR_texture_transform`).
     pub transform: UvTransform,
-    /// Behaviour outside 0..1 along u and v.
+    /// Behavior outside 0..1 along u and v.
     pub wrap: [Wrap; 2],
     /// Nearest instead of linear filtering.
     pub nearest: bool,

@@ -8,23 +8,23 @@ pub struct Unit {
     /// What stands behind a number.
     pub symbol: &'static str,
     /// How long it is.
-    pub metres: f64,
+    pub meters: f64,
 }
 
 /// Those that a person can choose.
 pub const UNITS: [Unit; 6] = [
-    Unit { name: "Millimetre", symbol: "mm", metres: 0.001 },
-    Unit { name: "Centimetre", symbol: "cm", metres: 0.01 },
-    Unit { name: "Metre", symbol: "m", metres: 1.0 },
-    Unit { name: "Kilometre", symbol: "km", metres: 1000.0 },
-    Unit { name: "Inch", symbol: "in", metres: 0.0254 },
-    Unit { name: "Foot", symbol: "ft", metres: 0.3048 },
+    Unit { name: "Millimeter", symbol: "mm", meters: 0.001 },
+    Unit { name: "Centimeter", symbol: "cm", meters: 0.01 },
+    Unit { name: "Meter", symbol: "m", meters: 1.0 },
+    Unit { name: "Kilometer", symbol: "km", meters: 1000.0 },
+    Unit { name: "Inch", symbol: "in", meters: 0.0254 },
+    Unit { name: "Foot", symbol: "ft", meters: 0.3048 },
 ];
 
 impl Unit {
-    /// The unit of so many metres, if it has a name.
-    pub fn of(metres: f64) -> Option<Self> {
-        UNITS.into_iter().find(|unit| (unit.metres - metres).abs() < 1e-9 * metres)
+    /// The unit of so many meters, if it has a name.
+    pub fn of(meters: f64) -> Option<Self> {
+        UNITS.into_iter().find(|unit| (unit.meters - meters).abs() < 1e-9 * meters)
     }
 }
 
@@ -46,7 +46,7 @@ mod tests {
     fn units_are_known_by_length_and_symbol() {
         assert_eq!(Unit::of(0.0254).map(|unit| unit.symbol), Some("in"));
         assert_eq!(Unit::of(0.5), None);
-        assert_eq!("km".parse::<Unit>().map(|unit| unit.metres), Ok(1000.0));
+        assert_eq!("km".parse::<Unit>().map(|unit| unit.meters), Ok(1000.0));
         assert!("parsec".parse::<Unit>().unwrap_err().contains("mm, cm, m, km, in, ft"));
     }
 }

@@ -7,13 +7,13 @@ use super::param::{Params, Scope};
 /// Parameters of the technique `blueprint`.
 ///
 /// Objects of equal style are peeled together into depth layers, each with its own lines over a fill. Which lines, and
-/// how wide they are, is up to `edges`; their colour runs from `near` to `far` by the share
+/// how wide they are, is up to `edges`; their color runs from `near` to `far` by the share
 /// `1 − (1 − by_layer)ⁿ · (1 − by_distance · d)`, n the number of layers before, d the depth, 0 (nearest) to 1.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Blueprint {
-    /// Colour of the nearest lines.
+    /// Color of the nearest lines.
     pub near: Color,
-    /// Colour of the farthest lines.
+    /// Color of the farthest lines.
     pub far: Color,
     /// How far lines fade with each layer before them, 0 (not at all) to 1.
     pub by_layer: f32,
@@ -24,7 +24,7 @@ pub struct Blueprint {
     pub threshold: f32,
     /// Whether lines are drawn again where a nearer layer has one at the same place (section 4.1, Fig. 5).
     pub repeated: bool,
-    /// Colour of the surfaces.
+    /// Color of the surfaces.
     pub fill: Color,
     /// Opacity of the fill of each layer, 0 to 1.
     pub opacity: f32,
@@ -40,7 +40,7 @@ pub struct Blueprint {
     pub fraction: f32,
     /// Whether what lies farther than the depth mask is drawn.
     pub beyond: bool,
-    /// Colour of designated objects of this style, which are no blueprints.
+    /// Color of designated objects of this style, which are no blueprints.
     pub highlight: Color,
 }
 
@@ -68,18 +68,18 @@ impl Default for Blueprint {
 
 impl Blueprint {
     pub(super) fn params<'a>(&'a mut self, list: &mut Params<'a>) {
-        list.color("near", "Near color", "Colour of the nearest lines.", &mut self.near);
-        list.color("far", "Far color", "Colour of the farthest lines.", &mut self.far);
+        list.color("near", "Near color", "Color of the nearest lines.", &mut self.near);
+        list.color("far", "Far color", "Color of the farthest lines.", &mut self.far);
         list.share(
             "by_layer",
             "Layer fade",
-            "How far lines go over to the far colour with each layer before them.",
+            "How far lines go over to the far color with each layer before them.",
             &mut self.by_layer,
         );
         list.share(
             "by_distance",
             "Distance fade",
-            "How far lines go over to the far colour with the distance.",
+            "How far lines go over to the far color with the distance.",
             &mut self.by_distance,
         );
         list.share("threshold", "Threshold", "As in a wire frame, lines fainter than this, such as flat folds, are left out and all others are full; 0 leaves \
@@ -90,7 +90,7 @@ impl Blueprint {
             "Draws lines again where a nearer layer has one at the same place.",
             &mut self.repeated,
         );
-        list.color("fill", "Fill", "Colour of the surfaces between the lines.", &mut self.fill);
+        list.color("fill", "Fill", "Color of the surfaces between the lines.", &mut self.fill);
         list.wide_number(
             "opacity",
             "Fill opacity",
@@ -137,7 +137,7 @@ impl Blueprint {
             list.color(
                 "highlight",
                 "Highlight",
-                "Colour of designated objects of this style, which are drawn as surfaces.",
+                "Color of designated objects of this style, which are drawn as surfaces.",
                 &mut self.highlight,
             );
         });

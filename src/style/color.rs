@@ -1,4 +1,4 @@
-//! Colours as people write them.
+//! Colors as people write them.
 
 use std::fmt;
 use std::str::FromStr;
@@ -6,7 +6,7 @@ use std::sync::LazyLock;
 
 use glam::Vec3;
 
-/// An opaque sRGB colour, 8 bits per channel, written `#rrggbb`.
+/// An opaque sRGB color, 8 bits per channel, written `#rrggbb`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub struct Color(pub [u8; 3]);
 
@@ -16,7 +16,7 @@ impl Color {
     /// `#ffffff`
     pub const WHITE: Self = Self([255; 3]);
 
-    /// Between this colour (share 0) and another one (share 1), in even steps as displayed.
+    /// Between this color (share 0) and another one (share 1), in even steps as displayed.
     #[must_use]
     pub fn mixed(self, other: Self, share: f32) -> Self {
         let mix = |(a, b): (u8, u8)| {
@@ -34,7 +34,7 @@ impl Color {
 
 /// One channel as light, 0 to 1 (IEC 61966-2-1).
 pub fn linear_from_srgb(byte: u8) -> f32 {
-    // Thousands of objects with a dozen colours each are converted for every frame.
+    // Thousands of objects with a dozen colors each are converted for every frame.
     static LINEAR: LazyLock<[f32; 256]> = LazyLock::new(|| {
         std::array::from_fn(|byte| {
             let c = byte as f32 / 255.0;
@@ -62,7 +62,7 @@ impl FromStr for Color {
     type Err = String;
 
     fn from_str(s: &str) -> Result<Self, String> {
-        let wrong = || format!("`{s}` is no colour; write it as #rrggbb");
+        let wrong = || format!("`{s}` is no color; write it as #rrggbb");
         let digits = s.strip_prefix('#').ok_or_else(wrong)?;
         if !digits.bytes().all(|b| b.is_ascii_hexdigit()) {
             return Err(wrong());
@@ -87,7 +87,7 @@ mod tests {
     }
 
     #[test]
-    fn colours_are_read_and_written() {
+    fn colors_are_read_and_written() {
         assert_eq!("#0a80ff".parse(), Ok(Color([10, 128, 255])));
         assert_eq!("#f80".parse(), Ok(Color([255, 136, 0])));
         assert_eq!(Color([10, 128, 255]).to_string(), "#0a80ff");

@@ -185,7 +185,7 @@ impl<'a> Params<'a> {
         }
     }
 
-    /// A colour.
+    /// A color.
     pub fn color(
         &mut self,
         key: &str,

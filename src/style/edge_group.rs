@@ -10,7 +10,7 @@ use super::param::Params;
 pub struct EdgeGroup<More> {
     /// Whether the group is drawn.
     pub show: bool,
-    /// Colour of the lines.
+    /// Color of the lines.
     pub color: Color,
     /// Opacity of full ink, 0 to 1.
     pub strength: f32,

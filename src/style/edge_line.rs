@@ -13,7 +13,7 @@ const SECTION_WIDTH: f32 = 4.0;
 pub struct Line {
     /// Whether it is drawn.
     pub show: bool,
-    /// Colour.
+    /// Color.
     pub color: Color,
     /// Opacity, 0 to 1.
     pub strength: f32,
@@ -23,7 +23,7 @@ pub struct Line {
     pub dashed: bool,
     /// What an edge must reach to be drawn: profile edges the step in depth behind them in reference pixels (0 to
     /// 1000), creases, intersections and relief the angle between the surfaces in degrees (0 to 180), textures the
-    /// difference of the colours (0 to 1).
+    /// difference of the colors (0 to 1).
     pub threshold: f32,
 }
 
@@ -32,7 +32,7 @@ pub struct Line {
 pub struct ClassStyle {
     /// Whether it is drawn.
     pub show: Option<bool>,
-    /// Colour.
+    /// Color.
     pub color: Option<Color>,
     /// Opacity.
     pub strength: Option<f32>,
@@ -59,9 +59,9 @@ impl ClassStyle {
             EdgeClass::Texture => 0.15,
             EdgeClass::Relief => 20.0,
         };
-        // Materials and details are many in some files, and what they separate has colours of its own.
+        // Materials and details are many in some files, and what they separate has colors of its own.
         let show = (class == EdgeClass::Material || class.is_detail()).then_some(false);
-        // Where something is cut, draughtsmen draw the heaviest lines.
+        // Where something is cut, draftsmen draw the heaviest lines.
         let width = (class == EdgeClass::Section).then_some(SECTION_WIDTH);
         Self { show, color: None, strength: None, width, dashed: None, threshold }
     }
@@ -141,7 +141,7 @@ impl ClassStyle {
                         "",
                         0.0..=0.5,
                         0.0..=1.0,
-                        "Colours that differ by less draw nothing; 1 is from black to white.",
+                        "Colors that differ by less draw nothing; 1 is from black to white.",
                         threshold,
                     ),
                     EdgeClass::Relief => list.wide_number(
@@ -170,7 +170,7 @@ fn words(class: EdgeClass) -> (&'static str, &'static str) {
         EdgeClass::Valley => ("Valleys", "Draw concave creases."),
         EdgeClass::Material => ("Material borders", "Draw lines where two materials of one object meet."),
         EdgeClass::Intersection => ("Intersections", "Draw lines where two surfaces run through each other."),
-        EdgeClass::Texture => ("Texture edges", "Draw lines where the colour of a surface changes suddenly."),
+        EdgeClass::Texture => ("Texture edges", "Draw lines where the color of a surface changes suddenly."),
         EdgeClass::Shadow => {
             ("Shadow borders", "Draw lines where cast shadows end, in drawings with shadows.")
         }
@@ -192,7 +192,7 @@ impl<'a> Places<'a> {
     /// Declares the rows that groups and classes share.
     pub(super) fn declare(self, label: &'static str, help: &'static str, list: &mut Params<'a>) {
         list.head("show", label, help, self.show);
-        list.color("color", "Colour", "Colour of these lines.", self.color);
+        list.color("color", "Color", "Color of these lines.", self.color);
         list.share("strength", "Strength", "Opacity of these lines.", self.strength);
         list.when("edges.mode", EdgeMode::Exact, |list| {
             list.wide_number(

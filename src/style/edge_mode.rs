@@ -32,9 +32,9 @@ choice! {
         /// Two diagonal pairs: finer edges, softer intensities.
         #[default]
         Diagonal,
-        /// Eight neighbours against the centre.
+        /// Eight neighbors against the center.
         C1,
-        /// Sobel operators on normals, depth and colour, and the sign of normals (hatching paper, section 3, "Outline").
+        /// Sobel operators on normals, depth and color, and the sign of normals (hatching paper, section 3, "Outline").
         Sobel,
     }
 }

@@ -12,7 +12,7 @@ use crate::geometry::EdgeClass;
 pub struct Edges {
     /// How edges are found.
     pub mode: EdgeMode,
-    /// Where the width of profile edges lies; inner edges are centred. Exact mode.
+    /// Where the width of profile edges lies; inner edges are centered. Exact mode.
     pub alignment: Alignment,
     /// Shorter pieces of lines that nothing continues are left out, in reference pixels, 0 (none) to 32. Exact mode.
     pub shortest: f32,
@@ -28,9 +28,9 @@ pub struct Edges {
     classes: [ClassStyle; EdgeClass::ALL.len()],
     /// Dashes of the lines that have them. Exact mode.
     pub dash: Dash,
-    /// Share of the surface's colour in the lines, 0 (the constant colour) to 1 (the surface's own). Exact mode.
+    /// Share of the surface's color in the lines, 0 (the constant color) to 1 (the surface's own). Exact mode.
     pub surface_color: f32,
-    /// How much the surface's colour is darkened in lines, 0 (not) to 1 (black). Exact mode.
+    /// How much the surface's color is darkened in lines, 0 (not) to 1 (black). Exact mode.
     pub darken: f32,
     /// What makes lines thinner. Exact mode.
     pub variation: Variation,
@@ -62,7 +62,7 @@ pub struct Sobel {
     pub depth: bool,
     /// Gradient of depth, of which 1 is the range of the enhanced objects, 0.001 to 4.
     pub depth_threshold: f32,
-    /// Inner edges by base colours.
+    /// Inner edges by base colors.
     pub color: bool,
     /// Gradient of the luminance, 0.01 to 4.
     pub color_threshold: f32,
@@ -157,7 +157,7 @@ impl Edges {
             list.choice(
                 "operator",
                 "Operator",
-                "How discontinuities are found: two diagonal pairs, eight neighbours (C1), or Sobel operators.",
+                "How discontinuities are found: two diagonal pairs, eight neighbors (C1), or Sobel operators.",
                 &mut self.operator,
             );
             list.when("edges.operator", DepthOperator::Sobel, |list| {
@@ -180,9 +180,9 @@ impl Edges {
                 "Shorter pieces of lines that nothing continues are left out; 0 draws all.",
                 &mut self.shortest,
             );
-            let help = "Share of the surface's own colour in the lines; 0 leaves the colours below.";
-            list.share("surface_color", "Surface colour", help, &mut self.surface_color);
-            let help = "How much darker than the surface its colour is in the lines.";
+            let help = "Share of the surface's own color in the lines; 0 leaves the colors below.";
+            list.share("surface_color", "Surface color", help, &mut self.surface_color);
+            let help = "How much darker than the surface its color is in the lines.";
             list.share("darken", "Darken color", help, &mut self.darken);
         });
         list.section("profile", |list| self.profile.params(list));
@@ -235,7 +235,7 @@ impl Sobel {
         list.switch("depth", "Depth", "Profile edges where depth changes.", &mut self.depth);
         let help = "Gradient of depth that makes an edge; a step through the whole range gives 4.";
         number(list, "depth_threshold", "Depth above", 2.0, help, &mut self.depth_threshold);
-        list.switch("color", "Colour", "Inner edges where the object's own colour changes.", &mut self.color);
+        list.switch("color", "Color", "Inner edges where the object's own color changes.", &mut self.color);
         let help = "Gradient of brightness that makes an edge; a step from black to white gives 4.";
         number(list, "color_threshold", "Color above", 2.0, help, &mut self.color_threshold);
         list.switch(

@@ -14,11 +14,11 @@ pub struct Gooch {
     pub cool: Color,
     /// Yellow that is mixed into the side that faces the light.
     pub warm: Color,
-    /// Share of the base colour on the cool side, 0 to 1.
+    /// Share of the base color on the cool side, 0 to 1.
     pub alpha: f32,
-    /// Share of the base colour on the warm side, 0 to 1.
+    /// Share of the base color on the warm side, 0 to 1.
     pub beta: f32,
-    /// How far blue and yellow are multiplied by the base colour, 0 (added as they are) to 1: dark and saturated ones keep
+    /// How far blue and yellow are multiplied by the base color, 0 (added as they are) to 1: dark and saturated ones keep
     /// their hue.
     pub own_hue: f32,
     /// How far the key light is turned to the side, 0 (where it is) to 1 (across the line of sight).
@@ -77,16 +77,16 @@ impl Gooch {
         list.share(
             "alpha",
             "Cool base color",
-            "Share of the object's own colour on the cool side.",
+            "Share of the object's own color on the cool side.",
             &mut self.alpha,
         );
         list.share(
             "beta",
             "Warm base color",
-            "Share of the object's own colour on the warm side.",
+            "Share of the object's own color on the warm side.",
             &mut self.beta,
         );
-        list.share("own_hue", "Keep hue", "How far blue and yellow are multiplied by the object's own colour: dark and saturated ones keep their hue.", &mut self.own_hue);
+        list.share("own_hue", "Keep hue", "How far blue and yellow are multiplied by the object's own color: dark and saturated ones keep their hue.", &mut self.own_hue);
         list.share("aside", "Side light", "How far the key is turned to the side: at 1 it shines across the line of sight and sets faces apart.", &mut self.aside);
         list.share(
             "highlight",

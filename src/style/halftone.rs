@@ -27,17 +27,17 @@ pub struct Halftone {
     pub angle: f32,
     /// Width of the soft rim of ink, pixels, 0.25 to 8; 1 is as sharp as pixels allow.
     pub smoothness: f32,
-    /// Colour of the ink.
+    /// Color of the ink.
     pub ink: Color,
-    /// Share of the object's own colour in the ink, 0 to 1.
+    /// Share of the object's own color in the ink, 0 to 1.
     pub ink_tint: f32,
-    /// Colour between the ink.
+    /// Color between the ink.
     pub paper: Color,
-    /// Share of the object's own colour on the paper, 0 to 1.
+    /// Share of the object's own color on the paper, 0 to 1.
     pub paper_tint: f32,
     /// Light that reaches every point from everywhere, 0 to 1.
     pub ambient: f32,
-    /// How far an object's own colour makes its tone darker, 0 (not at all) to 1 (as much as it is dark).
+    /// How far an object's own color makes its tone darker, 0 (not at all) to 1 (as much as it is dark).
     pub own_tone: f32,
     /// Light that becomes black, 0 to 1.
     pub black: f32,
@@ -48,7 +48,7 @@ pub struct Halftone {
 }
 
 choice! {
-    /// What the ink looks like: a built-in prioritised texture, or an image.
+    /// What the ink looks like: a built-in prioritized texture, or an image.
     pub enum Texture {
         /// Strokes of a pen, crossed where it gets darker.
         #[default]
@@ -167,20 +167,20 @@ impl Halftone {
             "Width of the soft rim of ink in pixels of the picture; 1 is as sharp as pixels allow.",
             &mut self.smoothness,
         );
-        list.color("ink", "Ink", "Colour of the ink.", &mut self.ink);
-        list.share("ink_tint", "Object in ink", "Share of the object's own colour.", &mut self.ink_tint);
-        list.color("paper", "Paper", "Colour between the ink.", &mut self.paper);
+        list.color("ink", "Ink", "Color of the ink.", &mut self.ink);
+        list.share("ink_tint", "Object in ink", "Share of the object's own color.", &mut self.ink_tint);
+        list.color("paper", "Paper", "Color between the ink.", &mut self.paper);
         list.share(
             "paper_tint",
             "Object on paper",
-            "How far the paper is multiplied by the object's own colour.",
+            "How far the paper is multiplied by the object's own color.",
             &mut self.paper_tint,
         );
         list.share("ambient", "Ambient", "Light that reaches every point, lit or not.", &mut self.ambient);
         list.share(
             "own_tone",
             "Object tone",
-            "How far the object's own colour darkens: 0 draws all as if white.",
+            "How far the object's own color darkens: 0 draws all as if white.",
             &mut self.own_tone,
         );
         list.share("black", "Black point", "Light at and below which all is ink.", &mut self.black);

@@ -32,13 +32,13 @@ pub struct Hatching {
     pub tone: Tone,
     /// Strokes that are left out away from edges.
     pub indication: Indication,
-    /// Colour of the ink.
+    /// Color of the ink.
     pub ink: Color,
-    /// Share of the object's own colour in the ink, 0 to 1.
+    /// Share of the object's own color in the ink, 0 to 1.
     pub ink_tint: f32,
-    /// Colour between the ink.
+    /// Color between the ink.
     pub paper: Color,
-    /// Share of the object's own colour on the paper, 0 to 1.
+    /// Share of the object's own color on the paper, 0 to 1.
     pub paper_tint: f32,
     /// Whether the detail that indication gives is drawn instead of strokes; no parameter, but a view of the document.
     pub shows_detail: bool,
@@ -102,7 +102,7 @@ pub struct Tone {
     pub curve: Curve,
     /// Light that reaches every point from everywhere, 0 to 1.
     pub ambient: f32,
-    /// How far an object's own colour makes its tone darker, 0 (not at all) to 1 (as much as it is dark).
+    /// How far an object's own color makes its tone darker, 0 (not at all) to 1 (as much as it is dark).
     pub own_color: f32,
     /// Tones lighter than this are paper, 0 to 1 from white down.
     pub white: f32,
@@ -234,7 +234,7 @@ impl Hatching {
                 "°",
                 0.0..=45.0,
                 0.0..=90.0,
-                "Strokes turn in steps of so much, so that neighbours stay parallel; 0: smoothly.",
+                "Strokes turn in steps of so much, so that neighbors stay parallel; 0: smoothly.",
                 &mut self.turn_step,
             );
             list.switch(
@@ -244,13 +244,13 @@ impl Hatching {
                 &mut self.blend_steps,
             );
         });
-        list.color("ink", "Ink", "Colour of the ink.", &mut self.ink);
-        list.share("ink_tint", "Object in ink", "Share of the object's own colour.", &mut self.ink_tint);
-        list.color("paper", "Paper", "Colour between the ink.", &mut self.paper);
+        list.color("ink", "Ink", "Color of the ink.", &mut self.ink);
+        list.share("ink_tint", "Object in ink", "Share of the object's own color.", &mut self.ink_tint);
+        list.color("paper", "Paper", "Color between the ink.", &mut self.paper);
         list.share(
             "paper_tint",
             "Object on paper",
-            "How far the paper is multiplied by the object's own colour.",
+            "How far the paper is multiplied by the object's own color.",
             &mut self.paper_tint,
         );
         list.section("stroke", |list| self.stroke.params(list));
@@ -365,7 +365,7 @@ impl Tone {
         list.share(
             "own_color",
             "Object color",
-            "How far the object's own colour darkens: 0 draws all as if white.",
+            "How far the object's own color darkens: 0 draws all as if white.",
             &mut self.own_color,
         );
         list.share("white", "White point", "Darkness that is left to the paper.", &mut self.white);

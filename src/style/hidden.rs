@@ -21,11 +21,11 @@ pub struct Hidden {
     pub strength: f32,
     /// Width as a share of the visible lines', 0.1 to 1. Exact mode.
     pub narrow: f32,
-    /// Their own colour.
+    /// Their own color.
     pub color: Color,
     /// Their own width in reference pixels, 0.25 to 64. Exact mode.
     pub width: f32,
-    /// Whether lines in their own colour and width have dashes. Exact mode.
+    /// Whether lines in their own color and width have dashes. Exact mode.
     pub dashed: bool,
     /// Length of a dash in reference pixels, 1 to 512. Exact mode.
     pub dash: f32,
@@ -43,7 +43,7 @@ choice! {
         Faint,
         /// The same in dashes; in paper mode, whose edges have no direction, without.
         Dashed,
-        /// In a colour and width of their own.
+        /// In a color and width of their own.
         Own,
     }
 }
@@ -129,7 +129,7 @@ impl Hidden {
             );
         });
         list.when(MODE, Own, |list| {
-            list.color("color", "Colour", "Colour of hidden lines.", &mut self.color);
+            list.color("color", "Color", "Color of hidden lines.", &mut self.color);
         });
         list.when("edges.mode", EdgeMode::Exact, |list| {
             list.when_any(MODE, [Faint, Dashed], |list| {

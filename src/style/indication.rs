@@ -1,4 +1,4 @@
-//! Indication: strokes that are left out where a draughtsman leaves the rest to the viewer (Bu et al. 2006, section 3,
+//! Indication: strokes that are left out where a draftsman leaves the rest to the viewer (Bu et al. 2006, section 3,
 //! "Indication").
 
 use super::param::Params;

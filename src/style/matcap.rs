@@ -12,7 +12,7 @@ pub struct Matcap {
     pub sphere: Sphere,
     /// The image of [`Sphere::Image`]: a square picture of a sphere that touches its border. Without one there is clay.
     pub image: Option<PathBuf>,
-    /// How far the sphere is multiplied by the object's own colour, 0 to 1.
+    /// How far the sphere is multiplied by the object's own color, 0 to 1.
     pub own_color: f32,
     /// How dark cast shadows are, 0 (not at all) to 1 (black).
     pub shadow: f32,
@@ -21,7 +21,7 @@ pub struct Matcap {
 choice! {
     /// A picture of a shaded sphere.
     pub enum Sphere {
-        /// Warm modelling clay under soft light: shows form best.
+        /// Warm modeling clay under soft light: shows form best.
         #[default]
         Clay,
         /// White glaze with cool shadows.
@@ -57,7 +57,7 @@ impl Matcap {
                 &mut self.image,
             );
         });
-        let own_color = "How far the sphere is multiplied by the object's own colour.";
+        let own_color = "How far the sphere is multiplied by the object's own color.";
         list.share("own_color", "Object color", own_color, &mut self.own_color);
         list.share("shadow", "Shadow", "How dark cast shadows are.", &mut self.shadow);
     }

@@ -55,6 +55,6 @@ impl Mirror {
             "How far the reflection grows stronger where the mirror is seen at a slant.",
             &mut self.fresnel,
         );
-        list.color("tint", "Tint", "Colour that the reflection is multiplied by.", &mut self.tint);
+        list.color("tint", "Tint", "Color that the reflection is multiplied by.", &mut self.tint);
     }
 }

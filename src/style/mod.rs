@@ -137,7 +137,7 @@ techniques! {
     Blank,
     /// Lit by the scene's lights.
     Plain(plain: Plain),
-    /// The base colour, unlit.
+    /// The base color, unlit.
     Unlit,
     /// Cool-to-warm technical illustration.
     #[default]

@@ -6,7 +6,7 @@ use super::param::Params;
 /// The paper of a drawing whose whole style this is, unless the view has a background of its own.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Paper {
-    /// Its colour.
+    /// Its color.
     pub color: Color,
 }
 
@@ -20,8 +20,8 @@ impl Paper {
     pub(super) fn params<'a>(&'a mut self, list: &mut Params<'a>) {
         list.color(
             "paper",
-            "Paper colour",
-            "Colour of the paper, where this is the style of the whole drawing; `view.background` wins over it.",
+            "Paper color",
+            "Color of the paper, where this is the style of the whole drawing; `view.background` wins over it.",
             &mut self.color,
         );
     }

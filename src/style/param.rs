@@ -91,7 +91,7 @@ impl Param<'_> {
             Slot::Integer { range, .. } => {
                 format!("a whole number from {} to {}", range.start(), range.end())
             }
-            Slot::Color(_) => "a colour as #rrggbb".to_owned(),
+            Slot::Color(_) => "a color as #rrggbb".to_owned(),
             Slot::File(_) => "the path of a PNG or JPEG image, or an empty text".to_owned(),
             Slot::Matrix { most, .. } => format!(
                 "a matrix of numbers from {} to {most}, [[a, b], [c, d]] in a file and a,b,c,d behind --set",

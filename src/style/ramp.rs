@@ -6,7 +6,7 @@ use super::slot::choice;
 choice! {
     /// Where the shades of a toon come from.
     pub enum Ramp {
-        /// A few flat bands, in colours of one's own.
+        /// A few flat bands, in colors of one's own.
         #[default]
         Bands,
         /// From lavender shadows to white without a step.
@@ -15,14 +15,14 @@ choice! {
         TwoStep,
         /// Flat bands from blue shadows to warm light.
         WarmCool,
-        /// Washes of grey ink, darker where each of them ends.
+        /// Washes of gray ink, darker where each of them ends.
         InkWash,
         /// The texels of an image.
         Image,
     }
 }
 
-/// A ramp in so many even bands; the colour of each lies between the stops around it, which have places from 0
+/// A ramp in so many even bands; the color of each lies between the stops around it, which have places from 0
 /// (shadow) to 1 (light).
 struct Stops {
     bands: usize,
@@ -71,7 +71,7 @@ impl Ramp {
         Some(Stops { bands, stops })
     }
 
-    /// Its colours from shadow to light, in even steps as displayed; `None` where they are set elsewhere.
+    /// Its colors from shadow to light, in even steps as displayed; `None` where they are set elsewhere.
     pub fn colors(self) -> Option<Vec<Color>> {
         let Stops { bands, stops } = self.stops()?;
         Some((0..bands).map(|band| color_at(stops, band as f32 / (bands - 1) as f32)).collect())

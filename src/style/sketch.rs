@@ -1,4 +1,4 @@
-//! Sketchy drawings: lines and colours that wander, are drawn over again and rubbed onto rough paper (Nienhaus and Döllner,
+//! Sketchy drawings: lines and colors that wander, are drawn over again and rubbed onto rough paper (Nienhaus and Döllner,
 //! "Sketchy Drawings", 2004). Any surface technique can be drawn so; it is the paper's shade map.
 
 use std::path::PathBuf;
@@ -34,7 +34,7 @@ pub struct Sketch {
     pub strokes: Strokes,
 }
 
-/// Where lines and colours go: what all passes and the fill have in common.
+/// Where lines and colors go: what all passes and the fill have in common.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Wander {
     /// Factor of all offsets, 0 to 4.
@@ -59,7 +59,7 @@ pub struct Wander {
     pub by_object: bool,
     /// How the depth of what is drawn is found.
     pub depth: DepthRule,
-    /// How much paler lines and colours are in places, 0 to 1.
+    /// How much paler lines and colors are in places, 0 to 1.
     pub pressure: f32,
     /// How often the picture is drawn anew, times per second, 0 (never) to 24.
     pub boil: f32,
@@ -70,7 +70,7 @@ pub struct Wander {
 pub struct Pass {
     /// From noise to offsets, reference pixels.
     pub matrix: Matrix,
-    /// Colour; `None`: that of the lines.
+    /// Color; `None`: that of the lines.
     pub color: Option<Color>,
     /// Width as a share of the lines', 0.1 to 4.
     pub width: f32,
@@ -93,9 +93,9 @@ pub struct Fill {
     pub density: f32,
     /// What is rubbed on more densely.
     pub tone: Tone,
-    /// Colour of the pigment.
+    /// Color of the pigment.
     pub color: Color,
-    /// Share of the surface's own colour in it, 0 to 1.
+    /// Share of the surface's own color in it, 0 to 1.
     pub surface_color: f32,
     /// How visible the strokes of the hand are, 0 to 1.
     pub strokes: f32,
@@ -124,7 +124,7 @@ pub struct Grain {
     pub smudge: f32,
 }
 
-/// Straight edges as strokes of a hand that has practised them.
+/// Straight edges as strokes of a hand that has practiced them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Strokes {
     /// Whether straight edges are drawn so.
@@ -183,7 +183,7 @@ choice! {
 choice! {
     /// How the depth of what is drawn is found.
     pub enum DepthRule {
-        /// Ink and colour have one each.
+        /// Ink and color have one each.
         #[default]
         Separate,
         /// They have the nearer of both.
@@ -309,10 +309,10 @@ impl Sketch {
         self.grain.image.as_deref().filter(|_| is_asked)
     }
 
-    /// `ink`: the colour that lines have without one of their pass.
+    /// `ink`: the color that lines have without one of their pass.
     pub(super) fn params<'a>(&'a mut self, ink: Color, list: &mut Params<'a>) {
         let Self { enabled, wander, passes, pass, fill, grain, strokes } = self;
-        list.head("enabled", "Sketch", "Drawn as by hand: lines and colours wander.", enabled);
+        list.head("enabled", "Sketch", "Drawn as by hand: lines and colors wander.", enabled);
         list.when(ENABLED, "true", |list| {
             wander.params(list);
             list.integer(
@@ -397,13 +397,13 @@ impl Wander {
         list.choice(
             "depth",
             "Depth",
-            "Ink and colour are hidden each by its own depth, or both by the nearer one (as in the paper).",
+            "Ink and color are hidden each by its own depth, or both by the nearer one (as in the paper).",
             &mut self.depth,
         );
         list.share(
             "pressure",
             "Pressure",
-            "How much paler lines and colours are in places.",
+            "How much paler lines and colors are in places.",
             &mut self.pressure,
         );
         list.wide_number(
@@ -442,8 +442,8 @@ impl Pass {
         );
         list.color(
             "color",
-            "Colour",
-            "Colour of the lines in this pass.",
+            "Color",
+            "Color of the lines in this pass.",
             Place::Inheriting {
                 own: &mut self.color,
                 inherited: ink,
@@ -473,7 +473,7 @@ impl Fill {
                 "Offsets",
                 "px",
                 MOST_OFFSET,
-                "From two noises to offsets across and down: where colour goes.",
+                "From two noises to offsets across and down: where color goes.",
                 &mut self.matrix,
             );
             wave_param(list, &mut self.wave);
@@ -484,11 +484,11 @@ impl Fill {
                 "Whether all of a surface is filled alike, or the more the darker it is.",
                 &mut self.tone,
             );
-            list.color("color", "Pigment", "Colour of the pigment.", &mut self.color);
+            list.color("color", "Pigment", "Color of the pigment.", &mut self.color);
             list.share(
                 "surface_color",
-                "Surface colour",
-                "Share of the surface's own colour in the pigment.",
+                "Surface color",
+                "Share of the surface's own color in the pigment.",
                 &mut self.surface_color,
             );
             list.share("strokes", "Strokes", "How visible the strokes of the hand are.", &mut self.strokes);

@@ -25,7 +25,7 @@ pub enum Slot<'a> {
         /// What a slider offers, and what is accepted at all.
         range: RangeInclusive<u32>,
     },
-    /// A colour.
+    /// A color.
     Color(Place<'a, Color>),
     /// An image file, or none.
     File(&'a mut Option<PathBuf>),

@@ -29,13 +29,13 @@ pub struct Toon {
     pub bands: u32,
     /// How borders between bands are drawn.
     pub border: Border,
-    /// Colour of the darkest band.
+    /// Color of the darkest band.
     pub shadow: Color,
-    /// Colour halfway; with two bands it has no place.
+    /// Color halfway; with two bands it has no place.
     pub mid: Color,
-    /// Colour of the lightest band.
+    /// Color of the lightest band.
     pub light: Color,
-    /// Share of the object's own colour, 0 (the ramp's colours as they are) to 1 (they multiply the object's colour).
+    /// Share of the object's own color, 0 (the ramp's colors as they are) to 1 (they multiply the object's color).
     pub tint: f32,
     /// N·L at which the ramp begins, −1 to 1; the paper's ramp begins at 0.
     pub start: f32,
@@ -49,7 +49,7 @@ pub struct Toon {
     pub rim: f32,
     /// Cosine of the angle between the normal and the direction to the eye below which a point is of the rim, 0 to 1.
     pub rim_width: f32,
-    /// Colour of the rim.
+    /// Color of the rim.
     pub rim_color: Color,
 }
 
@@ -58,7 +58,7 @@ choice! {
     pub enum Border {
         /// Each pixel has the shade of one band: edged, and jagged.
         Nearest,
-        /// The bands are kept as a texture, the cartoon map, and a pixel's shade is a mean of its neighbours' there.
+        /// The bands are kept as a texture, the cartoon map, and a pixel's shade is a mean of its neighbors' there.
         #[default]
         CartoonMap,
         /// The share of each band in a pixel, from the slope of N·L.
@@ -100,7 +100,7 @@ impl Toon {
         ramp(self) == ramp(other) && self.image == other.image
     }
 
-    /// The colours of the ramp where they do not come from an image, from shadow to light: those of a built-in one, or
+    /// The colors of the ramp where they do not come from an image, from shadow to light: those of a built-in one, or
     /// even steps from `shadow` over `mid` to `light`, as displayed.
     pub fn colors(&self) -> Vec<Color> {
         let count = self.bands.clamp(2, MAX_BANDS);
@@ -119,9 +119,9 @@ impl Toon {
         list.choice("ramp", "Ramp", "Where the shades come from, from shadow to light.", &mut self.ramp);
         list.when("toon.ramp", Ramp::Bands, |list| {
             list.integer("bands", "Bands", "", 2..=MAX_BANDS, "Number of flat shades.", &mut self.bands);
-            list.color("shadow", "Shadow", "Colour of the darkest band.", &mut self.shadow);
-            list.color("mid", "Middle", "Colour halfway; two bands do without.", &mut self.mid);
-            list.color("light", "Light", "Colour of the lightest band.", &mut self.light);
+            list.color("shadow", "Shadow", "Color of the darkest band.", &mut self.shadow);
+            list.color("mid", "Middle", "Color halfway; two bands do without.", &mut self.mid);
+            list.color("light", "Light", "Color of the lightest band.", &mut self.light);
         });
         list.when("toon.ramp", Ramp::Image, |list| {
             list.file(
@@ -135,7 +135,7 @@ impl Toon {
         list.share(
             "tint",
             "Object color",
-            "How far the bands are multiplied by the object's own colour; 0 leaves them as they are.",
+            "How far the bands are multiplied by the object's own color; 0 leaves them as they are.",
             &mut self.tint,
         );
         list.number(
@@ -184,7 +184,7 @@ impl Toon {
             "How far the rim reaches inwards: 0 nowhere, 1 to where the surface faces the eye.",
             &mut self.rim_width,
         );
-        list.color("rim_color", "Rim colour", "Colour of the rim.", &mut self.rim_color);
+        list.color("rim_color", "Rim color", "Color of the rim.", &mut self.rim_color);
     }
 }
 

@@ -18,7 +18,7 @@ pub enum Value {
     Matrix(Matrix),
     /// Of a curve: its points as they stand there, whether they make up one or not.
     Curve(Vec<Point>),
-    /// Of a colour or a choice.
+    /// Of a color or a choice.
     Text(String),
     /// No value of its own, written `inherit`: the value of the parameter that it inherits from.
     Inherit,

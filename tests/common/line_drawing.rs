@@ -57,7 +57,7 @@ impl Ink {
         if inside { self.values[(y * width + x) as usize] } else { 0.0 }
     }
 
-    /// Interpolated between the centres of pixels.
+    /// Interpolated between the centers of pixels.
     pub fn sampled(&self, at: DVec2) -> f64 {
         let corner = (at - 0.5).floor();
         let f = at - 0.5 - corner;

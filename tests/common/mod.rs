@@ -66,7 +66,7 @@ pub fn keep_layers(session: &mut Session) {
     }
 }
 
-/// A scene of one object per mesh: (name, mesh, place, base colour).
+/// A scene of one object per mesh: (name, mesh, place, base color).
 pub fn scene(objects: Vec<(&str, Mesh, DMat4, [f32; 3])>) -> Arc<Scene> {
     let mut scene = Scene::default();
     for (name, mut mesh, world_from_local, [r, g, b]) in objects {

@@ -48,7 +48,7 @@ pub(crate) struct Repatched {
     /// The patch of each triangle; the triangles are sorted by it.
     pub(crate) patch_of_triangle: Vec<u32>,
     /// The pairs of patches, the smaller number first, that had an edge in common.
-    pub(crate) neighbours: BTreeSet<[u32; 2]>,
+    pub(crate) neighbors: BTreeSet<[u32; 2]>,
 }
 
 impl Repatch {
@@ -57,7 +57,7 @@ impl Repatch {
         let adjacency = Adjacency::new(mesh);
         let mut random = Random(self.seed);
         let patches = self.patches(mesh, &adjacency, &mut random);
-        let mut neighbours = BTreeSet::new();
+        let mut neighbors = BTreeSet::new();
         let mut patches_at: BTreeMap<u32, BTreeSet<u32>> = BTreeMap::new();
         let mut is_seam = BTreeSet::new();
         let point = |v: u32| adjacency.weld.representative[v as usize];
@@ -65,7 +65,7 @@ impl Repatch {
             let Some(&other) = patches.get(edge.faces[1] as usize) else { continue };
             let patch = patches[edge.faces[0] as usize];
             if patch != other {
-                neighbours.insert([patch.min(other), patch.max(other)]);
+                neighbors.insert([patch.min(other), patch.max(other)]);
                 let ends = edge.vertices.map(point);
                 is_seam.insert([ends[0].min(ends[1]), ends[0].max(ends[1])]);
                 for end in ends {
@@ -131,7 +131,7 @@ impl Repatch {
             patch_of_triangle.resize(new.indices.len() / 3, patch);
         }
         new.submeshes = vec![Submesh { first_index: 0, index_count: new.indices.len() as u32, material: 0 }];
-        Repatched { mesh: new, patch_of_triangle, neighbours }
+        Repatched { mesh: new, patch_of_triangle, neighbors }
     }
 
     /// The patch of each triangle: surfaces between creases, cut further by planes.

@@ -129,7 +129,7 @@ pub fn glb(json: &[u8], bin: &[u8]) -> Vec<u8> {
     out
 }
 
-/// A PNG of one colour.
+/// A PNG of one color.
 pub fn png(width: u32, height: u32) -> Vec<u8> {
     let mut out = std::io::Cursor::new(Vec::new());
     image::RgbaImage::from_pixel(width, height, image::Rgba([200, 100, 50, 255]))

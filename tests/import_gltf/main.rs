@@ -179,7 +179,7 @@ fn indices_of_every_width_are_read() {
 
 #[test]
 fn interleaved_sparse_and_quantized_accessors_are_read() {
-    // Positions as i16, normals as normalised i8, texture coordinates as normalised u16, in elements of 16 bytes.
+    // Positions as i16, normals as normalized i8, texture coordinates as normalized u16, in elements of 16 bytes.
     let mut m = Model::new();
     let mut bytes = Vec::new();
     for (x, y) in [(0_i16, 0_i16), (100, 0), (0, -100)] {
@@ -299,5 +299,5 @@ fn several_files_become_one_scene() {
 
     progress.cancel();
     let stopped = load_all(&paths_given, &ImportOptions::default(), &progress);
-    assert!(matches!(stopped, Err(ImportError::Cancelled)));
+    assert!(matches!(stopped, Err(ImportError::Canceled)));
 }

@@ -663,7 +663,7 @@ fn a_failed_load_says_so_and_keeps_what_was_there() {
 }
 
 #[test]
-fn a_load_can_be_cancelled_and_a_new_one_takes_its_place() {
+fn a_load_can_be_canceled_and_a_new_one_takes_its_place() {
     let mut slow = window_loading("/models/slow.glb", |paths, progress| {
         while paths[0].ends_with("slow.glb") {
             progress.check()?;

@@ -37,7 +37,7 @@ fn check_same_layers(name: &str, opened: &Opened, side: u32) -> u32 {
         assert!(a.3 == b.3, "{name}: depth of layer {number}");
         assert!(a.0 == b.0, "{name}: geometry of layer {number}");
         assert!(a.2 == b.2, "{name}: regions of layer {number}");
-        assert!(a.1 == b.1, "{name}: base colour of layer {number}");
+        assert!(a.1 == b.1, "{name}: base color of layer {number}");
     }
     counted.layers
 }

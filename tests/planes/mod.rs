@@ -18,7 +18,7 @@ pub fn imported(name: &str) -> Scene {
     load(&file(name), &ImportOptions::default(), &Progress::default()).unwrap()
 }
 
-/// A triangle in the world, in metres.
+/// A triangle in the world, in meters.
 pub type Triangle = [DVec3; 3];
 
 /// Each triangle with the path of its node.
@@ -60,7 +60,7 @@ pub fn shared(scene: &Scene) -> BTreeSet<(&str, &str)> {
     shared
 }
 
-/// Do two triangles of one plane overlap by more than two millimetres in every direction? (No line parts them.)
+/// Do two triangles of one plane overlap by more than two millimeters in every direction? (No line parts them.)
 fn overlap(normal: DVec3, a: Triangle, b: Triangle) -> bool {
     let u = normal.any_orthonormal_vector();
     let v = normal.cross(u);

@@ -1,4 +1,4 @@
-//! The colour of each surface that a ray meets, from pictures of its ring alone.
+//! The color of each surface that a ray meets, from pictures of its ring alone.
 
 use std::collections::BTreeMap;
 
@@ -23,7 +23,7 @@ enum Alone {
     Bare,
 }
 
-/// What a ray meets, with its colour.
+/// What a ray meets, with its color.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Step {
     pub node: NodeId,
@@ -140,14 +140,14 @@ impl<'a> Shot<'a> {
 }
 
 impl Alone {
-    /// The colour of a hit, which is in that layer of its group, and whether nothing is seen behind it.
+    /// The color of a hit, which is in that layer of its group, and whether nothing is seen behind it.
     fn color(&self, px: usize, layer: usize, hit: Hit) -> (DVec4, bool) {
         match self {
             Self::Surface(picture) => (picture.colors[px], true),
             Self::Layers(pictures) => (pictures[layer].colors[px], false),
             Self::Parts(part_of, pictures) => {
                 let color = pictures[part_of[hit.triangle]].colors[px];
-                // On the edge of a triangle it may be its neighbour that is drawn, and that is another part.
+                // On the edge of a triangle it may be its neighbor that is drawn, and that is another part.
                 (if color.w > 0.0 { color * f64::from(GLASS) } else { DVec4::NAN }, false)
             }
             Self::Bare => (DVec4::ZERO, false),

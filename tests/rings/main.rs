@@ -1,5 +1,5 @@
 //! The ring test: rings of which each goes through others, so that no order of whole objects is right, each of another
-//! look. Which surface is in front is known from cast rays, and its colour from a picture of its ring alone; composed by
+//! look. Which surface is in front is known from cast rays, and its color from a picture of its ring alone; composed by
 //! plain arithmetic, they are what the picture must be. `HACHURE_RINGS_DIR=folder` writes all pictures.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]

@@ -11,18 +11,18 @@ fn curve(c: f64) -> f64 {
     255.0 * if c <= 0.003_130_8 { c * 12.92 } else { 1.055 * c.powf(1.0 / 2.4) - 0.055 }
 }
 
-/// A colour as pictures hold it, in 255ths that are not rounded: straight opacity, sRGB.
+/// A color as pictures hold it, in 255ths that are not rounded: straight opacity, sRGB.
 pub fn encoded(c: DVec4) -> DVec4 {
     let a = c.w.max(1e-6);
     dvec4(curve(c.x / a), curve(c.y / a), curve(c.z / a), 255.0 * c.w)
 }
 
-/// The same, but colours stay multiplied by their opacity.
+/// The same, but colors stay multiplied by their opacity.
 pub fn encoded_share(c: DVec4) -> DVec4 {
     dvec4(curve(c.x), curve(c.y), curve(c.z), 255.0 * c.w)
 }
 
-/// What is seen of `behind` beneath a colour.
+/// What is seen of `behind` beneath a color.
 pub fn over(front: DVec4, behind: DVec4) -> DVec4 {
     front + behind * (1.0 - front.w)
 }
@@ -39,7 +39,7 @@ impl From<RgbaImage> for Picture {
     }
 }
 
-/// A picture of such colours on grey paper, to look at.
+/// A picture of such colors on gray paper, to look at.
 pub fn shown(colors: impl Iterator<Item = DVec4>) -> RgbaImage {
     let paper = dvec4(0.6, 0.6, 0.6, 1.0);
     let bytes = colors.flat_map(|c| encoded(over(c, paper)).to_array().map(|c| c.round() as u8)).collect();

@@ -32,7 +32,7 @@ pub struct Stage {
 pub const CAMERAS: [&str; 6] =
     ["front", "right", "above", "front parallel", "right parallel", "above parallel"];
 
-/// A colour of its own for each place.
+/// A color of its own for each place.
 fn color(place: usize, of: usize) -> [f32; 3] {
     let turn = place as f32 / of as f32;
     [0.0, 1.0, 2.0].map(|i| 0.5 + 0.4 * ((turn + i / 3.0) * std::f32::consts::TAU).cos())

@@ -8,7 +8,7 @@ use super::alone::{Shot, Step};
 use super::picture::{Picture, encoded, encoded_share, over};
 use super::rays::{near, pixels};
 
-/// How far colours may be from what they must be, 255ths: those of rings alone are rounded.
+/// How far colors may be from what they must be, 255ths: those of rings alone are rounded.
 const TOLERANCE: f64 = 2.0;
 
 /// What is known of a pixel.
@@ -79,7 +79,7 @@ impl Expected {
             Self::Unknown => None,
             Self::Exactly(color) | Self::Above(color) if color.is_nan() => None,
             Self::Nothing => (drawn.w > 0.0).then_some(false),
-            // A colour that is not there is none.
+            // A color that is not there is none.
             Self::Exactly(color) if color.w == 0.0 => Some(drawn.w == 0.0),
             Self::Exactly(color) => {
                 let apart = (encoded(drawn) - encoded(color)).abs().max_element();

@@ -157,7 +157,7 @@ fn pictures_and_objects_of_any_size_are_drawn() {
 }
 
 #[test]
-fn a_small_thing_without_edges_is_drawn_by_its_colour() {
+fn a_small_thing_without_edges_is_drawn_by_its_color() {
     let mut session = common::session();
     let mut look = sketched(style("unlit"), 4.0, 4.0);
     look.sketch.pass[0].matrix = turned(30.0);

@@ -48,7 +48,7 @@ fn style(technique: &str) -> Style {
     style
 }
 
-/// The same as a sketch whose lines and colours are off by about so many reference pixels.
+/// The same as a sketch whose lines and colors are off by about so many reference pixels.
 fn sketched(mut style: Style, lines: f32, fill: f32) -> Style {
     style.sketch.enabled = true;
     for pass in &mut style.sketch.pass {

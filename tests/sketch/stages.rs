@@ -10,7 +10,7 @@ use super::{at, set_style, sketched, style, turned};
 const SIDE: u32 = 96;
 
 #[test]
-fn where_lines_and_colours_go_is_no_reason_to_draw_geometry_again() {
+fn where_lines_and_colors_go_is_no_reason_to_draw_geometry_again() {
     let mut session = common::session();
     let scene = common::scene(vec![
         ("box", primitives::cube(1.0), at(-0.4, 0.0, 0.0), [0.8, 0.5, 0.3]),
@@ -42,7 +42,7 @@ fn where_lines_and_colours_go_is_no_reason_to_draw_geometry_again() {
     let only_placed: [(&str, &dyn Fn(&mut Style)); 4] = [
         ("the fill's matrix", &|style| style.sketch.fill.matrix = turned(13.9)),
         ("density", &|style| style.sketch.pass[0].density = 0.5),
-        ("colour", &|style| style.sketch.pass[0].color = Some(Color([200, 0, 0]))),
+        ("color", &|style| style.sketch.pass[0].color = Some(Color([200, 0, 0]))),
         ("grain", &|style| style.sketch.grain.amount = 0.5),
     ];
     for (what, change) in only_placed {

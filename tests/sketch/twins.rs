@@ -43,7 +43,7 @@ impl Twin {
     }
 }
 
-/// Noise that stays on the picture moves lines and colours so far.
+/// Noise that stays on the picture moves lines and colors so far.
 fn on_screen(mut style: Style, lines: f32, fill: f32) -> Style {
     style.sketch.enabled = true;
     style.sketch.wander.anchor = Anchor::Screen;
@@ -147,7 +147,7 @@ fn the_nearest_depth_of_all_fetches_counts() {
         let of_fill = depth_at(twin.source([x, y], sketch.sketch.fill.matrix, sketch.sketch.fill.wave));
         let of_ink = depth_at(twin.source([x, y], sketch.sketch.pass[0].matrix, sketch.sketch.wander.wave));
         let other = other_depth[(y * SIDE + x) as usize];
-        // Colour is there where it is fetched from the ball, with the nearer depth of both fetches.
+        // Color is there where it is fetched from the ball, with the nearer depth of both fetches.
         let is_ball = of_fill.is_finite() && of_fill.min(of_ink) < other;
         missed += usize::from((pixel.0[0] > pixel.0[1]) != is_ball);
         told_apart += usize::from(is_ball != (of_fill.is_finite() && of_fill < other));

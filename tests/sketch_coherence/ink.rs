@@ -132,12 +132,12 @@ pub(crate) struct Frame {
 }
 
 /// Whoever draws a model in one way.
-pub(crate) struct Draughtsman {
+pub(crate) struct Draftsman {
     session: Session,
     opened: Opened,
 }
 
-impl Draughtsman {
+impl Draftsman {
     /// One for each way: undisturbed, by the surface, by the screen.
     pub(crate) fn all(model: &Model, wave: f32) -> [Self; 3] {
         [Moved::Not, Moved::BySurface, Moved::ByScreen].map(|moved| {
@@ -156,10 +156,10 @@ impl Draughtsman {
 }
 
 /// Draws a picture in all ways.
-pub(crate) fn frame(draughtsmen: &mut [Draughtsman; 3], model: &Model, eye: Eye) -> Frame {
+pub(crate) fn frame(draftsmen: &mut [Draftsman; 3], model: &Model, eye: Eye) -> Frame {
     let anchors = model.anchors(&eye, 0.5);
-    let ink = draughtsmen.each_mut().map(|draughtsman| draughtsman.draw(&eye));
-    let [plain, by_surface, _] = draughtsmen;
+    let ink = draftsmen.each_mut().map(|draftsman| draftsman.draw(&eye));
+    let [plain, by_surface, _] = draftsmen;
     let drawn = Drawn::new(&mut plain.session, &mut by_surface.session, eye);
     Frame { nearest: nearest(&anchors), anchors, drawn, ink }
 }

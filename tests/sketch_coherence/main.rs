@@ -24,7 +24,7 @@ use hachure::render::base::frame_uniform::REFERENCE_HEIGHT;
 use hachure::render::effects::sketch::field as field_of;
 use hachure::render::passes::offset_field::FieldUniform;
 use hachure::style::{Sketch, preset};
-use ink::{Changes, Draughtsman, compare, frame};
+use ink::{Changes, Draftsman, compare, frame};
 use model::{Eye, Model, SIDE};
 use paths::{Length, PATHS, Path, runs, target};
 
@@ -122,7 +122,7 @@ fn plain_rms() -> f64 {
 fn measure_ink(
     session: &mut Session,
     model: &Model,
-    draughtsmen: &mut [Draughtsman; 3],
+    draftsmen: &mut [Draftsman; 3],
     (path, dolly): (Path, glam::DVec3),
     (starts, stride): (u32, u32),
     failures: &mut Failures,
@@ -133,7 +133,7 @@ fn measure_ink(
     let runs = runs(model, path, dolly, length);
     let count = runs.len().min(MOST_STEPS);
     for run in (0..count).map(|i| runs[i * runs.len() / count].clone()) {
-        let mut frames = run.into_iter().map(|camera| frame(draughtsmen, model, Eye::new(session, camera)));
+        let mut frames = run.into_iter().map(|camera| frame(draftsmen, model, Eye::new(session, camera)));
         let [before, after] = [frames.next().unwrap(), frames.next().unwrap()];
         all = all.plus(&compare(&before, &after, &field));
     }
@@ -196,12 +196,12 @@ fn sketches_move_with_the_model() {
         let model = Model::new(&mut session, name);
         let eye = Eye::new(&mut session, model.camera());
         let dolly = target(&model, &eye);
-        let mut draughtsmen = Draughtsman::all(&model, WAVE);
+        let mut draftsmen = Draftsman::all(&model, WAVE);
         for path in PATHS {
             let strides: &[u32] = if path == Path::Dolly { &[3, 10] } else { &[10] };
             for stride in strides {
                 let steps = (3, *stride);
-                measure_ink(&mut session, &model, &mut draughtsmen, (path, dolly), steps, &mut failures);
+                measure_ink(&mut session, &model, &mut draftsmen, (path, dolly), steps, &mut failures);
             }
         }
     }

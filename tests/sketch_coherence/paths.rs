@@ -48,10 +48,10 @@ pub(crate) fn target(model: &Model, eye: &Eye) -> DVec3 {
     let anchors = model.anchors(eye, 6.0);
     let side = f64::from(SIDE);
     let is_central = |p: glam::DVec2| (p - 0.5 * side).abs().max_element() < 0.2 * side;
-    let neighbours =
+    let neighbors =
         |p: glam::DVec2| anchors.iter().filter(|a| a.pixel.distance(p) < 0.5 * side / ZOOM).count();
     let central = anchors.iter().filter(|a| is_central(a.pixel));
-    central.max_by_key(|a| neighbours(a.pixel)).unwrap().world
+    central.max_by_key(|a| neighbors(a.pixel)).unwrap().world
 }
 
 /// The camera so many single steps on a dolly towards a place.

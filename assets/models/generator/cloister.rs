@@ -1,7 +1,7 @@
 //! A cloister: arcades on twin columns around a court with a well, walks under groin vaults, tiled lean-to roofs, and
 //! beside it the church with its bell tower. For sketches and line drawings: much that repeats, round and straight.
 //!
-//! Metres; the court's middle is the origin, the church is at −Z; the court's pavement is at y = 0. Parts stand a little
+//! Meters; the court's middle is the origin, the church is at −Z; the court's pavement is at y = 0. Parts stand a little
 //! in each other, so that nowhere two faces share a plane.
 
 use std::f64::consts::FRAC_PI_2;
@@ -70,7 +70,7 @@ pub(crate) enum Finish {
     Cypress,
 }
 
-/// The colours of the finishes.
+/// The colors of the finishes.
 fn materials() -> Vec<Material> {
     let finish = |name, srgb| Material { name, srgb, roughness: 0.9, ..Material::default() };
     vec![
@@ -90,7 +90,7 @@ fn materials() -> Vec<Material> {
     ]
 }
 
-/// Turns solids in metres into meshes of the scene.
+/// Turns solids in meters into meshes of the scene.
 pub(crate) struct Builder {
     scene: Scene,
 }
@@ -103,8 +103,8 @@ impl Builder {
 
     /// Adds a mesh with edges that stay hard where they turn by more than `crease` degrees.
     pub(crate) fn creased(&mut self, name: &str, finish: Finish, solid: Solid, crease: f64) -> usize {
-        let millimetres = solid.bent(|p| p * 1e3);
-        self.scene.add(millimetres.into_mesh(name, finish as usize, crease))
+        let millimeters = solid.bent(|p| p * 1e3);
+        self.scene.add(millimeters.into_mesh(name, finish as usize, crease))
     }
 
     /// A node that shows a solid.
@@ -113,7 +113,7 @@ impl Builder {
         Node::new(name, Some(mesh))
     }
 
-    /// The node at a place in metres.
+    /// The node at a place in meters.
     pub(crate) fn placed(node: Node, x: f64, y: f64, z: f64) -> Node {
         node.at(x * 1e3, y * 1e3, z * 1e3)
     }

@@ -1,5 +1,5 @@
 //! The arcades around the court: parapets, twin columns, arches and the wall that they carry, stronger piers at the
-//! court's corners. In metres, as parts of the south walk, which lies towards +Z.
+//! court's corners. In meters, as parts of the south walk, which lies towards +Z.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -140,7 +140,7 @@ pub(crate) fn pier(builder: &mut Builder) -> Vec<(&'static str, usize)> {
     ]
 }
 
-/// The moulding below the corbels and the cornice above them, around the court.
+/// The molding below the corbels and the cornice above them, around the court.
 pub(crate) fn cornices(builder: &mut Builder) -> Vec<Node> {
     let string = points(&[
         (COURT - 0.06, 4.34),

@@ -1,4 +1,4 @@
-//! The church beside the cloister: a nave with round-arched windows and a corbel table, and its bell tower. In metres.
+//! The church beside the cloister: a nave with round-arched windows and a corbel table, and its bell tower. In meters.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -21,7 +21,7 @@ const WIDTH: f64 = 4.2;
 const AXIS: f64 = -19.06;
 /// The side walls' upper side.
 const TOP: f64 = 10.7;
-/// Metres of height per metre of the roof.
+/// Meters of height per meter of the roof.
 const SLOPE: f64 = 0.62;
 /// Where the roof's upper sides meet.
 const RIDGE: f64 = TOP + 0.25 + SLOPE * WIDTH;
@@ -97,7 +97,7 @@ fn corbel_table() -> Solid {
     united([frieze.solid(), cornice.solid().along(Axis::X)])
 }
 
-/// The rim of a long moulding, cut several times, so that its narrow bands are not needles.
+/// The rim of a long molding, cut several times, so that its narrow bands are not needles.
 fn lengths(half: f64) -> Rim {
     const PIECES: i32 = 6;
     (0..=PIECES).map(|i| (0.0, half * f64::from(2 * i - PIECES) / f64::from(PIECES))).collect()

@@ -1,5 +1,5 @@
 //! Twin columns under one abacus: a plinth, the two rolls of an Attic base, a swelling shaft, a basket capital that
-//! turns from round to square. In metres.
+//! turns from round to square. In meters.
 
 use std::f64::consts::{PI, TAU};
 

@@ -1,5 +1,5 @@
 //! The court: paved paths that cross at the well, lawns in kerbs, cypresses; and the ground that all stands on. In
-//! metres.
+//! meters.
 
 use std::f64::consts::FRAC_PI_2;
 

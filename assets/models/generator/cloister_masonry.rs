@@ -1,5 +1,5 @@
 //! What the cloister is built from besides blocks: frames around a square, arches, walls with round-arched openings.
-//! In metres.
+//! In meters.
 
 use std::f64::consts::PI;
 
@@ -17,7 +17,7 @@ pub(crate) const CHORDS: usize = 24;
 /// Chords of the arch over a door or window.
 const FEWER: usize = 16;
 
-/// Leads a section around a square with mitred corners; the section, counter-clockwise, is given by distance from the
+/// Leads a section around a square with mitered corners; the section, counter-clockwise, is given by distance from the
 /// square's middle and height.
 pub(crate) fn frame(section: &[DVec2]) -> Solid {
     // Long sides are cut, so that their narrow bands are not needles.

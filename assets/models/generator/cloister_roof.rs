@@ -1,4 +1,4 @@
-//! The lean-to roofs over the walks, which slope towards the court, with ridges of round tiles. In metres.
+//! The lean-to roofs over the walks, which slope towards the court, with ridges of round tiles. In meters.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -13,7 +13,7 @@ use crate::solid::Solid;
 const LOW: [f64; 2] = [9.48, 4.97];
 /// Where it ends in the outer walls.
 const HIGH: f64 = OUTER + 0.1;
-/// Metres of height per metre.
+/// Meters of height per meter.
 const SLOPE: f64 = 0.33;
 /// The roof's thickness at the eaves.
 const THICK: f64 = 0.12;

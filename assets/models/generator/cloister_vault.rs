@@ -1,4 +1,4 @@
-//! Groin vaults over the walks, with transverse arches between the bays, ribs along the groins and bosses. In metres, as
+//! Groin vaults over the walks, with transverse arches between the bays, ribs along the groins and bosses. In meters, as
 //! parts of the south walk; a bay's own origin is in its middle, at the height where the vault springs.
 
 use glam::{DQuat, DVec2, DVec3, dvec2, dvec3};

@@ -1,4 +1,4 @@
-//! The outer walls of the walks with their doors and windows, and what strengthens them outside. In metres, as parts of
+//! The outer walls of the walks with their doors and windows, and what strengthens them outside. In meters, as parts of
 //! the south walk, which lies towards +Z.
 
 use crate::cloister::{BAY, Builder, DEEP, FLOOR, Finish, IMPOST, OUTER, WALK, bays, bounds};

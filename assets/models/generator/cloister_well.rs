@@ -1,5 +1,5 @@
 //! The well in the middle of the court: an octagonal kerb on two steps, two columns that carry a beam, a pulley, a rope
-//! and a bucket. In metres.
+//! and a bucket. In meters.
 
 use std::f64::consts::{FRAC_PI_8, PI};
 

@@ -1,6 +1,6 @@
 //! The crank mechanism of a three-cylinder engine: crankshaft, connecting rods, pistons, flywheel, pulley.
 //!
-//! Millimetres; the crankshaft lies along X, the flywheel at −X, the cylinders stand along Y.
+//! Millimeters; the crankshaft lies along X, the flywheel at −X, the cylinders stand along Y.
 
 use glam::DQuat;
 
@@ -13,7 +13,7 @@ use crate::{crankshaft, piston, rod};
 pub(crate) const THROW: f64 = 40.0;
 /// From a crank pin's axis to a wrist pin's.
 pub(crate) const ROD: f64 = 144.0;
-/// Between neighbouring cylinders.
+/// Between neighboring cylinders.
 pub(crate) const PITCH: f64 = 88.0;
 /// How far the whole model is moved to have the origin in its middle.
 const SHIFT: [f64; 2] = [4.0, -52.0];
@@ -36,7 +36,7 @@ enum Finish {
     Blue,
 }
 
-/// The colours of the finishes.
+/// The colors of the finishes.
 fn materials() -> Vec<Material> {
     let finish =
         |name, srgb, metallic, roughness| Material { name, srgb, metallic, roughness, ..Material::default() };

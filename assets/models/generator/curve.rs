@@ -66,11 +66,11 @@ pub(crate) fn wire(path: &[DVec3], radius: impl Fn(f64) -> f64) -> Solid {
     let direction = |i: usize| (path[(i + 1).min(last)] - path[i.max(1) - 1]).normalize();
     let mut across = direction(0).any_orthonormal_vector();
     let mut rings: Vec<Vec<DVec3>> = Vec::new();
-    let mut ring = |centre: DVec3, across: DVec3, along: DVec3, radius: f64| {
+    let mut ring = |center: DVec3, across: DVec3, along: DVec3, radius: f64| {
         let other = along.cross(across);
         let point = |j: usize| {
             let (sin, cos) = (TAU * j as f64 / SIDES as f64).sin_cos();
-            centre + (across * cos + other * sin) * radius
+            center + (across * cos + other * sin) * radius
         };
         rings.push((0..SIDES).map(point).collect());
     };

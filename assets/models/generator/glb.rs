@@ -18,17 +18,17 @@ pub(crate) struct Image {
 pub(crate) struct Material {
     /// Name in the file.
     pub(crate) name: &'static str,
-    /// Base colour as written in paint programs: `0xRRGGBB`, sRGB.
+    /// Base color as written in paint programs: `0xRRGGBB`, sRGB.
     pub(crate) srgb: u32,
     /// 0 = paint, 1 = bare metal.
     pub(crate) metallic: f32,
     /// 0 = mirror, 1 = chalk.
     pub(crate) roughness: f32,
-    /// Index into [`Scene::images`] of a colour image that is multiplied with the base colour.
+    /// Index into [`Scene::images`] of a color image that is multiplied with the base color.
     pub(crate) color_image: Option<usize>,
     /// Index into [`Scene::images`] of a tangent-space normal map, green upwards.
     pub(crate) normal_image: Option<usize>,
-    /// Whether the colour image's alpha cuts the shape out of a sheet that is seen from both sides.
+    /// Whether the color image's alpha cuts the shape out of a sheet that is seen from both sides.
     pub(crate) cut_out: bool,
 }
 
@@ -36,7 +36,7 @@ pub(crate) struct Material {
 pub(crate) struct Mesh {
     /// Name in the file.
     pub(crate) name: String,
-    /// Vertex positions in metres.
+    /// Vertex positions in meters.
     pub(crate) positions: Vec<[f32; 3]>,
     /// Unit shading normals, one per vertex.
     pub(crate) normals: Vec<[f32; 3]>,
@@ -55,7 +55,7 @@ pub(crate) struct Node {
     pub(crate) name: String,
     /// Index into [`Scene::meshes`].
     pub(crate) mesh: Option<usize>,
-    /// Position in the parent, metres.
+    /// Position in the parent, meters.
     pub(crate) translation: [f64; 3],
     /// Rotation in the parent, a unit quaternion x, y, z, w.
     pub(crate) rotation: [f64; 4],
@@ -75,7 +75,7 @@ impl Node {
         }
     }
 
-    /// The same node, elsewhere; in millimetres.
+    /// The same node, elsewhere; in millimeters.
     pub(crate) fn at(mut self, x: f64, y: f64, z: f64) -> Self {
         self.translation = [x, y, z].map(|v| v * 1e-3);
         self
@@ -276,7 +276,7 @@ fn flatten(node: &Node, nodes: &mut Vec<Value>) -> usize {
     nodes.len() - 1
 }
 
-/// A material's JSON; glTF wants linear colour.
+/// A material's JSON; glTF wants linear color.
 fn material_json(material: &Material) -> Value {
     let channel = |shift: u32| {
         let c = f64::from((material.srgb >> shift) & 0xff) / 255.0;

@@ -1,4 +1,4 @@
-//! The image of a leaf: its shape in the alpha, its veins in the colour.
+//! The image of a leaf: its shape in the alpha, its veins in the color.
 
 use glam::{DVec2, dvec2};
 use image::{Rgba, RgbaImage};
@@ -40,7 +40,7 @@ fn half_width(y: f64) -> f64 {
     stalk.max(0.236 * (std::f64::consts::PI * t.powf(0.72)).sin().max(0.0).powf(0.85))
 }
 
-/// The colour: two halves in unlike light, a dark rim, pale veins.
+/// The color: two halves in unlike light, a dark rim, pale veins.
 fn color(p: DVec2) -> image::Rgb<u8> {
     let (deep, fresh, pale) = (paint(0x3f_6b45), paint(0x6f_9a58), paint(0xc3_d39a));
     let across = (p.x.abs() / half_width(p.y).max(0.02)).min(1.0);

@@ -12,7 +12,7 @@ type Stroke = Vec<DVec2>;
 /// A pen point: an ellipse.
 #[derive(Clone, Copy)]
 pub(crate) struct Nib {
-    /// Its largest and its smallest width in millimetres.
+    /// Its largest and its smallest width in millimeters.
     pub(crate) widths: [f64; 2],
     /// How far its large axis is turned from the horizontal, in radians.
     pub(crate) angle: f64,
@@ -43,7 +43,7 @@ impl Ink {
         self.coverage[(row * self.canvas.texels[0] + column) as usize]
     }
 
-    /// Draws a line through points, in millimetres from the canvas's lower left.
+    /// Draws a line through points, in millimeters from the canvas's lower left.
     pub(crate) fn line(&mut self, points: &[DVec2], nib: Nib) {
         let [long, short] = nib.widths.map(|width| width * 0.5);
         // To the space in which the nib is the unit circle.
@@ -68,7 +68,7 @@ impl Ink {
         }
     }
 
-    /// Writes a line of capitals, its middle at `middle`; `height` and the gap between letters in millimetres.
+    /// Writes a line of capitals, its middle at `middle`; `height` and the gap between letters in millimeters.
     pub(crate) fn write(&mut self, text: &str, middle: DVec2, height: f64, gap: f64, nib: Nib) {
         let letters: Vec<(f64, Vec<Stroke>)> = text.chars().map(strokes).collect();
         let width = letters.iter().map(|l| l.0 * height + gap).sum::<f64>() - gap;
@@ -91,11 +91,11 @@ fn distance(p: DVec2, a: DVec2, b: DVec2) -> f64 {
 }
 
 /// An arc of an ellipse; angles in quarter turns from the right, counter-clockwise.
-fn arc(centre: (f64, f64), radii: (f64, f64), from: f64, to: f64) -> Stroke {
+fn arc(center: (f64, f64), radii: (f64, f64), from: f64, to: f64) -> Stroke {
     let n = 20;
     let point = |i: i32| {
         let angle = (from + (to - from) * f64::from(i) / f64::from(n)) * FRAC_PI_2;
-        DVec2::from(centre) + DVec2::from(radii) * DVec2::from_angle(angle)
+        DVec2::from(center) + DVec2::from(radii) * DVec2::from_angle(angle)
     };
     (0..=n).map(point).collect()
 }

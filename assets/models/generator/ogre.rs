@@ -1,4 +1,4 @@
-//! A stocky ogre with a club: smooth bodies without a hard edge, about two metres tall.
+//! A stocky ogre with a club: smooth bodies without a hard edge, about two meters tall.
 
 use glam::{DVec3, dvec3};
 
@@ -8,7 +8,7 @@ use crate::ogre_charts::{
     bracer_charts, buckle_chart, nail_charts, on_head, ring_chart, skin_charts, strand_charts, tie_chart,
     tusk_charts,
 };
-use crate::remesh::{Sizing, polygonise};
+use crate::remesh::{Sizing, polygonize};
 use crate::unwrap::{Chart, unwrap};
 use crate::{ogre_gear, ogre_head};
 
@@ -77,10 +77,10 @@ struct Body<'a> {
 }
 
 impl Body<'_> {
-    /// Polygonises and unrolls the body; adds the mesh and returns a node that shows it.
+    /// Polygonizes and unrolls the body; adds the mesh and returns a node that shows it.
     fn add(&self, charts: &[Chart], meshes: &mut Vec<Mesh>) -> Node {
         let sizing = Sizing { finest: self.edges.0, coarsest: self.edges.1, turn: self.edges.2 };
-        let mut surface = polygonise(&self.distance, self.bounds, self.cell, sizing);
+        let mut surface = polygonize(&self.distance, self.bounds, self.cell, sizing);
         let moved = surface.soften();
         let layered = ["tie", "earring"].contains(&self.name);
         let unwrapped = unwrap(&surface, charts, layered);

@@ -1,4 +1,4 @@
-//! Closed outlines in the plane: what plates are cut from. Counter-clockwise, in millimetres.
+//! Closed outlines in the plane: what plates are cut from. Counter-clockwise, in millimeters.
 
 use std::f64::consts::{PI, TAU};
 
@@ -8,13 +8,13 @@ use glam::{DVec2, dvec2};
 pub(crate) type Outline = Vec<DVec2>;
 
 /// A circle of `n` points.
-pub(crate) fn circle(centre: DVec2, radius: f64, n: usize) -> Outline {
-    (0..n).map(|i| centre + radius * DVec2::from_angle(TAU * i as f64 / n as f64)).collect()
+pub(crate) fn circle(center: DVec2, radius: f64, n: usize) -> Outline {
+    (0..n).map(|i| center + radius * DVec2::from_angle(TAU * i as f64 / n as f64)).collect()
 }
 
 /// An arc from angle `from` to angle `to` (either way round) in `n` chords, both ends included.
-pub(crate) fn arc(centre: DVec2, radius: f64, from: f64, to: f64, n: usize) -> Vec<DVec2> {
-    (0..=n).map(|i| centre + radius * DVec2::from_angle(from + (to - from) * i as f64 / n as f64)).collect()
+pub(crate) fn arc(center: DVec2, radius: f64, from: f64, to: f64, n: usize) -> Vec<DVec2> {
+    (0..=n).map(|i| center + radius * DVec2::from_angle(from + (to - from) * i as f64 / n as f64)).collect()
 }
 
 /// A polygon whose corners `(x, y, radius)` are rounded by arcs of at most `step` radians per chord.
@@ -34,10 +34,10 @@ pub(crate) fn rounded(corners: &[(f64, f64, f64)], step: f64) -> Outline {
             continue;
         }
         let touch = p - before * radius * (turn.abs() / 2.0).tan();
-        let centre = touch + before.perp() * radius * turn.signum();
-        let from = (touch - centre).to_angle();
+        let center = touch + before.perp() * radius * turn.signum();
+        let from = (touch - center).to_angle();
         let n = (turn.abs() / step).ceil().max(1.0) as usize;
-        out.extend(arc(centre, radius, from, from + turn, n));
+        out.extend(arc(center, radius, from, from + turn, n));
     }
     out.dedup_by(|a, b| a.distance(*b) < 1e-6);
     out
@@ -54,7 +54,7 @@ pub(crate) fn upside_down(outline: &[DVec2]) -> Outline {
     outline.iter().rev().map(|p| dvec2(p.x, -p.y)).collect()
 }
 
-/// The outline moved inwards by `distance` (outwards when negative) with mitred corners, point for point.
+/// The outline moved inwards by `distance` (outwards when negative) with mitered corners, point for point.
 pub(crate) fn inset(outline: &[DVec2], distance: f64) -> Outline {
     let n = outline.len();
     (0..n)

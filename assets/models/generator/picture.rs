@@ -11,29 +11,29 @@ use crate::glb::Image;
 pub(crate) struct Canvas {
     /// Texels across and down.
     pub(crate) texels: [u32; 2],
-    /// Width and height of the surface, in millimetres.
+    /// Width and height of the surface, in millimeters.
     pub(crate) size: DVec2,
 }
 
 impl Canvas {
-    /// The middle of a texel, in millimetres from the lower left.
+    /// The middle of a texel, in millimeters from the lower left.
     pub(crate) fn place(&self, column: u32, row: u32) -> DVec2 {
         let [width, height] = self.texels.map(f64::from);
         let part = dvec2((f64::from(column) + 0.5) / width, 1.0 - (f64::from(row) + 0.5) / height);
         part * self.size
     }
 
-    /// The width and height of a texel in millimetres.
+    /// The width and height of a texel in millimeters.
     pub(crate) fn texel(&self) -> DVec2 {
         self.size / dvec2(f64::from(self.texels[0]), f64::from(self.texels[1]))
     }
 
-    /// An image whose colours are given per place; see [`Canvas::place`].
+    /// An image whose colors are given per place; see [`Canvas::place`].
     pub(crate) fn paint(&self, color: impl Fn(DVec2) -> Rgb<u8>) -> RgbImage {
         RgbImage::from_fn(self.texels[0], self.texels[1], |x, y| color(self.place(x, y)))
     }
 
-    /// The tangent-space normal map of a relief, given its height in millimetres per place.
+    /// The tangent-space normal map of a relief, given its height in millimeters per place.
     pub(crate) fn relief(&self, height: impl Fn(DVec2) -> f64) -> RgbImage {
         let step = self.texel();
         self.paint(|p| {
@@ -44,13 +44,13 @@ impl Canvas {
     }
 }
 
-/// A colour as written in paint programs: `0xRRGGBB`, sRGB.
+/// A color as written in paint programs: `0xRRGGBB`, sRGB.
 pub(crate) fn paint(srgb: u32) -> DVec3 {
     let [_, r, g, b] = srgb.to_be_bytes();
     dvec3(r.into(), g.into(), b.into())
 }
 
-/// The colour nearest to one between those that [`paint`] gives.
+/// The color nearest to one between those that [`paint`] gives.
 pub(crate) fn rgb(color: DVec3) -> Rgb<u8> {
     Rgb(color.round().to_array().map(|v| v as u8))
 }

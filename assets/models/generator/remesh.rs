@@ -1,4 +1,4 @@
-//! Polygonises an implicit surface and makes its triangles even: long edges are split, short ones collapsed, others
+//! Polygonizes an implicit surface and makes its triangles even: long edges are split, short ones collapsed, others
 //! flipped, and all points slide along the surface until they are well spread (Botsch and Kobbelt 2004).
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -31,7 +31,7 @@ pub(crate) struct Sizing {
 }
 
 /// The surface `f = 0` inside the box, found on a grid of `cell`, with edges about as long as `sizing` says.
-pub(crate) fn polygonise(
+pub(crate) fn polygonize(
     f: &impl Fn(DVec3) -> f64,
     (low, high): (DVec3, DVec3),
     cell: f64,
@@ -142,11 +142,11 @@ impl Surface {
             })
             .collect();
         // Sizes grow gently from point to point.
-        let neighbours = self.neighbours();
+        let neighbors = self.neighbors();
         self.sizes = own;
         for _ in 0..3 {
             self.sizes = (0..self.points.len())
-                .map(|i| neighbours[i].iter().fold(self.sizes[i], |size, &j| size.min(self.sizes[j] * 1.25)))
+                .map(|i| neighbors[i].iter().fold(self.sizes[i], |size, &j| size.min(self.sizes[j] * 1.25)))
                 .collect();
         }
     }
@@ -206,8 +206,8 @@ impl Surface {
         }
     }
 
-    /// The neighbours of each point.
-    pub(crate) fn neighbours(&self) -> Vec<BTreeSet<usize>> {
+    /// The neighbors of each point.
+    pub(crate) fn neighbors(&self) -> Vec<BTreeSet<usize>> {
         let mut out = vec![BTreeSet::new(); self.points.len()];
         for face in &self.faces {
             for k in 0..3 {
@@ -221,7 +221,7 @@ impl Surface {
     /// Merges the ends of edges that are too short where that keeps the surface a surface.
     fn collapse(&mut self) {
         for _ in 0..4 {
-            let neighbours = self.neighbours();
+            let neighbors = self.neighbors();
             let mut around: Vec<Vec<usize>> = vec![Vec::new(); self.points.len()];
             for (f, face) in self.faces.iter().enumerate() {
                 face.iter().for_each(|&i| around[i].push(f));
@@ -230,10 +230,10 @@ impl Surface {
             let mut becomes: Vec<usize> = (0..self.points.len()).collect();
             let mut any = false;
             for (_, a, b) in self.lengths().into_iter().take_while(|e| e.0 < 0.8) {
-                let ring = || neighbours[a].union(&neighbours[b]);
+                let ring = || neighbors[a].union(&neighbors[b]);
                 if ring().any(|&i| frozen[i])
-                    || neighbours[a].intersection(&neighbours[b]).count() != 2
-                    || neighbours[a].intersection(&neighbours[b]).any(|&i| neighbours[i].len() < 5)
+                    || neighbors[a].intersection(&neighbors[b]).count() != 2
+                    || neighbors[a].intersection(&neighbors[b]).any(|&i| neighbors[i].len() < 5)
                 {
                     continue;
                 }
@@ -287,10 +287,10 @@ impl Surface {
         self.sizes = sizes;
     }
 
-    /// Flips edges where that brings the points closer to having six neighbours.
+    /// Flips edges where that brings the points closer to having six neighbors.
     fn flip(&mut self) {
-        let neighbours = self.neighbours();
-        let mut valence: Vec<i32> = neighbours.iter().map(|n| n.len() as i32).collect();
+        let neighbors = self.neighbors();
+        let mut valence: Vec<i32> = neighbors.iter().map(|n| n.len() as i32).collect();
         let edges = self.edges();
         let mut stale = vec![false; self.faces.len()];
         let mut added: BTreeSet<(usize, usize)> = BTreeSet::new();
@@ -301,7 +301,7 @@ impl Surface {
             }
             let (c, d) = (self.apex(f, a, b), self.apex(g, a, b));
             let key = (c.min(d), c.max(d));
-            if neighbours[c].contains(&d) || added.contains(&key) || valence[a] < 5 || valence[b] < 5 {
+            if neighbors[c].contains(&d) || added.contains(&key) || valence[a] < 5 || valence[b] < 5 {
                 continue;
             }
             let off = |i: usize, change: i32| (valence[i] + change - 6).pow(2);
@@ -326,14 +326,14 @@ impl Surface {
         }
     }
 
-    /// Moves each point towards the middle of its neighbours, along the surface.
+    /// Moves each point towards the middle of its neighbors, along the surface.
     fn relax(&mut self, f: &impl Fn(DVec3) -> f64) {
-        let neighbours = self.neighbours();
+        let neighbors = self.neighbors();
         self.points = (0..self.points.len())
             .map(|i| {
                 let p = self.points[i];
-                let sum: DVec3 = neighbours[i].iter().map(|&j| self.points[j]).sum();
-                let move_by = sum / neighbours[i].len() as f64 - p;
+                let sum: DVec3 = neighbors[i].iter().map(|&j| self.points[j]).sum();
+                let move_by = sum / neighbors[i].len() as f64 - p;
                 let n = gradient(f, p).normalize_or_zero();
                 project(f, p + 0.7 * (move_by - n * n.dot(move_by)))
             })

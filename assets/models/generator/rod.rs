@@ -47,10 +47,10 @@ fn shank_side() -> Vec<DVec2> {
     let start = neck + out * f - eye;
     let along = start.dot(up);
     let reach = (EYE + f).powi(2) - start.length_squared() + along * along;
-    let centre = eye + start - up * (along + reach.sqrt());
-    let to_eye = (eye - centre).to_angle();
+    let center = eye + start - up * (along + reach.sqrt());
+    let to_eye = (eye - center).to_angle();
     let from = (-out).to_angle().rem_euclid(2.0 * PI);
-    side.extend(arc(centre, f, from, to_eye, 4));
+    side.extend(arc(center, f, from, to_eye, 4));
     side.extend(arc(eye, EYE, to_eye - PI, FRAC_PI_2, 9).iter().skip(1));
     side
 }

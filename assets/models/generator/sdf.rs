@@ -3,13 +3,13 @@
 use glam::{DMat3, DVec3};
 
 /// Distance to a sphere.
-pub(crate) fn sphere(p: DVec3, centre: DVec3, radius: f64) -> f64 {
-    p.distance(centre) - radius
+pub(crate) fn sphere(p: DVec3, center: DVec3, radius: f64) -> f64 {
+    p.distance(center) - radius
 }
 
 /// Roughly the distance to an ellipsoid along the axes; exact at its surface.
-pub(crate) fn ellipsoid(p: DVec3, centre: DVec3, radii: DVec3) -> f64 {
-    let q = (p - centre) / radii;
+pub(crate) fn ellipsoid(p: DVec3, center: DVec3, radii: DVec3) -> f64 {
+    let q = (p - center) / radii;
     let (near, steep) = (q.length(), (q / radii).length());
     if steep < 1e-9 {
         return -radii.min_element();
@@ -18,8 +18,8 @@ pub(crate) fn ellipsoid(p: DVec3, centre: DVec3, radii: DVec3) -> f64 {
 }
 
 /// The same for an ellipsoid whose axes are the columns of `axes`.
-pub(crate) fn turned_ellipsoid(p: DVec3, centre: DVec3, axes: DMat3, radii: DVec3) -> f64 {
-    ellipsoid(axes.transpose() * (p - centre), DVec3::ZERO, radii)
+pub(crate) fn turned_ellipsoid(p: DVec3, center: DVec3, axes: DMat3, radii: DVec3) -> f64 {
+    ellipsoid(axes.transpose() * (p - center), DVec3::ZERO, radii)
 }
 
 /// Distance to the hull of two balls.
@@ -63,10 +63,10 @@ pub(crate) fn join_near(
     d: f64,
     k: f64,
     p: DVec3,
-    (centre, radius): (DVec3, f64),
+    (center, radius): (DVec3, f64),
     body: impl Fn(DVec3) -> f64,
 ) -> f64 {
-    if p.distance(centre) - radius > d + k { d } else { join(d, body(p), k) }
+    if p.distance(center) - radius > d + k { d } else { join(d, body(p), k) }
 }
 
 /// The intersection of two bodies, its edge rounded over `k`.
@@ -79,7 +79,7 @@ pub(crate) fn carve(a: f64, b: f64, k: f64) -> f64 {
     meet(a, -b, k)
 }
 
-/// The direction in which a distance grows, not normalised.
+/// The direction in which a distance grows, not normalized.
 pub(crate) fn gradient(f: &impl Fn(DVec3) -> f64, p: DVec3) -> DVec3 {
     let e = 2e-4;
     let along = |d: DVec3| (f(p + d * e) - f(p - d * e)) / (2.0 * e);

@@ -13,9 +13,9 @@ const FOLD: f64 = 27.0;
 const BULGE: f64 = 37.0;
 
 impl Surface {
-    /// Moves the points around sharp edges towards their neighbours until few are left; tells which were moved.
+    /// Moves the points around sharp edges towards their neighbors until few are left; tells which were moved.
     pub(crate) fn soften(&mut self) -> Vec<bool> {
-        let neighbours = self.neighbours();
+        let neighbors = self.neighbors();
         let mut moved = vec![false; self.points.len()];
         for _ in 0..60 {
             let sharp = self.around_sharp_edges();
@@ -28,8 +28,8 @@ impl Surface {
                     if !sharp[i] {
                         return points[i];
                     }
-                    let sum: DVec3 = neighbours[i].iter().map(|&j| points[j]).sum();
-                    points[i].lerp(sum / neighbours[i].len() as f64, 0.3)
+                    let sum: DVec3 = neighbors[i].iter().map(|&j| points[j]).sum();
+                    points[i].lerp(sum / neighbors[i].len() as f64, 0.3)
                 })
                 .collect();
             moved.iter_mut().zip(&sharp).for_each(|(m, s)| *m |= s);

@@ -7,7 +7,7 @@ use glam::{DMat3, DVec2, DVec3, Vec3, dvec3};
 use crate::glb::Mesh;
 use crate::sets::{root, unite};
 
-/// A surface, closed unless it is a leaf or a pane, as loose triangles, counter-clockwise from outside, in millimetres.
+/// A surface, closed unless it is a leaf or a pane, as loose triangles, counter-clockwise from outside, in millimeters.
 #[derive(Default, Clone)]
 pub(crate) struct Solid {
     /// Corner positions.
@@ -113,7 +113,7 @@ impl Solid {
         self
     }
 
-    /// Welds the triangles into a mesh in metres. Edges that turn by more than `crease` degrees stay hard.
+    /// Welds the triangles into a mesh in meters. Edges that turn by more than `crease` degrees stay hard.
     pub(crate) fn into_mesh(self, name: &str, material: usize, crease: f64) -> Mesh {
         let (points, faces, uvs) = self.welded();
         let normals: Vec<DVec3> = faces
@@ -158,7 +158,7 @@ impl Solid {
         mesh
     }
 
-    /// Points in metres, triangles between them and those triangles' texture coordinates, if there are any; triangles
+    /// Points in meters, triangles between them and those triangles' texture coordinates, if there are any; triangles
     /// that vanish in the weld are left out.
     fn welded(&self) -> (Vec<Vec3>, Vec<[usize; 3]>, Vec<[DVec2; 3]>) {
         let mut index_of: BTreeMap<[i64; 3], usize> = BTreeMap::new();
@@ -167,7 +167,7 @@ impl Solid {
         let mut uvs = Vec::new();
         for (t, triangle) in self.triangles.iter().enumerate() {
             let face = triangle.map(|p| {
-                // A hundred-thousandth of a millimetre.
+                // A hundred-thousandth of a millimeter.
                 let key = (p * 1e5).round().to_array().map(|v| v as i64);
                 *index_of.entry(key).or_insert_with(|| {
                     points.push((p * 1e-3).as_vec3());

@@ -1,7 +1,7 @@
 //! A still life on a wooden table: mirror, vase with leaves, bottle, ball, fruit, whisk. For images, relief, shapes that
 //! are cut out, reflections and thin wires.
 //!
-//! Millimetres; the table's top is at y = 0, its front towards +Z. Composed for an eye that is turned 30° to +X.
+//! Millimeters; the table's top is at y = 0, its front towards +Z. Composed for an eye that is turned 30° to +X.
 
 use glam::{DQuat, DVec3, dvec3};
 

@@ -90,9 +90,9 @@ pub(crate) fn label_image() -> Image {
 }
 
 /// The emblem: a ball that is nothing but hachures, denser and longer where it is dark.
-fn hatched_ball(ink: &mut Ink, centre: DVec2, radius: f64) {
+fn hatched_ball(ink: &mut Ink, center: DVec2, radius: f64) {
     let rim: Vec<DVec2> = (0..=48)
-        .map(|i| centre + radius * DVec2::from_angle(std::f64::consts::TAU * f64::from(i) / 48.0))
+        .map(|i| center + radius * DVec2::from_angle(std::f64::consts::TAU * f64::from(i) / 48.0))
         .collect();
     ink.line(&rim, Nib::round(0.6));
     for i in 1..14 {
@@ -100,7 +100,7 @@ fn hatched_ball(ink: &mut Ink, centre: DVec2, radius: f64) {
         let half = (radius * radius - offset * offset).sqrt();
         let light = -0.35 * half + 0.55 * offset;
         let turn = DVec2::from_angle(-0.7);
-        let at = |along: f64| centre + turn.rotate(dvec2(along, offset));
+        let at = |along: f64| center + turn.rotate(dvec2(along, offset));
         if light < half {
             ink.line(&[at(light.max(-half)), at(half)], Nib::round(0.5));
         }

@@ -1,4 +1,4 @@
-//! A pear and an apple, in one colour each.
+//! A pear and an apple, in one color each.
 
 use glam::{DVec3, dvec3};
 

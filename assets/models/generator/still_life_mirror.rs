@@ -58,13 +58,13 @@ fn pane(outline: &Outline) -> Solid {
     out
 }
 
-/// A moulding, led around the outline with mitred corners: from its outer edge a round and a hollow, a step, a bead.
+/// A molding, led around the outline with mitered corners: from its outer edge a round and a hollow, a step, a bead.
 fn frame(outline: &Outline) -> Solid {
-    let moulding =
+    let molding =
         profile(&[(0.0, 12.0), (1.2, 15.4), (4.4, 16.8), (8.0, 14.6), (11.6, 10.8), (17.0, 9.4)], 3);
     let bead = profile(&[(17.0, 11.2), (18.0, 13.0), (20.0, 13.6), (22.0, 12.8), (23.0, 10.8)], 2);
     let back = [dvec2(23.0, 0.0), dvec2(0.0, 0.0)];
-    let section = moulding.into_iter().chain(bead).chain(back);
+    let section = molding.into_iter().chain(bead).chain(back);
     let rings: Vec<Vec<DVec3>> = section.map(|p| lifted(&inset(outline, p.x), p.y)).collect();
     let mut out = Solid::default();
     for (i, ring) in rings.iter().enumerate() {

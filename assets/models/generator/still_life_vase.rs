@@ -66,7 +66,7 @@ pub(crate) fn node(studio: &mut Studio) -> Node {
     studio.node("vase", Finish::Vase, solid)
 }
 
-/// The colours: pale glaze, a blue band, petals left pale.
+/// The colors: pale glaze, a blue band, petals left pale.
 pub(crate) fn color() -> Image {
     let (glaze, blue, line) = (paint(0xec_e6d6), paint(0x5b_7f92), paint(0x3b_5a70));
     let picture = CANVAS.paint(|p| {
@@ -87,7 +87,7 @@ pub(crate) fn relief() -> Image {
     tile("ornament", &CANVAS.relief(height))
 }
 
-/// The height of the relief in millimetres.
+/// The height of the relief in millimeters.
 fn height(p: DVec2) -> f64 {
     let pillow = smoothstep(-0.2, 2.6, raised(p));
     let groove = smoothstep(0.9, 0.3, (petal(p) - 2.6).abs()) * smoothstep(0.0, 2.0, petal(p));

@@ -1,7 +1,7 @@
 //! An Egyptian temple: pylon, inner yard, hypostyle hall, two statues that guard the doorway to the chambers behind, and
 //! a hidden chamber above them. For what is drawn through walls: every part is named.
 //!
-//! Metres; the temple's axis lies along Z, its entrance at +Z; the floor is at y = 0. Parts stand a little in each
+//! Meters; the temple's axis lies along Z, its entrance at +Z; the floor is at y = 0. Parts stand a little in each
 //! other, so that nowhere two faces share a plane.
 
 use crate::glb::{Material, Node, Scene};
@@ -28,7 +28,7 @@ pub(crate) enum Finish {
     Cedar,
 }
 
-/// The colours of the finishes.
+/// The colors of the finishes.
 fn materials() -> Vec<Material> {
     let finish = |name, srgb| Material { name, srgb, roughness: 0.9, ..Material::default() };
     vec![
@@ -45,7 +45,7 @@ fn materials() -> Vec<Material> {
     ]
 }
 
-/// Turns solids in metres into meshes of the scene.
+/// Turns solids in meters into meshes of the scene.
 pub(crate) struct Mason {
     scene: Scene,
 }
@@ -62,15 +62,15 @@ impl Mason {
         Node::new(name, Some(mesh))
     }
 
-    /// The node at a place in metres.
+    /// The node at a place in meters.
     pub(crate) fn placed(node: Node, x: f64, y: f64, z: f64) -> Node {
         node.at(x * 1e3, y * 1e3, z * 1e3)
     }
 
     /// Adds a mesh with edges that stay hard where they turn by more than `crease` degrees.
     pub(crate) fn creased(&mut self, name: &str, finish: Finish, solid: Solid, crease: f64) -> usize {
-        let millimetres = solid.bent(|p| p * 1e3);
-        self.scene.add(millimetres.into_mesh(name, finish as usize, crease))
+        let millimeters = solid.bent(|p| p * 1e3);
+        self.scene.add(millimeters.into_mesh(name, finish as usize, crease))
     }
 }
 

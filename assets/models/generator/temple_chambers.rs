@@ -1,4 +1,4 @@
-//! The rooms behind the hall, a stair to the storey above them, and the chamber that is hidden there. In metres.
+//! The rooms behind the hall, a stair to the storey above them, and the chamber that is hidden there. In meters.
 
 use glam::{DVec2, dvec2};
 

@@ -1,4 +1,4 @@
-//! Columns: a round base, a shaft like a papyrus stem, an open or a closed capital, an abacus. In metres.
+//! Columns: a round base, a shaft like a papyrus stem, an open or a closed capital, an abacus. In meters.
 
 use glam::{DVec2, dvec2};
 
@@ -66,7 +66,7 @@ impl Order {
     }
 }
 
-/// A disc with a bevelled rim.
+/// A disc with a beveled rim.
 fn base_profile(radius: f64, top: f64) -> Vec<DVec2> {
     let (wide, bevel) = (1.28 * radius, 0.12 * radius);
     vec![

@@ -1,4 +1,4 @@
-//! The hypostyle hall: a high nave between lower aisles, lit by the grilles of its clerestory. In metres.
+//! The hypostyle hall: a high nave between lower aisles, lit by the grilles of its clerestory. In meters.
 
 use glam::dvec2;
 

@@ -1,4 +1,4 @@
-//! What the temple is built from: blocks, walls with openings, cornices, bands led along a path. In metres.
+//! What the temple is built from: blocks, walls with openings, cornices, bands led along a path. In meters.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -106,7 +106,7 @@ impl Wall {
     }
 }
 
-/// The profile of torus moulding and cavetto cornice, `height` in all, upon a face that is `inset` at the height `foot`.
+/// The profile of torus molding and cavetto cornice, `height` in all, upon a face that is `inset` at the height `foot`.
 fn cornice(inset: f64, foot: f64, height: f64) -> Rim {
     let torus = 0.09 * height;
     let (hollow, flare) = (0.6 * height, 0.42 * height);
@@ -121,7 +121,7 @@ fn cornice(inset: f64, foot: f64, height: f64) -> Rim {
     rim
 }
 
-/// A rectangular body whose sides lean inwards by `batter` metres per metre, under a cornice `crown` high that belongs
+/// A rectangular body whose sides lean inwards by `batter` meters per meter, under a cornice `crown` high that belongs
 /// to the height.
 pub(crate) fn crowned(x: Span, y: Span, z: Span, batter: f64, crown: f64) -> Solid {
     let [low, high] = [y[0], y[1] - crown];
@@ -147,7 +147,7 @@ pub(crate) fn eaves_section(width: f64, y: Span) -> Outline {
     section
 }
 
-/// Leads a section along a path of x and z, outwards to the path's right, with mitred corners.
+/// Leads a section along a path of x and z, outwards to the path's right, with mitered corners.
 pub(crate) fn sweep(section: &Outline, path: &[DVec2]) -> Solid {
     let path = in_pieces(path);
     let right = |from: DVec2, to: DVec2| (to - from).normalize().perp();

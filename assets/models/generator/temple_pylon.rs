@@ -1,4 +1,4 @@
-//! The entrance: two leaning towers with the gate between them, masts and obelisks before them. In metres.
+//! The entrance: two leaning towers with the gate between them, masts and obelisks before them. In meters.
 
 use glam::{DVec2, dvec3};
 

@@ -1,4 +1,4 @@
-//! A seated king with striped head cloth and false beard, hands on his knees, on a throne with a back pillar. In metres;
+//! A seated king with striped head cloth and false beard, hands on his knees, on a throne with a back pillar. In meters;
 //! he looks towards +Z, his plinth stands at `y = 0`.
 
 use crate::glb::Node;

@@ -1,4 +1,4 @@
-//! The inner yard: open to the sky, with a colonnade on three sides. In metres.
+//! The inner yard: open to the sky, with a colonnade on three sides. In meters.
 
 use glam::{DVec2, dvec2};
 

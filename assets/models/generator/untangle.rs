@@ -1,4 +1,4 @@
-//! Separates sheets of a surface that a polygoniser left hanging together.
+//! Separates sheets of a surface that a polygonizer left hanging together.
 
 use std::collections::BTreeMap;
 

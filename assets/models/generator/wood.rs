@@ -12,10 +12,10 @@ pub(crate) const CANVAS: Canvas = Canvas { texels: [1024, 512], size: dvec2(640.
 const RINGS: f64 = 32.0;
 /// Where the knot is.
 const KNOT: DVec2 = dvec2(452.0, 118.0);
-/// Shades of the base colour; few, as if painted.
+/// Shades of the base color; few, as if painted.
 const SHADES: f64 = 24.0;
 
-/// The colours.
+/// The colors.
 pub(crate) fn color() -> Image {
     let (light, dark) = (paint(0xdd_b98a), paint(0x96_6238));
     let picture = CANVAS.paint(|p| {

@@ -274,7 +274,7 @@ fn stripe_ink(s: Stripes, number: u32, stroke: Stroke, ink: f32) -> f32 {
         let across_rows = rows_at(s, across, along.k);
         let finer = 0.5 * wrapped(across_rows.finer - 2.0 * across_rows.own);
         let at = (across_rows.own + finer * smoothstep(0.0, 1.0, octave)) * sense;
-        // So that the ends of neighbours do not line up.
+        // So that the ends of neighbors do not line up.
         let frequency = s.frequency * exp2(f32(along.k)) * 1.7;
         let noise = mix(value_noise(s.place * frequency), value_noise(s.place * frequency * 2.0), octave);
         // Twice as much where there are twice as many, so that what is an end stays one.

@@ -208,16 +208,16 @@ fn rounded(number: f32) -> f32 {
     (number * PER_UNIT).round() / PER_UNIT + 0.0
 }
 
-/// The curve with one point moved as near to `to` as its neighbours allow; an end moves up and down only. What changes is
+/// The curve with one point moved as near to `to` as its neighbors allow; an end moves up and down only. What changes is
 /// rounded.
 fn moved(curve: Curve, index: usize, to: Point) -> Curve {
     let mut points = curve.points().to_vec();
     let x_of = |index: Option<usize>| index.and_then(|i| curve.points().get(i)).map(|point| point.x);
-    let neighbours = x_of(index.checked_sub(1)).zip(x_of(index.checked_add(1)));
+    let neighbors = x_of(index.checked_sub(1)).zip(x_of(index.checked_add(1)));
     let Some(point) = points.get_mut(index) else {
         return curve;
     };
-    if let Some((before, after)) = neighbours
+    if let Some((before, after)) = neighbors
         && to.x != point.x
     {
         // Rounded inwards, but for errors of rounding.

@@ -163,7 +163,7 @@ fn nothing_is_added_while_a_modifier_is_held() {
 }
 
 #[test]
-fn a_point_is_dragged_in_one_step_and_stays_between_its_neighbours() {
+fn a_point_is_dragged_in_one_step_and_stays_between_its_neighbors() {
     let mut window = Window::new();
     window.settle();
     window.double_click([0.5, 0.5]);
@@ -174,7 +174,7 @@ fn a_point_is_dragged_in_one_step_and_stays_between_its_neighbours() {
     assert_eq!(window.0.state().steps.len(), steps + 1, "one drag is one step");
     assert!(window.says("0.70 becomes 0.25"));
 
-    // Beyond the neighbour and the top, but not out of the plot.
+    // Beyond the neighbor and the top, but not out of the plot.
     let to = window.by(0.4, 0.85);
     window.drag([0.7, 0.25], &[to]);
     assert_eq!(window.points(), [[0.0, 0.0], [0.99, 1.0], [1.0, 1.0]]);

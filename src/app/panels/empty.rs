@@ -48,9 +48,9 @@ pub fn empty_ui<'a>(
     chosen
 }
 
-/// How far a load is. Returns whether it is to be cancelled.
+/// How far a load is. Returns whether it is to be canceled.
 pub fn loading_ui(ui: &Ui, area: Rect, share: f32) -> bool {
-    let mut cancelled = false;
+    let mut canceled = false;
     egui::Area::new(egui::Id::unique("loading"))
         .order(egui::Order::Middle)
         .pivot(Align2::CENTER_TOP)
@@ -60,11 +60,11 @@ pub fn loading_ui(ui: &Ui, area: Rect, share: f32) -> bool {
                 ui.horizontal(|ui| {
                     ui.label("Loading");
                     ui.add(egui::ProgressBar::new(share).desired_width(160.0).desired_height(8.0));
-                    cancelled = ui.button("Cancel").clicked();
+                    canceled = ui.button("Cancel").clicked();
                 });
             });
         });
-    cancelled
+    canceled
 }
 
 /// What would happen if the files were let go now.

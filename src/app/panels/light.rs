@@ -6,7 +6,7 @@ use glam::{DMat3, DMat4, DVec2, DVec3, Vec3};
 
 use super::Editing;
 use super::params::params_ui;
-use super::row::capitalised;
+use super::row::capitalized;
 use crate::document::Lighting;
 use crate::document::lighting::{Attached, Lamp, Source};
 use crate::scene::Up;
@@ -92,7 +92,7 @@ fn keep_directions(lighting: &mut Lighting, before: &Lighting, eye: &Eye) {
 fn names_ui(ui: &mut Ui, lighting: &mut Lighting, selected: &mut usize) {
     ui.add_space(20.0);
     for (i, (name, lamp)) in Lighting::LAMPS.into_iter().zip(lighting.lamps_mut()).enumerate() {
-        let text = RichText::new(capitalised(name));
+        let text = RichText::new(capitalized(name));
         let text = if lamp.show { text } else { text.weak() };
         let hint = if lamp.show { "Drag its dot on the ball" } else { "It is off" };
         ui.selectable_value(selected, i, text).on_hover_text(hint);
@@ -163,7 +163,7 @@ fn direction_at(place: Vec2) -> DVec3 {
     (at / share * sine).extend(-(1.0 - sine * sine).sqrt())
 }
 
-/// A grey ball in the light of the rig.
+/// A gray ball in the light of the rig.
 fn paint_ball(ui: &Ui, center: Pos2, lighting: &mut Lighting, eye: &Eye) {
     const RINGS: u32 = 12;
     const SEGMENTS: u32 = 48;

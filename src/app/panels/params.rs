@@ -5,7 +5,7 @@ use eframe::egui::collapsing_header::CollapsingState;
 use eframe::egui::{RichText, Ui};
 
 use super::icons;
-use super::row::{Change, RESET_WIDTH, Row, capitalised, spaced};
+use super::row::{Change, RESET_WIDTH, Row, capitalized, spaced};
 use super::span::span_ui;
 use crate::style::param::Param;
 
@@ -20,7 +20,7 @@ pub fn section_of(key: &str) -> &str {
 /// A section's heading: `edges.profile` → `Edges · profile`, `sketch.pass1` → `Sketch · pass 1`.
 pub fn heading(section: &str) -> String {
     let mut words = section.split('.').map(numbered);
-    let first = words.next().map(|w| capitalised(&w)).unwrap_or_default();
+    let first = words.next().map(|w| capitalized(&w)).unwrap_or_default();
     std::iter::once(first).chain(words).collect::<Vec<_>>().join(" · ")
 }
 

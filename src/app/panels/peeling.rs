@@ -3,7 +3,7 @@
 use eframe::egui;
 use eframe::egui::{RichText, Ui};
 
-use super::row::capitalised;
+use super::row::capitalized;
 use super::status::grouped;
 use crate::render::LayersBy;
 use crate::render::Peeled;
@@ -40,7 +40,7 @@ pub(super) fn peeling_ui(ui: &mut Ui, (peeled, by): &(Peeled, LayersBy)) {
     shown.header_response.on_hover_text("Of the picture that is seen, without its mirrors");
     for shortfall in by.shortfall().into_iter().chain(peeled.shortfall()) {
         let color = ui.visuals().warn_fg_color;
-        ui.add(egui::Label::new(RichText::new(capitalised(&shortfall)).color(color)).wrap());
+        ui.add(egui::Label::new(RichText::new(capitalized(&shortfall)).color(color)).wrap());
     }
 }
 

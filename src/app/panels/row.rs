@@ -32,7 +32,7 @@ pub enum Change {
 
 /// `face_normals` → `Face normals`.
 pub fn label_of(name: &str) -> String {
-    capitalised(&spaced(name))
+    capitalized(&spaced(name))
 }
 
 /// `face_normals` → `face normals`.
@@ -41,7 +41,7 @@ pub fn spaced(name: &str) -> String {
 }
 
 /// With a capital first letter.
-pub fn capitalised(text: &str) -> String {
+pub fn capitalized(text: &str) -> String {
     let mut letters = text.chars();
     letters
         .next()

@@ -13,7 +13,7 @@ use crate::style::param;
 pub fn section_ui(ui: &mut Ui, editing: &mut Editing<'_>) {
     let (scene, bounds) = (&editing.model.scene, &editing.model.bounds);
     let up = editing.document.up(scene);
-    let unit = editing.document.metres_per_unit(scene).and_then(Unit::of).map_or("", |unit| unit.symbol);
+    let unit = editing.document.meters_per_unit(scene).and_then(Unit::of).map_or("", |unit| unit.symbol);
     let fault = editing.document.section_fault(up, bounds);
     let section = &mut editing.document.section;
     let [low, high] = section.range(up, bounds).map(|at| at as f32);

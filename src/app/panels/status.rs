@@ -36,7 +36,7 @@ pub struct Status<'a> {
 
 /// Work that is not wanted any more.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Cancelled {
+pub enum Canceled {
     /// A screenshot.
     Saving,
     /// Strokes of hatching.
@@ -59,8 +59,8 @@ pub fn grouped(number: usize) -> String {
 }
 
 /// The line. Returns what is not wanted any more.
-pub fn status_ui(ui: &mut Ui, status: &Status<'_>, commands: &mut Vec<Command>) -> Option<Cancelled> {
-    let mut cancelled = None;
+pub fn status_ui(ui: &mut Ui, status: &Status<'_>, commands: &mut Vec<Command>) -> Option<Canceled> {
+    let mut canceled = None;
     ui.horizontal_centered(|ui| {
         let scene = &status.model.scene;
         if let Some(hint) = status.hint {
@@ -105,27 +105,27 @@ pub fn status_ui(ui: &mut Ui, status: &Status<'_>, commands: &mut Vec<Command>) 
             if let Some(share) = status.saving {
                 ui.separator();
                 if ui.link("Cancel").on_hover_text("Save no picture").clicked() {
-                    cancelled = Some(Cancelled::Saving);
+                    canceled = Some(Canceled::Saving);
                 }
                 ui.label(format!("Saving a picture, {:.0} %", share * 100.0));
             }
             if let Some(share) = status.hatching {
                 ui.separator();
                 if ui.link("Cancel").on_hover_text("Leave strokes on the paper").clicked() {
-                    cancelled = Some(Cancelled::Hatching);
+                    canceled = Some(Canceled::Hatching);
                 }
                 ui.label(format!("Strokes lie on the paper until they are found, {:.0} %", share * 100.0));
             }
             if let Some(share) = status.strokes {
                 ui.separator();
                 if ui.link("Cancel").on_hover_text("Draw with the strokes of a pen").clicked() {
-                    cancelled = Some(Cancelled::Strokes);
+                    canceled = Some(Canceled::Strokes);
                 }
                 ui.label(format!("A pen's strokes until these are drawn, {:.0} %", share * 100.0));
             }
         });
     });
-    cancelled
+    canceled
 }
 
 #[cfg(test)]

@@ -25,7 +25,7 @@ pub fn view_ui(ui: &mut Ui, editing: &mut Editing<'_>, samples: &mut Samples) ->
 
     up_ui(ui, document, scene);
     unit_ui(ui, document, scene);
-    let unit = document.metres_per_unit(scene).and_then(Unit::of);
+    let unit = document.meters_per_unit(scene).and_then(Unit::of);
     if let Some(camera) = &mut document.camera {
         projection_ui(ui, camera, unit);
     }
@@ -62,18 +62,18 @@ fn up_ui(ui: &mut Ui, document: &mut Document, scene: &Scene) {
 
 fn unit_ui(ui: &mut Ui, document: &mut Document, scene: &Scene) {
     named_row(ui, "Unit", "What one unit of the file's coordinates stands for", |ui, label| {
-        let as_file = match scene.metres_per_unit {
-            Some(metres) => format!("As in the file ({})", unit_name(metres).to_lowercase()),
+        let as_file = match scene.meters_per_unit {
+            Some(meters) => format!("As in the file ({})", unit_name(meters).to_lowercase()),
             None => "Unknown".to_owned(),
         };
-        let text = document.metres_per_unit.map_or_else(|| as_file.clone(), unit_name);
+        let text = document.meters_per_unit.map_or_else(|| as_file.clone(), unit_name);
         let combo = egui::ComboBox::from_id_salt("unit")
             .width(ui.available_width())
             .selected_text(text)
             .show_ui(ui, |ui| {
-                ui.selectable_value(&mut document.metres_per_unit, None, as_file);
+                ui.selectable_value(&mut document.meters_per_unit, None, as_file);
                 for unit in UNITS {
-                    ui.selectable_value(&mut document.metres_per_unit, Some(unit.metres), unit.name);
+                    ui.selectable_value(&mut document.meters_per_unit, Some(unit.meters), unit.name);
                 }
             });
         combo.response.labelled_by(label);
@@ -145,6 +145,6 @@ fn samples_name(samples: u32) -> String {
     if samples > 1 { format!("{samples} samples") } else { "Off".to_owned() }
 }
 
-fn unit_name(metres: f64) -> String {
-    Unit::of(metres).map_or_else(|| format!("{metres} m"), |unit| unit.name.to_owned())
+fn unit_name(meters: f64) -> String {
+    Unit::of(meters).map_or_else(|| format!("{meters} m"), |unit| unit.name.to_owned())
 }

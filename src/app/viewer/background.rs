@@ -40,7 +40,7 @@ impl Viewer {
         }
     }
 
-    /// Starts to load files; a load that is still running is cancelled. The present scene stays until then.
+    /// Starts to load files; a load that is still running is canceled. The present scene stays until then.
     pub(super) fn start_loading(&mut self, context: &egui::Context, files: Vec<PathBuf>, intent: Intent) {
         let mut paths = if intent == Intent::Add { self.document.models.clone() } else { Vec::new() };
         paths.extend(files);
@@ -101,7 +101,7 @@ impl Viewer {
                 self.leave_for(context, Next::Show(Box::new(loaded)));
             }
             Ok(Ok(loaded)) => self.show_loaded(loaded),
-            Ok(Err(LoadError::Import(ImportError::Cancelled))) => self.stay(),
+            Ok(Err(LoadError::Import(ImportError::Canceled))) => self.stay(),
             Ok(Err(error)) => self.load_failed(&error.to_string()),
             Err(error) => self.load_failed(&error.to_string()),
         }
@@ -246,7 +246,7 @@ impl Viewer {
         let work = move |progress: &Progress| {
             let go_on = |share: f32| {
                 progress.report(share);
-                !progress.is_cancelled()
+                !progress.is_canceled()
             };
             let found = SolvedStripes::solve(&Cache::of_user(), &scene, &missing, &go_on)?;
             let all = known.into_iter().chain(found).collect();
@@ -282,7 +282,7 @@ impl Viewer {
         let work = move |progress: &Progress| {
             let go_on = |share: f32| {
                 progress.report(share);
-                !progress.is_cancelled()
+                !progress.is_canceled()
             };
             StrokeMap::draw(&Cache::of_user(), &recipe, &go_on)
         };
@@ -300,7 +300,7 @@ impl Viewer {
             // What was set by hand for everything goes on with the next model.
             self.document = Document {
                 up: memory.and_then(|m| m.up),
-                metres_per_unit: memory.and_then(|m| m.metres_per_unit),
+                meters_per_unit: memory.and_then(|m| m.meters_per_unit),
                 lighting: self.document.lighting.clone(),
                 style: self.document.style.clone(),
                 view: self.document.view.clone(),

@@ -18,7 +18,7 @@ const MARGIN: f32 = 0.25;
 /// From the letters back to the line, and from there to the plate: less than can be seen.
 const BEHIND: f32 = 0.002;
 
-/// The mesh of a label with its colours, facing +z.
+/// The mesh of a label with its colors, facing +z.
 pub(super) fn label_mesh(label: &Label, text: &Text, ink: Color, paper: Color) -> Mesh {
     let [right, up] = label.offset;
     let (size, middle) = (text.max - text.min, (text.min + text.max) * 0.5);
@@ -53,7 +53,7 @@ pub(super) fn label_mesh(label: &Label, text: &Text, ink: Color, paper: Color) -
     mesh.finish()
 }
 
-/// Flat triangles in colours.
+/// Flat triangles in colors.
 #[derive(Default)]
 struct Colored {
     positions: Vec<Vec3>,

@@ -26,7 +26,7 @@ pub const FOLDER: &str = "glyphs/";
 pub struct Glyph {
     /// Unique among glyphs, without `/`.
     pub name: String,
-    /// Colour of all of it.
+    /// Color of all of it.
     pub color: Color,
     /// What it is.
     pub shape: Shape,
@@ -172,7 +172,7 @@ impl Shape {
 }
 
 impl Glyph {
-    /// A glyph in the usual colour.
+    /// A glyph in the usual color.
     pub fn new(name: String, shape: Shape) -> Self {
         Self { name, color: Color([200, 32, 30]), shape }
     }
@@ -200,7 +200,7 @@ impl Glyph {
     fn declare<'a>(&'a mut self, list: &mut Params<'a>) {
         let Self { color, shape, .. } = self;
         list.section("glyph", |list| {
-            list.color("color", "Colour", "Colour of the whole glyph.", color);
+            list.color("color", "Color", "Color of the whole glyph.", color);
             match shape {
                 Shape::Box(shape) => {
                     thickness(list, &mut shape.thickness);
@@ -240,7 +240,7 @@ fn label<'a>(list: &mut Params<'a>, label: &'a mut Label) {
     list.switch("plate", "Plate", "Paper behind the letters.", &mut label.plate);
 }
 
-/// The style of glyphs that have none of their own: their colour alone, with lines of a darker one.
+/// The style of glyphs that have none of their own: their color alone, with lines of a darker one.
 pub(super) fn base_style() -> &'static Style {
     static STYLE: LazyLock<Style> = LazyLock::new(|| {
         let mut style = Style { technique: Technique::Unlit, ..Style::default() };

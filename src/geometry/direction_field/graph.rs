@@ -1,4 +1,4 @@
-//! The neighbours of each vertex of a cut mesh, and coarser and coarser versions of them.
+//! The neighbors of each vertex of a cut mesh, and coarser and coarser versions of them.
 
 use std::collections::VecDeque;
 
@@ -6,17 +6,17 @@ use glam::Vec3;
 
 use super::cut::{CutMesh, transport};
 
-/// From a vertex to a neighbour.
+/// From a vertex to a neighbor.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Link {
-    /// The neighbour.
+    /// The neighbor.
     pub(crate) to: u32,
     /// How strongly both are coupled: the cotangent weight of Pinkall and Polthier 1993, or what takes its place in
     /// a coarse graph.
     pub(crate) weight: f32,
 }
 
-/// Patches of a surface and their neighbours. In the finest graph a patch is one vertex.
+/// Patches of a surface and their neighbors. In the finest graph a patch is one vertex.
 pub(crate) struct Graph {
     /// Middle of each patch, 1 = the extent.
     pub(crate) positions: Vec<Vec3>,
@@ -24,11 +24,11 @@ pub(crate) struct Graph {
     pub(crate) normals: Vec<Vec3>,
     /// Area.
     pub(crate) areas: Vec<f32>,
-    /// `links[first_link[v]..first_link[v + 1]]` are those of `v`, by ascending neighbour.
+    /// `links[first_link[v]..first_link[v + 1]]` are those of `v`, by ascending neighbor.
     pub(crate) first_link: Vec<u32>,
     /// All links, each in both directions.
     pub(crate) links: Vec<Link>,
-    /// The patch of the next coarser graph that each is part of, [`NO_PARENT`] if it has no neighbours; empty if there
+    /// The patch of the next coarser graph that each is part of, [`NO_PARENT`] if it has no neighbors; empty if there
     /// is no coarser graph.
     pub(crate) parents: Vec<u32>,
 }
@@ -95,7 +95,7 @@ impl Graph {
         pairs.filter(|(_, parent)| **parent != NO_PARENT).map(|(v, parent)| (v, *parent as usize))
     }
 
-    /// Turns directions around so that neighbours agree, wherever that is possible. Where it is not, the last links of
+    /// Turns directions around so that neighbors agree, wherever that is possible. Where it is not, the last links of
     /// the shortest ways from the first patch of each connected part have one of either kind.
     pub(crate) fn align(&self, directions: &mut [Vec3]) {
         let mut is_done = vec![false; self.len()];
@@ -143,7 +143,7 @@ impl Graph {
         graphs
     }
 
-    /// Joins each patch that is still free with its free neighbours to which it is coupled most, in order.
+    /// Joins each patch that is still free with its free neighbors to which it is coupled most, in order.
     fn patches(&self) -> (Vec<u32>, usize) {
         const MOST_MEMBERS: usize = 4;
         let mut parents = vec![NO_PARENT; self.len()];
@@ -179,8 +179,8 @@ impl Graph {
                 continue;
             }
             parents[v] = count;
-            for &(_, neighbour) in nearest.iter().take(MOST_MEMBERS - 1) {
-                parents[neighbour as usize] = count;
+            for &(_, neighbor) in nearest.iter().take(MOST_MEMBERS - 1) {
+                parents[neighbor as usize] = count;
             }
             count += 1;
         }

@@ -73,7 +73,7 @@ impl Region {
         self.axes[0].dot(across).abs() * self.extent.x + self.axes[1].dot(across).abs() * self.extent.y
     }
 
-    /// Whether it is a side of the model. Irregular triangles are wider than some of their neighbours by chance, but not
+    /// Whether it is a side of the model. Irregular triangles are wider than some of their neighbors by chance, but not
     /// than all.
     fn is_side(&self, total_area: f32) -> bool {
         let share = self.area / total_area;

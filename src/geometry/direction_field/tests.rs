@@ -278,7 +278,7 @@ fn texture_and_axes_are_followed() {
 }
 
 #[test]
-fn texture_without_area_takes_the_direction_of_its_neighbours() {
+fn texture_without_area_takes_the_direction_of_its_neighbors() {
     let mut mesh = patch(20, 20, false, |u, v| Vec3::new(u, v, 0.0));
     mesh.uvs = mesh.positions.iter().map(|p| Vec2::new(p.x + p.y, p.x - p.y)).collect();
     for (v, uv) in mesh.uvs.iter_mut().enumerate().filter(|(v, _)| v % 5 == 2) {
@@ -329,7 +329,7 @@ fn hostile_meshes_have_a_field() {
 }
 
 #[test]
-fn the_field_can_be_cancelled_and_does_not_depend_on_threads() {
+fn the_field_can_be_canceled_and_does_not_depend_on_threads() {
     let mesh = torus(2.0, 0.5, 200, 100);
     assert!(DirectionField::solve(&mesh, &of_form(), &|done| done < 0.5).is_none());
     let with_threads = |count| {

@@ -20,7 +20,7 @@ const SMOOTH: f32 = 0.906_3;
 const MOST_MISS: f32 = 0.004;
 /// So many lines of similar length, each smoothly after the other, are a curve.
 const CURVE: u32 = 4;
-/// How often the longer of two neighbours in a curve has the length of the shorter one.
+/// How often the longer of two neighbors in a curve has the length of the shorter one.
 const SIMILAR: f32 = 3.0;
 /// Edges that meet in one point, beyond which nobody looks for those that go on.
 const MOST_HERE: usize = 64;
@@ -229,7 +229,7 @@ fn curves(chains: &Chains, lines: &[Option<[Vec3; 2]>], next: impl Fn(u32) -> Op
         line.map_or(0.0, |[a, b]| a.distance(b))
     };
     let is_similar = |a: f32, b: f32| a <= SIMILAR * b && b <= SIMILAR * a;
-    let neighbours: Vec<[Option<u32>; 2]> = (0_u32..)
+    let neighbors: Vec<[Option<u32>; 2]> = (0_u32..)
         .zip(chains.iter())
         .map(|(number, (links, _))| {
             let next = |half: u32| next(half).filter(|&other| is_similar(length(number), length(other)));
@@ -237,13 +237,13 @@ fn curves(chains: &Chains, lines: &[Option<[Vec3; 2]>], next: impl Fn(u32) -> Op
         })
         .collect();
     let mut is_curve: Vec<bool> = lines.iter().map(Option::is_none).collect();
-    let mut is_seen = vec![false; neighbours.len()];
-    for start in 0..neighbours.len() as u32 {
+    let mut is_seen = vec![false; neighbors.len()];
+    for start in 0..neighbors.len() as u32 {
         let (mut run, mut open) = (Vec::new(), vec![start]);
         while let Some(chain) = open.pop() {
             if !std::mem::replace(&mut is_seen[chain as usize], true) {
                 run.push(chain);
-                open.extend(neighbours[chain as usize].iter().flatten());
+                open.extend(neighbors[chain as usize].iter().flatten());
             }
         }
         if run.len() as u32 >= CURVE {

@@ -56,7 +56,7 @@ fn materials_and_flips_and_borders_are_known() {
 }
 
 #[test]
-fn walls_that_were_modelled_twice_still_end() {
+fn walls_that_were_modeled_twice_still_end() {
     for order in [[0, 1, 2, 0, 2, 1], [0, 1, 2, 0, 1, 2]] {
         let mesh = primitives::from_triangles(vec![Vec3::ZERO, Vec3::X, Vec3::Y], order.to_vec());
         let edges = edges_of(&mesh);

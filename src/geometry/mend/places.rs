@@ -260,7 +260,7 @@ impl Places {
         let united = [low_a.min(low_b), high_a.max(high_b)];
         let reach = self.reach[a as usize].min(self.reach[b as usize]);
         if united[0].distance(united[1]) > 2.0 * reach * (1.0 + 1e-5)
-            || self.members(small).any(|member| self.has_neighbour_in(borders, member, large))
+            || self.members(small).any(|member| self.has_neighbor_in(borders, member, large))
         {
             return false;
         }
@@ -273,7 +273,7 @@ impl Places {
     }
 
     /// Whether a place shares an edge with a place of a group.
-    fn has_neighbour_in(&self, borders: &Borders, place: u32, group: u32) -> bool {
+    fn has_neighbor_in(&self, borders: &Borders, place: u32, group: u32) -> bool {
         let on_edge = |border: u32| {
             let ends = borders.get(border).ends;
             ends.into_iter().chain(self.cuts_of(border).iter().copied()).any(|p| self.group(p) == group)

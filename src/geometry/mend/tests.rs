@@ -171,7 +171,7 @@ fn only_patches_that_met_are_joined() {
             };
             for edge in Adjacency::new(&after).edges.iter().filter(|e| e.kind == EdgeKind::Manifold) {
                 let [a, b] = edge.faces.map(patch);
-                let is_right = a == b || patched.neighbours.contains(&[a.min(b), a.max(b)]);
+                let is_right = a == b || patched.neighbors.contains(&[a.min(b), a.max(b)]);
                 assert!(is_right, "{name}, crack {crack}: {a} and {b}");
             }
         }

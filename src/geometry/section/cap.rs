@@ -50,7 +50,7 @@ pub fn fill(contours: &[Contour], bodies: &Bodies, plane_from_local: &DMat4) -> 
     let axes = [plane_from_local.x_axis, plane_from_local.y_axis, plane_from_local.z_axis];
     let scale = axes.iter().map(|axis| axis.truncate().length()).fold(0.0, f64::max);
     let reach = bodies.widest_gap() * scale;
-    // Neighbours in a contour belong to one body.
+    // Neighbors in a contour belong to one body.
     let body_of = |contour: &Contour| contour.triangles.first().map_or(0, |&t| bodies.of_triangle(t));
     let mut by_body: Vec<(usize, &Contour)> =
         contours.iter().map(|contour| (body_of(contour), contour)).collect();

@@ -18,11 +18,11 @@ const LONGEST_STEP: f32 = 0.4;
 const SWEEPS: usize = 20;
 const COARSE_SWEEPS: usize = 60;
 const COARSEST_SWEEPS: usize = 200;
-/// Weight of a patch's own phase in a sweep, relative to all of its neighbours.
+/// Weight of a patch's own phase in a sweep, relative to all of its neighbors.
 const INERTIA: f32 = 0.3;
 /// How strongly a level is held to the doubled phases of the one before, per cycle and extent.
 const PULL: f32 = 1.0;
-/// At most this much of the weight of all neighbours: large triangles must be free to end lines.
+/// At most this much of the weight of all neighbors: large triangles must be free to end lines.
 const MOST_PULL: f32 = 0.3;
 
 /// The phases of a surface, level by level.
@@ -131,9 +131,9 @@ fn spread(track: &Track<'_>) -> Vec<Wave> {
         while let Some(v) = queue.pop_front() {
             let wave = waves[v].unwrap_or(Wave::ONE);
             for (link, rail) in graph.links[graph.range(v)].iter().zip(&track.rails[graph.range(v)]) {
-                let neighbour = &mut waves[link.to as usize];
-                if neighbour.is_none() {
-                    *neighbour = Some(rail.on(&wave));
+                let neighbor = &mut waves[link.to as usize];
+                if neighbor.is_none() {
+                    *neighbor = Some(rail.on(&wave));
                     queue.push_back(link.to as usize);
                 }
             }
@@ -142,7 +142,7 @@ fn spread(track: &Track<'_>) -> Vec<Wave> {
     waves.into_iter().map(|w| w.unwrap_or(Wave::ONE)).collect()
 }
 
-/// One sweep of Jacobi's method towards phases that agree with those of the neighbours and with the targets. Every phase
+/// One sweep of Jacobi's method towards phases that agree with those of the neighbors and with the targets. Every phase
 /// keeps unit length, else weak parts of the surface would be lost.
 fn swept(track: &Track<'_>, waves: &[Wave], targets: Option<&[Wave]>, pull: f32) -> Vec<Wave> {
     let graph = track.graph;

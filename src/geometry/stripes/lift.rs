@@ -50,7 +50,7 @@ pub(super) fn sign(from: Vec3, from_normal: Vec3, to: Vec3, to_normal: Vec3) -> 
 ///
 /// Each corner but the first gets the phase nearest to what the gradient between it and the first corner foretells; a
 /// corner whose direction is the opposite of the first one's counts backwards. Triangles may hold many cycles. Where
-/// lines end or part, the side opposite to the first corner does not agree with its neighbour: that is so in one triangle
+/// lines end or part, the side opposite to the first corner does not agree with its neighbor: that is so in one triangle
 /// per end.
 pub fn lift(corners: &[Corner; 3], cycles_per_unit: f32) -> Lifted {
     let signs = [1.0, sign_between(&corners[0], &corners[1]), sign_between(&corners[0], &corners[2])];

@@ -1,4 +1,4 @@
-//! How the phases of neighbours go with each other.
+//! How the phases of neighbors go with each other.
 
 use std::f32::consts::{FRAC_PI_2, FRAC_PI_3, PI};
 

@@ -297,7 +297,7 @@ fn thousands_of_loose_triangles_beside_a_surface_cost_little_and_do_it_no_harm()
 }
 
 #[test]
-fn stripes_can_be_cancelled_and_do_not_depend_on_threads() {
+fn stripes_can_be_canceled_and_do_not_depend_on_threads() {
     let mesh = bumpy();
     let calls = Mutex::new(Vec::new());
     let progress = |done| {

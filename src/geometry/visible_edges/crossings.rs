@@ -42,14 +42,14 @@ pub(super) fn find(
                     return;
                 }
                 let is_inside = mesh_of(other) == mesh;
-                let are_neighbours = || {
+                let are_neighbors = || {
                     let others = points(mesh, other);
                     own_points.zip(others).is_none_or(|(own, others)| own.iter().any(|p| others.contains(p)))
                 };
                 let Some(ends) = crossing([corners, triangles[other]], tolerance) else { return };
                 let is_seam =
                     || [corners, triangles[other]].iter().all(|t| along_an_edge(ends, t, 4.0 * tolerance));
-                if is_inside && (are_neighbours() || is_seam()) {
+                if is_inside && (are_neighbors() || is_seam()) {
                     return;
                 }
                 found.push(WorldEdge {

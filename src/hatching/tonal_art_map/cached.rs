@@ -73,7 +73,7 @@ mod tests {
         let drawn = recipe.draw_once(&cache, &|_| true).unwrap();
         assert!(recipe.draw_once(&cache, &|_| unreachable!()).as_ref() == Ok(&drawn));
         let other = Recipe { seed: 2, ..recipe.clone() };
-        assert!(other.draw_once(&cache, &|_| false) == Err(RecipeError::Cancelled));
+        assert!(other.draw_once(&cache, &|_| false) == Err(RecipeError::Canceled));
         // What is kept under its key and no map is drawn anew.
         cache.store(recipe.key(), b"no image");
         assert!(recipe.draw_once(&cache, &|_| true).as_ref() == Ok(&drawn));

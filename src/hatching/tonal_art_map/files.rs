@@ -1,4 +1,4 @@
-//! Tonal art maps as images: one grey image, with levels below each other and, from left to right, their tones and their
+//! Tonal art maps as images: one gray image, with levels below each other and, from left to right, their tones and their
 //! priorities. Each level begins at the left of its column; what it does not fill is white.
 //!
 //! | column | holds |
@@ -24,7 +24,7 @@ const MAX_BYTES: u64 = 1 << 27;
 #[derive(Debug, thiserror::Error)]
 pub enum FileError {
     /// It cannot be decoded, or is far too large.
-    #[error("the stroke set cannot be read as an image: {0}; save it as a grey PNG")]
+    #[error("the stroke set cannot be read as an image: {0}; save it as a gray PNG")]
     Image(#[from] image::ImageError),
     /// It has a size that no map has.
     #[error(
@@ -225,8 +225,8 @@ mod tests {
 
     #[test]
     fn what_is_no_map_is_refused() {
-        let png = |width, height, grey: fn(u32, u32) -> u8| {
-            let image = GrayImage::from_fn(width, height, |x, y| image::Luma([grey(x, y)]));
+        let png = |width, height, gray: fn(u32, u32) -> u8| {
+            let image = GrayImage::from_fn(width, height, |x, y| image::Luma([gray(x, y)]));
             let mut png = std::io::Cursor::new(Vec::new());
             image.write_to(&mut png, image::ImageFormat::Png).unwrap();
             TonalArtMap::from_png(&png.into_inner())

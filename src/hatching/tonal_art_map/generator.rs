@@ -89,8 +89,8 @@ pub enum RecipeError {
         wanted: f32,
     },
     /// The caller wanted no more.
-    #[error("drawing the tonal art map was cancelled")]
-    Cancelled,
+    #[error("drawing the tonal art map was canceled")]
+    Canceled,
 }
 
 /// Each tone is reached in so many steps.
@@ -203,7 +203,7 @@ impl Work<'_> {
         let mut idle = 0;
         while let Some(sheet) = self.sheets.get(level).filter(|sheet| sheet.ink() < target) {
             if !(self.progress)(self.share_done()) {
-                return Err(RecipeError::Cancelled);
+                return Err(RecipeError::Canceled);
             }
             let rest = target - sheet.ink();
             let mut stroke =

@@ -173,7 +173,7 @@ fn progress_grows_and_can_stop_the_work() {
         assert!((0.0..=1.0).contains(&share) && share >= before);
         share < 0.4
     };
-    assert!(recipe().draw(&hears) == Err(RecipeError::Cancelled));
+    assert!(recipe().draw(&hears) == Err(RecipeError::Canceled));
     let share = f32::from_bits(last.load(Ordering::Relaxed));
     assert!((0.4..0.5).contains(&share), "{share}");
 }

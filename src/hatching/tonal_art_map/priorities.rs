@@ -108,7 +108,7 @@ fn nearest_steps(touches: &[Touch]) -> [Step; 2] {
     best
 }
 
-/// Gives texels without ink the thresholds of their neighbours: between texels a threshold then stays that of its stroke,
+/// Gives texels without ink the thresholds of their neighbors: between texels a threshold then stays that of its stroke,
 /// and the stroke ends where its ink does.
 fn spread(side: usize, priorities: &mut [Priority]) {
     let before = priorities.to_vec();

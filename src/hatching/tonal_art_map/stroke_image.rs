@@ -25,7 +25,7 @@ pub enum StrokeImageError {
     },
     /// The number of values is not that of the texels.
     #[error(
-        "the stroke image has {found} values for {width} × {height} texels: give one grey value for each texel, \
+        "the stroke image has {found} values for {width} × {height} texels: give one gray value for each texel, \
          row by row"
     )]
     Count {
@@ -36,7 +36,7 @@ pub enum StrokeImageError {
         /// Values that are there.
         found: usize,
     },
-    /// A value is no shade of grey.
+    /// A value is no shade of gray.
     #[error(
         "the stroke image has the value {value} in column {column} of row {row}: values must be between 0 (black) and 1 \
          (white)"
@@ -65,23 +65,23 @@ pub const MAX_SIDE: usize = 8192;
 const MIN_MEAN: f32 = 0.02;
 
 impl StrokeImage {
-    /// From shades of grey, row by row, 0 is black (ink) and 1 white (paper).
+    /// From shades of gray, row by row, 0 is black (ink) and 1 white (paper).
     ///
     /// # Errors
     /// When there are no texels, not one value for each, a value is none, or there is no ink.
-    pub fn new(width: usize, height: usize, grey: &[f32]) -> Result<Self, StrokeImageError> {
+    pub fn new(width: usize, height: usize, gray: &[f32]) -> Result<Self, StrokeImageError> {
         if !(1..=MAX_SIDE).contains(&width) || !(1..=MAX_SIDE).contains(&height) {
             return Err(StrokeImageError::Size { width, height });
         }
-        if grey.len() != width * height {
-            return Err(StrokeImageError::Count { width, height, found: grey.len() });
+        if gray.len() != width * height {
+            return Err(StrokeImageError::Count { width, height, found: gray.len() });
         }
         // NaN is in no range.
-        if let Some(at) = grey.iter().position(|value| !(0.0..=1.0).contains(value)) {
-            let value = grey.get(at).copied().unwrap_or_default();
+        if let Some(at) = gray.iter().position(|value| !(0.0..=1.0).contains(value)) {
+            let value = gray.get(at).copied().unwrap_or_default();
             return Err(StrokeImageError::Value { column: at % width, row: at / width, value });
         }
-        let ink: Vec<f32> = grey.iter().map(|grey| 1.0 - grey).collect();
+        let ink: Vec<f32> = gray.iter().map(|gray| 1.0 - gray).collect();
         let mean = ink.iter().sum::<f32>() / ink.len() as f32;
         if mean < MIN_MEAN {
             return Err(StrokeImageError::Blank { mean });
@@ -178,8 +178,8 @@ mod tests {
 
     #[test]
     fn scaling_keeps_the_ink_and_its_place() {
-        let grey: Vec<f32> = (0..64 * 8).map(|i| if i % 64 < 32 { 0.0 } else { 1.0 }).collect();
-        let image = StrokeImage::new(64, 8, &grey).unwrap();
+        let gray: Vec<f32> = (0..64 * 8).map(|i| if i % 64 < 32 { 0.0 } else { 1.0 }).collect();
+        let image = StrokeImage::new(64, 8, &gray).unwrap();
         for (columns, rows) in [(16, 2), (64, 8), (500, 90)] {
             let scaled = image.scaled(columns, rows);
             let texels = (scaled.columns * scaled.rows) as f32;

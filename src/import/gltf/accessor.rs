@@ -1,4 +1,4 @@
-//! Typed, checked reading of accessors: every component type, interleaved, sparse and normalised.
+//! Typed, checked reading of accessors: every component type, interleaved, sparse and normalized.
 
 use ::gltf::json::accessor::{Accessor as Declared, ComponentType, Type};
 use ::gltf::json::validation::Checked;
@@ -143,7 +143,7 @@ fn elements(
 }
 
 impl Accessor<'_> {
-    /// The elements as floats; integers are converted, and scaled to 0..1 or −1..1 where the accessor is normalised.
+    /// The elements as floats; integers are converted, and scaled to 0..1 or −1..1 where the accessor is normalized.
     ///
     /// With `picks` only those elements are read; they must be in range (what is not becomes 0).
     ///

@@ -146,7 +146,7 @@ fn convert_one(
     let normal = match uv_sets {
         (Some(base), Some(normal)) if base != normal => {
             notes.push(
-                "its normal map uses other texture coordinates than its colour image; it is drawn without the normal \
+                "its normal map uses other texture coordinates than its color image; it is drawn without the normal \
                  map"
                     .into(),
             );

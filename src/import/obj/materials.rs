@@ -19,7 +19,7 @@ const IMAGE_BUDGET: u64 = 2 << 30;
 /// one for faces without a name. Whatever is missing becomes a warning.
 ///
 /// # Errors
-/// Only `Cancelled`.
+/// Only `Canceled`.
 pub(super) fn load(
     path: &Path,
     text: &Scrubbed<'_>,
@@ -136,10 +136,10 @@ fn convert(mtl: &Mtl, images: &Images, assembly: &mut Assembly<'_>) -> Material 
         })
     };
     let base_color_texture = reference(&mtl.diffuse_map);
-    // Cut-out leaves and the like: the opacity is in the alpha channel of the colour image.
+    // Cut-out leaves and the like: the opacity is in the alpha channel of the color image.
     let same_file = |a: &Map, b: &Map| a.file == b.file;
     let cut_out = match (&mtl.diffuse_map, &mtl.opacity_map) {
-        (Some(colour), Some(opacity)) => same_file(colour, opacity) && base_color_texture.is_some(),
+        (Some(color), Some(opacity)) => same_file(color, opacity) && base_color_texture.is_some(),
         _ => false,
     };
     Material {

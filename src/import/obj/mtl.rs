@@ -10,11 +10,11 @@ use crate::scene::{UvTransform, Wrap};
 #[derive(Debug, Clone)]
 pub(super) struct Mtl {
     pub(super) name: String,
-    /// Diffuse colour (`Kd`), taken to be sRGB, here linear.
+    /// Diffuse color (`Kd`), taken to be sRGB, here linear.
     pub(super) diffuse: Vec3,
     /// Opacity (`d`, or 1 − `Tr`).
     pub(super) opacity: f32,
-    /// Image of the diffuse colour (`map_Kd`).
+    /// Image of the diffuse color (`map_Kd`).
     pub(super) diffuse_map: Option<Map>,
     /// Image of the opacity (`map_d`).
     pub(super) opacity_map: Option<Map>,
@@ -35,12 +35,12 @@ impl Mtl {
         }
     }
 
-    /// The colour to multiply the image with. Most writers leave a grey `Kd` beside an image without meaning it, so
-    /// that only a coloured one counts there.
+    /// The color to multiply the image with. Most writers leave a gray `Kd` beside an image without meaning it, so
+    /// that only a colored one counts there.
     pub(super) fn base_color(&self, has_image: bool) -> Vec4 {
         let c = self.diffuse;
-        let grey = c.x == c.y && c.y == c.z;
-        if has_image && grey { Vec4::ONE } else { c.extend(1.0) }
+        let gray = c.x == c.y && c.y == c.z;
+        if has_image && gray { Vec4::ONE } else { c.extend(1.0) }
     }
 }
 
@@ -77,7 +77,7 @@ fn scrub(data: &[u8]) -> String {
         text += &match (keyword.to_ascii_lowercase().as_str(), numbers.as_slice()) {
             ("newmtl", _) => format!("newmtl {}\n", material_name(rest)),
             ("kd", &[r, g, b]) => format!("Kd {r} {g} {b}\n"),
-            ("kd", &[grey, ..]) => format!("Kd {grey} {grey} {grey}\n"),
+            ("kd", &[gray, ..]) => format!("Kd {gray} {gray} {gray}\n"),
             ("d", &[opacity, ..]) => format!("d {opacity}\n"),
             ("tr", &[transparency, ..]) => format!("d {}\n", 1.0 - transparency),
             ("map_kd", _) if !rest.is_empty() => format!("map_Kd {rest}\n"),
@@ -147,7 +147,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn materials_with_their_colours_and_images() {
+    fn materials_with_their_colors_and_images() {
         let text = b"Kd 9 9 9\nnewmtl my red\n Kd 1 0 0\nTr 0.25\nmap_Kd -s 2 3 -o 0.5 -clamp on -bm 2 my image.png\n\
             newmtl plain\nKd 0.5\nd 0.5\nmap_Kd\n";
         let materials = read(text);

@@ -29,7 +29,7 @@ pub(super) struct Scrubbed<'a> {
     pub(super) counts: [usize; 3],
     /// Lines with faces, good or bad.
     pub(super) faces: usize,
-    /// Whether a component of a vertex colour exceeds 1.
+    /// Whether a component of a vertex color exceeds 1.
     pub(super) bright: bool,
     /// Lines that cannot be understood.
     pub(super) bad_lines: Fault,
@@ -49,7 +49,7 @@ pub(super) struct Scrubbed<'a> {
 /// Checks all lines.
 ///
 /// # Errors
-/// Only `Cancelled`.
+/// Only `Canceled`.
 pub(super) fn scrub<'a>(data: &'a [u8], progress: &Progress) -> Result<Scrubbed<'a>, ImportError> {
     let first = pass(data, Scrubber::default(), progress)?;
     let all = first.out.counts;
@@ -123,12 +123,12 @@ struct Scrubber<'a> {
     /// Number of the line in work, and where it is.
     number: usize,
     range: Range<usize>,
-    /// Colour for vertices without one; set where only some have one, which `tobj` would mix up.
+    /// Color for vertices without one; set where only some have one, which `tobj` would mix up.
     white: Option<&'static str>,
     /// How many vertices of each kind there will be; set where a face refers to one behind it. All vertices then go to
     /// the head of the text.
     total: Option<[usize; 3]>,
-    /// Vertices with a colour.
+    /// Vertices with a color.
     colored: usize,
     /// The greatest index (from 1) of each kind that a face used too early.
     farthest: [usize; 3],
@@ -208,7 +208,7 @@ impl Scrubber<'_> {
         canonical(line, keyword, &self.name)
     }
 
-    /// Three numbers, with a colour or not. The weight that may follow says nothing for polygons.
+    /// Three numbers, with a color or not. The weight that may follow says nothing for polygons.
     fn position(&mut self, rest: &str) -> Verdict {
         let mut numbers = [0.0; 6];
         let count = floats(rest, &mut numbers);

@@ -32,7 +32,7 @@ pub struct EdgeUniform {
     /// px of the picture.
     pub dash_period: f32,
     dash_share: f32,
-    /// Share of the surface's own colour.
+    /// Share of the surface's own color.
     pub surface_color: f32,
     darken: f32,
     /// How far creases are weighed by their angle.
@@ -135,7 +135,7 @@ impl EdgeUniform {
         }
     }
 
-    /// The same in one colour, but for the classes that have a colour of their own.
+    /// The same in one color, but for the classes that have a color of their own.
     #[must_use]
     pub fn inked(mut self, edges: &Edges, color: Color) -> Self {
         for (class, line) in EdgeClass::ALL.into_iter().zip(&mut self.lines) {
@@ -206,12 +206,12 @@ impl EdgeUniform {
         self.is_paper() || self.by_light > 0.0 || self.draws(EdgeClass::Relief)
     }
 
-    /// Whether its lines take the colour of the surface beside them.
+    /// Whether its lines take the color of the surface beside them.
     pub fn takes_surface_color(&self) -> bool {
         self.is_exact() && self.surface_color > 0.0
     }
 
-    /// Whether base colours decide where its lines run or what colour they have.
+    /// Whether base colors decide where its lines run or what color they have.
     pub fn reads_color(&self) -> bool {
         self.takes_surface_color() || self.draws(EdgeClass::Texture) || self.is_paper_with_color()
     }
@@ -247,7 +247,7 @@ impl EdgeUniform {
         self.is_paper() && self.found_by == SOBEL
     }
 
-    /// Whether the papers' operators compare base colours.
+    /// Whether the papers' operators compare base colors.
     pub fn is_paper_with_color(&self) -> bool {
         self.is_sobel() && self.color_gradient * self.inner_strength > 0.0
     }

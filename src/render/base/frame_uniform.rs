@@ -315,7 +315,7 @@ impl View {
 }
 
 impl FrameUniform {
-    /// All that the shaders know of camera, lights and paper. `background`: linear colour and opacity.
+    /// All that the shaders know of camera, lights and paper. `background`: linear color and opacity.
     pub fn new(view: &View, sample: Sample, depth_range: Vec2, lights: &Lights, background: Vec4) -> Self {
         let [clip_plane, section] = view.clip_planes();
         let mut uniforms = [LightUniform::default(); MAX_LIGHTS];

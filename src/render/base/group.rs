@@ -96,7 +96,7 @@ impl VisibleSubmesh {
         (self.origin != Origin::Caps && self.is_whole).then(culled).flatten()
     }
 
-    /// What it is made of; a cap of the section's colour.
+    /// What it is made of; a cap of the section's color.
     pub fn material(&self, scene: &GpuScene) -> MaterialUniform {
         let own = scene.materials.uniform(self.material);
         match (self.origin, &scene.section) {

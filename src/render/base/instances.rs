@@ -1,5 +1,5 @@
 //! What is drawn: instances, and the draw calls that draw them. Consecutive calls that need nothing else bound make up batches;
-//! one that the predicate may stop is recorded as one call, which software devices rasterise in one go.
+//! one that the predicate may stop is recorded as one call, which software devices rasterize in one go.
 
 use bytemuck::{Pod, Zeroable};
 use glam::{Mat3, Mat4};
@@ -62,7 +62,7 @@ impl From<&Instance> for Record {
 pub enum Detail {
     /// Positions only: no mesh of the scene has anything more.
     Lean,
-    /// Normals and colours.
+    /// Normals and colors.
     Smooth,
     /// Images too, and holes.
     Full,
@@ -92,7 +92,7 @@ pub struct DrawCall {
 }
 
 impl DrawCall {
-    /// The same with no more than positions, where nobody asks for colours and shading normals. Holes need images.
+    /// The same with no more than positions, where nobody asks for colors and shading normals. Holes need images.
     #[must_use]
     pub fn without_attributes(&self) -> Self {
         let detail = if self.detail == Detail::Smooth { Detail::Lean } else { self.detail };
@@ -124,7 +124,7 @@ pub struct InstanceBuffer {
     materials: DynamicBuffer,
 }
 
-/// A batch of so many indices is not made longer: software devices rasterise it while they place the next one.
+/// A batch of so many indices is not made longer: software devices rasterize it while they place the next one.
 const ENOUGH: u32 = 3 << 12;
 
 /// Calls that need nothing bound between them.

@@ -16,7 +16,7 @@ pub const MAX_SHADOWS: usize = 4;
 pub struct WorldLight {
     /// Kind and place.
     pub kind: LightKind,
-    /// Linear colour times intensity.
+    /// Linear color times intensity.
     pub color: Vec3,
     /// Its channel in the shadow mask, if it throws shadows.
     pub shadow: Option<usize>,

@@ -27,14 +27,14 @@ pub struct ScaleBar {
     pub label: String,
     /// Pixels per reference pixel.
     pub scale: f32,
-    /// Linear colour.
+    /// Linear color.
     pub ink: Vec3,
 }
 
 /// Twin of `ScaleBar` in `shaders/passes/resolve.wgsl`.
 #[derive(Debug, Clone, PartialEq, ShaderType)]
 pub struct ScaleBarUniform {
-    /// Linear colour.
+    /// Linear color.
     ink: Vec4,
     /// Width and height of the mask; from the lower left corner of the picture.
     size: glam::UVec2,
@@ -44,27 +44,27 @@ pub struct ScaleBarUniform {
 }
 
 impl ScaleBar {
-    /// The bar of a camera; none in perspective, where lengths have no scale. `metres_per_unit`: of the model, if known;
-    /// `scale`: pixels per reference pixel; `paper`: linear colour behind the bar.
+    /// The bar of a camera; none in perspective, where lengths have no scale. `meters_per_unit`: of the model, if known;
+    /// `scale`: pixels per reference pixel; `paper`: linear color behind the bar.
     pub fn new(
         camera: &Camera,
-        metres_per_unit: Option<f64>,
+        meters_per_unit: Option<f64>,
         [width, height]: [u32; 2],
         scale: f32,
         paper: Vec3,
     ) -> Option<Self> {
         let Projection::Orthographic { view_height } = camera.projection else { return None };
         let longest = view_height * f64::from(width) / f64::from(height) * WIDTH_SHARE;
-        // A length that is short in metres is said in millimetres.
-        let (factor, symbol) = match metres_per_unit {
+        // A length that is short in meters is said in millimeters.
+        let (factor, symbol) = match meters_per_unit {
             None => (1.0, "units"),
-            Some(metres) => match Unit::of(metres).filter(|unit| ["in", "ft"].contains(&unit.symbol)) {
+            Some(meters) => match Unit::of(meters).filter(|unit| ["in", "ft"].contains(&unit.symbol)) {
                 Some(unit) => (1.0, unit.symbol),
-                None => match longest * metres {
-                    long if long >= 2000.0 => (metres / 1000.0, "km"),
-                    long if long >= 1.0 => (metres, "m"),
-                    long if long >= 0.05 => (metres * 100.0, "cm"),
-                    _ => (metres * 1000.0, "mm"),
+                None => match longest * meters {
+                    long if long >= 2000.0 => (meters / 1000.0, "km"),
+                    long if long >= 1.0 => (meters, "m"),
+                    long if long >= 0.05 => (meters * 100.0, "cm"),
+                    _ => (meters * 1000.0, "mm"),
                 },
             },
         };
@@ -165,14 +165,14 @@ fn round_below(longest: f64) -> Option<(f64, u32)> {
 mod tests {
     use super::*;
 
-    fn bar(view_height: f64, metres: Option<f64>) -> ScaleBar {
+    fn bar(view_height: f64, meters: Option<f64>) -> ScaleBar {
         let camera = Camera { projection: Projection::Orthographic { view_height }, ..Camera::default() };
-        ScaleBar::new(&camera, metres, [1000, 500], 0.5, Vec3::ONE).unwrap()
+        ScaleBar::new(&camera, meters, [1000, 500], 0.5, Vec3::ONE).unwrap()
     }
 
     #[test]
     fn it_says_round_lengths_that_fit() {
-        for (view_height, metres, label) in [
+        for (view_height, meters, label) in [
             (30.0, Some(1.0), "10 m"),
             (10.0, Some(1.0), "5 m"),
             (4.0, Some(1.0), "2 m"),
@@ -183,8 +183,8 @@ mod tests {
             (40.0, Some(0.0254), "20 in"),
             (40.0, None, "20 units"),
         ] {
-            let bar = bar(view_height, metres);
-            assert_eq!(bar.label, label, "{view_height} {metres:?}");
+            let bar = bar(view_height, meters);
+            assert_eq!(bar.label, label, "{view_height} {meters:?}");
             assert!(bar.length > 100.0 && bar.length <= 300.01, "{}", bar.length);
         }
     }

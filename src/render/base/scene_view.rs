@@ -21,7 +21,7 @@ pub struct SceneView<'a> {
     pub sample: Sample,
     /// The lights.
     pub lights: &'a Lights,
-    /// Paper: linear colour and opacity.
+    /// Paper: linear color and opacity.
     pub background: Vec4,
     /// Pixels per reference pixel.
     pub scale: f32,

@@ -1,13 +1,13 @@
 //! The section of a scene: which objects a plane cuts, where, and the caps of the solids among them, on the device.
 
-mod neighbours;
+mod neighbors;
 
 use std::sync::Arc;
 
 use glam::{DMat4, DVec3, DVec4};
 use rayon::prelude::*;
 
-use self::neighbours::{Number, numbers};
+use self::neighbors::{Number, numbers};
 use super::gpu_scene::GpuScene;
 use crate::document::Document;
 use crate::document::section::{Fill, Section as Style};

@@ -20,7 +20,7 @@ impl StrokeMap {
     /// when it did not.
     pub fn draw(cache: &Cache, recipe: &Recipe, progress: &(dyn Fn(f32) -> bool + Sync)) -> Option<Self> {
         match recipe.draw_once(cache, progress) {
-            Err(RecipeError::Cancelled) => None,
+            Err(RecipeError::Canceled) => None,
             drawn => Some(Self { recipe: recipe.clone(), map: drawn.map(Arc::new) }),
         }
     }

@@ -21,7 +21,7 @@ use crate::render::passes::lines::{LineShader, lines};
 use crate::render::passes::overlay::overlay;
 use crate::render::passes::shadows::ShadowMap;
 
-/// What the colour of the opaque surfaces is made of.
+/// What the color of the opaque surfaces is made of.
 struct ColorInputs<'a> {
     look: &'a Look,
     edges: Option<&'a Output<EdgeMap>>,
@@ -149,7 +149,7 @@ impl Drawing {
         })
     }
 
-    /// Places the sketches among the opaque surfaces, of which this is the colour without lines; returns that of all.
+    /// Places the sketches among the opaque surfaces, of which this is the color without lines; returns that of all.
     fn place_sketches(
         &mut self,
         rec: &mut Recorder<'_>,

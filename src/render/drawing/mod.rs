@@ -50,7 +50,7 @@ pub struct DrawnSurfaces {
 
 /// A drawing, drawn.
 pub struct Drawn {
-    /// Linear colour times opacity, and opacity.
+    /// Linear color times opacity, and opacity.
     pub color: Output<Target>,
     /// What is in front, and what changes when it does.
     pub front: (Front, Vec<u64>),

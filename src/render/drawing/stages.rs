@@ -7,7 +7,7 @@ use crate::render::base::frame_uniform::FrameUniform;
 use crate::render::effects::mirror::MirrorUniform;
 use crate::render::effects::surface::Look;
 
-/// What the colour of the opaque surfaces depends on.
+/// What the color of the opaque surfaces depends on.
 #[derive(PartialEq)]
 pub(super) struct ColorKey {
     pub(super) gbuffer: u64,
@@ -32,7 +32,7 @@ pub(super) struct ColorKey {
 #[derive(PartialEq)]
 pub(super) struct TogetherKey {
     pub(super) shaders: u64,
-    /// Colour and ink of what is opaque.
+    /// Color and ink of what is opaque.
     pub(super) opaque: [Option<u64>; 2],
     pub(super) translucent: Vec<u64>,
 }

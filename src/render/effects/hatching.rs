@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! mesh ─► directions ─► stripes (once, beside the window) ──┐
-//! layer ─► triangle of each pixel ──────────────────────────┼─► strokes of up to three directions ─► colour
+//! layer ─► triangle of each pixel ──────────────────────────┼─► strokes of up to three directions ─► color
 //! layer, lights, shadows ─► tone ─► share of each direction ┘
 //! ```
 
@@ -209,7 +209,7 @@ fn uniform(
         mapping,
         frequency: place.map_or(0.0, |place| place.cycles_per_unit),
         first_triangle: place.map_or(0, |place| place.first_triangle),
-        // Closer than this there would be nothing but grey.
+        // Closer than this there would be nothing but gray.
         tile: (TILE as f32 * stroke.spacing / SPACING_OF_TEXELS).max(32.0),
         // Depend on what has been drawn.
         strokes: 0,

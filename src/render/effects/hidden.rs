@@ -114,7 +114,7 @@ impl HiddenLines {
         self.stage.runs()
     }
 
-    /// The hidden lines of all surfaces: linear colour times opacity, and opacity. `visible`: the edges that are in sight.
+    /// The hidden lines of all surfaces: linear color times opacity, and opacity. `visible`: the edges that are in sight.
     ///
     /// # Errors
     /// [`RenderError`].

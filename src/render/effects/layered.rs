@@ -69,7 +69,7 @@ pub struct LayerRequest<'a> {
     pub uncover: Option<Uncover<'a>>,
     /// How layers are to be made; `None`: as the document says.
     pub by: Option<LayersBy>,
-    /// Whether their base colours are asked for.
+    /// Whether their base colors are asked for.
     pub with_color: bool,
     /// Whether their shading normals are.
     pub with_normals: bool,

@@ -164,8 +164,8 @@ fn built_in(sphere: Sphere) -> Arc<SpherePicture> {
         // A test reads them all.
         let image = image::load_from_memory(png).map(image::DynamicImage::into_rgba8).unwrap_or_default();
         let is_whole = image.dimensions() == (SIDE, SIDE);
-        let grey = || vec![128; (4 * SIDE * SIDE) as usize];
-        Arc::new(SpherePicture(if is_whole { image.into_raw() } else { grey() }))
+        let gray = || vec![128; (4 * SIDE * SIDE) as usize];
+        Arc::new(SpherePicture(if is_whole { image.into_raw() } else { gray() }))
     };
     Arc::clone(SPHERES[number].get_or_init(read))
 }

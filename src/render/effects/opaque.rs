@@ -348,7 +348,7 @@ impl OpaqueLayer {
         self.ink.clear();
     }
 
-    /// The hidden lines of the surfaces: linear colour times opacity, and opacity; `None`: they have none.
+    /// The hidden lines of the surfaces: linear color times opacity, and opacity; `None`: they have none.
     ///
     /// # Errors
     /// [`RenderError`].

@@ -1,4 +1,4 @@
-//! Caps of a section: flat colour and hatching over the shaded surfaces, and in the layers of blueprints.
+//! Caps of a section: flat color and hatching over the shaded surfaces, and in the layers of blueprints.
 
 use encase::ShaderType;
 use glam::{DVec2, DVec3, Vec2, Vec3};

@@ -1,9 +1,9 @@
 //! Sketches: groups of one layer whose geometry, shade and ink are made as everybody's, and whose place is their own: lines and
-//! colours are drawn beside where they belong, with the depth of where they come from (Nienhaus and Döllner, "Sketchy Drawings",
+//! colors are drawn beside where they belong, with the depth of where they come from (Nienhaus and Döllner, "Sketchy Drawings",
 //! 2004).
 //!
 //! ```text
-//! geometry ─► shade ──────────────► colour, fetched from beside ─► placed by its depth ─┐
+//! geometry ─► shade ──────────────► color, fetched from beside ─► placed by its depth ─┐
 //!    │  └───► noise of surfaces ──────┘                                                 ├─► composition
 //!    └─► edge map ─► moved edge map ─► ink ──────────────────────► placed by its depth ─┘
 //!            └─► noise of lines ┘
@@ -93,7 +93,7 @@ struct Placed {
     ink: Option<Target>,
 }
 
-/// What the colour of the surfaces depends on.
+/// What the color of the surfaces depends on.
 #[derive(PartialEq)]
 struct ShadeKey {
     gbuffer: u64,
@@ -214,7 +214,7 @@ impl SketchState {
         self.layer.take_reports()
     }
 
-    /// Places the sketch among what is opaque, of which `color` is the colour without lines; returns that with the sketch, and with
+    /// Places the sketch among what is opaque, of which `color` is the color without lines; returns that with the sketch, and with
     /// its ink if `is_last`: nothing is placed among it any more.
     ///
     /// # Errors
@@ -457,7 +457,7 @@ struct Placing<'a> {
 }
 
 impl Placing<'_> {
-    /// Places colour, then ink: over the colour if it `lays_ink`.
+    /// Places color, then ink: over the color if it `lays_ink`.
     fn place(&self, rec: &mut Recorder<'_>, lays_ink: bool) -> Result<Placed, RenderError> {
         let Self { composition, before, .. } = *self;
         let [geometry, color] = [&composition.surfaces.value, before].map(|target| target.format());
@@ -483,7 +483,7 @@ impl Placing<'_> {
         Ok(Placed { geometry, color, ink })
     }
 
-    /// What colour and ink read.
+    /// What color and ink read.
     fn inputs(&self) -> Inputs<'_> {
         let Self { fetched, composition, .. } = self;
         self.own.clone().and(&composition.tested()).and(&inputs! {

@@ -113,7 +113,7 @@ impl Shading {
         Ok(())
     }
 
-    /// Shades a layer: linear colour times opacity, and opacity; nothing where there is no object. `by_opacity`: colours
+    /// Shades a layer: linear color times opacity, and opacity; nothing where there is no object. `by_opacity`: colors
     /// are as opaque as the materials, otherwise fully.
     ///
     /// # Errors

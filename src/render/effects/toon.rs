@@ -1,7 +1,7 @@
 //! Toon shading: what the surface pass needs for it, and the cartoon map (edge-enhancement paper, section 5, Fig. 9).
 //!
-//! The paper draws the scene in toon shades, keeps their colours as a texture and averages neighbours there. Here that
-//! texture, the cartoon map, holds which band a pixel is of, not its colour: a mean of bands leaves the images on a
+//! The paper draws the scene in toon shades, keeps their colors as a texture and averages neighbors there. Here that
+//! texture, the cartoon map, holds which band a pixel is of, not its color: a mean of bands leaves the images on a
 //! surface sharp, and one byte per pixel is cheap to read nine times.
 
 use encase::ShaderType;
@@ -81,13 +81,13 @@ impl ToonUniform {
 pub struct Toons {
     /// By object id.
     pub styles: Vec<ToonUniform>,
-    /// The bands of all ramps, one after the other: linear colours from shadow to light.
+    /// The bands of all ramps, one after the other: linear colors from shadow to light.
     pub bands: Vec<Vec4>,
     /// Few differ, however many objects there are.
     ramps: Vec<PlacedRamp>,
 }
 
-/// An image as a ramp: linear colours along its longer side, from the left or the top, each the mean across the other side; at
+/// An image as a ramp: linear colors along its longer side, from the left or the top, each the mean across the other side; at
 /// most [`MAX_RAMP`].
 struct Ramp(Vec<Vec4>);
 

@@ -27,7 +27,7 @@ pub struct Subject {
     pub incomplete: u64,
 }
 
-/// The samples that have been drawn of one subject. Only colours are averaged: ids, depths and strengths of edges are
+/// The samples that have been drawn of one subject. Only colors are averaged: ids, depths and strengths of edges are
 /// those of one sample.
 #[derive(Debug, Clone, Default)]
 pub struct Accumulation {
@@ -48,7 +48,7 @@ impl Accumulation {
         Sample { index: drawn.min(of.saturating_sub(1)), of }
     }
 
-    /// Adds the colour (linear, times opacity) of a sample that [`Self::next`] gave; returns the mean of all.
+    /// Adds the color (linear, times opacity) of a sample that [`Self::next`] gave; returns the mean of all.
     ///
     /// # Errors
     /// [`RenderError`]; nothing is then added.

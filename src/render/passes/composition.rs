@@ -1,7 +1,7 @@
 //! The composition of a drawing: what is where so far, and the only place where it is decided what hides what.
 //!
 //! ```text
-//! nearest:  surfaces with their lines ─► geometry (object, depth, plane), ink (colour, depth of its edge)
+//! nearest:  surfaces with their lines ─► geometry (object, depth, plane), ink (color, depth of its edge)
 //!           sketches: moved, each by its depth ─► the same
 //! beneath:  what is seen through      ─► tested against both, each layer by its own depth, among all groups
 //! front:    the nearest of all        ─► what a click means and what an outline is drawn around
@@ -34,7 +34,7 @@ pub struct Composition {
 /// What is seen through, drawn.
 #[derive(Debug, Clone)]
 pub struct Translucent {
-    /// Linear colour times opacity, and opacity.
+    /// Linear color times opacity, and opacity.
     pub color: Target,
     /// Geometry of the nearest layer that is drawn, of each group; empty when none is.
     pub fronts: Vec<Target>,
@@ -66,7 +66,7 @@ impl Composition {
         self.translucent.iter().map(|picture| picture.revision).collect()
     }
 
-    /// Whether nothing is left to be laid over the colour of what is opaque.
+    /// Whether nothing is left to be laid over the color of what is opaque.
     pub fn is_laid(&self) -> bool {
         self.ink.is_none() && self.translucent.is_empty()
     }
@@ -85,7 +85,7 @@ impl Composition {
             Self { surfaces, has_surfaces: true, ink, translucent: std::mem::take(&mut self.translucent) };
     }
 
-    /// Lays the ink of what is opaque over its colour.
+    /// Lays the ink of what is opaque over its color.
     ///
     /// # Errors
     /// [`RenderError`].

@@ -2,7 +2,7 @@
 //!
 //! Exact mode is a hybrid. Silhouettes, borders, creases and material boundaries come from topology, as segments that
 //! are tested against the G-buffer; what topology does not know (intersections, outlines of holes) is found where
-//! neighbouring pixels show different surfaces; details are found within surfaces. Paper mode is the papers' operators. See `common/edge_map.wgsl`.
+//! neighboring pixels show different surfaces; details are found within surfaces. Paper mode is the papers' operators. See `common/edge_map.wgsl`.
 
 use super::gbuffer::GBuffer;
 use super::operators::paper_edges;

@@ -10,7 +10,7 @@ use crate::gpu::recorder::{Draw, Onto};
 use crate::gpu::{DepthRule, Gpu, GpuError, Inputs, Program, RecordTexture, Recorder, Target, inputs};
 use crate::render::base::error::RenderError;
 
-/// Bytes of a fragment's base colour. How it is linked and what it is take a texel each.
+/// Bytes of a fragment's base color. How it is linked and what it is take a texel each.
 const COLOR_BYTES: u64 = 4;
 
 /// As many layers are sorted at a time: a pass has no more targets.
@@ -60,7 +60,7 @@ impl FragmentLists {
             heads: create(gpu, "heads of lists", 4),
             links: RecordTexture::new(gpu, "links of fragments"),
             payloads: RecordTexture::new(gpu, "fragments"),
-            colors: create(gpu, "colours of fragments", COLOR_BYTES),
+            colors: create(gpu, "colors of fragments", COLOR_BYTES),
             asked: 0,
         }
     }
@@ -127,7 +127,7 @@ impl FragmentLists {
         self.payloads.reserve(gpu, fragments as usize)?;
         let bytes = self.links.capacity() * COLOR_BYTES;
         if self.colors.size() < bytes {
-            self.colors = create(gpu, "colours of fragments", bytes);
+            self.colors = create(gpu, "colors of fragments", bytes);
         }
         Ok(())
     }
@@ -138,7 +138,7 @@ impl FragmentLists {
         if asked > 0 && self.links.capacity() > 4 * asked.next_power_of_two() {
             self.links.clear(gpu);
             self.payloads.clear(gpu);
-            self.colors = create(gpu, "colours of fragments", COLOR_BYTES);
+            self.colors = create(gpu, "colors of fragments", COLOR_BYTES);
         }
     }
 
@@ -173,7 +173,7 @@ impl FragmentLists {
 /// What is asked of the layers of a group.
 #[derive(Debug, Clone, Copy)]
 pub struct LayerOutputs {
-    /// Their base colours.
+    /// Their base colors.
     pub with_color: bool,
     /// Their shading normals; otherwise they are those of the faces.
     pub with_normals: bool,

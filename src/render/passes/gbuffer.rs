@@ -5,7 +5,7 @@ use crate::render::base::error::RenderError;
 
 /// Shading and face normal, linear depth, object id: see `shaders/common/gbuffer.wgsl`.
 pub(super) const GEOMETRY: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Uint;
-/// Unlit base colour.
+/// Unlit base color.
 pub(super) const BASE_COLOR: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
 /// Which surface of which object.
 pub(super) const SURFACE_ID: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;
@@ -19,7 +19,7 @@ pub(super) const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 pub struct GBuffer {
     /// Shading and face normal, linear depth, object id with the enhanced flag.
     pub geometry: Target,
-    /// Unlit base colour.
+    /// Unlit base color.
     pub base_color: Target,
     /// A number for each surface of each object; 0: background.
     pub surface_id: Target,

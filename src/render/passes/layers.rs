@@ -55,7 +55,7 @@ pub struct LayerInputs<'a> {
     pub uncover: Option<Uncover<'a>>,
     /// How layers are to be made.
     pub by: document::LayersBy,
-    /// Whether their base colour is asked for.
+    /// Whether their base color is asked for.
     pub with_color: bool,
     /// Whether their shading normals are; otherwise they are those of the faces.
     pub with_normals: bool,

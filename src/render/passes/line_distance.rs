@@ -19,7 +19,7 @@ const NARROW_BY_TWO: f32 = 1.95;
 /// How the lines that reach a pixel are found.
 #[derive(Debug, Clone)]
 pub enum LineDistance {
-    /// All lines are thin: by looking at the spines in the neighbouring pixels.
+    /// All lines are thin: by looking at the spines in the neighboring pixels.
     Narrow {
         /// Where lines run.
         spines: Target,

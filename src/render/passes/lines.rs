@@ -1,4 +1,4 @@
-//! Lines with their width and colour, over the shaded surfaces.
+//! Lines with their width and color, over the shaded surfaces.
 
 use super::edge_map::EdgeMap;
 use super::gbuffer::GBuffer;
@@ -40,7 +40,7 @@ pub struct LineShader<'a> {
 }
 
 impl LineShader<'_> {
-    /// Lines in the colours of their styles, over everything.
+    /// Lines in the colors of their styles, over everything.
     pub const PLAIN: Self = Self {
         file: "passes/lines.wgsl",
         entry_point: "fs_main",

@@ -1,4 +1,4 @@
-//! The noise that says where lines and colours of a sketch go: see `shaders/passes/offset_field.wgsl`.
+//! The noise that says where lines and colors of a sketch go: see `shaders/passes/offset_field.wgsl`.
 //!
 //! ```text
 //! edge map ─────────────────────────────► noise of each line, where it runs
@@ -32,7 +32,7 @@ const INDEX: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;
 pub struct FieldUniform {
     /// Length of a wave of lines, px.
     pub line_wave: f32,
-    /// Length of a wave of colours, px.
+    /// Length of a wave of colors, px.
     pub fill_wave: f32,
     /// Share of the finer wave, 0 to 1.
     pub detail: f32,
@@ -40,7 +40,7 @@ pub struct FieldUniform {
     pub control: u32,
     /// 1: with kinks.
     pub turbulent: u32,
-    /// Number of the noise of colours.
+    /// Number of the noise of colors.
     pub fill_seed: u32,
     /// How often lines are drawn, 1 to 8.
     pub passes: u32,

@@ -32,7 +32,7 @@ pub struct Peel<'a> {
     pub last: &'a Target,
     /// Those of the layer that is drawn; `None`: it is only counted, and nothing is known of it but its surface ids and depth.
     pub sort_keys: Option<&'a Target>,
-    /// Whether it has a base colour.
+    /// Whether it has a base color.
     pub with_color: bool,
     /// Whether its geometry is 0 where it has nothing; otherwise it is undefined there.
     pub is_whole: bool,

@@ -17,7 +17,7 @@ pub enum Place<'a> {
     Listed(&'a mut LayerLists),
 }
 
-/// A shader that draws layers: it has the entry points `fs_lines` and `fs_fill`, which give a colour (linear, times its opacity),
+/// A shader that draws layers: it has the entry points `fs_lines` and `fs_fill`, which give a color (linear, times its opacity),
 /// and `fs_lines_placed` and `fs_fill_placed`, which give it with a depth (see `shaders/common/placed.wgsl`).
 #[derive(Clone, Copy)]
 pub struct LayerShader<'a> {

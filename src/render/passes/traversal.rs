@@ -33,7 +33,7 @@ struct Variant {
     culled_face: Option<wgpu::Face>,
     /// Whether what lies behind a plane is left out.
     is_clipped: bool,
-    /// Whether layers have a base colour.
+    /// Whether layers have a base color.
     with_color: bool,
     purpose: Purpose,
 }
@@ -47,7 +47,7 @@ enum Purpose {
     Enlarged,
     /// What lies behind another layer.
     Layer,
-    /// The base colour of a layer that has been drawn.
+    /// The base color of a layer that has been drawn.
     LayerColor,
     /// Where anything does.
     Counted,
@@ -165,7 +165,7 @@ impl GBufferPass {
         let gbuffer = GBuffer::new(rec)?;
         let GBuffer { geometry, base_color, surface_id, depth } = &gbuffer;
         let (label, purpose, with_color, is_whole, color) = match peel {
-            // Nobody looks at colours and surface ids where nothing is.
+            // Nobody looks at colors and surface ids where nothing is.
             None if parts.1.is_empty() => ("g-buffer", Purpose::Surfaces, true, true, vec![geometry]),
             None => ("g-buffer", Purpose::Surfaces, true, true, vec![geometry, base_color, surface_id]),
             Some(Peel { sort_keys: None, .. }) => ("peel", Purpose::Counted, false, true, vec![surface_id]),

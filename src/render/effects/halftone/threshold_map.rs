@@ -1,5 +1,5 @@
-//! Threshold maps: the prioritised stroke textures of Freudenberg et al. 2002 ("Real-Time Halftoning: A Primitive For
-//! Non-Photorealistic Shading"), rank-normalised, with one octave of sizes.
+//! Threshold maps: the prioritized stroke textures of Freudenberg et al. 2002 ("Real-Time Halftoning: A Primitive For
+//! Non-Photorealistic Shading"), rank-normalized, with one octave of sizes.
 //!
 //! A texel holds the tone at which ink appears there: there is ink where the tone is less. All values are equally
 //! frequent, so that a tone of `t` has ink on `1 − t` of the tile.
@@ -28,7 +28,7 @@ pub const LEVELS: usize = SIDE.ilog2() as usize + 1;
 /// A texel holds the mean threshold in its area and their spread, twice the standard deviation, in 255ths.
 pub type Level = Vec<[u8; 2]>;
 
-/// A prioritised texture as the device needs it.
+/// A prioritized texture as the device needs it.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ThresholdMap {
     /// [`LAYERS`] layers of [`LEVELS`] levels each.

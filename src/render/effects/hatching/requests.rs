@@ -117,12 +117,12 @@ const CANDIDATES: usize = 100;
 
 /// The stroke that an image shows, or why it shows none.
 fn stroke_image(image: &Texture) -> Result<Arc<StrokeImage>, StrokeImageError> {
-    let grey: Vec<f32> = image.rgba.as_chunks::<4>().0.iter().map(|t| grey_of(*t)).collect();
-    StrokeImage::new(image.width as usize, image.height as usize, &grey).map(Arc::new)
+    let gray: Vec<f32> = image.rgba.as_chunks::<4>().0.iter().map(|t| gray_of(*t)).collect();
+    StrokeImage::new(image.width as usize, image.height as usize, &gray).map(Arc::new)
 }
 
 /// What is transparent is paper.
-fn grey_of([r, g, b, alpha]: [u8; 4]) -> f32 {
+fn gray_of([r, g, b, alpha]: [u8; 4]) -> f32 {
     let [r, g, b, alpha] = [r, g, b, alpha].map(|c| f32::from(c) / 255.0);
     1.0 - (1.0 - (0.2126 * r + 0.7152 * g + 0.0722 * b)).clamp(0.0, 1.0) * alpha
 }

@@ -62,7 +62,7 @@ fn offsets(sketch: &style::Sketch, matrix: style::Matrix) -> style::Matrix {
     matrix.scaled(sketch.wander.amount, MOST_OFFSET)
 }
 
-/// How far lines and colours are off at most, px: three times what they are off on average, in whole steps, so that a
+/// How far lines and colors are off at most, px: three times what they are off on average, in whole steps, so that a
 /// little more or less does not change it.
 pub(super) fn bands(sketch: &style::Sketch, scale: f32) -> [f32; 2] {
     let passes = sketch.pass.iter().take(sketch.passes as usize);

@@ -1,4 +1,4 @@
-//! Numbers that tell objects apart where their boxes meet: caps of neighbours are hatched differently, and where solids reach
+//! Numbers that tell objects apart where their boxes meet: caps of neighbors are hatched differently, and where solids reach
 //! into each other one cap lies over the other.
 
 use glam::DVec3;
