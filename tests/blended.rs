@@ -13,7 +13,7 @@ use hachure::export::Session;
 use hachure::export::session::Opened;
 use hachure::geometry::{Mesh, primitives};
 use hachure::scene::{AlphaMode, Scene, Texture, TextureRef, UvTransform, Wrap};
-use hachure::style::{Technique, Value};
+use hachure::style::Technique;
 use image::{Rgba, RgbaImage};
 use strum::VariantNames as _;
 

@@ -13,7 +13,7 @@ use hachure::document::Role;
 use hachure::export::Session;
 use hachure::export::session::Opened;
 use hachure::geometry::bvh::Bvh;
-use hachure::geometry::{Mesh, primitives};
+use hachure::geometry::primitives;
 use hachure::render::View;
 use hachure::render::base::ids::object_id;
 use hachure::render::{Peeled, PeelingEnd};
