@@ -6,16 +6,14 @@
 
 mod common;
 
-use std::path::Path;
 use std::sync::Arc;
 
 use common::{Object, object, opened, sample, scene, session, set, set_for, texels};
 use glam::{DMat4, DQuat, DVec3, UVec2, Vec2, Vec3};
 use hachure::export::Session;
-use hachure::export::session::{Opened, initial_camera, open};
+use hachure::export::session::{Opened, initial_camera};
 use hachure::geometry::bvh::Bvh;
 use hachure::geometry::{Mesh, primitives};
-use hachure::import::Progress;
 use hachure::render::View;
 use hachure::render::base::ids::object_id;
 use hachure::scene::Scene;
