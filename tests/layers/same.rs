@@ -1,10 +1,9 @@
 //! Both ways to make layers give the same ones, texel by texel.
 
-
 use glam::{DMat4, DQuat, DVec3, Vec3};
 use hachure::document::Role;
 use hachure::export::Session;
-use hachure::export::session::{Opened, open};
+use hachure::export::session::Opened;
 use hachure::geometry::{Mesh, primitives};
 use hachure::gpu::Gpu;
 use hachure::gpu::device::{device_descriptor, instance_descriptor};
