@@ -6,16 +6,15 @@ mod common;
 
 use std::sync::Arc;
 
-use common::{Object, at, image, object, opened, scene, session, set, set_for};
+use common::{at, image, object, opened, scene, session, set, set_for};
 use glam::{DMat4, DQuat, DVec2, DVec3, UVec2};
 use hachure::document::Role;
 use hachure::export::Session;
 use hachure::export::session::Opened;
 use hachure::geometry::bvh::Bvh;
-use hachure::geometry::{Mesh, primitives};
+use hachure::geometry::primitives;
 use hachure::render::View;
 use hachure::scene::Scene;
-use hachure::style::Value;
 use image::{Rgba, RgbaImage};
 
 /// White surfaces on white paper with black visible lines and solid red hidden ones, both about 2 px wide at 192 px.

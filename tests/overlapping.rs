@@ -13,8 +13,7 @@ use hachure::export::Session;
 use hachure::export::session::Opened;
 use hachure::geometry::primitives;
 use hachure::gpu::Gpu;
-use hachure::scene::{AlphaMode, Camera, NodeId};
-use hachure::style::Value;
+use hachure::scene::{AlphaMode, Camera};
 use image::RgbaImage;
 
 const SIDE: u32 = 120;

@@ -11,10 +11,9 @@ use common::{at, draw, image, opened, sample, scene, session, set, surfels, texe
 use glam::{DMat4, DQuat, DVec3, UVec2, Vec2, Vec3};
 use hachure::document::Document;
 use hachure::export::Session;
-use hachure::export::session::{Opened, open};
+use hachure::export::session::Opened;
 use hachure::geometry::bvh::Bvh;
 use hachure::geometry::primitives;
-use hachure::import::Progress;
 use hachure::render::Request;
 use hachure::render::View;
 use hachure::scene::{Camera, Light, LightKind, Scene};
