@@ -226,9 +226,7 @@ impl Document {
             glyphs: self.glyphs.iter().map(Glyph::clamped).collect(),
             ..self.clone()
         };
-        for style in clamped.nodes.values_mut().filter_map(|node| node.style.as_mut()) {
-            *style = style.clamped();
-        }
+        clamped.nodes.values_mut().filter_map(|node| node.style.as_mut()).for_each(Style::clamp);
         clamped
     }
 
