@@ -110,13 +110,8 @@ macro_rules! techniques {
             #[must_use]
             pub fn clamped(&self) -> Self {
                 let mut clamped = self.clone();
-                clamped.clamp();
+                clamped.declare(&mut Params::clamping());
                 clamped
-            }
-
-            /// Moves every number into the range of its parameter.
-            pub fn clamp(&mut self) {
-                self.declare(&mut Params::clamping());
             }
 
             fn declare<'a>(&'a mut self, list: &mut Params<'a>) {
