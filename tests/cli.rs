@@ -154,7 +154,7 @@ fn info_styles_and_bench_print_what_they_promise() {
 
     let styles: serde_json::Value = serde_json::from_str(&stdout(&hachure(&["styles", "--json"]))).unwrap();
     let names: Vec<_> =
-        styles["presets"].as_array().unwrap().iter().map(|p| p["name"].as_str().unwrap()).collect();
+        styles["presets"].as_array().unwrap().iter().map(|p| p["id"].as_str().unwrap()).collect();
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/styles");
     let mut all: Vec<_> = std::fs::read_dir(folder)
         .unwrap()

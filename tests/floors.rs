@@ -1,4 +1,4 @@
-//! Who imports whom: rooms and floors only look down, and no circle of files is large.
+//! Who imports whom: modules and floors only look down, and no circle of files is large.
 //!
 //! Reads the paths that begin with `crate`, `super` or `self` in every file of `src/`, in `use` trees and elsewhere, and
 //! takes each for the file in which it ends. Comments, strings and what is only compiled for tests are left out.
@@ -8,8 +8,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-/// Rooms, top to bottom, as in ARCHITECTURE.md. A room imports only from itself and from rooms below it.
-const ROOMS: [&[&str]; 11] = [
+/// Modules, top to bottom, as in ARCHITECTURE.md. A module imports only from itself and from modules below it.
+const MODULES: [&[&str]; 11] = [
     &["main", "cli"],
     &["app"],
     &["export"],
@@ -23,7 +23,7 @@ const ROOMS: [&[&str]; 11] = [
     &["geometry"],
 ];
 
-/// What a room does not know although it lies below.
+/// What a module does not know although it lies below.
 const STRANGERS: [(&str, &str); 2] = [("gpu", "style"), ("gpu", "document")];
 
 /// Floors inside of `render/`, top to bottom. A floor imports only from itself and from floors below it. What is named
@@ -331,7 +331,7 @@ fn imports(sources: &BTreeMap<Module, String>) -> Imports {
     let of = |module: &Module| -> BTreeSet<Module> {
         let paths = read[module].paths.iter();
         let targets = paths.filter_map(|(inline, path)| target(module, inline, path, &files));
-        // The root only says which rooms there are.
+        // The root only says which modules there are.
         targets.filter(|t| t != module && !t.is_empty()).collect()
     };
     files.iter().map(|module| (module.clone(), of(module))).collect()
@@ -404,18 +404,19 @@ fn circles(imports: &Imports) -> Vec<Vec<Module>> {
     search.found
 }
 
-fn room(module: &Module) -> Option<usize> {
+fn height_of(module: &Module) -> Option<usize> {
     let first = module.first()?;
-    ROOMS.iter().position(|rooms| rooms.contains(&first.as_str()))
+    MODULES.iter().position(|modules| modules.contains(&first.as_str()))
 }
 
 #[test]
 fn rooms_import_only_from_rooms_below() {
     let imports = crate_imports();
     assert!(imports.len() > 150, "the sources were not found");
-    let homeless: Vec<_> = imports.keys().filter(|m| !m.is_empty() && room(m).is_none()).map(name).collect();
-    assert!(homeless.is_empty(), "in no room: {homeless:?}");
-    let mut wrong = upward(&imports, room);
+    let homeless: Vec<_> =
+        imports.keys().filter(|m| !m.is_empty() && height_of(m).is_none()).map(name).collect();
+    assert!(homeless.is_empty(), "in no module: {homeless:?}");
+    let mut wrong = upward(&imports, height_of);
     for (module, targets) in &imports {
         for target in targets {
             let (from, to) = (module.first(), target.first());
@@ -435,9 +436,9 @@ fn rooms_import_only_from_rooms_below() {
 fn floors_of_a_frame_import_only_from_floors_below() {
     let Some(lowest) = RENDER_FLOORS.len().checked_sub(1) else { return };
     let floor = |module: &Module| {
-        let [room, rest @ ..] = module.as_slice() else { return None };
+        let [first, rest @ ..] = module.as_slice() else { return None };
         let own = rest.first()?;
-        (room == "render").then(|| RENDER_FLOORS.iter().position(|f| f == own).unwrap_or(lowest))
+        (first == "render").then(|| RENDER_FLOORS.iter().position(|f| f == own).unwrap_or(lowest))
     };
     let wrong = upward(&crate_imports(), floor);
     assert!(wrong.is_empty(), "\n{}\n", wrong.join("\n"));
@@ -524,7 +525,7 @@ mod reading {
             ("style", "#[cfg(test)] mod tests; fn f() { crate::app::x::g() }"),
             ("style/tests", "use crate::app::Z;"),
         ]));
-        assert_eq!(upward(&imports, room), ["style imports from app/x, which is above it"]);
+        assert_eq!(upward(&imports, height_of), ["style imports from app/x, which is above it"]);
         assert!(!imports.contains_key(&vec!["style".to_owned(), "tests".to_owned()]));
     }
 

@@ -276,8 +276,8 @@ fn pictures_look_as_they_did() {
 #[test]
 fn there_is_a_picture_of_every_preset() {
     for preset in hachure::style::preset::all() {
-        let is_it = |args: &[&str]| args.windows(2).any(|pair| pair == ["--style", preset.name.as_str()]);
-        assert!(PICTURES.iter().any(|(.., args)| is_it(args)), "{}", preset.name);
+        let is_it = |args: &[&str]| args.windows(2).any(|pair| pair == ["--style", preset.id.as_str()]);
+        assert!(PICTURES.iter().any(|(.., args)| is_it(args)), "{}", preset.id);
     }
 }
 

@@ -249,6 +249,8 @@ fn shaders_and_program_number_surfaces_alike() {
     let surfels = common::surfels(&mut session, &picture);
     assert!(surfels.iter().any(|s| s.object != 0));
     for (region, surfel) in regions.into_iter().zip(surfels).filter(|(_, s)| s.object != 0) {
-        assert!((0..6).any(|surface| region == hachure::render::base::ids::region(surfel.object, surface)));
+        assert!(
+            (0..6).any(|surface| region == hachure::render::base::ids::surface_id(surfel.object, surface))
+        );
     }
 }

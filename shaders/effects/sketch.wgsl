@@ -344,7 +344,7 @@ fn fs_fill(@builtin(position) position: vec4<f32>) -> Filled {
 @fragment
 fn fs_inked(@builtin(position) position: vec4<f32>) {
     let px = vec2<i32>(position.xy);
-    var any = reached_by_lines(px);
+    var any = covered_by_lines(px);
     if WITH_PAPER {
         let last = vec2<i32>(textureDimensions(fill_field_tex)) - 1;
         any |= textureLoad(fill_field_tex, clamp(px / i32(BLOCK), vec2(0), last)).y;

@@ -20,7 +20,7 @@ fn next_index(px: vec2<u32>) -> u32 {
 fn append(position: vec4<f32>, ids: vec4<u32>, drawn: GBuffer) {
     let index = next_index(vec2<u32>(position.xy));
     let capacity = textureDimensions(link_tex);
-    if index < room.x * room.y {
+    if index < capacity.x * capacity.y {
         let next = atomicExchange(&heads[list_of(vec2<u32>(position.xy))], index + 1u);
         let link = Link(next, bitcast<u32>(position.z), order_of(ids), drawn.geometry.x);
         let payload = Payload(drawn.geometry.y, drawn.geometry.z, drawn.geometry.w, drawn.surface_id);

@@ -146,17 +146,15 @@ fn line_at(at: vec2<f32>, g: Surfel, found: u32) -> Line {
     return Line(vec4(color, 1.0) * coverage, edge.depth, false, strength, d, to_source);
 }
 
-// The line that has been found for a pixel, or without looking its own one.
-fn line_of(px: vec2<i32>) -> u32 {
-    let found = textureLoad(farthest_tex, px, 0).x;
-    if NARROW {
-        let own = vec2<u32>(px);
-        return select(0u, ((own.y << 16u) | own.x) + 1u, found != 0u);
-    }
-    return found;
+// A pixel's own line.
+fn own_line(px: vec2<i32>) -> u32 {
+    let class_here = class_of(textureLoad(edge_map_tex, px));
+    let own = vec2<u32>(px);
+    return select(0u, ((own.y << 16u) | own.x) + 1u, class_here != NO_EDGE && class_here != PAPER);
 }
 
-// A hidden line may have won against one that is not: of the lines of the pixels around, the one that covers most.
+// A hidden line may have won against one that is not: of the lines of the pixels around, the one that covers most. Right beside
+// it that has been found nowhere if the hidden one is wider.
 fn line_around(at: vec2<f32>, g: Surfel, hidden: u32) -> Line {
     let px = vec2<i32>(floor(at));
     let last = vec2<i32>(frame.size) - 1;
@@ -166,7 +164,12 @@ fn line_around(at: vec2<f32>, g: Surfel, hidden: u32) -> Line {
     for (var reach = 1; reach <= farthest; reach *= 2) {
         for (var i = 0; i < 9; i++) {
             let q = clamp(px + reach * (vec2(i % 3, i / 3) - 1), vec2(0), last);
-            let found = line_of(q);
+            var found = 0u;
+            if NARROW || reach == 1 {
+                found = own_line(q);
+            } else {
+                found = textureLoad(farthest_tex, q, 0).x;
+            }
             if found != tried && found != hidden {
                 let line = line_at(at, g, found);
                 if line.ink.a > best.ink.a {

@@ -226,8 +226,16 @@ impl Document {
             glyphs: self.glyphs.iter().map(Glyph::clamped).collect(),
             ..self.clone()
         };
+        // Often thousands of objects have one style: it is clamped once.
+        let mut last: Option<(Style, Style)> = None;
         for style in clamped.nodes.values_mut().filter_map(|node| node.style.as_mut()) {
-            *style = style.clamped();
+            match &last {
+                Some((given, within)) if given == style => style.clone_from(within),
+                _ => {
+                    let within = style.clamped();
+                    last = Some((std::mem::replace(style, within.clone()), within));
+                }
+            }
         }
         clamped
     }

@@ -95,7 +95,7 @@ struct Part {
     material: usize,
 }
 
-/// Several meshes as one, whose parts' materials are indices into `parts`.
+/// Several meshes as one; the materials of its submeshes are indices into `parts`.
 struct Whole {
     mesh: Mesh,
     parts: Vec<Part>,
@@ -147,9 +147,9 @@ impl Whole {
     }
 
     fn part_of(&self, face: u32) -> Part {
-        let parts = &self.mesh.submeshes;
-        let number = parts.partition_point(|part| part.first_index <= 3 * face).saturating_sub(1);
-        self.submeshes[parts[number].material]
+        let submeshes = &self.mesh.submeshes;
+        let number = submeshes.partition_point(|submesh| submesh.first_index <= 3 * face).saturating_sub(1);
+        self.parts[submeshes[number].material]
     }
 
     /// One of the meshes again.
@@ -157,18 +157,18 @@ impl Whole {
         let mut new_index = vec![u32::MAX; self.mesh.positions.len()];
         let mut sources = Vec::new();
         let mut indices = Vec::new();
-        let mut parts = Vec::new();
-        for part in &self.mesh.submeshes {
-            let Part { member: owner, material } = self.submeshes[part.material];
+        let mut submeshes = Vec::new();
+        for submesh in &self.mesh.submeshes {
+            let Part { member: owner, material } = self.parts[submesh.material];
             if owner != member {
                 continue;
             }
-            parts.push(Submesh {
+            submeshes.push(Submesh {
                 first_index: indices.len() as u32,
-                index_count: part.index_count,
+                index_count: submesh.index_count,
                 material,
             });
-            for &v in &self.mesh.indices[part.first_index as usize..][..part.index_count as usize] {
+            for &v in &self.mesh.indices[submesh.first_index as usize..][..submesh.index_count as usize] {
                 let new = &mut new_index[v as usize];
                 if *new == u32::MAX {
                     *new = sources.len() as u32;
@@ -179,7 +179,7 @@ impl Whole {
         }
         let mut mesh = Mesh {
             indices,
-            parts,
+            submeshes,
             has_computed_normals: old.has_computed_normals,
             mended: old.mended,
             ..self.mesh.gather(&sources)

@@ -19,7 +19,7 @@ pub struct Params<'a> {
 }
 
 impl<'a> Params<'a> {
-    /// A list that stays empty: every value that is declared to it is moved into its range, see [`Slot::clamp`].
+    /// A list that stays empty: every value that is declared to it is moved into its range.
     pub fn clamping() -> Self {
         Self { clamps: true, ..Self::default() }
     }

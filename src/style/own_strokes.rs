@@ -62,7 +62,7 @@ impl OwnStrokes {
                       range: std::ops::RangeInclusive<f32>,
                       help,
                       value: &'a mut f32| {
-            list.wide_number(key, label, unit, range.clone(), range, help, value)
+            list.wide_number(key, label, unit, range.clone(), range, help, value);
         };
         list.when("hatching.set", super::hatching::Set::Painted, |list| {
             list.file(

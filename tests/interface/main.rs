@@ -323,7 +323,7 @@ fn a_class_of_lines_is_like_its_group_until_it_is_set_and_after_a_reset() {
 #[test]
 fn a_preset_replaces_the_style() {
     let mut window = window();
-    choose(&mut window, "Preset", "Statue");
+    choose(&mut window, "Preset", "Stone statue");
     assert_eq!(window.state().document().style, preset::load("statue").unwrap().style);
     ask(&mut window, Command::Undo);
     assert_eq!(window.state().document().style, preset::load("gooch").unwrap().style);

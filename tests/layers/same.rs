@@ -25,8 +25,8 @@ fn check_same_layers(name: &str, opened: &Opened, side: u32) -> u32 {
     let mut counted_too = session.renderer().peeled().unwrap().remove(0);
     let fragments = std::mem::replace(&mut counted_too.fragments, counted.fragments);
     assert!(fragments >= counted.pixels.iter().copied().map(u64::from).sum());
-    assert!(std::mem::replace(&mut counted_too.room, counted.room) >= fragments);
-    assert_eq!(counted.room, 0);
+    assert!(std::mem::replace(&mut counted_too.capacity, counted.capacity) >= fragments);
+    assert_eq!(counted.capacity, 0);
     assert_eq!(counted, counted_too, "{name}");
     let drawn = counted.layers as usize;
     assert!(drawn > 0, "{name}");

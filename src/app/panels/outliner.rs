@@ -176,7 +176,7 @@ impl Outliner {
         // Few objects are mirrors or designated: the others have the switches only where somebody looks.
         let looked_at = ui.rect_contains_pointer(rect);
         let mut left_of_switches = edges_at.left();
-        let switches = [(Role::Mirror, Icon::Mirror, "Mirror"), (Role::Mask, Icon::Mask, "Uncover target")];
+        let switches = [(Role::Mirror, Icon::Mirror, "Mirror"), (Role::Mask, Icon::Mask, "Uncover")];
         for (i, (role, icon, label)) in switches.into_iter().enumerate() {
             let has = roles.has(role);
             let can_be = role != Role::Mirror || !scene.is_added(row.node);

@@ -186,7 +186,7 @@ impl View {
 
     /// What this view shows in a mirror: the view of the eye's mirror image, flipped left to right so that nothing is
     /// inside out. A pixel of the mirror shows the pixel of this view that lies as far from the opposite side of the
-    /// picture. What lies behind the mirror or on it is left out; `rect` as in [`View::rect`], for this view.
+    /// picture. What lies behind the mirror or on it is left out; `rect` as in [`View::scissor_rect`], for this view.
     #[must_use]
     pub fn mirrored(&self, plane: &Plane, visible: &Bounds, rect: [u32; 4]) -> Self {
         let flipped = DMat4::from_scale(DVec3::new(-1.0, 1.0, 1.0));

@@ -12,16 +12,6 @@ impl StrokeStyle {
     /// pixel.
     pub fn new(strokes: &Strokes, seed: u32, scale: f32) -> Option<Self> {
         let Strokes { enabled, times, overshoot, shift, bow, tremor } = *strokes;
-        enabled.then(|| {
-            Self(Hand {
-                times: times,
-                overshoot: overshoot,
-                shift: shift,
-                bow: bow / 100.0,
-                tremor: tremor,
-                scale,
-                seed,
-            })
-        })
+        enabled.then(|| Self(Hand { times, overshoot, shift, bow: bow / 100.0, tremor, scale, seed }))
     }
 }

@@ -4,7 +4,7 @@ use super::edge_map::EdgeMap;
 use super::gbuffer::GBuffer;
 use super::repeated::SPINES;
 use crate::gpu::recorder::{Draw, Onto};
-use crate::gpu::{DepthRule, Program, Recorder, inputs};
+use crate::gpu::{DepthRule, Program, Recorder, STENCIL, inputs};
 use crate::render::base::edge_style::EdgeUniform;
 use crate::render::base::error::RenderError;
 
@@ -24,7 +24,7 @@ pub fn without_dots(
         return Ok(edge_map);
     }
     let kept = rec.target("spines without dots", SPINES)?;
-    let pixels = rec.target("pixels of lines", wgpu::TextureFormat::Depth32Float)?;
+    let pixels = rec.target("pixels of lines", STENCIL)?;
     rec.draw(Draw {
         label: "dots",
         program: Program::new("passes/dots.wgsl", "fs_main"),

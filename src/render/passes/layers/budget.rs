@@ -193,15 +193,15 @@ mod tests {
         let mut pixels = vec![0; 64];
         pixels[..layers as usize].fill(100);
         let ended = if has_ended { PeelingEnd::TooFewPixels } else { PeelingEnd::MostLayers };
-        let (passed, budget) = (vec![0; 64], CHUNK * u64::from(runs));
+        let (passed, capacity) = (vec![0; 64], CHUNK * u64::from(runs));
         Peeled {
             layers,
             ended,
             fraction: 1.0,
             masked: 0,
             hidden: 0,
-            fragments: budget,
-            budget,
+            fragments: capacity,
+            capacity,
             pixels,
             passed,
         }
