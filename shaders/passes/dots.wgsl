@@ -19,7 +19,8 @@ fn is_line(px: vec2<i32>) -> bool {
     return !is_inside || textureLoad(spine_tex, px, 0).x != 0u;
 }
 
-// The corners of the box around all that is connected to a pixel of a line, as far as it is within `reach` of it, px.
+// The corners of the box around all that is connected to a pixel of a line, as far as it is within `reach` of it, px. A gap of one
+// pixel interrupts no line.
 fn box_around(px: vec2<i32>, reach: i32) -> vec4<i32> {
     let last = 2 * reach;
     var lines: array<u32, ROWS>;
@@ -34,8 +35,9 @@ fn box_around(px: vec2<i32>, reach: i32) -> vec4<i32> {
     while is_growing {
         is_growing = false;
         for (var y = 0; y <= last; y++) {
-            let rows = own[max(y - 1, 0)] | own[y] | own[min(y + 1, last)];
-            let grown = (rows | (rows << 1u) | (rows >> 1u)) & lines[y];
+            let beside = own[max(y - 1, 0)] | own[y] | own[min(y + 1, last)];
+            let rows = own[max(y - 2, 0)] | beside | own[min(y + 2, last)];
+            let grown = (rows | (rows << 1u) | (rows >> 1u) | (rows << 2u) | (rows >> 2u)) & lines[y];
             is_growing = is_growing || grown != own[y];
             own[y] = grown;
         }

@@ -21,7 +21,7 @@ pub struct View {
     pub creases: CreasesBy,
     /// How far the seams of separately tessellated faces may be apart.
     pub seams: Seams,
-    /// The same where it is a number: ‰ of the diagonal of a mesh, 0 to 5.
+    /// The same where it is a number: ‰ of the diagonal of a body, 0 to 5.
     pub seam_gap: f32,
     /// Whether parallel views show how long things are.
     pub scale_bar: bool,
@@ -214,7 +214,7 @@ impl View {
                     "‰",
                     0.0..=2.0,
                     0.0..=5.0,
-                    "How far a vertex may move to the middle of a crack, in thousandths of the mesh's diagonal.",
+                    "How far a vertex may move to the middle of a crack, in thousandths of the body's diagonal.",
                     &mut self.seam_gap,
                 );
             });

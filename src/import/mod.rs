@@ -24,6 +24,8 @@ use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 pub use self::image::load_image;
 pub use self::image_cache::ImageCache;
 
+pub use self::seams::join_nodes;
+
 use self::format::Format;
 use self::names::SiblingNames;
 use crate::geometry::mend::SeamTolerance;

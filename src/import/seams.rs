@@ -11,7 +11,7 @@ use crate::scene::Scene;
 
 /// Joins the seams between nodes that stand in the same place. What a file places by itself may be moved by itself, and
 /// what is shown several times or has bones has other neighbors each time; these stay as they are.
-pub(super) fn join_nodes(scene: &mut Scene, tolerance: SeamTolerance) {
+pub fn join_nodes(scene: &mut Scene, tolerance: SeamTolerance) {
     let mut uses = vec![0; scene.meshes.len()];
     for mesh in scene.nodes.iter().filter_map(|node| node.mesh) {
         uses[mesh] += 1;

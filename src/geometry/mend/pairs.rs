@@ -41,6 +41,10 @@ struct Cells<'a> {
     reach: f64,
     /// (hash of the cell, edge), sorted.
     entries: Vec<(u64, u32)>,
+    /// Where the entries begin whose hashes begin with each number; about as many as entries.
+    first: Vec<u32>,
+    /// By how many bits a hash is shifted for its beginning.
+    shift: u32,
 }
 
 impl<'a> Cells<'a> {
@@ -51,7 +55,16 @@ impl<'a> Cells<'a> {
         let mut entries: Vec<(u64, u32)> =
             entries.map(|(number, b)| (hash(cell(b.at(0.5), width)), number as u32)).collect();
         entries.par_sort_unstable();
-        Self { limits, width, reach, entries }
+        let bits = entries.len().max(2).ilog2();
+        let shift = u64::BITS - bits;
+        let mut first = vec![0; (1 << bits) + 1];
+        for &(key, _) in &entries {
+            first[(key >> shift) as usize + 1] += 1;
+        }
+        for slot in 1..first.len() {
+            first[slot] += first[slot - 1];
+        }
+        Self { limits, width, reach, entries, first, shift }
     }
 
     fn best_partner(&self, borders: &Borders, number: u32) -> u32 {
@@ -82,7 +95,9 @@ impl<'a> Cells<'a> {
 
     fn at(&self, cell: I64Vec3) -> &[(u64, u32)] {
         let key = hash(cell);
-        let entries = &self.entries[self.entries.partition_point(|&(k, _)| k < key)..];
+        let slot = (key >> self.shift) as usize;
+        let entries = &self.entries[self.first[slot] as usize..self.first[slot + 1] as usize];
+        let entries = &entries[entries.iter().take_while(|&&(k, _)| k < key).count()..];
         let count = entries.iter().take(MOST_IN_A_CELL).take_while(|&&(k, _)| k == key).count();
         &entries[..count]
     }
