@@ -132,7 +132,7 @@ impl Drawing {
             let color = self.shading.shade(rec, &mut shared.techniques, &key.look, &layer, false)?;
             for mirrored in reflected {
                 let Some(reflection) = self.reflections.get_mut(mirrored.index) else { continue };
-                reflection.uniform.write(rec.gpu, &vec![drawn.uniform]);
+                reflection.uniform.write(rec.gpu, &vec![mirrored.uniform]);
                 let uniform = reflection.uniform.buffer();
                 mirror(rec, &surfaces.gbuffer.value.geometry, &mirrored.color.value, uniform, &color)?;
             }
