@@ -1,6 +1,6 @@
 // Decides the class of lines over stretches. Where two lines run within a pixel of each other (a part that touches another, or
-// dips into it), chance decides in every pixel which of them is found there. Such lines become one: of the first class that has no
-// gap as long as a stretch there, through the points of the class that has the most of them. No other class shows in between on
+// dips into it), chance decides in every pixel which of them is found there. Such lines become one: of the widest class that has
+// no gap as long as a stretch there, through the points of the class that has the most of them. No other class shows in between on
 // less than a stretch.
 //
 // Lines are few, and such places on them fewer: lines are collected first, then places where classes meet are marked, and only
@@ -232,6 +232,8 @@ fn count_of(class_of: u32, near: u32) -> u32 {
 // The class that a point's line has here.
 fn settled(own: Point, ends: vec2<i32>) -> u32 {
     let longest = longest_gap();
+    var settled = NO_EDGE;
+    var greatest = -1.0;
     // The nearest other class on either side.
     var nearest = vec2<i32>(ENDLESS);
     var beside = vec2<u32>(NO_EDGE);
@@ -244,14 +246,20 @@ fn settled(own: Point, ends: vec2<i32>) -> u32 {
         if first.x + first.y <= longest {
             let last = vec2(last_step(steps.x, first.x, longest), last_step(steps.y, first.y, longest));
             let is_whole = last.x + last.y + 1 >= longest || any(last + 1 >= ends);
-            if is_whole {
-                return class_of;
+            // Of equal ones the first.
+            let width = half_width_of(vec4(0u, 0u, 0u, looks[class_of]));
+            if is_whole && width > greatest + 0.01 {
+                greatest = width;
+                settled = class_of;
             }
         }
         if class_of != own.class_of {
             beside = select(beside, vec2(class_of), first < nearest);
             nearest = min(nearest, first);
         }
+    }
+    if settled != NO_EDGE {
+        return settled;
     }
     // No class has a stretch here: the line is as beside it.
     let is_between = all(beside != vec2(NO_EDGE)) && all(nearest <= vec2(longest));

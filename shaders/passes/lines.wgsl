@@ -148,9 +148,8 @@ fn line_at(at: vec2<f32>, g: Surfel, found: u32) -> Line {
 
 // A pixel's own line.
 fn own_line(px: vec2<i32>) -> u32 {
-    let class_here = class_of(textureLoad(edge_map_tex, px));
     let own = vec2<u32>(px);
-    return select(0u, ((own.y << 16u) | own.x) + 1u, class_here != NO_EDGE && class_here != PAPER);
+    return select(0u, ((own.y << 16u) | own.x) + 1u, textureLoad(spine_tex, px, 0).x != 0u);
 }
 
 // A hidden line may have won against one that is not: of the lines of the pixels around, the one that covers most. Right beside

@@ -15,6 +15,7 @@ const JUNCTION: f64 = 3.0;
 
 /// A part of a line that has one class.
 #[derive(Debug)]
+#[allow(dead_code, reason = "a test that fails prints it")]
 pub(crate) struct Run {
     pub(crate) class: EdgeClass,
     /// How the line goes on, on both sides.

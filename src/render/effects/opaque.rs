@@ -268,7 +268,10 @@ impl OpaqueLayer {
                 },
             )?;
             let edges = without_dots(rec, edges, &surfaces.gbuffer.value, styles, self.edge_styles.buffer())?;
-            self.line_classes.settle(rec, &edges, styles, self.edge_styles.buffer())?;
+            // Strokes of a hand cross each other.
+            if group.strokes.is_none() {
+                self.line_classes.settle(rec, &edges, styles, self.edge_styles.buffer())?;
+            }
             Ok(edges)
         })
     }
