@@ -60,13 +60,13 @@ impl Model {
     /// Triangles shown: a mesh counts once for each node that shows it.
     fn triangles(&self) -> usize {
         let meshes = self.document.nodes().filter_map(|node| node.mesh());
-        meshes.map(|mesh| self.submeshes[mesh.index()].faces.len()).sum()
+        meshes.map(|mesh| self.parts[mesh.index()].faces.len()).sum()
     }
 
     /// What holds for every part of every model.
     fn check(&self) {
         assert!(self.document.materials().len() >= 3, "too few materials");
-        for part in &self.submeshes {
+        for part in &self.parts {
             part.check_closed();
             part.check_faces();
         }
@@ -178,7 +178,7 @@ fn the_ogre_is_closed_and_has_no_hard_edge() {
     let triangles = ogre.triangles();
     assert!((45_000..=55_000).contains(&triangles), "{triangles}");
     assert!(ogre.bytes <= 2 << 20, "{} bytes", ogre.bytes);
-    let mut bends: Vec<f64> = ogre.submeshes.iter().flat_map(Part::bends).collect();
+    let mut bends: Vec<f64> = ogre.parts.iter().flat_map(Part::bends).collect();
     bends.sort_by(f64::total_cmp);
     let share = |part: f64| bends[(bends.len() as f64 * part) as usize];
     assert!(bends[bends.len() - 1] < 50.0, "{:?}", bends.last());
@@ -190,7 +190,7 @@ fn the_ogre_is_closed_and_has_no_hard_edge() {
 fn the_ogre_can_be_textured() {
     let ogre = Model::open("ogre.glb");
     let mut stretched = 0;
-    for part in &ogre.submeshes {
+    for part in &ogre.parts {
         assert_eq!(part.uvs.len(), part.positions.len(), "{}", part.name);
         let inside = |uv: &[f32; 2]| uv.iter().all(|v| (0.0..=1.0).contains(v));
         assert!(part.uvs.iter().all(inside), "{}", part.name);
@@ -257,7 +257,7 @@ fn the_still_life_is_made_of_named_solids_leaves_and_a_pane() {
         let sheet = ["/leaf.", "/label", "/glass"].iter().any(|name| node.path.contains(name));
         assert_eq!(Topology::new(mesh, 0.6, CreaseRule::default()).is_solid, !sheet, "{}", node.path);
     }
-    for part in Model::open("still_life.glb").submeshes {
+    for part in Model::open("still_life.glb").parts {
         part.check_faces();
     }
 }

@@ -76,7 +76,7 @@ struct Receiver {
     // Tangent of the angle between the light and the plane's normal, or `STEEPEST`.
     tilt: f32,
     // Greatest height above the plane at which anything may be.
-    capacity: f32,
+    room: f32,
     faces_light: bool,
 }
 

@@ -119,12 +119,12 @@ impl Stage {
             mesh.submeshes[0].index_count = mesh.indices.len() as u32;
             (mesh, self.links.places[*place], color(*place, self.links.places.len()), false)
         };
-        let mut scene = opened((0..submeshes).map(object).collect());
+        let mut scene = opened((0..parts).map(object).collect());
         scene.document.style = look.clone().without_lines().style;
         session.set_scene(&scene).unwrap();
-        let pictures = (0..submeshes).map(|part| {
+        let pictures = (0..parts).map(|part| {
             let mut opened = scene.clone();
-            for other in (0..submeshes).filter(|other| *other != part) {
+            for other in (0..parts).filter(|other| *other != part) {
                 opened.document.node_mut(&opened.scene.nodes[other].path).visible = Some(false);
             }
             draw(session, opened, camera)

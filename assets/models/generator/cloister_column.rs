@@ -59,7 +59,7 @@ impl Pair {
 
     /// One of the two.
     pub(crate) fn column(&self, name: impl Into<String>, x: f64, z: f64) -> Node {
-        let parts = self.submeshes.map(|(name, mesh)| Node::new(name, Some(mesh))).to_vec();
+        let parts = self.parts.map(|(name, mesh)| Node::new(name, Some(mesh))).to_vec();
         Builder::placed(Node::new(name, None).with(parts), x, 0.0, z)
     }
 

@@ -56,7 +56,7 @@ impl Order {
 
     /// A column.
     pub(crate) fn column(&self, number: usize, x: f64, z: f64) -> Node {
-        let parts = self.submeshes.iter().map(|&(name, mesh)| Node::new(name, Some(mesh))).collect();
+        let parts = self.parts.iter().map(|&(name, mesh)| Node::new(name, Some(mesh))).collect();
         Mason::placed(Node::new(format!("column.{number:02}"), None).with(parts), x, 0.0, z)
     }
 

@@ -41,7 +41,7 @@ impl Statue {
 
     /// A statue.
     pub(crate) fn node(&self, name: &str) -> Node {
-        let parts = self.submeshes.iter().map(|&(name, mesh)| Node::new(name, Some(mesh))).collect();
+        let parts = self.parts.iter().map(|&(name, mesh)| Node::new(name, Some(mesh))).collect();
         Node::new(name, None).with(parts)
     }
 }
