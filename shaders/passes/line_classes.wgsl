@@ -8,7 +8,7 @@
 #import common/frame.wgsl
 #import common/edge_map.wgsl
 #import common/line_width.wgsl
-#import common/neighbors.wgsl
+#import gpu/neighbors.wgsl
 #import common/kept.wgsl
 
 var spine_tex: texture_2d<u32>;
