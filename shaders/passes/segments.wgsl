@@ -372,8 +372,9 @@ fn point_at(v: Segment, number: u32, px: vec2<f32>) -> SegmentPoint {
     let ends_here = is_covered(left, own) || is_covered(right, own);
     let is_profile = is_of_profile(class_of);
     let rank = f32(u32(min(full_width * 4.0, 126.0))) + select(0.0, 0.5, is_profile);
-    let clip = frame.clip_from_view * vec4(0.0, 0.0, -depth, 1.0);
-    let nearest = bitcast<f32>((bitcast<u32>(clip.z / clip.w) & ~0xfffu) | ((own & 63u) << 6u));
+    let roughly = bitcast<f32>(bitcast<u32>(depth) & ~0xfffu);
+    let clip = frame.clip_from_view * vec4(0.0, 0.0, -roughly, 1.0);
+    let nearest = clip.z / clip.w * (1.0 - f32(own & 63u) / f32(64 << 12u));
     // Of strokes the same time of drawing counts everywhere, so that none tears another one along it.
     let first = select(nearest, mix(nearest, hand.precedence, 0.5), WITH_STROKES);
     let drawn = select(rank + 1.0 + 0.499 * first, 0.5 + 0.499 * first, ends_here);
