@@ -14,7 +14,7 @@ use hachure::hatching::tonal_art_map::composition::{
     COMPOSED_INKS, DIRECTIONS, LIGHTS, compose, tone_of_ink,
 };
 use hachure::hatching::tonal_art_map::{TonalArtMap, sets};
-use hachure::render::base::frame_uniform::REFERENCE_HEIGHT;
+use hachure::render::base::view::REFERENCE_HEIGHT;
 use hachure::scene::Camera;
 use hachure::style::hatching::{Direction, Hatching, Mapping, Set};
 use hachure::style::{Color, Curve, Style, Technique, preset};

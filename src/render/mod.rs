@@ -10,12 +10,12 @@ mod renderer;
 pub mod views;
 
 pub use base::error::RenderError;
-pub use base::frame_uniform::View;
 pub use base::gpu_scene::{GpuScene, Origin, UploadedTopology, Uploader};
 pub use base::sample::{MAX_SAMPLES, Sample};
 pub use base::stripes::{GpuStripes, SolvedStripes, StripeRequest};
 pub use base::stroke_maps::StrokeMap;
 pub use base::style_images::StyleImages;
+pub use base::view::View;
 pub use effects::blueprint::LAYERS;
 pub use effects::{image_faults, prepare_images};
 pub use frame::Picture;

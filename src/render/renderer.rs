@@ -5,7 +5,6 @@ use std::sync::Arc;
 use glam::{DVec3, UVec2, Vec2};
 
 use super::base::error::RenderError;
-use super::base::frame_uniform::{REFERENCE_HEIGHT, View};
 use super::base::gpu_scene::{GpuScene, UploadedTopology, Uploader};
 use super::base::ids::node_of;
 use super::base::lights::Lights;
@@ -15,6 +14,7 @@ use super::base::section::Section;
 use super::base::stripes::{GpuStripes, SolvedStripes, StripeRequest};
 use super::base::stroke_maps::{StrokeMap, StrokeMaps};
 use super::base::style_images::StyleImages;
+use super::base::view::{REFERENCE_HEIGHT, View};
 use super::drawing::DrawingInputs;
 use super::drawing::objects::Objects;
 use super::effects::hatching::{missing, missing_strokes};

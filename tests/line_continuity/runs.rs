@@ -4,7 +4,7 @@ use std::collections::HashSet;
 
 use glam::DVec2;
 use hachure::geometry::EdgeClass;
-use hachure::render::base::frame_uniform::REFERENCE_HEIGHT;
+use hachure::render::base::view::REFERENCE_HEIGHT;
 
 use crate::lines::Lines;
 

@@ -4,8 +4,8 @@
 use glam::{DVec3, Vec2};
 use hachure::export::session::Opened;
 use hachure::geometry::primitives;
-use hachure::render::base::frame_uniform::REFERENCE_HEIGHT;
 use hachure::render::base::noise::{SIDE as TILE, TILE_CELLS, turbulence_tile};
+use hachure::render::base::view::REFERENCE_HEIGHT;
 use hachure::style::sketch::{Anchor, DepthRule, Noise};
 use hachure::style::{EdgeMode, Matrix, Sketch, Style};
 use image::RgbaImage;

@@ -20,7 +20,7 @@ mod paths;
 use common::session;
 use field::{LOCKED, MAP, SURFACE, walk};
 use hachure::export::Session;
-use hachure::render::base::frame_uniform::REFERENCE_HEIGHT;
+use hachure::render::base::view::REFERENCE_HEIGHT;
 use hachure::render::effects::sketch::field as field_of;
 use hachure::render::passes::offset_field::FieldUniform;
 use hachure::style::{Sketch, preset};

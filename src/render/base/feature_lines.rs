@@ -1,11 +1,11 @@
 //! The lines that topology knows, for one view.
 
 use super::edge_style::EdgeUniform;
-use super::frame_uniform::View;
 use super::gpu_scene::GpuScene;
 use super::group::Group;
 use super::ids::{object_id, surface_id};
 use super::strokes::StrokeStyle;
+use super::view::View;
 use crate::geometry::line_segments::{
     Dashes, LineSelection, LineView, PlacedContours, PlacedEdges, Strokes, contour_segments, draw_strokes,
 };

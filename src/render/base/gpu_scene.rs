@@ -5,9 +5,9 @@ use std::sync::{Arc, OnceLock};
 use glam::{DMat4, DVec3};
 use rayon::prelude::*;
 
-use super::frame_uniform::View;
 use super::section::{Section, SectionResult};
 use super::stripes::{GpuStripes, SolvedStripes, StripePlace, StripeRequest};
+use super::view::View;
 use crate::document::Document;
 use crate::geometry::{Bodies, Bounds, CreaseRule, FeatureEdges, Mesh, NotFlat, Plane, Topology, Weld};
 use crate::gpu::geometry::{MeshRange, MeshSource};

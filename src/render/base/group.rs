@@ -3,11 +3,11 @@
 use glam::{DMat4, Mat3, Mat4};
 
 use super::edge_style::EdgeUniform;
-use super::frame_uniform::View;
 use super::gpu_scene::{GpuScene, Origin};
 use super::ids::{ENHANCED, object_id};
 use super::instances::{Detail, DrawCall, Instance};
 use super::strokes::StrokeStyle;
+use super::view::View;
 use crate::geometry::Bounds;
 use crate::gpu::material::MaterialUniform;
 use crate::scene::{AlphaMode, NodeId};

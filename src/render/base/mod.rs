@@ -21,3 +21,4 @@ pub mod stripes;
 pub mod stroke_maps;
 pub mod strokes;
 pub mod style_images;
+pub mod view;

@@ -2,9 +2,9 @@
 
 use glam::{DMat4, DVec3};
 
-use super::frame_uniform::View;
 use super::gpu_scene::GpuScene;
 use super::ids::node_of;
+use super::view::View;
 
 /// From view space to the axes of an object, about the middle of its box, as large as in the world, so that a stretched object has
 /// no stretched pattern.

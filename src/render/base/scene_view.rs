@@ -2,10 +2,10 @@
 
 use glam::Vec4;
 
-use super::frame_uniform::View;
 use super::gpu_scene::GpuScene;
 use super::lights::Lights;
 use super::sample::Sample;
+use super::view::View;
 use crate::document::LayersBy;
 
 /// The scene as one camera sees it, in one sample of a picture.

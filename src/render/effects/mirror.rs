@@ -8,7 +8,7 @@ use crate::geometry::{Bounds, Plane};
 use crate::gpu::recorder::{Draw, Onto};
 use crate::gpu::{Program, Recorder, Target, inputs};
 use crate::render::base::error::RenderError;
-use crate::render::base::frame_uniform::View;
+use crate::render::base::view::View;
 use crate::style;
 use crate::style::mirror::Side;
 

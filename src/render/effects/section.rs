@@ -7,10 +7,10 @@ use crate::document::section::Fill;
 use crate::gpu::recorder::{Draw, Onto};
 use crate::gpu::{DepthRule, Program, Recorder, Target, inputs};
 use crate::render::base::error::RenderError;
-use crate::render::base::frame_uniform::View;
 use crate::render::base::gpu_scene::GpuScene;
 use crate::render::base::ids::{object_id, surface_id};
 use crate::render::base::section::Section;
+use crate::render::base::view::View;
 use crate::render::passes::gbuffer::GBuffer;
 
 /// How objects that touch each other are told apart: degrees by which the lines are turned, and how many times as far

@@ -3,13 +3,14 @@
 
 use crate::gpu::{Gpu, Inputs, Recorder, Target};
 use crate::render::base::error::RenderError;
-use crate::render::base::frame_uniform::{FrameUniform, View};
+use crate::render::base::frame_uniform::FrameUniform;
 use crate::render::base::gpu_scene::GpuScene;
 use crate::render::base::instances::{DrawCall, Instance, InstanceBuffer};
 use crate::render::base::scene_view::SceneView;
 use crate::render::base::stripes::StripesBy;
 use crate::render::base::stroke_maps::StrokeMaps;
 use crate::render::base::style_images::StyleImages;
+use crate::render::base::view::View;
 use crate::render::passes::gbuffer::GBuffer;
 use crate::scene::NodeId;
 use crate::style::Style;

@@ -5,9 +5,9 @@ use std::path::Path;
 use super::technique::{Shaded, Styled, SurfaceTechnique};
 use crate::gpu::{Gpu, Inputs, Recorder};
 use crate::render::base::error::RenderError;
-use crate::render::base::frame_uniform::View;
 use crate::render::base::gpu_scene::GpuScene;
 use crate::render::base::style_images::StyleImages;
+use crate::render::base::view::View;
 
 /// Makes structs with a field for each technique, and functions that ask each in turn.
 macro_rules! techniques {

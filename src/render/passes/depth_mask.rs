@@ -12,11 +12,11 @@ use super::gbuffer::GBuffer;
 use super::traversal::GBufferPass;
 use crate::gpu::{Gpu, Program, Recorder, Target, inputs};
 use crate::render::base::error::RenderError;
-use crate::render::base::frame_uniform::View;
 use crate::render::base::group::Group;
 use crate::render::base::instances::{DrawCall, Instance, InstanceBuffer};
 use crate::render::base::scene_view::SceneView;
 use crate::render::base::stage::{Output, Stage};
+use crate::render::base::view::View;
 
 /// Pixels per side of a workgroup, as in `passes/depth_mask.wgsl`.
 const GROUP: u32 = 16;

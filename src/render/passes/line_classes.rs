@@ -10,7 +10,7 @@ use super::edge_map::EdgeMap;
 use crate::gpu::{ArrayBuffer, Gpu, Program, RecordBuffer, Recorder, inputs};
 use crate::render::base::edge_style::EdgeUniform;
 use crate::render::base::error::RenderError;
-use crate::render::base::frame_uniform::REFERENCE_HEIGHT;
+use crate::render::base::view::REFERENCE_HEIGHT;
 
 /// No stretch of a line between two of other classes is shorter, reference pixels.
 const LEAST: f32 = 8.0;
