@@ -16,7 +16,7 @@ use glam::{DMat4, DVec3, Vec3};
 use hachure::export::Session;
 use hachure::geometry::mend::mended;
 use hachure::geometry::{Adjacency, Mesh, SeamTolerance, Submesh, primitives};
-use hachure::import::{ImportOptions, Progress, join_nodes, load};
+use hachure::import::{ImportOptions, Progress, link_nodes, load};
 use hachure::scene::{Camera, Scene};
 
 #[path = "common/repatch.rs"]
@@ -37,7 +37,7 @@ fn repatched(scene: &Scene, crack: f32, seed: u64) -> Scene {
         let repatch = Repatch { crack, seed, ..Repatch::default() };
         *mesh = Arc::new(mended(repatch.apply(mesh).mesh, SeamTolerance::Automatic));
     }
-    join_nodes(&mut scene, SeamTolerance::Automatic);
+    link_nodes(&mut scene, SeamTolerance::Automatic);
     scene
 }
 

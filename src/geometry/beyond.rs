@@ -28,7 +28,7 @@ pub struct Beyond {
 /// Meshes in one space that an exporter may have cut from one body, each with its index in `Scene::meshes`: lets their
 /// borders know each other, and mends the seams between them. The result is in the same order; `None` for meshes that
 /// meet no other.
-pub fn join_meshes(meshes: &[(usize, &Mesh)], tolerance: SeamTolerance) -> Vec<Option<Mesh>> {
+pub fn link_meshes(meshes: &[(usize, &Mesh)], tolerance: SeamTolerance) -> Vec<Option<Mesh>> {
     let mut whole = Whole::new(meshes);
     let mut adjacency = Adjacency::new(&whole.mesh);
     let mut mended = None;

@@ -14,7 +14,7 @@ fn halves(offset: Vec3) -> [Mesh; 2] {
 }
 
 fn joined(meshes: &[Mesh; 2]) -> Vec<Option<Mesh>> {
-    join_meshes(&[(3, &meshes[0]), (8, &meshes[1])], SeamTolerance::Automatic)
+    link_meshes(&[(3, &meshes[0]), (8, &meshes[1])], SeamTolerance::Automatic)
 }
 
 #[test]

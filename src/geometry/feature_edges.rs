@@ -2,7 +2,7 @@
 //!
 //! Built once per mesh; [`super::line_segments()`] picks those that a picture shows.
 
-pub(super) mod creases;
+pub(super) mod chains;
 pub(super) mod straights;
 mod stretches;
 
@@ -70,7 +70,7 @@ pub struct FeatureEdges {
     pub(super) surfaces: Arc<Surfaces>,
     /// The box around the mesh, local space.
     pub(super) bounds: Bounds,
-    kept: creases::Kept,
+    kept: chains::Kept,
     kept_straights: straights::Kept,
 }
 
@@ -86,7 +86,7 @@ impl FeatureEdges {
             fans: Vec::new(),
             surfaces: surfaces.into(),
             bounds: mesh.bounds(),
-            kept: creases::Kept::default(),
+            kept: chains::Kept::default(),
             kept_straights: straights::Kept::default(),
         };
         let point = |v: u32| adjacency.weld.representative.get(v as usize).copied().unwrap_or(v);

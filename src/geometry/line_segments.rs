@@ -24,7 +24,7 @@ pub use self::contours::{PlacedContours, contour_segments};
 use self::facing::Facings;
 use self::fan::Fans;
 pub use self::segment::{Dashes, LineSegment, LineSelection, LineView, NO_SURFACE, PlacedEdges};
-pub use self::strokes::{Strokes, Tested, draw_strokes};
+pub use self::strokes::{SegmentSet, Tested, draw_strokes};
 use super::feature_edges::Traits;
 use super::{ClassSet, EdgeClass};
 

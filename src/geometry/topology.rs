@@ -11,8 +11,8 @@ use self::half_edges::{HalfEdges, next_in_triangle};
 use super::edge::{Edge, EdgeKind, FOLDED, NO_FACE, signed_angle};
 use super::needles::judge_needles;
 use super::normals::face_normals;
+use super::seams::{Seam, find_seams};
 use super::soft_edges::{SoftNormals, judge_steep};
-use super::stitch::{Seam, stitch};
 use super::{Beyond, CreaseRule, Mesh, Weld};
 
 /// All edges of a mesh, sorted by their smaller, then their larger welded end.
@@ -106,7 +106,7 @@ impl Adjacency {
             all.non_manifold.extend(tally.faces);
         }
         if all.border_count > 0 {
-            all.seams = stitch(mesh, &all.weld, &normals, &mut all.edges);
+            all.seams = find_seams(mesh, &all.weld, &normals, &mut all.edges);
             let stitched = all.edges.iter().filter(|e| e.kind == EdgeKind::Stitched).count();
             all.border_count -= stitched;
         }

@@ -24,7 +24,7 @@ use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 pub use self::image::load_image;
 pub use self::image_cache::ImageCache;
 
-pub use self::seams::join_nodes;
+pub use self::seams::link_nodes;
 
 use self::format::Format;
 use self::names::SiblingNames;
@@ -166,7 +166,7 @@ pub fn load(path: &Path, options: &ImportOptions, progress: &Progress) -> Result
     // The importers check what they read; should one of them or a library panic all the same, only this file is lost.
     let guarded = AssertUnwindSafe(|| {
         let mut scene = load_bytes(path, &data, options, progress)?;
-        seams::join_nodes(&mut scene, options.seams);
+        seams::link_nodes(&mut scene, options.seams);
         Ok(scene)
     });
     let mut scene = std::panic::catch_unwind(guarded).unwrap_or_else(|payload| {

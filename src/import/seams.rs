@@ -5,13 +5,13 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
-use crate::geometry::beyond::join_meshes;
+use crate::geometry::beyond::link_meshes;
 use crate::geometry::{Adjacency, SeamTolerance};
 use crate::scene::Scene;
 
-/// Joins the seams between nodes that stand in the same place. What a file places by itself may be moved by itself, and
+/// Links the borders of nodes that stand in the same place, and mends the seams between them; they stay nodes of their own. What a file places by itself may be moved by itself, and
 /// what is shown several times or has bones has other neighbors each time; these stay as they are.
-pub fn join_nodes(scene: &mut Scene, tolerance: SeamTolerance) {
+pub fn link_nodes(scene: &mut Scene, tolerance: SeamTolerance) {
     let mut uses = vec![0; scene.meshes.len()];
     for mesh in scene.nodes.iter().filter_map(|node| node.mesh) {
         uses[mesh] += 1;
@@ -27,7 +27,7 @@ pub fn join_nodes(scene: &mut Scene, tolerance: SeamTolerance) {
             in_place.entry(place).or_default().push(mesh);
         }
     }
-    let joined: Vec<(usize, Arc<_>)> = in_place
+    let linked: Vec<(usize, Arc<_>)> = in_place
         .into_values()
         .filter(|meshes| meshes.len() > 1)
         .flat_map(|meshes| {
@@ -36,12 +36,12 @@ pub fn join_nodes(scene: &mut Scene, tolerance: SeamTolerance) {
                 .map(|number| (number, scene.meshes[number].as_ref()))
                 .filter(|(_, mesh)| Adjacency::new(mesh).border_count > 0)
                 .collect();
-            let joined = if open.len() > 1 { join_meshes(&open, tolerance) } else { Vec::new() };
+            let linked = if open.len() > 1 { link_meshes(&open, tolerance) } else { Vec::new() };
             let numbers: Vec<usize> = open.iter().map(|&(number, _)| number).collect();
-            numbers.into_iter().zip(joined).filter_map(|(number, mesh)| Some((number, Arc::new(mesh?))))
+            numbers.into_iter().zip(linked).filter_map(|(number, mesh)| Some((number, Arc::new(mesh?))))
         })
         .collect();
-    for (number, mesh) in joined {
+    for (number, mesh) in linked {
         scene.meshes[number] = mesh;
     }
 }

@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use glam::Vec3;
 
 use super::FeatureEdges;
-use super::creases::CreaseAngles;
+use super::chains::CreaseAngles;
 use crate::geometry::Mesh;
 use crate::geometry::line_chains::{ChainLink, Chains, NO_HALF};
 use crate::geometry::strokes::mix;

@@ -10,7 +10,7 @@ use super::outlines::Outline;
 use super::scale::Scale;
 use super::segment::{Dashes, LineSegment};
 use super::{Finder, Trace};
-use crate::geometry::feature_edges::creases::{CreaseAngles, CreaseChains};
+use crate::geometry::feature_edges::chains::{CreaseAngles, FeatureChains};
 use crate::geometry::line_chains::{ChainLink, Chains, Link};
 use crate::geometry::{ClassSet, EdgeClass};
 
@@ -27,9 +27,9 @@ impl Finder<'_> {
             ridge: asked(EdgeClass::Ridge, wanted.ridge_angle),
             valley: asked(EdgeClass::Valley, wanted.valley_angle),
         };
-        let creases = self.placed.edges.creases(self.placed.mesh, angles);
-        let mut lengths = CreaseLengths::new(self, &creases, period);
-        let mut by_edge = creases.by_edge.as_slice();
+        let features = self.placed.edges.chains(self.placed.mesh, angles);
+        let mut lengths = ChainLengths::new(self, &features, period);
+        let mut by_edge = features.by_edge.as_slice();
         let mut outlines = Vec::new();
         for (number, (segment, &edge)) in (0_u32..).zip(segments.iter_mut().zip(&trace.edges)) {
             if !dashes.wants(segment) {
@@ -47,7 +47,7 @@ impl Finder<'_> {
             }
         }
         let unseen = trace.unseen.iter().map(|&edge| (edge, None));
-        let is_smooth = |edge: u32| creases.by_edge.binary_search_by_key(&edge, |(e, ..)| *e).is_err();
+        let is_smooth = |edge: u32| features.by_edge.binary_search_by_key(&edge, |(e, ..)| *e).is_err();
         if !outlines.is_empty() {
             outlines.extend(unseen.filter(|&(edge, _)| is_smooth(edge)));
             self.measure_outlines(&outlines, period, segments);
@@ -109,20 +109,20 @@ impl Finder<'_> {
     }
 }
 
-/// The lengths along chains of creases, each found when it is asked for.
-struct CreaseLengths<'a> {
+/// The lengths along chains, each found when it is asked for.
+struct ChainLengths<'a> {
     finder: &'a Finder<'a>,
-    creases: &'a CreaseChains,
+    features: &'a FeatureChains,
     period: f64,
     scales: Vec<Option<Scale>>,
     /// For each link the length where its chain enters it.
     lengths: Vec<f64>,
 }
 
-impl<'a> CreaseLengths<'a> {
-    fn new(finder: &'a Finder<'a>, creases: &'a CreaseChains, period: f64) -> Self {
-        let scales = creases.chains.starts.iter().map(|_| None).collect();
-        Self { finder, creases, period, scales, lengths: vec![0.0; creases.edges.len()] }
+impl<'a> ChainLengths<'a> {
+    fn new(finder: &'a Finder<'a>, features: &'a FeatureChains, period: f64) -> Self {
+        let scales = features.chains.starts.iter().map(|_| None).collect();
+        Self { finder, features, period, scales, lengths: vec![0.0; features.edges.len()] }
     }
 
     fn arcs(&mut self, chain: u32, link: u32, segment: &LineSegment) -> Option<[f32; 2]> {
@@ -132,27 +132,27 @@ impl<'a> CreaseLengths<'a> {
         }
         let scale = self.scales.get(chain as usize)?.as_ref()?;
         let start = *self.lengths.get(link as usize)?;
-        let [from, _] = self.ends(self.creases.chains.links.get(link as usize)?)?;
+        let [from, _] = self.ends(self.features.chains.links.get(link as usize)?)?;
         Some(scale.arcs(segment.ends.map(|end| start + from.distance(DVec2::from(end.map(f64::from))))))
     }
 
     /// Where a link is entered and left, in pixels; `None` if it lies before the near plane.
     fn ends(&self, link: &ChainLink) -> Option<[DVec2; 2]> {
-        let edge = self.creases.edges.get(link.link as usize)?;
+        let edge = self.features.edges.get(link.link as usize)?;
         let [a, b] = self.finder.before(*edge)?.map(|(px, _)| px);
         Some(if link.reversed { [b, a] } else { [a, b] })
     }
 
     fn walk(&mut self, chain: usize) -> Option<Scale> {
-        let &(start, _) = self.creases.chains.starts.get(chain)?;
-        let (links, is_closed) = self.creases.chains.get(chain)?;
-        let &(place, part) = self.creases.anchors.get(chain)?;
+        let &(start, _) = self.features.chains.starts.get(chain)?;
+        let (links, is_closed) = self.features.chains.get(chain)?;
+        let &(place, part) = self.features.anchors.get(chain)?;
         let (mut at, mut anchor) = (0.0, 0.0);
         for (i, link) in links.iter().enumerate() {
             *self.lengths.get_mut(start as usize + i)? = at;
             let length = self.ends(link).map_or(0.0, |[a, b]| a.distance(b));
             if i == place as usize {
-                let edge = *self.creases.edges.get(link.link as usize)?;
+                let edge = *self.features.edges.get(link.link as usize)?;
                 anchor = at + self.finder.part_along(edge, link.reversed, f64::from(part)) * length;
             }
             at += length;

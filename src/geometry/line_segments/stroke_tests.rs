@@ -4,7 +4,7 @@ use glam::{DMat4, DQuat, DVec2, DVec3, Vec3, Vec3Swizzles as _};
 
 use super::tests::{EYE, LENSES, Subject, everything, look_from};
 use super::*;
-use crate::geometry::feature_edges::creases::CreaseAngles;
+use crate::geometry::feature_edges::chains::CreaseAngles;
 use crate::geometry::feature_edges::straights::Straights;
 use crate::geometry::strokes::Hand;
 use crate::geometry::{Lens, Mesh, primitives};
@@ -20,8 +20,14 @@ fn straights(mesh: Mesh) -> Straights {
     Straights::clone(&subject.edges.straights(&subject.mesh, angles))
 }
 
-fn drawn(subject: &Subject, place: DMat4, view: &LineView, wanted: &LineSelection, hand: &Hand) -> Strokes {
-    let mut out = Strokes::default();
+fn drawn(
+    subject: &Subject,
+    place: DMat4,
+    view: &LineView,
+    wanted: &LineSelection,
+    hand: &Hand,
+) -> SegmentSet {
+    let mut out = SegmentSet::default();
     draw_strokes(&subject.at(place), view, wanted, (hand, ANGLE), &mut out);
     out.complete();
     assert_eq!(out.segments.len(), out.tested.len());
@@ -33,7 +39,7 @@ fn px(end: [f32; 2]) -> DVec2 {
 }
 
 /// Pieces of strokes and where they are tested.
-fn pieces(strokes: &Strokes) -> impl Iterator<Item = (&LineSegment, &Tested)> {
+fn pieces(strokes: &SegmentSet) -> impl Iterator<Item = (&LineSegment, &Tested)> {
     strokes.segments.iter().zip(&strokes.tested).filter(|(_, tested)| tested.is_stroke == 1)
 }
 

@@ -5,7 +5,7 @@ use glam::DVec2;
 
 use super::segment::{LineSegment, LineSelection, LineView, PlacedEdges};
 use super::{Finder, find_segments};
-use crate::geometry::feature_edges::creases::CreaseAngles;
+use crate::geometry::feature_edges::chains::CreaseAngles;
 use crate::geometry::feature_edges::straights::Straight;
 use crate::geometry::strokes::{Hand, Stroke, mix};
 use crate::geometry::{EdgeClass, Lens};
@@ -44,14 +44,14 @@ impl Tested {
 
 /// Segments, and where each is tested.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Strokes {
+pub struct SegmentSet {
     /// What is drawn.
     pub segments: Vec<LineSegment>,
     /// One for each segment, or none at all: each is tested where it is drawn.
     pub tested: Vec<Tested>,
 }
 
-impl Strokes {
+impl SegmentSet {
     /// Adds those that are missing, for segments that are drawn where they are.
     pub fn complete(&mut self) {
         let missing = self.segments.get(self.tested.len()..).unwrap_or_default();
@@ -72,7 +72,7 @@ pub fn draw_strokes(
     view: &LineView,
     wanted: &LineSelection,
     (hand, crease_angle): (&Hand, f32),
-    out: &mut Strokes,
+    out: &mut SegmentSet,
 ) {
     out.complete();
     let mut found = Vec::new();
@@ -139,7 +139,7 @@ impl DrawnLine {
         self.direction * offset.x + DVec2::new(self.direction.y, -self.direction.x) * offset.y
     }
 
-    fn draw(&self, segment: &LineSegment, lens: Lens, hand: &Hand, out: &mut Strokes) {
+    fn draw(&self, segment: &LineSegment, lens: Lens, hand: &Hand, out: &mut SegmentSet) {
         let there = LineSegment {
             class: segment.class | LineSegment::SUPPRESSED | LineSegment::ELSEWHERE,
             ..*segment
@@ -242,7 +242,7 @@ struct Drawn {
 }
 
 /// Adds a piece of a stroke.
-fn push(segment: &LineSegment, ends: [&Drawn; 2], precedence: f32, out: &mut Strokes) {
+fn push(segment: &LineSegment, ends: [&Drawn; 2], precedence: f32, out: &mut SegmentSet) {
     out.push(
         LineSegment {
             ends: ends.map(|end| end.px.as_vec2().to_array()),

@@ -7,19 +7,19 @@ use super::ids::{object_id, surface_id};
 use super::strokes::StrokeStyle;
 use super::view::View;
 use crate::geometry::line_segments::{
-    Dashes, LineSelection, LineView, PlacedContours, PlacedEdges, Strokes, contour_segments, draw_strokes,
+    Dashes, LineSelection, LineView, PlacedContours, PlacedEdges, SegmentSet, contour_segments, draw_strokes,
 };
 use crate::geometry::{ClassSet, EdgeClass, line_segments};
 
 /// Silhouettes, borders, creases and material boundaries of all objects of a group with exact lines, hidden ones included; straight
 /// ones as strokes if the group has any. Empty while topology is not known. `crease_angle` (radians): above it edges separate
 /// surfaces.
-pub fn feature_lines(scene: &GpuScene, group: &Group, view: &View, crease_angle: f32) -> Strokes {
+pub fn feature_lines(scene: &GpuScene, group: &Group, view: &View, crease_angle: f32) -> SegmentSet {
     find(scene, group, view, crease_angle, group.strokes)
 }
 
 /// The same without strokes.
-pub fn plain_feature_lines(scene: &GpuScene, group: &Group, view: &View, crease_angle: f32) -> Strokes {
+pub fn plain_feature_lines(scene: &GpuScene, group: &Group, view: &View, crease_angle: f32) -> SegmentSet {
     find(scene, group, view, crease_angle, None)
 }
 
@@ -29,7 +29,7 @@ fn find(
     view: &View,
     crease_angle: f32,
     strokes: Option<StrokeStyle>,
-) -> Strokes {
+) -> SegmentSet {
     let reach = strokes.map_or(0.0, |StrokeStyle(hand)| hand.reach());
     // The vertex shader adds the jitter.
     let view = LineView {
@@ -38,7 +38,7 @@ fn find(
         margin: f64::from(group.greatest_radius() + 2.0) + reach,
         clip_planes: view.clip_planes(),
     };
-    let mut all = Strokes::default();
+    let mut all = SegmentSet::default();
     let mut shown = vec![false; scene.scene.meshes.len()];
     for mesh in group.visible().iter().filter_map(|object| scene.scene.nodes[object.node].mesh) {
         shown[mesh] = true;

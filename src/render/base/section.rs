@@ -36,7 +36,7 @@ pub enum SectionResult {
     /// The plane leaves nothing of it.
     Removed,
     /// The plane cuts it open.
-    Open(SectionedObject),
+    Cut(SectionedObject),
 }
 
 /// An object that is cut open.
@@ -160,7 +160,7 @@ impl Section {
                 capped.push((node, surface));
             }
             results[node] = part;
-            if let SectionResult::Open(sectioned) = &mut results[node] {
+            if let SectionResult::Cut(sectioned) = &mut results[node] {
                 let level = numbers.get(node).copied().unwrap_or_default().level;
                 sectioned.depth = STEP * margin * f64::from(level.min(LOWEST));
             }
@@ -169,7 +169,7 @@ impl Section {
             meshes.iter().map(|(mesh, surfaces)| MeshSource { mesh, surfaces: Some(surfaces) }).collect();
         let caps = GeometryBuffers::new(gpu, &sources)?;
         for (((node, surface), (mesh, _)), &range) in capped.into_iter().zip(&meshes).zip(&caps.meshes) {
-            if let SectionResult::Open(sectioned) = &mut results[node] {
+            if let SectionResult::Cut(sectioned) = &mut results[node] {
                 let index_count = mesh.indices.len() as u32;
                 let pattern = numbers.get(node).copied().unwrap_or_default().pattern;
                 sectioned.cap =
@@ -189,7 +189,7 @@ impl Section {
     /// An object, if it is cut open.
     pub fn sectioned(&self, node: NodeId) -> Option<&SectionedObject> {
         match self.result_for(node) {
-            SectionResult::Open(sectioned) => Some(sectioned),
+            SectionResult::Cut(sectioned) => Some(sectioned),
             SectionResult::Untouched | SectionResult::Removed => None,
         }
     }
@@ -207,7 +207,7 @@ impl Section {
     /// Number of bodies that it cuts and that have no cap, for they enclose no volume.
     pub fn open_bodies(&self) -> usize {
         let open = |part: &SectionResult| {
-            if let SectionResult::Open(sectioned) = part { sectioned.open_count } else { 0 }
+            if let SectionResult::Cut(sectioned) = part { sectioned.open_count } else { 0 }
         };
         self.results.iter().map(open).sum()
     }
@@ -243,10 +243,7 @@ fn open(
     }
     let known = (scene.scene.meshes.get(number), scene.weld(number), scene.bodies(number));
     let (Some(mesh), Some(weld), Some(bodies)) = known else {
-        return (
-            SectionResult::Open(SectionedObject { is_solid: false, ..SectionedObject::default() }),
-            None,
-        );
+        return (SectionResult::Cut(SectionedObject { is_solid: false, ..SectionedObject::default() }), None);
     };
     let contours = contours(mesh, weld, &plane_from_local);
     let Filling { cap, open_count } =
@@ -255,7 +252,7 @@ fn open(
     let is_closed = contours.is_empty() || cap.is_some() && open_count == 0;
     let is_solid = scene.is_solid(number) && is_closed;
     (
-        SectionResult::Open(SectionedObject { contours, is_solid, open_count, ..SectionedObject::default() }),
+        SectionResult::Cut(SectionedObject { contours, is_solid, open_count, ..SectionedObject::default() }),
         cap,
     )
 }

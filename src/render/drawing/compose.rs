@@ -66,7 +66,7 @@ impl Drawing {
             let alone = Composition::of_surfaces(composition.surfaces.clone(), composition.has_surfaces);
             let color = self.color_surfaces(rec, shared, inputs, drawn, &color_inputs, &alone)?;
             let color = self.place_sketches(rec, shared, inputs, drawn, &look, &mut composition, color)?;
-            self.see_through(rec, shared, inputs, drawn, &look, &mut composition)?;
+            self.place_translucent(rec, shared, inputs, drawn, &look, &mut composition)?;
             if composition.is_laid() {
                 self.together.clear();
                 let revisions = vec![composition.surfaces.revision];
@@ -87,7 +87,7 @@ impl Drawing {
         } else {
             self.sketches.clear();
             self.together.clear();
-            self.see_through(rec, shared, inputs, drawn, &look, &mut composition)?;
+            self.place_translucent(rec, shared, inputs, drawn, &look, &mut composition)?;
             self.color_surfaces(rec, shared, inputs, drawn, &color_inputs, &composition)?
         };
         let mut revisions = vec![composition.surfaces.revision];
@@ -178,7 +178,7 @@ impl Drawing {
     }
 
     /// Places what is seen through.
-    fn see_through(
+    fn place_translucent(
         &mut self,
         rec: &mut Recorder<'_>,
         shared: &mut Shared,

@@ -221,7 +221,7 @@ impl Drawing {
         let uniform =
             FrameUniform::new(view, scene_view.sample, depth_range, scene_view.lights, scene_view.background);
         self.uniform.write(rec.gpu, &uniform);
-        self.look_through(rec, &scene_view);
+        self.bind_camera(rec, &scene_view);
         let surfaces = self.surfaces.surfaces(rec, &mut shared.gbuffer, &surfaces_of(inputs, &uniform))?;
         let gbuffer = &surfaces.gbuffer.value;
         for (name, target) in [
@@ -236,7 +236,7 @@ impl Drawing {
         Ok(DrawnSurfaces { uniform, surfaces })
     }
 
-    fn look_through(&self, rec: &mut Recorder<'_>, scene_view: &SceneView<'_>) {
+    fn bind_camera(&self, rec: &mut Recorder<'_>, scene_view: &SceneView<'_>) {
         rec.frame = self.frame_group.clone();
         rec.scissor_rect = scene_view.view.scissor_rect;
     }

@@ -63,7 +63,7 @@ impl Drawing {
             self.reflected += reflection.drawing.drawn() - before;
             reflected.push(Reflected { color, uniform: mirror.uniform(), index });
         }
-        self.look_through(rec, &inputs.scene_view);
+        self.bind_camera(rec, &inputs.scene_view);
         Ok(reflected)
     }
 

@@ -7,7 +7,7 @@ use glam::{UVec2, Vec2};
 
 use super::hidden::{Hidden, HiddenLines};
 use crate::geometry::EdgeClass;
-use crate::geometry::line_segments::Strokes;
+use crate::geometry::line_segments::SegmentSet;
 use crate::gpu::{ArrayBuffer, Gpu, Recorder, Target};
 use crate::render::base::edge_style::EdgeUniform;
 use crate::render::base::error::RenderError;
@@ -61,7 +61,7 @@ pub struct OpaqueLayer {
     greatest_radius: ArrayBuffer,
     edge_styles: ArrayBuffer,
     gbuffer: Stage<GeometryKey, GBuffer>,
-    segments: Stage<SegmentsKey, Arc<Strokes>>,
+    segments: Stage<SegmentsKey, Arc<SegmentSet>>,
     edge_map: Stage<EdgeKey, EdgeMap>,
     line_distance: Stage<u64, LineDistance>,
     ink: Stage<InkKey, Target>,

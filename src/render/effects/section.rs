@@ -36,7 +36,7 @@ pub fn caps(scene: &GpuScene, view: &View, scale: f32) -> Vec<CapUniform> {
         return Vec::new();
     };
     let nodes = 0..scene.scene.nodes.len();
-    let patterns = PATTERNS.map(|(turn, spacing)| hatching(section, view, scale, turn, spacing));
+    let patterns = PATTERNS.map(|(turn, spacing)| cap_pattern(section, view, scale, turn, spacing));
     let cap = |node| {
         let Some(cap) = section.sectioned(node).and_then(|sectioned| sectioned.cap) else {
             return CapUniform::default();
@@ -49,7 +49,7 @@ pub fn caps(scene: &GpuScene, view: &View, scale: f32) -> Vec<CapUniform> {
 }
 
 /// One kind of hatching as a view sees it: lines that run in the plane, at the same distance everywhere in the picture.
-fn hatching(section: &Section, view: &View, scale: f32, turn: f64, wider: f32) -> CapUniform {
+fn cap_pattern(section: &Section, view: &View, scale: f32, turn: f64, wider: f32) -> CapUniform {
     let style = &section.style;
     let hatch = &style.hatch;
     let (plane, right) = section.place();
@@ -87,7 +87,7 @@ fn across(view: &View, at: DVec3, along: DVec3) -> DVec2 {
 ///
 /// # Errors
 /// [`RenderError`].
-pub fn section(
+pub fn draw_caps(
     rec: &mut Recorder<'_>,
     gbuffer: &GBuffer,
     caps: &wgpu::Buffer,

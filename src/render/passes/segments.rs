@@ -11,7 +11,7 @@ use wgpu::util::{BufferInitDescriptor, DeviceExt};
 use super::gbuffer::GBuffer;
 use super::repeated::NearerLines;
 use crate::geometry::LineSegment;
-use crate::geometry::line_segments::Strokes;
+use crate::geometry::line_segments::SegmentSet;
 use crate::gpu::{Gpu, Program, RecordBuffer, RecordTexture, Recorder, Target, inputs, size_of_texels};
 use crate::render::base::error::RenderError;
 
@@ -122,7 +122,7 @@ impl Segments {
     pub fn write(
         &mut self,
         rec: &mut Recorder<'_>,
-        Strokes { segments, tested }: &Strokes,
+        SegmentSet { segments, tested }: &SegmentSet,
         for_layers: bool,
     ) -> Result<(), RenderError> {
         let gpu = rec.gpu;

@@ -36,7 +36,7 @@ impl Seam {
 
 /// Finds all seams between border edges and marks the edges that are covered by seams from end to end as
 /// [`EdgeKind::Stitched`].
-pub(super) fn stitch(mesh: &Mesh, weld: &Weld, normals: &[Vec3], edges: &mut [Edge]) -> Vec<Seam> {
+pub(super) fn find_seams(mesh: &Mesh, weld: &Weld, normals: &[Vec3], edges: &mut [Edge]) -> Vec<Seam> {
     let borders = Borders::new(mesh, weld, normals, edges);
     let mut seams = Vec::new();
     // Chains are short in meshes that people make; hostile ones must not cost quadratic time.

@@ -20,7 +20,7 @@ pub(in crate::geometry) struct CreaseAngles {
 
 /// The chains for some angles. Their links are counted along the chains.
 #[derive(Debug, Clone, PartialEq)]
-pub(in crate::geometry) struct CreaseChains {
+pub(in crate::geometry) struct FeatureChains {
     /// (edge, chain, number of the link in `chains`), sorted.
     pub by_edge: Vec<(u32, u32, u32)>,
     /// The edge of each link.
@@ -34,7 +34,7 @@ pub(in crate::geometry) struct CreaseChains {
 
 /// Chains that were asked for before. No part of what makes edges equal.
 #[derive(Debug, Default)]
-pub(super) struct Kept(Mutex<Vec<(CreaseAngles, Arc<CreaseChains>)>>);
+pub(super) struct Kept(Mutex<Vec<(CreaseAngles, Arc<FeatureChains>)>>);
 
 impl Clone for Kept {
     fn clone(&self) -> Self {
@@ -50,12 +50,12 @@ impl PartialEq for Kept {
 
 impl FeatureEdges {
     /// The chains for these angles; made when they are asked for first.
-    pub(in crate::geometry) fn creases(&self, mesh: &Mesh, angles: CreaseAngles) -> Arc<CreaseChains> {
+    pub(in crate::geometry) fn chains(&self, mesh: &Mesh, angles: CreaseAngles) -> Arc<FeatureChains> {
         let mut kept = self.kept.0.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some((_, chains)) = kept.iter().find(|(of, _)| *of == angles) {
             return Arc::clone(chains);
         }
-        let chains = Arc::new(CreaseChains::new(self, mesh, angles));
+        let chains = Arc::new(FeatureChains::new(self, mesh, angles));
         if kept.len() >= KEPT {
             kept.remove(0);
         }
@@ -78,7 +78,7 @@ impl FeatureEdges {
     }
 }
 
-impl CreaseChains {
+impl FeatureChains {
     fn new(all: &FeatureEdges, mesh: &Mesh, angles: CreaseAngles) -> Self {
         let mut edges: Vec<u32> = Vec::new();
         let mut links = Vec::new();
