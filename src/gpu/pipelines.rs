@@ -38,40 +38,40 @@ pub enum DepthRule {
     Covered,
     /// Notes where it draws.
     Mark,
-    /// Draws only where an entry point of the same program, which is run before it, does not discard. The buffer is one of
-    /// [`STENCIL`], and holds nothing afterwards.
-    Marked(&'static str),
-    /// The same, and only where something has been drawn, of which the depth is forgotten there: a stencil in a depth buffer. A
-    /// device that has both in one texture is optional where depth has 32 bits. A buffer can be marked so up to
-    /// [`MOST_ROUNDS`] times; the number is that of the times before.
-    MarkedCovered(&'static str, u32),
-    /// Draws where something has been drawn, but not where an entry point of the same program, which is run before it, does
-    /// not discard: there nothing has been drawn any more.
-    Left(&'static str),
+    /// Draws only where an entry point of the same program does not discard, which is run before it and marks a stencil. The
+    /// buffer is one of [`STENCIL`], and holds nothing afterwards.
+    Where(&'static str),
+    /// Draws only where something has been drawn and an entry point of the same program, which is run before it, does not
+    /// discard. The marks of that take the place of the depths there, as a device that has depth of 32 bits and a stencil in
+    /// one texture is optional. A buffer can be marked so up to [`MOST_ROUNDS`] times; the number is that of the times before.
+    CoveredWhere(&'static str, u32),
+    /// Draws only where something has been drawn and an entry point of the same program, which is run before it, discards.
+    /// Where it does not, nothing has been drawn from then on: the depths there become 0.
+    CoveredUnless(&'static str),
 }
 
-/// The format of the buffers of [`DepthRule::Marked`].
+/// The format of the buffers of [`DepthRule::Where`].
 pub const STENCIL: wgpu::TextureFormat = wgpu::TextureFormat::Stencil8;
 
 /// How often what is covered can be marked in one buffer.
 pub const MOST_ROUNDS: u32 = 4096;
 
-/// What a draw does with a depth buffer.
+/// What one draw does with a depth buffer; a [`DepthRule`] has a draw of its own, and may have one before it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum DepthTest {
     /// Passes where something has been drawn.
     Covered,
     /// Passes everywhere, and notes where.
     Mark,
-    /// Passes where something has been drawn, and notes where.
+    /// Passes where something has been drawn, and marks that by its own depth.
     MarkCovered,
-    /// Passes where that was noted.
+    /// Passes where the depth is that of these marks.
     Marked,
-    /// Passes everywhere, and notes where in a stencil.
+    /// Passes everywhere, and marks where in a stencil.
     MarkStencil,
-    /// Passes where that was noted.
+    /// Passes where the stencil is marked.
     Stencilled,
-    /// Passes where something has been drawn, and forgets it.
+    /// Passes where something has been drawn, and makes it 0, as if nothing had.
     Uncover,
 }
 
@@ -79,10 +79,10 @@ impl DepthRule {
     /// What the draw itself does.
     pub fn test(self) -> DepthTest {
         match self {
-            Self::Covered | Self::Left(_) => DepthTest::Covered,
+            Self::Covered | Self::CoveredUnless(_) => DepthTest::Covered,
             Self::Mark => DepthTest::Mark,
-            Self::Marked(_) => DepthTest::Stencilled,
-            Self::MarkedCovered(..) => DepthTest::Marked,
+            Self::Where(_) => DepthTest::Stencilled,
+            Self::CoveredWhere(..) => DepthTest::Marked,
         }
     }
 
@@ -90,16 +90,16 @@ impl DepthRule {
     pub fn marker(self) -> Option<(&'static str, DepthTest)> {
         match self {
             Self::Covered | Self::Mark => None,
-            Self::Marked(entry_point) => Some((entry_point, DepthTest::MarkStencil)),
-            Self::MarkedCovered(entry_point, _) => Some((entry_point, DepthTest::MarkCovered)),
-            Self::Left(entry_point) => Some((entry_point, DepthTest::Uncover)),
+            Self::Where(entry_point) => Some((entry_point, DepthTest::MarkStencil)),
+            Self::CoveredWhere(entry_point, _) => Some((entry_point, DepthTest::MarkCovered)),
+            Self::CoveredUnless(entry_point) => Some((entry_point, DepthTest::Uncover)),
         }
     }
 
     /// The depths at which a test of it draws what covers the picture: the least and the greatest one of the viewport.
     pub fn depths(self, test: DepthTest) -> [f32; 2] {
         match (self, test) {
-            (Self::MarkedCovered(_, rounds), _) => {
+            (Self::CoveredWhere(_, rounds), _) => {
                 // Before what covers the picture, behind all that is drawn, and a hair behind the last marks.
                 let depth = (1.0 - (rounds % MOST_ROUNDS) as f32 / (2 * MOST_ROUNDS) as f32) * 1e-9;
                 [depth, depth]
@@ -115,10 +115,10 @@ impl DepthRule {
         let (depth_ops, stencil_ops) = match self {
             Self::Covered => (None, None),
             Self::Mark => (Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store }), None),
-            Self::MarkedCovered(..) | Self::Left(_) => {
+            Self::CoveredWhere(..) | Self::CoveredUnless(_) => {
                 (Some(wgpu::Operations { load: wgpu::LoadOp::Load, store }), None)
             }
-            Self::Marked(_) => {
+            Self::Where(_) => {
                 let store = wgpu::StoreOp::Discard;
                 (None, Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0), store }))
             }

@@ -12,26 +12,26 @@ use super::{Gpu, GpuError, Inputs, Predicate, ShaderError, Target, TargetPool, T
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Onto {
     /// They are cleared to 0.
-    Nothing,
-    /// All but the first one are cleared to 0: that holds anything where nothing is drawn.
-    Anything,
+    Clear,
+    /// All but the first one are cleared to 0: that is undefined where nothing is drawn.
+    DontCare,
     /// What is not drawn over stays.
-    Old,
+    Load,
     /// Drawn over it with premultiplied alpha.
-    Blended,
-    /// Drawn beneath it with premultiplied alpha: what is there hides it.
-    Beneath,
+    Over,
+    /// Drawn under it with premultiplied alpha: what is there hides it.
+    Under,
     /// The greater of both, channel by channel: with premultiplied alpha, what overlaps gets no stronger.
-    Greatest,
+    Max,
 }
 
 impl Onto {
     /// Targets as outputs of a pass.
     pub fn attachments<'t>(self, outputs: &[&'t Target]) -> Vec<Option<wgpu::RenderPassColorAttachment<'t>>> {
         let load = |number| match self {
-            Self::Anything if number == 0 => wgpu::LoadOp::Load,
-            Self::Nothing | Self::Anything => wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
-            Self::Old | Self::Blended | Self::Beneath | Self::Greatest => wgpu::LoadOp::Load,
+            Self::DontCare if number == 0 => wgpu::LoadOp::Load,
+            Self::Clear | Self::DontCare => wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
+            Self::Load | Self::Over | Self::Under | Self::Max => wgpu::LoadOp::Load,
         };
         (0..).zip(outputs).map(|(number, output)| Some(color_attachment(output, load(number)))).collect()
     }
@@ -48,10 +48,10 @@ impl Onto {
             operation: wgpu::BlendOperation::Max,
         };
         match self {
-            Self::Nothing | Self::Anything | Self::Old => None,
-            Self::Blended => Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING),
-            Self::Beneath => Some(wgpu::BlendState { color: under, alpha: under }),
-            Self::Greatest => Some(wgpu::BlendState { color: greatest, alpha: greatest }),
+            Self::Clear | Self::DontCare | Self::Load => None,
+            Self::Over => Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING),
+            Self::Under => Some(wgpu::BlendState { color: under, alpha: under }),
+            Self::Max => Some(wgpu::BlendState { color: greatest, alpha: greatest }),
         }
     }
 }
@@ -246,7 +246,7 @@ impl<'a> Recorder<'a> {
         covered: Option<&Target>,
     ) -> Result<(), ShaderError> {
         let depth = covered.map(|target| (target, DepthRule::Covered));
-        self.draw(Draw { label, program, inputs, outputs, onto: Onto::Nothing, depth })
+        self.draw(Draw { label, program, inputs, outputs, onto: Onto::Clear, depth })
     }
 
     /// Runs one render pass.
@@ -307,7 +307,7 @@ impl<'a> Recorder<'a> {
 
     /// Clears targets.
     pub fn clear(&mut self, label: &'static str, targets: &[&Target]) {
-        self.pass(label, &Onto::Nothing.attachments(targets), None);
+        self.pass(label, &Onto::Clear.attachments(targets), None);
     }
 
     /// Copies a target into another one of the same size and format.

@@ -9,8 +9,9 @@ use crate::geometry::beyond::link_meshes;
 use crate::geometry::{Adjacency, SeamTolerance};
 use crate::scene::Scene;
 
-/// Links the borders of nodes that stand in the same place, and mends the seams between them; they stay nodes of their own. What a file places by itself may be moved by itself, and
-/// what is shown several times or has bones has other neighbors each time; these stay as they are.
+/// Links the borders of nodes that stand in the same place, and mends the seams between them; they stay nodes of their own.
+/// What a file places by itself may be moved by itself, and what is shown several times or has bones has other neighbors each
+/// time; these stay as they are.
 pub fn link_nodes(scene: &mut Scene, tolerance: SeamTolerance) {
     let mut uses = vec![0; scene.meshes.len()];
     for mesh in scene.nodes.iter().filter_map(|node| node.mesh) {

@@ -182,7 +182,7 @@ impl HiddenLines {
                         inputs: &inputs! { nearer_lines_tex: edges.nearer.as_ref() },
                         switches: &[],
                         // Lines of several layers that run over each other are one ink.
-                        onto: Onto::Greatest,
+                        onto: Onto::Max,
                     };
                     lines(rec, &drawn, &shader, &color)
                 },

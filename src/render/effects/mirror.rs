@@ -95,7 +95,7 @@ pub fn mirror(
         program: Program::new("effects/mirror.wgsl", "fs_main"),
         inputs: &inputs! { geometry_tex: surfaces, reflection_tex: reflection, mirrors: uniform },
         outputs: &[color],
-        onto: Onto::Blended,
+        onto: Onto::Over,
         depth: None,
     })?;
     Ok(())

@@ -98,7 +98,7 @@ pub fn draw_caps(
         program: Program::new("effects/section.wgsl", "fs_main"),
         inputs: &inputs! { geometry_tex: &gbuffer.geometry, surface_id_tex: &gbuffer.surface_id, caps: caps },
         outputs: &[color],
-        onto: Onto::Blended,
+        onto: Onto::Over,
         depth: Some((&gbuffer.depth, DepthRule::Covered)),
     })?;
     Ok(())

@@ -468,14 +468,14 @@ impl Placing<'_> {
             None
         } else if lays_ink {
             for number in 0..self.numbers.len() {
-                self.draw_ink(rec, number, (&geometry, None), (&color, "fs_lay_ink", Onto::Blended))?;
+                self.draw_ink(rec, number, (&geometry, None), (&color, "fs_lay_ink", Onto::Over))?;
             }
             None
         } else {
             let mut before = composition.ink.as_ref().map(|ink| ink.value.clone());
             for number in 0..self.numbers.len() {
                 let ink = rec.target("ink with sketch", PLACED)?;
-                self.draw_ink(rec, number, (&geometry, before.as_ref()), (&ink, "fs_ink", Onto::Nothing))?;
+                self.draw_ink(rec, number, (&geometry, before.as_ref()), (&ink, "fs_ink", Onto::Clear))?;
                 before = Some(ink);
             }
             before
@@ -528,9 +528,9 @@ impl Placing<'_> {
         let onto = if composition.has_surfaces {
             rec.copy(&composition.surfaces.value, geometry);
             rec.copy(before, color);
-            Onto::Old
+            Onto::Load
         } else {
-            Onto::Nothing
+            Onto::Clear
         };
         let filled = rec.target("covered by color", STENCIL)?;
         rec.draw(Draw {
@@ -543,7 +543,7 @@ impl Placing<'_> {
             inputs: &inputs,
             outputs: &[geometry, color],
             onto,
-            depth: Some((&filled, DepthRule::Marked("fs_filled"))),
+            depth: Some((&filled, DepthRule::Where("fs_filled"))),
         })?;
         Ok(())
     }
@@ -591,7 +591,7 @@ impl Placing<'_> {
             inputs: &inputs,
             outputs: &[output],
             onto,
-            depth: Some((&inked, DepthRule::Marked("fs_inked"))),
+            depth: Some((&inked, DepthRule::Where("fs_inked"))),
         })?;
         Ok(())
     }

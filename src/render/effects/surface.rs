@@ -5,7 +5,7 @@
 use encase::ShaderType;
 use glam::Vec3;
 
-use super::section::{CapUniform, section};
+use super::section::{CapUniform, draw_caps};
 use super::technique::{Shaded, Styled};
 use super::techniques::{SharedTechniques, TechniqueStyles, Techniques};
 use crate::gpu::{ArrayBuffer, Gpu, Program, Recorder, Target, inputs};
@@ -148,7 +148,7 @@ impl Shading {
         let program = Program { file: "effects/surface.wgsl", entry_point: "fs_main", switches };
         rec.fullscreen("surface", program, &inputs, &[&color], Some(&gbuffer.depth))?;
         if !caps.is_empty() {
-            section(rec, gbuffer, self.caps.buffer(), &color)?;
+            draw_caps(rec, gbuffer, self.caps.buffer(), &color)?;
         }
         Ok(color)
     }

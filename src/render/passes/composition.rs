@@ -96,7 +96,7 @@ impl Composition {
             program: Program::new("passes/overlay.wgsl", "fs_ink"),
             inputs: &inputs! { ink_tex: &ink.value },
             outputs: &[color],
-            onto: Onto::Blended,
+            onto: Onto::Over,
             depth: None,
         })?;
         Ok(())
@@ -138,7 +138,7 @@ pub fn ink(rec: &mut Recorder<'_>, opaque: &Lines<'_>) -> Result<Target, RenderE
         entry_point: "fs_placed",
         inputs: &NOTHING,
         switches: &[("ON_SURFACES", true)],
-        onto: Onto::Nothing,
+        onto: Onto::Clear,
     };
     lines(rec, opaque, &shader, &ink)?;
     Ok(ink)

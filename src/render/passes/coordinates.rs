@@ -74,8 +74,8 @@ impl CoordinatesPass {
     ) -> Result<Target, RenderError> {
         let what = self.what;
         let (target, onto) = match beside {
-            Some(target) => (target.clone(), Onto::Old),
-            None => (rec.target(what.label(), COORDINATES)?, Onto::Nothing),
+            Some(target) => (target.clone(), Onto::Load),
+            None => (rec.target(what.label(), COORDINATES)?, Onto::Clear),
         };
         if self.generation != rec.pipelines.generation() {
             self.pipelines.clear();

@@ -35,8 +35,8 @@ pub fn without_dots(
             edge_styles: edge_styles,
         },
         outputs: &[&kept],
-        onto: Onto::Nothing,
-        depth: Some((&pixels, DepthRule::Marked("fs_lines"))),
+        onto: Onto::Clear,
+        depth: Some((&pixels, DepthRule::Where("fs_lines"))),
     })?;
     Ok(EdgeMap { spines: Some(kept), ..edge_map })
 }

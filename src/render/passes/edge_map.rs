@@ -77,14 +77,14 @@ pub struct EdgeInputs<'a> {
 pub fn edge_map(rec: &mut Recorder<'_>, inputs: &EdgeInputs<'_>) -> Result<EdgeMap, RenderError> {
     let edge_map = rec.target("edge map", EDGE_MAP)?;
     let mut spines = None;
-    let mut onto = Onto::Nothing;
+    let mut onto = Onto::Clear;
     if inputs.styles.iter().any(EdgeUniform::is_exact) {
         spines = Some(exact_edges(rec, inputs, &edge_map)?);
-        onto = Onto::Old;
+        onto = Onto::Load;
     }
     let has_paper = inputs.styles.iter().any(EdgeUniform::is_paper);
     // Without exact edges it is this that clears the map.
-    if onto == Onto::Nothing || has_paper {
+    if onto == Onto::Clear || has_paper {
         paper_edges(rec, inputs.gbuffer, inputs.styles, inputs.edge_styles, &edge_map, onto)?;
         if let Some(NearerLines { before, now }) = inputs.nearer.filter(|_| has_paper) {
             // Where it had been seen before that stays so.
@@ -155,7 +155,7 @@ fn exact_edges(
             inputs: &inputs! { base_color_tex: &gbuffer.base_color, shadow_mask_tex: shadow_mask }
                 .and(&found),
             outputs: &outputs,
-            onto: Onto::Old,
+            onto: Onto::Load,
             depth: Some((&gbuffer.depth, DepthRule::Covered)),
         })?;
     }
@@ -177,8 +177,8 @@ fn exact_edges(
         }
         .and(&found),
         outputs: &outputs,
-        onto: Onto::Old,
-        depth: Some((&borders, DepthRule::MarkedCovered("fs_borders", rounds))),
+        onto: Onto::Load,
+        depth: Some((&borders, DepthRule::CoveredWhere("fs_borders", rounds))),
     })?;
     Ok(spines)
 }

@@ -163,7 +163,7 @@ impl FragmentLists {
             program: Program::new("passes/extract_layers.wgsl", "fs_listed"),
             inputs: &inputs,
             outputs: &[],
-            onto: Onto::Nothing,
+            onto: Onto::Clear,
             depth: Some((&lists.listed, DepthRule::Mark)),
         })?;
         Ok(lists)
@@ -223,7 +223,7 @@ impl LayerExtraction {
                 program: program("fs_depth"),
                 inputs: &inputs,
                 outputs: &[],
-                onto: Onto::Nothing,
+                onto: Onto::Clear,
                 depth: Some((&layer.gbuffer.depth, DepthRule::Mark)),
             })?;
         } else {
@@ -231,7 +231,7 @@ impl LayerExtraction {
             layer.marked = Some(self.done);
             // All that is listed has a first layer.
             if self.done > 0 {
-                rule = DepthRule::Left("fs_ended");
+                rule = DepthRule::CoveredUnless("fs_ended");
             }
         }
         let GBuffer { geometry, base_color, surface_id, depth } = &layer.gbuffer;
@@ -245,7 +245,7 @@ impl LayerExtraction {
             },
             inputs: &inputs,
             outputs: &outputs,
-            onto: if is_whole { Onto::Nothing } else { Onto::Anything },
+            onto: if is_whole { Onto::Clear } else { Onto::DontCare },
             depth: Some((depth, rule)),
         })?;
         self.last = Some(numbers);
@@ -273,7 +273,7 @@ impl LayerExtraction {
             },
             inputs: &inputs,
             outputs: &std::iter::once(&nearest).chain(&self.numbers).collect::<Vec<_>>(),
-            onto: Onto::Old,
+            onto: Onto::Load,
             depth: Some((&self.listed, DepthRule::Covered)),
         })?;
         self.numbers.reverse();

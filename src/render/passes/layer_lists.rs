@@ -174,7 +174,7 @@ impl LayerLists {
             program: Program::new("passes/layer_lists.wgsl", "fs_blend"),
             inputs: &inputs,
             outputs: &[color],
-            onto: Onto::Old,
+            onto: Onto::Load,
             depth: None,
         });
         rec.scissor_rect = outer;

@@ -46,7 +46,7 @@ impl LineShader<'_> {
         entry_point: "fs_main",
         inputs: &NOTHING,
         switches: &[("ON_SURFACES", true)],
-        onto: Onto::Blended,
+        onto: Onto::Over,
     };
 }
 
@@ -105,7 +105,7 @@ pub fn lines(
         inputs: &lines.inputs().and(shader.inputs),
         outputs: &[color],
         onto: shader.onto,
-        depth: Some((&covered, DepthRule::Marked("fs_covered"))),
+        depth: Some((&covered, DepthRule::Where("fs_covered"))),
     })?;
     Ok(())
 }

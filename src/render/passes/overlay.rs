@@ -14,7 +14,7 @@ pub fn overlay(rec: &mut Recorder<'_>, picture: &Target, color: &Target) -> Resu
         program: Program::new("passes/overlay.wgsl", "fs_main"),
         inputs: &inputs! { overlay_tex: picture },
         outputs: &[color],
-        onto: Onto::Blended,
+        onto: Onto::Over,
         depth: None,
     })?;
     Ok(())

@@ -52,18 +52,13 @@ impl Place<'_> {
         match self {
             Self::Beneath(color) => {
                 let shader =
-                    LineShader { file, entry_point: "fs_lines", inputs, switches, onto: Onto::Beneath };
+                    LineShader { file, entry_point: "fs_lines", inputs, switches, onto: Onto::Under };
                 lines(rec, drawn, &shader, color)
             }
             Self::Listed(_) => {
                 let ink = rec.target("ink of layer", PLACED)?;
-                let shader = LineShader {
-                    file,
-                    entry_point: "fs_lines_placed",
-                    inputs,
-                    switches,
-                    onto: Onto::Nothing,
-                };
+                let shader =
+                    LineShader { file, entry_point: "fs_lines_placed", inputs, switches, onto: Onto::Clear };
                 lines(rec, drawn, &shader, &ink)?;
                 pending.ink = Some(ink);
                 Ok(())
@@ -86,8 +81,8 @@ impl Place<'_> {
         let mut inputs = inputs.clone();
         inputs.set("geometry_tex", &layer.gbuffer.geometry);
         let (entry_point, target, onto) = match self {
-            Self::Beneath(color) => ("fs_fill", (*color).clone(), Onto::Beneath),
-            Self::Listed(_) => ("fs_fill_placed", rec.target("fill of layer", PLACED)?, Onto::Nothing),
+            Self::Beneath(color) => ("fs_fill", (*color).clone(), Onto::Under),
+            Self::Listed(_) => ("fs_fill_placed", rec.target("fill of layer", PLACED)?, Onto::Clear),
         };
         rec.draw(Draw {
             label: "fill",

@@ -53,7 +53,7 @@ pub(super) fn add_ink(
         program: Program::new("passes/repeated.wgsl", "fs_ink"),
         inputs: &inputs! { edge_map_tex: edges, spine_tex: spines },
         outputs: &[lines],
-        onto: Onto::Old,
+        onto: Onto::Load,
         depth: None,
     })?;
     Ok(())

@@ -259,7 +259,7 @@ impl GBufferPass {
         instance_buffer.write(gpu, drawn, calls)?;
         let materials = instance_buffer.material_group(gpu, &self.instance_layout);
         let batches = batches(rec, calls);
-        let onto = if is_whole { Onto::Nothing } else { Onto::Anything };
+        let onto = if is_whole { Onto::Clear } else { Onto::DontCare };
         let color: Vec<_> = onto.attachments(color);
         let depth = wgpu::RenderPassDepthStencilAttachment {
             view: depth.view(),
