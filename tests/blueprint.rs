@@ -108,7 +108,7 @@ fn layers(session: &mut Session, opened: &Opened, side: u32) -> Vec<Vec<Hit>> {
     common::keep_layers(session);
     session.set_scene(opened).unwrap();
     session.draw(opened, [side; 2], false).unwrap();
-    assert_eq!(session.renderer().last_peeled().len(), 1, "one group");
+    assert_eq!(session.renderer().last_layer_reports().len(), 1, "one group");
     let mut of_pixel = vec![Vec::new(); (side * side) as usize];
     for geometry in common::kept_layers(session, "layer geometry") {
         let surfels = texels::<[u32; 4]>(session, &geometry);
@@ -216,7 +216,7 @@ fn stack(sides: &[f32]) -> Opened {
 fn peeled(session: &mut Session, opened: &Opened) -> (u32, Vec<u32>) {
     session.set_scene(opened).unwrap();
     session.draw(opened, [64; 2], false).unwrap();
-    let peeled = session.renderer().peeled().unwrap();
+    let peeled = session.renderer().layer_reports().unwrap();
     assert_eq!(peeled.len(), 1);
     (peeled[0].layers, peeled[0].pixels.to_vec())
 }
@@ -441,7 +441,7 @@ fn without_a_blueprint_nothing_is_peeled_and_without_a_change_nothing_again() {
     let surface = opened(&ball, DVec3::Z);
     common::draw(&mut session, &surface, 32);
     assert_eq!(runs(&mut session), 0);
-    assert!(session.renderer().peeled().unwrap().is_empty());
+    assert!(session.renderer().layer_reports().unwrap().is_empty());
     let mut peeled = blueprint(surface);
     session.draw(&peeled, [32; 2], false).unwrap();
     session.draw(&peeled, [32; 2], false).unwrap();

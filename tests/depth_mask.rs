@@ -16,7 +16,7 @@ use hachure::geometry::bvh::Bvh;
 use hachure::geometry::primitives;
 use hachure::render::View;
 use hachure::render::base::ids::object_id;
-use hachure::render::{Peeled, PeelingEnd};
+use hachure::render::{LayerReport, LayersEnd};
 
 const SIDE: u32 = 96;
 
@@ -70,11 +70,11 @@ fn among_rings() -> Opened {
     )
 }
 
-fn draw(session: &mut Session, opened: &Opened) -> Peeled {
+fn draw(session: &mut Session, opened: &Opened) -> LayerReport {
     common::keep_layers(session);
     session.set_scene(opened).unwrap();
     session.draw(opened, [SIDE; 2], false).unwrap();
-    let peeled = session.renderer().peeled().unwrap();
+    let peeled = session.renderer().layer_reports().unwrap();
     assert_eq!(peeled.len(), 1);
     peeled[0].clone()
 }
@@ -124,7 +124,7 @@ fn counts_equal_a_recount_and_peeling_ends_with_the_first_layer_that_uncovers_en
             let fraction: f32 = fraction.parse().unwrap();
             let expected = passed.iter().position(|r| is_enough(*r, fraction, masked)).unwrap() as u32 + 1;
             assert_eq!(peeled.layers, expected, "fraction {fraction} of {masked}: {passed:?}");
-            assert_eq!(peeled.ended, PeelingEnd::MaskUncovered);
+            assert_eq!(peeled.ended, LayersEnd::MaskUncovered);
             let drawn = expected as usize;
             assert_eq!(peeled.passed[..drawn], passed[..drawn], "R");
             assert_eq!(peeled.pixels[..drawn], whole.pixels[..drawn]);
@@ -294,7 +294,7 @@ fn the_limit_of_layers_is_lifted_until_enough_is_uncovered() {
         let unlimited = draw(&mut session, &all);
         set(&mut all, "blueprint.layers", "2");
         let limited = draw(&mut session, &all);
-        assert_eq!(limited.ended, PeelingEnd::MaskUncovered);
+        assert_eq!(limited.ended, LayersEnd::MaskUncovered);
         assert!(
             limited.layers > 2 && limited.layers == unlimited.layers && limited.pixels == unlimited.pixels
         );
@@ -304,7 +304,7 @@ fn the_limit_of_layers_is_lifted_until_enough_is_uncovered() {
             DMat4::from_translation(DVec3::new(90.0, 0.0, -1.0));
         for _ in 0..2 {
             let outside = draw(&mut session, &all);
-            assert_eq!((outside.masked, outside.layers, outside.ended), (0, 2, PeelingEnd::MostLayers));
+            assert_eq!((outside.masked, outside.layers, outside.ended), (0, 2, LayersEnd::MostLayers));
         }
     }
 }
@@ -316,7 +316,7 @@ fn what_cannot_be_uncovered_is_told() {
     set(&mut scene, "blueprint.fraction", "1");
     set(&mut scene, "blueprint.to", "2");
     let peeled = draw(&mut session, &scene);
-    assert_eq!((peeled.layers, peeled.ended), (2, PeelingEnd::MostLayers));
+    assert_eq!((peeled.layers, peeled.ended), (2, LayersEnd::MostLayers));
     let told = peeled.shortfall().unwrap();
     assert!(told.contains("after 2 layers, not 100 %") && told.contains("blueprint.to"), "{told}");
     assert!(peeled.share_uncovered() > 0.0 && peeled.share_uncovered() < 0.9);
@@ -325,7 +325,7 @@ fn what_cannot_be_uncovered_is_told() {
     set(&mut scene, "blueprint.to", "64");
     set(&mut scene, "blueprint.least", "90");
     let peeled = draw(&mut session, &scene);
-    assert_eq!((peeled.layers, peeled.ended), (0, PeelingEnd::TooFewPixels));
+    assert_eq!((peeled.layers, peeled.ended), (0, LayersEnd::TooFewPixels));
     assert!(peeled.passed[0] > 0 && peeled.uncovered() == peeled.passed[0]);
     assert!(peeled.shortfall().unwrap().contains("blueprint.least"));
 }
@@ -360,13 +360,13 @@ fn without_a_mask_in_the_picture_the_plain_rules_hold() {
     let of_outside = draw(&mut session, &outside);
     assert!(mask_of(&mut session).iter().all(|d| *d == 0.0));
     assert_eq!((of_outside.masked, &of_outside.pixels), (0, &peeled.pixels));
-    assert_eq!((of_outside.ended, of_outside.shortfall()), (PeelingEnd::TooFewPixels, None));
+    assert_eq!((of_outside.ended, of_outside.shortfall()), (LayersEnd::TooFewPixels, None));
 
     let mut all = behind_sheets();
     designate(&mut all, &[0, 1, 2, 3, 4], true);
     session.set_scene(&all).unwrap();
     session.draw(&all, [SIDE; 2], false).unwrap();
-    assert!(session.renderer().peeled().unwrap().is_empty());
+    assert!(session.renderer().layer_reports().unwrap().is_empty());
     assert!(all.document.role_faults(&all.scene)[0].to_string().contains("nothing is peeled to uncover it"));
 }
 

@@ -16,9 +16,9 @@ use super::screenshot::Shot;
 use crate::document::Document;
 use crate::gpu::{Gpu, Target};
 use crate::hatching::tonal_art_map::generator::Recipe;
-use crate::render::Peeled;
+use crate::render::LayerReport;
 use crate::render::{
-    GpuScene, GpuStripes, LayersBy, Pick, RenderError, Renderer, Reported, Request, SolvedStripes,
+    GpuScene, GpuStripes, LayerMethod, Pick, RenderError, Renderer, Reported, Request, SolvedStripes,
     StripeRequest, StrokeMap, StyleImages, UploadedTopology, Uploader,
 };
 use crate::scene::{Camera, NodeId, Up};
@@ -254,8 +254,8 @@ impl Viewport {
     }
 
     /// How far the blueprint of that style came in the last picture whose report has arrived.
-    pub fn last_peeled(&self, style: &Style) -> Option<&(Peeled, LayersBy)> {
-        self.renderer.last_peeled_of(style)
+    pub fn last_layer_report(&self, style: &Style) -> Option<&(LayerReport, LayerMethod)> {
+        self.renderer.last_layer_report_of(style)
     }
 
     /// The images that styles name, as far as the renderer has them.

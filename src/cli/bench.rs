@@ -187,8 +187,8 @@ impl Bench {
             layers_by: LayersBy::Auto,
         };
         self.frame(&look, MIDDLE)?;
-        let peeled = self.session.renderer().peeled()?;
-        let pixels = peeled.first().map_or(&[][..], |p| p.pixels.get(..p.layers as usize).unwrap_or(&[]));
+        let reports = self.session.renderer().layer_reports()?;
+        let pixels = reports.first().map_or(&[][..], |p| p.pixels.get(..p.layers as usize).unwrap_or(&[]));
         Ok(pixels.to_vec())
     }
 

@@ -3,7 +3,7 @@
 mod args;
 mod bench;
 mod info;
-mod peeling;
+mod layers;
 mod render;
 mod styles;
 

@@ -5,7 +5,7 @@ use std::thread::JoinHandle;
 use serde_json::json;
 
 use super::args::{CameraArgs, LookArgs, RenderArgs, SectionAt};
-use super::{CliError, peeling, print_json};
+use super::{CliError, layers, print_json};
 use crate::document::{Document, Pattern, Role, Section, View, glyph, section};
 use crate::export::session::{OpenError, Opened, initial_camera, open};
 use crate::export::{Session, save_png};
@@ -57,12 +57,12 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
     let faults = roles.into_iter().chain(section).chain(document.glyph_faults(scene));
     let uncapped = section::without_caps(session.renderer().open_bodies());
     let faults = faults.chain(document.coordinate_faults(scene)).chain(uncapped);
-    let peeled: Vec<_> = session.renderer().last_peeled().into_iter().flatten().collect();
+    let reports: Vec<_> = session.renderer().last_layer_reports().into_iter().flatten().collect();
     let strokes = crate::render::image_faults(session.renderer().images(), &uses);
     let warnings =
         images.warnings(&uses).into_iter().chain(strokes).chain(scene.warnings.iter().cloned()).chain(faults);
     let warnings =
-        warnings.map(|w| w.to_string()).chain(peeling::warnings(&peeled, opened.document.view.layers));
+        warnings.map(|w| w.to_string()).chain(layers::warnings(&reports, opened.document.view.layers));
     if args.json {
         print_json(&json!({
             "output": args.output.to_string_lossy(),
@@ -70,7 +70,7 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
             "samples": args.samples,
             "adapter": session.renderer().gpu().adapter_name,
             "triangles": scene.triangle_count(),
-            "blueprints": peeling::as_json(&peeled),
+            "blueprints": layers::as_json(&reports),
             "warnings": warnings.collect::<Vec<_>>(),
         }))
     } else {

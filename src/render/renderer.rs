@@ -21,9 +21,9 @@ use super::effects::hatching::{missing, missing_strokes};
 use super::frame::{FrameInputs, FrameState, Picture};
 use super::passes::accumulate::Subject;
 use super::passes::coordinates::Coordinates;
-use super::passes::layers::{LayersBy, Reported};
+use super::passes::layer_report::LayerReport;
+use super::passes::layers::{LayerMethod, Reported};
 use super::passes::line_distance::BLOCK;
-use super::passes::peeled::Peeled;
 use super::views;
 use crate::document::{Document, Glyph};
 use crate::geometry::Topology;
@@ -283,12 +283,12 @@ impl Renderer {
         self.intermediates.get(name).map_or(&[], Vec::as_slice)
     }
 
-    /// How far peeling came in each blueprint of the last picture. Waits for it.
+    /// How far the layers of each blueprint came of the last picture. Waits for it.
     ///
     /// # Errors
     /// [`RenderError`].
-    pub fn peeled(&self) -> Result<Vec<Peeled>, RenderError> {
-        self.state.drawing().peeled(&self.gpu)
+    pub fn layer_reports(&self) -> Result<Vec<LayerReport>, RenderError> {
+        self.state.drawing().layer_reports(&self.gpu)
     }
 
     /// Milliseconds of each pass of the last frame, in order; empty without timers. Waits for the frame.
@@ -412,13 +412,13 @@ impl Renderer {
 
     /// How far the layers of each blueprint came in the last picture whose report has arrived, and how they were made; in
     /// the order of [`Objects::blueprints`].
-    pub fn last_peeled(&self) -> Vec<Option<(Peeled, LayersBy)>> {
-        self.state.drawing().last_peeled()
+    pub fn last_layer_reports(&self) -> Vec<Option<(LayerReport, LayerMethod)>> {
+        self.state.drawing().last_layer_reports()
     }
 
     /// The same of the blueprint that objects of this style are in; `None` if there is none, or if nothing is known yet.
-    pub fn last_peeled_of(&self, style: &Style) -> Option<&(Peeled, LayersBy)> {
-        self.state.drawing().last_peeled_of(style)
+    pub fn last_layer_report_of(&self, style: &Style) -> Option<&(LayerReport, LayerMethod)> {
+        self.state.drawing().last_layer_report_of(style)
     }
 
     /// How often each stage has run so far.

@@ -140,15 +140,15 @@ impl Views {
         let Self { layered, layer, .. } = self;
         layer.run((key, number), |(key, _)| {
             let request = LayerRequest {
-                most: number,
-                least: 1,
+                max_layers: number,
+                min_pixels: 1,
                 uncover: None,
                 // It cannot run out of room, which nobody would hear of.
                 by: Some(LayersBy::Peeling),
                 with_color: true,
                 with_normals: true,
                 with_depth: true,
-                whole: MOST_LAYERS,
+                whole_layers: MOST_LAYERS,
                 line_styles: &[&key.group.edge_styles],
                 nearer: None,
             };

@@ -1,7 +1,7 @@
 //! What is easily forgotten: nothing to draw, pictures that change their size, a great many layers.
 
 use hachure::geometry::Mesh;
-use hachure::render::{PeelingEnd, Reported};
+use hachure::render::{LayersEnd, Reported};
 
 use crate::common::{self, opened, scene, session, set};
 use crate::{blueprint, render, stack};
@@ -20,7 +20,7 @@ fn nothing_visible_and_an_empty_group_are_paper_by_lists_and_by_peeling() {
             set(&mut opened, "view.layers", by);
             let image = common::image(&mut session, &opened, 32);
             assert!(image.pixels().all(|p| p == image.get_pixel(0, 0)), "{by}");
-            let counted = session.renderer().peeled().unwrap();
+            let counted = session.renderer().layer_reports().unwrap();
             assert_eq!(counted.len(), groups, "{by}");
             assert!(counted.iter().all(|c| c.layers == 0 && c.pixels == [0; 64]), "{by}");
         }
@@ -55,8 +55,8 @@ fn more_layers_than_can_be_recorded_end_with_the_last_of_them() {
         let mut session = session();
         session.set_scene(&many).unwrap();
         session.draw(&many, [48; 2], false).unwrap();
-        let counted = session.renderer().peeled().unwrap().remove(0);
-        assert_eq!((counted.layers, counted.ended), (64, PeelingEnd::MostLayers), "{by}");
+        let counted = session.renderer().layer_reports().unwrap().remove(0);
+        assert_eq!((counted.layers, counted.ended), (64, LayersEnd::MostLayers), "{by}");
         assert!(counted.pixels.iter().all(|p| *p > 0), "{by}");
     }
 }

@@ -15,7 +15,7 @@ use glam::{DMat4, DVec3};
 use hachure::export::Session;
 use hachure::export::session::Opened;
 use hachure::geometry::primitives;
-use hachure::render::{LayersBy, Request};
+use hachure::render::{LayerMethod, Request};
 
 /// Squares behind each other with sides of this length, of which all layers are drawn.
 fn stack(planes: usize, side: f32) -> Opened {
@@ -43,12 +43,12 @@ fn render(session: &mut Session, opened: &Opened, size: [u32; 2]) {
 type Texels = (Vec<[u32; 4]>, Vec<u32>, Vec<u32>, Vec<u32>);
 
 /// All layers of the only group, and how they were made.
-fn layers(session: &mut Session, opened: &Opened, side: u32, by: &str) -> (Vec<Texels>, LayersBy) {
+fn layers(session: &mut Session, opened: &Opened, side: u32, by: &str) -> (Vec<Texels>, LayerMethod) {
     let mut opened = opened.clone();
     set(&mut opened, "view.layers", by);
     common::keep_layers(session);
     session.draw(&opened, [side; 2], false).unwrap();
-    assert_eq!(session.renderer().last_peeled().len(), 1, "one group");
+    assert_eq!(session.renderer().last_layer_reports().len(), 1, "one group");
     let [geometry, colors, regions, depths] =
         ["layer geometry", "layer base color", "layer surface ids", "layer depth"]
             .map(|name| common::kept_layers(session, name));
@@ -65,8 +65,8 @@ fn layers(session: &mut Session, opened: &Opened, side: u32, by: &str) -> (Vec<T
 }
 
 /// How the layers of the first group were made.
-fn way(session: &mut Session) -> LayersBy {
-    session.renderer().last_peeled()[0].as_ref().unwrap().1
+fn way(session: &mut Session) -> LayerMethod {
+    session.renderer().last_layer_reports()[0].as_ref().unwrap().1
 }
 
 fn blueprint(mut opened: Opened) -> Opened {

@@ -1,7 +1,7 @@
 //! How many layers are recorded, and how much room there is, is guessed from reports about earlier pictures.
 
 use hachure::gpu::Gpu;
-use hachure::render::{LayersBy, Reason, Reported};
+use hachure::render::{LayerMethod, Reason, Reported};
 
 use crate::common::{self, session, set};
 use crate::{render, stack, way};
@@ -15,9 +15,9 @@ fn what_a_frame_counted_is_reported_after_it() {
     render(&mut session, &three, [64; 2]);
     session.renderer().gpu().wait().unwrap();
     assert_eq!(session.renderer().take_reports(), Reported::Complete);
-    let counted = session.renderer().peeled().unwrap();
+    let counted = session.renderer().layer_reports().unwrap();
     assert_eq!(counted[0].layers, 3);
-    assert_eq!(session.renderer().last_peeled(), [Some((counted[0].clone(), LayersBy::Lists))]);
+    assert_eq!(session.renderer().last_layer_reports(), [Some((counted[0].clone(), LayerMethod::Lists))]);
 }
 
 #[test]
@@ -33,7 +33,7 @@ fn more_layers_than_were_guessed_are_found_missing_and_drawn() {
     let reported = loop {
         render(&mut session, &many, [64; 2]);
         session.renderer().gpu().wait().unwrap();
-        drawn.push(session.renderer().peeled().unwrap()[0].layers);
+        drawn.push(session.renderer().layer_reports().unwrap()[0].layers);
         let reported = session.renderer().take_reports();
         if reported == Reported::Complete || drawn.len() == 5 {
             break reported;
@@ -66,7 +66,7 @@ fn a_report_that_is_outstanding_survives_a_resize_and_another_scene() {
     let five = stack(5, 1.0);
     session.set_scene(&five).unwrap();
     session.draw(&five, [40, 90], false).unwrap();
-    assert_eq!(session.renderer().last_peeled()[0].as_ref().map(|(p, _)| p.layers), Some(5));
+    assert_eq!(session.renderer().last_layer_reports()[0].as_ref().map(|(p, _)| p.layers), Some(5));
 }
 
 #[test]
@@ -83,10 +83,14 @@ fn fragments_without_room_are_found_missing_and_get_it() {
     render(&mut session, &large, [64; 2]);
     session.renderer().gpu().wait().unwrap();
     assert_eq!(session.renderer().take_reports(), Reported::Incomplete);
-    let counted = session.renderer().last_peeled().remove(0).unwrap().0;
+    let counted = session.renderer().last_layer_reports().remove(0).unwrap().0;
     let image = session.image(&large, [64; 2], false).unwrap();
-    assert_eq!(session.renderer().peeled().unwrap()[0].fragments, counted.fragments, "all were counted");
-    assert_eq!(way(&mut session), LayersBy::Lists);
+    assert_eq!(
+        session.renderer().layer_reports().unwrap()[0].fragments,
+        counted.fragments,
+        "all were counted"
+    );
+    assert_eq!(way(&mut session), LayerMethod::Lists);
     let mut fresh = common::session();
     assert!(image == common::image(&mut fresh, &large, 64));
 }
@@ -108,6 +112,6 @@ fn a_device_whose_fragments_cannot_write_peels_whatever_is_asked() {
     for by in ["auto", "lists"] {
         set(&mut three, "view.layers", by);
         assert!(common::image(&mut session, &three, 64) == expected);
-        assert_eq!(way(&mut session), LayersBy::Peeling(Reason::Device), "{by}");
+        assert_eq!(way(&mut session), LayerMethod::Peeling(Reason::Device), "{by}");
     }
 }

@@ -7,7 +7,7 @@ use hachure::export::session::Opened;
 use hachure::geometry::{Mesh, primitives};
 use hachure::gpu::Gpu;
 use hachure::gpu::device::{device_descriptor, instance_descriptor};
-use hachure::render::{LayersBy, Reason};
+use hachure::render::{LayerMethod, Reason};
 use hachure::scene::{AlphaMode, Scene, Texture, TextureRef};
 
 use crate::common::{self, opened, sample, scene, session, set};
@@ -18,11 +18,11 @@ fn check_same_layers(name: &str, opened: &Opened, side: u32) -> u32 {
     let mut session = session();
     session.set_scene(opened).unwrap();
     let (peeled, by) = layers(&mut session, opened, side, "peeling");
-    assert_eq!(by, LayersBy::Peeling(Reason::Asked));
-    let counted = session.renderer().peeled().unwrap().remove(0);
+    assert_eq!(by, LayerMethod::Peeling(Reason::Asked));
+    let counted = session.renderer().layer_reports().unwrap().remove(0);
     let (cut, by) = layers(&mut session, opened, side, "auto");
-    assert_eq!(by, LayersBy::Lists);
-    let mut counted_too = session.renderer().peeled().unwrap().remove(0);
+    assert_eq!(by, LayerMethod::Lists);
+    let mut counted_too = session.renderer().layer_reports().unwrap().remove(0);
     let fragments = std::mem::replace(&mut counted_too.fragments, counted.fragments);
     assert!(fragments >= counted.pixels.iter().copied().map(u64::from).sum());
     assert!(std::mem::replace(&mut counted_too.capacity, counted.capacity) >= fragments);

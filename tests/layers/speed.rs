@@ -5,7 +5,7 @@ use std::time::Instant;
 use glam::DMat4;
 use hachure::export::session::Opened;
 use hachure::geometry::primitives;
-use hachure::render::{LayersBy, Request};
+use hachure::render::{LayerMethod, Request};
 
 use crate::common::{opened, scene, session, set};
 use crate::{blueprint, way};
@@ -63,8 +63,8 @@ fn ten_layers_of_half_a_million_triangles_cost_far_less_from_lists() {
                 times.push(began.elapsed().as_secs_f64() * 1e3);
             }
             session.renderer().take_reports();
-            assert_eq!(session.renderer().peeled().unwrap()[0].layers, 10);
-            assert_eq!(way(&mut session) == LayersBy::Lists, by == "lists");
+            assert_eq!(session.renderer().layer_reports().unwrap()[0].layers, 10);
+            assert_eq!(way(&mut session) == LayerMethod::Lists, by == "lists");
         }
     }
     let [peeling, lists] = times.map(|mut times| {

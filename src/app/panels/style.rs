@@ -3,9 +3,9 @@
 use eframe::egui;
 use eframe::egui::{RichText, Ui};
 
+use super::layers::layers_ui;
 use super::outliner::{inherit, style_name};
 use super::params::params_ui;
-use super::peeling::peeling_ui;
 use super::row::{Change, named_row};
 use super::{Choosing, Editing};
 use crate::document::Document;
@@ -44,8 +44,8 @@ pub fn style_ui(ui: &mut Ui, editing: &mut Editing<'_>) {
         return;
     }
 
-    if let Some(peeled) = editing.viewport.last_peeled(&style) {
-        peeling_ui(ui, peeled);
+    if let Some(report) = editing.viewport.last_layer_report(&style) {
+        layers_ui(ui, report);
     }
 
     let mut default = Style::default();

@@ -21,8 +21,8 @@ use crate::render::effects::translucent::TranslucentState;
 use crate::render::passes::depth_mask::DepthMaskPass;
 use crate::render::passes::edge_map::EdgeMap;
 use crate::render::passes::front::Front;
-use crate::render::passes::layers::{LayersBy, Reported};
-use crate::render::passes::peeled::Peeled;
+use crate::render::passes::layer_report::LayerReport;
+use crate::render::passes::layers::{LayerMethod, Reported};
 use crate::render::passes::shadows::ShadowMap;
 use crate::render::passes::traversal::GBufferPass;
 use crate::style::Style;
@@ -164,23 +164,23 @@ impl Drawing {
         translucent.chain(opaque).chain(reflected).max().unwrap_or(Reported::Complete)
     }
 
-    /// How far peeling came in each blueprint. Waits for the device.
+    /// How far the layers of each blueprint came. Waits for the device.
     ///
     /// # Errors
     /// [`RenderError`].
-    pub fn peeled(&self, gpu: &Gpu) -> Result<Vec<Peeled>, RenderError> {
-        self.translucent.as_ref().map_or(Ok(Vec::new()), |state| state.peeled(gpu))
+    pub fn layer_reports(&self, gpu: &Gpu) -> Result<Vec<LayerReport>, RenderError> {
+        self.translucent.as_ref().map_or(Ok(Vec::new()), |state| state.layer_reports(gpu))
     }
 
     /// How far the layers of each blueprint came in the last picture whose report has arrived; in the order of
     /// [`Objects::blueprints`].
-    pub fn last_peeled(&self) -> Vec<Option<(Peeled, LayersBy)>> {
-        self.translucent.as_ref().map_or(Vec::new(), TranslucentState::last_peeled)
+    pub fn last_layer_reports(&self) -> Vec<Option<(LayerReport, LayerMethod)>> {
+        self.translucent.as_ref().map_or(Vec::new(), TranslucentState::last_layer_reports)
     }
 
     /// The same of the blueprint that objects of this style are in.
-    pub fn last_peeled_of(&self, style: &Style) -> Option<&(Peeled, LayersBy)> {
-        self.translucent.as_ref()?.last_peeled_of(style)
+    pub fn last_layer_report_of(&self, style: &Style) -> Option<&(LayerReport, LayerMethod)> {
+        self.translucent.as_ref()?.last_layer_report_of(style)
     }
 
     /// All of a drawing: surfaces, edges, what is seen in mirrors and through others, placed into one composition.

@@ -45,14 +45,14 @@ pub fn place_blended(
     place: &mut Place<'_>,
 ) -> Result<Option<Target>, RenderError> {
     let request = LayerRequest {
-        most: MOST_BLENDED,
-        least: 1,
+        max_layers: MOST_BLENDED,
+        min_pixels: 1,
         uncover: None,
         by: None,
         with_color: true,
         with_normals: true,
         with_depth: true,
-        whole: MOST_LAYERS,
+        whole_layers: MOST_LAYERS,
         line_styles: &[&key.group.edge_styles],
         nearer: None,
     };

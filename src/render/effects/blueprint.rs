@@ -16,7 +16,7 @@ use crate::render::base::group::Group;
 use crate::render::base::scene_view::SceneView;
 use crate::render::passes::composition::Composition;
 use crate::render::passes::designated::{DepthMask, Uncover};
-use crate::render::passes::peel::{MOST_LAYERS, PeelCount};
+use crate::render::passes::peel::{LayerCount, MOST_LAYERS};
 use crate::render::passes::place::{LayerShader, Pending, Place};
 use crate::render::passes::traversal::GBufferPass;
 use crate::style::{self, Edges, Style, Technique};
@@ -137,8 +137,8 @@ pub fn place_blueprint(
     let any = |has: fn(&EdgeUniform) -> bool| group.edge_styles.iter().any(has);
     let is_kept = LAYERS.into_iter().any(|name| rec.keeps(name));
     let request = LayerRequest {
-        most: if mask.is_some() { blueprint.last() } else { blueprint.layers() },
-        least: least_pixels(params.least, rec.size()),
+        max_layers: if mask.is_some() { blueprint.last() } else { blueprint.layers() },
+        min_pixels: least_pixels(params.least, rec.size()),
         uncover: mask.map(|mask| Uncover {
             mask,
             fraction: params.fraction,
@@ -149,7 +149,7 @@ pub fn place_blueprint(
         with_normals: is_kept || any(EdgeUniform::reads_normals),
         with_depth: is_kept,
         // The first one that is drawn is what a click means.
-        whole: if is_kept || any(EdgeUniform::compares_geometry) { MOST_LAYERS } else { params.from },
+        whole_layers: if is_kept || any(EdgeUniform::compares_geometry) { MOST_LAYERS } else { params.from },
         line_styles: &[&group.edge_styles],
         nearer: None,
     };
@@ -219,7 +219,7 @@ struct Sprite<'a> {
     style: &'a wgpu::Buffer,
     /// Whether ink below a threshold is left out.
     has_threshold: bool,
-    count: &'a PeelCount,
+    count: &'a LayerCount,
     /// Nothing is drawn beyond it.
     mask: Option<&'a DepthMask>,
 }

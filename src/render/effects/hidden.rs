@@ -145,14 +145,14 @@ impl HiddenLines {
             let any = |has: fn(&EdgeUniform) -> bool| bands.iter().any(|band| band.styles.iter().any(has));
             let line_styles: Vec<_> = bands.iter().map(|band| &band.styles).collect();
             let request = LayerRequest {
-                most: bands.last().map_or(0, |band| band.last) + 1,
-                least: least_pixels(hidden.least, rec.size()),
+                max_layers: bands.last().map_or(0, |band| band.last) + 1,
+                min_pixels: least_pixels(hidden.least, rec.size()),
                 uncover: None,
                 by: None,
                 with_color: any(EdgeUniform::reads_color),
                 with_normals: any(EdgeUniform::reads_normals),
                 with_depth: false,
-                whole: if any(EdgeUniform::compares_geometry) { MOST_LAYERS } else { 0 },
+                whole_layers: if any(EdgeUniform::compares_geometry) { MOST_LAYERS } else { 0 },
                 line_styles: &line_styles,
                 nearer: visible.as_ref(),
             };

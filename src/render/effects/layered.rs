@@ -13,12 +13,12 @@ use crate::render::base::group::Group;
 use crate::render::base::instances::{DrawCall, Instance};
 use crate::render::base::scene_view::SceneView;
 use crate::render::passes::designated::Uncover;
+use crate::render::passes::layer_report::LayerReport;
 use crate::render::passes::layers::{
-    DrawnLayer, LayerEdges, LayerInputs, LayerLines, LayerLinesInputs, Layers, LayersBy as MadeBy, Reported,
+    DrawnLayer, LayerEdges, LayerInputs, LayerLines, LayerLinesInputs, LayerMethod, Layers, Reported,
 };
 use crate::render::passes::lines::Lines;
-use crate::render::passes::peel::PeelCount;
-use crate::render::passes::peeled::Peeled;
+use crate::render::passes::peel::LayerCount;
 use crate::render::passes::segments::Segments;
 use crate::render::passes::traversal::GBufferPass;
 
@@ -41,7 +41,7 @@ pub struct LayeredGroup {
 }
 
 impl LayeredGroup {
-    /// A group as `seen`; `uniform`: bind group 0.
+    /// A group as `scene_view` shows it; `uniform`: bind group 0.
     pub fn new(rec: &Recorder<'_>, scene_view: &SceneView<'_>, uniform: &FrameUniform, group: Group) -> Self {
         let (instances, calls) = group.instances(scene_view.scene, scene_view.view);
         Self {
@@ -62,9 +62,9 @@ impl LayeredGroup {
 #[derive(Clone, Copy)]
 pub struct LayerRequest<'a> {
     /// Most layers.
-    pub most: u32,
+    pub max_layers: u32,
     /// It ends before a layer of fewer pixels.
-    pub least: u32,
+    pub min_pixels: u32,
     /// What is to be uncovered.
     pub uncover: Option<Uncover<'a>>,
     /// How layers are to be made; `None`: as the document says.
@@ -76,7 +76,7 @@ pub struct LayerRequest<'a> {
     /// Whether their depths are.
     pub with_depth: bool,
     /// The geometry of so many layers is 0 where they have nothing; of the others it is undefined there.
-    pub whole: u32,
+    pub whole_layers: u32,
     /// How lines look, by object id; objects may differ from layer to layer, so there are as many as are told apart.
     pub line_styles: &'a [&'a Vec<EdgeUniform>],
     /// Lines before the first layer, which are not repeated.
@@ -166,12 +166,12 @@ impl Layered {
     }
 
     /// How far the last layers came of which that is known, and how they were made.
-    pub fn last(&self) -> Option<&(Peeled, MadeBy)> {
+    pub fn last(&self) -> Option<&(LayerReport, LayerMethod)> {
         self.layers.last()
     }
 
     /// How far the last layers came, on the device.
-    pub fn count(&self) -> &PeelCount {
+    pub fn count(&self) -> &LayerCount {
         self.layers.count()
     }
 
@@ -207,14 +207,14 @@ impl Layered {
             instances,
             calls,
             is_clipped: scene_view.view.is_clipped(),
-            most: request.most,
-            least: request.least,
+            max_layers: request.max_layers,
+            min_pixels: request.min_pixels,
             uncover: request.uncover,
             by: request.by.unwrap_or(scene_view.layers_by),
             with_color: request.with_color,
             with_normals: request.with_normals,
             with_depth: request.with_depth,
-            whole: request.whole,
+            whole_layers: request.whole_layers,
         };
         layers.each(rec, gbuffer_pass, &inputs, |rec, drawn| {
             let visit = Visit {

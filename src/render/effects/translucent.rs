@@ -16,8 +16,8 @@ use crate::render::base::stage::{Output, Stage};
 use crate::render::passes::composition::{Composition, Translucent};
 use crate::render::passes::designated::DepthMask;
 use crate::render::passes::layer_lists::LayerLists;
-use crate::render::passes::layers::{LayersBy, Reported};
-use crate::render::passes::peeled::Peeled;
+use crate::render::passes::layer_report::LayerReport;
+use crate::render::passes::layers::{LayerMethod, Reported};
 use crate::render::passes::place::Place;
 use crate::render::passes::traversal::GBufferPass;
 use crate::style::Style;
@@ -129,21 +129,21 @@ impl TranslucentState {
         worst
     }
 
-    /// How far peeling came in each blueprint. Waits for the device.
+    /// How far the layers of each blueprint came. Waits for the device.
     ///
     /// # Errors
     /// [`RenderError`].
-    pub fn peeled(&self, gpu: &Gpu) -> Result<Vec<Peeled>, RenderError> {
+    pub fn layer_reports(&self, gpu: &Gpu) -> Result<Vec<LayerReport>, RenderError> {
         self.blueprints.iter().map(|state| state.layered.count().read(gpu)).collect()
     }
 
     /// How far the layers of each blueprint came in the last picture whose report has arrived.
-    pub fn last_peeled(&self) -> Vec<Option<(Peeled, LayersBy)>> {
+    pub fn last_layer_reports(&self) -> Vec<Option<(LayerReport, LayerMethod)>> {
         self.blueprints.iter().map(|state| state.layered.last().cloned()).collect()
     }
 
     /// The same of the blueprint that objects of this style are in.
-    pub fn last_peeled_of(&self, style: &Style) -> Option<&(Peeled, LayersBy)> {
+    pub fn last_layer_report_of(&self, style: &Style) -> Option<&(LayerReport, LayerMethod)> {
         let is_meant = |state: &&GroupState| state.last.as_ref().is_some_and(|last| last.is_of(style));
         self.blueprints.iter().find(is_meant)?.layered.last()
     }

@@ -5,7 +5,7 @@
 //! makes room and draws again. See `shaders/common/fragments.wgsl`.
 
 use super::gbuffer::{DEPTH, GBuffer};
-use super::peel::{Layer, PeelCount};
+use super::peel::{Layer, LayerCount};
 use crate::gpu::recorder::{Draw, Onto};
 use crate::gpu::{DepthRule, Gpu, GpuError, Inputs, Program, RecordTexture, Recorder, Target, inputs};
 use crate::render::base::error::RenderError;
@@ -84,7 +84,7 @@ impl FragmentLists {
     }
 
     /// The bind group that fragments are written through; `count` counts them.
-    pub(super) fn group<'a>(&'a self, gpu: &Gpu, count: &'a PeelCount) -> wgpu::BindGroup {
+    pub(super) fn group<'a>(&'a self, gpu: &Gpu, count: &'a LayerCount) -> wgpu::BindGroup {
         let texture =
             |texture: &'a RecordTexture| wgpu::BindingResource::TextureView(texture.target().view());
         let resources = [

@@ -13,10 +13,10 @@
 
 mod budget;
 
-pub use self::budget::{LayersBy, Reason, Reported};
+pub use self::budget::{LayerMethod, Reason, Reported};
 
 use self::budget::{Budget, Recorded};
-use crate::document;
+use crate::document::LayersBy;
 use crate::gpu::{ArrayBuffer, Gpu, Predicate, Recorder, Reports, Target};
 use crate::render::base::edge_style::EdgeUniform;
 use crate::render::base::error::RenderError;
@@ -25,10 +25,10 @@ use crate::render::base::instances::{DrawCall, Instance, InstanceBuffer};
 use crate::render::passes::designated::Uncover;
 use crate::render::passes::edge_map::{EdgeInputs, EdgeMap, edge_map};
 use crate::render::passes::fragment_lists::LayerOutputs;
+use crate::render::passes::layer_report::LayerReport;
 use crate::render::passes::line_distance::{LineDistance, Widths, line_distance};
 use crate::render::passes::lines::Lines;
-use crate::render::passes::peel::{Layer, MOST_LAYERS, Peel, PeelCount, before_all, peeled_from_bytes};
-use crate::render::passes::peeled::Peeled;
+use crate::render::passes::peel::{Layer, LayerCount, MOST_LAYERS, Peel, before_all, report_from_bytes};
 use crate::render::passes::repeated::NearerLines;
 use crate::render::passes::segments::Segments;
 use crate::render::passes::traversal::GBufferPass;
@@ -41,20 +41,20 @@ const PASSES: usize = 32;
 pub struct LayerInputs<'a> {
     /// The scene on the device.
     pub scene: &'a GpuScene,
-    /// The device buffer of all instances.
+    /// What is drawn: one for each object that is.
     pub instances: &'a [Instance],
-    /// The instances.
+    /// How it is drawn: the draw calls of those instances.
     pub calls: &'a [DrawCall],
     /// Whether what lies behind a plane is left out.
     pub is_clipped: bool,
     /// Most layers, up to [`MOST_LAYERS`].
-    pub most: u32,
+    pub max_layers: u32,
     /// It ends before a layer of fewer pixels, at the latest before an empty one.
-    pub least: u32,
-    /// What it is to uncover, before it has come to `most`.
+    pub min_pixels: u32,
+    /// What it is to uncover, before it has come to `max_layers`.
     pub uncover: Option<Uncover<'a>>,
     /// How layers are to be made.
-    pub by: document::LayersBy,
+    pub by: LayersBy,
     /// Whether their base color is asked for.
     pub with_color: bool,
     /// Whether their shading normals are; otherwise they are those of the faces.
@@ -62,7 +62,7 @@ pub struct LayerInputs<'a> {
     /// Whether their depth is; see [`crate::render::passes::gbuffer::GBuffer::depth`].
     pub with_depth: bool,
     /// The geometry of so many layers, the nearest ones, is 0 where they have nothing; of the others it is undefined there.
-    pub whole: u32,
+    pub whole_layers: u32,
 }
 
 /// A layer that has been extracted.
@@ -73,7 +73,7 @@ pub struct DrawnLayer<'a> {
     /// Its surfaces.
     pub layer: &'a Layer,
     /// How far layers have come, this one included.
-    pub count: &'a PeelCount,
+    pub count: &'a LayerCount,
     /// What was drawn.
     pub instance_buffer: &'a InstanceBuffer,
 }
@@ -82,10 +82,10 @@ pub struct DrawnLayer<'a> {
 pub struct Layers {
     instances: InstanceBuffer,
     predicate: Option<Predicate>,
-    count: PeelCount,
+    count: LayerCount,
     reports: Reports<Recorded>,
     /// The latest report, and how those layers were made.
-    last: Option<(Peeled, LayersBy)>,
+    last: Option<(LayerReport, LayerMethod)>,
     budget: Budget,
 }
 
@@ -95,7 +95,7 @@ impl Layers {
         Self {
             instances: InstanceBuffer::new(gpu),
             predicate: None,
-            count: PeelCount::new(gpu),
+            count: LayerCount::new(gpu),
             reports: Reports::default(),
             last: None,
             budget: Budget::default(),
@@ -107,9 +107,9 @@ impl Layers {
         let Some((recorded, bytes)) = self.reports.take() else {
             return if self.reports.is_waiting() { Reported::Waiting } else { Reported::Complete };
         };
-        let peeled = peeled_from_bytes(&bytes);
-        let is_complete = self.budget.learn(&recorded, &peeled);
-        self.last = Some((peeled, recorded.by()));
+        let report = report_from_bytes(&bytes);
+        let is_complete = self.budget.learn(&recorded, &report);
+        self.last = Some((report, recorded.by()));
         match is_complete {
             false => Reported::Incomplete,
             true if self.reports.is_waiting() => Reported::Waiting,
@@ -118,12 +118,12 @@ impl Layers {
     }
 
     /// How far the last picture came whose report has arrived, and how its layers were made.
-    pub fn last(&self) -> Option<&(Peeled, LayersBy)> {
+    pub fn last(&self) -> Option<&(LayerReport, LayerMethod)> {
         self.last.as_ref()
     }
 
     /// How far the last ones came.
-    pub fn count(&self) -> &PeelCount {
+    pub fn count(&self) -> &LayerCount {
         &self.count
     }
 
@@ -144,8 +144,9 @@ impl Layers {
             plain = inputs.calls.iter().map(DrawCall::without_attributes).collect();
             inputs.calls = &plain;
         }
-        self.count.begin(rec.gpu, inputs.least.max(1), inputs.uncover);
-        let mut recorded = self.budget.plan(rec.gpu, rec.size(), inputs.most.min(MOST_LAYERS), inputs.by);
+        self.count.begin(rec.gpu, inputs.min_pixels.max(1), inputs.uncover);
+        let mut recorded =
+            self.budget.plan(rec.gpu, rec.size(), inputs.max_layers.min(MOST_LAYERS), inputs.by);
         let mut predicate = self.predicate.take().unwrap_or_else(|| Predicate::new(rec.gpu));
         // Objects may be drawn once more, for their coordinates.
         predicate.clear(rec.gpu, 2 * inputs.calls.len() + PASSES)?;
@@ -183,13 +184,13 @@ impl Layers {
             )?;
         }
         let mut lists = match recorded.by() {
-            LayersBy::Lists => Some(gbuffer_pass.lists.extract(rec, recorded.layers)?),
-            LayersBy::Peeling(_) => None,
+            LayerMethod::Lists => Some(gbuffer_pass.lists.extract(rec, recorded.layers)?),
+            LayerMethod::Peeling(_) => None,
         };
         let with_depth = inputs.with_depth || mask.is_some();
         let mut last = None;
         for number in 0..recorded.layers {
-            let is_whole = number < inputs.whole;
+            let is_whole = number < inputs.whole_layers;
             let layer = match &mut lists {
                 Some(lists) => {
                     let with_normals = inputs.with_normals;
@@ -302,7 +303,7 @@ impl LayerLines {
         self.edge_styles.buffer()
     }
 
-    /// The edges of the next layer; `seen`: those of the layers before, of which it becomes one.
+    /// The edges of the next layer. `nearer`: where the layers before it have lines, to which those of this layer are added.
     ///
     /// # Errors
     /// [`RenderError`].

@@ -5,7 +5,7 @@ use encase::{ShaderType, StorageBuffer};
 
 use super::designated::{DepthMask, Uncover};
 use super::gbuffer::{GBuffer, SORT_KEYS};
-use super::peeled::{Peeled, PeelingEnd};
+use super::layer_report::{LayerReport, LayersEnd};
 use crate::gpu::{Gpu, Inputs, Program, Recorder, Target, inputs, parted_counter, readback};
 use crate::render::base::error::RenderError;
 
@@ -82,7 +82,7 @@ pub fn before_all(rec: &mut Recorder<'_>) -> Result<Target, RenderError> {
     Ok(sort_keys)
 }
 
-/// How far peeling has come, as the device counts it. Twin of `Counted` in `shaders/common/counted.wgsl`.
+/// How far layers have come, as the device counts it. Twin of `Counted` in `shaders/common/counted.wgsl`.
 #[derive(Debug, Clone, PartialEq, ShaderType)]
 pub struct CountedUniform {
     /// A layer with fewer pixels ends it, before it is drawn.
@@ -103,7 +103,7 @@ pub struct CountedUniform {
     pub ended_by: u32,
     /// Pixels of the depth mask, the paper's Q; 0: nothing designated is in the picture.
     pub masked: u32,
-    /// Those of them that opaque surfaces hide, which no peeling uncovers.
+    /// Those of them that opaque surfaces hide, which no layer uncovers.
     pub hidden: u32,
     /// Fragments of the lists of each part of the picture, those for which there was no room included; 0 without lists.
     pub fragments: [u32; parted_counter::COUNTER_WORDS],
@@ -156,13 +156,13 @@ impl CountedUniform {
     }
 
     /// What it says.
-    fn peeled(&self) -> Peeled {
-        Peeled {
+    fn report(&self) -> LayerReport {
+        LayerReport {
             layers: self.layers,
             ended: match (self.has_ended, self.ended_by) {
-                (1, 0) => PeelingEnd::TooFewPixels,
-                (1, 1) => PeelingEnd::MaskUncovered,
-                _ => PeelingEnd::MostLayers,
+                (1, 0) => LayersEnd::TooFewPixels,
+                (1, 1) => LayersEnd::MaskUncovered,
+                _ => LayersEnd::MostLayers,
             },
             fraction: self.fraction,
             masked: self.masked,
@@ -176,16 +176,16 @@ impl CountedUniform {
 }
 
 /// What the device reported, from its bytes.
-pub fn peeled_from_bytes(bytes: &[u8]) -> Peeled {
-    CountedUniform::from_bytes(bytes).peeled()
+pub fn report_from_bytes(bytes: &[u8]) -> LayerReport {
+    CountedUniform::from_bytes(bytes).report()
 }
 
-/// How far peeling has come, on the device.
-pub struct PeelCount {
+/// How far layers have come, on the device.
+pub struct LayerCount {
     buffer: wgpu::Buffer,
 }
 
-impl PeelCount {
+impl LayerCount {
     /// Undefined until [`Self::begin`].
     pub fn new(gpu: &Gpu) -> Self {
         let usage = wgpu::BufferUsages::STORAGE
@@ -222,8 +222,8 @@ impl PeelCount {
     ///
     /// # Errors
     /// [`RenderError`].
-    pub fn read(&self, gpu: &Gpu) -> Result<Peeled, RenderError> {
-        Ok(peeled_from_bytes(&readback::read_buffer(gpu, &self.buffer)?))
+    pub fn read(&self, gpu: &Gpu) -> Result<LayerReport, RenderError> {
+        Ok(report_from_bytes(&readback::read_buffer(gpu, &self.buffer)?))
     }
 
     /// Counts the pixels of a layer, and those of the depth mask that it leaves uncovered, and clears the recorder's predicate if

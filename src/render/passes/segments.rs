@@ -182,8 +182,8 @@ impl Segments {
         Ok(places)
     }
 
-    /// Puts them into an edge map, its spines and the marks of segments, over what is there, without those that have been
-    /// `seen`.
+    /// Puts them into an edge map, its spines and the marks of segments, over what is there, without those that
+    /// lie on lines of `nearer` layers.
     ///
     /// # Errors
     /// [`RenderError`].

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 
 use super::fragment_lists::FragmentLists;
 use super::gbuffer::{BASE_COLOR, DEPTH, GBuffer, GEOMETRY, SORT_KEYS, SURFACE_ID};
-use super::peel::{Peel, PeelCount};
+use super::peel::{LayerCount, Peel};
 use crate::gpu::geometry::{Attributes, POSITIONS, SURFACES};
 use crate::gpu::recorder::Onto;
 use crate::gpu::{Gpu, MaterialBindings, Pipelines, Recorder, Target};
@@ -228,7 +228,7 @@ impl GBufferPass {
         parts: (&[Instance], &[DrawCall]),
         is_clipped: bool,
         with_color: bool,
-        count: &PeelCount,
+        count: &LayerCount,
     ) -> Result<(), RenderError> {
         let group = Some(self.lists.group(rec.gpu, count));
         // A pass has to have an output.

@@ -1,9 +1,9 @@
-//! The budget of a frame: how many layers and fragments: guessed before it, known after it.
+//! The budget of a frame: for how many layers and fragments it has room, guessed before it and known after it.
 
-use crate::document;
+use crate::document::LayersBy;
 use crate::gpu::Gpu;
 use crate::render::passes::fragment_lists::FragmentLists;
-use crate::render::passes::peeled::{Peeled, PeelingEnd};
+use crate::render::passes::layer_report::{LayerReport, LayersEnd};
 
 /// Fragments per pixel of the picture, as long as nobody has counted them.
 const FIRST_GUESS: u64 = 4;
@@ -11,7 +11,7 @@ const FIRST_GUESS: u64 = 4;
 /// A square with sides of so many pixels has a tile for each part that counts fragments; see `passes/peel.rs`.
 const TILES: u32 = 128;
 
-/// After so many complete pictures in a row, more than one has samples, guesses may be tight again.
+/// After so many complete pictures in a row, more than one picture has samples, guesses may be tight again.
 const CALM: u32 = 2 * crate::render::base::sample::MAX_SAMPLES;
 
 /// Wrong guesses after which the budget does not grow any more: then all layers are recorded.
@@ -30,7 +30,7 @@ pub enum Reported {
 
 /// How layers were made.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum LayersBy {
+pub enum LayerMethod {
     /// From lists of fragments.
     Lists,
     /// By peeling.
@@ -50,7 +50,7 @@ pub enum Reason {
     TooMany(u64),
 }
 
-impl LayersBy {
+impl LayerMethod {
     /// Whether it was peeled although that was not asked for, as a sentence.
     pub fn shortfall(&self) -> Option<String> {
         match self {
@@ -59,13 +59,13 @@ impl LayersBy {
                 "layers are peeled, as fragment shaders cannot write with this graphics driver".to_owned(),
             ),
             Self::Peeling(Reason::TooMany(fragments)) => Some(format!(
-                "layers are peeled, as lists with budget for {fragments} fragments would take too much memory"
+                "layers are peeled, as lists with room for {fragments} fragments would take too much memory"
             )),
         }
     }
 }
 
-impl std::fmt::Display for LayersBy {
+impl std::fmt::Display for LayerMethod {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(match self {
             Self::Lists => "lists",
@@ -90,8 +90,8 @@ impl Recorded {
         layer + 1 == self.layers && self.layers < self.most
     }
 
-    pub(super) fn by(&self) -> LayersBy {
-        self.fragments.map_or_else(LayersBy::Peeling, |_| LayersBy::Lists)
+    pub(super) fn by(&self) -> LayerMethod {
+        self.fragments.map_or_else(LayerMethod::Peeling, |_| LayerMethod::Lists)
     }
 }
 
@@ -115,10 +115,10 @@ pub(super) struct Budget {
 
 impl Budget {
     /// What to record for a picture of which up to `most` layers are wanted.
-    pub(super) fn plan(&self, gpu: &Gpu, size: [u32; 2], most: u32, by: document::LayersBy) -> Recorded {
+    pub(super) fn plan(&self, gpu: &Gpu, size: [u32; 2], most: u32, by: LayersBy) -> Recorded {
         let bound = match (by, FragmentLists::most(gpu)) {
-            (document::LayersBy::Peeling, _) => Err(Reason::Asked),
-            (document::LayersBy::Auto, _) if most == 1 => Err(Reason::Single),
+            (LayersBy::Peeling, _) => Err(Reason::Asked),
+            (LayersBy::Auto, _) if most == 1 => Err(Reason::Single),
             (_, 0) => Err(Reason::Device),
             (_, fragments) => Ok(fragments),
         };
@@ -143,11 +143,11 @@ impl Budget {
     }
 
     /// Learns from a report; returns whether the picture was complete.
-    pub(super) fn learn(&mut self, recorded: &Recorded, peeled: &Peeled) -> bool {
-        let fragments = peeled.capacity;
+    pub(super) fn learn(&mut self, recorded: &Recorded, report: &LayerReport) -> bool {
+        let fragments = report.capacity;
         let overflowed = recorded.fragments.is_ok_and(|budget| fragments > budget);
         // Each layer that is recorded counts unless the device has ended them before it.
-        let has_ended = peeled.ended != PeelingEnd::MostLayers || peeled.layers < recorded.layers;
+        let has_ended = report.ended != LayersEnd::MostLayers || report.layers < recorded.layers;
         let is_complete = !overflowed && (has_ended || recorded.layers >= recorded.most);
         if is_complete {
             self.calm += 1;
@@ -158,9 +158,9 @@ impl Budget {
             (self.mistakes, self.calm) = ((self.mistakes + 1).min(MOST_MISTAKES), 0);
         }
         self.layers = match (is_complete, overflowed) {
-            (true, _) if has_ended => Some(peeled.layers + 1),
+            (true, _) if has_ended => Some(report.layers + 1),
             // As many as were asked for may not be all: what is known of those behind them is still the best guess.
-            (true, _) => self.layers.filter(|&layers| layers > peeled.layers),
+            (true, _) => self.layers.filter(|&layers| layers > report.layers),
             (false, false) => Some(2 * recorded.layers),
             (false, true) => None,
         };
@@ -168,7 +168,7 @@ impl Budget {
             self.fragments = Some(fragments);
             self.peeled = None;
         } else {
-            let pixels = peeled.pixels.iter().copied().map(u64::from).sum();
+            let pixels = report.pixels.iter().copied().map(u64::from).sum();
             let first = *self.peeled.get_or_insert(pixels);
             if 2 * pixels < first {
                 // So much less that lists may do again.
@@ -189,12 +189,12 @@ mod tests {
     const SIZE: [u32; 2] = [640; 2];
 
     /// With fragments that take so many times that much.
-    fn peeled(layers: u32, has_ended: bool, runs: u32) -> Peeled {
+    fn report(layers: u32, has_ended: bool, runs: u32) -> LayerReport {
         let mut pixels = vec![0; 64];
         pixels[..layers as usize].fill(100);
-        let ended = if has_ended { PeelingEnd::TooFewPixels } else { PeelingEnd::MostLayers };
+        let ended = if has_ended { LayersEnd::TooFewPixels } else { LayersEnd::MostLayers };
         let (passed, capacity) = (vec![0; 64], CHUNK * u64::from(runs));
-        Peeled {
+        LayerReport {
             layers,
             ended,
             fraction: 1.0,
@@ -212,18 +212,18 @@ mod tests {
         let mut budget = Budget::default();
         let first = budget.plan_within(Ok(1000 * CHUNK), SIZE, 64);
         assert_eq!((first.layers, first.fragments), (64, Ok(400 * CHUNK)));
-        assert!(budget.learn(&first, &peeled(5, true, 80)));
+        assert!(budget.learn(&first, &report(5, true, 80)));
         let second = budget.plan_within(Ok(1000 * CHUNK), SIZE, 64);
         assert_eq!((second.layers, second.fragments), (6, Ok(100 * CHUNK)));
         assert_eq!([4, 5].map(|layer| second.only_counts(layer)), [false, true]);
         // A layer more: nobody reached their end.
-        assert!(!budget.learn(&second, &peeled(6, false, 90)));
+        assert!(!budget.learn(&second, &report(6, false, 90)));
         assert_eq!(budget.plan_within(Ok(1000 * CHUNK), SIZE, 64).layers, 13);
         // As many as were asked for need no end, and say nothing about it,
-        assert!(budget.learn(&budget.plan_within(Ok(1000 * CHUNK), SIZE, 7), &peeled(7, false, 90)));
+        assert!(budget.learn(&budget.plan_within(Ok(1000 * CHUNK), SIZE, 7), &report(7, false, 90)));
         assert_eq!(budget.plan_within(Ok(1000 * CHUNK), SIZE, 64).layers, 13);
         // unless there were more than were ever seen.
-        assert!(budget.learn(&budget.plan_within(Ok(1000 * CHUNK), SIZE, 12), &peeled(12, false, 90)));
+        assert!(budget.learn(&budget.plan_within(Ok(1000 * CHUNK), SIZE, 12), &report(12, false, 90)));
         assert_eq!(budget.plan_within(Ok(1000 * CHUNK), SIZE, 64).layers, 64);
     }
 
@@ -231,16 +231,16 @@ mod tests {
     fn fragments_without_room_get_it_or_are_peeled_until_there_are_far_fewer() {
         let mut budget = Budget::default();
         let first = budget.plan_within(Ok(1000 * CHUNK), SIZE, 8);
-        assert!(!budget.learn(&first, &peeled(3, true, 700)));
+        assert!(!budget.learn(&first, &report(3, true, 700)));
         let second = budget.plan_within(Ok(1000 * CHUNK), SIZE, 8);
-        assert_eq!((second.fragments, second.by()), (Ok(1000 * CHUNK), LayersBy::Lists));
-        assert!(!budget.learn(&second, &peeled(3, true, 1001)));
+        assert_eq!((second.fragments, second.by()), (Ok(1000 * CHUNK), LayerMethod::Lists));
+        assert!(!budget.learn(&second, &report(3, true, 1001)));
         let third = budget.plan_within(Ok(1000 * CHUNK), SIZE, 8);
-        let peeling = LayersBy::Peeling(Reason::TooMany(1001 * CHUNK));
+        let peeling = LayerMethod::Peeling(Reason::TooMany(1001 * CHUNK));
         assert_eq!(third.by(), peeling);
         assert!(peeling.shortfall().is_some_and(|why| why.contains(&(1001 * CHUNK).to_string())));
-        for (layers, by) in [(8, peeling), (4, peeling), (3, LayersBy::Lists)] {
-            assert!(budget.learn(&budget.plan_within(Ok(1000 * CHUNK), SIZE, 8), &peeled(layers, true, 0)));
+        for (layers, by) in [(8, peeling), (4, peeling), (3, LayerMethod::Lists)] {
+            assert!(budget.learn(&budget.plan_within(Ok(1000 * CHUNK), SIZE, 8), &report(layers, true, 0)));
             assert_eq!(budget.plan_within(Ok(1000 * CHUNK), SIZE, 8).by(), by, "{layers}");
         }
     }
@@ -254,7 +254,7 @@ mod tests {
             // Each fifth sample has many more layers and fragments.
             let (layers, fragments) = if sample % 5 == 4 { (20, 900) } else { (9, 300) };
             let has_ended = recorded.layers > layers;
-            let is_complete = budget.learn(&recorded, &peeled(layers, has_ended, fragments));
+            let is_complete = budget.learn(&recorded, &report(layers, has_ended, fragments));
             sample = if is_complete { sample + 1 } else { 0 };
             drawn += 1;
             assert!(drawn < 200, "begun anew for ever");
@@ -262,7 +262,7 @@ mod tests {
         // Long after that it is guessed tightly again.
         for _ in 0..CALM {
             let recorded = budget.plan_within(Ok(100_000 * CHUNK), SIZE, 64);
-            assert!(budget.learn(&recorded, &peeled(9, true, 300)));
+            assert!(budget.learn(&recorded, &report(9, true, 300)));
         }
         assert_eq!(budget.plan_within(Ok(100_000 * CHUNK), SIZE, 64).layers, 10);
     }
@@ -271,7 +271,7 @@ mod tests {
     fn a_device_without_lists_peels_and_says_so_unless_that_was_asked_for() {
         for (reason, is_said) in [(Reason::Device, true), (Reason::Asked, false)] {
             let by = Budget::default().plan_within(Err(reason), SIZE, 8).by();
-            assert_eq!((by, by.shortfall().is_some()), (LayersBy::Peeling(reason), is_said));
+            assert_eq!((by, by.shortfall().is_some()), (LayerMethod::Peeling(reason), is_said));
         }
     }
 }

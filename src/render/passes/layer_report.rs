@@ -1,10 +1,10 @@
-//! How far peeling came (blueprints paper, sections 4.2 and 4.3), as people are told.
+//! How far the layers of a group came (blueprints paper, sections 4.2 and 4.3), as people are told.
 
 use std::fmt;
 
-/// What ends peeling.
+/// What ends layers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum PeelingEnd {
+pub enum LayersEnd {
     /// Nothing did: as many layers were drawn as were asked for.
     MostLayers,
     /// The next layer has too few pixels, or none.
@@ -13,7 +13,7 @@ pub enum PeelingEnd {
     MaskUncovered,
 }
 
-impl fmt::Display for PeelingEnd {
+impl fmt::Display for LayersEnd {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::MostLayers => "most layers",
@@ -23,18 +23,18 @@ impl fmt::Display for PeelingEnd {
     }
 }
 
-/// How far peeling came in a group.
+/// How far the layers of a group came, from lists or by peeling.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Peeled {
+pub struct LayerReport {
     /// Layers that were drawn.
     pub layers: u32,
     /// What ended it.
-    pub ended: PeelingEnd,
+    pub ended: LayersEnd,
     /// So much of the designated objects was to be uncovered, 0 to 1.
     pub fraction: f32,
     /// Pixels of the depth mask, the paper's Q; 0: nothing designated is in the picture.
     pub masked: u32,
-    /// Those of them that opaque surfaces hide, which no peeling uncovers.
+    /// Those of them that opaque surfaces hide, which no layer uncovers.
     pub hidden: u32,
     /// Fragments of its lists, those for which there was no room included; 0 without lists.
     pub fragments: u64,
@@ -46,10 +46,10 @@ pub struct Peeled {
     pub passed: Vec<u32>,
 }
 
-impl Peeled {
-    /// Pixels of the mask that pass the depth test against the layer that was peeled last, drawn or not.
+impl LayerReport {
+    /// Pixels of the mask that pass the depth test against the last layer, drawn or not.
     pub fn uncovered(&self) -> u32 {
-        let last = if self.ended == PeelingEnd::TooFewPixels { self.layers } else { self.layers.max(1) - 1 };
+        let last = if self.ended == LayersEnd::TooFewPixels { self.layers } else { self.layers.max(1) - 1 };
         self.passed.get(last as usize).copied().unwrap_or(0)
     }
 
@@ -70,9 +70,9 @@ impl Peeled {
         let reached = percent(self.share_uncovered());
         let hidden = f64::from(self.hidden) / f64::from(self.masked);
         let remedy = match self.ended {
-            PeelingEnd::MostLayers if layers as usize >= self.passed.len() => "no picture has more layers",
-            PeelingEnd::MostLayers => "allow more layers (blueprint.to)",
-            PeelingEnd::TooFewPixels if self.share_uncovered() < asked => {
+            LayersEnd::MostLayers if layers as usize >= self.passed.len() => "no picture has more layers",
+            LayersEnd::MostLayers => "allow more layers (blueprint.to)",
+            LayersEnd::TooFewPixels if self.share_uncovered() < asked => {
                 "allow smaller layers (blueprint.least)"
             }
             _ if 1.0 - hidden < asked => {
