@@ -1,4 +1,5 @@
-//! Who imports whom: modules and floors only look down, and no circle of files is large.
+//! Who imports whom: modules and floors only look down, and no circle of files is large. And the files that comments name are
+//! there.
 //!
 //! Reads the paths that begin with `crate`, `super` or `self` in every file of `src/`, in `use` trees and elsewhere, and
 //! takes each for the file in which it ends. Comments, strings and what is only compiled for tests are left out.
@@ -454,6 +455,65 @@ fn no_circle_of_files_is_large() {
     assert!(large.is_empty(), "files that import each other in a circle:\n{}\n", large.join("\n"));
 }
 
+/// Files below a folder, by their paths from the root.
+fn files_below(folder: &str) -> Vec<String> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let found = glob::glob(root.join(folder).join("**/*").to_str().unwrap()).unwrap().map(Result::unwrap);
+    let files = found.filter(|path| path.is_file());
+    files.map(|path| path.strip_prefix(root).unwrap().to_str().unwrap().replace('\\', "/")).collect()
+}
+
+/// The files that a text names.
+fn named_files(text: &str) -> impl Iterator<Item = &str> {
+    let words = text.split(|c: char| !(c.is_ascii_alphanumeric() || "_./-".contains(c)));
+    let words = words.map(|word| word.trim_end_matches('.'));
+    words.filter(|word| {
+        [".rs", ".wgsl", ".md"].iter().any(|ending| word.len() > ending.len() && word.ends_with(ending))
+    })
+}
+
+#[test]
+fn files_that_comments_name_are_there() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut all: Vec<String> = ["src", "shaders", "tests", "docs"]
+        .into_iter()
+        .flat_map(files_below)
+        .map(|file| format!("/{file}"))
+        .collect();
+    all.extend(["/README.md".to_owned(), "/ARCHITECTURE.md".to_owned()]);
+    // A path may begin in any folder, but a file of that path has to be somewhere.
+    let is_there = |named: &str| {
+        let end = format!("/{}", named.trim_start_matches("../").trim_start_matches("./"));
+        all.iter().any(|file| file.ends_with(&end))
+    };
+    let mut checked = 0;
+    let mut missing = Vec::new();
+    let mut check = |place: String, text: &str| {
+        for named in named_files(text) {
+            checked += 1;
+            if !is_there(named) {
+                missing.push(format!("{place}: {named}"));
+            }
+        }
+    };
+    for file in ["src", "shaders"].into_iter().flat_map(files_below) {
+        let text = std::fs::read_to_string(root.join(&file)).unwrap();
+        for (number, line) in (1..).zip(text.lines()) {
+            if let Some((_, comment)) = line.split_once("//") {
+                check(format!("{file}:{number}"), comment);
+            }
+        }
+    }
+    for (number, line) in (1..).zip(std::fs::read_to_string(root.join("ARCHITECTURE.md")).unwrap().lines()) {
+        // What a new technique or format would be called.
+        if !["/x.rs", "/x.wgsl"].iter().any(|placeholder| line.contains(placeholder)) {
+            check(format!("ARCHITECTURE.md:{number}"), line);
+        }
+    }
+    assert!(checked > 150, "{checked} found");
+    assert!(missing.is_empty(), "\n{}\n", missing.join("\n"));
+}
+
 mod reading {
     use super::*;
 
@@ -514,6 +574,14 @@ mod reading {
         assert_eq!(end(&["a", "b"], &["inline"], "super::c::X").as_deref(), Some("a/b/c"));
         assert_eq!(end(&["a"], &[], "super::d").as_deref(), Some("d"));
         assert_eq!(end(&["a"], &[], "crate::Thing").as_deref(), Some("lib"));
+    }
+
+    #[test]
+    fn names_of_files_are_found_in_words() {
+        let found: Vec<_> =
+            named_files("see `passes/peel.wgsl`, (src/gpu/mod.rs:12) and b.md. No .rs, crate::a::rs")
+                .collect();
+        assert_eq!(found, ["passes/peel.wgsl", "src/gpu/mod.rs", "b.md"]);
     }
 
     #[test]

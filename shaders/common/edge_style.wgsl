@@ -1,4 +1,4 @@
-// How the edges of an object are found and drawn. Twins in src/render/passes/edge_style.rs.
+// How the edges of an object are found and drawn. Twins in src/render/base/edge_style.rs.
 
 struct LineStyle {
     color: vec3<f32>,

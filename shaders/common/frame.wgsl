@@ -1,4 +1,4 @@
-// The frame: bind group 0 of every pass. Twin: `FrameUniform` in src/render/frame_uniform.rs.
+// The frame: bind group 0 of every pass. Twin: `FrameUniform` in src/render/base/frame_uniform.rs.
 
 struct Light {
     // Directional (w = 0): towards the light. Point (w = 1): where it stands. View space.

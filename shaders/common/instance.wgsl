@@ -1,5 +1,5 @@
 // One part of one object: where it lies and what it is. Attributes of instances, not elements of an array: what is the same for
-// a whole draw is fetched once per draw and not once per vertex. Twin: `Record` in src/render/passes/instances.rs.
+// a whole draw is fetched once per draw and not once per vertex. Twin: `Record` in src/render/base/instances.rs.
 struct Instance {
     @location(6) view_from_local_x: vec4<f32>,
     @location(7) view_from_local_y: vec4<f32>,

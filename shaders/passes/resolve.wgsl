@@ -3,7 +3,7 @@
 #import common/fullscreen.wgsl
 #import common/color.wgsl
 
-// Twin: `ScaleBarUniform` in src/render/scale_bar.rs.
+// Twin: `ScaleBarUniform` in src/render/base/scale_bar.rs.
 struct ScaleBar {
     // Linear color.
     ink: vec4<f32>,
