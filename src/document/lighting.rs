@@ -14,11 +14,11 @@ pub struct Lighting {
     pub source: Source,
     /// Whether lights throw shadows at all.
     pub shadows: bool,
-    /// How dark shadows are, 0 (none) to 1 (nothing of the light is left).
+    /// How dark shadows are; 0: none, 1: nothing of the light is left.
     pub shadow_density: f32,
-    /// Radius of the lights as seen from the objects, degrees, 0 (hard borders) to 10.
+    /// Radius of the lights as seen from the objects, degrees; 0: hard borders.
     pub shadow_softness: f32,
-    /// Texels of a shadow map for each pixel of the picture's longer side, 0.25 to 8.
+    /// Texels of a shadow map for each pixel of the picture's longer side.
     pub shadow_detail: f32,
     /// The main light, on which one-light techniques rely.
     pub key: Lamp,
@@ -33,11 +33,11 @@ pub struct Lighting {
 pub struct Lamp {
     /// Whether it shines.
     pub show: bool,
-    /// Where it shines from: degrees to the right of the front, −180 to 180.
+    /// Where it shines from: degrees to the right of the front.
     pub azimuth: f32,
-    /// Where it shines from: degrees above the horizon, −90 to 90.
+    /// Where it shines from: degrees above the horizon.
     pub elevation: f32,
-    /// Brightness, 0 to 4; 1 lights a white surface facing it fully white.
+    /// Brightness; 1 lights a white surface facing it fully white.
     pub intensity: f32,
     /// Its color.
     pub color: Color,

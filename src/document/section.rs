@@ -17,9 +17,9 @@ pub struct Section {
     pub show: bool,
     /// What the plane is perpendicular to.
     pub axis: Axis,
-    /// Direction of a free plane: degrees to the right of the model's front, −180 to 180.
+    /// Direction of a free plane: degrees to the right of the model's front.
     pub azimuth: f32,
-    /// Direction of a free plane: degrees above the horizon, −90 to 90.
+    /// Direction of a free plane: degrees above the horizon.
     pub elevation: f32,
     /// Where the plane is along its direction, in units of the model; `None`: in the middle of everything.
     pub position: Option<f32>,
@@ -40,11 +40,11 @@ pub struct Section {
 pub struct Hatch {
     /// Color of the lines.
     pub color: Color,
-    /// Distance of the lines' middles in reference pixels, 2 to 200.
+    /// Distance of the lines' middles in reference pixels.
     pub spacing: f32,
-    /// Width of the lines in reference pixels, 0.25 to 32.
+    /// Width of the lines in reference pixels.
     pub width: f32,
-    /// Direction in the plane, degrees, −90 to 90: 0 is as horizontal as the plane allows.
+    /// Direction in the plane, degrees: 0 is as horizontal as the plane allows.
     pub angle: f32,
 }
 

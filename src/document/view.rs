@@ -13,19 +13,19 @@ pub struct View {
     pub background: Option<Color>,
     /// The picture, or one of the buffers it is made from.
     pub show: Show,
-    /// Which depth layer of everything visible such a buffer is of, 1 (the nearest) to 64.
+    /// Which depth layer of everything visible such a buffer is of; 1: the nearest.
     pub layer: u32,
-    /// Dihedral angle above which an edge separates two surfaces; degrees, 0 to 180.
+    /// Dihedral angle above which an edge separates two surfaces; degrees.
     pub crease_angle: f32,
     /// Which of those edges are creases.
     pub creases: CreasesBy,
     /// How far the seams of separately tessellated faces may be apart.
     pub seams: Seams,
-    /// The same where it is a number: ‰ of the diagonal of a body, 0 to 5.
+    /// The same where it is a number: ‰ of the diagonal of a body.
     pub seam_gap: f32,
     /// Whether parallel views show how long things are.
     pub scale_bar: bool,
-    /// How many mirrors in a row a line of sight follows, 0 to 8; the nearest whole number counts.
+    /// How many mirrors in a row a line of sight follows; the nearest whole number counts.
     pub reflections: f32,
     /// How depth layers are made; the picture is the same.
     pub layers: LayersBy,
@@ -204,7 +204,7 @@ impl View {
             list.choice(
                 "seams",
                 "Mend seams",
-                "Cracks between separately made faces, as CAD programs leave them, are closed: as the mesh says, not at all, or up to a width.",
+                "Closes cracks between separately made faces, as CAD programs leave them: auto as wide as the mesh suggests, gap up to a width; exact mends nothing.",
                 &mut self.seams,
             );
             list.when("view.seams", Seams::Gap, |list| {
@@ -230,7 +230,7 @@ impl View {
             list.choice(
                 "layers",
                 "Depth layers",
-                "How the depth layers of blueprints are made: from lists of fragments, which is faster but takes memory, or by peeling.",
+                "How depth layers are made, of blueprints, hidden lines and glass: from lists of fragments, which is faster but takes memory, or by peeling.",
                 &mut self.layers,
             );
             list.switch(

@@ -6,7 +6,7 @@ use super::param::{Params, Scope};
 
 /// Parameters of the technique `blueprint`.
 ///
-/// Objects of equal style are peeled together into depth layers, each with its own lines over a fill. Which lines, and
+/// Objects of equal style are split together into depth layers, each with its own lines over a fill. Which lines, and
 /// how wide they are, is up to `edges`; their color runs from `near` to `far` by the share
 /// `1 − (1 − by_layer)ⁿ · (1 − by_distance · d)`, n the number of layers before, d the depth, 0 (nearest) to 1.
 #[derive(Debug, Clone, PartialEq)]
@@ -15,28 +15,28 @@ pub struct Blueprint {
     pub near: Color,
     /// Color of the farthest lines.
     pub far: Color,
-    /// How far lines fade with each layer before them, 0 (not at all) to 1.
+    /// How far lines fade with each layer before them; 0: not at all.
     pub by_layer: f32,
-    /// How far lines fade with the distance, 0 (not at all) to 1.
+    /// How far lines fade with the distance; 0: not at all.
     pub by_distance: f32,
-    /// Lines of ink fainter than this are left out and all others are full, as in a wire frame (section 4.2); 0 to 1, 0:
-    /// ink stays as it is. Flat folds have faint ink: 0.5 is one of 29°, 1 one of 41°.
+    /// Lines of ink fainter than this are left out and all others are full, as in a wire frame (section 4.2); 0: ink stays as
+    /// it is. Flat folds have faint ink: 0.5 is one of 29°, 1 one of 41°.
     pub threshold: f32,
     /// Whether lines are drawn again where a nearer layer has one at the same place (section 4.1, Fig. 5).
     pub repeated: bool,
     /// Color of the surfaces.
     pub fill: Color,
-    /// Opacity of the fill of each layer, 0 to 1.
+    /// Opacity of the fill of each layer.
     pub opacity: f32,
-    /// The first layer that is drawn, 1 to 64.
+    /// The first layer that is drawn.
     pub from: u32,
-    /// The last layer that is drawn, 1 to 64.
+    /// The last layer that is drawn, also where more would uncover more.
     pub to: u32,
-    /// Most layers that are peeled, 1 to 64, where nothing is to be uncovered.
+    /// Most layers, where nothing is to be uncovered; never more than `to`.
     pub layers: u32,
-    /// Peeling ends before a layer with fewer pixels; percent of the picture's, 0 to 100.
+    /// Layers end before one with fewer pixels; percent of the picture's.
     pub least: f32,
-    /// Peeling ends with the layer that leaves this share of the depth mask uncovered, 0 to 1 (section 4.3).
+    /// Layers end with the one that leaves this share of the depth mask uncovered (section 4.3).
     pub fraction: f32,
     /// Whether what lies farther than the depth mask is drawn.
     pub beyond: bool,
@@ -101,15 +101,29 @@ impl Blueprint {
             &mut self.opacity,
         );
         list.span("Layers", |list| {
-            list.integer("from", "From layer", "", 1..=64, "The first layer that is drawn.", &mut self.from);
-            list.integer("to", "To layer", "", 1..=64, "The last layer that is drawn.", &mut self.to);
+            list.integer(
+                "from",
+                "From layer",
+                "",
+                1..=64,
+                "The first layer that is drawn; nearer ones are left out.",
+                &mut self.from,
+            );
+            list.integer(
+                "to",
+                "To layer",
+                "",
+                1..=64,
+                "The last layer that is drawn, whatever else asks for more.",
+                &mut self.to,
+            );
         });
         list.integer(
             "layers",
             "Max. layers",
             "",
             1..=64,
-            "Peeling ends after so many layers, but goes on while designated objects have to be uncovered.",
+            "Layers end after so many, or after To layer if that is less; to uncover designated objects they go on to there.",
             &mut self.layers,
         );
         list.wide_number(
@@ -118,14 +132,14 @@ impl Blueprint {
             "%",
             0.0..=1.0,
             0.0..=100.0,
-            "Peeling ends before a layer that covers a smaller share of the picture.",
+            "Layers end before one that covers a smaller share of the picture.",
             &mut self.least,
         );
         list.only(Scope::Masks, |list| {
             list.share(
                 "fraction",
                 "Uncover target",
-                "Peeling ends with the layer that leaves this share of the designated objects uncovered.",
+                "Layers go on until this share of the designated objects is uncovered: 1 is all that can be.",
                 &mut self.fraction,
             );
             list.switch(

@@ -12,15 +12,15 @@ pub struct EdgeGroup<More> {
     pub show: bool,
     /// Color of the lines.
     pub color: Color,
-    /// Opacity of full ink, 0 to 1.
+    /// Opacity of full ink.
     pub strength: f32,
-    /// Width in reference pixels, 0.25 to 64. Exact mode.
+    /// Width in reference pixels. Exact mode.
     pub width: f32,
     /// Whether the lines are drawn in dashes. Exact mode.
     pub dashed: bool,
-    /// Ink per unit of discontinuity (1 − I), 0 to 1000. Paper mode.
+    /// Ink per unit of discontinuity (1 − I). Paper mode.
     pub gain: f32,
-    /// Ink at or below this share is dropped, the rest is stretched to 0..1; 0 to 0.99. Paper mode.
+    /// Ink at or below this share is dropped, the rest is stretched to 0..1. Paper mode.
     pub threshold: f32,
     /// What only this group has.
     pub more: More,
@@ -36,7 +36,7 @@ pub struct Profile {
 /// What the inner group has beyond [`EdgeGroup`].
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Inner {
-    /// How far the dihedral angle weighs the strength of creases, 0 (all alike) to 1. Exact mode.
+    /// How far the dihedral angle weighs the strength of creases; 0: all alike. Exact mode.
     pub by_angle: f32,
 }
 
@@ -124,7 +124,7 @@ impl EdgeGroup<Profile> {
                     "",
                     1.0..=40.0,
                     0.0..=1000.0,
-                    "Ink per discontinuity; 10.3 makes a step of a tenth of the depth range full ink.",
+                    "How much ink a change of depth has: with 10.3 a step of a tenth of the depth range has full ink.",
                     &mut self.gain,
                 );
             });
@@ -135,7 +135,7 @@ impl EdgeGroup<Profile> {
                     "",
                     1.0..=80.0,
                     0.0..=1000.0,
-                    "Ink per discontinuity; 20 makes a step of a tenth of the depth range full ink.",
+                    "How much ink a change of depth has: with 20 a step of a tenth of the depth range has full ink.",
                     &mut self.more.gain_c1,
                 );
             });
@@ -178,7 +178,7 @@ impl EdgeGroup<Inner> {
                     "",
                     0.5..=20.0,
                     0.0..=1000.0,
-                    "Ink per discontinuity; 4 makes a fold of 41° full ink.",
+                    "How much ink a change of normals has: with 4 a fold of 41° has full ink.",
                     &mut self.gain,
                 );
             });

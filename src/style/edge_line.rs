@@ -15,15 +15,15 @@ pub struct Line {
     pub show: bool,
     /// Color.
     pub color: Color,
-    /// Opacity, 0 to 1.
+    /// Opacity.
     pub strength: f32,
-    /// Width in reference pixels, 0.25 to 64.
+    /// Width in reference pixels.
     pub width: f32,
     /// Whether it is drawn in dashes.
     pub dashed: bool,
-    /// What an edge must reach to be drawn: profile edges the step in depth behind them in reference pixels (0 to
-    /// 1000), creases, intersections and relief the angle between the surfaces in degrees (0 to 180), textures the
-    /// difference of the colors (0 to 1).
+    /// What an edge must reach to be drawn. Profile edges: the step in depth behind them, in widths of a reference pixel at
+    /// their depth; creases, intersections and relief: the angle between the surfaces in degrees; textures: the difference of
+    /// the colors.
     pub threshold: f32,
 }
 
@@ -114,7 +114,7 @@ impl ClassStyle {
                         "px",
                         0.0..=100.0,
                         0.0..=1000.0,
-                        "Drawn only where what lies behind is at least this much farther away.",
+                        "Drawn only where what lies behind is at least this much farther away, in widths of a px at its depth.",
                         threshold,
                     ),
                     EdgeClass::Ridge | EdgeClass::Valley => list.wide_number(
@@ -193,7 +193,7 @@ impl<'a> Places<'a> {
     pub(super) fn declare(self, label: &'static str, help: &'static str, list: &mut Params<'a>) {
         list.head("show", label, help, self.show);
         list.color("color", "Color", "Color of these lines.", self.color);
-        list.share("strength", "Strength", "Opacity of these lines.", self.strength);
+        list.share("strength", "Opacity", "Opacity of these lines.", self.strength);
         list.when("edges.mode", EdgeMode::Exact, |list| {
             list.wide_number(
                 "width",

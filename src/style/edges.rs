@@ -14,7 +14,7 @@ pub struct Edges {
     pub mode: EdgeMode,
     /// Where the width of profile edges lies; inner edges are centered. Exact mode.
     pub alignment: Alignment,
-    /// Shorter pieces of lines that nothing continues are left out, in reference pixels, 0 (none) to 32. Exact mode.
+    /// Shorter pieces of lines that nothing continues are left out, in reference pixels; 0: none. Exact mode.
     pub shortest: f32,
     /// The operator that finds depth discontinuities. Paper mode.
     pub operator: DepthOperator,
@@ -28,9 +28,9 @@ pub struct Edges {
     classes: [ClassStyle; EdgeClass::ALL.len()],
     /// Dashes of the lines that have them. Exact mode.
     pub dash: Dash,
-    /// Share of the surface's color in the lines, 0 (the constant color) to 1 (the surface's own). Exact mode.
+    /// Share of the surface's color in the lines; 0: the constant color, 1: the surface's own. Exact mode.
     pub surface_color: f32,
-    /// How much the surface's color is darkened in lines, 0 (not) to 1 (black). Exact mode.
+    /// How much the surface's color is darkened in lines; 0: not, 1: black. Exact mode.
     pub darken: f32,
     /// What makes lines thinner. Exact mode.
     pub variation: Variation,
@@ -40,7 +40,7 @@ pub struct Edges {
     pub hidden: Hidden,
 }
 
-/// Dashes, in reference pixels, 1 to 512.
+/// Dashes, in reference pixels.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Dash {
     /// Length of a dash.
@@ -56,15 +56,15 @@ pub struct Sobel {
     pub silhouettes: bool,
     /// Inner edges by normals.
     pub normals: bool,
-    /// Gradient of unit normals, 0.01 to 8.
+    /// Gradient of unit normals.
     pub normal_threshold: f32,
     /// Profile edges by depth.
     pub depth: bool,
-    /// Gradient of depth, of which 1 is the range of the enhanced objects, 0.001 to 4.
+    /// Gradient of depth, of which 1 is the range of the enhanced objects.
     pub depth_threshold: f32,
     /// Inner edges by base colors.
     pub color: bool,
-    /// Gradient of the luminance, 0.01 to 4.
+    /// Gradient of the luminance.
     pub color_threshold: f32,
     /// Whether the gradient is the sum of the changes in both directions instead of the length of both.
     pub sum: bool,
@@ -98,9 +98,9 @@ pub struct Variation {
 /// How the width changes along a line, as under a hand.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pressure {
-    /// How much, 0 to 1.
+    /// How much.
     pub amount: f32,
-    /// Length of the changes in reference pixels, 4 to 2000.
+    /// Length of the changes in reference pixels.
     pub scale: f32,
 }
 

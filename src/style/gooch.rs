@@ -14,24 +14,24 @@ pub struct Gooch {
     pub cool: Color,
     /// Yellow that is mixed into the side that faces the light.
     pub warm: Color,
-    /// Share of the base color on the cool side, 0 to 1.
+    /// Share of the base color on the cool side.
     pub alpha: f32,
-    /// Share of the base color on the warm side, 0 to 1.
+    /// Share of the base color on the warm side.
     pub beta: f32,
     /// How far blue and yellow are multiplied by the base color, 0 (added as they are) to 1: dark and saturated ones keep
     /// their hue.
     pub own_hue: f32,
-    /// How far the key light is turned to the side, 0 (where it is) to 1 (across the line of sight).
+    /// How far the key light is turned to the side; 0: where it is, 1: across the line of sight.
     pub aside: f32,
-    /// Strength of the highlight, 0 (none) to 1 (white).
+    /// Strength of the highlight; 0: none, 1: white.
     pub highlight: f32,
-    /// Phong exponent of the highlight, 1 (wide) to 256 (small).
+    /// Phong exponent of the highlight; 1: wide, 256: small.
     pub shininess: f32,
-    /// Strength of the stripes of milled metal, 0 (none) to 1 (section 3.2).
+    /// Strength of the stripes of milled metal; 0: none (section 3.2).
     pub metal: f32,
     /// The axis around which the stripes lie.
     pub metal_axis: MetalAxis,
-    /// Number of stripes around it, 2 to 64.
+    /// Number of stripes around it.
     pub stripes: u32,
 }
 

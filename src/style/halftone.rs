@@ -21,29 +21,29 @@ pub struct Halftone {
     pub space: Space,
     /// How it lies on a surface.
     pub mapping: Mapping,
-    /// Distance between lines or dots, reference pixels, 1 to 200; on a surface it is held within an octave.
+    /// Distance between lines or dots, reference pixels; on a surface it is held within an octave.
     pub scale: f32,
-    /// By how much the texture is turned, degrees, −180 to 180.
+    /// By how much the texture is turned, degrees.
     pub angle: f32,
-    /// Width of the soft rim of ink, pixels, 0.25 to 8; 1 is as sharp as pixels allow.
+    /// Width of the soft rim of ink, pixels; 1 is as sharp as pixels allow.
     pub smoothness: f32,
     /// Color of the ink.
     pub ink: Color,
-    /// Share of the object's own color in the ink, 0 to 1.
+    /// Share of the object's own color in the ink.
     pub ink_tint: f32,
     /// Color between the ink.
     pub paper: Color,
-    /// Share of the object's own color on the paper, 0 to 1.
+    /// Share of the object's own color on the paper.
     pub paper_tint: f32,
-    /// Light that reaches every point from everywhere, 0 to 1.
+    /// Light that reaches every point from everywhere.
     pub ambient: f32,
-    /// How far an object's own color makes its tone darker, 0 (not at all) to 1 (as much as it is dark).
+    /// How far an object's own color makes its tone darker; 0: not at all, 1: as much as it is dark.
     pub own_tone: f32,
-    /// Light that becomes black, 0 to 1.
+    /// Light that becomes black.
     pub black: f32,
-    /// Light that becomes paper, 0 to 2.
+    /// Light that becomes paper.
     pub white: f32,
-    /// Exponent of the tone between them, 0.2 to 5: more is darker.
+    /// Exponent of the tone between them: more is darker.
     pub gamma: f32,
 }
 

@@ -20,7 +20,7 @@ pub struct Hatching {
     pub shadows: Shadows,
     /// Where strokes run.
     pub direction: Direction,
-    /// Strokes turn in steps of so many degrees, 0 to 90; 0: smoothly.
+    /// Strokes turn in steps of so many degrees; 0: smoothly.
     pub turn_step: f32,
     /// Whether the strokes of the two nearest steps are blended.
     pub blend_steps: bool,
@@ -34,11 +34,11 @@ pub struct Hatching {
     pub indication: Indication,
     /// Color of the ink.
     pub ink: Color,
-    /// Share of the object's own color in the ink, 0 to 1.
+    /// Share of the object's own color in the ink.
     pub ink_tint: f32,
     /// Color between the ink.
     pub paper: Color,
-    /// Share of the object's own color on the paper, 0 to 1.
+    /// Share of the object's own color on the paper.
     pub paper_tint: f32,
     /// Whether the detail that indication gives is drawn instead of strokes; no parameter, but a view of the document.
     pub shows_detail: bool,
@@ -47,36 +47,36 @@ pub struct Hatching {
 /// What single strokes are like.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stroke {
-    /// Least distance between strokes, reference pixels, 2 to 60; on a surface up to twice as much.
+    /// Least distance between strokes, reference pixels; on a surface up to twice as much.
     pub spacing: f32,
-    /// Width of a stroke that just begins, as a share of the spacing, 0.02 to 1.
+    /// Width of a stroke that just begins, as a share of the spacing.
     pub thin: f32,
-    /// Greatest width, as a share of the spacing, 0.05 to 1.2.
+    /// Greatest width, as a share of the spacing.
     pub thick: f32,
-    /// Least length, reference pixels, 5 to 1000; up to twice as much.
+    /// Least length, reference pixels; up to twice as much.
     pub length: f32,
-    /// Length of pointed ends, reference pixels, 0 to 100; 0: strokes go on and on.
+    /// Length of pointed ends, reference pixels; 0: strokes go on and on.
     pub taper: f32,
-    /// Half of the gap between the ends of strokes, reference pixels, 0 to 20.
+    /// Half of the gap between the ends of strokes, reference pixels.
     pub gap: f32,
-    /// How far strokes come one after the other as it gets darker, instead of all at once getting wider, 0 to 1.
+    /// How far strokes come one after the other as it gets darker, instead of all at once getting wider.
     pub spread: f32,
-    /// How much chance decides which come first, 0 to 1.
+    /// How much chance decides which come first.
     pub chance: f32,
-    /// How much later the ends of a stroke come than its middle, 0 to 2.
+    /// How much later the ends of a stroke come than its middle.
     pub pointed: f32,
-    /// How much later a line comes that is inserted between two others, 0 to 1.
+    /// How much later a line comes that is inserted between two others.
     pub inserted: f32,
-    /// How much widths vary from stroke to stroke, 0 to 1.
+    /// How much widths vary from stroke to stroke.
     pub variation: f32,
 }
 
 /// How strokes make tones.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Layers {
-    /// How many directions cross at most, 1 to 3.
+    /// How many directions cross at most.
     pub count: u32,
-    /// Darkness from which on strokes of a second direction cross those of the first, 0 to 1.
+    /// Darkness from which on strokes of a second direction cross those of the first.
     pub second: f32,
     /// The same for a third direction.
     pub third: f32,
@@ -91,7 +91,7 @@ pub struct Shadows {
     pub differ: bool,
     /// What they look like.
     pub set: Set,
-    /// How far they are turned against those in the light, degrees, −90 to 90.
+    /// How far they are turned against those in the light, degrees.
     pub turn: f32,
 }
 
@@ -100,13 +100,13 @@ pub struct Shadows {
 pub struct Tone {
     /// From light, 0 to 1, to tone, 0 (ink) to 1 (paper).
     pub curve: Curve,
-    /// Light that reaches every point from everywhere, 0 to 1.
+    /// Light that reaches every point from everywhere.
     pub ambient: f32,
-    /// How far an object's own color makes its tone darker, 0 (not at all) to 1 (as much as it is dark).
+    /// How far an object's own color makes its tone darker; 0: not at all, 1: as much as it is dark.
     pub own_color: f32,
-    /// Tones lighter than this are paper, 0 to 1 from white down.
+    /// Darkness up to which there is only paper.
     pub white: f32,
-    /// The greatest darkness, 0 to 1.
+    /// The greatest darkness.
     pub darkest: f32,
 }
 
@@ -368,7 +368,9 @@ impl Tone {
             "How far the object's own color darkens: 0 draws all as if white.",
             &mut self.own_color,
         );
-        list.share("white", "White point", "Darkness that is left to the paper.", &mut self.white);
+        let help =
+            "Darkness up to which no stroke is drawn: 0.1 leaves the lightest tenth of the tones bare.";
+        list.share("white", "Bare up to", help, &mut self.white);
         list.share("darkest", "Darkest tone", "Greatest share of ink.", &mut self.darkest);
     }
 }

@@ -13,23 +13,23 @@ pub struct Hidden {
     pub mode: HiddenMode,
     /// Of which layers they are.
     pub layers: HiddenLayers,
-    /// With [`HiddenLayers::All`]: most layers behind the visible one, 1 to 63.
+    /// With [`HiddenLayers::All`]: most layers behind the visible one.
     pub most: u32,
-    /// They end before a layer with fewer pixels; percent of the picture's, 0 to 100.
+    /// They end before a layer with fewer pixels; percent of the picture's.
     pub least: f32,
-    /// Opacity as a share of the visible lines', 0 to 1.
+    /// Opacity as a share of the visible lines'.
     pub strength: f32,
-    /// Width as a share of the visible lines', 0.1 to 1. Exact mode.
+    /// Width as a share of the visible lines'. Exact mode.
     pub narrow: f32,
     /// Their own color.
     pub color: Color,
-    /// Their own width in reference pixels, 0.25 to 64. Exact mode.
+    /// Their own width in reference pixels. Exact mode.
     pub width: f32,
     /// Whether lines in their own color and width have dashes. Exact mode.
     pub dashed: bool,
-    /// Length of a dash in reference pixels, 1 to 512. Exact mode.
+    /// Length of a dash in reference pixels. Exact mode.
     pub dash: f32,
-    /// Length of the gap behind it in reference pixels, 1 to 512. Exact mode.
+    /// Length of the gap behind it in reference pixels. Exact mode.
     pub gap: f32,
 }
 
@@ -123,7 +123,7 @@ impl Hidden {
         list.when_any(MODE, [Faint, Dashed], |list| {
             list.share(
                 "strength",
-                "Strength",
+                "Opacity",
                 "Opacity of hidden lines as a share of the visible ones'.",
                 &mut self.strength,
             );
@@ -135,7 +135,7 @@ impl Hidden {
             list.when_any(MODE, [Faint, Dashed], |list| {
                 list.number(
                     "narrow",
-                    "Width",
+                    "Relative width",
                     "",
                     0.1..=1.0,
                     "Width of hidden lines as a share of the visible ones'.",

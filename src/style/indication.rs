@@ -7,15 +7,15 @@ use super::slot::choice;
 /// Strokes that are left out away from edges.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Indication {
-    /// How much is left out, 0 to 1.
+    /// How much is left out.
     pub amount: f32,
     /// How it is found where details are.
     pub by: DetailBy,
-    /// How far from edges that begins, reference pixels, 1 to 300.
+    /// How far from edges that begins, reference pixels.
     pub distance: f32,
-    /// How fast strokes become fewer beyond, 0.1 to 4.
+    /// How fast strokes become fewer beyond.
     pub falloff: f32,
-    /// How many times as far the edges of this object keep strokes around them, on other objects too, 0 to 8.
+    /// How many times as far the edges of this object keep strokes around them, on other objects too.
     pub attraction: f32,
     /// By the general field map.
     pub patches: PatchField,
@@ -29,45 +29,46 @@ choice! {
         /// By the exact distance to the nearest line that is drawn.
         #[default]
         Lines,
-        /// As in the paper: by the borders of flat parts, and by silhouettes nearby.
+        /// By the fields of the paper: from the borders of flat parts, and from silhouettes nearby.
         Fields,
     }
 }
 
-/// w1 = (a + b · distance)^−c, by the distance to the border of a flat part: 0, in the middle of the square that the part is mapped
-/// to 0.5.
+/// w1 = (a + b · x)^−c, by the distance x to the border of a flat part: 0 on it, 0.5 in the middle of the square that the part
+/// is mapped to.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PatchField {
-    /// Share of w1 in the whole, 0 to 2.
+    /// Share of w1 in the whole.
     pub share: f32,
-    /// a, 0.1 to 4.
+    /// a.
     pub offset: f32,
-    /// b, 0 to 50.
+    /// b.
     pub slope: f32,
-    /// c, 0 to 4.
+    /// c.
     pub power: f32,
 }
 
-/// w2 = (a + b · α / (n^β + λ))^−c, by the number n of 16 pixels around, at a distance, that lie beyond a silhouette.
+/// w2 = (a + b · x)^−c with x = α / (n^β + λ), by the number n of 16 pixels around, at a distance, that lie beyond a
+/// silhouette.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SilhouetteField {
-    /// Share of w2 in the whole, 0 to 2.
+    /// Share of w2 in the whole.
     pub share: f32,
-    /// Distance of the pixels, reference pixels, 1 to 200.
+    /// Distance of the pixels, reference pixels.
     pub radius: f32,
-    /// Step off the plane of the surface that is a silhouette, reference pixels, 0.1 to 100.
+    /// Step off the plane of the surface that is a silhouette, reference pixels.
     pub step: f32,
-    /// α, 0 to 10.
+    /// α.
     pub alpha: f32,
-    /// β, 0.1 to 4.
+    /// β.
     pub beta: f32,
-    /// λ, 0 to 10.
+    /// λ.
     pub lambda: f32,
-    /// a, 0.1 to 4.
+    /// a.
     pub offset: f32,
-    /// b, 0 to 50.
+    /// b.
     pub slope: f32,
-    /// c, 0 to 4.
+    /// c.
     pub power: f32,
 }
 
@@ -106,7 +107,7 @@ impl Indication {
         list.choice(
             "by",
             "Indication by",
-            "Where strokes stay: by the distance to the nearest line, or by the fields of the hatching paper.",
+            "Where strokes stay: near the nearest line that is drawn, or near the borders of flat parts and silhouettes.",
             &mut self.by,
         );
         list.when("hatching.indication.by", DetailBy::Lines, |list| {
@@ -138,7 +139,7 @@ impl Indication {
     }
 }
 
-/// The share of a field and its (offset + slope · x)^−power.
+/// The share of a field and its weight, (a + b · x)^−c; a is the offset, b the slope, c the power.
 struct Weight<'a> {
     share: &'a mut f32,
     offset: &'a mut f32,
@@ -147,33 +148,51 @@ struct Weight<'a> {
 }
 
 impl<'a> Weight<'a> {
-    fn params(self, list: &mut Params<'a>, share: &'static str) {
+    fn params(self, list: &mut Params<'a>, [share, offset, slope, power]: [&'static str; 4]) {
         list.wide_number("share", "Share", "", 0.0..=1.5, 0.0..=2.0, share, self.share);
-        let help = "a of (a + b · x)^−c.";
-        list.wide_number("offset", "Offset", "", 0.5..=2.0, 0.1..=4.0, help, self.offset);
-        let help = "b of (a + b · x)^−c: how fast details become fewer.";
-        list.wide_number("slope", "Slope", "", 0.0..=20.0, 0.0..=50.0, help, self.slope);
-        list.wide_number("power", "Power", "", 0.0..=3.0, 0.0..=4.0, "c of (a + b · x)^−c.", self.power);
+        list.wide_number("offset", "Offset", "", 0.5..=2.0, 0.1..=4.0, offset, self.offset);
+        list.wide_number("slope", "Slope", "", 0.0..=20.0, 0.0..=50.0, slope, self.slope);
+        list.wide_number("power", "Power", "", 0.0..=3.0, 0.0..=4.0, power, self.power);
     }
 }
 
 impl PatchField {
     fn params<'a>(&'a mut self, list: &mut Params<'a>) {
         let Self { share, offset, slope, power } = self;
-        Weight { share, offset, slope, power }.params(list, "How much the borders of flat parts count.");
+        let helps = [
+            "How much the borders of flat parts count: factor of (a + b · x)^−c.",
+            "a of (a + b · x)^−c; x is the distance to the border of a flat part, 0 on it and 0.5 in its middle.",
+            "b of (a + b · x)^−c: how fast strokes become fewer away from the borders of flat parts.",
+            "c of (a + b · x)^−c: more leaves out more strokes in the middle of flat parts.",
+        ];
+        Weight { share, offset, slope, power }.params(list, helps);
     }
 }
 
 impl SilhouetteField {
     fn params<'a>(&'a mut self, list: &mut Params<'a>) {
         let Self { share, radius, step, alpha, beta, lambda, offset, slope, power } = self;
-        Weight { share, offset, slope, power }.params(list, "How much silhouettes nearby count.");
-        let help = "How far around silhouettes are looked for.";
+        let helps = [
+            "How much silhouettes nearby count: factor of (a + b · x)^−c.",
+            "a of (a + b · x)^−c; x = α / (n^β + λ), where n of 16 pixels around lie beyond a silhouette.",
+            "b of (a + b · x)^−c: how fast strokes become fewer where fewer pixels lie beyond a silhouette.",
+            "c of (a + b · x)^−c: more leaves out more strokes away from silhouettes.",
+        ];
+        Weight { share, offset, slope, power }.params(list, helps);
+        let help = "How far away the 16 pixels around lie, of which n lie beyond a silhouette.";
         list.wide_number("radius", "Radius", "px", 2.0..=60.0, 1.0..=200.0, help, radius);
-        let help = "Step in depth that is a silhouette.";
+        let help = "Step off the plane of the surface that is a silhouette, in widths of a px at that depth.";
         list.wide_number("step", "Step", "px", 0.5..=20.0, 0.1..=100.0, help, step);
-        list.wide_number("alpha", "α", "", 0.0..=4.0, 0.0..=10.0, "α of α / (n^β + λ).", alpha);
-        list.wide_number("beta", "β", "", 0.1..=3.0, 0.1..=4.0, "β of α / (n^β + λ).", beta);
-        list.wide_number("lambda", "λ", "", 0.0..=2.0, 0.0..=10.0, "λ of α / (n^β + λ).", lambda);
+        list.wide_number("alpha", "α", "", 0.0..=4.0, 0.0..=10.0, "α of x = α / (n^β + λ).", alpha);
+        list.wide_number("beta", "β", "", 0.1..=3.0, 0.1..=4.0, "β of x = α / (n^β + λ).", beta);
+        list.wide_number(
+            "lambda",
+            "λ",
+            "",
+            0.0..=2.0,
+            0.0..=10.0,
+            "λ of x = α / (n^β + λ): where n is 0, x is α / λ.",
+            lambda,
+        );
     }
 }

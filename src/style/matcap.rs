@@ -12,9 +12,9 @@ pub struct Matcap {
     pub sphere: Sphere,
     /// The image of [`Sphere::Image`]: a square picture of a sphere that touches its border. Without one there is clay.
     pub image: Option<PathBuf>,
-    /// How far the sphere is multiplied by the object's own color, 0 to 1.
+    /// How far the sphere is multiplied by the object's own color.
     pub own_color: f32,
-    /// How dark cast shadows are, 0 (not at all) to 1 (black).
+    /// How dark cast shadows are; 0: not at all, 1: black.
     pub shadow: f32,
 }
 

@@ -13,9 +13,9 @@ use super::slot::choice;
 pub struct Mirror {
     /// Which side of the face reflects.
     pub side: Side,
-    /// Opacity of the reflection seen from the front, 0 (none) to 1.
+    /// Opacity of the reflection seen from the front; 0: none.
     pub reflectivity: f32,
-    /// How far the opacity grows towards 1 where the mirror is seen at a slant, 0 (not at all) to 1.
+    /// How far the opacity grows towards 1 where the mirror is seen at a slant; 0: not at all.
     pub fresnel: f32,
     /// What the reflection is multiplied by.
     pub tint: Color,

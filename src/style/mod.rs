@@ -1,7 +1,7 @@
 //! The complete look of one object: technique, its parameters, edges. Plain data.
 //!
 //! Every parameter is declared once, in the `params` function of its effect; panels, style files, `--set` and the
-//! reference of `hachure styles` all read that list (see [`param`]).
+//! reference of `hachure styles` all read that list (see [`param`]). Ranges stand there alone, not at the fields.
 
 pub mod blueprint;
 pub mod color;

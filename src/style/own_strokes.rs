@@ -9,27 +9,27 @@ use super::param::Params;
 pub struct OwnStrokes {
     /// A picture of one stroke from left to right, dark on light.
     pub image: Option<PathBuf>,
-    /// Length as a share of the tile that repeats, 0 (dots) to 1.
+    /// Length as a share of the tile that repeats; 0: dots.
     pub length: f32,
-    /// Strokes are longer or shorter by up to this share, 0 to 1.
+    /// Strokes are longer or shorter by up to this share.
     pub length_spread: f32,
-    /// Width in reference pixels where strokes are 6 apart, 0.5 to 16.
+    /// Width in reference pixels where strokes are 6 apart.
     pub width: f32,
-    /// Strokes are wider or narrower by up to this share, 0 to 1.
+    /// Strokes are wider or narrower by up to this share.
     pub width_spread: f32,
-    /// Share of the length over which a stroke gets wider, 0 to 1.
+    /// Share of the length over which a stroke gets wider.
     pub begin: f32,
-    /// Share of the length over which it gets thinner, 0 to 1.
+    /// Share of the length over which it gets thinner.
     pub end: f32,
-    /// How far strokes swing to either side, as a share of their length, 0 to 0.25.
+    /// How far strokes swing to either side, as a share of their length.
     pub waviness: f32,
-    /// Strokes are turned by up to this to either side, degrees, 0 to 28.
+    /// Strokes are turned by up to this to either side, degrees.
     pub turn_spread: f32,
-    /// Ink of a single stroke, 0.3 to 1.
+    /// Ink of a single stroke.
     pub pressure: f32,
-    /// How much ink the paper's valleys take away, 0 to 0.7.
+    /// How much ink the paper's valleys take away.
     pub grain: f32,
-    /// Another number gives other strokes, 0 to 999.
+    /// Another number gives other strokes.
     pub seed: u32,
 }
 

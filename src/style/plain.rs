@@ -5,7 +5,7 @@ use super::param::Params;
 /// Parameters of the technique `plain`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Plain {
-    /// Light that reaches every point from everywhere, 0 to 1.
+    /// Light that reaches every point from everywhere.
     pub ambient: f32,
 }
 

@@ -22,7 +22,7 @@ pub struct Sketch {
     pub enabled: bool,
     /// Where everything goes.
     pub wander: Wander,
-    /// How often lines are drawn, 1 to [`MOST_PASSES`].
+    /// How often lines are drawn.
     pub passes: u32,
     /// How lines are drawn each time.
     pub pass: [Pass; MOST_PASSES],
@@ -37,21 +37,21 @@ pub struct Sketch {
 /// Where lines and colors go: what all passes and the fill have in common.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Wander {
-    /// Factor of all offsets, 0 to 4.
+    /// Factor of all offsets.
     pub amount: f32,
     /// What the noise follows.
     pub anchor: Anchor,
     /// Where values beyond the outline come from, unless the noise follows the picture.
     pub exterior: Exterior,
-    /// How far surfaces are enlarged for [`Exterior::Enlarged`], reference pixels, 0 to 64; at least the largest offset.
+    /// How far surfaces are enlarged for [`Exterior::Enlarged`], reference pixels; at least the largest offset.
     pub enlarge: f32,
     /// What the noise is like.
     pub noise: Noise,
-    /// Length of a wave of the lines, reference pixels, 8 to 1000.
+    /// Length of a wave of the lines, reference pixels.
     pub wave: f32,
-    /// Share of a finer wave, a quarter as long, 0 to 1.
+    /// Share of a finer wave, a quarter as long.
     pub detail: f32,
-    /// How many waves, each half as long as the one before, are added where the noise follows the picture, 1 to 8.
+    /// How many waves, each half as long as the one before, are added where the noise follows the picture.
     pub octaves: u32,
     /// Number of the noise.
     pub seed: u32,
@@ -59,9 +59,9 @@ pub struct Wander {
     pub by_object: bool,
     /// How the depth of what is drawn is found.
     pub depth: DepthRule,
-    /// How much paler lines and colors are in places, 0 to 1.
+    /// How much paler lines and colors are in places.
     pub pressure: f32,
-    /// How often the picture is drawn anew, times per second, 0 (never) to 24.
+    /// How often the picture is drawn anew, times per second; 0: never.
     pub boil: f32,
 }
 
@@ -72,9 +72,9 @@ pub struct Pass {
     pub matrix: Matrix,
     /// Color; `None`: that of the lines.
     pub color: Option<Color>,
-    /// Width as a share of the lines', 0.1 to 4.
+    /// Width as a share of the lines'.
     pub width: f32,
-    /// Opacity as a share of the lines', 0 to 1.
+    /// Opacity as a share of the lines'.
     pub density: f32,
     /// Number of its noise.
     pub seed: u32,
@@ -87,40 +87,40 @@ pub struct Fill {
     pub show: bool,
     /// From noise to offsets, reference pixels.
     pub matrix: Matrix,
-    /// Length of a wave, reference pixels, 8 to 1000.
+    /// Length of a wave, reference pixels.
     pub wave: f32,
-    /// Opacity of the pigment, 0 to 1.
+    /// Opacity of the pigment.
     pub density: f32,
     /// What is rubbed on more densely.
     pub tone: Tone,
     /// Color of the pigment.
     pub color: Color,
-    /// Share of the surface's own color in it, 0 to 1.
+    /// Share of the surface's own color in it.
     pub surface_color: f32,
-    /// How visible the strokes of the hand are, 0 to 1.
+    /// How visible the strokes of the hand are.
     pub strokes: f32,
-    /// Width of a stroke, reference pixels, 1 to 64.
+    /// Width of a stroke, reference pixels.
     pub stroke_width: f32,
-    /// Direction of the strokes, degrees, −180 to 180.
+    /// Direction of the strokes, degrees.
     pub angle: f32,
 }
 
 /// What rough paper makes of ink and pigment.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Grain {
-    /// How much of it is seen, 0 to 1.
+    /// How much of it is seen.
     pub amount: f32,
-    /// How soft the grains are, 0.02 to 0.49.
+    /// How soft the grains are.
     pub soft: f32,
-    /// Their size, reference pixels, 0.5 to 32.
+    /// Their size, reference pixels.
     pub size: f32,
     /// What the paper is.
     pub texture: Tooth,
     /// The image of [`Tooth::Image`], bright where it takes pigment first.
     pub image: Option<PathBuf>,
-    /// How far single grains are off, reference pixels, 0 to 8.
+    /// How far single grains are off, reference pixels.
     pub roughness: f32,
-    /// How much lines are smudged inwards, 0 to 1.
+    /// How much lines are smudged inwards.
     pub smudge: f32,
 }
 
@@ -129,15 +129,15 @@ pub struct Grain {
 pub struct Strokes {
     /// Whether straight edges are drawn so.
     pub enabled: bool,
-    /// How often each is drawn, 1 to 4.
+    /// How often each is drawn.
     pub times: u32,
-    /// How far they go on beyond their ends, reference pixels, 0 to 64.
+    /// How far they go on beyond their ends, reference pixels.
     pub overshoot: f32,
-    /// How far their ends are off, reference pixels, 0 to 16.
+    /// How far their ends are off, reference pixels.
     pub shift: f32,
-    /// How bowed they are, percent of their length, 0 to 10.
+    /// How bowed they are, percent of their length.
     pub bow: f32,
-    /// How the hand trembles, reference pixels, 0 to 8.
+    /// How the hand trembles, reference pixels.
     pub tremor: f32,
 }
 
@@ -324,12 +324,14 @@ impl Sketch {
                 passes,
             );
             for (number, pass) in pass.iter_mut().enumerate() {
-                let counts = COUNTS.into_iter().skip(number);
                 let name = format!("pass{}", number + 1);
-                list.when_any("sketch.passes", counts, |list| match number {
-                    0 => list.section(&name, |list| pass.params(ink, list)),
-                    _ => list.detail(&name, |list| pass.params(ink, list)),
-                });
+                if number == 0 {
+                    list.section(&name, |list| pass.params(ink, list));
+                } else {
+                    list.when_any("sketch.passes", COUNTS.into_iter().skip(number), |list| {
+                        list.detail(&name, |list| pass.params(ink, list));
+                    });
+                }
             }
             list.section("fill", |list| fill.params(list));
             list.section("grain", |list| grain.params(list));
@@ -352,7 +354,8 @@ impl Wander {
         list.choice(
             "anchor",
             "Anchored to",
-            "What the wandering follows: the picture (it swims), or what of the surface controls it.",
+            "What offsets belong to: the picture (lines swim when the model turns), the places or directions of surfaces, or \
+             places with more where they are curved or far.",
             &mut self.anchor,
         );
         list.choice("noise", "Noise", "Smooth waves, or turbulence, which has kinks.", &mut self.noise);
@@ -378,7 +381,7 @@ impl Wander {
             list.choice(
                 "exterior",
                 "Beyond outlines",
-                "What the noise follows there: the nearest line or surface, or surfaces enlarged.",
+                "Whose offsets hold beyond an outline: those of the nearest line or surface, or of surfaces that are enlarged.",
                 &mut self.exterior,
             );
             list.when("sketch.exterior", Exterior::Enlarged, |list| {
@@ -388,7 +391,7 @@ impl Wander {
                     "px",
                     0.0..=32.0,
                     0.0..=64.0,
-                    "How far vertices move along their normals; at least the largest offset.",
+                    "How far surfaces are enlarged along their normals; never less than the largest offset.",
                     &mut self.enlarge,
                 );
             });
@@ -397,13 +400,13 @@ impl Wander {
         list.choice(
             "depth",
             "Depth",
-            "Ink and color are hidden each by its own depth, or both by the nearer one (as in the paper).",
+            "Whether ink and color are hidden each by its own depth, or both by the nearer of the two.",
             &mut self.depth,
         );
         list.share(
             "pressure",
             "Pressure",
-            "How much paler lines and colors are in places.",
+            "How much lines and colors lose of their opacity in places, as where a hand presses less.",
             &mut self.pressure,
         );
         list.wide_number(
@@ -437,7 +440,7 @@ impl Pass {
             "Offsets",
             "px",
             MOST_OFFSET,
-            "From two noises to offsets across and down: where lines go.",
+            "How far lines go: each row times two noises, whose mean square is 1, is an offset, to the right and down.",
             &mut self.matrix,
         );
         list.color(
@@ -459,7 +462,7 @@ impl Pass {
             "Width as a share of the lines' own.",
             &mut self.width,
         );
-        list.share("density", "Density", "Opacity as a share of the lines' own.", &mut self.density);
+        list.share("density", "Opacity", "Opacity as a share of the lines' own.", &mut self.density);
         list.integer("seed", "Seed", "", 0..=9999, "Number of its noise.", &mut self.seed);
     }
 }
@@ -473,11 +476,11 @@ impl Fill {
                 "Offsets",
                 "px",
                 MOST_OFFSET,
-                "From two noises to offsets across and down: where color goes.",
+                "How far color goes: each row times two noises, whose mean square is 1, is an offset, to the right and down.",
                 &mut self.matrix,
             );
             wave_param(list, &mut self.wave);
-            list.share("density", "Density", "How opaque the pigment is.", &mut self.density);
+            list.share("density", "Opacity", "Opacity of the pigment.", &mut self.density);
             list.choice(
                 "tone",
                 "Tone",

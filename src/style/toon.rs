@@ -25,7 +25,7 @@ pub struct Toon {
     /// The image of [`Ramp::Image`]: one band per texel along its longer side, from the left or the top. Without one
     /// the bands are drawn.
     pub image: Option<PathBuf>,
-    /// Number of bands, 2 to 8.
+    /// Number of bands.
     pub bands: u32,
     /// How borders between bands are drawn.
     pub border: Border,
@@ -35,19 +35,19 @@ pub struct Toon {
     pub mid: Color,
     /// Color of the lightest band.
     pub light: Color,
-    /// Share of the object's own color, 0 (the ramp's colors as they are) to 1 (they multiply the object's color).
+    /// Share of the object's own color; 0: the ramp's colors as they are, 1: they multiply the object's color.
     pub tint: f32,
-    /// N·L at which the ramp begins, −1 to 1; the paper's ramp begins at 0.
+    /// N·L at which the ramp begins; the paper's ramp begins at 0.
     pub start: f32,
-    /// N·L at which the ramp ends, −1 to 1; the paper's ramp ends at 1.
+    /// N·L at which the ramp ends; the paper's ramp ends at 1.
     pub end: f32,
-    /// Opacity of the white highlight, 0 (none) to 1.
+    /// Opacity of the white highlight; 0: none.
     pub highlight: f32,
-    /// Angle between the normal and the middle of light and eye up to which the highlight reaches, degrees, 1 to 60.
+    /// Angle between the normal and the middle of light and eye up to which the highlight reaches, degrees.
     pub highlight_size: f32,
-    /// Opacity of the rim, 0 (none) to 1.
+    /// Opacity of the rim; 0: none.
     pub rim: f32,
-    /// Cosine of the angle between the normal and the direction to the eye below which a point is of the rim, 0 to 1.
+    /// Cosine of the angle between the normal and the direction to the eye below which a point is of the rim.
     pub rim_width: f32,
     /// Color of the rim.
     pub rim_color: Color,
