@@ -33,9 +33,9 @@ struct Frame {
     center_depth: f32,
     // Depth at which the near plane cuts something; 0: it cuts nothing.
     near_clip_depth: f32,
-    // What lies behind this plane is not drawn; its product with (pos_view, 1) is the distance before it.
+    // What lies behind this plane, a mirror's, is not drawn; its product with (pos_view, 1) is the distance before it.
     clip_plane: vec4<f32>,
-    // The same for the section plane; 0: there is none.
+    // The section plane, beyond which nothing is drawn; its product with (pos_view, 1) too is the distance before it. 0: none.
     section: vec4<f32>,
     // How dark shadows are, 0 to 1.
     shadow_density: f32,

@@ -91,7 +91,7 @@ pub(super) struct LookArgs {
     #[arg(long, value_name = "GLOB")]
     pub mirror: Vec<String>,
     /// Cut away what lies beyond a plane: its axis (x, y or z) and its position in units of the model [default: the middle];
-    /// `--set section.flip=true` cuts away the other side, `section.axis=free` allows any direction
+    /// `--set section.flip=true` cuts away what lies before it, `section.axis=free` allows any direction
     #[arg(long, value_name = "AXIS[=POSITION]")]
     pub section: Option<SectionAt>,
     /// Peel blueprints until the objects that match are uncovered (`blueprint.fraction`); they are drawn as surfaces

@@ -1,4 +1,4 @@
-//! The section plane: what lies behind it is cut away, in every technique.
+//! The section plane: what lies beyond it, in its direction, is cut away, in every technique.
 
 use std::ops::RangeInclusive;
 
@@ -120,7 +120,8 @@ impl Section {
         if !bounds.is_empty() && low.is_finite() && high.is_finite() { [low, high] } else { [0.0, 1.0] }
     }
 
-    /// The plane, with its front towards what is cut away; `None` when nothing is to be cut. `bounds`: of everything.
+    /// The plane; `None` when nothing is to be cut. What lies beyond it, to where its normal points, is cut away. `bounds`: of
+    /// everything.
     pub fn plane(&self, up: Up, bounds: &Bounds) -> Option<Plane> {
         let direction = self.direction(up);
         let [low, high] = self.range(up, bounds);
@@ -154,7 +155,7 @@ impl Section {
     fn declare<'a>(&'a mut self, reach: RangeInclusive<f32>, unit: &'static str, list: &mut Params<'a>) {
         let middle = 0.5 * (reach.start() + reach.end());
         list.section("section", |list| {
-            list.head("show", "Section plane", "Cut away what lies behind a plane.", &mut self.show);
+            list.head("show", "Section plane", "Cut away what lies beyond a plane, in its direction.", &mut self.show);
             list.choice(
                 "axis",
                 "Axis",
@@ -185,14 +186,14 @@ impl Section {
                 unit,
                 reach,
                 -MOST..=MOST,
-                "Where the plane is along its direction, in units of the model.",
+                "Where the plane is along its direction, in units of the model; what lies farther along is cut away, unless flipped.",
                 Place::Inheriting {
                     own: &mut self.position,
                     inherited: middle,
                     from: "the middle of the model".to_owned(),
                 },
             );
-            list.switch("flip", "Flip", "Cut away the other side.", &mut self.flip);
+            list.switch("flip", "Flip", "Cut away what lies before the plane instead.", &mut self.flip);
             list.choice(
                 "cap",
                 "Cap",

@@ -1,8 +1,8 @@
 //! Where a plane cuts a mesh: the contours of the cut, exact, and the cap that fills those of solid bodies.
 //!
-//! All is computed in the coordinates of the plane: x and y run in it, z is the height over it. What lies below the plane
-//! is kept, what lies in it or over it is cut away; each welded vertex is asked once, so that neighboring triangles agree
-//! and contours of closed meshes are closed.
+//! All is computed in the coordinates of the plane: x and y run in it, z runs along its normal. What lies before the
+//! plane (z < 0) is kept, what lies in it or beyond it is cut away; each welded vertex is asked once, so that neighboring
+//! triangles agree and contours of closed meshes are closed.
 
 mod cap;
 

@@ -83,9 +83,9 @@ struct Key {
 pub struct Section {
     /// How it looks.
     pub style: Style,
-    /// What lies behind this plane is cut away: world space, its product with (point, 1) is the distance before it.
+    /// The section plane: what lies beyond it is cut away. World space, its product with (point, 1) is the distance before it.
     pub plane: DVec4,
-    /// Where the topmost caps lie: x and y run in the plane, z points to what is cut away.
+    /// Where the topmost caps lie: x and y run in the plane, z beyond it, to what is cut away.
     world_from_plane: DMat4,
     /// Vertices of the caps.
     pub caps: GeometryBuffers,

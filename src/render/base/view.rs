@@ -35,9 +35,9 @@ pub struct View {
     pub center: DVec3,
     /// How far the picture is moved, right and down; pixels, −0.5 to 0.5.
     pub jitter: Vec2,
-    /// What lies behind this plane is not drawn: view space, its product with (point, 1) is the distance before it.
+    /// What lies behind this plane, a mirror's, is not drawn: view space, its product with (point, 1) is the distance before it.
     pub clip_plane: Option<DVec4>,
-    /// What lies behind the section plane is not drawn either: the same in world space.
+    /// What lies beyond the section plane is not drawn either: the same in world space.
     pub section: Option<DVec4>,
     /// The part of the picture that is wanted: left, top, right and bottom edge in pixels; `None`: all of it.
     pub scissor_rect: Option<[u32; 4]>,
@@ -171,13 +171,13 @@ impl View {
         .moved(self.jitter * Vec2::new(-1.0, 1.0))
     }
 
-    /// The same with everything behind a plane cut away: world space, its product with (point, 1) is the distance before it.
+    /// The same with everything beyond a section plane cut away: world space, its product with (point, 1) is the distance before it.
     #[must_use]
     pub fn with_section(self, section: Option<DVec4>) -> Self {
         Self { section, ..self }
     }
 
-    /// The planes behind which nothing is drawn, in view space: that of a mirror and that of the section; 0: none.
+    /// The planes of a mirror, behind which nothing is drawn, and of the section, beyond which nothing is: view space, 0: none.
     pub fn clip_planes(&self) -> [DVec4; 2] {
         let section = self.section.map(|plane| self.view_from_world.inverse().transpose() * plane);
         [self.clip_plane, section].map(Option::unwrap_or_default)
