@@ -13,15 +13,6 @@ use crate::scene::{Extent, MeasuredMesh, Node, NodeId, Scene, Warning};
 use crate::style::Color;
 use glam::DVec3;
 
-/// The ending of documents.
-pub const DOCUMENT_ENDING: &str = "hachure";
-
-/// The endings of models, without dot.
-pub const MODEL_ENDINGS: [&str; 5] = ["glb", "gltf", "obj", "stl", "ply"];
-
-/// The endings of images, without dot.
-pub const IMAGE_ENDINGS: [&str; 3] = ["png", "jpg", "jpeg"];
-
 /// How models become a scene; the tests put slow or failing ones in place of [`crate::import::load_all`].
 pub type Loader =
     Arc<dyn Fn(&[PathBuf], &ImportOptions, &Progress) -> Result<Scene, ImportError> + Send + Sync>;

@@ -8,6 +8,7 @@ use glam::DVec3;
 use strum::VariantNames as _;
 
 use crate::document::section::Axis;
+use crate::import::Format;
 use crate::render::MAX_SAMPLES;
 use crate::scene::{Standard, Unit, Up};
 use crate::style::{Color, Value};
@@ -18,11 +19,18 @@ use crate::style::{Color, Value};
 pub(super) struct Cli {
     #[command(subcommand)]
     pub command: Option<Command>,
-    /// Models (glTF, GLB, OBJ, STL, PLY) or one .hachure document to open in the window [default: the sample, in its own folder]
+    #[arg(help = files_help())]
     pub files: Vec<PathBuf>,
     /// Style of all objects: a preset's name or a .toml file
     #[arg(long, value_name = "NAME|FILE")]
     pub style: Option<String>,
+}
+
+fn files_help() -> String {
+    let formats = Format::names();
+    format!(
+        "Models ({formats}) or one .hachure document to open in the window [default: the sample, in its own folder]"
+    )
 }
 
 #[derive(Debug, Subcommand)]

@@ -96,6 +96,9 @@ struct NodeForm {
     style: Option<toml::Table>,
 }
 
+/// The ending of documents, without dot.
+pub const DOCUMENT_ENDING: &str = "hachure";
+
 impl Document {
     /// Reads a `.hachure` file. Paths of models and images become relative to the current folder.
     ///

@@ -22,7 +22,7 @@ use glam::DVec3;
 use crate::scene::{Camera, Light, LightKind, NodeId, Scene, Up};
 use crate::style::{Color, Style, StyleError, Value, param};
 
-pub use file::DocumentError;
+pub use file::{DOCUMENT_ENDING, DocumentError};
 pub use glyph::Glyph;
 pub use history::History;
 pub use lighting::Lighting;

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use image::RgbaImage;
 
-use crate::document::{Creases, Document, DocumentError, View};
+use crate::document::{Creases, DOCUMENT_ENDING, Document, DocumentError, View};
 use crate::geometry::Topology;
 use crate::gpu::{Gpu, GpuError, readback};
 use crate::hatching::cache::Cache;
@@ -41,7 +41,7 @@ pub enum OpenError {
 
 /// Whether a path names a document and not a model.
 pub fn is_document(path: &Path) -> bool {
-    path.extension().is_some_and(|e| e.eq_ignore_ascii_case("hachure"))
+    path.extension().is_some_and(|e| e.eq_ignore_ascii_case(DOCUMENT_ENDING))
 }
 
 /// What a view asks of importers.

@@ -1,10 +1,10 @@
-//! Which format a file has.
+//! The formats of models, and which one a file has.
 
 use std::path::Path;
 
 /// A format that an importer exists for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Format {
+pub enum Format {
     /// glTF 2.0, JSON or GLB.
     Gltf,
     /// Wavefront OBJ.
@@ -14,6 +14,44 @@ pub(super) enum Format {
     /// PLY, text or binary.
     Ply,
 }
+
+impl Format {
+    /// All of them, in the order in which people are told.
+    pub const ALL: [Self; 4] = [Self::Gltf, Self::Obj, Self::Stl, Self::Ply];
+
+    /// What people call it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Gltf => "glTF",
+            Self::Obj => "OBJ",
+            Self::Stl => "STL",
+            Self::Ply => "PLY",
+        }
+    }
+
+    /// The endings of its files, in lower case and without dot.
+    pub fn endings(self) -> &'static [&'static str] {
+        match self {
+            Self::Gltf => &["glb", "gltf"],
+            Self::Obj => &["obj"],
+            Self::Stl => &["stl"],
+            Self::Ply => &["ply"],
+        }
+    }
+
+    /// The names of all, with commas.
+    pub fn names() -> String {
+        Self::ALL.map(Self::name).join(", ")
+    }
+
+    /// The endings of all.
+    pub fn all_endings() -> impl Iterator<Item = &'static str> {
+        Self::ALL.into_iter().flat_map(Self::endings).copied()
+    }
+}
+
+/// The endings of images, in lower case and without dot.
+pub const IMAGE_ENDINGS: [&str; 3] = ["png", "jpg", "jpeg"];
 
 /// The format that the content's signature tells, else the one of the name's ending.
 pub(super) fn detect(path: &Path, data: &[u8]) -> Option<Format> {
@@ -36,13 +74,7 @@ fn by_content(data: &[u8]) -> Option<Format> {
 
 fn by_ending(path: &Path) -> Option<Format> {
     let ending = path.extension()?.to_str()?.to_ascii_lowercase();
-    match ending.as_str() {
-        "gltf" | "glb" => Some(Format::Gltf),
-        "obj" => Some(Format::Obj),
-        "stl" => Some(Format::Stl),
-        "ply" => Some(Format::Ply),
-        _ => None,
-    }
+    Format::ALL.into_iter().find(|format| format.endings().contains(&ending.as_str()))
 }
 
 /// JSON whose beginning or end names `"asset"`, as every glTF must.
@@ -73,6 +105,16 @@ fn is_text_stl(data: &[u8]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn endings_are_of_one_format() {
+        for format in Format::ALL {
+            for ending in format.endings() {
+                assert_eq!(detect(Path::new(&format!("a.{ending}")), b""), Some(format));
+            }
+        }
+        assert_eq!(Format::names(), "glTF, OBJ, STL, PLY");
+    }
 
     #[test]
     fn content_goes_before_the_ending() {

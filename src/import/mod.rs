@@ -1,4 +1,4 @@
-//! A file becomes a scene: glTF/GLB, OBJ+MTL, STL and PLY.
+//! A file becomes a scene. [`Format`] lists the formats.
 //!
 //! Importers never trust the file: indices are checked, allocations are bounded by the file's size, side files are
 //! read only from the model's own folder and below, and nothing touches a network.
@@ -21,12 +21,11 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 
+pub use self::format::{Format, IMAGE_ENDINGS};
 pub use self::image::load_image;
 pub use self::image_cache::ImageCache;
-
 pub use self::seams::link_nodes;
 
-use self::format::Format;
 use self::names::SiblingNames;
 use crate::geometry::mend::SeamTolerance;
 use crate::scene::{Scene, Warning};
@@ -43,7 +42,11 @@ pub enum ImportError {
         source: std::io::Error,
     },
     /// The name's ending and the content name no known format.
-    #[error("{}: unknown kind of file; Hachure opens .gltf, .glb, .obj, .stl and .ply", path.display())]
+    #[error(
+        "{}: unknown kind of file; Hachure opens {}",
+        path.display(),
+        Format::all_endings().map(|ending| format!(".{ending}")).collect::<Vec<_>>().join(", ")
+    )]
     UnknownFormat {
         /// The file.
         path: PathBuf,

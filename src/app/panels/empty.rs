@@ -7,6 +7,7 @@ use eframe::egui::{Align2, Color32, Rect, RichText, Ui};
 
 use super::command_button;
 use crate::app::command::Command;
+use crate::import::Format;
 
 /// Ink on the paper, whatever the theme of the panels is.
 fn ink(strength: f32) -> Color32 {
@@ -32,7 +33,7 @@ pub fn empty_ui<'a>(
     ui.add_space(8.0);
     command_button(ui, Command::Open, commands);
     ui.add_space(6.0);
-    ui.label(RichText::new("or drop a file here: glTF, OBJ, STL, PLY").color(ink(0.7)));
+    ui.label(RichText::new(format!("or drop a file here: {}", Format::names())).color(ink(0.7)));
     let recent: Vec<_> = recent.take(5).collect();
     if !recent.is_empty() {
         ui.add_space(14.0);

@@ -9,15 +9,15 @@ use eframe::egui;
 use super::{DialogFor, Viewer};
 use crate::app::dialogs::{Choice, Dialog};
 use crate::app::jobs::Job;
-use crate::app::loading::{self, DOCUMENT_ENDING, IMAGE_ENDINGS, Intent, LoadError, Loaded, MODEL_ENDINGS};
+use crate::app::loading::{self, Intent, LoadError, Loaded};
 use crate::app::navigation;
 use crate::app::screenshot::{self, Destination};
 use crate::app::unsaved::{Kept, Next};
 use crate::app::viewport::PickFor;
-use crate::document::Document;
+use crate::document::{DOCUMENT_ENDING, Document};
 use crate::export::session::{self, is_document};
 use crate::hatching::cache::Cache;
-use crate::import::{ImportError, Progress};
+use crate::import::{Format, IMAGE_ENDINGS, ImportError, Progress};
 use crate::render::{Pick, SolvedStripes, StrokeMap};
 use crate::scene::Standard;
 
@@ -363,13 +363,8 @@ impl Viewer {
     }
 
     fn dialog(&self, purpose: &DialogFor) -> Dialog {
-        let models = MODEL_ENDINGS.to_vec();
-        let each = [
-            ("glTF", vec!["glb", "gltf"]),
-            ("Wavefront OBJ", vec!["obj"]),
-            ("STL", vec!["stl"]),
-            ("PLY", vec!["ply"]),
-        ];
+        let models: Vec<_> = Format::all_endings().collect();
+        let each = Format::ALL.map(|format| (format.name(), format.endings().to_vec()));
         let any = [("All files", vec!["*"])];
         let (title, choice, filters) = match purpose {
             DialogFor::Open => {
