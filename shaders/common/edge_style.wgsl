@@ -6,7 +6,8 @@ struct LineStyle {
     strength: f32,
     // px of this picture.
     width: f32,
-    // Least step in depth (px), contrast or angle (radians).
+    // What an edge must reach to be drawn: step in depth in widths of a pixel there (silhouettes, borders, objects), difference
+    // of colors (textures), or angle in radians (all others).
     threshold: f32,
     // 1: dashed.
     dashed: u32,
@@ -47,7 +48,7 @@ struct EdgeStyle {
     // What finds edges in paper mode.
     found_by: u32,
     // Of Sobel operators: 1 where the sign of normals makes silhouettes; gradients that make an edge (0: not looked at);
-    // 1: the gradient is the sum of both changes.
+    // 1: the gradient is the sum of the changes across and down, 0: the length of both.
     by_sign: u32,
     normal_gradient: f32,
     depth_gradient: f32,

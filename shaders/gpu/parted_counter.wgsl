@@ -1,6 +1,7 @@
 // Software devices draw each tile of 64 by 64 pixels on one processor. So that adjacent ones do not wait for each other's
-// memory, they count for themselves, in so many parts, and write chunks of their own. Twin: src/gpu/parted_counter.rs.
+// memory, they count for themselves, in so many parts, and write runs of entries of their own. Twin: src/gpu/parted_counter.rs.
 const PARTS: u32 = 4u;
+// Entries of one part that lie together, before those of the next part.
 const RUN: u32 = 1024u;
 
 // The part that counts a pixel.

@@ -262,8 +262,10 @@ fn farthest_at(px: vec2<i32>) -> u32 {
     return textureLoad(farthest_tex, px, 0).x;
 }
 
-// How far a thin line shows inside a wide one: strokes wholly, others not at all where both run along one spine. Where widths differ less, other
-// objects' lines would come to depend on whether any are so different that they are looked for.
+// Opacity, 0 to 1, of a thin line over a wide one that covers it. The thin one is a stroke: 1, as strokes cross each other.
+// Both run along one spine, within a pixel or so: 0, as they are one line, which has the greater width. Farther apart it grows
+// to 1. Where half widths differ by no more than a pixel it is 0: such lines are looked for only where the picture has others
+// that differ more (WITH_WIDTHS), and must not depend on those.
 fn apart(thin: u32, wide: u32) -> f32 {
     if wide == 0u || thin == 0u {
         return 1.0;

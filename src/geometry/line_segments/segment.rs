@@ -33,7 +33,8 @@ pub struct LineSegment {
 }
 
 impl LineSegment {
-    /// A bit of `class`: nobody asked for this line, but its surfaces differ, which is to be taken for no other line.
+    /// A bit of `class`: nobody asked for this line, but two surfaces meet in it. It is not drawn, and keeps the search for
+    /// discontinuities (`passes/discontinuities.wgsl`) from taking its pixels for an intersection or a step in depth.
     pub const SUPPRESSED: u32 = 1 << 31;
     /// A bit of `class`: this line is drawn by others, see [`super::draw_strokes`]. Always with [`Self::SUPPRESSED`].
     pub const ELSEWHERE: u32 = 1 << 30;

@@ -14,7 +14,9 @@ pub struct LineUniform {
     pub strength: f32,
     /// px of the picture.
     pub width: f32,
-    /// A step in depth (px of the picture) for profile edges, a contrast for textures, an angle (radians) for the others.
+    /// What an edge must reach to be drawn. Silhouettes, borders and outlines of objects: the step in depth behind it, in
+    /// widths of a pixel at its depth; textures: the difference of the colors, 0 to 1; all others: the angle between the
+    /// surfaces, radians.
     pub threshold: f32,
     /// 1: dashed.
     pub dashed: u32,
@@ -44,9 +46,13 @@ pub struct EdgeUniform {
     /// Thinner by hand pressure.
     pub pressure: f32,
     pressure_scale: f32,
+    /// Paper mode: ink per unit of the depth discontinuity of the diagonal operator, 1 − I_Z; 0: no profile edges.
     gain_z: f32,
+    /// The same of the C1 operator, in place of `gain_z`: ink per unit of C1.
     gain_c1: f32,
+    /// Ink per unit of the normal discontinuity, 1 − I_N; 0: no inner edges.
     gain_n: f32,
+    /// Ink at or below this share is dropped.
     profile_threshold: f32,
     inner_threshold: f32,
     profile_color: Vec3,
@@ -61,7 +67,7 @@ pub struct EdgeUniform {
     normal_gradient: f32,
     depth_gradient: f32,
     color_gradient: f32,
-    /// 1: the gradient is the sum of both changes.
+    /// How a Sobel operator makes one gradient of the changes across and down: 1: their sum |x| + |y|, 0: the length of (x, y).
     sums_changes: u32,
     /// Shorter pieces of lines that nothing continues are left out, px of the picture.
     pub shortest: f32,

@@ -76,7 +76,7 @@ impl Objects {
                 stripes,
                 scale,
             });
-            // A look at a buffer is one at that of surfaces, which every object then is.
+            // Buffers (`view.show`) are those of opaque surfaces: to look at one, every object is drawn as such.
             let has_layers = r.style.technique == Technique::Blueprint && document.view.show == Show::Picture;
             let is_blueprint = has_layers && !r.mask;
             let is_sketch =

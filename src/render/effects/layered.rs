@@ -29,9 +29,9 @@ pub struct LayeredGroup {
     scene_revision: u64,
     /// The objects.
     pub group: Group,
-    /// What is drawn of them.
+    /// The instances that are drawn of them.
     pub instances: Vec<Instance>,
-    /// How.
+    /// The draw calls of these instances.
     pub calls: Vec<DrawCall>,
     /// Bind group 0, without the paper.
     pub uniform: FrameUniform,

@@ -49,9 +49,9 @@ impl Styled<'_> {
 /// A layer that is to be shaded: one surface per pixel, and what it was drawn of.
 #[derive(Clone, Copy)]
 pub struct Shaded<'a> {
-    /// Its surfaces.
+    /// Geometry, surface ids and base colors of its pixels.
     pub gbuffer: &'a GBuffer,
-    /// Changes when they do; `None`: they are new each time.
+    /// Another number whenever `gbuffer` has been drawn anew; `None`: it is new each time.
     pub revision: Option<u64>,
     /// Which lights reach each pixel, and what changes when that does; `None` when no light throws shadows.
     pub shadow_mask: Option<(&'a Target, u64)>,
@@ -61,11 +61,11 @@ pub struct Shaded<'a> {
     pub scene_view: SceneView<'a>,
     /// Bind group 0, without the paper.
     pub uniform: &'a FrameUniform,
-    /// What was drawn, on the device.
+    /// The instances of its objects, on the device.
     pub instance_buffer: &'a InstanceBuffer,
-    /// The same.
+    /// The same instances: where each object stands, with which material.
     pub instances: &'a [Instance],
-    /// How it was drawn.
+    /// The draw calls of these instances.
     pub calls: &'a [DrawCall],
 }
 
@@ -77,10 +77,10 @@ pub trait SurfaceTechnique: Sized {
     /// What all cameras share.
     type Shared;
 
-    /// Nothing yet.
+    /// What all cameras share, as a renderer begins with it: nothing is uploaded or measured yet.
     fn shared(gpu: &Gpu) -> Self::Shared;
 
-    /// Nothing drawn yet.
+    /// What lives across the frames of one camera, before the first of them.
     fn new(gpu: &Gpu) -> Self;
 
     /// Adds an object, if it is drawn in this technique.

@@ -49,7 +49,7 @@ macro_rules! techniques {
         }
 
         impl SharedTechniques {
-            /// Nothing yet.
+            /// As a renderer begins with them.
             pub fn new(gpu: &Gpu) -> Self {
                 Self { $($name: <$technique>::shared(gpu),)* }
             }
@@ -61,7 +61,7 @@ macro_rules! techniques {
         }
 
         impl Techniques {
-            /// Nothing drawn yet.
+            /// Before the first frame.
             pub fn new(gpu: &Gpu) -> Self {
                 Self { $($name: <$technique>::new(gpu),)* }
             }
