@@ -514,6 +514,47 @@ fn files_that_comments_name_are_there() {
     assert!(missing.is_empty(), "\n{}\n", missing.join("\n"));
 }
 
+/// What a comment says is in which file: the name between backticks in `` `Name` in src/file.rs ``.
+fn named_items(comment: &str) -> impl Iterator<Item = (&str, &str)> {
+    let parts: Vec<&str> = comment.split("` in ").collect();
+    let pairs: Vec<_> = parts.windows(2).map(|pair| (pair[0], pair[1])).collect();
+    pairs.into_iter().filter_map(|(before, after)| {
+        let name = before.rsplit('`').next()?;
+        let is_name = !name.is_empty() && name.chars().all(|c| c.is_alphanumeric() || c == '_');
+        let first = after.split_whitespace().next()?;
+        Some((name, named_files(first).next()?)).filter(|_| is_name)
+    })
+}
+
+#[test]
+fn what_comments_find_in_files_is_there() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let texts: Vec<(String, String)> = ["src", "shaders"]
+        .into_iter()
+        .flat_map(files_below)
+        .map(|file| (format!("/{file}"), std::fs::read_to_string(root.join(&file)).unwrap()))
+        .collect();
+    let mut checked = 0;
+    let mut missing = Vec::new();
+    for (place, text) in &texts {
+        for comment in text.lines().filter_map(|line| Some(line.split_once("//")?.1)) {
+            for (name, file) in named_items(comment) {
+                checked += 1;
+                let end = format!("/{file}");
+                let is_there = |(path, text): &(String, String)| {
+                    path.ends_with(&end)
+                        && text.split(|c: char| !(c.is_alphanumeric() || c == '_')).any(|word| word == name)
+                };
+                if !texts.iter().any(is_there) {
+                    missing.push(format!("{place}: `{name}` in {file}"));
+                }
+            }
+        }
+    }
+    assert!(checked > 60, "{checked} found");
+    assert!(missing.is_empty(), "\n{}\n", missing.join("\n"));
+}
+
 mod reading {
     use super::*;
 
@@ -574,6 +615,14 @@ mod reading {
         assert_eq!(end(&["a", "b"], &["inline"], "super::c::X").as_deref(), Some("a/b/c"));
         assert_eq!(end(&["a"], &[], "super::d").as_deref(), Some("d"));
         assert_eq!(end(&["a"], &[], "crate::Thing").as_deref(), Some("lib"));
+    }
+
+    #[test]
+    fn names_of_items_are_found_before_files() {
+        let found: Vec<_> =
+            named_items(" Twin of `A` in `shaders/a.wgsl`; `b` in src/b.rs. `C c` in d.rs, `e` in f")
+                .collect();
+        assert_eq!(found, [("A", "shaders/a.wgsl"), ("b", "src/b.rs")]);
     }
 
     #[test]

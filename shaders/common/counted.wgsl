@@ -1,4 +1,4 @@
-// How far layers have come, while it is being counted. Twin: `Peeled` in src/render/passes/peel.rs.
+// How far layers have come, while it is being counted. Twin: `CountedUniform` in src/render/passes/peel.rs.
 
 // What ends it. As in src/render/passes/peel.rs.
 const TOO_FEW_PIXELS: u32 = 0u;

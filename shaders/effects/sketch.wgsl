@@ -7,7 +7,7 @@
 #import common/composition.wgsl
 #import common/noise_tile.wgsl
 
-// Twin: `PassUniform` in src/render/effects/sketch.rs.
+// Twin: `PassUniform` in src/render/effects/sketch/uniforms.rs.
 struct Pass {
     // From noise to offsets, px, by rows.
     matrix: vec4<f32>,
@@ -18,7 +18,7 @@ struct Pass {
     density: f32,
 }
 
-// Twin: `SketchUniform` in src/render/effects/sketch.rs.
+// Twin: `SketchUniform` in src/render/effects/sketch/uniforms.rs.
 struct Sketch {
     passes: array<Pass, 8>,
     // From noise to offsets of the fill, px, by rows.
@@ -48,7 +48,7 @@ struct Sketch {
     shows_fill: u32,
 }
 
-// Twin: `SketchObject` in src/render/effects/sketch.rs.
+// Twin: `SketchObject` in src/render/effects/sketch/uniforms.rs.
 struct SketchObject {
     // The middle of the object, px.
     middle: vec2<f32>,
