@@ -192,7 +192,7 @@ impl View {
                 "°",
                 5.0..=90.0,
                 0.0..=180.0,
-                "Folds sharper than this separate surfaces; in files without normals they are hard (after a reload).",
+                "Folds sharper than this separate smooth surfaces, drawn or not; in files without normals they are hard (after a reload).",
                 &mut self.crease_angle,
             );
             list.choice(
