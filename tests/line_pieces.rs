@@ -68,8 +68,9 @@ fn silhouettes_inside(session: &mut Session, mesh: Mesh, elevation: f64) -> usiz
 fn folds_of_triangles_alone_are_no_lines() {
     let mut session = session();
     // Heights off by a tenth of a cell: many triangles face away, but the surface that they stand for does not.
-    let rough =
-        |k: u32, _: f32| [((k * 2_654_435_761_u32.wrapping_mul(k + 7)) >> 16 & 255) as f32 / 255.0, 0.0];
+    let rough = |k: u32, _: f32| {
+        [(k.wrapping_mul(2_654_435_761_u32.wrapping_mul(k + 7)) >> 16 & 255) as f32 / 255.0, 0.0]
+    };
     let folds = silhouettes_inside(&mut session, ground(24, 240.0, rough), 0.04);
     // Waves: at each crest, where the ground behind it lies deeper than an edge is long, runs a line from side to side.
     let turn = std::f32::consts::TAU / 80.0;

@@ -225,6 +225,8 @@ struct Beside {
 // So far apart, px, are spines at least that are not of one line, and so far along it at most is looked.
 const APART: f32 = 0.9;
 const ALONG: f32 = 1.0;
+// Half the width, px, up to which lines are thin: they have no ink beyond the pixels around their spine.
+const THIN: f32 = 1.0;
 // Cosine of the angle up to which lines run side by side.
 const PARALLEL: f32 = 0.97;
 
@@ -235,7 +237,10 @@ fn found_beside(px: vec2<i32>, found: u32) -> Beside {
     let tangent = unpack_tangent(first.tangent);
     let left = vec2(tangent.y, -tangent.x);
     let spine = vec2<f32>(first_px) + first.offset;
-    var spines = nine_at(farthest_tex, px);
+    if first.half_width > THIN {
+        return Beside(0u, 0.0);
+    }
+    var spines = nine_at(spine_tex, px);
     var best = Nearby(0u, 0.0);
     var gap = 0.0;
     for (var i = 0; i < 9; i++) {
@@ -253,6 +258,16 @@ fn found_beside(px: vec2<i32>, found: u32) -> Beside {
     let is_parallel = abs(dot(unpack_tangent(second.tangent), tangent)) > PARALLEL;
     let width = first.half_width + second.half_width;
     return Beside(select(0u, best.found, is_parallel), clamp(gap / max(width, 1e-6), 0.0, 1.0));
+}
+
+// Ink of a thin line, with that of the one beside it.
+fn with_ink_beside(at: vec2<f32>, g: Surfel, ink: vec4<f32>, found: u32) -> vec4<f32> {
+    if found == 0u || MOVED || NARROW_BY_TWO || !(NARROW || WITH_WIDTHS) {
+        return ink;
+    }
+    let beside = found_beside(vec2<i32>(floor(at)), found);
+    let other = line_at(at, g, beside.found);
+    return ink + other.ink * min(beside.share, (1.0 - ink.a) / max(other.ink.a, 1e-6));
 }
 
 fn farthest_at(px: vec2<i32>) -> u32 {
@@ -351,34 +366,33 @@ fn lines_at_place(at: vec2<f32>, g: Surfel) -> Line {
         if lines.is_occluded {
             lines = line_around(at, g, farthest);
         }
+        var nearest = farthest;
+        if WITH_WIDTHS {
+            nearest = textureLoad(nearest_tex, px).x;
+        }
         // A wide line is found farther from it than it has ink: one that ends at it is not to stop before.
         let own = ((u32(px.y) << 16u) | u32(px.x)) + 1u;
-        if !NARROW && !MOVED && own != farthest && lines.ink.a < 1.0 && textureLoad(spine_tex, px, 0).x != 0u {
+        let may_end = !NARROW && !MOVED && own != farthest && own != nearest;
+        if may_end && lines.ink.a < 1.0 && textureLoad(spine_tex, px, 0).x != 0u {
             let ending = line_at(at, g, own);
             lines.depth = select(lines.depth, ending.depth, lines.ink.a == 0.0);
             lines.strength = max(lines.strength, ending.strength);
             lines.ink = over(lines.ink, ending.ink);
         }
-        if NARROW && !NARROW_BY_TWO && !MOVED && farthest != 0u {
-            let beside = found_beside(px, farthest);
-            let other = line_at(at, g, beside.found);
-            lines.ink += other.ink * min(beside.share, (1.0 - lines.ink.a) / max(other.ink.a, 1e-6));
-        }
-        if WITH_WIDTHS {
+        lines.ink = with_ink_beside(at, g, lines.ink, farthest);
+        if nearest != farthest {
             // A thin line inside a wide one is the nearer one.
-            let nearest = textureLoad(nearest_tex, px).x;
-            if nearest != farthest {
-                let thin = line_at(at, g, nearest);
-                let ink = thin.ink * apart(nearest, farthest);
-                let strength = select(lines.strength, thin.strength, ink.a > 0.0);
-                let depth = select(lines.depth, thin.depth, ink.a > 0.0);
-                let away = select(lines.away, thin.away, ink.a > 0.0);
-                let to_source = select(lines.to_source, thin.to_source, ink.a > 0.0);
-                // Where both are translucent they are one ink.
-                let both = over(ink, lines.ink);
-                let most = max(thin.strength, lines.strength);
-                lines = Line(both * min(most / max(both.a, 1e-6), 1.0), depth, false, strength, away, to_source);
-            }
+            var thin = line_at(at, g, nearest);
+            thin.ink = with_ink_beside(at, g, thin.ink, nearest);
+            let ink = thin.ink * apart(nearest, farthest);
+            let strength = select(lines.strength, thin.strength, ink.a > 0.0);
+            let depth = select(lines.depth, thin.depth, ink.a > 0.0);
+            let away = select(lines.away, thin.away, ink.a > 0.0);
+            let to_source = select(lines.to_source, thin.to_source, ink.a > 0.0);
+            // Where both are translucent they are one ink.
+            let both = over(ink, lines.ink);
+            let most = max(thin.strength, lines.strength);
+            lines = Line(both * min(most / max(both.a, 1e-6), 1.0), depth, false, strength, away, to_source);
         }
     }
     if WITH_PAPER && !MOVED {
