@@ -250,7 +250,6 @@ const ENDING: [&str; 2] = ["blueprint, ends after 6", "blueprint, peeled, ends s
 /// In the same order.
 const WAYS: [LayersBy; 2] = [LayersBy::Lists, LayersBy::Peeling];
 
-/// `pixels`: how many each depth layer of the model has, in a picture of this size.
 /// Styles that are timed in the usual light, by name.
 fn styles(has_uvs: bool) -> Result<Vec<(&'static str, Style)>, CliError> {
     let gooch = preset::load("gooch")?.style;
@@ -332,6 +331,7 @@ fn exact(width: f32) -> Result<Style, CliError> {
     Ok(style)
 }
 
+/// `pixels`: how many each depth layer of the model has, in a picture of this size.
 fn looks(has_uvs: bool, pixels: &[u32], size: [u32; 2]) -> Result<Vec<Look>, CliError> {
     let plain = preset::load("plain")?.style;
     let unshadowed = Lighting::default();

@@ -53,7 +53,6 @@ impl Default for OwnStrokes {
 }
 
 impl OwnStrokes {
-    /// `is_painted`: whether the picture of a stroke is used.
     pub(super) fn params<'a>(&'a mut self, list: &mut Params<'a>) {
         let number = |list: &mut Params<'a>,
                       key,

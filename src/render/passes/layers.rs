@@ -70,7 +70,7 @@ pub struct LayerInputs<'a> {
 pub struct DrawnLayer<'a> {
     /// Its number, from 0 on.
     pub number: u32,
-    /// Its surfaces.
+    /// What is in its pixels.
     pub layer: &'a Layer,
     /// How far layers have come, this one included.
     pub count: &'a LayerCount,

@@ -18,7 +18,7 @@ const GROUP: u32 = 64;
 /// One depth layer.
 #[derive(Debug, Clone)]
 pub struct Layer {
-    /// Its surfaces.
+    /// Geometry, surface ids, base colors and depths of its pixels.
     pub gbuffer: GBuffer,
     /// Its depth only tells where it has anything, and those behind it take it over: so often has that buffer been marked;
     /// see [`super::edge_map::EdgeInputs::marked`].
@@ -114,7 +114,7 @@ pub struct CountedUniform {
 }
 
 impl CountedUniform {
-    /// Nothing yet.
+    /// Before the first layer.
     fn initial(least: u32, uncover: Option<Uncover<'_>>) -> Self {
         let none = [0; MOST_LAYERS as usize];
         Self {
