@@ -138,7 +138,7 @@ fn rust_and_wgsl_agree_on_every_struct() {
     let members = |file, name| members(file, name, &by_wgsl);
     let counted = members("common/counted.wgsl", "Counted");
     assert!(
-        counted.starts_with(&members("common/peeled.wgsl", "Peeled")),
+        counted.starts_with(&members("common/layer_count.wgsl", "LayerCount")),
         "a blueprint reads the beginning of it"
     );
     assert_eq!(members("passes/depth_mask.wgsl", "Counted"), members("common/depth_mask.wgsl", "Masked"));
@@ -152,7 +152,7 @@ fn no_uniform_is_without_a_twin_and_no_element_larger_than_an_empty_array() {
         for (_, variable) in module.global_variables.iter() {
             let ty = &module.types[variable.ty];
             if let (AddressSpace::Uniform, Some(name)) = (variable.space, ty.name.as_deref()) {
-                assert!(name == "Peeled" || twins.iter().any(|twin| twin.wgsl == name), "{file}: {name}");
+                assert!(name == "LayerCount" || twins.iter().any(|twin| twin.wgsl == name), "{file}: {name}");
             }
             if let TypeInner::Array { size: ArraySize::Dynamic, stride, .. } = ty.inner {
                 assert!(u64::from(stride) <= EMPTY_ARRAY, "{file}: {:?}", variable.name);

@@ -7,7 +7,7 @@ const MOST_LAYERS: u32 = 2u;
 
 struct Counted {
     // A layer with fewer pixels ends it.
-    least: u32,
+    min_pixels: u32,
     // 1: it has ended.
     has_ended: u32,
     // Layers so far.
@@ -18,7 +18,7 @@ struct Counted {
     // A layer that leaves this share of the depth mask uncovered, 0 to 1, ends it too.
     fraction: f32,
     // So many layers end it where no depth mask is in the picture.
-    most: u32,
+    max_layers: u32,
     // What has ended it.
     ended_by: u32,
     // Pixels of the depth mask, and those of them behind opaque surfaces.

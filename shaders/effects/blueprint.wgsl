@@ -4,7 +4,7 @@
 #import common/composition.wgsl
 #import common/depth_mask.wgsl
 #import common/ordered.wgsl
-#import common/peeled.wgsl
+#import common/layer_count.wgsl
 #import common/cap.wgsl
 
 // Twin: `BlueprintUniform` in src/render/effects/blueprint.rs.
@@ -20,7 +20,7 @@ struct Blueprint {
 }
 
 var<uniform> blueprint: Blueprint;
-var<uniform> peeled: Peeled;
+var<uniform> layer_count: LayerCount;
 // Where nearer layers have lines; see passes/repeated.wgsl.
 var nearer_lines_tex: texture_2d<u32>;
 var<storage, read> mask: Masked;
@@ -42,7 +42,7 @@ override WITHOUT_REPEATED: bool = false;
 fn faded(depth: f32) -> f32 {
     let range = frame.depth_range;
     let distance = clamp((depth - range.x) / max(range.y - range.x, 1e-20), 0.0, 1.0);
-    let before = f32(peeled.layers) - 1.0;
+    let before = f32(layer_count.layers) - 1.0;
     // A power of 0 is undefined.
     let left = pow(max(1.0 - blueprint.by_layer, 1e-6), before) * (1.0 - blueprint.by_distance * distance);
     return 1.0 - left;

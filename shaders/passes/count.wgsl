@@ -13,7 +13,7 @@ var surface_id_tex: texture_2d<u32>;
 // Depths of the layer and of the mask, reversed.
 var layer_depth_tex: texture_depth_2d;
 var mask_depth_tex: texture_depth_2d;
-var<storage, read_write> peeled: Counted;
+var<storage, read_write> layer_count: Counted;
 // Arguments of the draws and dispatches that stop with it.
 var<storage, read_write> predicate: array<u32>;
 var<storage, read> mask: Masked;
@@ -56,9 +56,9 @@ fn cs_count(
     }
     workgroupBarrier();
     if index == 0u {
-        atomicAdd(&peeled.covered, atomicLoad(&covered));
+        atomicAdd(&layer_count.covered, atomicLoad(&covered));
         if WITH_MASK {
-            atomicAdd(&peeled.uncovered, atomicLoad(&uncovered));
+            atomicAdd(&layer_count.uncovered, atomicLoad(&uncovered));
         }
     }
 }
@@ -72,9 +72,9 @@ fn clear_predicate(index: u32) {
 // Before a layer is drawn: too few pixels end peeling before it, and enough layers where there is nothing to uncover.
 @compute @workgroup_size(64)
 fn cs_decide(@builtin(local_invocation_index) index: u32) {
-    let had_ended = peeled.has_ended == 1u;
-    let has_few = atomicLoad(&peeled.covered) < peeled.least;
-    let has_all = WITH_MASK && mask.pixels == 0u && peeled.layers >= peeled.most;
+    let had_ended = layer_count.has_ended == 1u;
+    let has_few = atomicLoad(&layer_count.covered) < layer_count.min_pixels;
+    let has_all = WITH_MASK && mask.pixels == 0u && layer_count.layers >= layer_count.max_layers;
     let ends = had_ended || has_few || has_all;
     // All have read before one of them writes.
     storageBarrier();
@@ -84,13 +84,13 @@ fn cs_decide(@builtin(local_invocation_index) index: u32) {
     if index != 0u || had_ended {
         return;
     }
-    peeled.pixels[peeled.layers] = atomicExchange(&peeled.covered, 0u);
-    peeled.passed[peeled.layers] = atomicExchange(&peeled.uncovered, 0u);
+    layer_count.pixels[layer_count.layers] = atomicExchange(&layer_count.covered, 0u);
+    layer_count.passed[layer_count.layers] = atomicExchange(&layer_count.uncovered, 0u);
     if ends {
-        peeled.has_ended = 1u;
-        peeled.ended_by = select(MOST_LAYERS, TOO_FEW_PIXELS, has_few);
+        layer_count.has_ended = 1u;
+        layer_count.ended_by = select(MOST_LAYERS, TOO_FEW_PIXELS, has_few);
     } else {
-        peeled.layers += 1u;
+        layer_count.layers += 1u;
     }
 }
 
@@ -98,19 +98,19 @@ fn cs_decide(@builtin(local_invocation_index) index: u32) {
 // ends nothing.
 @compute @workgroup_size(64)
 fn cs_uncovered(@builtin(local_invocation_index) index: u32) {
-    let went_on = peeled.has_ended == 0u && peeled.layers != 0u;
-    let passed = f32(peeled.passed[max(peeled.layers, 1u) - 1u]);
-    let ends = went_on && mask.pixels != 0u && passed >= peeled.fraction * f32(mask.pixels);
+    let went_on = layer_count.has_ended == 0u && layer_count.layers != 0u;
+    let passed = f32(layer_count.passed[max(layer_count.layers, 1u) - 1u]);
+    let ends = went_on && mask.pixels != 0u && passed >= layer_count.fraction * f32(mask.pixels);
     storageBarrier();
     if ends {
         clear_predicate(index);
     }
     if index == 0u {
-        peeled.masked = mask.pixels;
-        peeled.hidden = mask.hidden;
+        layer_count.masked = mask.pixels;
+        layer_count.hidden = mask.hidden;
         if ends {
-            peeled.has_ended = 1u;
-            peeled.ended_by = UNCOVERED;
+            layer_count.has_ended = 1u;
+            layer_count.ended_by = UNCOVERED;
         }
     }
 }

@@ -235,7 +235,7 @@ impl<'a> Sprite<'a> {
     fn inputs(&self) -> Inputs<'a> {
         self.composition.tested().and(&inputs! {
             blueprint: self.style,
-            peeled: self.count.buffer(),
+            layer_count: self.count.buffer(),
             mask: self.mask.map(|mask| &mask.count),
         })
     }

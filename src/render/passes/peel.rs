@@ -86,7 +86,7 @@ pub fn before_all(rec: &mut Recorder<'_>) -> Result<Target, RenderError> {
 #[derive(Debug, Clone, PartialEq, ShaderType)]
 pub struct CountedUniform {
     /// A layer with fewer pixels ends it, before it is drawn.
-    pub least: u32,
+    pub min_pixels: u32,
     /// 1: it has ended.
     pub has_ended: u32,
     /// Layers so far.
@@ -98,8 +98,8 @@ pub struct CountedUniform {
     /// A layer that leaves this share of the depth mask uncovered, 0 to 1, ends it once it has been drawn.
     pub fraction: f32,
     /// So many layers end it where no depth mask is in the picture.
-    pub most: u32,
-    /// What has ended it: 0: too few pixels, 1: the depth mask is uncovered, 2: `most`.
+    pub max_layers: u32,
+    /// What has ended it: 0: too few pixels, 1: the depth mask is uncovered, 2: `max_layers`.
     pub ended_by: u32,
     /// Pixels of the depth mask, the paper's Q; 0: nothing designated is in the picture.
     pub masked: u32,
@@ -115,16 +115,16 @@ pub struct CountedUniform {
 
 impl CountedUniform {
     /// Before the first layer.
-    fn initial(least: u32, uncover: Option<Uncover<'_>>) -> Self {
+    fn initial(min_pixels: u32, uncover: Option<Uncover<'_>>) -> Self {
         let none = [0; MOST_LAYERS as usize];
         Self {
-            least,
+            min_pixels,
             has_ended: 0,
             layers: 0,
             covered: 0,
             uncovered: 0,
             fraction: uncover.map_or(1.0, |uncover| uncover.fraction.clamp(0.0, 1.0)),
-            most: uncover.map_or(MOST_LAYERS, |uncover| uncover.most_without),
+            max_layers: uncover.map_or(MOST_LAYERS, |uncover| uncover.most_without),
             ended_by: 0,
             masked: 0,
             hidden: 0,
@@ -139,13 +139,13 @@ impl CountedUniform {
         let mut words = bytes.chunks_exact(4).filter_map(|w| w.try_into().ok()).map(u32::from_le_bytes);
         let mut next = || words.next().unwrap_or(0);
         Self {
-            least: next(),
+            min_pixels: next(),
             has_ended: next(),
             layers: next(),
             covered: next(),
             uncovered: next(),
             fraction: f32::from_bits(next()),
-            most: next(),
+            max_layers: next(),
             ended_by: next(),
             masked: next(),
             hidden: next(),
@@ -194,7 +194,7 @@ impl LayerCount {
             | wgpu::BufferUsages::COPY_SRC;
         Self {
             buffer: gpu.device.create_buffer(&wgpu::BufferDescriptor {
-                label: Some("peeled"),
+                label: Some("layer count"),
                 size: CountedUniform::min_size().get(),
                 usage,
                 mapped_at_creation: false,
@@ -207,10 +207,10 @@ impl LayerCount {
         &self.buffer
     }
 
-    /// Begins anew, for what is submitted next; it ends before a layer of fewer than `least` pixels, and where `uncover`
+    /// Begins anew, for what is submitted next; it ends before a layer of fewer than `min_pixels` pixels, and where `uncover`
     /// says.
-    pub fn begin(&self, gpu: &Gpu, least: u32, uncover: Option<Uncover<'_>>) {
-        let initial = CountedUniform::initial(least, uncover);
+    pub fn begin(&self, gpu: &Gpu, min_pixels: u32, uncover: Option<Uncover<'_>>) {
+        let initial = CountedUniform::initial(min_pixels, uncover);
         let mut bytes = StorageBuffer::new(Vec::new());
         // Writing into a growing vector cannot fail.
         if bytes.write(&initial).is_ok() {
@@ -272,7 +272,7 @@ impl LayerCount {
             surface_id_tex: &layer.gbuffer.surface_id,
             layer_depth_tex: &layer.gbuffer.depth,
             mask_depth_tex: mask.map(|mask| &mask.depth),
-            peeled: &self.buffer,
+            layer_count: &self.buffer,
         }
     }
 

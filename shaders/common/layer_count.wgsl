@@ -1,7 +1,7 @@
 // How far layers have come, for those that draw one: the beginning of `Counted` in common/counted.wgsl.
 
-struct Peeled {
-    least: u32,
+struct LayerCount {
+    min_pixels: u32,
     has_ended: u32,
     // That which is drawn included.
     layers: u32,
