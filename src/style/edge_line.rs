@@ -114,7 +114,7 @@ impl ClassStyle {
                         "px",
                         0.0..=100.0,
                         0.0..=1000.0,
-                        "Drawn only where what lies behind is at least this much farther away, in widths of a px at its depth.",
+                        "Drawn only where what lies behind is at least this much farther away, in widths of a px at the depth of the edge.",
                         threshold,
                     ),
                     EdgeClass::Ridge | EdgeClass::Valley => list.wide_number(

@@ -15,7 +15,7 @@ pub struct LineUniform {
     /// px of the picture.
     pub width: f32,
     /// What an edge must reach to be drawn. Silhouettes, borders and outlines of objects: the step in depth behind it, in
-    /// widths of a pixel at its depth; textures: the difference of the colors, 0 to 1; all others: the angle between the
+    /// widths of a pixel at the depth of the edge; textures: the difference of the colors, 0 to 1; all others: the angle between the
     /// surfaces, radians.
     pub threshold: f32,
     /// 1: dashed.
@@ -46,11 +46,11 @@ pub struct EdgeUniform {
     /// Thinner by hand pressure.
     pub pressure: f32,
     pressure_scale: f32,
-    /// Paper mode: ink per unit of the depth discontinuity of the diagonal operator, 1 − I_Z; 0: no profile edges.
+    /// Paper mode: ink per unit of the depth discontinuity of the diagonal operator, `1 − I_Z`; 0: no profile edges.
     gain_z: f32,
     /// The same of the C1 operator, in place of `gain_z`: ink per unit of C1.
     gain_c1: f32,
-    /// Ink per unit of the normal discontinuity, 1 − I_N; 0: no inner edges.
+    /// Ink per unit of the normal discontinuity, `1 − I_N`; 0: no inner edges.
     gain_n: f32,
     /// Ink at or below this share is dropped.
     profile_threshold: f32,
