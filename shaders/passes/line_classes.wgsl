@@ -41,8 +41,8 @@ struct Change {
 // Pixels per workgroup, as in src/render/passes/line_classes.rs.
 const GROUP: u32 = 256u;
 
-// Two lines that are closer than this, px, are one.
-const BESIDE: f32 = 1.0;
+// Two lines that are closer than this, px, are one: their ink overlaps.
+const BESIDE: f32 = 1.5;
 // Cosine of the angle up to which two tangents belong to one line.
 const PARALLEL: f32 = 0.85;
 // Most steps of a stretch that are told apart: twice as many have to fit into the bits of a number.
@@ -126,8 +126,8 @@ fn cs_meetings(@builtin(global_invocation_id) id: vec3<u32>) {
     let px = unpacked(kept_lines[id.x]);
     let own = point_at(px);
     var is_met = false;
-    for (var i = 0; i < 9; i++) {
-        let other = point_at(px + vec2(i % 3, i / 3) - 1);
+    for (var i = 0; i < 25; i++) {
+        let other = point_at(px + vec2(i % 5, i / 5) - 2);
         let seen = seen_from(own.at, own.tangent, other);
         is_met = is_met || (other.class_of != own.class_of && seen.y < BESIDE);
     }
@@ -295,8 +295,8 @@ fn cs_settle(@builtin(global_invocation_id) id: vec3<u32>) {
     for (var i = 0; i < 12; i++) {
         steps_of[i] = vec2(0u);
     }
-    for (var i = 0; i < 9; i++) {
-        let point = point_at(px + vec2(i % 3, i / 3) - 1);
+    for (var i = 0; i < 25; i++) {
+        let point = point_at(px + vec2(i % 5, i / 5) - 2);
         let seen = seen_from(own.at, own.tangent, point);
         if abs(seen.x) <= 0.75 && seen.y < BESIDE {
             note(point, 0u, 0u);

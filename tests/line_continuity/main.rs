@@ -41,7 +41,7 @@ const STEPS: u32 = 6;
 const STEP: f64 = 0.1;
 
 /// Goals over all models, in the units of [`Row::numbers`].
-const MOST_ALTERNATIONS: f64 = 0.4;
+const MOST_ALTERNATIONS: f64 = 0.2;
 const MOST_STRENGTHS: f64 = 0.1;
 
 /// What was found in the pictures of a model.
