@@ -80,6 +80,22 @@ impl Stage {
         Self { edges: EdgeScene::new(&placed), opened, nodes }
     }
 
+    /// What is seen of the edges in a square picture, and the pixels of it in which they do not count.
+    pub fn visible(&self, projector: &Projector) -> (VisibleEdges, Vec<bool>) {
+        let scene = &self.opened.scene;
+        let is_masked = scene.materials.iter().any(|material| material.alpha != AlphaMode::Opaque);
+        let is_hole = |point: SurfacePoint| is_hole(scene, self.nodes[point.mesh], point);
+        let rules =
+            LineRules { is_hole: if is_masked { Some(&is_hole) } else { None }, ..LineRules::default() };
+        let side = projector.size[0];
+        let ignored = if is_masked {
+            near_changes(&self.edges.holes_before(projector, &rules), side as usize)
+        } else {
+            vec![false; (side * side) as usize]
+        };
+        (self.edges.visible(projector, &rules), ignored)
+    }
+
     /// Draws a view in each of these modes and scores the pictures.
     pub fn measure(&mut self, session: &mut Session, look: Look, side: u32, modes: &[&str]) -> Vec<Measured> {
         let scene = &self.opened.scene;
@@ -88,17 +104,7 @@ impl Stage {
         let camera = Camera::looking_from(look.towards_viewer, up, &extent, 1.0)
             .with_orthographic(look.orthographic)
             .framing(&extent, 1.0);
-        let projector = projector(&camera, side);
-        let is_masked = scene.materials.iter().any(|material| material.alpha != AlphaMode::Opaque);
-        let is_hole = |point: SurfacePoint| is_hole(scene, self.nodes[point.mesh], point);
-        let rules =
-            LineRules { is_hole: if is_masked { Some(&is_hole) } else { None }, ..LineRules::default() };
-        let truth = self.edges.visible(&projector, &rules);
-        let ignored = if is_masked {
-            near_changes(&self.edges.holes_before(&projector, &rules), side as usize)
-        } else {
-            vec![false; (side * side) as usize]
-        };
+        let (truth, ignored) = self.visible(&projector(&camera, side));
 
         self.opened.document.camera = Some(camera);
         // As wide as in a picture of 800 pixels: in smaller ones thin lines would not count as ink.

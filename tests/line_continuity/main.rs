@@ -22,14 +22,14 @@ use std::path::PathBuf;
 
 use common::line_drawing::line_drawing;
 use common::line_scenes::{Subject, models};
-use common::line_truth::{directions, projector};
+use common::line_truth::{Stage, directions, projector};
 use common::session;
 use glam::DVec3;
 use hachure::export::Session;
 use hachure::scene::Camera;
 use image::{Rgb, RgbImage};
 use lines::Lines;
-use orbit::Changes;
+use orbit::{Changes, TrueClasses};
 use runs::{Run, alternations};
 
 /// A pixel is a reference pixel.
@@ -91,7 +91,8 @@ fn lines_of_models_keep_their_class() {
     let only = std::env::var("HACHURE_LINES_ONLY").unwrap_or_default();
     let mut session = session();
     println!(
-        "alternations of class per 1000 px of line; changes of class and of inner ink, % of line pixels, per {STEP}°"
+        "alternations of class per 1000 px of line; changes of class that exact edges do not make, and of inner ink, \
+         % of line pixels, per {STEP}°"
     );
     let mut all = Row::default();
     for subject in models().into_iter().filter(|subject| subject.name.contains(&only)) {
@@ -110,6 +111,7 @@ fn lines_of_models_keep_their_class() {
 fn measure(session: &mut Session, subject: &Subject) -> Row {
     let folder = std::env::var_os("HACHURE_LINES_DIR").map(PathBuf::from);
     let scene = &subject.scene;
+    let truth = Stage::new(session, subject);
     let mut opened = line_drawing(scene, Camera::default());
     session.set_scene(&opened).unwrap();
     let extent = scene.extent();
@@ -131,7 +133,8 @@ fn measure(session: &mut Session, subject: &Subject) -> Row {
             let camera = camera.orbited(up, f64::from(step) * STEP, 0.0);
             opened.document.camera = Some(camera);
             let (next, to) = (Lines::draw(session, &opened, SIDE), projector(&camera, SIDE));
-            row.changes = row.changes.and(Changes::between((&last, &from), (&next, &to)));
+            let classes = TrueClasses::new(&truth.visible(&to).0, SIDE as usize);
+            row.changes = row.changes.and(Changes::between((&last, &from), (&next, &to), &classes));
             (last, from) = (next, to);
         }
     }

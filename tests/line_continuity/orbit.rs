@@ -2,12 +2,15 @@
 //! next picture.
 
 use glam::DVec2;
-use hachure::geometry::Projector;
+use hachure::geometry::visible_edges::VisibleEdges;
+use hachure::geometry::{EdgeClass, Projector};
 
 use crate::lines::{Lines, Point};
 
 /// A point is found again within this, px, in a line of about its direction; with another class if none there has its own.
 const NEAR: f64 = 1.5;
+/// A class that exact visible edges do not have within so many pixels is none that a line could have kept.
+const TRUE_NEAR: usize = 2;
 /// What crosses an inner line so near, px, may hide it in the next picture.
 const CROSSING: f64 = 4.0;
 
@@ -15,15 +18,20 @@ const CROSSING: f64 = 4.0;
 #[derive(Debug, Default, Clone, Copy)]
 pub(crate) struct Changes {
     pub(crate) points: usize,
-    /// Found again, with another class.
+    /// Found again, with another class, though exact visible edges still have its class there. (Where a face turns away a
+    /// fold becomes an outline.)
     pub(crate) classes: usize,
     /// Of inner lines whose ink has changed by more than a quarter, where nothing is that could hide them.
     pub(crate) strengths: usize,
 }
 
 impl Changes {
-    /// Compares two pictures, each with where it is seen from.
-    pub(crate) fn between(before: (&Lines, &Projector), after: (&Lines, &Projector)) -> Self {
+    /// Compares two pictures, each with where it is seen from; `truth`: of the second one.
+    pub(crate) fn between(
+        before: (&Lines, &Projector),
+        after: (&Lines, &Projector),
+        truth: &TrueClasses,
+    ) -> Self {
         let mut changes = Self::default();
         let view_from_view = after.1.view_from_world * before.1.view_from_world.inverse();
         for (_, point) in before.0.points() {
@@ -35,7 +43,8 @@ impl Changes {
             }
             changes.points += 1;
             let found = Found::new(after.0, point, at);
-            changes.classes += usize::from(found.has_any && !found.has_same);
+            let has_changed = found.has_any && !found.has_same;
+            changes.classes += usize::from(has_changed && truth.is_near(at, point.class));
             let is_weaker = (found.weight - point.weight).abs() > 0.25;
             if !point.class.is_profile() && is_weaker && !may_hide(before.0, point, point.at) {
                 changes.strengths += usize::from(!may_hide(after.0, point, at));
@@ -57,6 +66,34 @@ impl Changes {
     /// The share of a number of points, in percent.
     pub(crate) fn percent(&self, of: usize) -> f64 {
         100.0 * of as f64 / self.points.max(1) as f64
+    }
+}
+
+/// The classes of exact visible edges near each pixel of a square picture.
+pub(crate) struct TrueClasses {
+    side: usize,
+    /// A bit per class.
+    classes: Vec<u16>,
+}
+
+impl TrueClasses {
+    /// Of these edges.
+    pub(crate) fn new(edges: &VisibleEdges, side: usize) -> Self {
+        let mut classes = vec![0; side * side];
+        for (class, samples) in edges.samples.iter().enumerate() {
+            for at in samples.iter().map(|sample| sample.position) {
+                if at.min_element() >= 0.0 && at.max_element() < side as f64 {
+                    classes[at.y as usize * side + at.x as usize] |= 1 << class;
+                }
+            }
+        }
+        Self { side, classes }
+    }
+
+    fn is_near(&self, at: DVec2, class: EdgeClass) -> bool {
+        let (x, y) = (at.x as usize, at.y as usize);
+        let near = |v: usize| v.saturating_sub(TRUE_NEAR)..(v + TRUE_NEAR + 1).min(self.side);
+        near(y).any(|y| near(x).any(|x| self.classes[y * self.side + x] & (1 << class as usize) != 0))
     }
 }
 
