@@ -115,13 +115,13 @@ fn turning_a_class_off_removes_its_lines_and_nobody_elses() {
         set(&mut opened, &key, "true");
         let is_class = |edge: &Option<(EdgeClass, u32)>| edge.is_some_and(|(found, _)| found == class);
         assert!(all.iter().any(is_class) && !without.iter().any(is_class), "{}", name(class));
-        // Lines that run within a pixel of it had become one with it.
+        // Lines whose ink overlaps with it had become one with it.
         let side = SIDE as usize;
         let is_beside = |i: usize| {
             let (x, y) = (i % side, i / side);
-            let rows = y.saturating_sub(1)..(y + 2).min(side);
+            let rows = y.saturating_sub(2)..(y + 3).min(side);
             rows.into_iter()
-                .any(|y| (x.saturating_sub(1)..(x + 2).min(side)).any(|x| is_class(&all[y * side + x])))
+                .any(|y| (x.saturating_sub(2)..(x + 3).min(side)).any(|x| is_class(&all[y * side + x])))
         };
         let changed = all.iter().zip(&without).enumerate();
         let changed = changed.filter(|(i, (before, after))| before != after && !is_beside(*i));
