@@ -192,7 +192,7 @@ echo screenshots/blueprint_layers.png
 # Depth masking: everything before the statues, and nothing behind them (Fig. 7).
 size=1240,860
 draw blueprint_mask assets/models/temple.glb --style blueprint --mask '/temple/statues/*' \
-	--set blueprint.layers=24 --set blueprint.beyond=false --camera-azimuth-angle -20 --camera-elevation-angle 25
+	--set blueprint.beyond=false --camera-azimuth-angle -20 --camera-elevation-angle 25
 size=1000,1000
 
 # White on blue paper.

@@ -112,6 +112,7 @@ fn chain(levels: usize) -> Vec<u8> {
     })
 }
 
+// Long, as it is a table: a file and what is to be said of it per row.
 fn rows() -> Vec<(&'static str, Vec<u8>, Expect)> {
     use Expect::*;
     let good = Model::triangle().glb();

@@ -110,6 +110,7 @@ fn drawn_share(session: &mut Session, opened: &Opened, side: u32, ends: [DVec3; 
     found / all
 }
 
+// Long, as its scenes are a table.
 #[test]
 fn the_boundary_of_objects_that_touch_is_drawn_whole() {
     let p = DVec3::new;

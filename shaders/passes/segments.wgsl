@@ -248,6 +248,32 @@ fn is_covered(there: Beside, own: u32) -> bool {
     return there.surfel.object != own && there.lead > 2.0;
 }
 
+// Whether one of the line's own surfaces is seen there.
+fn is_carried(tested: Spine, spine: Spine, left: Beside, right: Beside, surface_ids: vec2<u32>) -> bool {
+    if IN_LAYER {
+        return left.carries || right.carries
+            || beside(spine, PLACES[2], surface_ids).carries
+            || beside(spine, PLACES[4], surface_ids).carries
+            || beside(spine, PLACES[0], surface_ids).carries;
+    }
+    return !WITH_HOLES || is_carried_beside(tested, surface_ids);
+}
+
+// Where segments share a pixel the greatest counts, 0 to 1: the widest, for it would hide the others; profile edges before inner
+// ones; then the nearest, so roughly that lines at one place are told apart by the object's number: which one wins does not change
+// along them. A line that goes on behind a nearer object leaves the pixel to its outline. x: where it is drawn; y: where it is
+// suppressed.
+fn precedence_of(own: u32, depth: f32, full_width: f32, is_profile: bool, stroke_precedence: f32, ends_here: bool) -> vec2<f32> {
+    let rank = f32(u32(min(full_width * 4.0, 126.0))) + select(0.0, 0.5, is_profile);
+    let roughly = bitcast<f32>(bitcast<u32>(depth) & ~0xfffu);
+    let clip = frame.clip_from_view * vec4(0.0, 0.0, -roughly, 1.0);
+    let nearest = clip.z / clip.w * (1.0 - f32(own & 63u) / f32(64 << 12u));
+    // Of strokes the same time of drawing counts everywhere, so that none tears another one along it.
+    let first = select(nearest, mix(nearest, stroke_precedence, 0.5), WITH_STROKES);
+    let drawn = select(rank + 1.0 + 0.499 * first, 0.5 + 0.499 * first, ends_here);
+    return vec2(drawn, 0.5 * nearest) / 128.0;
+}
+
 // The point of a segment's line next to the center of a pixel.
 struct Spine {
     // px.
@@ -303,19 +329,7 @@ fn point_at(v: Segment, number: u32, px: vec2<f32>) -> SegmentPoint {
     let left = beside(tested, PLACES[3], surface_ids);
     let right = beside(tested, PLACES[1], surface_ids);
     let own = v.ids.y;
-    var is_visible = min(left.lead, right.lead) <= SLACK;
-    // A layer is asked for what carries the line in any case.
-    if WITH_HOLES && !IN_LAYER {
-        is_visible = is_visible && is_carried_beside(tested, surface_ids);
-    }
-    if IN_LAYER {
-        let is_carried = left.carries || right.carries
-            || beside(spine, PLACES[2], surface_ids).carries
-            || beside(spine, PLACES[4], surface_ids).carries
-            || beside(spine, PLACES[0], surface_ids).carries;
-        is_visible = is_visible && is_carried;
-    }
-    if !is_visible {
+    if min(left.lead, right.lead) > SLACK || !is_carried(tested, spine, left, right, surface_ids) {
         return NO_POINT;
     }
     // The outside is where the line's own object ends, or else where the surface lies farther back.
@@ -366,19 +380,10 @@ fn point_at(v: Segment, number: u32, px: vec2<f32>) -> SegmentPoint {
         arc / edge_styles[own].dash_period,
         select(weight, 0.0, is_suppressed),
     );
-    // Where segments share a pixel the widest wins, for it would hide the others; profile edges before inner ones; then
-    // the nearest, so roughly that lines at one place are told apart by the object's number: which one wins does not change
-    // along them. A line that goes on behind a nearer object leaves the pixel to its outline.
     let ends_here = is_covered(left, own) || is_covered(right, own);
     let is_profile = is_of_profile(class_of);
-    let rank = f32(u32(min(full_width * 4.0, 126.0))) + select(0.0, 0.5, is_profile);
-    let roughly = bitcast<f32>(bitcast<u32>(depth) & ~0xfffu);
-    let clip = frame.clip_from_view * vec4(0.0, 0.0, -roughly, 1.0);
-    let nearest = clip.z / clip.w * (1.0 - f32(own & 63u) / f32(64 << 12u));
-    // Of strokes the same time of drawing counts everywhere, so that none tears another one along it.
-    let first = select(nearest, mix(nearest, hand.precedence, 0.5), WITH_STROKES);
-    let drawn = select(rank + 1.0 + 0.499 * first, 0.5 + 0.499 * first, ends_here);
-    let order = select(drawn, 0.5 * nearest, is_suppressed) / 128.0;
+    let precedence = precedence_of(own, depth, full_width, is_profile, hand.precedence, ends_here);
+    let order = select(precedence.x, precedence.y, is_suppressed);
     var texel = pack_edge(edge);
     texel.w |= select(0u, STROKE, hand.is_stroke);
     let is_rim = class_of <= OBJECT;

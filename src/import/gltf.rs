@@ -36,7 +36,7 @@ use super::source::Folder;
 use super::{ImportError, ImportOptions, Progress};
 use crate::geometry::Mesh;
 use crate::geometry::mend::mended;
-use crate::scene::{Scene, Up, Warning};
+use crate::scene::{Node, Scene, Up, Warning};
 
 /// Reads a glTF or GLB file whose content is `data`; side files are looked for beside `path`.
 ///
@@ -102,16 +102,7 @@ fn import(path: &Path, data: &[u8], options: &ImportOptions, progress: &Progress
     if meshes.is_empty() {
         return Err(Fault::Empty(no_triangles_reason(has_triangles, has_others).into()));
     }
-    for (node, request) in hierarchy.nodes.iter_mut().zip(&wanted) {
-        let Some(request) = *request else {
-            continue;
-        };
-        node.mesh = places.get(request).copied().flatten();
-        if requests.get(request).is_some_and(|r| r.skin.is_some()) {
-            // Skinning has put the vertices into world space.
-            node.world_from_local = DMat4::IDENTITY;
-        }
-    }
+    hang_meshes(&mut hierarchy.nodes, &wanted, &requests, &places);
     progress.report(0.7);
 
     let used = used_materials(&meshes, root.materials.len() + 1);
@@ -135,6 +126,20 @@ fn import(path: &Path, data: &[u8], options: &ImportOptions, progress: &Progress
     views::add(root, &hierarchy.sources, &hierarchy.worlds, &mut scene);
     progress.report(1.0);
     Ok(scene)
+}
+
+/// Gives each node its mesh. `wanted`: the request of each node; `places`: the mesh of each request.
+fn hang_meshes(nodes: &mut [Node], wanted: &[Option<usize>], requests: &[Request], places: &[Option<usize>]) {
+    for (node, request) in nodes.iter_mut().zip(wanted) {
+        let Some(request) = *request else {
+            continue;
+        };
+        node.mesh = places.get(request).copied().flatten();
+        if requests.get(request).is_some_and(|r| r.skin.is_some()) {
+            // Skinning has put the vertices into world space.
+            node.world_from_local = DMat4::IDENTITY;
+        }
+    }
 }
 
 fn no_triangles_reason(has_triangles: bool, has_others: bool) -> &'static str {

@@ -67,6 +67,7 @@ impl Default for Blueprint {
 }
 
 impl Blueprint {
+    // Long, as it is a list: one entry per parameter.
     pub(super) fn params<'a>(&'a mut self, list: &mut Params<'a>) {
         list.color("near", "Near color", "Color of the nearest lines.", &mut self.near);
         list.color("far", "Far color", "Color of the farthest lines.", &mut self.far);

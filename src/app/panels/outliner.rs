@@ -175,26 +175,14 @@ impl Outliner {
         let targets = targets();
         // Few objects are mirrors or designated: the others have the switches only where somebody looks.
         let looked_at = ui.rect_contains_pointer(rect);
+        let role_switches = [(Role::Mirror, Icon::Mirror), (Role::Mask, Icon::Mask)];
         let mut left_of_switches = edges_at.left();
-        let switches = [(Role::Mirror, Icon::Mirror, "Mirror"), (Role::Mask, Icon::Mask, "Uncover")];
-        for (i, (role, icon, label)) in switches.into_iter().enumerate() {
-            let has = roles.has(role);
+        for (i, (role, icon)) in role_switches.into_iter().enumerate() {
             let can_be = role != Role::Mirror || !scene.is_added(row.node);
-            if !can_be || (!looked_at && !has) {
-                continue;
-            }
-            let at = square(2.0 + i as f32);
-            left_of_switches = at.left();
-            let label = format!("{label} {name}");
-            let switch = icons::toggle(ui, at, id.with(icon), icon, has, !visible, &label);
-            let fault =
-                (role == Role::Mirror && switch.hovered()).then(|| mirror_fault(scene, row.node)).flatten();
-            let help = match &fault {
-                Some(fault) => format!("Cannot be a mirror: {fault}"),
-                None => role_help(role, has, node.mesh.is_some()).to_owned(),
-            };
-            if switch.on_hover_text(help).clicked() && (fault.is_none() || has) {
-                editing.document.set_role(scene, &targets, role, !has);
+            if can_be && (looked_at || roles.has(role)) {
+                let at = square(2.0 + i as f32);
+                left_of_switches = at.left();
+                role_switch(ui, at, (role, icon), (row.node, id), roles, &targets, editing);
             }
         }
         if eye.clicked() {
@@ -399,4 +387,30 @@ pub fn inherit(document: &mut Document, scene: &Scene, nodes: &[NodeId]) {
         document.node_mut(&node.path).style = None;
     }
     document.tidy();
+}
+
+/// A switch that makes objects mirrors, or uncovers them. `at`: its place; `targets`: the objects that it is about.
+fn role_switch(
+    ui: &mut Ui,
+    at: Rect,
+    (role, icon): (Role, Icon),
+    (node, row): (NodeId, egui::Id),
+    roles: &Resolved<'_>,
+    targets: &[NodeId],
+    editing: &mut Editing<'_>,
+) {
+    let scene = &editing.model.scene;
+    let Some(object) = scene.nodes.get(node) else { return };
+    let has = roles.has(role);
+    let verb = if role == Role::Mirror { "Mirror" } else { "Uncover" };
+    let label = format!("{verb} {}", object.name);
+    let switch = icons::toggle(ui, at, row.with(icon), icon, has, !roles.visible, &label);
+    let fault = (role == Role::Mirror && switch.hovered()).then(|| mirror_fault(scene, node)).flatten();
+    let help = match &fault {
+        Some(fault) => format!("Cannot be a mirror: {fault}"),
+        None => role_help(role, has, object.mesh.is_some()).to_owned(),
+    };
+    if switch.on_hover_text(help).clicked() && (fault.is_none() || has) {
+        editing.document.set_role(scene, targets, role, !has);
+    }
 }

@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
+use ::gltf::json::Root;
 use ::gltf::json::mesh::{Mode, Primitive, Semantic};
 use ::gltf::json::validation::Checked;
 use glam::{Vec3, Vec4};
@@ -110,12 +111,7 @@ pub(super) fn build(
             notes.push(format!("primitive {number} has no positions and is left out"));
             continue;
         };
-        let known =
-            primitive.material.map(|index| index.value()).filter(|index| *index < root.materials.len());
-        if let (None, Some(index)) = (known, primitive.material) {
-            notes.push(format!("primitive {number} uses material {index}, which does not exist"));
-        }
-        let material = known.unwrap_or(root.materials.len());
+        let material = material_of(root, primitive, number, &mut notes);
         let needs = materials::needs(root, material);
         let mut indices = read_indices(document, primitive, count).map_err(at)?;
         let picks = pick_used(&mut indices, count);
@@ -160,6 +156,15 @@ pub(super) fn build(
         has_points_or_lines: unfilled > 0,
         has_triangles,
     })
+}
+
+/// The material of a primitive; the one behind all of the file's if it has none.
+fn material_of(root: &Root, primitive: &Primitive, number: usize, notes: &mut Vec<String>) -> usize {
+    let known = primitive.material.map(|index| index.value()).filter(|index| *index < root.materials.len());
+    if let (None, Some(index)) = (known, primitive.material) {
+        notes.push(format!("primitive {number} uses material {index}, which does not exist"));
+    }
+    known.unwrap_or(root.materials.len())
 }
 
 fn unfilled_note(count: usize) -> Option<String> {

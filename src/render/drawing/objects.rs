@@ -2,7 +2,7 @@
 
 use glam::DMat4;
 
-use crate::document::{Document, Show};
+use crate::document::{Document, Resolved, Show};
 use crate::geometry::{Bounds, EdgeClass};
 use crate::render::base::edge_style::EdgeUniform;
 use crate::render::base::gpu_scene::GpuScene;
@@ -17,7 +17,7 @@ use crate::render::effects::mirror::Mirror;
 use crate::render::effects::sketch::Sketch;
 use crate::render::effects::surface::SurfaceStyles;
 use crate::render::effects::technique::Styled;
-use crate::scene::AlphaMode;
+use crate::scene::{AlphaMode, NodeId};
 use crate::style::Technique;
 
 /// Everything that is visible, resolved for one frame.
@@ -76,66 +76,77 @@ impl Objects {
                 stripes,
                 scale,
             });
-            // Buffers (`view.show`) are those of opaque surfaces: to look at one, every object is drawn as such.
-            let has_layers = r.style.technique == Technique::Blueprint && document.view.show == Show::Picture;
-            let is_blueprint = has_layers && !r.mask;
-            let is_sketch =
-                document.view.show == Show::Picture && !has_layers && !r.mirror && Sketch::moves(r.style);
-            // Mirrors and masks show and hide as a whole.
-            let blends =
-                document.view.show == Show::Picture && !has_layers && !r.mask && !r.mirror && !is_sketch;
-            let is_blended = |alpha: AlphaMode| blends && alpha == AlphaMode::Blend;
-            let has_blended = scene.alphas(node).any(is_blended);
-            let is_opaque = !has_blended || !scene.alphas(node).all(is_blended);
-            if has_blended && objects.blended.is_empty() {
-                objects.blended = Group::unculled(count);
-            }
-            // The width of lines that are nowhere would decide how all others are drawn; and what is only shaded smoothly has
-            // no relief.
-            let possible = |edges: EdgeUniform| {
-                let edges = if scene.is_sectioned(node) { edges } else { edges.without(EdgeClass::Section) };
-                if scene.has_relief(node) { edges } else { edges.without(EdgeClass::Relief) }
-            };
-            let edges = possible(EdgeUniform::new(&r.style.edges, scale));
-            let edges = if has_layers { edges.inked(&r.style.edges, r.style.blueprint.near) } else { edges };
-            let edges = if has_layers { edges.without_fainter(r.style.blueprint.threshold) } else { edges };
-            let whole = Visible { node, enhanced: r.enhanced, submeshes: Submeshes::All };
-            if is_blueprint {
-                let group = Blueprint::group_of(&mut objects.blueprints, r.style, count);
-                group.add(whole, edges, scene);
-            } else if is_sketch {
-                let sketch = Sketch::group_of(&mut objects.sketches, r.style, count, images, scale);
-                sketch.group.add(whole, edges, scene);
-                sketch.add_alphas(scene.alphas(node));
-                if r.enhanced {
-                    let style = possible(EdgeUniform::of_hidden_lines(&r.style.edges, scale));
-                    sketch.hidden.add((count, id), style, &r.style.edges.hidden);
-                }
-            } else if is_opaque {
-                let submeshes = if has_blended { Submeshes::Opaque } else { Submeshes::All };
-                objects.surfaces.add(Visible { submeshes, ..whole }, edges, scene);
-                if r.enhanced && document.view.show == Show::Picture {
-                    let style = possible(EdgeUniform::of_hidden_lines(&r.style.edges, scale));
-                    objects.hidden.add((count, id), style, &r.style.edges.hidden);
-                }
-            }
-            if has_blended {
-                let submeshes = if is_opaque { Submeshes::Blended } else { Submeshes::All };
-                objects.blended.add(Visible { submeshes, ..whole }, edges, scene);
-            }
-            if r.mask {
-                objects.masks.add_without_lines(whole);
-            }
-            if r.mirror
-                && !is_blueprint
-                && !scene.scene.is_added(node)
-                && let Ok(plane) = scene.plane_of(node)
-            {
-                objects.mirrors.push(Mirror::new(id as u32, plane, scene.corners_of(node), &r.style.mirror));
-            }
-            objects.visible_bounds = objects.visible_bounds.union(&scene.bounds_of(node));
+            objects.add(node, r, scene, images, document.view.show == Show::Picture);
         }
         objects
+    }
+
+    /// Adds an object to the groups that draw it. `as_picture`: otherwise a buffer is looked at (`view.show`), which is that of
+    /// opaque surfaces: every object is drawn as such.
+    fn add(
+        &mut self,
+        node: NodeId,
+        r: &Resolved<'_>,
+        scene: &GpuScene,
+        images: &StyleImages,
+        as_picture: bool,
+    ) {
+        let (scale, id, count) = (self.scale, object_id(node) as usize, scene.scene.nodes.len() + 1);
+        let has_layers = r.style.technique == Technique::Blueprint && as_picture;
+        let is_blueprint = has_layers && !r.mask;
+        let is_sketch = as_picture && !has_layers && !r.mirror && Sketch::moves(r.style);
+        // Mirrors and masks show and hide as a whole.
+        let blends = as_picture && !has_layers && !r.mask && !r.mirror && !is_sketch;
+        let is_blended = |alpha: AlphaMode| blends && alpha == AlphaMode::Blend;
+        let has_blended = scene.alphas(node).any(is_blended);
+        let is_opaque = !has_blended || !scene.alphas(node).all(is_blended);
+        if has_blended && self.blended.is_empty() {
+            self.blended = Group::unculled(count);
+        }
+        // The width of lines that are nowhere would decide how all others are drawn; and what is only shaded smoothly has
+        // no relief.
+        let possible = |edges: EdgeUniform| {
+            let edges = if scene.is_sectioned(node) { edges } else { edges.without(EdgeClass::Section) };
+            if scene.has_relief(node) { edges } else { edges.without(EdgeClass::Relief) }
+        };
+        let edges = possible(EdgeUniform::new(&r.style.edges, scale));
+        let edges = if has_layers { edges.inked(&r.style.edges, r.style.blueprint.near) } else { edges };
+        let edges = if has_layers { edges.without_fainter(r.style.blueprint.threshold) } else { edges };
+        let whole = Visible { node, enhanced: r.enhanced, submeshes: Submeshes::All };
+        if is_blueprint {
+            let group = Blueprint::group_of(&mut self.blueprints, r.style, count);
+            group.add(whole, edges, scene);
+        } else if is_sketch {
+            let sketch = Sketch::group_of(&mut self.sketches, r.style, count, images, scale);
+            sketch.group.add(whole, edges, scene);
+            sketch.add_alphas(scene.alphas(node));
+            if r.enhanced {
+                let style = possible(EdgeUniform::of_hidden_lines(&r.style.edges, scale));
+                sketch.hidden.add((count, id), style, &r.style.edges.hidden);
+            }
+        } else if is_opaque {
+            let submeshes = if has_blended { Submeshes::Opaque } else { Submeshes::All };
+            self.surfaces.add(Visible { submeshes, ..whole }, edges, scene);
+            if r.enhanced && as_picture {
+                let style = possible(EdgeUniform::of_hidden_lines(&r.style.edges, scale));
+                self.hidden.add((count, id), style, &r.style.edges.hidden);
+            }
+        }
+        if has_blended {
+            let submeshes = if is_opaque { Submeshes::Blended } else { Submeshes::All };
+            self.blended.add(Visible { submeshes, ..whole }, edges, scene);
+        }
+        if r.mask {
+            self.masks.add_without_lines(whole);
+        }
+        if r.mirror
+            && !is_blueprint
+            && !scene.scene.is_added(node)
+            && let Ok(plane) = scene.plane_of(node)
+        {
+            self.mirrors.push(Mirror::new(id as u32, plane, scene.corners_of(node), &r.style.mirror));
+        }
+        self.visible_bounds = self.visible_bounds.union(&scene.bounds_of(node));
     }
 
     /// All visible objects.

@@ -134,25 +134,9 @@ pub fn place_blueprint(
         buffers.caps.write(rec.gpu, caps);
     }
     buffers.style.write(rec.gpu, &BlueprintUniform::from(params));
-    let any = |has: fn(&EdgeUniform) -> bool| group.edge_styles.iter().any(has);
     let is_kept = LAYERS.into_iter().any(|name| rec.keeps(name));
-    let request = LayerRequest {
-        max_layers: if mask.is_some() { blueprint.last() } else { blueprint.layers() },
-        min_pixels: least_pixels(params.least, rec.size()),
-        uncover: mask.map(|mask| Uncover {
-            mask,
-            fraction: params.fraction,
-            most_without: blueprint.layers(),
-        }),
-        by: None,
-        with_color: is_kept || any(EdgeUniform::reads_color),
-        with_normals: is_kept || any(EdgeUniform::reads_normals),
-        with_depth: is_kept,
-        // The first one that is drawn is what a click means.
-        whole_layers: if is_kept || any(EdgeUniform::compares_geometry) { MOST_LAYERS } else { params.from },
-        line_styles: &[&group.edge_styles],
-        nearer: None,
-    };
+    let line_styles = [&group.edge_styles];
+    let request = request_of(blueprint, mask, rec.size(), is_kept, &line_styles);
     for name in LAYERS {
         rec.note(name, None);
     }
@@ -207,6 +191,36 @@ pub fn place_blueprint(
     rec.scissor_rect = outer;
     drawn?;
     Ok(front)
+}
+
+/// What a blueprint asks of its layers. `mask`: what is to be uncovered; `size`: of the picture, px; `is_kept`: whether somebody
+/// looks at the layers themselves.
+fn request_of<'a>(
+    blueprint: &Blueprint,
+    mask: Option<&'a DepthMask>,
+    size: [u32; 2],
+    is_kept: bool,
+    line_styles: &'a [&'a Vec<EdgeUniform>],
+) -> LayerRequest<'a> {
+    let params = &blueprint.style;
+    let any = |has: fn(&EdgeUniform) -> bool| blueprint.group.edge_styles.iter().any(has);
+    LayerRequest {
+        max_layers: if mask.is_some() { blueprint.last() } else { blueprint.layers() },
+        min_pixels: least_pixels(params.least, size),
+        uncover: mask.map(|mask| Uncover {
+            mask,
+            fraction: params.fraction,
+            most_without: blueprint.layers(),
+        }),
+        by: None,
+        with_color: is_kept || any(EdgeUniform::reads_color),
+        with_normals: is_kept || any(EdgeUniform::reads_normals),
+        with_depth: is_kept,
+        // The first one that is drawn is what a click means.
+        whole_layers: if is_kept || any(EdgeUniform::compares_geometry) { MOST_LAYERS } else { params.from },
+        line_styles,
+        nearer: None,
+    }
 }
 
 /// Names under which the layers of blueprints can be looked at, each several targets, the nearest first.

@@ -115,6 +115,17 @@ struct FieldKey {
     uniform: FrameUniform,
 }
 
+impl FieldKey {
+    /// That of noise which is of the same field, by what it is of.
+    fn of(
+        field: FieldUniform,
+        objects: &[ObjectUniform],
+        uniform: &FrameUniform,
+    ) -> impl Fn([u64; 2]) -> Self {
+        move |of| Self { of, field, objects: objects.to_vec(), uniform: uniform.without_background() }
+    }
+}
+
 /// What is placed depends on this.
 #[derive(PartialEq)]
 struct PlaceKey {
@@ -241,12 +252,7 @@ impl SketchState {
         let images = shared.images.prepare(rec.gpu, noise, paper)?;
         let (field_objects, objects) = sketch.objects(&scene_view);
         let enlarged = self.enlarge(rec, pass, inputs, &surfaces)?;
-        let key = |of| FieldKey {
-            of,
-            field: sketch.field(),
-            objects: field_objects.clone(),
-            uniform: uniform.without_background(),
-        };
+        let key = FieldKey::of(sketch.field(), &field_objects, uniform);
         self.field.write(rec.gpu, &sketch.field());
         self.field_objects.write(rec.gpu, &field_objects);
         let moved =

@@ -10,7 +10,7 @@ use super::repeated::{NearerLines, SPINES, add_ink};
 use super::segments::{MARKS, SegmentInputs, Segments};
 use crate::geometry::EdgeClass;
 use crate::gpu::recorder::{Draw, Onto};
-use crate::gpu::{DepthRule, Program, Recorder, Target, inputs};
+use crate::gpu::{DepthRule, Inputs, Program, Recorder, Target, inputs};
 use crate::render::base::edge_style::EdgeUniform;
 use crate::render::base::error::RenderError;
 
@@ -94,6 +94,33 @@ pub fn edge_map(rec: &mut Recorder<'_>, inputs: &EdgeInputs<'_>) -> Result<EdgeM
     Ok(EdgeMap { edges: edge_map, spines, has_paper })
 }
 
+/// What lies within surfaces: borders of textures, of relief and of shadows.
+fn find_details(
+    rec: &mut Recorder<'_>,
+    inputs: &EdgeInputs<'_>,
+    mut switches: Vec<(&'static str, bool)>,
+    found: &Inputs<'_>,
+    outputs: &[&Target],
+) -> Result<(), RenderError> {
+    let EdgeInputs { gbuffer, styles, shadow_mask, .. } = *inputs;
+    let [texture, relief, shadow] = [EdgeClass::Texture, EdgeClass::Relief, EdgeClass::Shadow]
+        .map(|class| styles.iter().any(|s| s.is_exact() && s.draws(class)));
+    let shadow = shadow && shadow_mask.is_some();
+    if !texture && !relief && !shadow {
+        return Ok(());
+    }
+    switches.extend([("WITH_TEXTURE", texture), ("WITH_RELIEF", relief), ("WITH_SHADOW", shadow)]);
+    rec.draw(Draw {
+        label: "details",
+        program: Program { file: "passes/details.wgsl", entry_point: "fs_main", switches },
+        inputs: &inputs! { base_color_tex: &gbuffer.base_color, shadow_mask_tex: shadow_mask }.and(found),
+        outputs,
+        onto: Onto::Load,
+        depth: Some((&gbuffer.depth, DepthRule::Covered)),
+    })?;
+    Ok(())
+}
+
 fn exact_edges(
     rec: &mut Recorder<'_>,
     inputs: &EdgeInputs<'_>,
@@ -108,9 +135,9 @@ fn exact_edges(
         has_holes,
         is_clipped,
         before,
-        shadow_mask,
         nearer,
         marked,
+        ..
     } = *inputs;
     let any = |has: fn(&EdgeUniform) -> bool| styles.iter().any(|s| s.is_exact() && has(s));
     let variation =
@@ -138,28 +165,8 @@ fn exact_edges(
             .into_iter()
             .chain(variation)
             .collect::<Vec<_>>();
-    let [texture, relief, shadow] = [EdgeClass::Texture, EdgeClass::Relief, EdgeClass::Shadow]
-        .map(|class| styles.iter().any(|s| s.is_exact() && s.draws(class)));
-    let shadow = shadow && shadow_mask.is_some();
-    if texture || relief || shadow {
-        let mut switches = vec![
-            ("WITH_TEXTURE", texture),
-            ("WITH_RELIEF", relief),
-            ("WITH_SHADOW", shadow),
-            without_repeated,
-        ];
-        switches.extend(variation);
-        rec.draw(Draw {
-            label: "details",
-            program: Program { file: "passes/details.wgsl", entry_point: "fs_main", switches },
-            inputs: &inputs! { base_color_tex: &gbuffer.base_color, shadow_mask_tex: shadow_mask }
-                .and(&found),
-            outputs: &outputs,
-            onto: Onto::Load,
-            depth: Some((&gbuffer.depth, DepthRule::Covered)),
-        })?;
-    }
-
+    let details = variation.into_iter().chain([without_repeated]);
+    find_details(rec, inputs, details.collect(), &found, &outputs)?;
     let (borders, rounds) = match marked {
         Some(rounds) => (gbuffer.depth.clone(), rounds),
         None => {
