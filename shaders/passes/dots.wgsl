@@ -1,13 +1,8 @@
-// Leaves out pieces of lines that are too short to tell anything and that nothing continues.
+// Pieces of lines that are too short to tell anything and that nothing continues.
 #import common/frame.wgsl
-#import common/fullscreen.wgsl
 #import common/gbuffer.wgsl
-#import common/edge_map.wgsl
-#import common/edge_style.wgsl
 
 var spine_tex: texture_2d<u32>;
-var edge_map_tex: texture_storage_2d<rgba32uint, read>;
-var<storage, read> edge_styles: array<EdgeStyle>;
 
 // Pieces are followed so far, px: a row of what is around a pixel is the bits of a number.
 const FARTHEST: i32 = 15;
@@ -64,25 +59,11 @@ fn is_around(object: u32, box: vec4<i32>, distance: i32) -> bool {
     return is_seen;
 }
 
-// Marks what has to be looked at.
-@fragment
-fn fs_lines(@builtin(position) position: vec4<f32>) {
-    if textureLoad(spine_tex, vec2<i32>(position.xy), 0).x == 0u {
-        discard;
-    }
-}
-
-@fragment
-fn fs_main(@builtin(position) position: vec4<f32>) -> @location(0) u32 {
-    let px = vec2<i32>(position.xy);
-    let object = textureLoad(edge_map_tex, px).y;
-    let shortest = edge_styles[object].shortest;
-    let reach = min(i32(ceil(shortest)), FARTHEST);
+// Whether all that is connected to a pixel of an object's line is shorter than so much, px, up to `FARTHEST`.
+fn is_short(px: vec2<i32>, object: u32, shortest: f32) -> bool {
+    let reach = i32(ceil(shortest));
     let box = box_around(px, reach);
     let sides = box.zw - box.xy;
     // What is all that is seen of a small object stays.
-    if f32(max(sides.x, sides.y)) < min(shortest, f32(FARTHEST)) && is_around(object, box, reach + 1) {
-        discard;
-    }
-    return textureLoad(spine_tex, px, 0).x;
+    return f32(max(sides.x, sides.y)) < shortest && is_around(object, box, reach + 1);
 }

@@ -209,7 +209,8 @@ fn found_nearby(px: vec2<i32>) -> u32 {
         }
         return best.found;
     }
-    var spines = nine_at(farthest_tex, px);
+    // The same texture as `farthest_tex`: it is read once more for lines beside.
+    var spines = nine_at(spine_tex, px);
     for (var i = 0; i < 9; i++) {
         best = nearer_of(best, spines[i], px, vec2(i % 3, i / 3) - 1);
     }
@@ -253,7 +254,10 @@ fn found_beside(px: vec2<i32>, found: u32) -> Beside {
             gap = abs(dot(d, left));
         }
     }
-    let second_px = vec2<i32>(vec2((max(best.found, 1u) - 1u) & 0xffffu, (max(best.found, 1u) - 1u) >> 16u));
+    if best.found == 0u {
+        return Beside(0u, 0.0);
+    }
+    let second_px = vec2<i32>(vec2((best.found - 1u) & 0xffffu, (best.found - 1u) >> 16u));
     let second = unpack_edge(textureLoad(edge_map_tex, second_px));
     let is_parallel = abs(dot(unpack_tangent(second.tangent), tangent)) > PARALLEL;
     let width = first.half_width + second.half_width;
@@ -262,10 +266,13 @@ fn found_beside(px: vec2<i32>, found: u32) -> Beside {
 
 // Ink of a thin line, with that of the one beside it.
 fn with_ink_beside(at: vec2<f32>, g: Surfel, ink: vec4<f32>, found: u32) -> vec4<f32> {
-    if found == 0u || MOVED || NARROW_BY_TWO || !(NARROW || WITH_WIDTHS) {
+    if found == 0u || ink.a >= 1.0 || MOVED || NARROW_BY_TWO || !(NARROW || WITH_WIDTHS) {
         return ink;
     }
     let beside = found_beside(vec2<i32>(floor(at)), found);
+    if beside.found == 0u {
+        return ink;
+    }
     let other = line_at(at, g, beside.found);
     return ink + other.ink * min(beside.share, (1.0 - ink.a) / max(other.ink.a, 1e-6));
 }

@@ -21,11 +21,10 @@ use crate::render::base::strokes::StrokeStyle;
 use crate::render::base::view::View;
 use crate::render::effects::technique::Shaded;
 use crate::render::passes::composition::ink;
-use crate::render::passes::dots::without_dots;
 use crate::render::passes::edge_map::{EdgeInputs, EdgeMap, edge_map};
 use crate::render::passes::gbuffer::GBuffer;
 use crate::render::passes::layers::Reported;
-use crate::render::passes::line_classes::LineClasses;
+use crate::render::passes::line_classes::{Decisions, LineClasses};
 use crate::render::passes::line_distance::{LineDistance, Widths, line_distance};
 use crate::render::passes::lines::Lines;
 use crate::render::passes::segments::Segments;
@@ -268,11 +267,9 @@ impl OpaqueLayer {
                     shadow_mask: shadow_mask.map(|mask| &mask.value),
                 },
             )?;
-            let edges = without_dots(rec, edges, &surfaces.gbuffer.value, styles, self.edge_styles.buffer())?;
-            // Strokes of a hand cross each other.
-            if group.strokes.is_none() {
-                self.line_classes.settle(rec, &edges, styles, self.edge_styles.buffer())?;
-            }
+            let decisions = Decisions::of(styles, group.strokes.is_some());
+            let gbuffer = &surfaces.gbuffer.value;
+            self.line_classes.settle(rec, &edges, gbuffer, self.edge_styles.buffer(), decisions)?;
             Ok(edges)
         })
     }

@@ -1,13 +1,14 @@
-//! The class of lines, decided over stretches: see `shaders/passes/line_classes.wgsl`.
+//! Lines followed over stretches, which decides their class and leaves out dots: see `shaders/passes/line_classes.wgsl`.
 //!
 //! ```text
-//! spines ─► lines ─► where classes meet ─► settle ─► change ─► edge map, spines
+//! spines ─► lines ─► links ─► settle ─► change ─► edge map, spines
 //! ```
 
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
 
 use super::edge_map::EdgeMap;
-use crate::gpu::{ArrayBuffer, Gpu, Program, RecordBuffer, Recorder, inputs};
+use super::gbuffer::GBuffer;
+use crate::gpu::{ArrayBuffer, Gpu, Inputs, Program, RecordBuffer, Recorder, inputs};
 use crate::render::base::edge_style::EdgeUniform;
 use crate::render::base::error::RenderError;
 use crate::render::base::view::REFERENCE_HEIGHT;
@@ -16,26 +17,49 @@ use crate::render::base::view::REFERENCE_HEIGHT;
 const LEAST: f32 = 8.0;
 /// Pixels per side of a workgroup that collects lines, and lines per workgroup, as in `passes/line_classes.wgsl`.
 const LINES_GROUP: u32 = 32;
-/// Neighbors that decide differently, at the ends of stretches, agree the second time.
-const ROUNDS: usize = 2;
 /// Bytes of `Change` there.
 const CHANGE_BYTES: u64 = 32;
 /// Most changes, as a share of all pixels: lines are thin, and few of their pixels change.
 const CHANGED: u64 = 8;
 
-const BLOCKS: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;
+const LINKS: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;
 
 /// No workgroups, and no lines.
 const NONE: [u32; 4] = [0, 1, 1, 0];
 
+/// Records that shaders append.
+struct List {
+    records: RecordBuffer,
+    /// How many they are, and workgroups for them: `Kept` in `common/kept.wgsl`.
+    kept: wgpu::Buffer,
+}
+
+impl List {
+    /// Without room for any.
+    fn new(gpu: &Gpu, label: &'static str) -> Self {
+        let usage = wgpu::BufferUsages::INDIRECT | wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST;
+        Self { records: RecordBuffer::new(gpu, label), kept: counter(gpu, label, usage) }
+    }
+
+    /// What appends pixels to it.
+    fn appended(&self) -> Inputs<'_> {
+        inputs! { keeping: &self.kept, keeping_lines: self.records.buffer() }
+    }
+}
+
+fn counter(gpu: &Gpu, label: &'static str, usage: wgpu::BufferUsages) -> wgpu::Buffer {
+    let contents = bytemuck::bytes_of(&NONE);
+    gpu.device.create_buffer_init(&BufferInitDescriptor { label: Some(label), contents, usage })
+}
+
 /// What deciding needs.
 pub struct LineClasses {
-    lines: RecordBuffer,
-    changes: RecordBuffer,
-    /// Workgroups of both, and how many they are: `Kept` in `common/kept.wgsl`.
-    kept: wgpu::Buffer,
-    changed: wgpu::Buffer,
-    /// What both begin with.
+    /// Pixels of lines.
+    lines: List,
+    /// Those where classes meet.
+    meetings: List,
+    changes: List,
+    /// What lists begin with.
     none: wgpu::Buffer,
     least: ArrayBuffer,
 }
@@ -43,22 +67,17 @@ pub struct LineClasses {
 impl LineClasses {
     /// Without room for any.
     pub fn new(gpu: &Gpu) -> Self {
-        let counted = |label, usage| {
-            let contents = bytemuck::bytes_of(&NONE);
-            gpu.device.create_buffer_init(&BufferInitDescriptor { label: Some(label), contents, usage })
-        };
-        let used = wgpu::BufferUsages::INDIRECT | wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST;
         Self {
-            lines: RecordBuffer::new(gpu, "pixels of lines"),
-            changes: RecordBuffer::new(gpu, "changes of lines"),
-            kept: counted("workgroups of lines", used),
-            changed: counted("workgroups of changes", used),
-            none: counted("no lines", wgpu::BufferUsages::COPY_SRC),
+            lines: List::new(gpu, "pixels of lines"),
+            meetings: List::new(gpu, "where classes meet"),
+            changes: List::new(gpu, "changes of lines"),
+            none: counter(gpu, "no lines", wgpu::BufferUsages::COPY_SRC),
             least: ArrayBuffer::new(gpu, "shortest stretch"),
         }
     }
 
-    /// Decides the classes of the lines of an edge map, which have these styles. Costs nothing where all are of one class.
+    /// Decides the classes of the lines of an edge map of opaque surfaces, which have these styles, and leaves out dots. (Of
+    /// layers, what is a piece in one may go on in the next.) Costs nothing where all are of one class, and of any length.
     ///
     /// # Errors
     /// [`RenderError`].
@@ -66,55 +85,103 @@ impl LineClasses {
         &mut self,
         rec: &mut Recorder<'_>,
         edge_map: &EdgeMap,
-        styles: &[EdgeUniform],
+        gbuffer: &GBuffer,
         edge_styles: &wgpu::Buffer,
+        decisions: Decisions,
     ) -> Result<(), RenderError> {
-        let mut classes = styles.iter().flat_map(|style| style.drawn().map(|(class, _)| class));
-        let first = classes.next();
-        let Some(spines) = edge_map.spines.as_ref().filter(|_| classes.any(|class| Some(class) != first))
-        else {
-            return Ok(());
-        };
+        let Some(spines) = edge_map.spines.as_ref().filter(|_| decisions.any()) else { return Ok(()) };
         let [width, height] = rec.size();
         let pixels = u64::from(width) * u64::from(height);
-        let least = LEAST * height as f32 / REFERENCE_HEIGHT as f32;
-        let block = least.max(4.0).ceil() as u32;
-        self.lines.reserve(rec.gpu, pixels * 4)?;
-        self.changes.reserve(rec.gpu, pixels.div_ceil(CHANGED) * CHANGE_BYTES)?;
-        self.least.write(rec.gpu, &vec![least]);
-        let meetings =
-            rec.target_of("where classes meet", BLOCKS, [width, height].map(|side| side.div_ceil(block)))?;
-        rec.encoder.copy_buffer_to_buffer(&self.none, 0, &self.kept, 0, None);
-        let common =
-            inputs! { edge_map_tex: &edge_map.edges, edge_styles: edge_styles, least: self.least.buffer() };
-        let collected = inputs! {
-            spine_tex: spines,
-            meeting_tex: &meetings,
-            keeping: &self.kept,
-            keeping_lines: self.lines.buffer(),
-        };
+        self.lines.records.reserve(rec.gpu, pixels * 4)?;
+        self.meetings.records.reserve(rec.gpu, pixels * 4)?;
+        self.changes.records.reserve(rec.gpu, pixels.div_ceil(CHANGED) * CHANGE_BYTES)?;
+        self.least.write(rec.gpu, &vec![LEAST * height as f32 / REFERENCE_HEIGHT as f32]);
+        let links = rec.target("links of lines", LINKS)?;
         let groups = [width, height].map(|side| side.div_ceil(LINES_GROUP));
-        rec.compute("lines of classes", &program("cs_lines"), &collected, groups)?;
-        let lines = common.and(&inputs! { kept: &self.kept, kept_lines: self.lines.buffer() });
-        let met = inputs! { meeting_tex: &meetings }.and(&lines);
-        rec.compute("where classes meet", &program("cs_meetings"), &met, &self.kept)?;
-        let settled = inputs! { met_tex: &meetings, changing: &self.changed, changes: self.changes.buffer() }
-            .and(&lines);
-        let changed = inputs! {
-            changed: &self.changed,
-            changes: self.changes.buffer(),
-            edge_tex: &edge_map.edges,
-            changed_spine_tex: spines,
+        let read = inputs! {
+            spine_tex: spines,
+            edge_map_tex: &edge_map.edges,
+            link_tex: &links,
+            geometry_tex: &gbuffer.geometry,
+            edge_styles: edge_styles,
+            least: self.least.buffer(),
         };
-        for _ in 0..ROUNDS {
-            rec.encoder.copy_buffer_to_buffer(&self.none, 0, &self.changed, 0, None);
-            rec.compute("classes of stretches", &program("cs_settle"), &settled, &self.kept)?;
-            rec.compute("change classes", &program("cs_change"), &changed, &self.changed)?;
+        let written = inputs! { linking_tex: &links, edge_tex: &edge_map.edges, changed_spine_tex: spines };
+        let all = read.and(&written);
+        self.empty(rec, &self.lines);
+        rec.compute(
+            "lines to follow",
+            &program("cs_lines", decisions),
+            &self.lines.appended().and(&all),
+            groups,
+        )?;
+        self.round(rec, &all, &self.lines, &self.meetings, decisions)?;
+        // Neighbors that decided differently, at the ends of stretches, agree the second time.
+        if decisions.classes {
+            self.round(rec, &all, &self.meetings, &self.lines, decisions)?;
         }
         Ok(())
     }
+
+    /// Decides pixels of lines; appends those where classes meet to `meetings`.
+    fn round(
+        &self,
+        rec: &mut Recorder<'_>,
+        inputs: &Inputs<'_>,
+        lines: &List,
+        meetings: &List,
+        decisions: Decisions,
+    ) -> Result<(), RenderError> {
+        self.empty(rec, meetings);
+        self.empty(rec, &self.changes);
+        let followed = inputs! { kept: &lines.kept, kept_lines: lines.records.buffer() };
+        let changed = inputs! {
+            changing: &self.changes.kept,
+            changed: &self.changes.kept,
+            changes: self.changes.records.buffer(),
+        };
+        let all = followed.and(&meetings.appended()).and(&changed).and(inputs);
+        rec.compute("links of lines", &program("cs_links", decisions), &all, &lines.kept)?;
+        rec.compute("classes of lines", &program("cs_settle", decisions), &all, &lines.kept)?;
+        rec.compute("change classes", &program("cs_change", decisions), &all, &self.changes.kept)?;
+        Ok(())
+    }
+
+    fn empty(&self, rec: &mut Recorder<'_>, list: &List) {
+        rec.encoder.copy_buffer_to_buffer(&self.none, 0, &list.kept, 0, None);
+    }
 }
 
-fn program(entry_point: &'static str) -> Program {
-    Program::new("passes/line_classes.wgsl", entry_point)
+/// What is decided of lines.
+#[derive(Debug, Clone, Copy)]
+pub struct Decisions {
+    /// Their class.
+    pub classes: bool,
+    /// Whether they are too short.
+    pub dots: bool,
+}
+
+impl Decisions {
+    /// For lines of these styles; `crossing`: they cross each other without being one, as strokes of a hand do.
+    #[must_use]
+    pub fn of(styles: &[EdgeUniform], crossing: bool) -> Self {
+        let mut classes = styles.iter().flat_map(|style| style.drawn().map(|(class, _)| class));
+        let first = classes.next();
+        Self {
+            classes: !crossing && classes.any(|class| Some(class) != first),
+            dots: styles.iter().any(|s| s.is_exact() && s.shortest > 0.0),
+        }
+    }
+
+    fn any(self) -> bool {
+        self.classes || self.dots
+    }
+}
+
+fn program(entry_point: &'static str, decisions: Decisions) -> Program {
+    let switches = match entry_point {
+        "cs_settle" => vec![("WITH_CLASSES", decisions.classes), ("WITH_DOTS", decisions.dots)],
+        _ => Vec::new(),
+    };
+    Program { file: "passes/line_classes.wgsl", entry_point, switches }
 }

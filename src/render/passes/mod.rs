@@ -5,7 +5,6 @@ pub mod composition;
 pub mod coordinates;
 pub mod depth_mask;
 pub mod designated;
-pub mod dots;
 pub mod edge_map;
 pub mod fragment_lists;
 pub mod front;
