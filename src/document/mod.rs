@@ -71,7 +71,7 @@ pub struct NodeSettings {
     pub enhanced: Option<bool>,
     /// Whether it is a mirror.
     pub mirror: Option<bool>,
-    /// Whether blueprints are peeled until it is uncovered.
+    /// Whether layers of blueprints are drawn until it is uncovered.
     pub mask: Option<bool>,
 }
 

@@ -187,10 +187,10 @@ fn an_object_is_designated_in_its_row_and_what_masks_need_is_then_among_the_para
     // What became of it arrives a frame later, and nobody asked for it.
     let style = window.state().document().style.clone();
     until(&mut window, "the layers are counted", |v| {
-        v.viewport().last_layer_report(&style).is_some_and(|(peeled, _)| peeled.masked > 0)
+        v.viewport().last_layer_report(&style).is_some_and(|(report, _)| report.masked > 0)
     });
-    let (peeled, _) = window.state().viewport().last_layer_report(&style).unwrap().clone();
-    let title = format!("Layers drawn: {}", peeled.layers);
+    let (report, _) = window.state().viewport().last_layer_report(&style).unwrap().clone();
+    let title = format!("Layers drawn: {}", report.layers);
     assert!(window.query_by_label(&title).is_some(), "{title}");
     assert!(window.query_by_label_contains("% uncovered,").is_some());
     ask(&mut window, Command::Undo);

@@ -289,7 +289,7 @@ fn role_help(role: Role, has: bool, has_mesh: bool) -> &'static str {
         (Role::Mirror, false) if !has_mesh => "Make each flat object below a mirror",
         (Role::Mirror, false) => "Make this flat object a mirror",
         (Role::Mask, true) => "Let blueprints hide this object again",
-        (Role::Mask, false) => "Peel blueprints until this object is uncovered",
+        (Role::Mask, false) => "Draw layers of blueprints until this object is uncovered",
     }
 }
 

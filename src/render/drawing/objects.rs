@@ -25,7 +25,7 @@ use crate::style::Technique;
 pub struct Objects {
     /// The objects that hide what lies behind them: those of all surface techniques.
     pub surfaces: Group,
-    /// Those of them that blueprints are peeled to uncover; they have no lines of their own here.
+    /// Those of them that layers of blueprints are drawn to uncover; they have no lines of their own here.
     pub masks: Group,
     /// Their hidden lines.
     pub hidden: Hidden,

@@ -9,7 +9,7 @@ use crate::gpu::{Recorder, Target, inputs};
 use crate::render::base::error::RenderError;
 use crate::render::base::scene_view::SceneView;
 use crate::render::passes::composition::Composition;
-use crate::render::passes::peel::MOST_LAYERS;
+use crate::render::passes::count::MOST_LAYERS;
 use crate::render::passes::place::{LayerShader, Pending, Place};
 use crate::render::passes::shadows::{ShadowMap, ShadowMask};
 use crate::render::passes::traversal::GBufferPass;

@@ -2,7 +2,7 @@
 //! section 4).
 //!
 //! The paper blends the layers back to front; front to back, each beneath those before it, gives the same picture with two
-//! layers in memory instead of all, and ends wherever peeling does.
+//! layers in memory instead of all, and ends wherever layers do.
 
 use encase::ShaderType;
 use glam::Vec3;
@@ -15,13 +15,13 @@ use crate::render::base::error::RenderError;
 use crate::render::base::group::Group;
 use crate::render::base::scene_view::SceneView;
 use crate::render::passes::composition::Composition;
+use crate::render::passes::count::{LayerCount, MOST_LAYERS};
 use crate::render::passes::designated::{DepthMask, Uncover};
-use crate::render::passes::peel::{LayerCount, MOST_LAYERS};
 use crate::render::passes::place::{LayerShader, Pending, Place};
 use crate::render::passes::traversal::GBufferPass;
 use crate::style::{self, Edges, Style, Technique};
 
-/// Objects whose style is equal, peeled together.
+/// Objects whose style is equal, split into layers together.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Blueprint {
     /// The objects.
@@ -79,7 +79,7 @@ impl Blueprint {
         self.style.to.min(MOST_LAYERS)
     }
 
-    /// Most that are peeled where nothing is to be uncovered.
+    /// Most layers where nothing is to be uncovered.
     fn layers(&self) -> u32 {
         self.style.layers.min(self.last())
     }
@@ -109,7 +109,7 @@ pub struct BlueprintInputs<'a> {
     pub blueprint: &'a Blueprint,
     /// The caps of a section by object id; empty when there are none.
     pub caps: &'a Vec<CapUniform>,
-    /// It is peeled until enough of this is uncovered.
+    /// Layers are drawn until enough of this is uncovered.
     pub mask: Option<&'a DepthMask>,
 }
 

@@ -39,7 +39,7 @@ pub struct TranslucentInputs<'a> {
     pub uniform: &'a FrameUniform,
     /// The caps of a section by object id; empty when there are none.
     pub caps: &'a Vec<CapUniform>,
-    /// Blueprints are peeled until enough of this is uncovered.
+    /// Layers of blueprints are drawn until enough of this is uncovered.
     pub mask: Option<&'a Output<DepthMask>>,
     /// What blends is shaded with this.
     pub shading: BlendedShading<'a>,
@@ -167,8 +167,8 @@ impl TranslucentState {
         if !blended.is_empty() {
             all.push((None, &mut self.blended, blended));
         }
-        let peeled = blueprints.iter().zip(&mut self.blueprints);
-        all.extend(peeled.map(|(blueprint, state)| (Some(blueprint), state, &blueprint.group)));
+        let with_states = blueprints.iter().zip(&mut self.blueprints);
+        all.extend(with_states.map(|(blueprint, state)| (Some(blueprint), state, &blueprint.group)));
         let parts: Vec<_> = all
             .iter()
             .map(|(.., group)| group.scissor_rect(inputs.scene_view.scene, inputs.scene_view.view))

@@ -1,4 +1,4 @@
-//! The depth mask: a depth texture of the designated objects alone, and what peeling must know of it (blueprints paper,
+//! The depth mask: a depth texture of the designated objects alone, and what layers must know of it (blueprints paper,
 //! section 4.3, Fig. 6).
 //!
 //! ```text

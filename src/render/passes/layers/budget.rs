@@ -8,7 +8,7 @@ use crate::render::passes::layer_report::{LayerReport, LayersEnd};
 /// Fragments per pixel of the picture, as long as nobody has counted them.
 const FIRST_GUESS: u64 = 4;
 
-/// A square with sides of so many pixels has a tile for each part that counts fragments; see `passes/peel.rs`.
+/// A square with sides of so many pixels has a tile for each part that counts fragments; see `passes/count.rs`.
 const TILES: u32 = 128;
 
 /// After so many complete pictures in a row, more than one picture has samples, guesses may be tight again.
