@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 
 use super::lighting::{Lighting, Source};
-use super::{Document, NodeSettings, Section, View, glyph};
+use super::{Document, NodeSettings, SectionSettings, ViewSettings, glyph};
 use crate::scene::{Camera, Light, Up};
 use crate::style::param::{Param, map_paths};
 use crate::style::{Style, StyleError, diff_to_toml, set_from_toml};
@@ -207,8 +207,9 @@ impl Document {
             table.get(name).and_then(|v| v.as_table()).cloned().unwrap_or_default()
         };
         let paper = self.style.paper.color;
-        let view = diff_to_toml(&mut self.view.clone().params(paper), &mut View::default().params(paper));
-        let cut = diff_to_toml(&mut self.section.clone().params(), &mut Section::default().params());
+        let view =
+            diff_to_toml(&mut self.view.clone().params(paper), &mut ViewSettings::default().params(paper));
+        let cut = diff_to_toml(&mut self.section.clone().params(), &mut SectionSettings::default().params());
         let light =
             diff_to_toml(&mut self.lighting.clone().params(), &mut default_lighting(has_lights).params());
         let form = Form {

@@ -162,21 +162,20 @@ fn lower_envelope(values: &mut [f64]) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::visible_edges::Sample;
+    use crate::geometry::visible_edges::EdgeSample;
 
     const SIZE: usize = 200;
 
     /// Silhouettes: the outline of a square of 100 px; ridges: a line of 50 px. Off the middle of the picture.
     fn truth() -> VisibleEdges {
         let mut truth = VisibleEdges::default();
-        let mut line =
-            |class: EdgeClass, from: DVec2, to: DVec2| {
-                let count = 4 * from.distance(to) as usize;
-                truth.samples[class as usize].extend((0..count).map(|i| Sample {
-                    position: from.lerp(to, (i as f64 + 0.5) / count as f64),
-                    length: 0.25,
-                }));
-            };
+        let mut line = |class: EdgeClass, from: DVec2, to: DVec2| {
+            let count = 4 * from.distance(to) as usize;
+            truth.samples[class as usize].extend((0..count).map(|i| EdgeSample {
+                position: from.lerp(to, (i as f64 + 0.5) / count as f64),
+                length: 0.25,
+            }));
+        };
         let corners =
             [(20.5, 30.5), (120.5, 30.5), (120.5, 130.5), (20.5, 130.5)].map(|(x, y)| DVec2::new(x, y));
         for i in 0..4 {

@@ -40,7 +40,7 @@ use std::path::PathBuf;
 pub use blueprint::Blueprint;
 pub use color::Color;
 pub use curve::{Curve, CurveError, Point};
-pub use edge_line::Line;
+pub use edge_line::LineStyle;
 pub use edge_mode::{Alignment, DepthOperator, EdgeMode};
 pub use edges::Edges;
 pub use gooch::Gooch;

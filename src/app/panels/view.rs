@@ -9,7 +9,7 @@ use super::row::named_row;
 use super::section::section_ui;
 use crate::app::navigation::with_view_angle;
 use crate::app::state::Samples;
-use crate::document::{Document, View};
+use crate::document::{Document, ViewSettings};
 use crate::scene::unit::UNITS;
 use crate::scene::{Camera, Projection, Scene, Unit, Up};
 use crate::style::param;
@@ -31,7 +31,7 @@ pub fn view_ui(ui: &mut Ui, editing: &mut Editing<'_>, samples: &mut Samples) ->
     }
 
     ui.add_space(4.0);
-    let mut default = View::default();
+    let mut default = ViewSettings::default();
     let paper = document.style.paper.color;
     let defaults = default.params(paper);
     let mut params = document.view.params(paper);

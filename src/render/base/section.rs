@@ -7,10 +7,10 @@ use std::sync::Arc;
 use glam::{DMat4, DVec3, DVec4};
 use rayon::prelude::*;
 
-use self::neighbors::{Number, numbers};
+use self::neighbors::{CapNumber, numbers};
 use super::gpu_scene::GpuScene;
 use crate::document::Document;
-use crate::document::section::{Fill, Section as Style};
+use crate::document::section::{Fill, SectionSettings as Style};
 use crate::geometry::section::{Cap, Contour, Filling, contours, fill};
 use crate::geometry::{Bounds, Mesh, Plane, Provoking, Submesh};
 use crate::gpu::geometry::{MeshRange, MeshSource};
@@ -90,7 +90,7 @@ pub struct Section {
     /// Vertices of the caps.
     pub caps: GeometryBuffers,
     results: Arc<Vec<SectionResult>>,
-    numbers: Arc<Vec<Number>>,
+    numbers: Arc<Vec<CapNumber>>,
     key: Key,
 }
 
@@ -138,7 +138,7 @@ impl Section {
         scene: &GpuScene,
         style: &Style,
         margin: f64,
-        numbers: Arc<Vec<Number>>,
+        numbers: Arc<Vec<CapNumber>>,
         key: Key,
     ) -> Result<Self, GpuError> {
         let caps_at = Plane { point: key.plane.point - key.plane.normal * margin, ..key.plane };

@@ -23,7 +23,7 @@ use crate::style::{self, Edges, Style, Technique};
 
 /// Objects whose style is equal, split into layers together.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Blueprint {
+pub struct BlueprintGroup {
     /// The objects.
     pub group: Group,
     style: style::Blueprint,
@@ -54,7 +54,7 @@ impl From<&style::Blueprint> for BlueprintUniform {
     }
 }
 
-impl Blueprint {
+impl BlueprintGroup {
     /// The group to which an object of this style belongs, in a scene with `count` object ids.
     pub fn group_of<'a>(all: &'a mut Vec<Self>, style: &Style, count: usize) -> &'a mut Group {
         let found = all.iter().position(|b| b.is_of(style));
@@ -106,7 +106,7 @@ impl BlueprintBuffers {
 #[derive(Clone, Copy)]
 pub struct BlueprintInputs<'a> {
     /// Its style.
-    pub blueprint: &'a Blueprint,
+    pub blueprint: &'a BlueprintGroup,
     /// The caps of a section by object id; empty when there are none.
     pub caps: &'a Vec<CapUniform>,
     /// Layers are drawn until enough of this is uncovered.
@@ -128,7 +128,7 @@ pub fn place_blueprint(
     place: &mut Place<'_>,
 ) -> Result<Option<Target>, RenderError> {
     let BlueprintInputs { blueprint, caps, mask } = inputs;
-    let Blueprint { group, style: params, .. } = blueprint;
+    let BlueprintGroup { group, style: params, .. } = blueprint;
     let has_caps = !caps.is_empty();
     if has_caps {
         buffers.caps.write(rec.gpu, caps);
@@ -196,7 +196,7 @@ pub fn place_blueprint(
 /// What a blueprint asks of its layers. `mask`: what is to be uncovered; `size`: of the picture, px; `is_kept`: whether somebody
 /// looks at the layers themselves.
 fn request_of<'a>(
-    blueprint: &Blueprint,
+    blueprint: &BlueprintGroup,
     mask: Option<&'a DepthMask>,
     size: [u32; 2],
     is_kept: bool,

@@ -14,7 +14,7 @@ use crate::style::mirror::Side;
 
 /// A flat object with the role mirror.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Mirror {
+pub struct MirrorObject {
     /// Its object id.
     pub object: u32,
     /// Where it lies, world space.
@@ -34,7 +34,7 @@ pub struct MirrorUniform {
     object: u32,
 }
 
-impl Mirror {
+impl MirrorObject {
     /// A mirror in the plane of an object with this box around it.
     pub fn new(object: u32, plane: Plane, corners: [DVec3; 8], style: &style::Mirror) -> Self {
         let uniform = MirrorUniform {

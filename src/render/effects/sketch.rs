@@ -14,10 +14,10 @@ mod images;
 mod ink;
 mod uniforms;
 
-pub use self::group::Sketch;
+pub use self::group::SketchGroup;
 pub use self::images::prepare_image;
 use self::images::{Prepared, SketchImages};
-use self::ink::{Moved, SketchPass};
+use self::ink::{MovedLines, SketchPass};
 pub use self::uniforms::field;
 use self::uniforms::{SketchObject, SketchUniform};
 use super::opaque::{OpaqueInputs, OpaqueLayer, Surfaces};
@@ -46,7 +46,7 @@ use crate::render::passes::offset_field::{
 use crate::render::passes::shadows::ShadowMap;
 use crate::render::passes::traversal::GBufferPass;
 use crate::style;
-use crate::style::sketch::{DepthRule as StyleDepth, Tone};
+use crate::style::sketch::{SketchDepth as StyleDepth, Tone};
 
 /// What sketches of all cameras share.
 pub struct SharedSketches {
@@ -76,7 +76,7 @@ pub struct SketchInputs<'a> {
     /// The scene as the camera sees it.
     pub scene_view: SceneView<'a>,
     /// What is drawn.
-    pub sketch: &'a Sketch,
+    pub sketch: &'a SketchGroup,
     /// All that is in bind group 0.
     pub uniform: &'a FrameUniform,
     /// How surfaces look.
@@ -180,7 +180,7 @@ struct Fetched<'a> {
     near_lines: Option<Output<Target>>,
     hidden: Option<Output<Target>>,
     /// By pass; empty: there are no exact lines.
-    moved: Vec<Moved>,
+    moved: Vec<MovedLines>,
     fill_field: Output<Target>,
 }
 
@@ -314,12 +314,12 @@ impl SketchState {
     fn move_lines(
         &mut self,
         rec: &mut Recorder<'_>,
-        sketch: &Sketch,
+        sketch: &SketchGroup,
         edges: Option<&Output<EdgeMap>>,
         (surfaces, enlarged): (&Surfaces, Option<&Output<GBuffer>>),
         images: &Prepared<'_>,
         key: &impl Fn([u64; 2]) -> FieldKey,
-    ) -> Result<Vec<Moved>, RenderError> {
+    ) -> Result<Vec<MovedLines>, RenderError> {
         let spines = edges.and_then(|edges| Some((edges, edges.value.spines.as_ref()?)));
         let Some((edges, spines)) = spines else {
             self.line_field.clear();
@@ -354,7 +354,7 @@ impl SketchState {
     fn fill_field(
         &mut self,
         rec: &mut Recorder<'_>,
-        sketch: &Sketch,
+        sketch: &SketchGroup,
         followed: &Output<GBuffer>,
         key: &impl Fn([u64; 2]) -> FieldKey,
     ) -> Result<Output<Target>, RenderError> {
@@ -434,7 +434,7 @@ impl SketchState {
     fn near_lines(
         &mut self,
         rec: &mut Recorder<'_>,
-        sketch: &Sketch,
+        sketch: &SketchGroup,
         edges: Option<&Output<EdgeMap>>,
     ) -> Result<Option<Output<Target>>, RenderError> {
         let distance = uniforms::smudged(&sketch.style, sketch.scale);
@@ -451,7 +451,7 @@ impl SketchState {
 
 /// A sketch while it is being placed.
 struct Placing<'a> {
-    sketch: &'a Sketch,
+    sketch: &'a SketchGroup,
     layer: &'a OpaqueLayer,
     fetched: &'a Fetched<'a>,
     composition: &'a Composition,

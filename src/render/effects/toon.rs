@@ -89,11 +89,11 @@ pub struct Toons {
 
 /// An image as a ramp: linear colors along its longer side, from the left or the top, each the mean across the other side; at
 /// most [`MAX_RAMP`].
-struct Ramp(Vec<Vec4>);
+struct RampColors(Vec<Vec4>);
 
-fn ramp(image: &Texture) -> Ramp {
+fn ramp(image: &Texture) -> RampColors {
     let size = if image.width >= image.height { [MAX_RAMP, 1] } else { [1, MAX_RAMP] };
-    Ramp(image.averaged(size))
+    RampColors(image.averaged(size))
 }
 
 /// A ramp among [`Toons::bands`].

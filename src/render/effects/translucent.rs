@@ -3,7 +3,7 @@
 //! are put in order by depth, pixel by pixel.
 
 use super::blended::{BlendedShading, place_blended};
-use super::blueprint::{Blueprint, BlueprintBuffers, BlueprintInputs, place_blueprint};
+use super::blueprint::{BlueprintBuffers, BlueprintGroup, BlueprintInputs, place_blueprint};
 use super::layered::{Layered, LayeredGroup};
 use super::section::CapUniform;
 use super::surface::Look;
@@ -28,7 +28,7 @@ pub struct TranslucentGroups<'a> {
     /// What blends.
     pub blended: &'a Group,
     /// The blueprints.
-    pub blueprints: &'a [Blueprint],
+    pub blueprints: &'a [BlueprintGroup],
 }
 
 /// What they are drawn with.
@@ -60,7 +60,7 @@ struct Key {
 #[derive(Clone, PartialEq)]
 enum Manner {
     Blended { look: Box<Look>, shadows: Vec<u64> },
-    Blueprint { blueprint: Box<Blueprint>, caps: Vec<CapUniform>, mask: Option<u64>, is_kept: bool },
+    Blueprint { blueprint: Box<BlueprintGroup>, caps: Vec<CapUniform>, mask: Option<u64>, is_kept: bool },
 }
 
 /// One group across frames.
@@ -70,7 +70,7 @@ struct GroupState {
     /// Its picture, where it overlaps no other.
     alone: Stage<Key, Translucent>,
     /// What it was drawn as last.
-    last: Option<Blueprint>,
+    last: Option<BlueprintGroup>,
     runs: u64,
 }
 
@@ -233,7 +233,7 @@ impl TranslucentState {
 /// One group while it is being drawn.
 struct GroupDrawing<'a> {
     /// `None`: what blends.
-    blueprint: Option<&'a Blueprint>,
+    blueprint: Option<&'a BlueprintGroup>,
     layered: &'a mut Layered,
     buffers: &'a mut BlueprintBuffers,
     key: &'a Key,
@@ -280,7 +280,7 @@ impl GroupDrawing<'_> {
 impl Key {
     fn new(
         rec: &Recorder<'_>,
-        blueprint: Option<&Blueprint>,
+        blueprint: Option<&BlueprintGroup>,
         group: &Group,
         inputs: &TranslucentInputs<'_>,
         composition: &Composition,

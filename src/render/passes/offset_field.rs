@@ -63,7 +63,7 @@ pub struct ObjectUniform {
 
 /// A place that has noise.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Place {
+pub struct NoisePlace {
     /// View space.
     pub at: Vec3,
     /// Width of a pixel there, scene units.
@@ -74,7 +74,7 @@ pub struct Place {
 
 impl FieldUniform {
     /// The noise of a pass of lines at a place on an object, where nothing but the place controls it: twin of `noise_at`.
-    pub fn line_noise(&self, object: &ObjectUniform, place: &Place, pass: usize) -> Vec2 {
+    pub fn line_noise(&self, object: &ObjectUniform, place: &NoisePlace, pass: usize) -> Vec2 {
         let seed = self.seeds.iter().flat_map(|four| four.to_array()).nth(pass).unwrap_or_default();
         let (own, turbulent) = (mixed_bits(seed ^ object.seed), self.turbulent == 1);
         let at = object.from_view.transform_point3(place.at);

@@ -16,12 +16,12 @@ const MOST_KEPT: usize = 8;
 
 /// What a sketch is drawn on.
 #[derive(Clone, Default)]
-pub(super) struct Paper(Option<Arc<Tooth>>);
+pub(super) struct SketchPaper(Option<Arc<ToothImage>>);
 
 /// The tooth of a paper by rank, a tile of `SIDE` × `SIDE`.
-struct Tooth(Vec<u8>);
+struct ToothImage(Vec<u8>);
 
-impl PartialEq for Paper {
+impl PartialEq for SketchPaper {
     fn eq(&self, other: &Self) -> bool {
         // Each image has one.
         match (&self.0, &other.0) {
@@ -31,21 +31,21 @@ impl PartialEq for Paper {
     }
 }
 
-impl Paper {
+impl SketchPaper {
     /// That of a style; generated where its image is missing.
     pub(super) fn of(sketch: &style::Sketch, images: &StyleImages) -> Self {
-        Self(sketch.tooth_image().and_then(|path| images.made(path, Tooth::of_image)))
+        Self(sketch.tooth_image().and_then(|path| images.made(path, ToothImage::of_image)))
     }
 }
 
 /// Makes what takes long of an image that the parameter `key` names.
 pub fn prepare_image(images: &StyleImages, key: &str, path: &Path) {
     if key == "sketch.grain.image" {
-        images.made(path, Tooth::of_image);
+        images.made(path, ToothImage::of_image);
     }
 }
 
-impl Tooth {
+impl ToothImage {
     fn of_image(image: &Texture) -> Self {
         let [width, height] = [image.width, image.height].map(|side| side.max(1) as usize);
         let light = |x: usize, y: usize| {
@@ -84,7 +84,7 @@ pub(super) struct SketchImages {
     sampler: wgpu::Sampler,
     nothing: wgpu::TextureView,
     tiles: HashMap<TileKey, (wgpu::TextureView, u64)>,
-    papers: Vec<(Paper, wgpu::TextureView, u64)>,
+    papers: Vec<(SketchPaper, wgpu::TextureView, u64)>,
     made: u64,
 }
 
@@ -123,7 +123,7 @@ impl SketchImages {
         &mut self,
         gpu: &Gpu,
         noise: Option<&Wander>,
-        paper: Option<&Paper>,
+        paper: Option<&SketchPaper>,
     ) -> Result<Prepared<'_>, GpuError> {
         gpu.check_texture_size("a tile of noise", [SIDE as u32; 2])?;
         let key = noise.map(|wander| TileKey {
@@ -143,7 +143,7 @@ impl SketchImages {
             self.made += 1;
             self.tiles.insert(key, (view, self.made));
         }
-        let known = |papers: &[(Paper, wgpu::TextureView, u64)]| {
+        let known = |papers: &[(SketchPaper, wgpu::TextureView, u64)]| {
             papers.iter().position(|(known, ..)| Some(known) == paper)
         };
         if let Some(paper) = paper.filter(|_| known(&self.papers).is_none()) {
@@ -166,7 +166,7 @@ impl SketchImages {
 }
 
 /// The tile of paper: generated, or with the tooth of an image.
-fn texels_of(paper: &Paper) -> Vec<u8> {
+fn texels_of(paper: &SketchPaper) -> Vec<u8> {
     static GENERATED: OnceLock<Vec<[u8; 4]>> = OnceLock::new();
     let mut texels = GENERATED.get_or_init(paper_tile).clone();
     if let Some(tooth) = &paper.0 {

@@ -1,6 +1,6 @@
 //! The lines of one pass of a sketch: where its noise moves them, and which of them reach each pixel then.
 
-use super::group::Sketch;
+use super::group::SketchGroup;
 use crate::gpu::{ArrayBuffer, Gpu, Recorder, Target, UniformBuffer};
 use crate::render::base::error::RenderError;
 use crate::render::base::stage::{Output, Stage};
@@ -19,7 +19,7 @@ struct MovedKey {
 
 /// Lines of a pass, moved.
 #[derive(Clone)]
-pub(super) struct Moved {
+pub(super) struct MovedLines {
     pub(super) edges: MovedEdges,
     pub(super) line_distance: Output<LineDistance>,
 }
@@ -67,11 +67,11 @@ impl SketchPass {
         &mut self,
         rec: &mut Recorder<'_>,
         pass: &mut MovedEdgesPass,
-        (sketch, number): (&Sketch, usize),
+        (sketch, number): (&SketchGroup, usize),
         (edges, spines): (&Output<EdgeMap>, &Target),
         field: &Output<LineField>,
         pixels: LinePixels<'_>,
-    ) -> Result<Moved, RenderError> {
+    ) -> Result<MovedLines, RenderError> {
         let (noise, component) = field.value.of_pass(number);
         let (movement, widths) = sketch.movement(number, component);
         let key = MovedKey { edges: edges.revision, field: field.revision, movement };
@@ -84,6 +84,6 @@ impl SketchPass {
         let line_distance = self
             .line_distance
             .run((moved.revision, widths), |_| line_distance(rec, &moved.value.spines, widths, radius))?;
-        Ok(Moved { edges: moved.value, line_distance })
+        Ok(MovedLines { edges: moved.value, line_distance })
     }
 }
