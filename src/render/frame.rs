@@ -143,8 +143,8 @@ impl FrameState {
             (viewed.image, viewed.front)
         };
         let (front, revisions) = front;
-        let selected = (selected, &*eye.scene_view.scene.scene);
-        let selection = self.selection.run(rec, (&front, revisions), selected, sample)?;
+        let scene = &eye.scene_view.scene.scene;
+        let selection = self.selection.run(rec, &front, revisions, selected, scene, sample)?;
         Ok(Picture { image: image.value, revision: image.revision, sample, selection, front })
     }
 

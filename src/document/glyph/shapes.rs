@@ -54,7 +54,7 @@ impl Document {
             let made = match &glyph.shape {
                 Shape::Box(shape) => model.around(shape),
                 Shape::Path(shape) => model.path(shape, &mut notes),
-                Shape::Label(shape) => model.label(shape, (glyph.color, paper), &mut notes),
+                Shape::Label(shape) => model.label(shape, glyph.color, paper, &mut notes),
             };
             let made = made.unwrap_or_else(|fault| {
                 notes.push(format!("is not drawn: {fault}"));
@@ -204,7 +204,8 @@ impl Measures<'_> {
     fn label(
         &self,
         shape: &Label,
-        (ink, paper): (Color, Color),
+        ink: Color,
+        paper: Color,
         notes: &mut Vec<String>,
     ) -> Result<Made, String> {
         let anchor = match &shape.anchor {

@@ -18,11 +18,20 @@ pub(in crate::geometry) struct CreaseAngles {
     pub valley: f32,
 }
 
+/// An edge that is in a chain.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(in crate::geometry) struct ChainedEdge {
+    pub edge: u32,
+    pub chain: u32,
+    /// Its number in [`FeatureChains::chains`].
+    pub link: u32,
+}
+
 /// The chains for some angles. Their links are counted along the chains.
 #[derive(Debug, Clone, PartialEq)]
 pub(in crate::geometry) struct FeatureChains {
-    /// (edge, chain, number of the link in `chains`), sorted.
-    pub by_edge: Vec<(u32, u32, u32)>,
+    /// Sorted.
+    pub by_edge: Vec<ChainedEdge>,
     /// The edge of each link.
     pub edges: Vec<u32>,
     /// The links of these are indices into `edges`.
@@ -101,14 +110,15 @@ impl FeatureChains {
         let chains = Chains::new(&links, |a, b| leave(a).dot(leave(b)) <= -MOST_TURN);
         let mut by_edge = Vec::with_capacity(edges.len());
         let mut anchors = Vec::with_capacity(chains.starts.len());
-        let mut number = 0;
+        let mut link = 0;
         for (chain, (own, is_closed)) in (0..).zip(chains.iter()) {
             let lengths: Vec<f32> = own.iter().map(|l| span(l.link).length()).collect();
             // A loop is held where it begins.
             anchors.push(if is_closed { (0, 0.0) } else { middle(&lengths) });
             for l in own {
-                by_edge.push((edges.get(l.link as usize).copied().unwrap_or(0), chain, number));
-                number += 1;
+                let edge = edges.get(l.link as usize).copied().unwrap_or(0);
+                by_edge.push(ChainedEdge { edge, chain, link });
+                link += 1;
             }
         }
         by_edge.sort_unstable();

@@ -28,7 +28,7 @@ fn drawn(
     hand: &Hand,
 ) -> SegmentSet {
     let mut out = SegmentSet::default();
-    draw_strokes(&subject.at(place), view, wanted, (hand, ANGLE), &mut out);
+    draw_strokes(&subject.at(place), view, wanted, hand, ANGLE, &mut out);
     out.complete();
     assert_eq!(out.segments.len(), out.tested.len());
     out

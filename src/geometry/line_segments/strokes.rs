@@ -71,7 +71,8 @@ pub fn draw_strokes(
     placed: &PlacedEdges<'_>,
     view: &LineView,
     wanted: &LineSelection,
-    (hand, crease_angle): (&Hand, f32),
+    hand: &Hand,
+    crease_angle: f32,
     out: &mut SegmentSet,
 ) {
     out.complete();

@@ -234,7 +234,7 @@ impl Drawing {
             let is_all = masks.visible() == surfaces.visible();
             let drawn = is_all.then_some(&drawn.surfaces.gbuffer.value);
             let (gbuffer_pass, scene_view) = (&mut shared.gbuffer, &inputs.scene_view);
-            Some(self.depth_mask.run(rec, gbuffer_pass, scene_view, (masks, drawn), &composition.surfaces)?)
+            Some(self.depth_mask.run(rec, gbuffer_pass, scene_view, masks, drawn, &composition.surfaces)?)
         };
         rec.note("depth mask", mask.as_ref().map(|mask| &mask.value.depth));
         Ok(mask)

@@ -122,14 +122,14 @@ impl Objects {
             sketch.add_alphas(scene.alphas(node));
             if r.enhanced {
                 let style = possible(EdgeUniform::of_hidden_lines(&r.style.edges, scale));
-                sketch.hidden.add((count, id), style, &r.style.edges.hidden);
+                sketch.hidden.add(count, id, style, &r.style.edges.hidden);
             }
         } else if is_opaque {
             let submeshes = if has_blended { Submeshes::Opaque } else { Submeshes::All };
             self.surfaces.add(Visible { submeshes, ..whole }, edges, scene);
             if r.enhanced && as_picture {
                 let style = possible(EdgeUniform::of_hidden_lines(&r.style.edges, scale));
-                self.hidden.add((count, id), style, &r.style.edges.hidden);
+                self.hidden.add(count, id, style, &r.style.edges.hidden);
             }
         }
         if has_blended {

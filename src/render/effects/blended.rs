@@ -38,7 +38,8 @@ pub struct BlendedShading<'a> {
 pub fn place_blended(
     rec: &mut Recorder<'_>,
     gbuffer_pass: &mut GBufferPass,
-    (layered, key): (&mut Layered, &LayeredGroup),
+    layered: &mut Layered,
+    key: &LayeredGroup,
     scene_view: &SceneView<'_>,
     composition: &Composition,
     with: &mut BlendedShading<'_>,

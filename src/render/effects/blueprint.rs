@@ -121,10 +121,12 @@ pub struct BlueprintInputs<'a> {
 pub fn place_blueprint(
     rec: &mut Recorder<'_>,
     gbuffer_pass: &mut GBufferPass,
-    (layered, key): (&mut Layered, &LayeredGroup),
+    layered: &mut Layered,
+    key: &LayeredGroup,
     scene_view: &SceneView<'_>,
     composition: &Composition,
-    (inputs, buffers): (BlueprintInputs<'_>, &mut BlueprintBuffers),
+    inputs: BlueprintInputs<'_>,
+    buffers: &mut BlueprintBuffers,
     place: &mut Place<'_>,
 ) -> Result<Option<Target>, RenderError> {
     let BlueprintInputs { blueprint, caps, mask } = inputs;

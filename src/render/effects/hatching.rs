@@ -141,7 +141,7 @@ impl Hatchings {
         let uniform = HatchingUniform {
             strokes: self.number_of(style, style.set, object),
             strokes_in_shadow: self.number_of(style, style.shadows.set, object),
-            ..uniform(style, mapping, (stroke, greatest), object.scale, place)
+            ..uniform(style, mapping, stroke, greatest, object.scale, place)
         };
         if let Some(slot) = object.entry(&mut self.styles) {
             *slot = uniform;
@@ -183,7 +183,8 @@ impl Hatchings {
 fn uniform(
     style: &Hatching,
     mapping: u32,
-    (stroke, greatest): (StrokeUniform, f32),
+    stroke: StrokeUniform,
+    greatest: f32,
     scale: f32,
     place: Option<StripePlace>,
 ) -> HatchingUniform {

@@ -44,7 +44,7 @@ struct Band {
 
 impl Hidden {
     /// Adds the hidden lines of an object, if it has any, in a scene with `count` object ids.
-    pub fn add(&mut self, (count, id): (usize, usize), style: EdgeUniform, hidden: &style::Hidden) {
+    pub fn add(&mut self, count: usize, id: usize, style: EdgeUniform, hidden: &style::Hidden) {
         if !style.is_exact() && !style.is_paper() {
             return;
         }

@@ -346,7 +346,7 @@ impl SketchState {
         let Self { passes, moved_pass, line_field_pass, .. } = self;
         let pixels = line_field_pass.pixels();
         let all = passes.iter_mut().enumerate();
-        all.map(|(number, pass)| pass.run(rec, moved_pass, (sketch, number), (edges, spines), &field, pixels))
+        all.map(|(number, pass)| pass.run(rec, moved_pass, sketch, number, edges, spines, &field, pixels))
             .collect()
     }
 

@@ -248,13 +248,13 @@ impl GroupDrawing<'_> {
         composition: &Composition,
         place: &mut Place<'_>,
     ) -> Result<Option<Target>, RenderError> {
-        let layered = (&mut *self.layered, &self.key.layered);
         let scene_view = inputs.scene_view;
         match self.blueprint {
             None => place_blended(
                 rec,
                 gbuffer_pass,
-                layered,
+                self.layered,
+                &self.key.layered,
                 &scene_view,
                 composition,
                 &mut inputs.shading,
@@ -266,10 +266,12 @@ impl GroupDrawing<'_> {
                 place_blueprint(
                     rec,
                     gbuffer_pass,
-                    layered,
+                    self.layered,
+                    &self.key.layered,
                     &scene_view,
                     composition,
-                    (own, self.buffers),
+                    own,
+                    self.buffers,
                     place,
                 )
             }

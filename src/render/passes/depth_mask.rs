@@ -70,7 +70,8 @@ impl DepthMaskPass {
         rec: &mut Recorder<'_>,
         gbuffer_pass: &mut GBufferPass,
         scene_view: &SceneView<'_>,
-        (designated, drawn): (&Group, Option<&GBuffer>),
+        designated: &Group,
+        drawn: Option<&GBuffer>,
         surfaces: &Output<Target>,
     ) -> Result<Output<DepthMask>, RenderError> {
         let SceneView { scene, view, .. } = *scene_view;

@@ -66,7 +66,8 @@ impl MovedEdgesPass {
         &mut self,
         rec: &mut Recorder<'_>,
         movement: &wgpu::Buffer,
-        (edges, spines): (&Target, &Target),
+        edges: &Target,
+        spines: &Target,
         field: &Target,
         pixels: LinePixels<'_>,
     ) -> Result<MovedEdges, RenderError> {

@@ -30,8 +30,10 @@ impl SelectionOutline {
     pub fn run(
         &mut self,
         rec: &mut Recorder<'_>,
-        (front, revisions): (&Front, Vec<u64>),
-        (selected, scene): (&[NodeId], &Scene),
+        front: &Front,
+        revisions: Vec<u64>,
+        selected: &[NodeId],
+        scene: &Scene,
         sample: Sample,
     ) -> Result<Option<Target>, RenderError> {
         if selected.is_empty() {

@@ -83,9 +83,16 @@ struct TileKey {
 pub(super) struct SketchImages {
     sampler: wgpu::Sampler,
     nothing: wgpu::TextureView,
-    tiles: HashMap<TileKey, (wgpu::TextureView, u64)>,
-    papers: Vec<(SketchPaper, wgpu::TextureView, u64)>,
+    tiles: HashMap<TileKey, Tile>,
+    papers: Vec<(SketchPaper, Tile)>,
     made: u64,
+}
+
+/// A tile on the device.
+struct Tile {
+    view: wgpu::TextureView,
+    /// Told apart by it.
+    number: u64,
 }
 
 /// What a sketch is drawn with.
@@ -141,26 +148,25 @@ impl SketchImages {
             let bytes = bytemuck::cast_slice(&halves);
             let view = upload(gpu, wgpu::TextureFormat::Rg16Float, SIDE as u32, bytes);
             self.made += 1;
-            self.tiles.insert(key, (view, self.made));
+            self.tiles.insert(key, Tile { view, number: self.made });
         }
-        let known = |papers: &[(SketchPaper, wgpu::TextureView, u64)]| {
-            papers.iter().position(|(known, ..)| Some(known) == paper)
-        };
+        let known =
+            |papers: &[(SketchPaper, Tile)]| papers.iter().position(|(known, _)| Some(known) == paper);
         if let Some(paper) = paper.filter(|_| known(&self.papers).is_none()) {
             if self.papers.len() >= MOST_KEPT {
                 self.papers.clear();
             }
             let view = upload(gpu, wgpu::TextureFormat::Rgba8Unorm, SIDE as u32, &texels_of(paper));
             self.made += 1;
-            self.papers.push((paper.clone(), view, self.made));
+            self.papers.push((paper.clone(), Tile { view, number: self.made }));
         }
         let tile = key.and_then(|key| self.tiles.get(&key));
-        let paper = known(&self.papers).and_then(|i| self.papers.get(i));
+        let paper = known(&self.papers).and_then(|i| self.papers.get(i)).map(|(_, tile)| tile);
         Ok(Prepared {
-            tile: tile.map_or(&self.nothing, |(view, _)| view),
-            paper: paper.map_or(&self.nothing, |(_, view, _)| view),
+            tile: tile.map_or(&self.nothing, |tile| &tile.view),
+            paper: paper.map_or(&self.nothing, |tile| &tile.view),
             sampler: &self.sampler,
-            revision: tile.map_or(0, |(_, made)| *made) + (paper.map_or(0, |(.., made)| *made) << 32),
+            revision: tile.map_or(0, |tile| tile.number) + (paper.map_or(0, |tile| tile.number) << 32),
         })
     }
 }

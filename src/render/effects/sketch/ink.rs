@@ -67,8 +67,10 @@ impl SketchPass {
         &mut self,
         rec: &mut Recorder<'_>,
         pass: &mut MovedEdgesPass,
-        (sketch, number): (&SketchGroup, usize),
-        (edges, spines): (&Output<EdgeMap>, &Target),
+        sketch: &SketchGroup,
+        number: usize,
+        edges: &Output<EdgeMap>,
+        spines: &Target,
         field: &Output<LineField>,
         pixels: LinePixels<'_>,
     ) -> Result<MovedLines, RenderError> {
@@ -78,7 +80,7 @@ impl SketchPass {
         let buffer = &mut self.movement;
         let moved = self.moved.run(key, |key| {
             buffer.write(rec.gpu, &key.movement);
-            pass.run(rec, buffer.buffer(), (&edges.value.edges, spines), noise, pixels)
+            pass.run(rec, buffer.buffer(), &edges.value.edges, spines, noise, pixels)
         })?;
         let radius = &mut self.greatest_radius;
         let line_distance = self
