@@ -52,7 +52,7 @@ pub fn capitalized(text: &str) -> String {
 pub struct Row<'p, 'a> {
     /// The parameter.
     pub param: &'p mut Param<'a>,
-    /// The default: a value of its own, or that it inherits.
+    /// That of the preset, or else the default: a value of its own, or that it inherits.
     pub default: Value,
 }
 
@@ -62,7 +62,7 @@ impl Row<'_, '_> {
         self.param.own() != self.default
     }
 
-    /// Brings the default back.
+    /// Brings that back.
     pub fn reset(&mut self) -> Option<Change> {
         let default = self.default.clone();
         self.set(&default)
@@ -82,7 +82,7 @@ impl Row<'_, '_> {
             help.push_str(&format!("\nas {other}, until it is changed here"));
         }
         if self.differs() {
-            help.push_str(&format!("\ndefault {}", self.default));
+            help.push_str(&format!("\nresets to {}", self.default));
         }
         help
     }
@@ -130,7 +130,7 @@ impl Row<'_, '_> {
     pub fn menu_ui(&mut self, ui: &mut Ui) -> Option<Change> {
         let mut change = None;
         if self.default != Value::Inherit
-            && ui.add_enabled(self.differs(), egui::Button::new("Reset to default")).clicked()
+            && ui.add_enabled(self.differs(), egui::Button::new("Reset")).clicked()
         {
             change = self.reset();
         }
