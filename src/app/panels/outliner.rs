@@ -346,7 +346,7 @@ fn style_chip(
             }
             ui.separator();
             let hint = "A copy of the present style that can be changed by itself";
-            if ui.selectable_label(own.is_some() && text == "own", "Own").on_hover_text(hint).clicked() {
+            if ui.selectable_label(own.is_some() && text == "Own", "Own").on_hover_text(hint).clicked() {
                 if own.is_none() {
                     editing.document.set_style(scene, targets, resolved);
                 }
