@@ -1,6 +1,6 @@
 //! Chains of the edges that are lines from all sides: creases, borders and where materials meet.
 
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 
 use super::{FeatureEdges, Traits};
 use crate::geometry::Mesh;
@@ -8,8 +8,6 @@ use crate::geometry::line_chains::{Chains, Link};
 
 /// Cosine of the angle by which a chain may turn at a point: 60°.
 const MOST_TURN: f32 = 0.5;
-/// How many choices of angles are kept.
-const KEPT: usize = 8;
 
 /// From which angles (radians) creases are ridges and valleys.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -41,35 +39,10 @@ pub(in crate::geometry) struct FeatureChains {
     pub anchors: Vec<(u32, f32)>,
 }
 
-/// Chains that were asked for before. No part of what makes edges equal.
-#[derive(Debug, Default)]
-pub(super) struct Kept(Mutex<Vec<(CreaseAngles, Arc<FeatureChains>)>>);
-
-impl Clone for Kept {
-    fn clone(&self) -> Self {
-        Self::default()
-    }
-}
-
-impl PartialEq for Kept {
-    fn eq(&self, _: &Self) -> bool {
-        true
-    }
-}
-
 impl FeatureEdges {
     /// The chains for these angles; made when they are asked for first.
     pub(in crate::geometry) fn chains(&self, mesh: &Mesh, angles: CreaseAngles) -> Arc<FeatureChains> {
-        let mut kept = self.kept.0.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some((_, chains)) = kept.iter().find(|(of, _)| *of == angles) {
-            return Arc::clone(chains);
-        }
-        let chains = Arc::new(FeatureChains::new(self, mesh, angles));
-        if kept.len() >= KEPT {
-            kept.remove(0);
-        }
-        kept.push((angles, Arc::clone(&chains)));
-        chains
+        self.kept_chains.get(angles, || FeatureChains::new(self, mesh, angles))
     }
 
     /// Only edges of one kind follow each other; `None` for those that are lines only as silhouettes.

@@ -382,8 +382,8 @@ impl SurfaceTechnique for HatchingShading {
     }
 
     fn bind<'a>(&'a self, shared: &'a SharedHatching, inputs: &mut Inputs<'a>) {
-        inputs.set("light_tones", &shared.sets.tones);
-        inputs.set("stroke_priorities", &shared.sets.priorities);
+        inputs.set("light_tones", shared.sets.tones.view());
+        inputs.set("stroke_priorities", shared.sets.priorities.view());
         inputs.set("tile_of_strokes", &shared.sets.sampler);
         let [triangles, vertices, patches] = match &self.records {
             Some(records) => records.each_ref().map(Some),

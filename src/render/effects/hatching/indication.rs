@@ -44,15 +44,15 @@ impl IndicationUniform {
             patch_offset: patches.offset,
             patch_slope: patches.slope,
             patch_power: patches.power,
-            silhouette_share: silhouettes.share,
+            silhouette_share: silhouettes.weight.share,
             radius: silhouettes.radius * scale,
             step: silhouettes.step * scale,
             alpha: silhouettes.alpha,
             beta: silhouettes.beta,
             lambda: silhouettes.lambda,
-            silhouette_offset: silhouettes.offset,
-            silhouette_slope: silhouettes.slope,
-            silhouette_power: silhouettes.power,
+            silhouette_offset: silhouettes.weight.offset,
+            silhouette_slope: silhouettes.weight.slope,
+            silhouette_power: silhouettes.weight.power,
         }
     }
 

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::path::Path;
 use std::sync::{Arc, OnceLock};
 
-use crate::gpu::{Gpu, GpuError};
+use crate::gpu::{Gpu, GpuError, ImageArray};
 use crate::render::base::noise::{SIDE, paper_tile, ranked, turbulence_tile};
 use crate::render::base::style_images::StyleImages;
 use crate::scene::Texture;
@@ -79,10 +79,10 @@ struct TileKey {
     turbulent: bool,
 }
 
-/// Tiles on the device, made when first asked for.
+/// ImageArray on the device, made when first asked for.
 pub(super) struct SketchImages {
     sampler: wgpu::Sampler,
-    nothing: wgpu::TextureView,
+    nothing: ImageArray,
     tiles: HashMap<TileKey, Tile>,
     papers: Vec<(SketchPaper, Tile)>,
     made: u64,
@@ -90,7 +90,7 @@ pub(super) struct SketchImages {
 
 /// A tile on the device.
 struct Tile {
-    view: wgpu::TextureView,
+    image: ImageArray,
     /// Told apart by it.
     number: u64,
 }
@@ -110,15 +110,8 @@ pub(super) struct Prepared<'a> {
 impl SketchImages {
     /// None yet.
     pub(super) fn new(gpu: &Gpu) -> Self {
-        let sampler = gpu.device.create_sampler(&wgpu::SamplerDescriptor {
-            label: Some("tiles"),
-            address_mode_u: wgpu::AddressMode::Repeat,
-            address_mode_v: wgpu::AddressMode::Repeat,
-            mag_filter: wgpu::FilterMode::Linear,
-            min_filter: wgpu::FilterMode::Linear,
-            ..Default::default()
-        });
-        let nothing = upload(gpu, wgpu::TextureFormat::Rgba8Unorm, 1, &[0; 4]);
+        let nothing = ImageArray::none(gpu, wgpu::TextureFormat::Rgba8Unorm);
+        let sampler = ImageArray::tile_sampler(gpu);
         Self { sampler, nothing, tiles: HashMap::new(), papers: Vec::new(), made: 0 }
     }
 
@@ -146,9 +139,9 @@ impl SketchImages {
             let halves: Vec<u16> =
                 texels.iter().flatten().map(|value| half::f16::from_f32(*value).to_bits()).collect();
             let bytes = bytemuck::cast_slice(&halves);
-            let view = upload(gpu, wgpu::TextureFormat::Rg16Float, SIDE as u32, bytes);
+            let image = tile(gpu, wgpu::TextureFormat::Rg16Float, bytes);
             self.made += 1;
-            self.tiles.insert(key, Tile { view, number: self.made });
+            self.tiles.insert(key, Tile { image, number: self.made });
         }
         let known =
             |papers: &[(SketchPaper, Tile)]| papers.iter().position(|(known, _)| Some(known) == paper);
@@ -156,15 +149,15 @@ impl SketchImages {
             if self.papers.len() >= MOST_KEPT {
                 self.papers.clear();
             }
-            let view = upload(gpu, wgpu::TextureFormat::Rgba8Unorm, SIDE as u32, &texels_of(paper));
+            let image = tile(gpu, wgpu::TextureFormat::Rgba8Unorm, &texels_of(paper));
             self.made += 1;
-            self.papers.push((paper.clone(), Tile { view, number: self.made }));
+            self.papers.push((paper.clone(), Tile { image, number: self.made }));
         }
         let tile = key.and_then(|key| self.tiles.get(&key));
         let paper = known(&self.papers).and_then(|i| self.papers.get(i)).map(|(_, tile)| tile);
         Ok(Prepared {
-            tile: tile.map_or(&self.nothing, |tile| &tile.view),
-            paper: paper.map_or(&self.nothing, |tile| &tile.view),
+            tile: tile.map_or(&self.nothing, |tile| &tile.image).view(),
+            paper: paper.map_or(&self.nothing, |tile| &tile.image).view(),
             sampler: &self.sampler,
             revision: tile.map_or(0, |tile| tile.number) + (paper.map_or(0, |tile| tile.number) << 32),
         })
@@ -183,27 +176,8 @@ fn texels_of(paper: &SketchPaper) -> Vec<u8> {
     texels.into_flattened()
 }
 
-fn upload(gpu: &Gpu, format: wgpu::TextureFormat, side: u32, bytes: &[u8]) -> wgpu::TextureView {
-    let size = wgpu::Extent3d { width: side, height: side, depth_or_array_layers: 1 };
-    let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
-        label: Some("tile"),
-        size,
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format,
-        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
-        view_formats: &[],
-    });
-    // All of these formats have four bytes.
-    gpu.queue.write_texture(
-        texture.as_image_copy(),
-        bytes,
-        wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(side * 4), rows_per_image: Some(side) },
-        size,
-    );
-    texture.create_view(&wgpu::TextureViewDescriptor {
-        dimension: Some(wgpu::TextureViewDimension::D2Array),
-        ..Default::default()
-    })
+fn tile(gpu: &Gpu, format: wgpu::TextureFormat, bytes: &[u8]) -> ImageArray {
+    let tile = ImageArray::new(gpu, "tile", format, SIDE as u32, 1, 1);
+    tile.write(gpu, 0, 0, bytes);
+    tile
 }
