@@ -1,4 +1,4 @@
-// How far layers have come, while it is being counted. Twin: `CountedUniform` in src/render/passes/count.rs.
+// How far layers have come, while it is being counted. Twin: `GpuCounted` in src/render/passes/count.rs.
 
 // What ends it. As in src/render/passes/count.rs.
 const TOO_FEW_PIXELS: u32 = 0u;

@@ -3,7 +3,7 @@
 #import common/fullscreen.wgsl
 #import common/gbuffer.wgsl
 
-// Twin: `MirrorUniform` in src/render/effects/mirror.rs.
+// Twin: `GpuMirror` in src/render/effects/mirror.rs.
 struct Mirror {
     // Linear.
     tint: vec3<f32>,

@@ -5,7 +5,7 @@ use crate::gpu::{ArrayBuffer, Recorder, Target};
 use crate::render::base::error::RenderError;
 use crate::render::base::scene_view::SceneView;
 use crate::render::base::stage::Output;
-use crate::render::effects::mirror::MirrorUniform;
+use crate::render::effects::mirror::GpuMirror;
 
 /// What a mirror shows.
 pub(super) struct Reflection {
@@ -17,7 +17,7 @@ pub(super) struct Reflection {
 /// A reflection that is drawn.
 pub(super) struct Reflected {
     pub(super) color: Output<Target>,
-    pub(super) uniform: MirrorUniform,
+    pub(super) uniform: GpuMirror,
     /// Index of [`Drawing::reflections`].
     pub(super) index: usize,
 }

@@ -8,7 +8,7 @@ use encase::ShaderType;
 use glam::Vec3;
 
 use super::layered::{LayerRequest, Layered, LayeredGroup, LineRequest, Visit, least_pixels};
-use super::section::CapUniform;
+use super::section::GpuCap;
 use crate::gpu::{ArrayBuffer, Gpu, Inputs, Recorder, Target, UniformBuffer, inputs};
 use crate::render::base::edge_style::EdgeUniform;
 use crate::render::base::error::RenderError;
@@ -108,7 +108,7 @@ pub struct BlueprintInputs<'a> {
     /// Its style.
     pub blueprint: &'a BlueprintGroup,
     /// The caps of a section by object id; empty when there are none.
-    pub caps: &'a Vec<CapUniform>,
+    pub caps: &'a Vec<GpuCap>,
     /// Layers are drawn until enough of this is uncovered.
     pub mask: Option<&'a DepthMask>,
 }

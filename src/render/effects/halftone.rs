@@ -27,7 +27,7 @@ use threshold_map::{LAYERS, LEVELS, PERIODS, SIDE, ThresholdMap};
 
 /// Twin of `HalftoneStyle` in `shaders/effects/halftone.wgsl`.
 #[derive(Debug, Clone, Copy, PartialEq, ShaderType, Default)]
-pub struct HalftoneUniform {
+pub struct GpuHalftoneStyle {
     pattern_from_view: Mat4,
     ink: Vec3,
     ink_tint: f32,
@@ -74,7 +74,7 @@ impl PartialEq for Map {
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Halftones {
     /// By object id; empty when there are none.
-    styles: Vec<HalftoneUniform>,
+    styles: Vec<GpuHalftoneStyle>,
     /// Their threshold maps, by number.
     maps: Vec<Map>,
 }
@@ -92,7 +92,7 @@ impl Halftones {
         });
         let black = style.black;
         if let Some(slot) = object.entry(&mut self.styles) {
-            *slot = HalftoneUniform {
+            *slot = GpuHalftoneStyle {
                 // Where it lies on the surface depends on the camera: see `placed`.
                 pattern_from_view: Mat4::IDENTITY,
                 ink: style.ink.to_linear(),
@@ -126,9 +126,9 @@ impl Halftones {
 
     /// The same with the place of the patterns for a camera.
     fn placed(&self, scene: &GpuScene, view: &View) -> Self {
-        let placed = |(id, style): (usize, &HalftoneUniform)| {
+        let placed = |(id, style): (usize, &GpuHalftoneStyle)| {
             let place = (style.space == TRIPLANAR).then(|| pattern_from_view(scene, id, view)).flatten();
-            HalftoneUniform { pattern_from_view: place.unwrap_or(Mat4::IDENTITY), ..*style }
+            GpuHalftoneStyle { pattern_from_view: place.unwrap_or(Mat4::IDENTITY), ..*style }
         };
         Self { styles: self.styles.iter().enumerate().map(placed).collect(), maps: self.maps.clone() }
     }

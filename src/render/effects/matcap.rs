@@ -21,7 +21,7 @@ const SPHERES: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
 
 /// Twin of `MatcapStyle` in `shaders/effects/matcap.wgsl`.
 #[derive(Debug, Clone, Copy, PartialEq, ShaderType, Default)]
-pub struct MatcapUniform {
+pub struct GpuMatcapStyle {
     own_color: f32,
     shadow: f32,
     sphere: u32,
@@ -35,7 +35,7 @@ struct SpherePicture(Vec<u8>);
 #[derive(Clone, Default)]
 pub struct Matcaps {
     /// By object id; empty when there are none.
-    styles: Vec<MatcapUniform>,
+    styles: Vec<GpuMatcapStyle>,
     /// Their spheres, by number.
     spheres: Vec<Arc<SpherePicture>>,
 }
@@ -97,7 +97,7 @@ impl SurfaceTechnique for MatcapShading {
         });
         if let Some(entry) = object.entry(&mut matcaps.styles) {
             *entry =
-                MatcapUniform { own_color: style.own_color, shadow: style.shadow, sphere: number as u32 };
+                GpuMatcapStyle { own_color: style.own_color, shadow: style.shadow, sphere: number as u32 };
         }
     }
 

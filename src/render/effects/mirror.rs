@@ -22,12 +22,12 @@ pub struct MirrorObject {
     /// The corners of a box around it, world space, in the order of [`Bounds::corners`].
     corners: [DVec3; 8],
     sides: Side,
-    uniform: MirrorUniform,
+    uniform: GpuMirror,
 }
 
 /// Twin of `Mirror` in `shaders/effects/mirror.wgsl`.
 #[derive(Debug, Clone, Copy, PartialEq, ShaderType)]
-pub struct MirrorUniform {
+pub struct GpuMirror {
     tint: Vec3,
     reflectivity: f32,
     fresnel: f32,
@@ -37,7 +37,7 @@ pub struct MirrorUniform {
 impl MirrorObject {
     /// A mirror in the plane of an object with this box around it.
     pub fn new(object: u32, plane: Plane, corners: [DVec3; 8], style: &style::Mirror) -> Self {
-        let uniform = MirrorUniform {
+        let uniform = GpuMirror {
             tint: style.tint.to_linear(),
             reflectivity: style.reflectivity,
             fresnel: style.fresnel,
@@ -47,7 +47,7 @@ impl MirrorObject {
     }
 
     /// How it blends, as the shader reads it.
-    pub fn uniform(&self) -> MirrorUniform {
+    pub fn uniform(&self) -> GpuMirror {
         self.uniform
     }
 
@@ -79,7 +79,7 @@ impl MirrorObject {
 }
 
 /// Lays what is seen in a mirror over its surface, where that is in front of the opaque `surfaces` (see
-/// `shaders/common/gbuffer.wgsl`). `uniform`: an array of one [`MirrorUniform`].
+/// `shaders/common/gbuffer.wgsl`). `uniform`: an array of one [`GpuMirror`].
 ///
 /// # Errors
 /// [`RenderError`].

@@ -5,7 +5,7 @@
 use super::blended::{BlendedShading, place_blended};
 use super::blueprint::{BlueprintBuffers, BlueprintGroup, BlueprintInputs, place_blueprint};
 use super::layered::{Layered, LayeredGroup};
-use super::section::CapUniform;
+use super::section::GpuCap;
 use super::surface::Look;
 use crate::gpu::{Gpu, Recorder, Target};
 use crate::render::base::error::RenderError;
@@ -38,7 +38,7 @@ pub struct TranslucentInputs<'a> {
     /// Bind group 0.
     pub uniform: &'a FrameUniform,
     /// The caps of a section by object id; empty when there are none.
-    pub caps: &'a Vec<CapUniform>,
+    pub caps: &'a Vec<GpuCap>,
     /// Layers of blueprints are drawn until enough of this is uncovered.
     pub mask: Option<&'a Output<DepthMask>>,
     /// What blends is shaded with this.
@@ -60,7 +60,7 @@ struct Key {
 #[derive(Clone, PartialEq)]
 enum Manner {
     Blended { look: Box<Look>, shadows: Vec<u64> },
-    Blueprint { blueprint: Box<BlueprintGroup>, caps: Vec<CapUniform>, mask: Option<u64>, is_kept: bool },
+    Blueprint { blueprint: Box<BlueprintGroup>, caps: Vec<GpuCap>, mask: Option<u64>, is_kept: bool },
 }
 
 /// One group across frames.

@@ -26,7 +26,7 @@ pub struct Layer {
 
 /// How far layers have come, as the device counts it. Twin of `Counted` in `shaders/common/counted.wgsl`.
 #[derive(Debug, Clone, PartialEq, ShaderType)]
-pub struct CountedUniform {
+pub struct GpuCounted {
     /// A layer with fewer pixels ends it, before it is drawn.
     pub min_pixels: u32,
     /// 1: it has ended.
@@ -55,7 +55,7 @@ pub struct CountedUniform {
     pub passed: [u32; MOST_LAYERS as usize],
 }
 
-impl CountedUniform {
+impl GpuCounted {
     /// Before the first layer.
     fn initial(min_pixels: u32, uncover: Option<Uncover<'_>>) -> Self {
         let none = [0; MOST_LAYERS as usize];
@@ -119,7 +119,7 @@ impl CountedUniform {
 
 /// What the device reported, from its bytes.
 pub fn report_from_bytes(bytes: &[u8]) -> LayerReport {
-    CountedUniform::from_bytes(bytes).report()
+    GpuCounted::from_bytes(bytes).report()
 }
 
 /// How far layers have come, on the device.
@@ -137,14 +137,14 @@ impl LayerCount {
         Self {
             buffer: gpu.device.create_buffer(&wgpu::BufferDescriptor {
                 label: Some("layer count"),
-                size: CountedUniform::min_size().get(),
+                size: GpuCounted::min_size().get(),
                 usage,
                 mapped_at_creation: false,
             }),
         }
     }
 
-    /// [`CountedUniform`] on the device.
+    /// [`GpuCounted`] on the device.
     pub fn buffer(&self) -> &wgpu::Buffer {
         &self.buffer
     }
@@ -152,7 +152,7 @@ impl LayerCount {
     /// Begins anew, for what is submitted next; it ends before a layer of fewer than `min_pixels` pixels, and where `uncover`
     /// says.
     pub fn begin(&self, gpu: &Gpu, min_pixels: u32, uncover: Option<Uncover<'_>>) {
-        let initial = CountedUniform::initial(min_pixels, uncover);
+        let initial = GpuCounted::initial(min_pixels, uncover);
         let mut bytes = StorageBuffer::new(Vec::new());
         // Writing into a growing vector cannot fail.
         if bytes.write(&initial).is_ok() {

@@ -54,7 +54,7 @@ pub struct FieldUniform {
 
 /// Twin of `FieldObject` in `shaders/passes/offset_field.wgsl`.
 #[derive(Debug, Clone, Copy, PartialEq, ShaderType, Default)]
-pub struct ObjectUniform {
+pub struct GpuFieldObject {
     /// View space to the object's axes about its middle, scene units.
     pub from_view: Mat4,
     /// Told apart by it, where objects are.
@@ -74,7 +74,7 @@ pub struct NoisePlace {
 
 impl FieldUniform {
     /// The noise of a pass of lines at a place on an object, where nothing but the place controls it: twin of `noise_at`.
-    pub fn line_noise(&self, object: &ObjectUniform, place: &NoisePlace, pass: usize) -> Vec2 {
+    pub fn line_noise(&self, object: &GpuFieldObject, place: &NoisePlace, pass: usize) -> Vec2 {
         let seed = self.seeds.iter().flat_map(|four| four.to_array()).nth(pass).unwrap_or_default();
         let (own, turbulent) = (mixed_bits(seed ^ object.seed), self.turbulent == 1);
         let at = object.from_view.transform_point3(place.at);
@@ -88,7 +88,7 @@ impl FieldUniform {
 pub struct FieldBuffers<'a> {
     /// A [`FieldUniform`].
     pub field: &'a wgpu::Buffer,
-    /// [`ObjectUniform`] by object id.
+    /// [`GpuFieldObject`] by object id.
     pub objects: &'a wgpu::Buffer,
 }
 

@@ -6,7 +6,7 @@ use crate::style::indication::{DetailBy, Indication};
 
 /// Twin of `Indication` in `shaders/effects/hatching/indication.wgsl`. Lengths in px.
 #[derive(Debug, Clone, Copy, PartialEq, ShaderType, Default)]
-pub struct IndicationUniform {
+pub struct GpuIndication {
     pub(super) amount: f32,
     by_fields: u32,
     distance: f32,
@@ -30,7 +30,7 @@ pub struct IndicationUniform {
 /// Farthest that edges are looked for, px.
 const MOST_REACH: f32 = 512.0;
 
-impl IndicationUniform {
+impl GpuIndication {
     /// Of a style; `scale`: pixels per reference pixel.
     pub(super) fn new(indication: &Indication, scale: f32) -> Self {
         let (patches, silhouettes) = (&indication.patches, &indication.silhouettes);

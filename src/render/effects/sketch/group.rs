@@ -13,7 +13,7 @@ use crate::render::base::style_images::StyleImages;
 use crate::render::effects::hidden::Hidden;
 use crate::render::passes::line_distance::Widths;
 use crate::render::passes::moved_edges::MovementUniform;
-use crate::render::passes::offset_field::{FieldUniform, ObjectUniform};
+use crate::render::passes::offset_field::{FieldUniform, GpuFieldObject};
 use crate::scene::AlphaMode;
 use crate::style::sketch::{Anchor, Exterior};
 use crate::style::{self, Style, Technique};
@@ -126,9 +126,9 @@ impl SketchGroup {
     }
 
     /// How noise is found for each of its objects, and where their middles are.
-    pub(super) fn objects(&self, scene_view: &SceneView<'_>) -> (Vec<ObjectUniform>, Vec<SketchObject>) {
+    pub(super) fn objects(&self, scene_view: &SceneView<'_>) -> (Vec<GpuFieldObject>, Vec<SketchObject>) {
         let count = self.group.edge_styles.len();
-        let mut fields = vec![ObjectUniform::default(); count];
+        let mut fields = vec![GpuFieldObject::default(); count];
         let mut places = vec![SketchObject::default(); count];
         // The noise does not shake with the samples of a picture.
         let view = scene_view.view.moved(Vec2::ZERO);

@@ -9,8 +9,8 @@ use crate::render::base::stage::{Output, Stage};
 use crate::render::passes::edge_map::EdgeMap;
 use crate::render::passes::gbuffer::GBuffer;
 use crate::render::passes::offset_field::{
-    FieldBuffers, FieldUniform, LineField, LineFieldPass, LinePixels, NoiseSource, ObjectUniform, fill_field,
-    nearest_surfaces,
+    FieldBuffers, FieldUniform, GpuFieldObject, LineField, LineFieldPass, LinePixels, NoiseSource,
+    fill_field, nearest_surfaces,
 };
 
 /// What noise depends on.
@@ -19,7 +19,7 @@ struct FieldKey {
     /// Lines or surfaces, and the geometry that noise follows.
     of: [u64; 2],
     field: FieldUniform,
-    objects: Vec<ObjectUniform>,
+    objects: Vec<GpuFieldObject>,
     uniform: FrameUniform,
 }
 
@@ -27,7 +27,7 @@ struct FieldKey {
 #[derive(Clone, Copy)]
 pub(super) struct NoiseInputs<'a> {
     pub(super) sketch: &'a SketchGroup,
-    pub(super) objects: &'a Vec<ObjectUniform>,
+    pub(super) objects: &'a Vec<GpuFieldObject>,
     pub(super) uniform: &'a FrameUniform,
 }
 
