@@ -30,7 +30,7 @@ pub use material::MaterialBindings;
 pub use pipelines::{DepthRule, Pipelines, Program, STENCIL};
 pub use pool::{Target, TargetPool};
 pub use predicate::Predicate;
-pub use record_texture::{RecordTexture, size_of_texels};
+pub use record_texture::{RecordTexture, frame_records};
 pub use recorder::Recorder;
 pub use reports::Reports;
 pub use shader::{ShaderError, Shaders};

@@ -2,7 +2,7 @@
 #import common/frame.wgsl
 #import gpu/record_texture.wgsl
 
-// Number of a segment, and how many steps from its beginning, two in a texel; at the end `NO_STEP`.
+// Number of a segment, and how many steps from its beginning; at the end `NO_STEP`.
 var step_tex: texture_storage_2d<rgba32uint, read>;
 
 // Steps per workgroup, as in src/render/passes/segments.rs.
@@ -11,8 +11,7 @@ const GROUP: u32 = 256u;
 const NO_STEP: u32 = 0xffffffffu;
 
 fn step_at(number: u32) -> vec2<u32> {
-    let both = texel_at(step_tex, number / 2u);
-    return select(both.xy, both.zw, number % 2u == 1u);
+    return pair_at(step_tex, number);
 }
 
 // The pixel of a step along the longer side of a segment, which is half a pixel longer on both sides, so that every segment

@@ -12,7 +12,7 @@ use super::gbuffer::GBuffer;
 use super::repeated::NearerLines;
 use crate::geometry::LineSegment;
 use crate::geometry::line_segments::SegmentSet;
-use crate::gpu::{Gpu, Program, RecordBuffer, RecordTexture, Recorder, Target, inputs, size_of_texels};
+use crate::gpu::{Gpu, Program, RecordBuffer, RecordTexture, Recorder, Target, frame_records, inputs};
 use crate::render::base::error::RenderError;
 
 /// Pixels of segments that are tested in one go; each takes 52 bytes while it is.
@@ -23,8 +23,6 @@ const POINT_BYTES: u64 = 32;
 const CULL: &str = "passes/segments/cull.wgsl";
 /// Steps per workgroup, as in `passes/segments/steps.wgsl`.
 const GROUP: u32 = 256;
-
-const PLACES: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Uint;
 
 /// No workgroups, and no steps.
 const NONE: [u32; 4] = [0, 1, 1, 0];
@@ -151,8 +149,7 @@ impl Segments {
         for (part, (chunk, of_strokes)) in self.steps.iter_mut().zip(chunks()) {
             part.count = chunk.len() as u32;
             part.of_strokes = of_strokes;
-            let (pairs, _) = chunk.as_chunks::<2>();
-            part.steps.write(gpu, pairs)?;
+            part.steps.write_pairs(gpu, chunk)?;
         }
         let most = chunks().map(|(chunk, _)| chunk.len()).max().unwrap_or(0) as u64;
         self.kept_steps.reserve(gpu, most * 4)?;
@@ -173,8 +170,7 @@ impl Segments {
 
     /// Finds for each of these steps, once for all layers, what they are asked.
     fn place(&self, rec: &mut Recorder<'_>, part: &Steps) -> Result<Target, RenderError> {
-        let size = size_of_texels(part.count as usize).map(u32::next_power_of_two);
-        let places = rec.target_of("places of steps", PLACES, size)?;
+        let places = frame_records(rec, "places of steps", part.count)?;
         let inputs = inputs! {
             segment_tex: self.records.target(),
             step_tex: part.steps.target(),
