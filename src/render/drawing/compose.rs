@@ -132,9 +132,9 @@ impl Drawing {
             let color = self.shading.shade(rec, &mut shared.techniques, &key.look, &layer, false)?;
             for mirrored in reflected {
                 let Some(reflection) = self.reflections.get_mut(mirrored.index) else { continue };
-                reflection.uniform.write(rec.gpu, &vec![mirrored.uniform]);
-                let uniform = reflection.uniform.buffer();
-                mirror(rec, &surfaces.gbuffer.value.geometry, &mirrored.color.value, uniform, &color)?;
+                reflection.uniform.write(rec.gpu, &mirrored.uniform);
+                let geometry = &surfaces.gbuffer.value.geometry;
+                mirror(rec, geometry, &mirrored.color.value, &reflection.uniform, &color)?;
             }
             if let Some(hidden) = hidden {
                 overlay(rec, &hidden.value, &color)?;

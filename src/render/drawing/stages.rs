@@ -4,7 +4,7 @@ use glam::Vec4;
 
 use crate::render::base::edge_style::EdgeUniform;
 use crate::render::base::frame_uniform::FrameUniform;
-use crate::render::effects::mirror::GpuMirror;
+use crate::render::effects::mirror::MirrorUniform;
 use crate::render::effects::surface::Look;
 
 /// What the color of the opaque surfaces depends on.
@@ -20,7 +20,7 @@ pub(super) struct ColorKey {
     pub(super) edge_styles: Vec<EdgeUniform>,
     pub(super) uniform: FrameUniform,
     /// Of each mirror, the revision of what is seen in it, and how that is laid over it.
-    pub(super) reflected: Vec<(u64, GpuMirror)>,
+    pub(super) reflected: Vec<(u64, MirrorUniform)>,
     /// Mirrors show the paper too.
     pub(super) paper_in_mirrors: Option<Vec4>,
     pub(super) hidden: Option<u64>,

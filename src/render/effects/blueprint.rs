@@ -160,7 +160,7 @@ pub fn place_blueprint(
         front.get_or_insert_with(|| gbuffer.geometry.clone());
         let sprite = Sprite {
             composition,
-            style: buffers.style.buffer(),
+            style: &buffers.style,
             has_threshold: params.threshold > 0.0,
             count: drawn.count,
             mask: mask.filter(|_| !params.beyond),
@@ -232,7 +232,7 @@ pub const LAYERS: [&str; 4] = ["layer geometry", "layer surface ids", "layer bas
 #[derive(Clone, Copy)]
 struct Sprite<'a> {
     composition: &'a Composition,
-    style: &'a wgpu::Buffer,
+    style: &'a UniformBuffer<BlueprintUniform>,
     /// Whether ink below a threshold is left out.
     has_threshold: bool,
     count: &'a LayerCount,

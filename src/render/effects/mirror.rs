@@ -6,7 +6,7 @@ use glam::{DVec3, Vec3};
 
 use crate::geometry::{Bounds, Plane};
 use crate::gpu::recorder::{Draw, Onto};
-use crate::gpu::{Program, Recorder, Target, inputs};
+use crate::gpu::{Program, Recorder, Target, UniformBuffer, inputs};
 use crate::render::base::error::RenderError;
 use crate::render::base::view::View;
 use crate::style;
@@ -22,12 +22,12 @@ pub struct MirrorObject {
     /// The corners of a box around it, world space, in the order of [`Bounds::corners`].
     corners: [DVec3; 8],
     sides: Side,
-    uniform: GpuMirror,
+    uniform: MirrorUniform,
 }
 
 /// Twin of `Mirror` in `shaders/effects/mirror.wgsl`.
 #[derive(Debug, Clone, Copy, PartialEq, ShaderType)]
-pub struct GpuMirror {
+pub struct MirrorUniform {
     tint: Vec3,
     reflectivity: f32,
     fresnel: f32,
@@ -37,7 +37,7 @@ pub struct GpuMirror {
 impl MirrorObject {
     /// A mirror in the plane of an object with this box around it.
     pub fn new(object: u32, plane: Plane, corners: [DVec3; 8], style: &style::Mirror) -> Self {
-        let uniform = GpuMirror {
+        let uniform = MirrorUniform {
             tint: style.tint.to_linear(),
             reflectivity: style.reflectivity,
             fresnel: style.fresnel,
@@ -47,7 +47,7 @@ impl MirrorObject {
     }
 
     /// How it blends, as the shader reads it.
-    pub fn uniform(&self) -> GpuMirror {
+    pub fn uniform(&self) -> MirrorUniform {
         self.uniform
     }
 
@@ -79,7 +79,7 @@ impl MirrorObject {
 }
 
 /// Lays what is seen in a mirror over its surface, where that is in front of the opaque `surfaces` (see
-/// `shaders/common/gbuffer.wgsl`). `uniform`: an array of one [`GpuMirror`].
+/// `shaders/common/gbuffer.wgsl`). `uniform`: the mirror.
 ///
 /// # Errors
 /// [`RenderError`].
@@ -87,13 +87,13 @@ pub fn mirror(
     rec: &mut Recorder<'_>,
     surfaces: &Target,
     reflection: &Target,
-    uniform: &wgpu::Buffer,
+    uniform: &UniformBuffer<MirrorUniform>,
     color: &Target,
 ) -> Result<(), RenderError> {
     rec.draw(Draw {
         label: "mirror",
         program: Program::new("effects/mirror.wgsl", "fs_main"),
-        inputs: &inputs! { geometry_tex: surfaces, reflection_tex: reflection, mirrors: uniform },
+        inputs: &inputs! { geometry_tex: surfaces, reflection_tex: reflection, mirror: uniform },
         outputs: &[color],
         onto: Onto::Over,
         depth: None,

@@ -11,7 +11,7 @@ use glam::{Mat4, UVec4, Vec2, Vec3};
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
 
 use super::gbuffer::GBuffer;
-use crate::gpu::{Gpu, Program, RecordBuffer, Recorder, Target, inputs};
+use crate::gpu::{Gpu, Program, RecordBuffer, Recorder, Target, UniformBuffer, inputs};
 use crate::render::base::error::RenderError;
 use crate::render::base::noise::{fine_waves, mixed_bits, waves};
 
@@ -86,8 +86,8 @@ impl FieldUniform {
 /// What noise is asked for with, on the device.
 #[derive(Clone, Copy)]
 pub struct FieldBuffers<'a> {
-    /// A [`FieldUniform`].
-    pub field: &'a wgpu::Buffer,
+    /// Which noise.
+    pub field: &'a UniformBuffer<FieldUniform>,
     /// [`GpuFieldObject`] by object id.
     pub objects: &'a wgpu::Buffer,
 }

@@ -69,7 +69,7 @@ impl SketchPasses {
     }
 
     /// The numbers of so many passes, on the device.
-    pub(super) fn numbers(&mut self, gpu: &Gpu, count: usize) -> Vec<&wgpu::Buffer> {
+    pub(super) fn numbers(&mut self, gpu: &Gpu, count: usize) -> Vec<&UniformBuffer<u32>> {
         self.passes.resize_with(count.max(self.passes.len()), || SketchPass::new(gpu));
         (0..count).zip(&mut self.passes).map(|(number, pass)| pass.number(gpu, number)).collect()
     }
@@ -97,9 +97,9 @@ impl SketchPass {
     }
 
     /// Its number, on the device.
-    fn number(&mut self, gpu: &Gpu, number: usize) -> &wgpu::Buffer {
+    fn number(&mut self, gpu: &Gpu, number: usize) -> &UniformBuffer<u32> {
         self.number.write(gpu, &(number as u32));
-        self.number.buffer()
+        &self.number
     }
 
     /// Moves the lines of an edge map, of which the pixels have been listed; `number`: that of the pass.
@@ -120,7 +120,7 @@ impl SketchPass {
         let buffer = &mut self.movement;
         let moved = self.moved.run(key, |key| {
             buffer.write(rec.gpu, &key.movement);
-            pass.run(rec, buffer.buffer(), &edges.value.edges, spines, noise, pixels)
+            pass.run(rec, buffer, &edges.value.edges, spines, noise, pixels)
         })?;
         let radius = &mut self.greatest_radius;
         let line_distance = self

@@ -3,7 +3,7 @@
 use super::group::SketchGroup;
 use super::ink::MovedLines;
 use crate::gpu::recorder::{Draw, Onto};
-use crate::gpu::{DepthRule, Inputs, Program, Recorder, STENCIL, Target, inputs};
+use crate::gpu::{DepthRule, Inputs, Program, Recorder, STENCIL, Target, UniformBuffer, inputs};
 use crate::render::base::error::RenderError;
 use crate::render::base::stage::Output;
 use crate::render::effects::opaque::{OpaqueLayer, Surfaces};
@@ -41,7 +41,7 @@ pub(super) struct Placing<'a> {
     /// Of the sketch itself.
     pub(super) own: Inputs<'a>,
     /// Numbers of its passes.
-    pub(super) numbers: Vec<&'a wgpu::Buffer>,
+    pub(super) numbers: Vec<&'a UniformBuffer<u32>>,
 }
 
 /// Where ink goes.
