@@ -3,14 +3,14 @@
 //! Built once per mesh; [`super::line_segments()`] picks those that a picture shows.
 
 pub(super) mod chains;
-mod kept;
+pub(super) mod crease_angles;
 pub(super) mod straights;
 mod stretches;
 
 use std::sync::Arc;
 
 use self::chains::FeatureChains;
-use self::kept::Kept;
+use self::crease_angles::Kept;
 use self::straights::Straights;
 use self::stretches::Stretch;
 use super::edge::{FOLDED, NO_FACE};

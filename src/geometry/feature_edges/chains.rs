@@ -2,19 +2,13 @@
 
 use std::sync::Arc;
 
+use super::crease_angles::CreaseAngles;
 use super::{FeatureEdges, Traits};
 use crate::geometry::Mesh;
 use crate::geometry::line_chains::{Chains, Link};
 
 /// Cosine of the angle by which a chain may turn at a point: 60°.
 const MOST_TURN: f32 = 0.5;
-
-/// From which angles (radians) creases are ridges and valleys.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(in crate::geometry) struct CreaseAngles {
-    pub ridge: f32,
-    pub valley: f32,
-}
 
 /// An edge that is in a chain.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use glam::Vec3;
 
 use super::FeatureEdges;
-use super::chains::CreaseAngles;
+use super::crease_angles::CreaseAngles;
 use crate::geometry::Mesh;
 use crate::geometry::line_chains::{ChainLink, Chains, NO_HALF};
 use crate::geometry::strokes::mix;

@@ -10,7 +10,8 @@ use super::outlines::Outline;
 use super::scale::Scale;
 use super::segment::{Dashes, LineSegment};
 use super::{Finder, Trace};
-use crate::geometry::feature_edges::chains::{CreaseAngles, FeatureChains};
+use crate::geometry::feature_edges::chains::FeatureChains;
+use crate::geometry::feature_edges::crease_angles::CreaseAngles;
 use crate::geometry::line_chains::{ChainLink, Chains, Link};
 use crate::geometry::{ClassSet, EdgeClass};
 

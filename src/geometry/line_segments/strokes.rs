@@ -5,7 +5,7 @@ use glam::DVec2;
 
 use super::segment::{LineSegment, LineSelection, LineView, PlacedEdges};
 use super::{Finder, find_segments};
-use crate::geometry::feature_edges::chains::CreaseAngles;
+use crate::geometry::feature_edges::crease_angles::CreaseAngles;
 use crate::geometry::feature_edges::straights::Straight;
 use crate::geometry::strokes::{Hand, HandStroke, mix};
 use crate::geometry::{EdgeClass, Lens};

@@ -205,7 +205,7 @@ impl SketchState {
             let Output { value, revision } = &surfaces.gbuffer;
             Output { value: NoiseSource::Lines(value), revision: *revision }
         };
-        let moved = self.move_lines(rec, &noise, edges.as_ref(), source)?;
+        let moved = self.move_lines(rec, &noise, edges.as_ref(), &source)?;
         let followed = enlarged.as_ref().unwrap_or(&surfaces.gbuffer);
         let fill_field = self.noise.of_surfaces(rec, &noise, followed)?;
         let near_lines = self.near_lines(rec, sketch, edges.as_ref())?;
@@ -264,7 +264,7 @@ impl SketchState {
         rec: &mut Recorder<'_>,
         noise: &NoiseInputs<'_>,
         edges: Option<&Output<EdgeMap>>,
-        source: Output<NoiseSource<'_>>,
+        source: &Output<NoiseSource<'_>>,
     ) -> Result<Vec<MovedLines>, RenderError> {
         let spines = edges.and_then(|edges| Some((edges, edges.value.spines.as_ref()?)));
         let Some((edges, spines)) = spines else {

@@ -79,7 +79,7 @@ struct TileKey {
     turbulent: bool,
 }
 
-/// ImageArray on the device, made when first asked for.
+/// Tiles on the device, made when first asked for.
 pub(super) struct SketchImages {
     sampler: wgpu::Sampler,
     nothing: ImageArray,

@@ -90,7 +90,7 @@ impl SketchNoise {
         inputs: &NoiseInputs<'_>,
         edges: &Output<EdgeMap>,
         spines: &Target,
-        source: Output<NoiseSource<'_>>,
+        source: &Output<NoiseSource<'_>>,
     ) -> Result<Output<LineField>, RenderError> {
         let Self { field, objects, line_field_pass: pass, .. } = self;
         let buffers = FieldBuffers { field, objects: objects.buffer() };

@@ -45,6 +45,7 @@ pub(super) struct Placing<'a> {
 }
 
 /// Where ink goes.
+#[derive(Clone, Copy)]
 enum InkTarget<'a> {
     /// Over color.
     Color(&'a Target),

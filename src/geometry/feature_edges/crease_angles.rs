@@ -1,8 +1,13 @@
-//! What was found among the edges for some angles, kept.
+//! The angles that make creases, and what was found among the edges for them, kept.
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use super::chains::CreaseAngles;
+/// From which angles (radians) creases are ridges and valleys.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(in crate::geometry) struct CreaseAngles {
+    pub ridge: f32,
+    pub valley: f32,
+}
 
 /// How many choices of angles are kept.
 const MOST_KEPT: usize = 8;
