@@ -1,4 +1,4 @@
-//! Blueprints: layers are what rays from the eye meet, peeling ends where it is told to, and the layers lie correctly
+//! Blueprints: layers are what rays from the eye meet, they end where they are told to, and the layers lie correctly
 //! among opaque objects.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
@@ -212,20 +212,20 @@ fn stack(sides: &[f32]) -> Opened {
     blueprint(opened(&scene(planes.collect()), DVec3::Z))
 }
 
-/// How far peeling came: the number of layers, and the pixels of each.
-fn peeled(session: &mut Session, opened: &Opened) -> (u32, Vec<u32>) {
+/// How far layers came: the number of layers, and the pixels of each.
+fn layers_of(session: &mut Session, opened: &Opened) -> (u32, Vec<u32>) {
     session.set_scene(opened).unwrap();
     session.draw(opened, [64; 2], false).unwrap();
-    let peeled = session.renderer().layer_reports().unwrap();
-    assert_eq!(peeled.len(), 1);
-    (peeled[0].layers, peeled[0].pixels.to_vec())
+    let reports = session.renderer().layer_reports().unwrap();
+    assert_eq!(reports.len(), 1);
+    (reports[0].layers, reports[0].pixels.to_vec())
 }
 
 #[test]
-fn peeling_ends_with_the_last_surface_the_most_layers_or_the_least_pixels() {
+fn layers_end_with_the_last_surface_the_most_layers_or_the_least_pixels() {
     let mut session = session();
     let few = stack(&[2.0, 1.5, 1.0, 0.5]);
-    let (count, pixels) = peeled(&mut session, &few);
+    let (count, pixels) = layers_of(&mut session, &few);
     assert_eq!(count, 4);
     assert!(pixels[..4].windows(2).all(|w| w[0] > w[1]), "{pixels:?}");
     assert!(pixels[4..].iter().all(|p| *p == 0), "{pixels:?}");
@@ -234,7 +234,7 @@ fn peeling_ends_with_the_last_surface_the_most_layers_or_the_least_pixels() {
         for key in ["blueprint.layers", "blueprint.to"] {
             let mut fewer = few.clone();
             set(&mut fewer, key, &most.to_string());
-            let (count, of_fewer) = peeled(&mut session, &fewer);
+            let (count, of_fewer) = layers_of(&mut session, &fewer);
             assert_eq!(count, most, "{key}");
             assert_eq!(of_fewer[..most as usize], pixels[..most as usize]);
         }
@@ -244,7 +244,7 @@ fn peeling_ends_with_the_last_surface_the_most_layers_or_the_least_pixels() {
         let mut ended = few.clone();
         let percent = (f64::from(least) - 0.5) * 100.0 / 4096.0;
         set(&mut ended, "blueprint.least", &percent.to_string());
-        let (count, of_ended) = peeled(&mut session, &ended);
+        let (count, of_ended) = layers_of(&mut session, &ended);
         assert_eq!(count, expected, "at least {least} of {pixels:?}");
         // That which ended it has been counted, and nothing after it.
         assert_eq!(of_ended[expected as usize], pixels[expected as usize]);
@@ -252,7 +252,7 @@ fn peeling_ends_with_the_last_surface_the_most_layers_or_the_least_pixels() {
     }
 
     let many = stack(&[1.0; 70]);
-    let (count, pixels) = peeled(&mut session, &many);
+    let (count, pixels) = layers_of(&mut session, &many);
     assert_eq!(count, 64);
     assert!(pixels.iter().all(|p| *p > 300), "{pixels:?}");
 }
@@ -268,7 +268,7 @@ fn a_group_beyond_the_picture_or_without_a_triangle_is_empty_paper() {
     }
     let nothing = blueprint(opened(&scene(vec![object("none", Mesh::default(), DMat4::IDENTITY)]), DVec3::Z));
     for opened in [away, nothing] {
-        assert_eq!(peeled(&mut session, &opened).0, 0);
+        assert_eq!(layers_of(&mut session, &opened).0, 0);
         let image = common::image(&mut session, &opened, 32);
         assert!(image.pixels().all(|p| p == image.get_pixel(0, 0)));
     }
@@ -409,7 +409,7 @@ fn repeated_lines_are_drawn_only_on_demand() {
         set(&mut opened, "edges.mode", mode);
         let mut ink = [true, false].map(|repeated| {
             set(&mut opened, "blueprint.repeated", &repeated.to_string());
-            // The first layer is peeled, not drawn: its lines are then not repeated.
+            // The first layer is counted, not drawn: its lines are then not repeated.
             set(&mut opened, "blueprint.from", "2");
             let hidden = inked(&common::image(&mut session, &opened, 96));
             set(&mut opened, "blueprint.from", "1");
@@ -426,7 +426,7 @@ fn repeated_lines_are_drawn_only_on_demand() {
 }
 
 #[test]
-fn without_a_blueprint_nothing_is_peeled_and_without_a_change_nothing_again() {
+fn without_a_blueprint_there_are_no_layers_and_without_a_change_nothing_again() {
     let mut session = session();
     let runs = |session: &mut Session| {
         session
@@ -442,12 +442,12 @@ fn without_a_blueprint_nothing_is_peeled_and_without_a_change_nothing_again() {
     common::draw(&mut session, &surface, 32);
     assert_eq!(runs(&mut session), 0);
     assert!(session.renderer().layer_reports().unwrap().is_empty());
-    let mut peeled = blueprint(surface);
-    session.draw(&peeled, [32; 2], false).unwrap();
-    session.draw(&peeled, [32; 2], false).unwrap();
+    let mut layered = blueprint(surface);
+    session.draw(&layered, [32; 2], false).unwrap();
+    session.draw(&layered, [32; 2], false).unwrap();
     assert_eq!(runs(&mut session), 1);
-    set(&mut peeled, "blueprint.opacity", "0.3");
-    session.draw(&peeled, [32; 2], false).unwrap();
+    set(&mut layered, "blueprint.opacity", "0.3");
+    session.draw(&layered, [32; 2], false).unwrap();
     assert_eq!(runs(&mut session), 2);
 }
 

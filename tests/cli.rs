@@ -322,7 +322,7 @@ fn the_crease_angle_smooths_files_without_normals() {
 }
 
 #[test]
-fn how_far_blueprints_were_peeled_and_what_that_uncovered_is_printed() {
+fn how_many_layers_blueprints_have_and_what_that_uncovered_is_printed() {
     let folder = tempfile::tempdir().unwrap();
     let crank = crank();
     let blueprints = |args: &[&str]| -> (serde_json::Value, serde_json::Value) {

@@ -1,4 +1,4 @@
-//! Depth masks: designated objects are no blueprints, peeling ends with the layer that uncovers enough of them, and what is
+//! Depth masks: designated objects are no blueprints, layers end with the layer that uncovers enough of them, and what is
 //! counted is what processors and rays count too (blueprints paper, section 4.3).
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
@@ -74,9 +74,9 @@ fn draw(session: &mut Session, opened: &Opened) -> LayerReport {
     common::keep_layers(session);
     session.set_scene(opened).unwrap();
     session.draw(opened, [SIDE; 2], false).unwrap();
-    let peeled = session.renderer().layer_reports().unwrap();
-    assert_eq!(peeled.len(), 1);
-    peeled[0].clone()
+    let report = session.renderer().layer_reports().unwrap();
+    assert_eq!(report.len(), 1);
+    report[0].clone()
 }
 
 /// The depth mask of the last picture.
@@ -85,7 +85,7 @@ fn mask_of(session: &mut Session) -> Vec<f32> {
     texels::<f32>(session, &mask)
 }
 
-/// What the processor counts in the textures: the mask's pixels, and those that pass against each layer that was peeled.
+/// What the processor counts in the textures: the mask's pixels, and those that pass against each layer that was drawn.
 fn recount(session: &mut Session) -> (u32, Vec<u32>) {
     let mask = mask_of(session);
     let count = |passes: &dyn Fn(usize, f32) -> bool| {
@@ -106,7 +106,7 @@ fn is_enough(passed: u32, fraction: f32, masked: u32) -> bool {
 }
 
 #[test]
-fn counts_equal_a_recount_and_peeling_ends_with_the_first_layer_that_uncovers_enough() {
+fn counts_equal_a_recount_and_layers_end_with_the_first_layer_that_uncovers_enough() {
     let mut session = session();
     let mut ends = Vec::new();
     for scene in [behind_sheets(), among_rings()] {
@@ -118,19 +118,19 @@ fn counts_equal_a_recount_and_peeling_ends_with_the_first_layer_that_uncovers_en
         for fraction in ["0", "0.2", "0.35", "0.5", "0.8", "0.97", "1"] {
             let mut part = scene.clone();
             set(&mut part, "blueprint.fraction", fraction);
-            let peeled = draw(&mut session, &part);
+            let report = draw(&mut session, &part);
             assert_eq!(recount(&mut session).0, masked);
-            assert_eq!(peeled.masked, masked, "Q");
+            assert_eq!(report.masked, masked, "Q");
             let fraction: f32 = fraction.parse().unwrap();
             let expected = passed.iter().position(|r| is_enough(*r, fraction, masked)).unwrap() as u32 + 1;
-            assert_eq!(peeled.layers, expected, "fraction {fraction} of {masked}: {passed:?}");
-            assert_eq!(peeled.ended, LayersEnd::MaskUncovered);
+            assert_eq!(report.layers, expected, "fraction {fraction} of {masked}: {passed:?}");
+            assert_eq!(report.ended, LayersEnd::MaskUncovered);
             let drawn = expected as usize;
-            assert_eq!(peeled.passed[..drawn], passed[..drawn], "R");
-            assert_eq!(peeled.pixels[..drawn], whole.pixels[..drawn]);
-            assert!(peeled.pixels[drawn..].iter().chain(&peeled.passed[drawn..]).all(|n| *n == 0));
-            assert_eq!(peeled.uncovered(), passed[drawn - 1]);
-            assert_eq!(peeled.shortfall(), None);
+            assert_eq!(report.passed[..drawn], passed[..drawn], "R");
+            assert_eq!(report.pixels[..drawn], whole.pixels[..drawn]);
+            assert!(report.pixels[drawn..].iter().chain(&report.passed[drawn..]).all(|n| *n == 0));
+            assert_eq!(report.uncovered(), passed[drawn - 1]);
+            assert_eq!(report.shortfall(), None);
             // What comes after the last layer was never drawn.
             let left = common::kept_layers(&mut session, "layer surface ids").split_off(drawn);
             let is_empty = |regions: &hachure::gpu::Target| {
@@ -194,12 +194,12 @@ fn away_from_edges_a_pixel_passes_with_the_layer_before_which_rays_meet_the_mask
     for scene in [behind_sheets(), among_rings()] {
         let mut all = scene;
         set(&mut all, "blueprint.fraction", "1");
-        let peeled = draw(&mut session, &all);
+        let report = draw(&mut session, &all);
         let rays = Rays::new(&all);
         let mask = mask_of(&mut session);
         let layers: Vec<Vec<f32>> = common::kept_layers(&mut session, "layer depth")
             .iter()
-            .take(peeled.layers as usize)
+            .take(report.layers as usize)
             .map(|depth| texels::<f32>(&mut session, depth))
             .collect();
         let (mut compared, mut deepest) = (0, 0);
@@ -266,23 +266,23 @@ fn what_opaque_objects_hide_of_the_mask_is_counted_and_told() {
     let mut session = session();
     let mut scene = behind_sheets();
     set(&mut scene, "blueprint.fraction", "1");
-    let peeled = draw(&mut session, &scene);
-    assert_eq!((peeled.hidden, peeled.shortfall()), (0, None));
+    let report = draw(&mut session, &scene);
+    assert_eq!((report.hidden, report.shortfall()), (0, None));
     // The foremost sheet hides a strip on the left.
     let nodes = Arc::clone(&scene.scene);
     scene
         .document
         .set_for(&nodes, &[4], "technique", &hachure::style::Value::Text("unlit".to_owned()))
         .unwrap();
-    let peeled = draw(&mut session, &scene);
+    let report = draw(&mut session, &scene);
     let mask = mask_of(&mut session);
     let geometry = common::kept(&mut session, "geometry").unwrap();
     let front = texels::<[u32; 4]>(&mut session, &geometry);
     let hidden =
         mask.iter().zip(&front).filter(|(m, f)| **m > 0.0 && f[3] & 0x7fff_ffff == object_id(4)).count();
     assert!(hidden > 100, "{hidden}");
-    assert_eq!(peeled.hidden as usize, hidden);
-    assert!(peeled.shortfall().unwrap().contains("opaque objects hide"), "{:?}", peeled.shortfall());
+    assert_eq!(report.hidden as usize, hidden);
+    assert!(report.shortfall().unwrap().contains("opaque objects hide"), "{:?}", report.shortfall());
 }
 
 #[test]
@@ -315,19 +315,19 @@ fn what_cannot_be_uncovered_is_told() {
     let mut scene = behind_sheets();
     set(&mut scene, "blueprint.fraction", "1");
     set(&mut scene, "blueprint.to", "2");
-    let peeled = draw(&mut session, &scene);
-    assert_eq!((peeled.layers, peeled.ended), (2, LayersEnd::MostLayers));
-    let told = peeled.shortfall().unwrap();
+    let report = draw(&mut session, &scene);
+    assert_eq!((report.layers, report.ended), (2, LayersEnd::MostLayers));
+    let told = report.shortfall().unwrap();
     assert!(told.contains("after 2 layers, not 100 %") && told.contains("blueprint.to"), "{told}");
-    assert!(peeled.share_uncovered() > 0.0 && peeled.share_uncovered() < 0.9);
+    assert!(report.share_uncovered() > 0.0 && report.share_uncovered() < 0.9);
 
     // No layer has so many pixels: not even the first one is drawn, and R is that of the layer which ended it.
     set(&mut scene, "blueprint.to", "64");
     set(&mut scene, "blueprint.least", "90");
-    let peeled = draw(&mut session, &scene);
-    assert_eq!((peeled.layers, peeled.ended), (0, LayersEnd::TooFewPixels));
-    assert!(peeled.passed[0] > 0 && peeled.uncovered() == peeled.passed[0]);
-    assert!(peeled.shortfall().unwrap().contains("blueprint.least"));
+    let report = draw(&mut session, &scene);
+    assert_eq!((report.layers, report.ended), (0, LayersEnd::TooFewPixels));
+    assert!(report.passed[0] > 0 && report.uncovered() == report.passed[0]);
+    assert!(report.shortfall().unwrap().contains("blueprint.least"));
 }
 
 #[test]
@@ -340,15 +340,15 @@ fn without_a_mask_in_the_picture_the_plain_rules_hold() {
         scene
     };
     assert!(plain.document.role_faults(&plain.scene).is_empty());
-    let peeled = draw(&mut session, &plain);
+    let report = draw(&mut session, &plain);
     assert!(common::kept(&mut session, "depth mask").is_none());
-    assert_eq!((peeled.layers, peeled.masked), (4, 0));
+    assert_eq!((report.layers, report.masked), (4, 0));
 
     let mut hidden = behind_sheets();
     hidden.document.node_mut("/cube").visible = Some(false);
     let of_hidden = draw(&mut session, &hidden);
     assert!(common::kept(&mut session, "depth mask").is_none());
-    assert_eq!(of_hidden.pixels, peeled.pixels);
+    assert_eq!(of_hidden.pixels, report.pixels);
     assert!(
         hidden.document.role_faults(&hidden.scene)[0].to_string().contains("/cube: is designated but hidden")
     );
@@ -359,7 +359,7 @@ fn without_a_mask_in_the_picture_the_plain_rules_hold() {
     set(&mut outside, "blueprint.fraction", "0");
     let of_outside = draw(&mut session, &outside);
     assert!(mask_of(&mut session).iter().all(|d| *d == 0.0));
-    assert_eq!((of_outside.masked, &of_outside.pixels), (0, &peeled.pixels));
+    assert_eq!((of_outside.masked, &of_outside.pixels), (0, &report.pixels));
     assert_eq!((of_outside.ended, of_outside.shortfall()), (LayersEnd::TooFewPixels, None));
 
     let mut all = behind_sheets();
@@ -367,7 +367,9 @@ fn without_a_mask_in_the_picture_the_plain_rules_hold() {
     session.set_scene(&all).unwrap();
     session.draw(&all, [SIDE; 2], false).unwrap();
     assert!(session.renderer().layer_reports().unwrap().is_empty());
-    assert!(all.document.role_faults(&all.scene)[0].to_string().contains("nothing is peeled to uncover it"));
+    assert!(
+        all.document.role_faults(&all.scene)[0].to_string().contains("no layers are drawn to uncover it")
+    );
 }
 
 #[test]
@@ -400,7 +402,7 @@ fn beyond_the_mask_nothing_is_drawn_on_demand() {
 }
 
 #[test]
-fn mirrors_show_what_is_peeled_for_their_own_view() {
+fn mirrors_show_layers_of_their_own_view() {
     let mut session = session();
     // A ball in a box, before a mirror that stands beside them.
     let mut scene = designated(

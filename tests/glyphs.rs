@@ -8,7 +8,7 @@ use std::time::Instant;
 use common::{opened, scene, session, set};
 use glam::{DMat4, DVec3};
 use hachure::document::Document;
-use hachure::document::glyph::{Anchor, FOLDER, Glyph, Shape, Unit};
+use hachure::document::glyph::{Anchor, FOLDER, Glyph, LetterUnit, Shape};
 use hachure::export::Session;
 use hachure::export::session::Opened;
 use hachure::geometry::{Text, primitives};
@@ -93,7 +93,7 @@ fn documents_with_glyphs_survive_saving_and_opening() {
     let names: Vec<_> = document.glyphs.iter().map(|g| g.name.as_str()).collect();
     assert_eq!(names, ["chamber", "path", "arrow", "label", "label.2"]);
     let Shape::Label(label) = &document.glyphs[3].shape else { panic!("{:?}", document.glyphs[3]) };
-    assert_eq!((label.unit, label.offset, label.in_front), (Unit::Model, [-3.0, 2.0], false));
+    assert_eq!((label.unit, label.offset, label.in_front), (LetterUnit::Model, [-3.0, 2.0], false));
     assert_eq!(label.anchor, Anchor::Point(DVec3::new(0.5, 0.0, 0.0)));
     let opened = nested("plain");
     assert_eq!(document.glyph_faults(&opened.scene), []);
@@ -203,7 +203,7 @@ fn picking_a_glyph_gives_the_node_behind_those_of_the_files() {
 }
 
 /// A black label on a red plate, before and behind a cube.
-fn labeled(in_front: bool, unit: Unit, anchor: DVec3) -> Opened {
+fn labeled(in_front: bool, unit: LetterUnit, anchor: DVec3) -> Opened {
     let mut opened = nested("plain");
     opened.document.view.background = Some(Color([255, 0, 0]));
     let mut shape = Shape::label("HI".to_owned(), Anchor::Point(anchor));
@@ -233,7 +233,7 @@ fn labels_face_the_eye_and_have_their_size_from_everywhere() {
     let mut session = session();
     for orthographic in [false, true] {
         for towards in [DVec3::Z, DVec3::new(1.0, 0.4, 0.2), DVec3::new(-0.3, 0.95, -0.6)] {
-            let mut opened = labeled(true, Unit::Pixel, DVec3::ZERO);
+            let mut opened = labeled(true, LetterUnit::Pixel, DVec3::ZERO);
             opened.document.style.edges.profile.show = false;
             opened.document.style.edges.inner.show = false;
             opened.document.camera = Some(
@@ -270,7 +270,7 @@ fn labels_before_everything_are_never_hidden_and_others_are_by_what_is_before_th
     for (in_front, depth, is_seen) in
         [(true, -0.9, true), (false, -0.9, false), (false, 1.001, true), (true, 1.001, true)]
     {
-        let opened = labeled(in_front, Unit::Pixel, DVec3::new(0.0, 0.0, depth));
+        let opened = labeled(in_front, LetterUnit::Pixel, DVec3::new(0.0, 0.0, depth));
         session.set_scene(&opened).unwrap();
         let drawn = picture(&mut session, &opened);
         let plate = drawn
@@ -285,7 +285,7 @@ fn a_label_in_units_of_the_model_grows_with_it() {
     let mut session = session();
     let mut heights = Vec::new();
     for zoom in [1.0, 2.0] {
-        let mut opened = labeled(true, Unit::Model, DVec3::ZERO);
+        let mut opened = labeled(true, LetterUnit::Model, DVec3::ZERO);
         opened.document.style.edges.profile.show = false;
         opened.document.style.edges.inner.show = false;
         let camera = opened.document.camera.as_mut().unwrap();

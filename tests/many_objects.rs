@@ -41,7 +41,7 @@ fn many() -> Arc<Scene> {
 
 /// Twenty looks of surfaces, of every technique that shades them; with `lines` also of as many colors and widths.
 fn styles(lines: bool) -> Vec<Style> {
-    // Blueprints are not shaded, but peeled, each group by itself.
+    // Blueprints are not shaded, but split into layers, each group by itself.
     let techniques: Vec<_> =
         Technique::VARIANTS.iter().filter(|name| **name != <&str>::from(Technique::Blueprint)).collect();
     let style = |i: usize| {

@@ -11,7 +11,7 @@ use std::process::Command;
 use std::time::{Duration, Instant};
 
 use common::median;
-use hachure::document::View;
+use hachure::document::ViewSettings;
 use hachure::export::session::topology;
 use hachure::geometry::{Mesh, primitives};
 use hachure::import::{ImportOptions, Progress, load};
@@ -121,7 +121,7 @@ fn loading_with_topology_is_quick() {
         let began = Instant::now();
         let scene = load(&path, &ImportOptions::default(), &Progress::default()).unwrap();
         let loaded = began.elapsed().as_secs_f64();
-        let found = topology(&scene, View::default().creases());
+        let found = topology(&scene, ViewSettings::default().creases());
         assert!(found[0].is_solid);
         (loaded, began.elapsed().as_secs_f64())
     });

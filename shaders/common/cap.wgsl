@@ -1,7 +1,7 @@
 // Caps of a section: what has ink on them.
 #import common/coverage.wgsl
 
-// Twin: `CapUniform` in src/render/effects/section.rs.
+// Twin: `GpuCap` in src/render/effects/section.rs.
 struct Cap {
     // Linear color.
     fill: vec3<f32>,

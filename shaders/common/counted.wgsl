@@ -1,6 +1,6 @@
-// How far layers have come, while it is being counted. Twin: `CountedUniform` in src/render/passes/peel.rs.
+// How far layers have come, while it is being counted. Twin: `GpuCounted` in src/render/passes/count.rs.
 
-// What ends it. As in src/render/passes/peel.rs.
+// What ends it. As in src/render/passes/count.rs.
 const TOO_FEW_PIXELS: u32 = 0u;
 const UNCOVERED: u32 = 1u;
 const MOST_LAYERS: u32 = 2u;

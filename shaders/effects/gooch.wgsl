@@ -13,7 +13,7 @@ const GOOCH: u32 = 3u;
 override WITH_GOOCH: bool = true;
 override WITH_METAL: bool = true;
 
-// Twin: `GoochUniform` in src/render/effects/gooch.rs.
+// Twin: `GpuGoochStyle` in src/render/effects/gooch.rs.
 struct GoochStyle {
     // Linear colors.
     cool: vec3<f32>,

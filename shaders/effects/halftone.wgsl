@@ -17,7 +17,7 @@ override WITH_SCREEN: bool = true;
 override WITH_TRIPLANAR: bool = true;
 override WITH_UV: bool = true;
 
-// Twin: `HalftoneUniform` in src/render/effects/halftone.rs.
+// Twin: `GpuHalftoneStyle` in src/render/effects/halftone.rs.
 struct HalftoneStyle {
     // To the object's own axes, about its middle; its diagonal is 1.
     pattern_from_view: mat4x4<f32>,

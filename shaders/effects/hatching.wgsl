@@ -24,7 +24,7 @@ const STRIPES: u32 = 1u;
 const ON_PAPER: u32 = 2u;
 const BY_UV: u32 = 3u;
 
-// Twin: `HatchingUniform` in src/render/effects/hatching.rs.
+// Twin: `GpuHatchingStyle` in src/render/effects/hatching.rs.
 struct HatchingStyle {
     // To local space of the object's mesh.
     local_from_view: mat4x4<f32>,

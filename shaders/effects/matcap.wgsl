@@ -8,7 +8,7 @@ const MATCAP: u32 = 6u;
 // Whether any object is drawn in this way.
 override WITH_MATCAP: bool = true;
 
-// Twin: `MatcapUniform` in src/render/effects/matcap.rs.
+// Twin: `GpuMatcapStyle` in src/render/effects/matcap.rs.
 struct MatcapStyle {
     // Share of the object's own color.
     own_color: f32,

@@ -14,10 +14,10 @@ struct Mirror {
 
 // Linear color times opacity, and opacity; flipped left to right.
 var reflection_tex: texture_2d<f32>;
-var<storage, read> mirrors: array<Mirror>;
+var<uniform> mirror: Mirror;
 
 // Schlick 1994, weighed by a style.
-fn opacity_of(mirror: Mirror, cosine: f32) -> f32 {
+fn opacity_of(cosine: f32) -> f32 {
     let slant = 1.0 - clamp(cosine, 0.0, 1.0);
     return mirror.reflectivity + (1.0 - mirror.reflectivity) * mirror.fresnel * pow(slant, 5.0);
 }
@@ -26,7 +26,6 @@ fn opacity_of(mirror: Mirror, cosine: f32) -> f32 {
 fn fs_main(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     let px = vec2<i32>(position.xy);
     let s = unpack_surfel(geometry_at(px));
-    let mirror = mirrors[0];
     if s.object != mirror.object {
         discard;
     }
@@ -34,6 +33,6 @@ fn fs_main(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     let seen = textureLoad(reflection_tex, across, 0);
     // Where nothing is seen in it, a mirror shows the paper.
     let reflection = (seen.rgb + (1.0 - seen.a) * frame.background.rgb) * mirror.tint;
-    let opacity = opacity_of(mirror, dot(s.face_normal, towards_eye(pos_view_of(px, s.depth))));
+    let opacity = opacity_of(dot(s.face_normal, towards_eye(pos_view_of(px, s.depth))));
     return vec4(reflection * opacity, opacity);
 }

@@ -24,7 +24,7 @@ override WITH_PLAIN: bool = true;
 // Whether surfaces are as opaque as their materials.
 override WITH_OPACITY: bool = false;
 
-// Twin: `SurfaceUniform` in src/render/effects/surface.rs.
+// Twin: `GpuSurfaceStyle` in src/render/effects/surface.rs.
 struct SurfaceStyle {
     // Linear color of what stands out among blueprints.
     highlight: vec3<f32>,

@@ -18,7 +18,7 @@ override WITH_NEAREST: bool = true;
 override WITH_CARTOON_MAP: bool = true;
 override WITH_ANALYTIC: bool = true;
 
-// Twin: `ToonUniform` in src/render/effects/toon.rs.
+// Twin: `GpuToonStyle` in src/render/effects/toon.rs.
 struct ToonStyle {
     rim_color: vec3<f32>,
     // Opacities.

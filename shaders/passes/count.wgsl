@@ -1,4 +1,4 @@
-// How many pixels a layer covers, how much of the depth mask it leaves uncovered, and whether peeling goes on (blueprints
+// How many pixels a layer covers, how much of the depth mask it leaves uncovered, and whether layers go on (blueprints
 // paper, sections 4.2 and 4.3): occlusion queries would count overdraw, and only the processor could act on them.
 #import common/frame.wgsl
 #import common/counted.wgsl
@@ -69,7 +69,7 @@ fn clear_predicate(index: u32) {
     }
 }
 
-// Before a layer is drawn: too few pixels end peeling before it, and enough layers where there is nothing to uncover.
+// Before a layer is drawn: too few pixels end layers before it, and enough layers where there is nothing to uncover.
 @compute @workgroup_size(64)
 fn cs_decide(@builtin(local_invocation_index) index: u32) {
     let had_ended = layer_count.has_ended == 1u;

@@ -1,4 +1,4 @@
-// What peeling and the lines of layers must know of the depth mask (blueprints paper, section 4.3).
+// What layers and their lines must know of the depth mask (blueprints paper, section 4.3).
 #import common/frame.wgsl
 #import common/gbuffer.wgsl
 #import common/ordered.wgsl

@@ -31,7 +31,7 @@ struct Field {
     tile_scale: f32,
 }
 
-// Twin: `ObjectUniform` in src/render/passes/offset_field.rs.
+// Twin: `GpuFieldObject` in src/render/passes/offset_field.rs.
 struct FieldObject {
     // View space to the object's axes about its middle, scene units.
     from_view: mat4x4<f32>,

@@ -13,7 +13,7 @@ override WITH_FOURTH: bool = true;
 override WITH_CENTRAL: bool = true;
 override WITH_SOFT: bool = true;
 
-// One picture that a light sees. Light space: it looks along −Z. Twin: `LightViewUniform` in
+// One picture that a light sees. Light space: it looks along −Z. Twin: `GpuLightView` in
 // src/render/passes/shadow.rs.
 struct LightView {
     light_from_view: mat4x4<f32>,
@@ -30,7 +30,7 @@ struct LightView {
     is_central: u32,
 }
 
-// Twin: `ShadowLightUniform` in src/render/passes/shadow.rs.
+// Twin: `GpuShadowLight` in src/render/passes/shadow.rs.
 struct ShadowLight {
     // Its pictures.
     first: u32,

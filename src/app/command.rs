@@ -105,7 +105,7 @@ pub enum Command {
 
 /// A heading of the list of keys and a menu.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, EnumIter)]
-pub enum Group {
+pub enum CommandGroup {
     /// Files and pictures.
     File,
     /// Undo and selection.
@@ -120,7 +120,7 @@ pub enum Group {
     Help,
 }
 
-impl Group {
+impl CommandGroup {
     /// Its heading.
     pub fn title(self) -> &'static str {
         match self {
@@ -208,7 +208,7 @@ impl Command {
     }
 
     /// The heading under which it stands.
-    pub fn group(self) -> Group {
+    pub fn group(self) -> CommandGroup {
         match self {
             Self::Open
             | Self::Add
@@ -218,15 +218,17 @@ impl Command {
             | Self::Screenshot
             | Self::TransparentScreenshot
             | Self::ScreenshotAs
-            | Self::Quit => Group::File,
+            | Self::Quit => CommandGroup::File,
             Self::Undo
             | Self::Redo
             | Self::SelectAll
             | Self::SelectNone
             | Self::Hide
             | Self::Isolate
-            | Self::ShowAll => Group::Edit,
-            Self::AddBox | Self::AddArrow | Self::AddPath | Self::AddLabel | Self::Delete => Group::Glyphs,
+            | Self::ShowAll => CommandGroup::Edit,
+            Self::AddBox | Self::AddArrow | Self::AddPath | Self::AddLabel | Self::Delete => {
+                CommandGroup::Glyphs
+            }
             Self::Home
             | Self::FrameAll
             | Self::FrameSelected
@@ -242,14 +244,14 @@ impl Command {
             | Self::OrbitRight
             | Self::OrbitUp
             | Self::OrbitDown
-            | Self::Projection => Group::View,
+            | Self::Projection => CommandGroup::View,
             Self::Panels
             | Self::Outliner
             | Self::Inspector
             | Self::Statistics
             | Self::DarkPanels
-            | Self::FullScreen => Group::Window,
-            Self::Warnings | Self::ReloadShaders | Self::Help => Group::Help,
+            | Self::FullScreen => CommandGroup::Window,
+            Self::Warnings | Self::ReloadShaders | Self::Help => CommandGroup::Help,
         }
     }
 
@@ -334,7 +336,7 @@ impl Command {
     }
 
     /// All commands of a group, in the order of its menu.
-    pub fn of(group: Group) -> impl Iterator<Item = Self> {
+    pub fn of(group: CommandGroup) -> impl Iterator<Item = Self> {
         Self::iter().filter(move |c| c.group() == group)
     }
 

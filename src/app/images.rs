@@ -9,7 +9,7 @@ use crate::style::Style;
 
 /// What the window knows of the images.
 #[derive(Default)]
-pub(super) struct StyleImages {
+pub(super) struct ImageFiles {
     /// What has been read.
     pub(super) cache: ImageCache,
     /// The styles for which it was last looked what they need, and that.
@@ -22,7 +22,7 @@ pub(super) struct StyleImages {
     pub(super) is_outdated: bool,
 }
 
-impl StyleImages {
+impl ImageFiles {
     /// Looks in the next frame whether files have changed.
     pub(super) fn look_again(&mut self) {
         self.is_outdated = true;

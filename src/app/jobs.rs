@@ -64,6 +64,13 @@ impl<T: Send + 'static> Job<T> {
         self.receiver.try_recv().ok()
     }
 
+    /// The result of the job that is there, as soon as it is done; the job is gone then.
+    pub fn take(job: &mut Option<Self>) -> Option<Result<T, JobError>> {
+        let result = job.as_ref()?.poll()?;
+        *job = None;
+        Some(result)
+    }
+
     /// How far it is, and the way to stop it.
     pub fn progress(&self) -> &Progress {
         &self.progress

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use crate::document::{Document, DocumentError, Glyph, View};
+use crate::document::{Document, DocumentError, Glyph, ViewSettings};
 use crate::export::session::{import_options, is_document};
 use crate::geometry::Bounds;
 use crate::gpu::GpuError;
@@ -166,7 +166,7 @@ pub enum LoadError {
 pub fn load(
     paths: &[PathBuf],
     intent: Intent,
-    view: &View,
+    view: &ViewSettings,
     loader: &Loader,
     uploader: &Uploader,
     progress: &Progress,

@@ -8,7 +8,7 @@ use eframe::egui::{Align2, Color32, RichText};
 
 /// How serious a message is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Level {
+pub enum Severity {
     /// Something was done.
     Done,
     /// Something is worth knowing.
@@ -21,7 +21,7 @@ pub enum Level {
 #[derive(Debug, Clone)]
 pub struct Notice {
     /// How serious it is.
-    pub level: Level,
+    pub level: Severity,
     /// The message.
     pub text: String,
     /// A file whose folder can be opened.
@@ -41,24 +41,24 @@ const MAX_SHOWN: usize = 5;
 impl Notices {
     /// Something was done; disappears by itself.
     pub fn done(&mut self, text: impl Into<String>) {
-        self.add(Level::Done, text.into(), None);
+        self.add(Severity::Done, text.into(), None);
     }
 
     /// A file was written.
     pub fn saved(&mut self, path: PathBuf) {
-        self.add(Level::Done, format!("Saved {}", path.display()), Some(path));
+        self.add(Severity::Done, format!("Saved {}", path.display()), Some(path));
     }
 
     /// Something is worth knowing; disappears by itself.
     pub fn warning(&mut self, text: impl Into<String>) {
-        self.add(Level::Warning, text.into(), None);
+        self.add(Severity::Warning, text.into(), None);
     }
 
     /// Something failed; stays until it is closed.
     pub fn error(&mut self, text: impl Into<String>) {
         let text = text.into();
         log::error!("{text}");
-        self.add(Level::Error, text, None);
+        self.add(Severity::Error, text, None);
     }
 
     /// The messages that are shown, the newest last.
@@ -66,11 +66,11 @@ impl Notices {
         &self.list
     }
 
-    fn add(&mut self, level: Level, text: String, file: Option<PathBuf>) {
+    fn add(&mut self, level: Severity, text: String, file: Option<PathBuf>) {
         let seconds = match level {
-            Level::Done => Some(6),
-            Level::Warning => Some(12),
-            Level::Error => None,
+            Severity::Done => Some(6),
+            Severity::Warning => Some(12),
+            Severity::Error => None,
         };
         self.list.retain(|n| n.text != text);
         self.list.push(Notice {
@@ -114,9 +114,9 @@ impl Notices {
 /// Returns whether it was closed.
 fn notice_ui(ui: &mut egui::Ui, notice: &Notice, available: f32) -> bool {
     let accent = match notice.level {
-        Level::Done => Color32::from_rgb(70, 140, 90),
-        Level::Warning => Color32::from_rgb(200, 140, 30),
-        Level::Error => Color32::from_rgb(200, 60, 50),
+        Severity::Done => Color32::from_rgb(70, 140, 90),
+        Severity::Warning => Color32::from_rgb(200, 140, 30),
+        Severity::Error => Color32::from_rgb(200, 60, 50),
     };
     let mut closed = false;
     let frame =

@@ -10,7 +10,7 @@ use crate::scene::{Camera, Projection};
 
 /// What is being placed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Placed {
+pub enum PlacedGlyph {
     /// Tail and tip.
     Arrow,
     /// As many points as the person likes.
@@ -22,7 +22,7 @@ pub enum Placed {
 /// A glyph that is being placed.
 #[derive(Debug, Clone)]
 pub struct Placing {
-    kind: Placed,
+    kind: PlacedGlyph,
     /// The points on surfaces.
     points: Vec<DVec3>,
     /// Its number in the document, once it has points enough to be drawn.
@@ -31,21 +31,21 @@ pub struct Placing {
 
 impl Placing {
     /// Nothing has been placed yet.
-    pub(super) fn new(kind: Placed) -> Self {
+    pub(super) fn new(kind: PlacedGlyph) -> Self {
         Self { kind, points: Vec::new(), glyph: None }
     }
 
     /// What to do next.
     pub fn hint(&self) -> &'static str {
         match (self.kind, self.points.len()) {
-            (Placed::Label, _) => "Click what the label names; Esc cancels",
-            (Placed::Arrow, 0) => "Click where the arrow begins; Esc cancels",
-            (Placed::Arrow, _) => {
+            (PlacedGlyph::Label, _) => "Click what the label names; Esc cancels",
+            (PlacedGlyph::Arrow, 0) => "Click where the arrow begins; Esc cancels",
+            (PlacedGlyph::Arrow, _) => {
                 "Click where the arrow points to; Backspace takes a point back, Esc cancels"
             }
-            (Placed::Path, 0) => "Click where the path begins; Esc cancels",
-            (Placed::Path, 1) => "Click the next point; Backspace takes one back, Esc cancels",
-            (Placed::Path, _) => {
+            (PlacedGlyph::Path, 0) => "Click where the path begins; Esc cancels",
+            (PlacedGlyph::Path, 1) => "Click the next point; Backspace takes one back, Esc cancels",
+            (PlacedGlyph::Path, _) => {
                 "Click the next point; Enter or a double click ends the path, Backspace takes a point back, Esc cancels"
             }
         }
@@ -54,9 +54,9 @@ impl Placing {
     /// Whether it has all points that it can have.
     pub(super) fn is_complete(&self) -> bool {
         match self.kind {
-            Placed::Arrow => self.points.len() == 2,
-            Placed::Path => false,
-            Placed::Label => self.points.len() == 1,
+            PlacedGlyph::Arrow => self.points.len() == 2,
+            PlacedGlyph::Path => false,
+            PlacedGlyph::Label => self.points.len() == 1,
         }
     }
 
@@ -85,7 +85,7 @@ impl Placing {
 
     /// Makes it a glyph like any other and returns its number; too few points make none.
     pub(super) fn finish(self, document: &mut Document) -> Option<usize> {
-        if let (Placed::Label, Some(point)) = (self.kind, self.points.first()) {
+        if let (PlacedGlyph::Label, Some(point)) = (self.kind, self.points.first()) {
             let shape = Shape::label("Label".to_owned(), Anchor::Point(*point));
             return Some(document.add_glyph(Glyph::new("label".to_owned(), shape)));
         }

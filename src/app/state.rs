@@ -78,17 +78,31 @@ impl Samples {
         self.in_screenshots.clamp(1, MAX_SAMPLES)
     }
 
-    /// The settings themselves, each with a name and an explanation, to be changed.
-    pub fn settings(&mut self) -> [(&'static str, &'static str, &mut u32); 2] {
+    /// The settings themselves, to be changed.
+    pub fn settings(&mut self) -> [SamplesSetting<'_>; 2] {
         [
-            (
-                "Smooth at rest",
-                "Samples per pixel of the picture here, once nothing moves",
-                &mut self.at_rest,
-            ),
-            ("Screenshots", "Samples per pixel of saved pictures", &mut self.in_screenshots),
+            SamplesSetting {
+                label: "Smooth at rest",
+                help: "Samples per pixel of the picture here, once nothing moves",
+                value: &mut self.at_rest,
+            },
+            SamplesSetting {
+                label: "Screenshots",
+                help: "Samples per pixel of saved pictures",
+                value: &mut self.in_screenshots,
+            },
         ]
     }
+}
+
+/// A number of samples that a person sets.
+pub struct SamplesSetting<'a> {
+    /// Its label.
+    pub label: &'static str,
+    /// What it is for.
+    pub help: &'static str,
+    /// Samples per pixel.
+    pub value: &'a mut u32,
 }
 
 /// What is remembered about one file.

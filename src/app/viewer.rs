@@ -14,7 +14,7 @@ use eframe::egui;
 
 use super::command::Command;
 use super::dialogs::{self, Dialogs};
-use super::images::StyleImages;
+use super::images::ImageFiles;
 use super::jobs::Job;
 use super::loading::{Intent, LoadError, Loaded, Loader, Model};
 use super::notices::Notices;
@@ -125,7 +125,7 @@ pub struct Viewer {
     /// Strokes that styles describe and that the person did not want to wait for.
     strokes_refused: Vec<Recipe>,
     /// The images that the styles name.
-    images: StyleImages,
+    images: ImageFiles,
     loader: Loader,
     dialogs: Dialogs,
     start_style: Option<Style>,
@@ -176,7 +176,7 @@ impl Viewer {
             mended_for: SeamTolerance::default(),
             stripes_refused: Vec::new(),
             strokes_refused: Vec::new(),
-            images: StyleImages::default(),
+            images: ImageFiles::default(),
             loader: launch.loader,
             dialogs: launch.dialogs,
             start_style: launch.style,

@@ -49,12 +49,12 @@ pub enum PickFor {
 
 /// A texture of egui's that shows a target.
 #[derive(Default)]
-struct Shown {
+struct ShownTexture {
     id: Option<egui::TextureId>,
     texture: Option<wgpu::Texture>,
 }
 
-impl Shown {
+impl ShownTexture {
     fn show(&mut self, state: &egui_wgpu::RenderState, target: &Target) -> egui::TextureId {
         if let (Some(id), true) = (self.id, self.texture.as_ref() == Some(target.texture())) {
             return id;
@@ -74,7 +74,7 @@ impl Shown {
 
 /// All that a picture depends on, its outlines apart.
 #[derive(PartialEq)]
-struct Inputs {
+struct PictureInputs {
     document: Document,
     size: [u32; 2],
     samples_at_rest: u32,
@@ -85,10 +85,10 @@ struct Inputs {
 pub struct Viewport {
     renderer: Renderer,
     state: egui_wgpu::RenderState,
-    image: Shown,
-    outline: Shown,
+    image: ShownTexture,
+    outline: ShownTexture,
     has_outline: bool,
-    drawn: Option<Inputs>,
+    drawn: Option<PictureInputs>,
     selected: Vec<NodeId>,
     refining: Refining,
     measures: bool,
@@ -123,8 +123,8 @@ impl Viewport {
         Self {
             renderer: Renderer::new(gpu),
             state,
-            image: Shown::default(),
-            outline: Shown::default(),
+            image: ShownTexture::default(),
+            outline: ShownTexture::default(),
             has_outline: false,
             drawn: None,
             selected: Vec::new(),
@@ -416,7 +416,7 @@ impl Viewport {
             ui.ctx().request_repaint_after(lasts);
         }
         let document = document.as_ref();
-        let inputs = Inputs {
+        let inputs = PictureInputs {
             document: document.clone(),
             size: self.size,
             samples_at_rest,

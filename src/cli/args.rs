@@ -102,7 +102,7 @@ pub(super) struct LookArgs {
     /// `--set section.flip=true` cuts away what lies before it, `section.axis=free` allows any direction
     #[arg(long, value_name = "AXIS[=POSITION]")]
     pub section: Option<SectionAt>,
-    /// Peel blueprints until the objects that match are uncovered (`blueprint.fraction`); they are drawn as surfaces
+    /// Draw layers of blueprints until the objects that match are uncovered (`blueprint.fraction`); they are drawn as surfaces
     #[arg(long, value_name = "GLOB")]
     pub mask: Vec<String>,
     /// The axis that is up: +X, -X, +Y, -Y, +Z or -Z

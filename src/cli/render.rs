@@ -6,7 +6,7 @@ use serde_json::json;
 
 use super::args::{CameraArgs, LookArgs, RenderArgs, SectionAt};
 use super::{CliError, layers, print_json};
-use crate::document::{Document, Pattern, Role, Section, View, glyph, section};
+use crate::document::{Document, Pattern, Role, SectionSettings, ViewSettings, glyph, section};
 use crate::export::session::{OpenError, Opened, initial_camera, open};
 use crate::export::{Session, save_png};
 use crate::gpu::{Gpu, GpuError};
@@ -106,7 +106,7 @@ impl Drop for StartingDevice {
 }
 
 /// What `--set view.…` says, as far as it matters while files are read already. What is wrong is told with all other settings.
-fn look_at_files(view: &mut View, look: &LookArgs) {
+fn look_at_files(view: &mut ViewSettings, look: &LookArgs) {
     for setting in look.set.iter().filter(|setting| setting.key.starts_with("view.")) {
         let _ = param::set(&mut view.params(Color::WHITE), &setting.key, &setting.value);
     }
@@ -132,7 +132,7 @@ pub(super) fn apply_look(opened: &mut Opened, look: &LookArgs) -> Result<(), Cli
         document.set_style(scene, &matching(scene, &assignment.pattern)?, &style);
     }
     if let Some(SectionAt { axis, position }) = look.section {
-        document.section = Section { show: true, axis, position, ..document.section.clone() };
+        document.section = SectionSettings { show: true, axis, position, ..document.section.clone() };
     }
     for setting in &look.set {
         match &setting.pattern {

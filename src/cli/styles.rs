@@ -8,17 +8,17 @@ use serde_json::json;
 
 use super::args::StylesArgs;
 use super::{CliError, print_json, print_line, print_text};
-use crate::document::{Lighting, Section, View};
+use crate::document::{Lighting, SectionSettings, ViewSettings};
 use crate::style::preset::Preset;
 use crate::style::{Param, Slot, Style, Value, preset, widened};
 
 pub(super) fn run(args: &StylesArgs) -> Result<(), CliError> {
     let presets = preset::all();
     let mut style = Style::default();
-    let mut view = View::default();
+    let mut view = ViewSettings::default();
     let mut lighting = Lighting::default();
     let paper = style.paper.color;
-    let mut section = Section::default();
+    let mut section = SectionSettings::default();
     let mut params = style.params();
     params.extend(view.params(paper));
     params.extend(lighting.params());

@@ -7,10 +7,10 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 
 use super::lighting::{Lighting, Source};
-use super::{Document, NodeSettings, Section, View, glyph};
+use super::{Document, NodeSettings, SectionSettings, ViewSettings, glyph};
 use crate::scene::{Camera, Light, Up};
 use crate::style::param::{Param, map_paths};
-use crate::style::{Style, StyleError, diff_to_toml, set_from_toml};
+use crate::style::{MadeFrom, Style, StyleError, diff_to_toml, set_from_toml};
 
 /// A document is text that a person could have written; anything larger is a mistake.
 const MAX_FILE_BYTES: u64 = 64 << 20;
@@ -142,6 +142,14 @@ impl Document {
                 },
             })
         };
+        let style = |mut table: toml::Table, place: &str| {
+            let mut style = Style::default();
+            if let Some(toml::Value::String(id)) = table.get("preset").cloned() {
+                table.remove("preset");
+                style.made_from = MadeFrom(Some(id));
+            }
+            fill(&mut style.params(), &table, place).map(|()| style)
+        };
         let folder = path.parent().unwrap_or(Path::new(""));
         let (glyphs, unreadable_glyphs) = glyph::from_tables(form.glyph);
         let mut document = Self {
@@ -151,7 +159,7 @@ impl Document {
             camera: form.camera,
             lighting: default_lighting(form.lights.is_some()),
             lights: form.lights.unwrap_or_default(),
-            style: Style::default(),
+            style: style(form.style, "style")?,
             unreadable_glyphs,
             ..Self::default()
         };
@@ -164,15 +172,8 @@ impl Document {
         fill(&mut document.view.params(document.style.paper.color), &section("view", form.view), "view")?;
         fill(&mut document.lighting.params(), &section("light", form.light), "light")?;
         fill(&mut document.section.params(), &section("section", form.section), "section")?;
-        fill(&mut document.style.params(), &form.style, "style")?;
         for (node, form) in form.nodes {
-            let style = form
-                .style
-                .map(|table| {
-                    let mut style = Style::default();
-                    fill(&mut style.params(), &table, &node).map(|()| style)
-                })
-                .transpose()?;
+            let style = form.style.map(|table| style(table, &node)).transpose()?;
             let NodeForm { visible, enhanced, mirror, mask, .. } = form;
             let settings = NodeSettings { style, visible, enhanced, mirror, mask };
             document.nodes.insert(node, settings);
@@ -200,15 +201,18 @@ impl Document {
             let mut style = style.clone();
             let mut params = style.params();
             map_paths(&mut params, |image| relative_to(image, path));
-            diff_to_toml(&mut params, &mut Style::default().params())
+            let mut table = diff_to_toml(&mut params, &mut Style::default().params());
+            table.extend(style.made_from.0.map(|id| ("preset".to_owned(), id.into())));
+            table
         };
         let has_lights = !self.lights.is_empty();
         let section = |name: &str, table: toml::Table| {
             table.get(name).and_then(|v| v.as_table()).cloned().unwrap_or_default()
         };
         let paper = self.style.paper.color;
-        let view = diff_to_toml(&mut self.view.clone().params(paper), &mut View::default().params(paper));
-        let cut = diff_to_toml(&mut self.section.clone().params(), &mut Section::default().params());
+        let view =
+            diff_to_toml(&mut self.view.clone().params(paper), &mut ViewSettings::default().params(paper));
+        let cut = diff_to_toml(&mut self.section.clone().params(), &mut SectionSettings::default().params());
         let light =
             diff_to_toml(&mut self.lighting.clone().params(), &mut default_lighting(has_lights).params());
         let form = Form {
@@ -311,7 +315,10 @@ mod tests {
         document.save(&path).unwrap();
         let text = std::fs::read_to_string(&path).unwrap();
         assert!(text.contains("\"models/crank.glb\"") && text.contains("\"images/ramp.png\""), "{text}");
-        assert_eq!(Document::open(&path).unwrap(), document);
+        let again = Document::open(&path).unwrap();
+        assert_eq!(again, document);
+        assert_eq!(again.style.made_from.0.as_deref(), Some("gooch"));
+        assert_eq!(again.nodes["/crank/rod.3"].style.as_ref().unwrap().made_from.0, None);
     }
 
     #[test]

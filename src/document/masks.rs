@@ -10,16 +10,16 @@ impl Document {
         visible_masks(scene, &self.resolve(scene)).next().is_some()
     }
 
-    /// A warning if objects are designated and nothing is peeled for them: they are hidden, or nothing else is a blueprint.
+    /// A warning if objects are designated and no layers are drawn for them: they are hidden, or nothing else is a blueprint.
     pub fn mask_fault(&self, scene: &Scene) -> Option<Warning> {
         let resolved = self.resolve(scene);
         let designated = objects(scene, &resolved).find(|(_, roles)| roles.mask)?.0;
         let message = if visible_masks(scene, &resolved).next().is_none() {
-            "is designated but hidden, as all designated objects are: blueprints are peeled as if there were none"
+            "is designated but hidden, as all designated objects are: blueprints are drawn as if there were none"
         } else if !objects(scene, &resolved)
             .any(|(_, r)| r.visible && !r.mask && r.style.technique == Technique::Blueprint)
         {
-            "is designated, but nothing is peeled to uncover it: no other visible object has the technique blueprint"
+            "is designated, but no layers are drawn to uncover it: no other visible object has the technique blueprint"
         } else {
             return None;
         };

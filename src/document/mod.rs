@@ -28,8 +28,8 @@ pub use history::History;
 pub use lighting::Lighting;
 pub use pattern::{Pattern, PatternError};
 pub use roles::Role;
-pub use section::Section;
-pub use view::{Creases, LayersBy, Show, View};
+pub use section::SectionSettings;
+pub use view::{Creases, LayersBy, Show, ViewSettings};
 
 /// A drawing: everything about it that is not in the model files.
 #[derive(Debug, Clone, PartialEq)]
@@ -47,9 +47,9 @@ pub struct Document {
     /// The lights of the model files, where [`lighting::Source::File`] asks for them.
     pub lights: Vec<Light>,
     /// How the picture is shown.
-    pub view: View,
+    pub view: ViewSettings,
     /// The plane at which the model is cut open.
-    pub section: Section,
+    pub section: SectionSettings,
     /// The style of every object that has none and inherits none.
     pub style: Style,
     /// What single nodes have of their own, by node path.
@@ -71,7 +71,7 @@ pub struct NodeSettings {
     pub enhanced: Option<bool>,
     /// Whether it is a mirror.
     pub mirror: Option<bool>,
-    /// Whether blueprints are peeled until it is uncovered.
+    /// Whether layers of blueprints are drawn until it is uncovered.
     pub mask: Option<bool>,
 }
 
@@ -110,8 +110,8 @@ impl Default for Document {
             camera: None,
             lighting: Lighting::default(),
             lights: Vec::new(),
-            view: View::default(),
-            section: Section::default(),
+            view: ViewSettings::default(),
+            section: SectionSettings::default(),
             style: default_style(),
             nodes: BTreeMap::new(),
             glyphs: Vec::new(),

@@ -8,7 +8,7 @@ use crate::scene::{NodeId, Scene, Warning};
 pub enum Role {
     /// It shows what is before it, if it can: see [`super::mirrors::mirror_fault`].
     Mirror,
-    /// It is designated: blueprints are peeled until it is uncovered, and none is made of it (blueprints paper, section 4.3).
+    /// It is designated: layers of blueprints are drawn until it is uncovered, and none is made of it (blueprints paper, section 4.3).
     Mask,
 }
 

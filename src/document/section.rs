@@ -7,12 +7,12 @@ use glam::DVec3;
 use super::Document;
 use crate::geometry::{Bounds, Plane};
 use crate::scene::{Up, Warning};
-use crate::style::param::{Param, Params, Place};
+use crate::style::param::{Param, Params, StyleField};
 use crate::style::{Color, choice};
 
 /// Section settings of a document.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Section {
+pub struct SectionSettings {
     /// Whether anything is cut.
     pub show: bool,
     /// What the plane is perpendicular to.
@@ -76,7 +76,7 @@ choice! {
     }
 }
 
-impl Default for Section {
+impl Default for SectionSettings {
     fn default() -> Self {
         Self {
             show: false,
@@ -93,7 +93,7 @@ impl Default for Section {
     }
 }
 
-impl Section {
+impl SectionSettings {
     /// The unit vector along which [`Self::position`] counts. `up`: the model's.
     pub fn direction(&self, up: Up) -> DVec3 {
         match self.axis {
@@ -187,7 +187,7 @@ impl Section {
                 reach,
                 -MOST..=MOST,
                 "Where the plane is along its direction, in units of the model; what lies farther along is cut away, unless flipped.",
-                Place::Inheriting {
+                StyleField::Inheriting {
                     own: &mut self.position,
                     inherited: middle,
                     from: "the middle of the model".to_owned(),
@@ -296,7 +296,7 @@ mod tests {
 
     #[test]
     fn the_plane_is_in_the_middle_until_it_is_placed() {
-        let mut section = Section { show: true, ..Section::default() };
+        let mut section = SectionSettings { show: true, ..SectionSettings::default() };
         for (axis, middle) in [(Axis::X, 1.0), (Axis::Y, 0.5), (Axis::Z, 3.0)] {
             section.axis = axis;
             let plane = section.plane(Up::PosY, &BOX).unwrap();
@@ -314,7 +314,7 @@ mod tests {
 
     #[test]
     fn a_plane_beyond_the_model_is_told() {
-        let section = Section { show: true, position: Some(0.5), ..Section::default() };
+        let section = SectionSettings { show: true, position: Some(0.5), ..SectionSettings::default() };
         let mut document = Document { section, ..Document::default() };
         let mut fault = |position, flip| {
             (document.section.position, document.section.flip) = (Some(position), flip);
@@ -337,7 +337,8 @@ mod tests {
 
     #[test]
     fn a_free_plane_reaches_over_the_whole_box() {
-        let mut section = Section { show: true, axis: Axis::Free, elevation: 35.0, ..Section::default() };
+        let mut section =
+            SectionSettings { show: true, axis: Axis::Free, elevation: 35.0, ..SectionSettings::default() };
         for up in Up::ALL {
             let direction = section.direction(up);
             assert!((direction.length() - 1.0).abs() < 1e-12);

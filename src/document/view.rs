@@ -4,11 +4,11 @@ use crate::geometry::CreaseRule;
 use crate::geometry::mend::SeamTolerance;
 use crate::style::Color;
 use crate::style::choice;
-use crate::style::param::{Param, Params, Place};
+use crate::style::param::{Param, Params, StyleField};
 
 /// View settings of a document.
 #[derive(Debug, Clone, PartialEq)]
-pub struct View {
+pub struct ViewSettings {
     /// Color of the paper behind everything; `None`: that of the document's style.
     pub background: Option<Color>,
     /// The picture, or one of the buffers it is made from.
@@ -114,7 +114,7 @@ choice! {
     }
 }
 
-impl Default for View {
+impl Default for ViewSettings {
     fn default() -> Self {
         Self {
             background: None,
@@ -140,7 +140,7 @@ pub struct Creases {
     pub rule: CreaseRule,
 }
 
-impl View {
+impl ViewSettings {
     /// What decides which edges are creases.
     pub fn creases(&self) -> Creases {
         let rule = match self.creases {
@@ -180,7 +180,7 @@ impl View {
                 "background",
                 "Background",
                 "Color of the paper behind everything.",
-                Place::Inheriting {
+                StyleField::Inheriting {
                     own: &mut self.background,
                     inherited: paper,
                     from: "paper".to_owned(),

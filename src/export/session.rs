@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use image::RgbaImage;
 
-use crate::document::{Creases, DOCUMENT_ENDING, Document, DocumentError, View};
+use crate::document::{Creases, DOCUMENT_ENDING, Document, DocumentError, ViewSettings};
 use crate::geometry::Topology;
 use crate::gpu::{Gpu, GpuError, readback};
 use crate::hatching::cache::Cache;
@@ -45,7 +45,7 @@ pub fn is_document(path: &Path) -> bool {
 }
 
 /// What a view asks of importers.
-pub fn import_options(view: &View) -> ImportOptions {
+pub fn import_options(view: &ViewSettings) -> ImportOptions {
     ImportOptions { crease_angle: view.crease_angle, seams: view.seam_tolerance() }
 }
 
@@ -56,7 +56,7 @@ pub fn import_options(view: &View) -> ImportOptions {
 /// [`OpenError`].
 pub fn open(
     files: &[PathBuf],
-    adjust: impl FnOnce(&mut View),
+    adjust: impl FnOnce(&mut ViewSettings),
     progress: &Progress,
 ) -> Result<Opened, OpenError> {
     let document = match files {

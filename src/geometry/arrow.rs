@@ -63,26 +63,36 @@ pub fn arrow(points: &[DVec3], radius: f64, heads: Heads) -> Mesh {
         let [a, b] = pair else { continue };
         let turned = DQuat::from_rotation_arc(a.forward, b.forward) * side;
         let next = (turned - b.forward * turned.dot(b.forward)).normalize_or(turned);
-        skin.band((a, side), (b, next));
+        skin.band(a, side, b, next);
         side = next;
     }
     skin.finish()
 }
 
+/// A straight part of a path.
+#[derive(Clone, Copy)]
+struct Segment {
+    from: DVec3,
+    to: DVec3,
+    /// Unit vector along it.
+    forward: DVec3,
+    length: f64,
+}
+
+impl Segment {
+    fn new(from: DVec3, to: DVec3) -> Self {
+        Self { from, to, forward: (to - from).normalize_or(DVec3::X), length: from.distance(to) }
+    }
+}
+
 fn rings(points: &[DVec3], radius: f64, heads: Heads) -> Vec<Ring> {
     let mut rings = Vec::new();
-    let segments: Vec<(DVec3, DVec3, DVec3, f64)> = points
-        .windows(2)
-        .map(|pair| {
-            let (from, to) = (pair[0], pair[1]);
-            (from, to, (to - from).normalize_or(DVec3::X), from.distance(to))
-        })
-        .collect();
+    let segments: Vec<Segment> = points.windows(2).map(|pair| Segment::new(pair[0], pair[1])).collect();
     let last = segments.len() - 1;
     // What corners and heads at its ends leave of each segment.
     let head = |length: f64| (radius * HEAD_LENGTH).min(length * HEAD_SHARE);
     let mut at_start = 0.0;
-    for (i, &(from, to, forward, length)) in segments.iter().enumerate() {
+    for (i, &Segment { from, to, forward, length }) in segments.iter().enumerate() {
         let ring = |along: f64, radius: f64| Ring { center: from + forward * along, forward, radius };
         let head_radius = |head: f64| (head * HEAD_RADIUS / HEAD_LENGTH).max(radius * 1.3);
         if i == 0 {
@@ -99,18 +109,18 @@ fn rings(points: &[DVec3], radius: f64, heads: Heads) -> Vec<Ring> {
         let shares = if heads.at_start && last == 0 { 0.5 } else { 1.0 };
         let at_end = if i == last && heads.at_end { head(length * shares) } else { 0.0 };
         let next = segments.get(i + 1);
-        let corner = next.map(|&(.., next, next_length)| {
-            let angle = forward.angle_between(next);
+        let corner = next.map(|next| {
+            let angle = forward.angle_between(next.forward);
             // A head needs its straight end.
             let room = |length: f64, reserved: f64| ((length - reserved) * 0.5).max(0.0);
-            let reserved = if i + 1 == last && heads.at_end { head(next_length) } else { 0.0 };
-            let most = room(length, at_start).min(room(next_length, reserved));
+            let reserved = if i + 1 == last && heads.at_end { head(next.length) } else { 0.0 };
+            let most = room(length, at_start).min(room(next.length, reserved));
             let is_back = angle > PI - 0.05;
             let trimmed =
                 if is_back { 0.0 } else { (radius * CORNER_RADIUS * (angle * 0.5).tan()).min(most) };
-            (next, angle, trimmed)
+            Corner { at: to, before: forward, after: next.forward, angle, trimmed }
         });
-        let trimmed = corner.map_or(0.0, |(.., trimmed)| trimmed);
+        let trimmed = corner.as_ref().map_or(0.0, |corner| corner.trimmed);
         let (begin, end) = (at_start, length - at_end - trimmed);
         let own = radius * HEAD_LENGTH;
         if heads.along && end - begin > own * MIDDLE_FROM {
@@ -122,9 +132,7 @@ fn rings(points: &[DVec3], radius: f64, heads: Heads) -> Vec<Ring> {
             ]);
         }
         match corner {
-            Some((next, angle, trimmed)) => {
-                corner_rings(&mut rings, to, (forward, next), angle, trimmed, radius);
-            }
+            Some(corner) => corner.rings(radius, &mut rings),
             None if at_end > 0.0 => {
                 rings.push(ring(length - at_end, radius));
                 rings.push(ring(length - at_end, head_radius(at_end)));
@@ -140,25 +148,33 @@ fn rings(points: &[DVec3], radius: f64, heads: Heads) -> Vec<Ring> {
     rings
 }
 
-/// An arc that begins and ends `trimmed` from the corner.
-fn corner_rings(
-    rings: &mut Vec<Ring>,
-    corner: DVec3,
-    (before, after): (DVec3, DVec3),
+/// Where a path turns.
+struct Corner {
+    at: DVec3,
+    /// Unit vectors along the path.
+    before: DVec3,
+    after: DVec3,
+    /// Between both, radians.
     angle: f64,
+    /// So far from the corner its arc begins and ends.
     trimmed: f64,
-    radius: f64,
-) {
-    let steps = (angle / TURN).ceil().max(1.0) as u32;
-    let axis = before.cross(after).normalize_or(before.any_orthonormal_vector());
-    let inward = axis.cross(before);
-    // Nearly straight and nearly back have no arc.
-    let bend = if angle > 1e-6 && angle < PI - 1e-6 { trimmed / (angle * 0.5).tan() } else { 0.0 };
-    let center = corner - before * trimmed + inward * bend;
-    for step in 0..=steps {
-        let turn = DQuat::from_axis_angle(axis, angle * f64::from(step) / f64::from(steps));
-        let center = if bend > 0.0 { center - turn * inward * bend } else { corner };
-        rings.push(Ring { center, forward: turn * before, radius });
+}
+
+impl Corner {
+    /// The rings of its arc.
+    fn rings(&self, radius: f64, rings: &mut Vec<Ring>) {
+        let Self { at, before, after, angle, trimmed } = *self;
+        let steps = (angle / TURN).ceil().max(1.0) as u32;
+        let axis = before.cross(after).normalize_or(before.any_orthonormal_vector());
+        let inward = axis.cross(before);
+        // Nearly straight and nearly back have no arc.
+        let bend = if angle > 1e-6 && angle < PI - 1e-6 { trimmed / (angle * 0.5).tan() } else { 0.0 };
+        let center = at - before * trimmed + inward * bend;
+        for step in 0..=steps {
+            let turn = DQuat::from_axis_angle(axis, angle * f64::from(step) / f64::from(steps));
+            let center = if bend > 0.0 { center - turn * inward * bend } else { at };
+            rings.push(Ring { center, forward: turn * before, radius });
+        }
     }
 }
 
@@ -172,7 +188,7 @@ struct Skin {
 
 impl Skin {
     /// The surface between two rings, each with the direction from its center to its first point.
-    fn band(&mut self, (a, a_side): (&Ring, DVec3), (b, b_side): (&Ring, DVec3)) {
+    fn band(&mut self, a: &Ring, a_side: DVec3, b: &Ring, b_side: DVec3) {
         let along = (b.center - a.center).length();
         if along <= 0.0 && a.radius == b.radius && a.forward == b.forward {
             return;

@@ -3,11 +3,15 @@
 //! Built once per mesh; [`super::line_segments()`] picks those that a picture shows.
 
 pub(super) mod chains;
+pub(super) mod crease_angles;
 pub(super) mod straights;
 mod stretches;
 
 use std::sync::Arc;
 
+use self::chains::FeatureChains;
+use self::crease_angles::Kept;
+use self::straights::Straights;
 use self::stretches::Stretch;
 use super::edge::{FOLDED, NO_FACE};
 use super::weld::TOLERANCE;
@@ -70,8 +74,8 @@ pub struct FeatureEdges {
     pub(super) surfaces: Arc<Surfaces>,
     /// The box around the mesh, local space.
     pub(super) bounds: Bounds,
-    kept: chains::Kept,
-    kept_straights: straights::Kept,
+    kept_chains: Kept<FeatureChains>,
+    kept_straights: Kept<Straights>,
 }
 
 impl FeatureEdges {
@@ -86,8 +90,8 @@ impl FeatureEdges {
             fans: Vec::new(),
             surfaces: surfaces.into(),
             bounds: mesh.bounds(),
-            kept: chains::Kept::default(),
-            kept_straights: straights::Kept::default(),
+            kept_chains: Kept::default(),
+            kept_straights: Kept::default(),
         };
         let point = |v: u32| adjacency.weld.representative.get(v as usize).copied().unwrap_or(v);
         let materials = Materials::new(mesh);

@@ -130,30 +130,37 @@ fn squared_distances(set: &[bool], width: usize) -> Vec<f64> {
     field
 }
 
+/// A parabola of a lower envelope.
+struct Parabola {
+    apex: f64,
+    low: f64,
+    /// Where it begins to be the lowest.
+    begin: f64,
+}
+
 /// Replaces each value by the least of `values[q] + (p - q)²` over all q.
 fn lower_envelope(values: &mut [f64]) {
-    // Parabolas of the envelope: where each has its apex, how high, and where it begins to be the lowest.
-    let mut parabolas: Vec<(f64, f64, f64)> = Vec::new();
+    let mut envelope: Vec<Parabola> = Vec::new();
     for (q, &value) in values.iter().enumerate().filter(|(_, value)| value.is_finite()) {
         let q = q as f64;
         let mut begin = f64::NEG_INFINITY;
-        while let Some(&(apex, low, start)) = parabolas.last() {
-            begin = ((value + q * q) - (low + apex * apex)) / (2.0 * (q - apex));
-            if begin > start {
+        while let Some(last) = envelope.last() {
+            begin = ((value + q * q) - (last.low + last.apex * last.apex)) / (2.0 * (q - last.apex));
+            if begin > last.begin {
                 break;
             }
-            parabolas.pop();
+            envelope.pop();
             begin = f64::NEG_INFINITY;
         }
-        parabolas.push((q, value, begin));
+        envelope.push(Parabola { apex: q, low: value, begin });
     }
     let mut current = 0;
     for (p, value) in values.iter_mut().enumerate() {
         let p = p as f64;
-        while parabolas.get(current + 1).is_some_and(|next| next.2 <= p) {
+        while envelope.get(current + 1).is_some_and(|next| next.begin <= p) {
             current += 1;
         }
-        if let Some(&(apex, low, _)) = parabolas.get(current) {
+        if let Some(Parabola { apex, low, .. }) = envelope.get(current) {
             *value = low + (p - apex) * (p - apex);
         }
     }
@@ -162,21 +169,20 @@ fn lower_envelope(values: &mut [f64]) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::visible_edges::Sample;
+    use crate::geometry::visible_edges::EdgeSample;
 
     const SIZE: usize = 200;
 
     /// Silhouettes: the outline of a square of 100 px; ridges: a line of 50 px. Off the middle of the picture.
     fn truth() -> VisibleEdges {
         let mut truth = VisibleEdges::default();
-        let mut line =
-            |class: EdgeClass, from: DVec2, to: DVec2| {
-                let count = 4 * from.distance(to) as usize;
-                truth.samples[class as usize].extend((0..count).map(|i| Sample {
-                    position: from.lerp(to, (i as f64 + 0.5) / count as f64),
-                    length: 0.25,
-                }));
-            };
+        let mut line = |class: EdgeClass, from: DVec2, to: DVec2| {
+            let count = 4 * from.distance(to) as usize;
+            truth.samples[class as usize].extend((0..count).map(|i| EdgeSample {
+                position: from.lerp(to, (i as f64 + 0.5) / count as f64),
+                length: 0.25,
+            }));
+        };
         let corners =
             [(20.5, 30.5), (120.5, 30.5), (120.5, 130.5), (20.5, 130.5)].map(|(x, y)| DVec2::new(x, y));
         for i in 0..4 {

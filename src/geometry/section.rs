@@ -52,7 +52,7 @@ type Crossing = u64;
 
 /// A triangle that is cut.
 #[derive(Clone, Copy)]
-struct Stretch {
+struct CutTriangle {
     from: Crossing,
     to: Crossing,
     triangle: u32,
@@ -71,7 +71,7 @@ pub fn contours(mesh: &Mesh, weld: &Weld, plane_from_local: &DMat4) -> Vec<Conto
         .collect();
     // Turned inside out by its place, a mesh has its material on the other side of each contour.
     let is_mirrored = plane_from_local.determinant() < 0.0;
-    let stretches: Vec<Stretch> = mesh
+    let stretches: Vec<CutTriangle> = mesh
         .triangles()
         .par_chunks(TRIANGLES_PER_TASK)
         .enumerate()
@@ -80,7 +80,7 @@ pub fn contours(mesh: &Mesh, weld: &Weld, plane_from_local: &DMat4) -> Vec<Conto
             (task * TRIANGLES_PER_TASK..).zip(triangles).filter_map(move |(number, &triangle)| {
                 let stretch = stretch(triangle, number as u32, is_kept, weld)?;
                 Some(if is_mirrored {
-                    Stretch { from: stretch.to, to: stretch.from, ..stretch }
+                    CutTriangle { from: stretch.to, to: stretch.from, ..stretch }
                 } else {
                     stretch
                 })
@@ -94,7 +94,7 @@ pub fn contours(mesh: &Mesh, weld: &Weld, plane_from_local: &DMat4) -> Vec<Conto
 }
 
 /// Where the plane runs through a triangle, if it does.
-fn stretch(triangle: [u32; 3], number: u32, is_kept: &[bool], weld: &Weld) -> Option<Stretch> {
+fn stretch(triangle: [u32; 3], number: u32, is_kept: &[bool], weld: &Weld) -> Option<CutTriangle> {
     let mut kept = [false; 3];
     for (kept, v) in kept.iter_mut().zip(triangle) {
         *kept = *is_kept.get(v as usize)?;
@@ -114,12 +114,12 @@ fn stretch(triangle: [u32; 3], number: u32, is_kept: &[bool], weld: &Weld) -> Op
     let crossing = |i: u32, j: u32| u64::from(i.min(j)) << 32 | u64::from(i.max(j));
     let (one, two) = (crossing(a, b), crossing(c, a));
     let (from, to) = if kept[alone] { (two, one) } else { (one, two) };
-    Some(Stretch { from, to, triangle: number })
+    Some(CutTriangle { from, to, triangle: number })
 }
 
 /// Stretches that follow each other, as indices, and whether the last one ends where the first begins.
-fn chained(stretches: &[Stretch]) -> Vec<(Vec<u32>, bool)> {
-    let sorted = |end: fn(&Stretch) -> Crossing| {
+fn chained(stretches: &[CutTriangle]) -> Vec<(Vec<u32>, bool)> {
+    let sorted = |end: fn(&CutTriangle) -> Crossing| {
         let mut order: Vec<(Crossing, u32)> = stretches.iter().map(end).zip(0..).collect();
         order.par_sort_unstable();
         order
@@ -127,7 +127,7 @@ fn chained(stretches: &[Stretch]) -> Vec<(Vec<u32>, bool)> {
     let (starts, ends) = (sorted(|s| s.from), sorted(|s| s.to));
     let mut is_taken = vec![false; stretches.len()];
     let mut chains = Vec::new();
-    let has_before = |s: &Stretch| ends.binary_search_by_key(&s.from, |&(at, _)| at).is_ok();
+    let has_before = |s: &CutTriangle| ends.binary_search_by_key(&s.from, |&(at, _)| at).is_ok();
     // Open lines from their beginnings first; what is left are loops.
     for only_beginnings in [true, false] {
         for (first, stretch) in (0_u32..).zip(stretches) {
@@ -173,7 +173,7 @@ impl PlaneOf<'_> {
         a.truncate().truncate().lerp(b.truncate().truncate(), along)
     }
 
-    fn contour(&self, stretches: &[Stretch], chain: &[u32], is_closed: bool) -> Contour {
+    fn contour(&self, stretches: &[CutTriangle], chain: &[u32], is_closed: bool) -> Contour {
         let of_chain = || chain.iter().filter_map(|&i| stretches.get(i as usize));
         let last = of_chain().next_back().filter(|_| !is_closed).map(|s| s.to);
         Contour {

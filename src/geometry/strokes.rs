@@ -67,7 +67,7 @@ impl Hand {
 
 /// A line as it is drawn one time.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Stroke {
+pub struct HandStroke {
     /// px, as all others.
     length: f64,
     /// How far both ends are off: along the line and to its left.
@@ -83,7 +83,7 @@ pub struct Stroke {
     fade: f64,
 }
 
-impl Stroke {
+impl HandStroke {
     /// The line with this number (the same from view to view) and length (px), drawn for the `time`th time, counted from 0.
     /// `is_end`: whether the hand is lifted at each of its ends, or goes on with something that is no stroke.
     pub fn new(hand: &Hand, line: u32, time: u32, length: f64, is_end: [bool; 2]) -> Self {
@@ -193,7 +193,7 @@ mod tests {
     fn nothing_is_farther_off_than_the_hand_reaches() {
         for (line, time) in lines() {
             for length in [1.0, 20.0, 90.0, 700.0, 9000.0] {
-                let stroke = Stroke::new(&HAND, line, time, length, [true; 2]);
+                let stroke = HandStroke::new(&HAND, line, time, length, [true; 2]);
                 let [before, after] = stroke.overshoots;
                 assert!(before <= 14.0 * 1.5 && after <= 14.0 * 1.5 && before >= 0.0 && after >= 0.0);
                 for i in 0..=50 {
@@ -213,7 +213,7 @@ mod tests {
         let hand = Hand { times: 1, overshoot: 0.0, shift: 0.0, bow: 0.0, tremor: 0.0, ..HAND };
         assert!(hand.reach() == 0.0);
         for (line, time) in lines() {
-            let stroke = Stroke::new(&hand, line, time, 300.0, [true; 2]);
+            let stroke = HandStroke::new(&hand, line, time, 300.0, [true; 2]);
             assert!(stroke.overshoots == [0.0; 2]);
             assert!((0..=20).all(|i| stroke.offset(15.0 * f64::from(i)) == DVec2::ZERO));
         }
@@ -225,7 +225,7 @@ mod tests {
             for length in [9.99, 10.0, 26.0, 48.0, 60.0, 80.0, 90.0, 583.3, 2000.0_f64] {
                 let length = 1.5 * length;
                 let [one, two] =
-                    [length, length + 0.01].map(|l| Stroke::new(&HAND, line, time, l, [true; 2]));
+                    [length, length + 0.01].map(|l| HandStroke::new(&HAND, line, time, l, [true; 2]));
                 for i in 0..=40 {
                     let at = length * f64::from(i) / 40.0;
                     assert!(one.offset(at).distance(two.offset(at)) < 0.01);
@@ -240,21 +240,21 @@ mod tests {
 
     #[test]
     fn each_line_time_and_seed_has_numbers_of_its_own() {
-        let strokes: Vec<Stroke> =
-            lines().map(|(line, time)| Stroke::new(&HAND, line, time, 500.0, [true; 2])).collect();
-        let mean = |f: &dyn Fn(&Stroke) -> f64| strokes.iter().map(f).sum::<f64>() / strokes.len() as f64;
+        let strokes: Vec<HandStroke> =
+            lines().map(|(line, time)| HandStroke::new(&HAND, line, time, 500.0, [true; 2])).collect();
+        let mean = |f: &dyn Fn(&HandStroke) -> f64| strokes.iter().map(f).sum::<f64>() / strokes.len() as f64;
         assert!(mean(&|s| s.shifts[0].x).abs() < 0.2 && mean(&|s| s.bow).abs() < 0.3);
         let square = mean(&|s| (s.shifts[1].y / 2.4).powi(2));
         // A quarter of them are half as far off, the others 1.15 times.
         assert!((square - (0.25 * 0.25 + 0.75 * 1.3225)).abs() < 0.1, "{square}");
         let other = Hand { seed: 4, ..HAND };
-        let again = Stroke::new(&other, mix(0), 0, 500.0, [true; 2]);
+        let again = HandStroke::new(&other, mix(0), 0, 500.0, [true; 2]);
         assert!(strokes[0] != strokes[1] && strokes[0] != strokes[4] && strokes[0] != again);
     }
 
     #[test]
     fn where_the_hand_goes_on_nothing_is_overshot_nor_shifted() {
-        let stroke = Stroke::new(&Hand { tremor: 0.0, ..HAND }, 5, 1, 500.0, [false, true]);
+        let stroke = HandStroke::new(&Hand { tremor: 0.0, ..HAND }, 5, 1, 500.0, [false, true]);
         assert!(stroke.offset(0.0) == DVec2::ZERO && stroke.overshoots[0] == 0.0);
         assert!(stroke.offset(500.0).length() > 0.01 && stroke.overshoots[1] > 1.0);
     }

@@ -79,7 +79,7 @@ pub struct SurfacePoint {
 
 /// A point on a visible edge.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Sample {
+pub struct EdgeSample {
     /// Where it appears, in pixels: (0, 0) is the upper left corner of the picture, y runs down.
     pub position: DVec2,
     /// Length of the edge that it stands for, in pixels; at most a quarter.
@@ -95,7 +95,7 @@ pub struct VisibleSegment {
     pub object: u32,
     /// Index into [`Adjacency::edges`]; `None` for an intersection.
     pub edge: Option<u32>,
-    /// Where its ends appear, in pixels as [`Sample::position`].
+    /// Where its ends appear, in pixels as [`EdgeSample::position`].
     pub ends: [DVec2; 2],
     /// Length in world units.
     pub world_length: f64,
@@ -105,7 +105,7 @@ pub struct VisibleSegment {
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct VisibleEdges {
     /// The samples of each class, in the order of [`EdgeClass::ALL`].
-    pub samples: [Vec<Sample>; EdgeClass::ALL.len()],
+    pub samples: [Vec<EdgeSample>; EdgeClass::ALL.len()],
     /// Visible stretches, edge by edge.
     pub segments: Vec<VisibleSegment>,
 }
@@ -175,7 +175,7 @@ impl EdgeScene {
 fn visible_part(
     edge: &WorldEdge,
     sight: &Sight<'_>,
-) -> Option<(Vec<(EdgeClass, Sample)>, Vec<VisibleSegment>)> {
+) -> Option<(Vec<(EdgeClass, EdgeSample)>, Vec<VisibleSegment>)> {
     let (projector, rules) = (sight.projector, sight.rules);
     let line = edge.line(sight.to_eye(edge.ends[0]), rules)?;
     let ends = projector.clip(edge.ends.map(|p| projector.view_from_world.transform_point3(p)))?;
@@ -200,7 +200,7 @@ fn visible_part(
             None
         };
         if let Some(class) = class {
-            samples.push((class, Sample { position, length: length * step }));
+            samples.push((class, EdgeSample { position, length: length * step }));
         }
         if current.map(|(class, _)| class) == class {
             continue;

@@ -9,7 +9,7 @@ use wgpu::naga::{
     StorageAccess, StorageFormat, TypeInner,
 };
 
-use super::{Gpu, ShaderError, Target};
+use super::{Gpu, ShaderError, Target, UniformBuffer};
 
 /// The bind group of what a pass reads and writes.
 pub const INPUTS: u32 = 1;
@@ -36,6 +36,12 @@ impl<'a> From<&'a Target> for Resource<'a> {
 impl<'a> From<&'a wgpu::Buffer> for Resource<'a> {
     fn from(buffer: &'a wgpu::Buffer) -> Self {
         Self::Buffer(buffer)
+    }
+}
+
+impl<'a, T> From<&'a UniformBuffer<T>> for Resource<'a> {
+    fn from(uniform: &'a UniformBuffer<T>) -> Self {
+        Self::Buffer(uniform.buffer())
     }
 }
 
@@ -121,6 +127,8 @@ pub struct Binding {
     name: String,
     number: u32,
     ty: wgpu::BindingType,
+    /// Of the type of the variable; of an array that grows, of one element.
+    bytes: u64,
 }
 
 /// The bindings of group 1 of a shader.
@@ -161,7 +169,8 @@ impl Bindings {
             let name = variable.name.clone().unwrap_or_default();
             let inner = &module.types[variable.ty].inner;
             let ty = type_of(variable, inner).ok_or_else(|| name.clone())?;
-            bindings.all.push(Binding { name, number: place.binding, ty });
+            let bytes = u64::from(inner.size(module.to_ctx()));
+            bindings.all.push(Binding { name, number: place.binding, ty, bytes });
             handles.push(handle);
         }
         for (number, entry_point) in module.entry_points.iter().enumerate() {
@@ -227,7 +236,7 @@ impl Bindings {
                 None => return Err(wrong(&binding.name, "nothing is given for it".to_owned())),
                 Some(None) => placeholders.make(gpu, binding.ty),
                 Some(Some(resource)) => {
-                    if let Some(problem) = mismatch(binding.ty, resource) {
+                    if let Some(problem) = mismatch(binding, resource) {
                         return Err(wrong(&binding.name, problem));
                     }
                 }
@@ -303,8 +312,9 @@ fn image_type(class: ImageClass, arrayed: bool) -> Option<wgpu::BindingType> {
     })
 }
 
-/// What is wrong with a resource for a variable of this type.
-fn mismatch(ty: wgpu::BindingType, resource: Resource<'_>) -> Option<String> {
+/// What is wrong with a resource for a variable.
+fn mismatch(binding: &Binding, resource: Resource<'_>) -> Option<String> {
+    let ty = binding.ty;
     let (kind, fits) = match (ty, resource) {
         (wgpu::BindingType::Texture { sample_type, view_dimension, .. }, Resource::Target(target)) => {
             let own = target.format().sample_type(None, None);
@@ -321,6 +331,16 @@ fn mismatch(ty: wgpu::BindingType, resource: Resource<'_>) -> Option<String> {
         }
         (wgpu::BindingType::Texture { view_dimension, .. }, Resource::Layers(_)) => {
             ("an array of images".to_owned(), view_dimension == wgpu::TextureViewDimension::D2Array)
+        }
+        // A uniform buffer holds one struct, so that another one's is told by its size. Of what is counted in a storage buffer a
+        // shader may read the beginning.
+        (
+            wgpu::BindingType::Buffer { ty: wgpu::BufferBindingType::Uniform, .. },
+            Resource::Buffer(buffer),
+        ) => {
+            let is_longer =
+                buffer.size() > binding.bytes && buffer.usage().contains(wgpu::BufferUsages::STORAGE);
+            (format!("{} bytes", buffer.size()), buffer.size() == binding.bytes || is_longer)
         }
         (wgpu::BindingType::Buffer { .. }, Resource::Buffer(_))
         | (wgpu::BindingType::Sampler(_), Resource::Sampler(_)) => return None,
@@ -412,6 +432,7 @@ mod tests {
         var first_tex: texture_storage_2d<r32uint, read>;
         var other_tex: texture_2d<f32>;
         var<storage, read_write> sums: array<u32>;
+        var<uniform> place: vec4<f32>;
         @compute @workgroup_size(1)
         fn cs_main() {
             sums[0] = textureLoad(first_tex, vec2(0)).x;
@@ -419,6 +440,8 @@ mod tests {
         }
         @compute @workgroup_size(1)
         fn cs_sums() { sums[0] = 1u; }
+        @compute @workgroup_size(1)
+        fn cs_place() { sums[0] = u32(place.x); }
     ";
 
     #[test]
@@ -439,6 +462,8 @@ mod tests {
             usage: wgpu::BufferUsages::STORAGE,
             mapped_at_creation: false,
         });
+        let place = UniformBuffer::<glam::Vec4>::new(&gpu, "place");
+        let camera = UniformBuffer::<glam::Mat4>::new(&gpu, "camera");
         let mut bind = |entry_point, inputs: Inputs<'_>| {
             let bound = pipelines.compute(&gpu, &Program::new("a.wgsl", entry_point), &inputs);
             bound.map(|_| ()).map_err(|error| error.to_string())
@@ -450,6 +475,10 @@ mod tests {
         assert_eq!(bind("cs_main", none), Ok(()));
         // An entry point asks for no more than it reads.
         assert_eq!(bind("cs_sums", inputs! { sums: &sums }), Ok(()));
+        assert_eq!(bind("cs_place", inputs! { sums: &sums, place: &place }), Ok(()));
+        // Another struct's buffer is told by its size.
+        let other = bind("cs_place", inputs! { sums: &sums, place: &camera }).unwrap_err();
+        assert!(other.contains("place: it is given 64 bytes"), "{other}");
         let wrong = [
             (inputs! { first_tex: &numbers, sums: &sums }, "other_tex: nothing is given for it"),
             (inputs! { third_tex: &numbers }, "third_tex: the shader has no such variable"),

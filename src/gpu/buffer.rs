@@ -35,7 +35,9 @@ impl<T: ShaderType + WriteInto + PartialEq + Clone> UniformBuffer<T> {
         }
         self.written = Some(value.clone());
     }
+}
 
+impl<T> UniformBuffer<T> {
     /// The buffer itself.
     pub fn buffer(&self) -> &wgpu::Buffer {
         &self.buffer

@@ -169,7 +169,7 @@ impl GeometryBuffers {
 }
 
 /// The indices of a mesh with the triangles of each part ordered by surface, so that of coplanar surfaces the one with the
-/// least id is drawn first: peeling tells them apart by that.
+/// least id is drawn first: depth layers tell them apart by that.
 fn by_surface<'a>(mesh: &Mesh, surfaces: &'a Provoking) -> Cow<'a, [u32]> {
     let surface = |triangle: &[u32; 3]| surfaces.surface_of_vertex.get(triangle[0] as usize).copied();
     let is_ordered = |triangles: &[[u32; 3]]| triangles.is_sorted_by_key(surface);

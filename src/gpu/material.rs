@@ -102,7 +102,7 @@ impl MaterialBindings {
     pub fn new(gpu: &Gpu, layout: &wgpu::BindGroupLayout, scene: &Scene) -> Result<Self, GpuError> {
         let uniforms = scene.materials.iter().map(MaterialUniform::from).collect();
         let white = upload(gpu, &[(1, 1, vec![255; 4])], true);
-        let mut views = Views { gpu, scene, made: Vec::new() };
+        let mut views = ImageViews { gpu, scene, made: Vec::new() };
         let mut groups = Vec::new();
         let mut keys: Vec<(Option<&TextureRef>, Option<&TextureRef>)> = Vec::new();
         let mut group_of_material = Vec::new();
@@ -163,13 +163,13 @@ impl MaterialBindings {
 }
 
 /// Image views that were made already, by texture and encoding.
-struct Views<'a> {
+struct ImageViews<'a> {
     gpu: &'a Gpu,
     scene: &'a Scene,
     made: Vec<((usize, bool), wgpu::TextureView)>,
 }
 
-impl Views<'_> {
+impl ImageViews<'_> {
     fn get(&mut self, texture: usize, srgb: bool) -> Option<wgpu::TextureView> {
         if let Some((_, view)) = self.made.iter().find(|(key, _)| *key == (texture, srgb)) {
             return Some(view.clone());

@@ -3,6 +3,8 @@
 
 /// Parts of the picture, each with a count of its own.
 const PARTS: u64 = 4;
+/// A square with sides of so many pixels has as many of each part.
+pub const SQUARE: u32 = 128;
 /// The buffer is dealt out in runs of so many entries: one to each part in turn.
 const RUN: u64 = 1024;
 

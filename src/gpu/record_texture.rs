@@ -1,11 +1,12 @@
 //! Plain records in a texture. Where each invocation reads another record, software devices read textures many times faster
 //! than buffers.
 
-use super::{Gpu, GpuError, Target};
+use super::{Gpu, GpuError, Recorder, Target};
 
 /// Texels per row, as in `shaders/gpu/record_texture.wgsl`.
 const COLUMNS: u32 = 2048;
 
+const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Uint;
 const TEXEL_BYTES: usize = 16;
 
 /// Records of 32-bit words, each from a texel of its own on; grows with their number.
@@ -48,6 +49,18 @@ impl RecordTexture {
         Ok(())
     }
 
+    /// Writes records of two words, two of them to a texel; what is left of the last one is 0. Shaders read them by `pair_at`.
+    ///
+    /// # Errors
+    /// [`GpuError::TooLarge`].
+    pub fn write_pairs(&mut self, gpu: &Gpu, records: &[[u32; 2]]) -> Result<(), GpuError> {
+        let (texels, rest) = records.as_chunks::<2>();
+        match rest {
+            [] => self.write(gpu, texels),
+            [last, ..] => self.write(gpu, &[texels, &[[*last, [0; 2]]]].concat()),
+        }
+    }
+
     /// Makes room for so many texels that shaders write; what is in it is lost if it has to grow.
     ///
     /// # Errors
@@ -83,8 +96,17 @@ impl RecordTexture {
     }
 }
 
+/// A texture of the pool for so many records, of a texel each, that shaders write for one frame.
+///
+/// # Errors
+/// [`GpuError::TooLarge`].
+pub fn frame_records(rec: &mut Recorder<'_>, label: &str, records: u32) -> Result<Target, GpuError> {
+    // Sizes that change little find the texture of an earlier frame.
+    rec.target_of(label, FORMAT, size_of_texels(records as usize).map(u32::next_power_of_two))
+}
+
 /// Width and height of a texture of so many texels.
-pub fn size_of_texels(texels: usize) -> [u32; 2] {
+fn size_of_texels(texels: usize) -> [u32; 2] {
     let rows = texels.div_ceil(COLUMNS as usize).max(1);
     [COLUMNS, u32::try_from(rows).unwrap_or(u32::MAX)]
 }
@@ -100,7 +122,7 @@ fn descriptor(label: &str, rows: u32) -> wgpu::TextureDescriptor<'_> {
         mip_level_count: 1,
         sample_count: 1,
         dimension: wgpu::TextureDimension::D2,
-        format: wgpu::TextureFormat::Rgba32Uint,
+        format: FORMAT,
         usage: wgpu::TextureUsages::TEXTURE_BINDING
             | wgpu::TextureUsages::STORAGE_BINDING
             | wgpu::TextureUsages::COPY_DST,

@@ -27,9 +27,9 @@ use ::gltf::json::Root;
 use glam::DMat4;
 use rayon::prelude::*;
 
-use self::buffers::{Document, label};
+use self::buffers::{GltfDocument, label};
 use self::fault::{Fault, Result};
-use self::meshes::{Built, Request};
+use self::meshes::{Built, MeshRequest};
 use self::nodes::Hierarchy;
 use super::names::file_stem;
 use super::source::Folder;
@@ -73,7 +73,7 @@ fn import(path: &Path, data: &[u8], options: &ImportOptions, progress: &Progress
     }
     progress.report(0.1);
     let folder = Folder::of(path);
-    let document = Document::open(root, data.len(), chunks.bin, &folder, progress)?;
+    let document = GltfDocument::open(root, data.len(), chunks.bin, &folder, progress)?;
     let root = &document.root;
     progress.report(0.3);
 
@@ -129,7 +129,12 @@ fn import(path: &Path, data: &[u8], options: &ImportOptions, progress: &Progress
 }
 
 /// Gives each node its mesh. `wanted`: the request of each node; `places`: the mesh of each request.
-fn hang_meshes(nodes: &mut [Node], wanted: &[Option<usize>], requests: &[Request], places: &[Option<usize>]) {
+fn hang_meshes(
+    nodes: &mut [Node],
+    wanted: &[Option<usize>],
+    requests: &[MeshRequest],
+    places: &[Option<usize>],
+) {
     for (node, request) in nodes.iter_mut().zip(wanted) {
         let Some(request) = *request else {
             continue;
@@ -165,7 +170,7 @@ fn used_materials(meshes: &[Arc<Mesh>], count: usize) -> Vec<bool> {
 }
 
 /// The different meshes that the shown nodes ask for, and for each node which of them.
-fn requests(document: &Document<'_>, hierarchy: &Hierarchy) -> (Vec<Request>, Vec<Option<usize>>) {
+fn requests(document: &GltfDocument<'_>, hierarchy: &Hierarchy) -> (Vec<MeshRequest>, Vec<Option<usize>>) {
     let root = &document.root;
     let mut requests = Vec::new();
     let mut known = HashMap::new();
@@ -179,7 +184,7 @@ fn requests(document: &Document<'_>, hierarchy: &Hierarchy) -> (Vec<Request>, Ve
             let declared = root.meshes.get(mesh);
             let morphs = declared.is_some_and(|m| m.primitives.iter().any(|p| p.targets.is_some()));
             let weights = if morphs { block::morph_weights(root, index) } else { Vec::new() };
-            let request = Request {
+            let request = MeshRequest {
                 mesh,
                 skin: node.skin.map(|s| s.value()).filter(|_| meshes::is_skinnable(document, mesh)),
                 weights: weights.into_iter().map(f32::to_bits).collect(),
@@ -194,8 +199,8 @@ fn requests(document: &Document<'_>, hierarchy: &Hierarchy) -> (Vec<Request>, Ve
 }
 
 fn build_all(
-    document: &Document<'_>,
-    requests: &[Request],
+    document: &GltfDocument<'_>,
+    requests: &[MeshRequest],
     hierarchy: &Hierarchy,
     options: &ImportOptions,
     progress: &Progress,

@@ -148,6 +148,12 @@ impl Progress {
         self.state.canceled.load(Ordering::Relaxed)
     }
 
+    /// Reports the share of the work that is done, 0 to 1; returns whether to go on.
+    pub fn goes_on(&self, share: f32) -> bool {
+        self.report(share);
+        !self.is_canceled()
+    }
+
     /// `Err(ImportError::Canceled)` once the job was asked to stop.
     pub fn check(&self) -> Result<(), ImportError> {
         if self.is_canceled() { Err(ImportError::Canceled) } else { Ok(()) }

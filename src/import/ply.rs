@@ -13,7 +13,7 @@ use super::text::{linear_byte, lossy};
 use super::{ImportError, ImportOptions, Progress};
 use crate::geometry::{Mesh, Triangulator, primitives};
 use crate::scene::{Material, Scene};
-use header::{Element, Header, Kind, Number};
+use header::{Element, Header, Kind, NumberType};
 use values::{Ascii, Binary, Values};
 
 /// Makes a scene of a PLY file: one node with one mesh. Where the vertices have no normals they come from the crease
@@ -170,8 +170,8 @@ impl Vertices {
         let has = |range: std::ops::Range<usize>| range.into_iter().all(|s| kind_of(s).is_some());
         let (normals, colors, uvs) = (has(3..6), has(6..9), has(10..12));
         let color_scale = match kind_of(6) {
-            Some(Kind::Scalar(Number::F32 | Number::F64)) => 255.0,
-            Some(Kind::Scalar(Number::U16 | Number::I16)) => 255.0 / 65535.0,
+            Some(Kind::Scalar(NumberType::F32 | NumberType::F64)) => 255.0,
+            Some(Kind::Scalar(NumberType::U16 | NumberType::I16)) => 255.0 / 65535.0,
             _ => 1.0,
         };
         let linear: Vec<u8> = (0..=255).map(linear_byte).collect();

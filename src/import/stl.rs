@@ -8,7 +8,7 @@ use glam::Vec3;
 use rayon::prelude::*;
 
 use super::assemble::{Assembly, Branch};
-use super::text::{Fault, Lines, after_first_word, float, lossy, words};
+use super::text::{RepeatedFault, TextLines, after_first_word, float, lossy, words};
 use super::{ImportError, ImportOptions, Progress};
 use crate::geometry::{Mesh, Weld, primitives};
 use crate::scene::{Material, Scene, Up};
@@ -125,10 +125,10 @@ fn read_binary(data: &[u8], assembly: &mut Assembly<'_>) -> Result<Solid, Import
 fn read_ascii(data: &[u8], assembly: &mut Assembly<'_>) -> Result<Vec<Solid>, ImportError> {
     let mut solids: Vec<Solid> = Vec::new();
     let mut current = Solid { name: "mesh".into(), corners: Vec::new() };
-    let (mut bad_numbers, mut bad_facets) = (Fault::default(), Fault::default());
+    let (mut bad_numbers, mut bad_facets) = (RepeatedFault::default(), RepeatedFault::default());
     let mut facet: Vec<Vec3> = Vec::new();
     let mut understood = false;
-    for (number, line) in Lines::new(data) {
+    for (number, line) in TextLines::new(data) {
         let mut words = words(&line);
         while let Some(word) = words.next() {
             let is = |keyword: &str| word.eq_ignore_ascii_case(keyword.as_bytes());

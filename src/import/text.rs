@@ -4,12 +4,12 @@ use std::borrow::Cow;
 
 /// The lines of a text with their numbers (from 1), split at `\n`, `\r\n` or `\r`. A line that ends in a backslash is
 /// joined with the next one.
-pub(super) struct Lines<'a> {
+pub(super) struct TextLines<'a> {
     rest: &'a [u8],
     number: usize,
 }
 
-impl<'a> Lines<'a> {
+impl<'a> TextLines<'a> {
     /// Begins at the start of `data`, after a byte order mark.
     pub(super) fn new(data: &'a [u8]) -> Self {
         Self { rest: data.strip_prefix(b"\xef\xbb\xbf").unwrap_or(data), number: 0 }
@@ -35,7 +35,7 @@ impl<'a> Lines<'a> {
     }
 }
 
-impl<'a> Iterator for Lines<'a> {
+impl<'a> Iterator for TextLines<'a> {
     type Item = (usize, Cow<'a, [u8]>);
 
     fn next(&mut self) -> Option<Self::Item> {
@@ -92,12 +92,12 @@ pub(super) fn linear(srgb: f32) -> f32 {
 
 /// A fault that may occur on many lines and is told once.
 #[derive(Debug, Default)]
-pub(super) struct Fault {
+pub(super) struct RepeatedFault {
     count: usize,
     first_line: usize,
 }
 
-impl Fault {
+impl RepeatedFault {
     /// Notes the fault on a line.
     pub(super) fn note(&mut self, line: usize) {
         if self.count == 0 {
@@ -127,8 +127,9 @@ mod tests {
 
     #[test]
     fn lines_end_in_any_way_and_go_on_after_a_backslash() {
-        let lines: Vec<_> =
-            Lines::new(b"\xef\xbb\xbfa\r\nb \\\n c\rd\n\ne\\").map(|(n, line)| (n, lossy(&line))).collect();
+        let lines: Vec<_> = TextLines::new(b"\xef\xbb\xbfa\r\nb \\\n c\rd\n\ne\\")
+            .map(|(n, line)| (n, lossy(&line)))
+            .collect();
         let expected = [(1, "a"), (2, "b   c"), (4, "d"), (5, ""), (6, "e ")];
         assert_eq!(lines, expected.map(|(n, s)| (n, s.to_owned())));
     }

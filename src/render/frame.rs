@@ -14,9 +14,9 @@ use super::passes::accumulate::{Accumulation, Subject};
 use super::passes::front::Front;
 use super::passes::layers::Reported;
 use super::passes::resolve::Resolve;
-use super::passes::selection::Selection;
+use super::passes::selection::SelectionOutline;
 use super::passes::shadows::{ShadowMap, ShadowMaps};
-use super::views::{View, Views};
+use super::views::{DebugView, DebugViews};
 use crate::document::Show;
 use crate::gpu::{Gpu, Recorder, Target};
 use crate::scene::NodeId;
@@ -27,7 +27,7 @@ pub struct FrameInputs<'a> {
     /// What is drawn, as the eye sees it; its sample is that of [`FrameState::next_sample`].
     pub drawing: DrawingInputs<'a>,
     /// The picture, or a buffer that it is made from.
-    pub view: View,
+    pub view: DebugView,
     /// Shown with the picture; `None`: none.
     pub scale_bar: Option<&'a ScaleBar>,
     /// Selected nodes; empty without a window.
@@ -54,13 +54,13 @@ pub struct FrameState {
     shared: Shared,
     shadow_maps: ShadowMaps,
     drawing: Drawing,
-    views: Views,
+    views: DebugViews,
     accumulation: Accumulation,
     /// What this one went on from: held, so that the other one's pool does not hand out its textures before they have
     /// been read.
     origin: Option<Accumulation>,
     resolve: Resolve,
-    selection: Selection,
+    selection: SelectionOutline,
 }
 
 impl FrameState {
@@ -70,11 +70,11 @@ impl FrameState {
             shared: Shared::new(gpu),
             shadow_maps: ShadowMaps::new(gpu),
             drawing: Drawing::new(gpu, frame_layout),
-            views: Views::new(gpu),
+            views: DebugViews::new(gpu),
             accumulation: Accumulation::default(),
             origin: None,
             resolve: Resolve::new(gpu),
-            selection: Selection::new(gpu),
+            selection: SelectionOutline::new(gpu),
         }
     }
 
@@ -143,8 +143,8 @@ impl FrameState {
             (viewed.image, viewed.front)
         };
         let (front, revisions) = front;
-        let selected = (selected, &*eye.scene_view.scene.scene);
-        let selection = self.selection.run(rec, (&front, revisions), selected, sample)?;
+        let scene = &eye.scene_view.scene.scene;
+        let selection = self.selection.run(rec, &front, revisions, selected, scene, sample)?;
         Ok(Picture { image: image.value, revision: image.revision, sample, selection, front })
     }
 

@@ -377,7 +377,7 @@ impl Renderer {
                 shadow_maps: &[],
                 reflections: request.document.view.reflections.round() as u32,
             },
-            view: views::View { show: request.document.view.show, layer: request.document.view.layer },
+            view: views::DebugView { show: request.document.view.show, layer: request.document.view.layer },
             scale_bar: bar.as_ref(),
             selected: request.selected,
         };

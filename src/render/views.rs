@@ -6,17 +6,17 @@ use super::base::error::RenderError;
 use super::base::stage::{Output, Stage};
 use super::drawing::{Drawing, DrawingInputs, DrawnSurfaces, Shared};
 use super::effects::layered::{LayerRequest, Layered, LayeredGroup, LineRequest, Visit};
+use super::passes::count::MOST_LAYERS;
 use super::passes::front::Front;
 use super::passes::gbuffer::GBuffer;
 use super::passes::operators::operators;
-use super::passes::peel::MOST_LAYERS;
 use super::passes::show::{Shown, show};
 use crate::document::{LayersBy, Show};
 use crate::gpu::{Gpu, GpuError, Recorder, Target};
 
 /// Which buffer is looked at.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct View {
+pub struct DebugView {
     /// The buffer.
     pub show: Show,
     /// The depth layer that it is of, from 1; 1: the nearest.
@@ -32,7 +32,7 @@ pub struct Viewed {
 }
 
 /// What of the views lives across frames.
-pub struct Views {
+pub struct DebugViews {
     layered: Layered,
     layer: Stage<(LayeredGroup, u32), (GBuffer, Target)>,
     operators: Stage<(u64, u32, Vec2), Target>,
@@ -43,13 +43,13 @@ pub struct Views {
 #[derive(PartialEq)]
 struct ImageKey {
     shaders: u64,
-    view: View,
+    view: DebugView,
     gbuffer: u64,
     edges: u64,
     operators: Option<u64>,
 }
 
-impl Views {
+impl DebugViews {
     /// Nothing drawn yet.
     pub fn new(gpu: &Gpu) -> Self {
         Self {
@@ -82,7 +82,7 @@ impl Views {
         drawing: &mut Drawing,
         shared: &mut Shared,
         inputs: &DrawingInputs<'_>,
-        view: View,
+        view: DebugView,
     ) -> Result<Viewed, RenderError> {
         drawing.forget_picture();
         let drawn = drawing.draw_surfaces(rec, shared, inputs)?;

@@ -102,22 +102,30 @@ impl Framed for Extent {
                 found = found.or(own);
             }
         }
-        found.0.into_iter().map(|(_, _, point)| point).filter(|p| p.is_finite()).collect()
+        found.0.into_iter().map(|farthest| farthest.point).filter(|p| p.is_finite()).collect()
     }
 }
 
-/// For each direction how far the farthest point lies along it, and that point.
-struct Farthest(Vec<(DVec3, f64, DVec3)>);
+/// For each direction the point that lies farthest along it.
+struct Farthest(Vec<FarthestPoint>);
+
+/// The point that lies farthest along a direction, and how far.
+struct FarthestPoint {
+    direction: DVec3,
+    distance: f64,
+    point: DVec3,
+}
 
 impl Farthest {
     fn of(directions: &[DVec3], points: impl IntoIterator<Item = DVec3>) -> Self {
-        let mut found: Vec<_> = directions.iter().map(|d| (*d, f64::NEG_INFINITY, DVec3::NAN)).collect();
+        let none = |&direction| FarthestPoint { direction, distance: f64::NEG_INFINITY, point: DVec3::NAN };
+        let mut found: Vec<_> = directions.iter().map(none).collect();
         for point in points {
-            for (direction, reach, farthest) in &mut found {
-                let along = point.dot(*direction);
+            for farthest in &mut found {
+                let distance = point.dot(farthest.direction);
                 // Never true of what is not a number.
-                if along > *reach && along < f64::INFINITY {
-                    (*reach, *farthest) = (along, point);
+                if distance > farthest.distance && distance < f64::INFINITY {
+                    (farthest.distance, farthest.point) = (distance, point);
                 }
             }
         }
@@ -126,13 +134,13 @@ impl Farthest {
 
     fn or(self, other: Self) -> Self {
         let pairs = self.0.into_iter().zip(other.0);
-        Self(pairs.map(|(a, b)| if b.1 > a.1 { b } else { a }).collect())
+        Self(pairs.map(|(a, b)| if b.distance > a.distance { b } else { a }).collect())
     }
 
     /// Whether a box reaches beyond any of the points.
     fn is_beyond(&self, bounds: &Bounds) -> bool {
         let corners = bounds.corners();
-        self.0.iter().any(|(direction, reach, _)| corners.iter().any(|c| c.dot(*direction) > *reach))
+        self.0.iter().any(|f| corners.iter().any(|c| c.dot(f.direction) > f.distance))
     }
 }
 

@@ -4,7 +4,7 @@ use std::ops::RangeInclusive;
 use std::path::PathBuf;
 
 use super::param::{Condition, Param, Scope};
-use super::slot::{Choice, Place, Slot};
+use super::slot::{Choice, Slot, StyleField};
 use super::{Color, Curve, Matrix};
 
 /// The list while it is being declared.
@@ -106,7 +106,7 @@ impl<'a> Params<'a> {
         key: &str,
         label: &'static str,
         help: &'static str,
-        value: impl Into<Place<'a, bool>>,
+        value: impl Into<StyleField<'a, bool>>,
     ) {
         self.switch(key, label, help, value);
         if let Some(param) = self.list.last_mut() {
@@ -120,7 +120,7 @@ impl<'a> Params<'a> {
         key: &str,
         label: &'static str,
         help: &'static str,
-        value: impl Into<Place<'a, bool>>,
+        value: impl Into<StyleField<'a, bool>>,
     ) {
         self.push(key, label, "", help, Slot::Bool(value.into()));
     }
@@ -133,7 +133,7 @@ impl<'a> Params<'a> {
         unit: &'static str,
         range: RangeInclusive<f32>,
         help: &'static str,
-        value: impl Into<Place<'a, f32>>,
+        value: impl Into<StyleField<'a, f32>>,
     ) {
         self.wide_number(key, label, unit, range.clone(), range, help, value);
     }
@@ -147,7 +147,7 @@ impl<'a> Params<'a> {
         soft: RangeInclusive<f32>,
         hard: RangeInclusive<f32>,
         help: &'static str,
-        value: impl Into<Place<'a, f32>>,
+        value: impl Into<StyleField<'a, f32>>,
     ) {
         self.push(key, label, unit, help, Slot::Number { value: value.into(), soft, hard });
     }
@@ -158,7 +158,7 @@ impl<'a> Params<'a> {
         key: &str,
         label: &'static str,
         help: &'static str,
-        value: impl Into<Place<'a, f32>>,
+        value: impl Into<StyleField<'a, f32>>,
     ) {
         self.number(key, label, "", 0.0..=1.0, help, value);
     }
@@ -191,7 +191,7 @@ impl<'a> Params<'a> {
         key: &str,
         label: &'static str,
         help: &'static str,
-        value: impl Into<Place<'a, Color>>,
+        value: impl Into<StyleField<'a, Color>>,
     ) {
         self.push(key, label, "", help, Slot::Color(value.into()));
     }

@@ -1,7 +1,7 @@
 //! The two groups of lines: what their classes inherit, and how the paper's operators find them.
 
 use super::Color;
-use super::edge_line::{Line, Places};
+use super::edge_line::{LineFields, LineStyle};
 use super::edge_mode::{DepthOperator, EdgeMode};
 use super::param::Params;
 
@@ -81,8 +81,8 @@ impl Default for EdgeGroup<Inner> {
 
 impl<More> EdgeGroup<More> {
     /// What the classes of the group inherit.
-    pub(super) fn line(&self) -> Line {
-        Line {
+    pub(super) fn line(&self) -> LineStyle {
+        LineStyle {
             show: self.show,
             color: self.color,
             strength: self.strength,
@@ -97,7 +97,7 @@ const THRESHOLD: &str = "Weaker discontinuities draw nothing.";
 
 impl EdgeGroup<Profile> {
     pub(super) fn params<'a>(&'a mut self, list: &mut Params<'a>) {
-        let places = Places {
+        let places = LineFields {
             show: (&mut self.show).into(),
             color: (&mut self.color).into(),
             strength: (&mut self.strength).into(),
@@ -145,7 +145,7 @@ impl EdgeGroup<Profile> {
 
 impl EdgeGroup<Inner> {
     pub(super) fn params<'a>(&'a mut self, list: &mut Params<'a>) {
-        let places = Places {
+        let places = LineFields {
             show: (&mut self.show).into(),
             color: (&mut self.color).into(),
             strength: (&mut self.strength).into(),

@@ -2,7 +2,7 @@
 
 use super::Color;
 use super::edge_mode::EdgeMode;
-use super::param::{Params, Place};
+use super::param::{Params, StyleField};
 use crate::geometry::EdgeClass;
 
 /// Width of section lines in reference pixels.
@@ -10,7 +10,7 @@ const SECTION_WIDTH: f32 = 4.0;
 
 /// The look of a class of lines, complete.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Line {
+pub struct LineStyle {
     /// Whether it is drawn.
     pub show: bool,
     /// Color.
@@ -40,7 +40,7 @@ pub struct ClassStyle {
     pub width: Option<f32>,
     /// Whether it is drawn in dashes.
     pub dashed: Option<bool>,
-    /// See [`Line::threshold`].
+    /// See [`LineStyle::threshold`].
     pub threshold: f32,
 }
 
@@ -67,8 +67,8 @@ impl ClassStyle {
     }
 
     /// Fills in from the group what is not set.
-    pub(super) fn resolve(&self, group: &Line) -> Line {
-        Line {
+    pub(super) fn resolve(&self, group: &LineStyle) -> LineStyle {
+        LineStyle {
             show: self.show.unwrap_or(group.show),
             color: self.color.unwrap_or(group.color),
             strength: self.strength.unwrap_or(group.strength),
@@ -83,21 +83,29 @@ impl ClassStyle {
         &'a mut self,
         class: EdgeClass,
         group_key: &str,
-        group: &Line,
+        group: &LineStyle,
         list: &mut Params<'a>,
     ) {
         let from = |name: &str| format!("edges.{group_key}.{name}");
         let (label, help) = words(class);
-        let places = Places {
-            show: Place::Inheriting { own: &mut self.show, inherited: group.show, from: from("show") },
-            color: Place::Inheriting { own: &mut self.color, inherited: group.color, from: from("color") },
-            strength: Place::Inheriting {
+        let places = LineFields {
+            show: StyleField::Inheriting { own: &mut self.show, inherited: group.show, from: from("show") },
+            color: StyleField::Inheriting {
+                own: &mut self.color,
+                inherited: group.color,
+                from: from("color"),
+            },
+            strength: StyleField::Inheriting {
                 own: &mut self.strength,
                 inherited: group.strength,
                 from: from("strength"),
             },
-            width: Place::Inheriting { own: &mut self.width, inherited: group.width, from: from("width") },
-            dashed: Place::Inheriting {
+            width: StyleField::Inheriting {
+                own: &mut self.width,
+                inherited: group.width,
+                from: from("width"),
+            },
+            dashed: StyleField::Inheriting {
                 own: &mut self.dashed,
                 inherited: group.dashed,
                 from: from("dashed"),
@@ -180,15 +188,15 @@ fn words(class: EdgeClass) -> (&'static str, &'static str) {
 }
 
 /// Where the look of a group or class is kept.
-pub(super) struct Places<'a> {
-    pub show: Place<'a, bool>,
-    pub color: Place<'a, Color>,
-    pub strength: Place<'a, f32>,
-    pub width: Place<'a, f32>,
-    pub dashed: Place<'a, bool>,
+pub(super) struct LineFields<'a> {
+    pub show: StyleField<'a, bool>,
+    pub color: StyleField<'a, Color>,
+    pub strength: StyleField<'a, f32>,
+    pub width: StyleField<'a, f32>,
+    pub dashed: StyleField<'a, bool>,
 }
 
-impl<'a> Places<'a> {
+impl<'a> LineFields<'a> {
     /// Declares the rows that groups and classes share.
     pub(super) fn declare(self, label: &'static str, help: &'static str, list: &mut Params<'a>) {
         list.head("show", label, help, self.show);

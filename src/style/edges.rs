@@ -1,7 +1,7 @@
 //! Lines: how edges are found (edge-enhancement paper, sections 3 and 4, or exactly) and how they are drawn.
 
 use super::edge_group::{EdgeGroup, Inner, Profile};
-use super::edge_line::{ClassStyle, Line};
+use super::edge_line::{ClassStyle, LineStyle};
 use super::edge_mode::{Alignment, DepthOperator, EdgeMode};
 use super::hidden::Hidden;
 use super::param::Params;
@@ -127,7 +127,7 @@ impl Default for Edges {
 
 impl Edges {
     /// The look of a class: what it has of its own, the rest from its group.
-    pub fn line(&self, class: EdgeClass) -> Line {
+    pub fn line(&self, class: EdgeClass) -> LineStyle {
         let group = if class.is_profile() { self.profile.line() } else { self.inner.line() };
         self.class(class).resolve(&group)
     }

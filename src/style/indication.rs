@@ -17,8 +17,9 @@ pub struct Indication {
     pub falloff: f32,
     /// How many times as far the edges of this object keep strokes around them, on other objects too.
     pub attraction: f32,
-    /// By the general field map.
-    pub patches: PatchField,
+    /// By the general field map: w1, of the distance x to the border of a flat part, 0 on it and 0.5 in the middle of the square
+    /// that the part is mapped to.
+    pub patches: FieldWeight,
     /// By silhouettes nearby.
     pub silhouettes: SilhouetteField,
 }
@@ -34,11 +35,10 @@ choice! {
     }
 }
 
-/// w1 = (a + b · x)^−c, by the distance x to the border of a flat part: 0 on it, 0.5 in the middle of the square that the part
-/// is mapped to.
+/// The weight (a + b · x)^−c of a field x, and its share in the whole.
 #[derive(Debug, Clone, PartialEq)]
-pub struct PatchField {
-    /// Share of w1 in the whole.
+pub struct FieldWeight {
+    /// Share in the whole.
     pub share: f32,
     /// a.
     pub offset: f32,
@@ -48,12 +48,12 @@ pub struct PatchField {
     pub power: f32,
 }
 
-/// w2 = (a + b · x)^−c with x = α / (n^β + λ), by the number n of 16 pixels around, at a distance, that lie beyond a
+/// w2, of x = α / (n^β + λ), by the number n of 16 pixels around, at a distance, that lie beyond a
 /// silhouette.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SilhouetteField {
-    /// Share of w2 in the whole.
-    pub share: f32,
+    /// Of x.
+    pub weight: FieldWeight,
     /// Distance of the pixels, reference pixels.
     pub radius: f32,
     /// Step off the plane of the surface that is a silhouette, reference pixels.
@@ -64,12 +64,6 @@ pub struct SilhouetteField {
     pub beta: f32,
     /// λ.
     pub lambda: f32,
-    /// a.
-    pub offset: f32,
-    /// b.
-    pub slope: f32,
-    /// c.
-    pub power: f32,
 }
 
 impl Default for Indication {
@@ -80,17 +74,14 @@ impl Default for Indication {
             distance: 30.0,
             falloff: 1.3,
             attraction: 1.0,
-            patches: PatchField { share: 0.6, offset: 1.0, slope: 12.0, power: 1.3 },
+            patches: FieldWeight { share: 0.6, offset: 1.0, slope: 12.0, power: 1.3 },
             silhouettes: SilhouetteField {
-                share: 0.8,
+                weight: FieldWeight { share: 0.8, offset: 1.0, slope: 1.0, power: 1.3 },
                 radius: 16.0,
                 step: 4.0,
                 alpha: 1.0,
                 beta: 1.0,
                 lambda: 0.05,
-                offset: 1.0,
-                slope: 1.0,
-                power: 1.3,
             },
         }
     }
@@ -133,52 +124,41 @@ impl Indication {
             );
         });
         list.when("hatching.indication.by", DetailBy::Fields, |list| {
-            list.detail("patches", |list| self.patches.params(list));
+            list.detail("patches", |list| self.patches.params(PATCH_HELPS, list));
             list.detail("silhouettes", |list| self.silhouettes.params(list));
         });
     }
 }
 
-/// The share of a field and its weight, (a + b · x)^−c; a is the offset, b the slope, c the power.
-struct Weight<'a> {
-    share: &'a mut f32,
-    offset: &'a mut f32,
-    slope: &'a mut f32,
-    power: &'a mut f32,
-}
-
-impl<'a> Weight<'a> {
-    fn params(self, list: &mut Params<'a>, [share, offset, slope, power]: [&'static str; 4]) {
-        list.wide_number("share", "Share", "", 0.0..=1.5, 0.0..=2.0, share, self.share);
-        list.wide_number("offset", "Offset", "", 0.5..=2.0, 0.1..=4.0, offset, self.offset);
-        list.wide_number("slope", "Slope", "", 0.0..=20.0, 0.0..=50.0, slope, self.slope);
-        list.wide_number("power", "Power", "", 0.0..=3.0, 0.0..=4.0, power, self.power);
+impl FieldWeight {
+    /// `helps`: what share, offset, slope and power are.
+    fn params<'a>(&'a mut self, helps: [&'static str; 4], list: &mut Params<'a>) {
+        let [share, offset, slope, power] = helps;
+        list.wide_number("share", "Share", "", 0.0..=1.5, 0.0..=2.0, share, &mut self.share);
+        list.wide_number("offset", "Offset", "", 0.5..=2.0, 0.1..=4.0, offset, &mut self.offset);
+        list.wide_number("slope", "Slope", "", 0.0..=20.0, 0.0..=50.0, slope, &mut self.slope);
+        list.wide_number("power", "Power", "", 0.0..=3.0, 0.0..=4.0, power, &mut self.power);
     }
 }
 
-impl PatchField {
-    fn params<'a>(&'a mut self, list: &mut Params<'a>) {
-        let Self { share, offset, slope, power } = self;
-        let helps = [
-            "How much the borders of flat parts count: factor of (a + b · x)^−c.",
-            "a of (a + b · x)^−c; x is the distance to the border of a flat part, 0 on it and 0.5 in its middle.",
-            "b of (a + b · x)^−c: how fast strokes become fewer away from the borders of flat parts.",
-            "c of (a + b · x)^−c: more leaves out more strokes in the middle of flat parts.",
-        ];
-        Weight { share, offset, slope, power }.params(list, helps);
-    }
-}
+/// What a person is told about the weight of the field of flat parts.
+const PATCH_HELPS: [&str; 4] = [
+    "How much the borders of flat parts count: factor of (a + b · x)^−c.",
+    "a of (a + b · x)^−c; x is the distance to the border of a flat part, 0 on it and 0.5 in its middle.",
+    "b of (a + b · x)^−c: how fast strokes become fewer away from the borders of flat parts.",
+    "c of (a + b · x)^−c: more leaves out more strokes in the middle of flat parts.",
+];
 
 impl SilhouetteField {
     fn params<'a>(&'a mut self, list: &mut Params<'a>) {
-        let Self { share, radius, step, alpha, beta, lambda, offset, slope, power } = self;
+        let Self { weight, radius, step, alpha, beta, lambda } = self;
         let helps = [
             "How much silhouettes nearby count: factor of (a + b · x)^−c.",
             "a of (a + b · x)^−c; x = α / (n^β + λ), where n of 16 pixels around lie beyond a silhouette.",
             "b of (a + b · x)^−c: how fast strokes become fewer where fewer pixels lie beyond a silhouette.",
             "c of (a + b · x)^−c: more leaves out more strokes away from silhouettes.",
         ];
-        Weight { share, offset, slope, power }.params(list, helps);
+        weight.params(helps, list);
         let help = "How far away the 16 pixels around lie, of which n lie beyond a silhouette.";
         list.wide_number("radius", "Radius", "px", 2.0..=60.0, 1.0..=200.0, help, radius);
         let help = "Step off the plane of the surface that is a silhouette, in widths of a px at that depth.";

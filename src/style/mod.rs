@@ -40,7 +40,7 @@ use std::path::PathBuf;
 pub use blueprint::Blueprint;
 pub use color::Color;
 pub use curve::{Curve, CurveError, Point};
-pub use edge_line::Line;
+pub use edge_line::LineStyle;
 pub use edge_mode::{Alignment, DepthOperator, EdgeMode};
 pub use edges::Edges;
 pub use gooch::Gooch;
@@ -52,6 +52,7 @@ pub use mirror::Mirror;
 pub use paper::Paper;
 pub use param::{Param, Slot, Value};
 pub use plain::Plain;
+pub use preset::MadeFrom;
 pub use sketch::Sketch;
 pub use toml_file::{diff_to_toml, set_from_toml};
 pub use toon::Toon;
@@ -87,6 +88,8 @@ macro_rules! techniques {
             pub mirror: Mirror,
             /// How surfaces and lines are moved and rubbed on as by hand.
             pub sketch: Sketch,
+            /// What it was made from.
+            pub made_from: MadeFrom,
         }
 
         impl Style {

@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use super::{Color, Curve, StyleError, nearest, widened};
 
 pub use super::declare::Params;
-pub use super::slot::{Choice, Place, Slot};
+pub use super::slot::{Choice, Slot, StyleField};
 pub use super::value::Value;
 
 /// One parameter of one borrowed object.

@@ -7,6 +7,17 @@ use include_dir::{Dir, include_dir};
 use super::param::map_paths;
 use super::{Style, StyleError, nearest, set_from_toml};
 
+/// The preset that a style was made from, by its id; a parameter that is reset has its value there. Styles that differ in nothing
+/// else are equal.
+#[derive(Debug, Clone, Default)]
+pub struct MadeFrom(pub Option<String>);
+
+impl PartialEq for MadeFrom {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
+}
+
 static STYLES: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/assets/styles");
 
 /// Style files are small texts; anything larger is a mistake.
@@ -31,7 +42,9 @@ pub fn all() -> Vec<Preset> {
         .files()
         .filter_map(|file| {
             let id = file.path().file_stem()?.to_str()?;
-            read(id, file.contents_utf8()?, id).ok()
+            let mut preset = read(id, file.contents_utf8()?, id).ok()?;
+            preset.style.made_from = MadeFrom(Some(id.to_owned()));
+            Some(preset)
         })
         .collect();
     presets.sort_by(|a, b| a.id.cmp(&b.id));

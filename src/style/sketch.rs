@@ -3,7 +3,7 @@
 
 use std::path::PathBuf;
 
-use super::param::{Params, Place};
+use super::param::{Params, StyleField};
 use super::slot::choice;
 use super::{Color, Matrix};
 
@@ -58,7 +58,7 @@ pub struct Wander {
     /// Whether each object has noise of its own, so that equal objects differ.
     pub by_object: bool,
     /// How the depth of what is drawn is found.
-    pub depth: DepthRule,
+    pub depth: SketchDepth,
     /// How much paler lines and colors are in places.
     pub pressure: f32,
     /// How often the picture is drawn anew, times per second; 0: never.
@@ -182,7 +182,7 @@ choice! {
 
 choice! {
     /// How the depth of what is drawn is found.
-    pub enum DepthRule {
+    pub enum SketchDepth {
         /// Ink and color have one each.
         #[default]
         Separate,
@@ -251,7 +251,7 @@ impl Default for Wander {
             octaves: 4,
             seed: 1,
             by_object: true,
-            depth: DepthRule::default(),
+            depth: SketchDepth::default(),
             pressure: 0.0,
             boil: 0.0,
         }
@@ -447,7 +447,7 @@ impl Pass {
             "color",
             "Color",
             "Color of the lines in this pass.",
-            Place::Inheriting {
+            StyleField::Inheriting {
                 own: &mut self.color,
                 inherited: ink,
                 from: "edges.profile.color".to_owned(),

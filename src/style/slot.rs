@@ -8,11 +8,11 @@ use super::{Color, Curve, Matrix};
 /// The borrowed value of a parameter.
 pub enum Slot<'a> {
     /// A switch.
-    Bool(Place<'a, bool>),
+    Bool(StyleField<'a, bool>),
     /// A number.
     Number {
         /// The value.
-        value: Place<'a, f32>,
+        value: StyleField<'a, f32>,
         /// What a slider offers.
         soft: RangeInclusive<f32>,
         /// What is accepted at all.
@@ -26,7 +26,7 @@ pub enum Slot<'a> {
         range: RangeInclusive<u32>,
     },
     /// A color.
-    Color(Place<'a, Color>),
+    Color(StyleField<'a, Color>),
     /// An image file, or none.
     File(&'a mut Option<PathBuf>),
     /// A 2×2 matrix.
@@ -94,7 +94,7 @@ impl Slot<'_> {
 }
 
 /// A field of a style.
-pub enum Place<'a, T> {
+pub enum StyleField<'a, T> {
     /// It always has a value.
     Own(&'a mut T),
     /// It takes the value of another parameter until it has one of its own.
@@ -108,13 +108,13 @@ pub enum Place<'a, T> {
     },
 }
 
-impl<'a, T> From<&'a mut T> for Place<'a, T> {
+impl<'a, T> From<&'a mut T> for StyleField<'a, T> {
     fn from(value: &'a mut T) -> Self {
         Self::Own(value)
     }
 }
 
-impl<T: Copy> Place<'_, T> {
+impl<T: Copy> StyleField<'_, T> {
     /// The value that holds.
     pub fn get(&self) -> T {
         match self {

@@ -187,10 +187,10 @@ fn an_object_is_designated_in_its_row_and_what_masks_need_is_then_among_the_para
     // What became of it arrives a frame later, and nobody asked for it.
     let style = window.state().document().style.clone();
     until(&mut window, "the layers are counted", |v| {
-        v.viewport().last_layer_report(&style).is_some_and(|(peeled, _)| peeled.masked > 0)
+        v.viewport().last_layer_report(&style).is_some_and(|(report, _)| report.masked > 0)
     });
-    let (peeled, _) = window.state().viewport().last_layer_report(&style).unwrap().clone();
-    let title = format!("Layers drawn: {}", peeled.layers);
+    let (report, _) = window.state().viewport().last_layer_report(&style).unwrap().clone();
+    let title = format!("Layers drawn: {}", report.layers);
     assert!(window.query_by_label(&title).is_some(), "{title}");
     assert!(window.query_by_label_contains("% uncovered,").is_some());
     ask(&mut window, Command::Undo);
@@ -243,20 +243,29 @@ fn a_flat_object_is_made_a_mirror_in_its_row_and_undo_takes_that_back() {
 }
 
 #[test]
-fn a_slider_changes_the_style_and_a_double_click_on_its_name_resets_it() {
-    let mut window = window();
-    let default = hachure::style::Style::default().gooch.alpha;
-    window.get_by_role_and_label(Role::Slider, "Cool base color").set_value_accesskit(0.9);
-    settle(&mut window);
-    assert_eq!(window.state().document().style.gooch.alpha, 0.9);
-    let label = window.get_by_role_and_label(Role::Label, "Cool base color").rect().center();
+fn a_slider_changes_the_style_and_a_double_click_on_its_name_resets_it_to_the_preset() {
+    let of_preset = preset::load("gooch").unwrap().style;
+    let of_nothing = Style::default();
+    assert_ne!(of_preset.gooch.alpha, of_nothing.gooch.alpha);
+    for style in [of_preset, of_nothing] {
+        let mut window = window_of_style(style.clone());
+        window.get_by_role_and_label(Role::Slider, "Cool base color").set_value_accesskit(0.9);
+        settle(&mut window);
+        assert_eq!(window.state().document().style.gooch.alpha, 0.9);
+        double_click_label(&mut window, "Cool base color");
+        assert_eq!(window.state().document().style.gooch.alpha, style.gooch.alpha);
+        assert!(window.query_by_role_and_label(Role::Button, "Reset Cool base color").is_none());
+    }
+}
+
+fn double_click_label(window: &mut Window, name: &str) {
+    let label = window.get_by_role_and_label(Role::Label, name).rect().center();
     window.hover_at(label);
     for _ in 0..2 {
         window.drag_at(label);
         window.drop_at(label);
     }
-    settle(&mut window);
-    assert_eq!(window.state().document().style.gooch.alpha, default);
+    settle(window);
 }
 
 #[test]
@@ -847,6 +856,10 @@ fn images_of_styles_are_read_beside_the_window_and_again_when_it_is_come_back_to
 fn sketching(passes: u32) -> Window {
     let mut style = Style { technique: Technique::Unlit, ..Style::default() };
     (style.sketch.enabled, style.sketch.passes) = (true, passes);
+    window_of_style(style)
+}
+
+fn window_of_style(style: Style) -> Window {
     let launch = Launch {
         files: vec!["/models/engine.glb".into()],
         style: Some(style),

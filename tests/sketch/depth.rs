@@ -7,7 +7,7 @@ use hachure::export::Session;
 use hachure::export::session::Opened;
 use hachure::geometry::{Mesh, primitives};
 use hachure::scene::{AlphaMode, NodeId};
-use hachure::style::sketch::{Anchor, DepthRule, MOST_PASSES, Noise};
+use hachure::style::sketch::{Anchor, MOST_PASSES, Noise, SketchDepth};
 use hachure::style::{Color, Matrix, Style};
 
 use super::common;
@@ -249,6 +249,6 @@ fn what_hides_what_is_right_with_sketches_in_a_hundred_scenes() {
 fn the_papers_rule_of_depth_lets_nothing_through_a_wall_either() {
     let mut session = common::session();
     check_all(&mut session, Layout::BehindWall, 302..308, |style| {
-        style.sketch.wander.depth = DepthRule::Nearer;
+        style.sketch.wander.depth = SketchDepth::Nearer;
     });
 }

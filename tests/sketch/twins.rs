@@ -6,7 +6,7 @@ use hachure::export::session::Opened;
 use hachure::geometry::primitives;
 use hachure::render::base::noise::{SIDE as TILE, TILE_CELLS, turbulence_tile};
 use hachure::render::base::view::REFERENCE_HEIGHT;
-use hachure::style::sketch::{Anchor, DepthRule, Noise};
+use hachure::style::sketch::{Anchor, Noise, SketchDepth};
 use hachure::style::{EdgeMode, Matrix, Sketch, Style};
 use image::RgbaImage;
 
@@ -136,7 +136,7 @@ fn the_nearest_depth_of_all_fetches_counts() {
     session.set_scene(&opened).unwrap();
     set_style(&mut opened, other, &without_lines(style("unlit")));
     let mut sketch = on_screen(without_lines(style("unlit")), 40.0, 30.0);
-    sketch.sketch.wander.depth = DepthRule::Nearer;
+    sketch.sketch.wander.depth = SketchDepth::Nearer;
     set_style(&mut opened, ball, &sketch);
     let picture = alone(&mut session, &opened, SIDE, |_| true);
     let [ball_depth, other_depth] = [ball, other].map(|node| cast(&opened, SIDE, &[node]));

@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3, Mat4, Vec2, Vec3};
 use hachure::export::Session;
-use hachure::render::passes::offset_field::{FieldUniform, ObjectUniform, Place};
+use hachure::render::passes::offset_field::{FieldUniform, GpuFieldObject, NoisePlace};
 use rayon::prelude::*;
 
 use super::model::{Anchor, Eye, Model, Spot};
@@ -130,11 +130,11 @@ impl Pair<'_> {
     ) {
         let object = |eye: &Eye| *eye.object(anchor.object);
         let [_, eye_before, eye_after] = self.eyes.map(object);
-        let surface = |object: &ObjectUniform, spot: &Spot| field.line_noise(object, &spot.place, 0);
+        let surface = |object: &GpuFieldObject, spot: &Spot| field.line_noise(object, &spot.place, 0);
         sums.add(SURFACE, surface(&eye_before, &before), surface(&eye_after, &after));
         // The place as it is found now, the wave as it was.
-        let locked = |object: &ObjectUniform, spot: &Spot| {
-            let place = Place { pixel: first.place.pixel, stretch: first.place.stretch, ..spot.place };
+        let locked = |object: &GpuFieldObject, spot: &Spot| {
+            let place = NoisePlace { pixel: first.place.pixel, stretch: first.place.stretch, ..spot.place };
             field.line_noise(object, &place, 0)
         };
         sums.add(LOCKED, locked(&eye_before, &before), locked(&eye_after, &after));
@@ -151,6 +151,6 @@ impl Pair<'_> {
 pub(crate) fn on_paper(field: &FieldUniform, object: u32, at: DVec2) -> Vec2 {
     let at = at.as_vec2();
     // A slice through the same noise.
-    let place = Place { at: Vec3::new(at.x, at.y, 333.3), pixel: 1.0, stretch: 1.0 };
-    field.line_noise(&ObjectUniform { from_view: Mat4::IDENTITY, seed: object }, &place, 0)
+    let place = NoisePlace { at: Vec3::new(at.x, at.y, 333.3), pixel: 1.0, stretch: 1.0 };
+    field.line_noise(&GpuFieldObject { from_view: Mat4::IDENTITY, seed: object }, &place, 0)
 }

@@ -13,7 +13,7 @@ use hachure::import::{ImportOptions, Progress, load};
 use hachure::render::View;
 use hachure::render::base::ids::object_id;
 use hachure::render::base::object_axes::ObjectAxes;
-use hachure::render::passes::offset_field::{ObjectUniform, Place};
+use hachure::render::passes::offset_field::{GpuFieldObject, NoisePlace};
 use hachure::scene::Camera;
 
 /// Pixels per side of all pictures: one of them is one reference pixel.
@@ -151,13 +151,13 @@ pub(crate) struct Eye {
     pub(crate) camera: Camera,
     pub(crate) view: View,
     pub(crate) projector: Projector,
-    objects: Vec<ObjectUniform>,
+    objects: Vec<GpuFieldObject>,
 }
 
 /// A place on a line as an eye sees it.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Spot {
-    pub(crate) place: Place,
+    pub(crate) place: NoisePlace,
     pub(crate) pixel: DVec2,
 }
 
@@ -171,7 +171,7 @@ impl Eye {
         let objects = (0..=scene.scene.nodes.len() as u32)
             .map(|id| {
                 let axes = ObjectAxes::of(scene, id, &view);
-                axes.map_or_else(ObjectUniform::default, |axes| ObjectUniform {
+                axes.map_or_else(GpuFieldObject::default, |axes| GpuFieldObject {
                     from_view: axes.from_view.as_mat4(),
                     seed: id,
                 })
@@ -180,7 +180,7 @@ impl Eye {
         Self { camera, projector: Projector { far, ..view.projector() }, view, objects }
     }
 
-    pub(crate) fn object(&self, id: u32) -> &ObjectUniform {
+    pub(crate) fn object(&self, id: u32) -> &GpuFieldObject {
         &self.objects[id as usize]
     }
 
@@ -210,9 +210,13 @@ impl Eye {
     }
 
     /// What a pixel of this depth shows, as the shader finds it.
-    pub(crate) fn place(&self, pixel: DVec2, depth: f32, stretch: f32) -> Place {
+    pub(crate) fn place(&self, pixel: DVec2, depth: f32, stretch: f32) -> NoisePlace {
         let ndc = pixel.as_vec2() / SIDE as f32 * Vec2::new(2.0, -2.0) + Vec2::new(-1.0, 1.0);
         let at = ndc * self.view.half_extent * depth;
-        Place { at: at.extend(-depth), pixel: 2.0 * self.view.half_extent.y / SIDE as f32 * depth, stretch }
+        NoisePlace {
+            at: at.extend(-depth),
+            pixel: 2.0 * self.view.half_extent.y / SIDE as f32 * depth,
+            stretch,
+        }
     }
 }

@@ -5,7 +5,7 @@
 #import common/plane.wgsl
 #import gpu/record_texture.wgsl
 
-// Twin: `IndicationUniform` in src/render/effects/hatching/indication.rs; parameters in src/style/indication.rs.
+// Twin: `GpuIndication` in src/render/effects/hatching/indication.rs; parameters in src/style/indication.rs.
 struct Indication {
     amount: f32,
     // 1: by the fields of the paper; 0: by the nearest line.

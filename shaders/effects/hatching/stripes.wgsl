@@ -4,7 +4,7 @@
 #import common/octahedral.wgsl
 #import gpu/record_texture.wgsl
 
-// Twin: `StrokeUniform` in src/render/effects/hatching/strokes.rs. Lengths in px, widths as shares of the spacing.
+// Twin: `GpuStroke` in src/render/effects/hatching/strokes.rs. Lengths in px, widths as shares of the spacing.
 struct Stroke {
     spacing: f32,
     thin: f32,

@@ -4,7 +4,7 @@ use eframe::egui;
 use eframe::egui::{RichText, Ui};
 use strum::IntoEnumIterator as _;
 
-use crate::app::command::{Command, Group};
+use crate::app::command::{Command, CommandGroup};
 use crate::scene::Warning;
 
 /// What the mouse does in the picture.
@@ -39,9 +39,12 @@ pub fn help_ui(context: &egui::Context, open: &mut bool) {
                         "Mouse in the picture",
                         MOUSE.iter().map(|(a, b)| ((*a).to_owned(), (*b).to_owned())),
                     );
-                    for group in Group::iter() {
-                        let column =
-                            if matches!(group, Group::File | Group::Edit) { &mut *left } else { &mut *right };
+                    for group in CommandGroup::iter() {
+                        let column = if matches!(group, CommandGroup::File | CommandGroup::Edit) {
+                            &mut *left
+                        } else {
+                            &mut *right
+                        };
                         let rows: Vec<_> = Command::of(group).filter_map(|c| keys_of(column, c)).collect();
                         list(column, group.title(), rows.into_iter());
                     }

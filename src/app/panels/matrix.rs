@@ -116,7 +116,7 @@ impl Field<'_> {
             if handle.clicked() {
                 handle.request_focus();
             }
-            self.drag(ui, &handle, column, matrix, (side, reach));
+            self.drag(ui, &handle, column, matrix, side, reach);
             if handle.has_focus() {
                 self.move_by_keys(ui, handle.id, column, matrix);
             }
@@ -154,7 +154,8 @@ impl Field<'_> {
         handle: &egui::Response,
         column: usize,
         matrix: &mut Matrix,
-        (side, reach): (f32, f32),
+        side: f32,
+        reach: f32,
     ) {
         let id = handle.id.with("dragged");
         if handle.drag_started()

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use eframe::egui::Ui;
 use strum::IntoEnumIterator as _;
 
-use crate::app::command::{Command, Group};
+use crate::app::command::{Command, CommandGroup};
 
 /// What menus need to know.
 pub struct MenuState<'a> {
@@ -31,7 +31,7 @@ pub struct MenuAnswer {
 pub fn menu_ui(ui: &mut Ui, state: &MenuState<'_>, commands: &mut Vec<Command>) -> MenuAnswer {
     let mut answer = MenuAnswer::default();
     egui::MenuBar::new().ui(ui, |ui| {
-        for group in Group::iter() {
+        for group in CommandGroup::iter() {
             ui.menu_button(group.title(), |ui| {
                 ui.set_min_width(220.0);
                 let has_switches = Command::of(group).any(|c| (state.checked)(c).is_some());

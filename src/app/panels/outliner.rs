@@ -146,7 +146,7 @@ impl Outliner {
         let left = rect.left() + 4.0 + 12.0 * row.depth.min(12) as f32;
         if node.descendants > 0 && self.filter.trim().is_empty() {
             let at = Rect::from_center_size(pos2(left + 5.0, rect.center().y), vec2(14.0, height));
-            self.fold_ui(ui, at, id.with("fold"), (row.node, &node.name));
+            self.fold_ui(ui, at, id.with("fold"), row.node, &node.name);
         }
 
         let square = |index: f32| {
@@ -182,7 +182,8 @@ impl Outliner {
             if can_be && (looked_at || roles.has(role)) {
                 let at = square(2.0 + i as f32);
                 left_of_switches = at.left();
-                role_switch(ui, at, (role, icon), (row.node, id), roles, &targets, editing);
+                let switch = RoleSwitch { at, id: id.with(icon), role, icon, node: row.node };
+                switch.ui(ui, roles, &targets, editing);
             }
         }
         if eye.clicked() {
@@ -228,7 +229,7 @@ impl Outliner {
         }
     }
 
-    fn fold_ui(&mut self, ui: &Ui, at: Rect, id: egui::Id, (node, name): (NodeId, &str)) {
+    fn fold_ui(&mut self, ui: &Ui, at: Rect, id: egui::Id, node: NodeId, name: &str) {
         let fold = ui.interact(at, id, Sense::click());
         let open = self.unfolded.contains(&node);
         fold.widget_info(|| {
@@ -289,7 +290,7 @@ fn role_help(role: Role, has: bool, has_mesh: bool) -> &'static str {
         (Role::Mirror, false) if !has_mesh => "Make each flat object below a mirror",
         (Role::Mirror, false) => "Make this flat object a mirror",
         (Role::Mask, true) => "Let blueprints hide this object again",
-        (Role::Mask, false) => "Peel blueprints until this object is uncovered",
+        (Role::Mask, false) => "Draw layers of blueprints until this object is uncovered",
     }
 }
 
@@ -345,7 +346,7 @@ fn style_chip(
             }
             ui.separator();
             let hint = "A copy of the present style that can be changed by itself";
-            if ui.selectable_label(own.is_some() && text == "own", "Own").on_hover_text(hint).clicked() {
+            if ui.selectable_label(own.is_some() && text == "Own", "Own").on_hover_text(hint).clicked() {
                 if own.is_none() {
                     editing.document.set_style(scene, targets, resolved);
                 }
@@ -389,28 +390,33 @@ pub fn inherit(document: &mut Document, scene: &Scene, nodes: &[NodeId]) {
     document.tidy();
 }
 
-/// A switch that makes objects mirrors, or uncovers them. `at`: its place; `targets`: the objects that it is about.
-fn role_switch(
-    ui: &mut Ui,
+/// A switch that makes an object a mirror, or lets blueprints uncover it.
+struct RoleSwitch {
     at: Rect,
-    (role, icon): (Role, Icon),
-    (node, row): (NodeId, egui::Id),
-    roles: &Resolved<'_>,
-    targets: &[NodeId],
-    editing: &mut Editing<'_>,
-) {
-    let scene = &editing.model.scene;
-    let Some(object) = scene.nodes.get(node) else { return };
-    let has = roles.has(role);
-    let verb = if role == Role::Mirror { "Mirror" } else { "Uncover" };
-    let label = format!("{verb} {}", object.name);
-    let switch = icons::toggle(ui, at, row.with(icon), icon, has, !roles.visible, &label);
-    let fault = (role == Role::Mirror && switch.hovered()).then(|| mirror_fault(scene, node)).flatten();
-    let help = match &fault {
-        Some(fault) => format!("Cannot be a mirror: {fault}"),
-        None => role_help(role, has, object.mesh.is_some()).to_owned(),
-    };
-    if switch.on_hover_text(help).clicked() && (fault.is_none() || has) {
-        editing.document.set_role(scene, targets, role, !has);
+    id: egui::Id,
+    role: Role,
+    icon: Icon,
+    /// The object in whose row it stands.
+    node: NodeId,
+}
+
+impl RoleSwitch {
+    /// `roles`: those of its object; `targets`: the objects that a click changes.
+    fn ui(self, ui: &mut Ui, roles: &Resolved<'_>, targets: &[NodeId], editing: &mut Editing<'_>) {
+        let Self { at, id, role, icon, node } = self;
+        let scene = &editing.model.scene;
+        let Some(object) = scene.nodes.get(node) else { return };
+        let has = roles.has(role);
+        let verb = if role == Role::Mirror { "Mirror" } else { "Uncover" };
+        let label = format!("{verb} {}", object.name);
+        let switch = icons::toggle(ui, at, id, icon, has, !roles.visible, &label);
+        let fault = (role == Role::Mirror && switch.hovered()).then(|| mirror_fault(scene, node)).flatten();
+        let help = match &fault {
+            Some(fault) => format!("Cannot be a mirror: {fault}"),
+            None => role_help(role, has, object.mesh.is_some()).to_owned(),
+        };
+        if switch.on_hover_text(help).clicked() && (fault.is_none() || has) {
+            editing.document.set_role(scene, targets, role, !has);
+        }
     }
 }

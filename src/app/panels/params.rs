@@ -38,21 +38,21 @@ fn numbered(name: &str) -> String {
 /// `defaults` is the same list with the values that a reset brings back. Returns the keys that changed, with their
 /// new values.
 pub fn params_ui(ui: &mut Ui, salt: &str, params: &mut [Param<'_>], defaults: &[Param<'_>]) -> Vec<Change> {
-    let mut sections: Vec<Section<'_, '_>> = Vec::new();
+    let mut sections: Vec<ParamSection<'_, '_>> = Vec::new();
     for param in params {
         let default = defaults.iter().find(|d| d.key == param.key).map_or_else(|| param.own(), Param::own);
         let key = section_of(&param.key).to_owned();
         let row = Row { param, default };
         match sections.last_mut().filter(|s| s.key == key) {
             Some(section) => section.rows.push(row),
-            None => sections.push(Section { key, rows: vec![row] }),
+            None => sections.push(ParamSection { key, rows: vec![row] }),
         }
     }
 
     let mut changes = Vec::new();
     let mut rest = sections.as_mut_slice();
     while let Some((section, others)) = rest.split_first_mut() {
-        let is_inner = |s: &&Section<'_, '_>| s.is_within(section);
+        let is_inner = |s: &&ParamSection<'_, '_>| s.is_within(section);
         let is_plain = section.key.is_empty() || section.key == salt;
         let inner_count = if is_plain { 0 } else { others.iter().take_while(is_inner).count() };
         let (inner, others) = others.split_at_mut(inner_count);
@@ -67,14 +67,14 @@ pub fn params_ui(ui: &mut Ui, salt: &str, params: &mut [Param<'_>], defaults: &[
 }
 
 /// The parameters of one effect, group or class.
-struct Section<'p, 'a> {
+struct ParamSection<'p, 'a> {
     key: String,
     rows: Vec<Row<'p, 'a>>,
 }
 
-impl Section<'_, '_> {
+impl ParamSection<'_, '_> {
     /// Whether it lies in another one.
-    fn is_within(&self, other: &Section<'_, '_>) -> bool {
+    fn is_within(&self, other: &ParamSection<'_, '_>) -> bool {
         let inherits = || self.rows.iter().find_map(|row| row.param.slot.inherits()).map(section_of);
         match self.key.strip_prefix(other.key.as_str()) {
             Some(rest) if rest.starts_with('.') => other.rows.iter().any(|row| row.param.head),

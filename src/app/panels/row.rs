@@ -7,7 +7,7 @@ use eframe::egui::{Color32, RichText, Ui, WidgetText};
 
 use super::{curve, icons, matrix};
 use crate::style::Value;
-use crate::style::param::{Param, Place, Slot};
+use crate::style::param::{Param, Slot, StyleField};
 
 /// Width of the column of names.
 const LABEL_WIDTH: f32 = 122.0;
@@ -52,7 +52,7 @@ pub fn capitalized(text: &str) -> String {
 pub struct Row<'p, 'a> {
     /// The parameter.
     pub param: &'p mut Param<'a>,
-    /// The default: a value of its own, or that it inherits.
+    /// That of the preset, or else the default: a value of its own, or that it inherits.
     pub default: Value,
 }
 
@@ -62,7 +62,7 @@ impl Row<'_, '_> {
         self.param.own() != self.default
     }
 
-    /// Brings the default back.
+    /// Brings that back.
     pub fn reset(&mut self) -> Option<Change> {
         let default = self.default.clone();
         self.set(&default)
@@ -82,7 +82,7 @@ impl Row<'_, '_> {
             help.push_str(&format!("\nas {other}, until it is changed here"));
         }
         if self.differs() {
-            help.push_str(&format!("\ndefault {}", self.default));
+            help.push_str(&format!("\nresets to {}", self.default));
         }
         help
     }
@@ -130,7 +130,7 @@ impl Row<'_, '_> {
     pub fn menu_ui(&mut self, ui: &mut Ui) -> Option<Change> {
         let mut change = None;
         if self.default != Value::Inherit
-            && ui.add_enabled(self.differs(), egui::Button::new("Reset to default")).clicked()
+            && ui.add_enabled(self.differs(), egui::Button::new("Reset")).clicked()
         {
             change = self.reset();
         }
@@ -190,7 +190,7 @@ pub fn label_ui(ui: &mut Ui, text: &str, color: Color32) -> egui::Response {
     response
 }
 
-fn switch_ui(ui: &mut Ui, place: &mut Place<'_, bool>) -> egui::Response {
+fn switch_ui(ui: &mut Ui, place: &mut StyleField<'_, bool>) -> egui::Response {
     let mut value = place.get();
     let response = ui.checkbox(&mut value, "");
     if response.changed() {
@@ -200,14 +200,14 @@ fn switch_ui(ui: &mut Ui, place: &mut Place<'_, bool>) -> egui::Response {
 }
 
 /// A slider with its number beside it.
-struct Number<'a> {
+struct NumberSlider<'a> {
     soft: std::ops::RangeInclusive<f64>,
     hard: std::ops::RangeInclusive<f64>,
     is_whole: bool,
     unit: &'a str,
 }
 
-impl Number<'_> {
+impl NumberSlider<'_> {
     fn ui(self, ui: &mut Ui, value: &mut f64, label: egui::Id, help: &str) {
         let gap = ui.spacing().item_spacing.x;
         let reach = self.soft.end() - self.soft.start();
@@ -276,7 +276,8 @@ fn slot_ui(ui: &mut Ui, param: &mut Param<'_>, label: egui::Id, help: &str) -> b
             let wide = |r: &std::ops::RangeInclusive<f32>| f64::from(*r.start())..=f64::from(*r.end());
             let before = f64::from(place.get());
             let mut value = before;
-            let number = Number { soft: wide(soft), hard: wide(hard), is_whole: false, unit: param.unit };
+            let number =
+                NumberSlider { soft: wide(soft), hard: wide(hard), is_whole: false, unit: param.unit };
             number.ui(ui, &mut value, label, help);
             if value != before {
                 place.set(value as f32);
@@ -285,7 +286,7 @@ fn slot_ui(ui: &mut Ui, param: &mut Param<'_>, label: egui::Id, help: &str) -> b
         Slot::Integer { value: place, range } => {
             let range = f64::from(*range.start())..=f64::from(*range.end());
             let mut value = f64::from(**place);
-            let number = Number { soft: range.clone(), hard: range, is_whole: true, unit: param.unit };
+            let number = NumberSlider { soft: range.clone(), hard: range, is_whole: true, unit: param.unit };
             number.ui(ui, &mut value, label, help);
             **place = value.round() as u32;
         }

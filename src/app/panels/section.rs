@@ -4,7 +4,7 @@ use eframe::egui::{self, RichText, Ui};
 
 use super::Editing;
 use super::params::params_ui;
-use crate::document::Section;
+use crate::document::SectionSettings;
 use crate::document::section::without_caps;
 use crate::scene::Unit;
 use crate::style::param;
@@ -17,7 +17,7 @@ pub fn section_ui(ui: &mut Ui, editing: &mut Editing<'_>) {
     let fault = editing.document.section_fault(up, bounds);
     let section = &mut editing.document.section;
     let [low, high] = section.range(up, bounds).map(|at| at as f32);
-    let mut default = Section { axis: section.axis, cap: section.cap, ..Section::default() };
+    let mut default = SectionSettings { axis: section.axis, cap: section.cap, ..SectionSettings::default() };
     let defaults = default.params_within(low..=high, unit);
     let mut params = section.params_within(low..=high, unit);
     param::retain_relevant(&mut params);

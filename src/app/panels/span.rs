@@ -33,7 +33,7 @@ pub(super) fn span_ui<'p, 'a>(ui: &mut Ui, mut ends: [&mut Row<'p, 'a>; 2]) -> V
             resets |= icons::reset(ui, at, label.id.with("reset"), &name).on_hover_text(&name).clicked();
         }
         label.context_menu(|ui| {
-            resets |= ui.add_enabled(differs, egui::Button::new("Reset to default")).clicked();
+            resets |= ui.add_enabled(differs, egui::Button::new("Reset")).clicked();
             if ui.button("Copy keys").clicked() {
                 ui.ctx().copy_text(ends.each_ref().map(|end| end.param.key.clone()).join(" "));
             }

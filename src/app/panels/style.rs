@@ -48,7 +48,8 @@ pub fn style_ui(ui: &mut Ui, editing: &mut Editing<'_>) {
         layers_ui(ui, report);
     }
 
-    let mut default = Style::default();
+    let made_from = editing.presets.iter().find(|preset| Some(&preset.id) == style.made_from.0.as_ref());
+    let mut default = made_from.map_or_else(Style::default, |preset| preset.style.clone());
     let defaults = default.params();
     let mut params = style.params();
     param::retain_relevant(&mut params);

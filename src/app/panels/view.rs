@@ -8,8 +8,8 @@ use super::params::params_ui;
 use super::row::named_row;
 use super::section::section_ui;
 use crate::app::navigation::with_view_angle;
-use crate::app::state::Samples;
-use crate::document::{Document, View};
+use crate::app::state::{Samples, SamplesSetting};
+use crate::document::{Document, ViewSettings};
 use crate::scene::unit::UNITS;
 use crate::scene::{Camera, Projection, Scene, Unit, Up};
 use crate::style::param;
@@ -31,7 +31,7 @@ pub fn view_ui(ui: &mut Ui, editing: &mut Editing<'_>, samples: &mut Samples) ->
     }
 
     ui.add_space(4.0);
-    let mut default = View::default();
+    let mut default = ViewSettings::default();
     let paper = document.style.paper.color;
     let defaults = default.params(paper);
     let mut params = document.view.params(paper);
@@ -126,9 +126,9 @@ fn projection_ui(ui: &mut Ui, camera: &mut Camera, unit: Option<Unit>) {
 }
 
 fn samples_ui(ui: &mut Ui, samples: &mut Samples) {
-    for (name, help, value) in samples.settings() {
-        named_row(ui, name, help, |ui, label| {
-            let combo = egui::ComboBox::from_id_salt(name)
+    for SamplesSetting { label, help, value } in samples.settings() {
+        named_row(ui, label, help, |ui, name| {
+            let combo = egui::ComboBox::from_id_salt(label)
                 .width(ui.available_width())
                 .selected_text(samples_name(*value))
                 .show_ui(ui, |ui| {
@@ -136,7 +136,7 @@ fn samples_ui(ui: &mut Ui, samples: &mut Samples) {
                         ui.selectable_value(value, choice, samples_name(choice));
                     }
                 });
-            combo.response.labelled_by(label);
+            combo.response.labelled_by(name);
         });
     }
 }

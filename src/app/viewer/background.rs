@@ -63,8 +63,7 @@ impl Viewer {
         self.answer_strokes(context);
         self.answer_images(context);
         self.answer_pictures(context);
-        if let Some(result) = self.jobs.save.as_ref().and_then(Job::poll) {
-            self.jobs.save = None;
+        if let Some(result) = Job::take(&mut self.jobs.save) {
             match result {
                 Ok(Ok((path, document))) => {
                     self.notices.saved(path.clone());
@@ -193,8 +192,7 @@ impl Viewer {
 
     /// Examines the meshes of a new scene beside the window, and again when something else decides about creases.
     fn answer_topology(&mut self, context: &egui::Context) {
-        if let Some(result) = self.jobs.topology.as_ref().and_then(Job::poll) {
-            self.jobs.topology = None;
+        if let Some(result) = Job::take(&mut self.jobs.topology) {
             let shown = match result {
                 Ok(Ok(topology)) => {
                     self.viewport.show_topology(topology);
@@ -220,8 +218,7 @@ impl Viewer {
 
     /// Finds the strokes of hatching that styles ask for, once the meshes have been examined.
     fn answer_stripes(&mut self, context: &egui::Context) {
-        if let Some(result) = self.jobs.stripes.as_ref().and_then(Job::poll) {
-            self.jobs.stripes = None;
+        if let Some(result) = Job::take(&mut self.jobs.stripes) {
             match result {
                 // Triangles may lie in another order meanwhile.
                 Ok(Some(Ok(stripes))) if self.has_topology() => self.viewport.show_stripes(stripes),
@@ -244,11 +241,8 @@ impl Viewer {
         let (scene, creases) = (Arc::clone(&self.model.files), self.document.view.creases());
         let (uploader, known) = (self.viewport.uploader(), self.viewport.solved_stripes());
         let work = move |progress: &Progress| {
-            let go_on = |share: f32| {
-                progress.report(share);
-                !progress.is_canceled()
-            };
-            let found = SolvedStripes::solve(&Cache::of_user(), &scene, &missing, &go_on)?;
+            let found =
+                SolvedStripes::solve(&Cache::of_user(), &scene, &missing, &|share| progress.goes_on(share))?;
             let all = known.into_iter().chain(found).collect();
             Some(uploader.stripes(&scene, &session::topology(&scene, creases), all))
         };
@@ -257,8 +251,7 @@ impl Viewer {
 
     /// Draws the strokes that styles describe.
     fn answer_strokes(&mut self, context: &egui::Context) {
-        if let Some(result) = self.jobs.strokes.as_ref().and_then(Job::poll) {
-            self.jobs.strokes = None;
+        if let Some(result) = Job::take(&mut self.jobs.strokes) {
             match result {
                 Ok(Some(map)) => {
                     if let Err(error) = &map.map {
@@ -280,11 +273,7 @@ impl Viewer {
         let mut missing = self.viewport.missing_strokes(&self.document).into_iter();
         let Some(recipe) = missing.find(|recipe| !self.strokes_refused.contains(recipe)) else { return };
         let work = move |progress: &Progress| {
-            let go_on = |share: f32| {
-                progress.report(share);
-                !progress.is_canceled()
-            };
-            StrokeMap::draw(&Cache::of_user(), &recipe, &go_on)
+            StrokeMap::draw(&Cache::of_user(), &recipe, &|share| progress.goes_on(share))
         };
         self.jobs.strokes = Some(Job::start("drawing strokes", context, work));
     }
@@ -437,8 +426,7 @@ impl Viewer {
     }
 
     fn answer_pictures(&mut self, context: &egui::Context) {
-        if let Some(result) = self.jobs.picture.as_ref().and_then(Job::poll) {
-            self.jobs.picture = None;
+        if let Some(result) = Job::take(&mut self.jobs.picture) {
             match result {
                 Ok(Ok(path)) => self.notices.saved(path),
                 Ok(Err(error)) => self.notices.error(format!("No screenshot: {error}")),

@@ -8,7 +8,7 @@ use super::{DialogFor, Open, Viewer};
 use crate::app::command::Command;
 use crate::app::loading::Intent;
 use crate::app::navigation::STEP;
-use crate::app::placing::Placed;
+use crate::app::placing::PlacedGlyph;
 use crate::app::screenshot::{self, Destination};
 use crate::app::theme;
 use crate::app::unsaved::Next;
@@ -102,9 +102,9 @@ impl Viewer {
             Command::ScreenshotAs => self.ask_for_file(context, DialogFor::Screenshot),
             Command::Quit => self.leave_for(context, Next::Close),
             Command::AddBox => self.add_box(),
-            Command::AddArrow => self.begin_placing(Placed::Arrow),
-            Command::AddPath => self.begin_placing(Placed::Path),
-            Command::AddLabel => self.begin_placing(Placed::Label),
+            Command::AddArrow => self.begin_placing(PlacedGlyph::Arrow),
+            Command::AddPath => self.begin_placing(PlacedGlyph::Path),
+            Command::AddLabel => self.begin_placing(PlacedGlyph::Label),
             Command::Delete => self.delete_glyphs(),
             Command::Undo if self.placing.is_some() => self.take_point_back(),
             Command::Undo => {

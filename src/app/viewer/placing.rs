@@ -4,13 +4,13 @@ use eframe::egui;
 use eframe::egui::{Key, Modifiers};
 
 use super::Viewer;
-use crate::app::placing::{Placed, Placing};
+use crate::app::placing::{PlacedGlyph, Placing};
 use crate::app::state::Page;
 use crate::render::Pick;
 
 impl Viewer {
     /// Lets the person place a glyph.
-    pub(super) fn begin_placing(&mut self, kind: Placed) {
+    pub(super) fn begin_placing(&mut self, kind: PlacedGlyph) {
         self.cancel_placing();
         self.placing = Some(Placing::new(kind));
     }

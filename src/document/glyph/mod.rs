@@ -75,7 +75,7 @@ pub struct Label {
     /// Size of the letters, in the unit of [`Self::unit`].
     pub size: f32,
     /// What the size is measured in.
-    pub unit: Unit,
+    pub unit: LetterUnit,
     /// From the anchor to the text, right and up, in sizes of its letters.
     pub offset: [f32; 2],
     /// Whether nothing hides it.
@@ -110,7 +110,7 @@ choice! {
 
 choice! {
     /// What sizes of letters are measured in.
-    pub enum Unit {
+    pub enum LetterUnit {
         /// Reference pixels, 1/1080 of the picture's height: equal for every camera.
         #[default]
         Pixel,
@@ -143,7 +143,7 @@ impl Shape {
             text,
             anchor,
             size: 28.0,
-            unit: Unit::default(),
+            unit: LetterUnit::default(),
             offset,
             in_front: true,
             plate: true,

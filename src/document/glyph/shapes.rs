@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use glam::{DMat4, DVec3, Vec4};
 
 use super::label::label_mesh;
-use super::{Anchor, ArrowPath, BoxAround, Glyph, Label, Shape, Unit};
+use super::{Anchor, ArrowPath, BoxAround, Glyph, Label, LetterUnit, Shape};
 use crate::document::Document;
 use crate::geometry::primitives::cube;
 use crate::geometry::{Bounds, Mesh, Text, arrow, box_frame};
@@ -44,7 +44,7 @@ impl Document {
         if glyphs.is_empty() {
             return shapes;
         }
-        let mut model = Model { scene, mesh_bounds, diagonal: 1.0, center: DVec3::ZERO };
+        let mut model = Measures { scene, mesh_bounds, diagonal: 1.0, center: DVec3::ZERO };
         let bounds = model.bounds_of(0..scene.own_nodes().len());
         if bounds.diagonal() > 0.0 {
             (model.diagonal, model.center) = (bounds.diagonal(), bounds.center());
@@ -54,7 +54,7 @@ impl Document {
             let made = match &glyph.shape {
                 Shape::Box(shape) => model.around(shape),
                 Shape::Path(shape) => model.path(shape, &mut notes),
-                Shape::Label(shape) => model.label(shape, (glyph.color, paper), &mut notes),
+                Shape::Label(shape) => model.label(shape, glyph.color, paper, &mut notes),
             };
             let made = made.unwrap_or_else(|fault| {
                 notes.push(format!("is not drawn: {fault}"));
@@ -111,14 +111,14 @@ struct Made {
 }
 
 /// What glyphs are measured by.
-struct Model<'a> {
+struct Measures<'a> {
     scene: &'a Scene,
     mesh_bounds: &'a [Bounds],
     diagonal: f64,
     center: DVec3,
 }
 
-impl Model<'_> {
+impl Measures<'_> {
     fn bounds_of(&self, nodes: std::ops::Range<usize>) -> Bounds {
         self.scene.nodes.get(nodes).into_iter().flatten().fold(Bounds::EMPTY, |all, node| {
             let own = node.mesh.and_then(|m| self.mesh_bounds.get(m)).copied().unwrap_or(Bounds::EMPTY);
@@ -204,7 +204,8 @@ impl Model<'_> {
     fn label(
         &self,
         shape: &Label,
-        (ink, paper): (Color, Color),
+        ink: Color,
+        paper: Color,
         notes: &mut Vec<String>,
     ) -> Result<Made, String> {
         let anchor = match &shape.anchor {
@@ -221,8 +222,8 @@ impl Model<'_> {
         }
         let size = f64::from(shape.size);
         let size = match shape.unit {
-            Unit::Pixel => LetterSize::ReferencePixels(size),
-            Unit::Model => LetterSize::Units(size * 1e-3 * self.diagonal),
+            LetterUnit::Pixel => LetterSize::ReferencePixels(size),
+            LetterUnit::Model => LetterSize::Units(size * 1e-3 * self.diagonal),
         };
         let mesh = label_mesh(shape, &text, ink, paper);
         let facing = Facing { anchor, size, in_front: shape.in_front };

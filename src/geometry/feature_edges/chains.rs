@@ -1,28 +1,29 @@
 //! Chains of the edges that are lines from all sides: creases, borders and where materials meet.
 
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 
+use super::crease_angles::CreaseAngles;
 use super::{FeatureEdges, Traits};
 use crate::geometry::Mesh;
 use crate::geometry::line_chains::{Chains, Link};
 
 /// Cosine of the angle by which a chain may turn at a point: 60°.
 const MOST_TURN: f32 = 0.5;
-/// How many choices of angles are kept.
-const KEPT: usize = 8;
 
-/// From which angles (radians) creases are ridges and valleys.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(in crate::geometry) struct CreaseAngles {
-    pub ridge: f32,
-    pub valley: f32,
+/// An edge that is in a chain.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(in crate::geometry) struct ChainedEdge {
+    pub edge: u32,
+    pub chain: u32,
+    /// Its number in [`FeatureChains::chains`].
+    pub link: u32,
 }
 
 /// The chains for some angles. Their links are counted along the chains.
 #[derive(Debug, Clone, PartialEq)]
 pub(in crate::geometry) struct FeatureChains {
-    /// (edge, chain, number of the link in `chains`), sorted.
-    pub by_edge: Vec<(u32, u32, u32)>,
+    /// Sorted.
+    pub by_edge: Vec<ChainedEdge>,
     /// The edge of each link.
     pub edges: Vec<u32>,
     /// The links of these are indices into `edges`.
@@ -32,35 +33,10 @@ pub(in crate::geometry) struct FeatureChains {
     pub anchors: Vec<(u32, f32)>,
 }
 
-/// Chains that were asked for before. No part of what makes edges equal.
-#[derive(Debug, Default)]
-pub(super) struct Kept(Mutex<Vec<(CreaseAngles, Arc<FeatureChains>)>>);
-
-impl Clone for Kept {
-    fn clone(&self) -> Self {
-        Self::default()
-    }
-}
-
-impl PartialEq for Kept {
-    fn eq(&self, _: &Self) -> bool {
-        true
-    }
-}
-
 impl FeatureEdges {
     /// The chains for these angles; made when they are asked for first.
     pub(in crate::geometry) fn chains(&self, mesh: &Mesh, angles: CreaseAngles) -> Arc<FeatureChains> {
-        let mut kept = self.kept.0.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some((_, chains)) = kept.iter().find(|(of, _)| *of == angles) {
-            return Arc::clone(chains);
-        }
-        let chains = Arc::new(FeatureChains::new(self, mesh, angles));
-        if kept.len() >= KEPT {
-            kept.remove(0);
-        }
-        kept.push((angles, Arc::clone(&chains)));
-        chains
+        self.kept_chains.get(angles, || FeatureChains::new(self, mesh, angles))
     }
 
     /// Only edges of one kind follow each other; `None` for those that are lines only as silhouettes.
@@ -101,14 +77,15 @@ impl FeatureChains {
         let chains = Chains::new(&links, |a, b| leave(a).dot(leave(b)) <= -MOST_TURN);
         let mut by_edge = Vec::with_capacity(edges.len());
         let mut anchors = Vec::with_capacity(chains.starts.len());
-        let mut number = 0;
+        let mut link = 0;
         for (chain, (own, is_closed)) in (0..).zip(chains.iter()) {
             let lengths: Vec<f32> = own.iter().map(|l| span(l.link).length()).collect();
             // A loop is held where it begins.
             anchors.push(if is_closed { (0, 0.0) } else { middle(&lengths) });
             for l in own {
-                by_edge.push((edges.get(l.link as usize).copied().unwrap_or(0), chain, number));
-                number += 1;
+                let edge = edges.get(l.link as usize).copied().unwrap_or(0);
+                by_edge.push(ChainedEdge { edge, chain, link });
+                link += 1;
             }
         }
         by_edge.sort_unstable();

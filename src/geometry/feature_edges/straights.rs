@@ -2,12 +2,12 @@
 //!
 //! They are found in the mesh, so that each is the same one for every camera.
 
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 
 use glam::Vec3;
 
 use super::FeatureEdges;
-use super::chains::CreaseAngles;
+use super::crease_angles::CreaseAngles;
 use crate::geometry::Mesh;
 use crate::geometry::line_chains::{ChainLink, Chains, NO_HALF};
 use crate::geometry::strokes::mix;
@@ -24,8 +24,6 @@ const CURVE: u32 = 4;
 const SIMILAR: f32 = 3.0;
 /// Edges that meet in one point, beyond which nobody looks for those that go on.
 const MOST_HERE: usize = 64;
-/// How many choices of angles are kept.
-const KEPT: usize = 8;
 
 /// A straight line of one or more edges.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -46,35 +44,10 @@ pub(in crate::geometry) struct Straights {
     pub by_edge: Vec<(u32, u32)>,
 }
 
-/// Those that were asked for before. No part of what makes edges equal.
-#[derive(Debug, Default)]
-pub(super) struct Kept(Mutex<Vec<(CreaseAngles, Arc<Straights>)>>);
-
-impl Clone for Kept {
-    fn clone(&self) -> Self {
-        Self::default()
-    }
-}
-
-impl PartialEq for Kept {
-    fn eq(&self, _: &Self) -> bool {
-        true
-    }
-}
-
 impl FeatureEdges {
     /// The straight lines for these angles; made when they are asked for first.
     pub(in crate::geometry) fn straights(&self, mesh: &Mesh, angles: CreaseAngles) -> Arc<Straights> {
-        let mut kept = self.kept_straights.0.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some((_, lines)) = kept.iter().find(|(of, _)| *of == angles) {
-            return Arc::clone(lines);
-        }
-        let lines = Arc::new(Straights::new(self, mesh, angles));
-        if kept.len() >= KEPT {
-            kept.remove(0);
-        }
-        kept.push((angles, Arc::clone(&lines)));
-        lines
+        self.kept_straights.get(angles, || Straights::new(self, mesh, angles))
     }
 }
 

@@ -10,7 +10,8 @@ use super::outlines::Outline;
 use super::scale::Scale;
 use super::segment::{Dashes, LineSegment};
 use super::{Finder, Trace};
-use crate::geometry::feature_edges::chains::{CreaseAngles, FeatureChains};
+use crate::geometry::feature_edges::chains::FeatureChains;
+use crate::geometry::feature_edges::crease_angles::CreaseAngles;
 use crate::geometry::line_chains::{ChainLink, Chains, Link};
 use crate::geometry::{ClassSet, EdgeClass};
 
@@ -35,11 +36,11 @@ impl Finder<'_> {
             if !dashes.wants(segment) {
                 continue;
             }
-            by_edge =
-                by_edge.get(by_edge.iter().take_while(|(e, ..)| *e < edge).count()..).unwrap_or_default();
+            let passed = by_edge.iter().take_while(|chained| chained.edge < edge).count();
+            by_edge = by_edge.get(passed..).unwrap_or_default();
             match by_edge.first() {
-                Some(&(e, chain, link)) if e == edge => {
-                    if let Some(arcs) = lengths.arcs(chain, link, segment) {
+                Some(chained) if chained.edge == edge => {
+                    if let Some(arcs) = lengths.arcs(chained.chain, chained.link, segment) {
                         segment.arcs = arcs;
                     }
                 }
@@ -47,7 +48,8 @@ impl Finder<'_> {
             }
         }
         let unseen = trace.unseen.iter().map(|&edge| (edge, None));
-        let is_smooth = |edge: u32| features.by_edge.binary_search_by_key(&edge, |(e, ..)| *e).is_err();
+        let is_smooth =
+            |edge: u32| features.by_edge.binary_search_by_key(&edge, |chained| chained.edge).is_err();
         if !outlines.is_empty() {
             outlines.extend(unseen.filter(|&(edge, _)| is_smooth(edge)));
             self.measure_outlines(&outlines, period, segments);

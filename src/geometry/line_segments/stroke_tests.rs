@@ -4,7 +4,7 @@ use glam::{DMat4, DQuat, DVec2, DVec3, Vec3, Vec3Swizzles as _};
 
 use super::tests::{EYE, LENSES, Subject, everything, look_from};
 use super::*;
-use crate::geometry::feature_edges::chains::CreaseAngles;
+use crate::geometry::feature_edges::crease_angles::CreaseAngles;
 use crate::geometry::feature_edges::straights::Straights;
 use crate::geometry::strokes::Hand;
 use crate::geometry::{Lens, Mesh, primitives};
@@ -28,7 +28,7 @@ fn drawn(
     hand: &Hand,
 ) -> SegmentSet {
     let mut out = SegmentSet::default();
-    draw_strokes(&subject.at(place), view, wanted, (hand, ANGLE), &mut out);
+    draw_strokes(&subject.at(place), view, wanted, hand, ANGLE, &mut out);
     out.complete();
     assert_eq!(out.segments.len(), out.tested.len());
     out

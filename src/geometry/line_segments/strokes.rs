@@ -5,9 +5,9 @@ use glam::DVec2;
 
 use super::segment::{LineSegment, LineSelection, LineView, PlacedEdges};
 use super::{Finder, find_segments};
-use crate::geometry::feature_edges::chains::CreaseAngles;
+use crate::geometry::feature_edges::crease_angles::CreaseAngles;
 use crate::geometry::feature_edges::straights::Straight;
-use crate::geometry::strokes::{Hand, Stroke, mix};
+use crate::geometry::strokes::{Hand, HandStroke, mix};
 use crate::geometry::{EdgeClass, Lens};
 
 /// Length of the pieces of a stroke, reference pixels: short enough that it is bowed smoothly.
@@ -71,7 +71,8 @@ pub fn draw_strokes(
     placed: &PlacedEdges<'_>,
     view: &LineView,
     wanted: &LineSelection,
-    (hand, crease_angle): (&Hand, f32),
+    hand: &Hand,
+    crease_angle: f32,
     out: &mut SegmentSet,
 ) {
     out.complete();
@@ -111,7 +112,7 @@ struct DrawnLine {
     length: f64,
     /// Whether the near plane leaves its ends.
     has_end: [bool; 2],
-    strokes: Vec<Stroke>,
+    strokes: Vec<HandStroke>,
 }
 
 impl DrawnLine {
@@ -125,7 +126,7 @@ impl DrawnLine {
         let number = mix(line.hash ^ mix(finder.placed.object));
         let has_end = [is_first && line.is_end[0], is_last && line.is_end[1]];
         let strokes =
-            (0..hand.times()).map(|time| Stroke::new(hand, number, time, length, has_end)).collect();
+            (0..hand.times()).map(|time| HandStroke::new(hand, number, time, length, has_end)).collect();
         Some(Self { from, direction: (to - from) / length, length, has_end, strokes })
     }
 
@@ -166,15 +167,15 @@ impl DrawnLine {
     }
 
     /// The point of a stroke at a part of a segment.
-    fn drawn(&self, stroke: &Stroke, spots: &Spots<'_>, part: f64) -> Drawn {
+    fn drawn(&self, stroke: &HandStroke, spots: &Spots<'_>, part: f64) -> StrokePoint {
         let spot = spots.at(part);
         let along = self.along(spot.px);
         let px = spot.px + self.off(stroke.offset(along));
-        Drawn { px, spot, weight: stroke.weight(along) }
+        StrokePoint { px, spot, weight: stroke.weight(along) }
     }
 
     /// What goes on beyond one end of a segment, from there to its tip; `None` if the line does not end there.
-    fn overshot(&self, stroke: &Stroke, spots: &Spots<'_>, end: usize) -> Option<[Drawn; 2]> {
+    fn overshot(&self, stroke: &HandStroke, spots: &Spots<'_>, end: usize) -> Option<[StrokePoint; 2]> {
         let here = spots.at(end as f64);
         let last = usize::from(self.along(here.px) > 0.5 * self.length);
         let over = stroke.overshoots[last];
@@ -192,7 +193,7 @@ impl DrawnLine {
         let point = |over: f64, inner: f64, firmness: f64| {
             let along = tip + sign * over;
             let px = here.px + self.direction * (sign * over) + self.off(stroke.offset(along));
-            Drawn { px, spot: inside(inner), weight: firmness * stroke.weight(tip) }
+            StrokePoint { px, spot: inside(inner), weight: firmness * stroke.weight(tip) }
         };
         Some([point(0.0, INSIDE[0], 1.0), point(over, INSIDE[1], LIFTED)])
     }
@@ -235,14 +236,14 @@ impl<'a> Spots<'a> {
 }
 
 /// A point of a stroke: where it is drawn, and the point of its edge that it stands for.
-struct Drawn {
+struct StrokePoint {
     px: DVec2,
     spot: Spot,
     weight: f64,
 }
 
 /// Adds a piece of a stroke.
-fn push(segment: &LineSegment, ends: [&Drawn; 2], precedence: f32, out: &mut SegmentSet) {
+fn push(segment: &LineSegment, ends: [&StrokePoint; 2], precedence: f32, out: &mut SegmentSet) {
     out.push(
         LineSegment {
             ends: ends.map(|end| end.px.as_vec2().to_array()),

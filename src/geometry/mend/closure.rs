@@ -29,12 +29,19 @@ pub(super) struct Closed {
     pub(super) opening: f64,
 }
 
+/// A stretch that is not closed.
+struct OpenStretch {
+    /// In usual open gaps.
+    gap: f64,
+    is_overlap: bool,
+    length: f64,
+}
+
 /// Decides for each stretch. Where many of the gaps that do not close are overlaps, which no designer leaves, the mesh
 /// is cracked also where the corners of patches should meet, and its own gaps tell how wide cracks are (step 5).
 pub(super) fn closed(borders: &Borders, stretches: &Stretches, limits: &Limits) -> Closed {
     let is_closed = decide(borders, stretches, limits, 1.0);
-    // Those that are left: the gap in usual open gaps, whether they overlap, the length.
-    let mut left: Vec<(f64, bool, f64)> = stretches
+    let mut left: Vec<OpenStretch> = stretches
         .list
         .iter()
         .zip(&is_closed)
@@ -42,22 +49,25 @@ pub(super) fn closed(borders: &Borders, stretches: &Stretches, limits: &Limits) 
         .filter_map(|(stretch, _)| {
             let partner = stretch.partner?;
             let usual = limits.open_gap(borders.get(stretch.border), borders.get(partner.border));
-            let is_overlap = partner.opening < -OVERLAP * partner.gap;
-            Some((partner.gap / usual, is_overlap, stretch.length(borders)))
+            Some(OpenStretch {
+                gap: partner.gap / usual,
+                is_overlap: partner.opening < -OVERLAP * partner.gap,
+                length: stretch.length(borders),
+            })
         })
         .collect();
-    let all: f64 = left.iter().map(|&(_, _, length)| length).sum();
-    let overlapping: f64 = left.iter().filter(|stretch| stretch.1).map(|&(_, _, length)| length).sum();
+    let all: f64 = left.iter().map(|open| open.length).sum();
+    let overlapping: f64 = left.iter().filter(|open| open.is_overlap).map(|open| open.length).sum();
     if all == 0.0 || overlapping < CRACKED * all {
         return Closed { is_closed, opening: 1.0 };
     }
-    left.sort_by(|a, b| a.0.total_cmp(&b.0));
+    left.sort_by(|a, b| a.gap.total_cmp(&b.gap));
     let mut so_far = 0.0;
-    let percentile = left.iter().find(|(_, _, length)| {
-        so_far += length;
+    let percentile = left.iter().find(|open| {
+        so_far += open.length;
         so_far >= 0.95 * all
     });
-    let opening = percentile.map_or(1.0, |&(gap, _, _)| (MARGIN * gap).max(1.0));
+    let opening = percentile.map_or(1.0, |open| (MARGIN * open.gap).max(1.0));
     Closed { is_closed: decide(borders, stretches, limits, opening), opening }
 }
 

@@ -53,6 +53,20 @@ impl Wave {
     }
 }
 
+/// A patch with its direction.
+#[derive(Clone, Copy)]
+struct DirectedPoint {
+    position: Vec3,
+    normal: Vec3,
+    direction: Vec3,
+}
+
+impl DirectedPoint {
+    fn of(graph: &Graph, patch: usize, direction: Vec3) -> Self {
+        Self { position: graph.positions[patch], normal: graph.normals[patch], direction }
+    }
+}
+
 /// How the phase changes from one place to another.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Rail {
@@ -86,8 +100,9 @@ impl Rail {
         out
     }
 
-    fn new(from: (Vec3, Vec3, Vec3), to: (Vec3, Vec3, Vec3), frequency: f32) -> Self {
-        let ((p, n, d), (to_p, to_n, to_d)) = (from, to);
+    fn new(from: DirectedPoint, to: DirectedPoint, frequency: f32) -> Self {
+        let DirectedPoint { position: p, normal: n, direction: d } = from;
+        let DirectedPoint { position: to_p, normal: to_n, direction: to_d } = to;
         // The same for both directions of a link, bit for bit.
         let sign = if (p.x, p.y, p.z) <= (to_p.x, to_p.y, to_p.z) {
             sign(d, n, to_d, to_n)
@@ -129,7 +144,7 @@ impl<'a> Track<'a> {
         let mut tracks: Vec<Self> = Vec::new();
         let mut directions = directions.to_vec();
         for (level, graph) in graphs.iter().enumerate() {
-            let at = |v: usize| (graph.positions[v], graph.normals[v], directions[v]);
+            let at = |v: usize| DirectedPoint::of(graph, v, directions[v]);
             let rails = (0..graph.len())
                 .into_par_iter()
                 .with_min_len(1024)
@@ -151,7 +166,7 @@ impl<'a> Track<'a> {
                 let rail = |v: usize| {
                     // What has no parent needs no rail to it.
                     let p = graph.parents[v] as usize;
-                    let parent = coarser.get(p).map(|d| (coarse.positions[p], coarse.normals[p], *d));
+                    let parent = coarser.get(p).map(|&direction| DirectedPoint::of(coarse, p, direction));
                     Rail::new(at(v), parent.unwrap_or(at(v)), frequency)
                 };
                 to_parent = (0..graph.len()).into_par_iter().with_min_len(1024).map(rail).collect();

@@ -100,7 +100,7 @@ const MOST_IDLE: usize = 100;
 
 /// Strokes of a map with the place that they have in it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Placed {
+pub struct PlacedStroke {
     /// The stroke.
     pub stroke: Stroke,
     /// The coarsest level that has it.
@@ -111,11 +111,11 @@ pub struct Placed {
 
 /// A map and its strokes, in the order in which they were drawn.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Drawn {
+pub struct DrawnMap {
     /// The map.
     pub map: TonalArtMap,
     /// All strokes of its finest level.
-    pub strokes: Vec<Placed>,
+    pub strokes: Vec<PlacedStroke>,
 }
 
 impl Recipe {
@@ -124,7 +124,7 @@ impl Recipe {
     ///
     /// # Errors
     /// When the recipe asks for what cannot be drawn, or `progress` said no.
-    pub fn draw(&self, progress: &(dyn Fn(f32) -> bool + Sync)) -> Result<Drawn, RecipeError> {
+    pub fn draw(&self, progress: &(dyn Fn(f32) -> bool + Sync)) -> Result<DrawnMap, RecipeError> {
         self.check()?;
         let mut work = Work {
             recipe: self,
@@ -152,7 +152,7 @@ impl Recipe {
             priorities: priorities(sheet.side, &sheet.touches),
         });
         let map = TonalArtMap { inks: self.inks.clone(), levels: levels.collect() };
-        Ok(Drawn { map, strokes: work.strokes })
+        Ok(DrawnMap { map, strokes: work.strokes })
     }
 
     fn check(&self) -> Result<(), RecipeError> {
@@ -192,7 +192,7 @@ struct Work<'a> {
     recipe: &'a Recipe,
     /// Finest first.
     sheets: Vec<Sheet>,
-    strokes: Vec<Placed>,
+    strokes: Vec<PlacedStroke>,
     progress: &'a (dyn Fn(f32) -> bool + Sync),
 }
 
@@ -223,7 +223,7 @@ impl Work<'_> {
             for sheet in self.sheets.iter_mut().take(level + 1) {
                 sheet.draw(&stroke);
             }
-            self.strokes.push(Placed { stroke, level, tone });
+            self.strokes.push(PlacedStroke { stroke, level, tone });
         }
         Ok(())
     }

@@ -9,7 +9,7 @@ fn recipe() -> Recipe {
     Recipe { side: 128, levels: 3, candidates: 60, ..Recipe::default() }
 }
 
-fn draw(recipe: &Recipe) -> Drawn {
+fn draw(recipe: &Recipe) -> DrawnMap {
     recipe.draw(&|_| true).unwrap()
 }
 

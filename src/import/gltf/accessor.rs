@@ -5,8 +5,8 @@ use ::gltf::json::validation::Checked;
 use ::gltf::json::{Index, accessor};
 use bytemuck::Pod;
 
-use super::buffers::Document;
-use super::fault::{Budget, Result, malformed};
+use super::buffers::GltfDocument;
+use super::fault::{MemoryBudget, Result, malformed};
 
 /// An accessor whose every element is known to lie within its bytes.
 #[derive(Debug, Clone, Copy)]
@@ -21,7 +21,7 @@ pub(super) struct Accessor<'a> {
     /// `None`: all zero.
     dense: Option<Elements<'a>>,
     sparse: Option<Sparse<'a>>,
-    budget: &'a Budget,
+    budget: &'a MemoryBudget,
 }
 
 /// Elements at a constant distance.
@@ -41,7 +41,7 @@ struct Sparse<'a> {
     values: Elements<'a>,
 }
 
-impl Document<'_> {
+impl GltfDocument<'_> {
     /// Looks an accessor up and checks that all that it declares is there.
     ///
     /// # Errors

@@ -7,7 +7,7 @@ use ::gltf::json::{Index, Root};
 use glam::{Vec2, Vec3, Vec4};
 
 use super::accessor::Accessor;
-use super::buffers::Document;
+use super::buffers::GltfDocument;
 use super::fault::{Result, malformed};
 use super::materials::SurfaceNeeds;
 use super::skin::{Pose, Skinning};
@@ -65,7 +65,7 @@ fn attribute(primitive: &Primitive, semantic: Semantic) -> Option<Index<Declared
 ///
 /// # Errors
 /// When the accessor of the positions is broken.
-pub(super) fn vertex_count(document: &Document<'_>, primitive: &Primitive) -> Result<Option<usize>> {
+pub(super) fn vertex_count(document: &GltfDocument<'_>, primitive: &Primitive) -> Result<Option<usize>> {
     match attribute(primitive, Semantic::Positions) {
         Some(index) => Ok(Some(document.accessor(index)?.count)),
         None => Ok(None),
@@ -77,7 +77,7 @@ pub(super) fn vertex_count(document: &Document<'_>, primitive: &Primitive) -> Re
 /// # Errors
 /// When an accessor is broken or there are no positions.
 pub(super) fn read(
-    document: &Document<'_>,
+    document: &GltfDocument<'_>,
     primitive: &Primitive,
     needs: SurfaceNeeds,
     picks: Option<&[u32]>,
@@ -158,7 +158,7 @@ fn read_colors(accessor: &Accessor<'_>, picks: Option<&[u32]>) -> Result<Vec<[u8
 }
 
 fn apply_morph(
-    document: &Document<'_>,
+    document: &GltfDocument<'_>,
     primitive: &Primitive,
     picks: Option<&[u32]>,
     declared: usize,

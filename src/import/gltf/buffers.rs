@@ -5,7 +5,7 @@ use std::sync::Arc;
 use ::gltf::json::{self, Root};
 use rayon::prelude::*;
 
-use super::fault::{Budget, Fault, Result, malformed};
+use super::fault::{Fault, MemoryBudget, Result, malformed};
 use super::meshopt;
 use crate::import::Progress;
 use crate::import::source::{Folder, shorten};
@@ -23,25 +23,25 @@ enum Content<'a> {
 
 /// A parsed model with its bytes.
 #[derive(Debug)]
-pub(super) struct Document<'a> {
+pub(super) struct GltfDocument<'a> {
     /// The typed JSON. Its indices are not checked.
     pub(super) root: Root,
     /// What may still be allocated.
-    pub(super) budget: Budget,
+    pub(super) budget: MemoryBudget,
     buffers: Vec<Content<'a>>,
     unpacked: Vec<Option<Vec<u8>>>,
 }
 
 /// The bytes of a buffer view.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct View<'a> {
+pub(super) struct BufferView<'a> {
     /// Exactly the view's bytes.
     pub(super) bytes: &'a [u8],
     /// Distance between elements, where declared.
     pub(super) stride: Option<usize>,
 }
 
-impl<'a> Document<'a> {
+impl<'a> GltfDocument<'a> {
     /// Fetches all buffers and unpacks compressed views.
     ///
     /// # Errors
@@ -71,7 +71,8 @@ impl<'a> Document<'a> {
                 _ => Content::Absent,
             });
         }
-        let mut document = Self { budget: Budget::for_input(input), unpacked: Vec::new(), buffers, root };
+        let mut document =
+            Self { budget: MemoryBudget::for_input(input), unpacked: Vec::new(), buffers, root };
         document.unpacked = document
             .root
             .buffer_views
@@ -123,19 +124,19 @@ impl<'a> Document<'a> {
     ///
     /// # Errors
     /// When the view or its buffer does not exist or is too small.
-    pub(super) fn view(&self, index: json::Index<json::buffer::View>) -> Result<View<'_>> {
+    pub(super) fn view(&self, index: json::Index<json::buffer::View>) -> Result<BufferView<'_>> {
         let index = index.value();
         let Some(view) = self.root.buffer_views.get(index) else {
             return malformed(format!("there is no buffer view {index}"));
         };
         let stride = view.byte_stride.map(|s| s.0);
         if let Some(Some(bytes)) = self.unpacked.get(index) {
-            return Ok(View { bytes, stride });
+            return Ok(BufferView { bytes, stride });
         }
         let bytes = self
             .slice(view.buffer.value(), view.byte_offset.unwrap_or_default().0, view.byte_length.0)
             .map_err(|f| f.at(|| format!("buffer view {index}")))?;
-        Ok(View { bytes, stride })
+        Ok(BufferView { bytes, stride })
     }
 }
 

@@ -65,9 +65,9 @@ pub(super) fn malformed<T>(message: impl Into<String>) -> Result<T> {
 
 /// How much memory the file may still make the program allocate, shared by all threads of an import.
 #[derive(Debug)]
-pub(super) struct Budget(AtomicU64);
+pub(super) struct MemoryBudget(AtomicU64);
 
-impl Budget {
+impl MemoryBudget {
     /// A file of any size may expand to this many bytes …
     const BASE: u64 = 192 << 20;
     /// … and to this many more for each of its own bytes.

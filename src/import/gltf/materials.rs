@@ -10,7 +10,7 @@ use ::gltf::json::validation::Checked;
 use ::gltf::json::{Root, Value};
 use glam::{Mat3, Vec2, Vec4};
 
-use super::buffers::{Document, label};
+use super::buffers::{GltfDocument, label};
 use super::fault::Result;
 use crate::import::Progress;
 use crate::import::image::{EncodedImage, decode_all};
@@ -53,7 +53,7 @@ pub(super) fn needs(root: &Root, index: usize) -> SurfaceNeeds {
 /// # Errors
 /// Only when the person stopped it; an image that cannot be had is a warning.
 pub(super) fn convert(
-    document: &Document<'_>,
+    document: &GltfDocument<'_>,
     folder: &Folder,
     used: &[bool],
     progress: &Progress,
@@ -224,7 +224,7 @@ fn image_label(root: &Root, index: usize) -> String {
 }
 
 fn encoded_image(
-    document: &Document<'_>,
+    document: &GltfDocument<'_>,
     folder: &Folder,
     index: usize,
 ) -> std::result::Result<EncodedImage, String> {

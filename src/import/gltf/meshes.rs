@@ -9,7 +9,7 @@ use ::gltf::json::validation::Checked;
 use glam::{Vec3, Vec4};
 
 use super::block::{self, Block, BlockKey};
-use super::buffers::Document;
+use super::buffers::GltfDocument;
 use super::fault::{Result, malformed};
 use super::materials::{self, SurfaceNeeds};
 use super::skin::{Pose, Skinning};
@@ -20,7 +20,7 @@ use crate::scene::NodeId;
 
 /// A mesh with what changes its vertices: nodes with equal requests share the result.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
-pub(super) struct Request {
+pub(super) struct MeshRequest {
     /// Index of the mesh in the file.
     pub(super) mesh: usize,
     /// Index of the skin that moves it.
@@ -60,7 +60,7 @@ impl Piece {
 }
 
 /// Whether all that is drawn of the mesh has joints and weights.
-pub(super) fn is_skinnable(document: &Document<'_>, mesh: usize) -> bool {
+pub(super) fn is_skinnable(document: &GltfDocument<'_>, mesh: usize) -> bool {
     let has = |p: &Primitive, s| p.attributes.contains_key(&Checked::Valid(s));
     document.root.meshes.get(mesh).is_some_and(|mesh| {
         mesh.primitives
@@ -79,8 +79,8 @@ fn is_filled(primitive: &Primitive) -> bool {
 /// # Errors
 /// When an accessor is broken.
 pub(super) fn build(
-    document: &Document<'_>,
-    request: &Request,
+    document: &GltfDocument<'_>,
+    request: &MeshRequest,
     pose: Option<&Pose>,
     node_of: impl Fn(usize) -> Option<NodeId>,
 ) -> Result<Built> {
@@ -173,7 +173,7 @@ fn unfilled_note(count: usize) -> Option<String> {
 }
 
 /// The indices of a primitive, or 0, 1, 2, … where it has none.
-fn read_indices(document: &Document<'_>, primitive: &Primitive, vertices: usize) -> Result<Vec<u32>> {
+fn read_indices(document: &GltfDocument<'_>, primitive: &Primitive, vertices: usize) -> Result<Vec<u32>> {
     match primitive.indices {
         Some(index) => {
             let indices = document.accessor(index)?.integers::<1>(None)?;
@@ -202,7 +202,7 @@ fn pick_used(indices: &mut [u32], vertices: usize) -> Option<Vec<u32>> {
 
 /// Strips and fans become single triangles.
 fn triangles(
-    document: &Document<'_>,
+    document: &GltfDocument<'_>,
     mode: Mode,
     mut indices: Vec<u32>,
     number: usize,
@@ -237,7 +237,11 @@ fn triangles(
 
 /// Missing normals stay missing (the mesh is flat), unless other parts of the mesh have some or a normal map needs
 /// them: then these parts get the normals of their faces.
-fn complete_normals(document: &Document<'_>, blocks: &mut Vec<Block>, pieces: &mut [Piece]) -> Result<()> {
+fn complete_normals(
+    document: &GltfDocument<'_>,
+    blocks: &mut Vec<Block>,
+    pieces: &mut [Piece],
+) -> Result<()> {
     let some_have = blocks.iter().any(|b| !b.normals.is_empty());
     for piece in pieces {
         let Some(block) = blocks.get(piece.block) else {
@@ -259,7 +263,7 @@ fn complete_normals(document: &Document<'_>, blocks: &mut Vec<Block>, pieces: &m
 
 /// Computes tangents for parts with a normal map that have none.
 fn complete_tangents(
-    document: &Document<'_>,
+    document: &GltfDocument<'_>,
     blocks: &mut Vec<Block>,
     pieces: &mut [Piece],
     notes: &mut Vec<String>,

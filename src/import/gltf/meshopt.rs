@@ -5,7 +5,7 @@ use std::ffi::c_int;
 use ::gltf::json::{Buffer, Value, buffer};
 use ::meshopt::ffi;
 
-use super::fault::{Budget, Fault, Result, malformed};
+use super::fault::{Fault, MemoryBudget, Result, malformed};
 
 /// What the elements of a packed view are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -128,7 +128,7 @@ impl Packing {
 ///
 /// # Errors
 /// When they are damaged or would take more memory than is left.
-pub(super) fn unpack(packing: &Packing, packed: &[u8], budget: &Budget) -> Result<Vec<u8>> {
+pub(super) fn unpack(packing: &Packing, packed: &[u8], budget: &MemoryBudget) -> Result<Vec<u8>> {
     let size = (packing.stride as u64).saturating_mul(packing.count as u64);
     budget.take(size, || format!("its {} elements", packing.count))?;
     // Backed by 32-bit words, because the filters access whole components.

@@ -5,7 +5,7 @@ use ::gltf::json::{Node as Declared, Root};
 use glam::{DMat4, DQuat, DVec3};
 
 use super::buffers::label;
-use super::fault::{Budget, Result, malformed};
+use super::fault::{MemoryBudget, Result, malformed};
 use crate::import::names::SiblingNames;
 use crate::scene::{Node, NodeId};
 
@@ -28,7 +28,7 @@ pub(super) struct Hierarchy {
 ///
 /// # Errors
 /// When the nodes do not form trees, refer to nodes that do not exist, or their names would take too much memory.
-pub(super) fn flatten(root: &Root, file_name: &str, budget: &Budget) -> Result<Hierarchy> {
+pub(super) fn flatten(root: &Root, file_name: &str, budget: &MemoryBudget) -> Result<Hierarchy> {
     let mut warnings = Vec::new();
     let parents = parents(root)?;
     let order = top_down(root, &parents)?;

@@ -4,7 +4,7 @@ use ::gltf::json::Root;
 use glam::{DMat4, Mat3, Mat4, Vec3, Vec4Swizzles};
 
 use super::block::{Block, gather};
-use super::buffers::{Document, label};
+use super::buffers::{GltfDocument, label};
 use super::fault::{Result, malformed};
 
 /// A skin in the pose that the file's nodes give.
@@ -46,7 +46,7 @@ impl Skinning {
 ///
 /// # Errors
 /// When it does not exist, has a joint that does not exist, or its matrices cannot be read.
-pub(super) fn pose(document: &Document<'_>, skin: usize, worlds: &[DMat4]) -> Result<Pose> {
+pub(super) fn pose(document: &GltfDocument<'_>, skin: usize, worlds: &[DMat4]) -> Result<Pose> {
     let root: &Root = &document.root;
     let Some(declared) = root.skins.get(skin) else {
         return malformed(format!("there is no skin {skin}"));

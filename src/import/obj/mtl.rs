@@ -3,7 +3,7 @@
 use glam::{Mat3, Vec3, Vec4};
 
 use super::scrub::material_name;
-use crate::import::text::{Lines, after_first_word, float, linear, lossy, words};
+use crate::import::text::{TextLines, after_first_word, float, linear, lossy, words};
 use crate::scene::{UvTransform, Wrap};
 
 /// One material as far as a drawing needs it.
@@ -68,7 +68,7 @@ pub(super) fn read(data: &[u8]) -> Vec<Mtl> {
 /// it panic.
 fn scrub(data: &[u8]) -> String {
     let mut text = String::new();
-    for (_, line) in Lines::new(data) {
+    for (_, line) in TextLines::new(data) {
         let line = String::from_utf8_lossy(&line);
         let mut words = line.split_whitespace();
         let Some(keyword) = words.next() else { continue };

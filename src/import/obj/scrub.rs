@@ -8,7 +8,7 @@ use std::collections::HashSet;
 use std::fmt::Write;
 use std::ops::Range;
 
-use crate::import::text::{Fault, Lines};
+use crate::import::text::{RepeatedFault, TextLines};
 use crate::import::{ImportError, Progress};
 
 /// Stands between the name of an object and that of a group inside it.
@@ -32,18 +32,18 @@ pub(super) struct Scrubbed<'a> {
     /// Whether a component of a vertex color exceeds 1.
     pub(super) bright: bool,
     /// Lines that cannot be understood.
-    pub(super) bad_lines: Fault,
+    pub(super) bad_lines: RepeatedFault,
     /// Faces with fewer than three corners.
-    pub(super) short_faces: Fault,
+    pub(super) short_faces: RepeatedFault,
     /// Faces with a corner at a vertex that does not exist, and how many triangles they would have given.
-    pub(super) lost_faces: Fault,
+    pub(super) lost_faces: RepeatedFault,
     pub(super) lost_triangles: usize,
     /// References to texture coordinates and to normals that do not exist.
     pub(super) bad_references: [usize; 2],
     /// Points and lines.
-    pub(super) points_and_lines: Fault,
+    pub(super) points_and_lines: RepeatedFault,
     /// Free-form curves and surfaces.
-    pub(super) free_form: Fault,
+    pub(super) free_form: RepeatedFault,
 }
 
 /// Checks all lines.
@@ -72,7 +72,7 @@ fn pass<'a>(
     mut scrubber: Scrubber<'a>,
     progress: &Progress,
 ) -> Result<Scrubber<'a>, ImportError> {
-    let mut lines = Lines::new(data);
+    let mut lines = TextLines::new(data);
     scrubber.data = lines.rest();
     let whole = scrubber.data;
     let mut start = 0;
@@ -260,7 +260,7 @@ impl Scrubber<'_> {
     /// The line in work.
     fn line_text(&self) -> String {
         let raw = self.data.get(self.range.clone()).unwrap_or_default();
-        let line = Lines::new(raw).next().map(|(_, line)| String::from_utf8_lossy(&line).into_owned());
+        let line = TextLines::new(raw).next().map(|(_, line)| String::from_utf8_lossy(&line).into_owned());
         line.unwrap_or_default()
     }
 

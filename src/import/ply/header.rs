@@ -1,7 +1,7 @@
 //! The header of a PLY file.
 
 use super::quoted;
-use crate::import::text::{Lines, lossy, words};
+use crate::import::text::{TextLines, lossy, words};
 
 /// What a file declares.
 #[derive(Debug)]
@@ -32,14 +32,14 @@ pub(super) struct Property {
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Kind {
     /// One number per entry.
-    Scalar(Number),
+    Scalar(NumberType),
     /// A list per entry: type of its length, type of its items.
-    List(Number, Number),
+    List(NumberType, NumberType),
 }
 
 /// Types of numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Number {
+pub(super) enum NumberType {
     I8,
     U8,
     I16,
@@ -50,7 +50,7 @@ pub(super) enum Number {
     F64,
 }
 
-impl Number {
+impl NumberType {
     /// Bytes in binary files.
     pub(super) fn size(self) -> usize {
         match self {
@@ -102,7 +102,7 @@ impl Element {
 /// A sentence that names the line.
 pub(super) fn parse(data: &[u8]) -> Result<(Header, &[u8]), String> {
     const MOST_LINES: usize = 100_000;
-    let mut lines = Lines::new(data);
+    let mut lines = TextLines::new(data);
     if lines.next().is_none_or(|(_, line)| line.trim_ascii() != b"ply") {
         return Err("this is no PLY file: its first line is not `ply`".into());
     }
@@ -154,13 +154,13 @@ pub(super) fn parse(data: &[u8]) -> Result<(Header, &[u8]), String> {
 fn property(words: &[&[u8]]) -> Option<Property> {
     let (kind, name) = match words {
         [b"list", length, item, name] => {
-            let length = Number::parse(length)?;
-            if matches!(length, Number::F32 | Number::F64) {
+            let length = NumberType::parse(length)?;
+            if matches!(length, NumberType::F32 | NumberType::F64) {
                 return None;
             }
-            (Kind::List(length, Number::parse(item)?), name)
+            (Kind::List(length, NumberType::parse(item)?), name)
         }
-        [number, name] => (Kind::Scalar(Number::parse(number)?), name),
+        [number, name] => (Kind::Scalar(NumberType::parse(number)?), name),
         _ => return None,
     };
     Some(Property { name: lossy(name).to_ascii_lowercase(), kind })

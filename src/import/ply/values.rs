@@ -1,11 +1,11 @@
 //! The numbers behind a PLY header, one after the other.
 
-use super::header::Number;
+use super::header::NumberType;
 
 /// A stream of numbers. All types fit a double exactly.
 pub(super) trait Values {
     /// The next number; `None` at the end of the file or where there is none.
-    fn next(&mut self, number: Number) -> Option<f64>;
+    fn next(&mut self, number: NumberType) -> Option<f64>;
 
     /// Bytes that have not been read.
     fn bytes_left(&self) -> usize;
@@ -14,7 +14,7 @@ pub(super) trait Values {
     fn is_text(&self) -> bool;
 
     /// The length of a list whose items fit into what is left.
-    fn next_length(&mut self, length: Number, item: Number) -> Option<usize> {
+    fn next_length(&mut self, length: NumberType, item: NumberType) -> Option<usize> {
         let n = self.next(length)?;
         if n < 0.0 || n.fract() != 0.0 {
             return None;
@@ -35,13 +35,13 @@ impl<'a> Ascii<'a> {
 }
 
 impl Values for Ascii<'_> {
-    fn next(&mut self, number: Number) -> Option<f64> {
+    fn next(&mut self, number: NumberType) -> Option<f64> {
         let start = self.0.trim_ascii_start();
         let end = start.iter().position(u8::is_ascii_whitespace);
         let (word, rest) = start.split_at(end.unwrap_or(start.len()));
         let word = std::str::from_utf8(word).ok()?;
         let value: f64 = match number {
-            Number::F32 | Number::F64 => word.parse().ok()?,
+            NumberType::F32 | NumberType::F64 => word.parse().ok()?,
             // Some writers put `255.0` where they declare an integer.
             _ => word.parse::<i64>().map_or_else(|_| word.parse().ok(), |n| Some(n as f64))?,
         };
@@ -80,16 +80,16 @@ impl<'a, const BIG_ENDIAN: bool> Binary<'a, BIG_ENDIAN> {
 
 impl<const BIG_ENDIAN: bool> Values for Binary<'_, BIG_ENDIAN> {
     #[inline]
-    fn next(&mut self, number: Number) -> Option<f64> {
+    fn next(&mut self, number: NumberType) -> Option<f64> {
         Some(match number {
-            Number::I8 => i8::from_le_bytes(self.take()?).into(),
-            Number::U8 => u8::from_le_bytes(self.take()?).into(),
-            Number::I16 => i16::from_le_bytes(self.take()?).into(),
-            Number::U16 => u16::from_le_bytes(self.take()?).into(),
-            Number::I32 => i32::from_le_bytes(self.take()?).into(),
-            Number::U32 => u32::from_le_bytes(self.take()?).into(),
-            Number::F32 => f32::from_le_bytes(self.take()?).into(),
-            Number::F64 => f64::from_le_bytes(self.take()?),
+            NumberType::I8 => i8::from_le_bytes(self.take()?).into(),
+            NumberType::U8 => u8::from_le_bytes(self.take()?).into(),
+            NumberType::I16 => i16::from_le_bytes(self.take()?).into(),
+            NumberType::U16 => u16::from_le_bytes(self.take()?).into(),
+            NumberType::I32 => i32::from_le_bytes(self.take()?).into(),
+            NumberType::U32 => u32::from_le_bytes(self.take()?).into(),
+            NumberType::F32 => f32::from_le_bytes(self.take()?).into(),
+            NumberType::F64 => f64::from_le_bytes(self.take()?),
         })
     }
 

@@ -67,7 +67,7 @@ fn find(
         let wanted = wanted(style, crease_angle);
         match strokes {
             Some(StrokeStyle(hand)) => {
-                draw_strokes(&placed, &view, &wanted, (&hand, crease_angle), &mut all);
+                draw_strokes(&placed, &view, &wanted, &hand, crease_angle, &mut all);
             }
             None => line_segments(&placed, &view, &wanted, &mut all.segments),
         }

@@ -7,10 +7,10 @@ use std::sync::Arc;
 use glam::{DMat4, DVec3, DVec4};
 use rayon::prelude::*;
 
-use self::neighbors::{Number, numbers};
+use self::neighbors::{CapNumber, numbers};
 use super::gpu_scene::GpuScene;
 use crate::document::Document;
-use crate::document::section::{Fill, Section as Style};
+use crate::document::section::{Fill, SectionSettings};
 use crate::geometry::section::{Cap, Contour, Filling, contours, fill};
 use crate::geometry::{Bounds, Mesh, Plane, Provoking, Submesh};
 use crate::gpu::geometry::{MeshRange, MeshSource};
@@ -82,7 +82,7 @@ struct Key {
 #[derive(Clone)]
 pub struct Section {
     /// How it looks.
-    pub style: Style,
+    pub style: SectionSettings,
     /// The section plane: what lies beyond it is cut away. World space, its product with (point, 1) is the distance before it.
     pub plane: DVec4,
     /// Where the topmost caps lie: x and y run in the plane, z beyond it, to what is cut away.
@@ -90,7 +90,7 @@ pub struct Section {
     /// Vertices of the caps.
     pub caps: GeometryBuffers,
     results: Arc<Vec<SectionResult>>,
-    numbers: Arc<Vec<Number>>,
+    numbers: Arc<Vec<CapNumber>>,
     key: Key,
 }
 
@@ -136,9 +136,9 @@ impl Section {
     fn build(
         gpu: &Gpu,
         scene: &GpuScene,
-        style: &Style,
+        style: &SectionSettings,
         margin: f64,
-        numbers: Arc<Vec<Number>>,
+        numbers: Arc<Vec<CapNumber>>,
         key: Key,
     ) -> Result<Self, GpuError> {
         let caps_at = Plane { point: key.plane.point - key.plane.normal * margin, ..key.plane };

@@ -132,9 +132,9 @@ impl Drawing {
             let color = self.shading.shade(rec, &mut shared.techniques, &key.look, &layer, false)?;
             for mirrored in reflected {
                 let Some(reflection) = self.reflections.get_mut(mirrored.index) else { continue };
-                reflection.uniform.write(rec.gpu, &vec![mirrored.uniform]);
-                let uniform = reflection.uniform.buffer();
-                mirror(rec, &surfaces.gbuffer.value.geometry, &mirrored.color.value, uniform, &color)?;
+                reflection.uniform.write(rec.gpu, &mirrored.uniform);
+                let geometry = &surfaces.gbuffer.value.geometry;
+                mirror(rec, geometry, &mirrored.color.value, &reflection.uniform, &color)?;
             }
             if let Some(hidden) = hidden {
                 overlay(rec, &hidden.value, &color)?;
@@ -234,7 +234,7 @@ impl Drawing {
             let is_all = masks.visible() == surfaces.visible();
             let drawn = is_all.then_some(&drawn.surfaces.gbuffer.value);
             let (gbuffer_pass, scene_view) = (&mut shared.gbuffer, &inputs.scene_view);
-            Some(self.depth_mask.run(rec, gbuffer_pass, scene_view, (masks, drawn), &composition.surfaces)?)
+            Some(self.depth_mask.run(rec, gbuffer_pass, scene_view, masks, drawn, &composition.surfaces)?)
         };
         rec.note("depth mask", mask.as_ref().map(|mask| &mask.value.depth));
         Ok(mask)

@@ -11,10 +11,10 @@ use crate::render::base::ids::object_id;
 use crate::render::base::stripes::StripesBy;
 use crate::render::base::stroke_maps::StrokeMaps;
 use crate::render::base::style_images::StyleImages;
-use crate::render::effects::blueprint::Blueprint;
+use crate::render::effects::blueprint::BlueprintGroup;
 use crate::render::effects::hidden::Hidden;
-use crate::render::effects::mirror::Mirror;
-use crate::render::effects::sketch::Sketch;
+use crate::render::effects::mirror::MirrorObject;
+use crate::render::effects::sketch::SketchGroup;
 use crate::render::effects::surface::SurfaceStyles;
 use crate::render::effects::technique::Styled;
 use crate::scene::{AlphaMode, NodeId};
@@ -25,22 +25,22 @@ use crate::style::Technique;
 pub struct Objects {
     /// The objects that hide what lies behind them: those of all surface techniques.
     pub surfaces: Group,
-    /// Those of them that blueprints are peeled to uncover; they have no lines of their own here.
+    /// Those of them that layers of blueprints are drawn to uncover; they have no lines of their own here.
     pub masks: Group,
     /// Their hidden lines.
     pub hidden: Hidden,
     /// Objects of the same techniques that are drawn as by hand, together where that is equal; they hide what lies behind them.
-    pub sketches: Vec<Sketch>,
+    pub sketches: Vec<SketchGroup>,
     /// Parts of the same techniques through which something shows.
     pub blended: Group,
     /// The others, together where their style is equal.
-    pub blueprints: Vec<Blueprint>,
+    pub blueprints: Vec<BlueprintGroup>,
     /// The box around everything visible, world space.
     pub visible_bounds: Bounds,
     /// How surfaces are shaded.
     pub styles: SurfaceStyles,
     /// The mirrors among them.
-    pub mirrors: Vec<Mirror>,
+    pub mirrors: Vec<MirrorObject>,
     /// Pixels per reference pixel.
     pub scale: f32,
 }
@@ -94,7 +94,7 @@ impl Objects {
         let (scale, id, count) = (self.scale, object_id(node) as usize, scene.scene.nodes.len() + 1);
         let has_layers = r.style.technique == Technique::Blueprint && as_picture;
         let is_blueprint = has_layers && !r.mask;
-        let is_sketch = as_picture && !has_layers && !r.mirror && Sketch::moves(r.style);
+        let is_sketch = as_picture && !has_layers && !r.mirror && SketchGroup::moves(r.style);
         // Mirrors and masks show and hide as a whole.
         let blends = as_picture && !has_layers && !r.mask && !r.mirror && !is_sketch;
         let is_blended = |alpha: AlphaMode| blends && alpha == AlphaMode::Blend;
@@ -114,22 +114,22 @@ impl Objects {
         let edges = if has_layers { edges.without_fainter(r.style.blueprint.threshold) } else { edges };
         let whole = Visible { node, enhanced: r.enhanced, submeshes: Submeshes::All };
         if is_blueprint {
-            let group = Blueprint::group_of(&mut self.blueprints, r.style, count);
+            let group = BlueprintGroup::group_of(&mut self.blueprints, r.style, count);
             group.add(whole, edges, scene);
         } else if is_sketch {
-            let sketch = Sketch::group_of(&mut self.sketches, r.style, count, images, scale);
+            let sketch = SketchGroup::group_of(&mut self.sketches, r.style, count, images, scale);
             sketch.group.add(whole, edges, scene);
             sketch.add_alphas(scene.alphas(node));
             if r.enhanced {
                 let style = possible(EdgeUniform::of_hidden_lines(&r.style.edges, scale));
-                sketch.hidden.add((count, id), style, &r.style.edges.hidden);
+                sketch.hidden.add(count, id, style, &r.style.edges.hidden);
             }
         } else if is_opaque {
             let submeshes = if has_blended { Submeshes::Opaque } else { Submeshes::All };
             self.surfaces.add(Visible { submeshes, ..whole }, edges, scene);
             if r.enhanced && as_picture {
                 let style = possible(EdgeUniform::of_hidden_lines(&r.style.edges, scale));
-                self.hidden.add((count, id), style, &r.style.edges.hidden);
+                self.hidden.add(count, id, style, &r.style.edges.hidden);
             }
         }
         if has_blended {
@@ -144,7 +144,7 @@ impl Objects {
             && !scene.scene.is_added(node)
             && let Ok(plane) = scene.plane_of(node)
         {
-            self.mirrors.push(Mirror::new(id as u32, plane, scene.corners_of(node), &r.style.mirror));
+            self.mirrors.push(MirrorObject::new(id as u32, plane, scene.corners_of(node), &r.style.mirror));
         }
         self.visible_bounds = self.visible_bounds.union(&scene.bounds_of(node));
     }
@@ -163,7 +163,7 @@ impl Objects {
 
     /// Greatest distance from its edge at which a line has ink, px.
     pub fn greatest_reach(&self) -> f32 {
-        let sketches = self.sketches.iter().map(Sketch::greatest_reach);
+        let sketches = self.sketches.iter().map(SketchGroup::greatest_reach);
         let groups = self.groups().map(Group::greatest_reach);
         groups.chain(sketches).fold(self.hidden.greatest_radius(), f32::max)
     }

@@ -1,7 +1,7 @@
 //! What the mirrors of a drawing show: drawings of the same kind, one for each.
 
 use super::{Drawing, DrawingInputs, Shared};
-use crate::gpu::{ArrayBuffer, Recorder, Target};
+use crate::gpu::{Recorder, Target, UniformBuffer};
 use crate::render::base::error::RenderError;
 use crate::render::base::scene_view::SceneView;
 use crate::render::base::stage::Output;
@@ -11,7 +11,7 @@ use crate::render::effects::mirror::MirrorUniform;
 pub(super) struct Reflection {
     object: u32,
     pub(super) drawing: Drawing,
-    pub(super) uniform: ArrayBuffer,
+    pub(super) uniform: UniformBuffer<MirrorUniform>,
 }
 
 /// A reflection that is drawn.
@@ -49,7 +49,7 @@ impl Drawing {
                     self.reflections.push(Reflection {
                         object: mirror.object,
                         drawing: Self::new(rec.gpu, rec.pipelines.frame_layout()),
-                        uniform: ArrayBuffer::new(rec.gpu, "mirror"),
+                        uniform: UniformBuffer::new(rec.gpu, "mirror"),
                     });
                     self.reflections.len() - 1
                 }

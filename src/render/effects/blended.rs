@@ -9,7 +9,7 @@ use crate::gpu::{Recorder, Target, inputs};
 use crate::render::base::error::RenderError;
 use crate::render::base::scene_view::SceneView;
 use crate::render::passes::composition::Composition;
-use crate::render::passes::peel::MOST_LAYERS;
+use crate::render::passes::count::MOST_LAYERS;
 use crate::render::passes::place::{LayerShader, Pending, Place};
 use crate::render::passes::shadows::{ShadowMap, ShadowMask};
 use crate::render::passes::traversal::GBufferPass;
@@ -38,7 +38,8 @@ pub struct BlendedShading<'a> {
 pub fn place_blended(
     rec: &mut Recorder<'_>,
     gbuffer_pass: &mut GBufferPass,
-    (layered, key): (&mut Layered, &LayeredGroup),
+    layered: &mut Layered,
+    key: &LayeredGroup,
     scene_view: &SceneView<'_>,
     composition: &Composition,
     with: &mut BlendedShading<'_>,

@@ -2,28 +2,28 @@
 //! section 4).
 //!
 //! The paper blends the layers back to front; front to back, each beneath those before it, gives the same picture with two
-//! layers in memory instead of all, and ends wherever peeling does.
+//! layers in memory instead of all, and ends wherever layers do.
 
 use encase::ShaderType;
 use glam::Vec3;
 
 use super::layered::{LayerRequest, Layered, LayeredGroup, LineRequest, Visit, least_pixels};
-use super::section::CapUniform;
+use super::section::GpuCap;
 use crate::gpu::{ArrayBuffer, Gpu, Inputs, Recorder, Target, UniformBuffer, inputs};
 use crate::render::base::edge_style::EdgeUniform;
 use crate::render::base::error::RenderError;
 use crate::render::base::group::Group;
 use crate::render::base::scene_view::SceneView;
 use crate::render::passes::composition::Composition;
+use crate::render::passes::count::{LayerCount, MOST_LAYERS};
 use crate::render::passes::designated::{DepthMask, Uncover};
-use crate::render::passes::peel::{LayerCount, MOST_LAYERS};
 use crate::render::passes::place::{LayerShader, Pending, Place};
 use crate::render::passes::traversal::GBufferPass;
 use crate::style::{self, Edges, Style, Technique};
 
-/// Objects whose style is equal, peeled together.
+/// Objects whose style is equal, split into layers together.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Blueprint {
+pub struct BlueprintGroup {
     /// The objects.
     pub group: Group,
     style: style::Blueprint,
@@ -54,7 +54,7 @@ impl From<&style::Blueprint> for BlueprintUniform {
     }
 }
 
-impl Blueprint {
+impl BlueprintGroup {
     /// The group to which an object of this style belongs, in a scene with `count` object ids.
     pub fn group_of<'a>(all: &'a mut Vec<Self>, style: &Style, count: usize) -> &'a mut Group {
         let found = all.iter().position(|b| b.is_of(style));
@@ -79,7 +79,7 @@ impl Blueprint {
         self.style.to.min(MOST_LAYERS)
     }
 
-    /// Most that are peeled where nothing is to be uncovered.
+    /// Most layers where nothing is to be uncovered.
     fn layers(&self) -> u32 {
         self.style.layers.min(self.last())
     }
@@ -106,10 +106,10 @@ impl BlueprintBuffers {
 #[derive(Clone, Copy)]
 pub struct BlueprintInputs<'a> {
     /// Its style.
-    pub blueprint: &'a Blueprint,
+    pub blueprint: &'a BlueprintGroup,
     /// The caps of a section by object id; empty when there are none.
-    pub caps: &'a Vec<CapUniform>,
-    /// It is peeled until enough of this is uncovered.
+    pub caps: &'a Vec<GpuCap>,
+    /// Layers are drawn until enough of this is uncovered.
     pub mask: Option<&'a DepthMask>,
 }
 
@@ -121,14 +121,16 @@ pub struct BlueprintInputs<'a> {
 pub fn place_blueprint(
     rec: &mut Recorder<'_>,
     gbuffer_pass: &mut GBufferPass,
-    (layered, key): (&mut Layered, &LayeredGroup),
+    layered: &mut Layered,
+    key: &LayeredGroup,
     scene_view: &SceneView<'_>,
     composition: &Composition,
-    (inputs, buffers): (BlueprintInputs<'_>, &mut BlueprintBuffers),
+    inputs: BlueprintInputs<'_>,
+    buffers: &mut BlueprintBuffers,
     place: &mut Place<'_>,
 ) -> Result<Option<Target>, RenderError> {
     let BlueprintInputs { blueprint, caps, mask } = inputs;
-    let Blueprint { group, style: params, .. } = blueprint;
+    let BlueprintGroup { group, style: params, .. } = blueprint;
     let has_caps = !caps.is_empty();
     if has_caps {
         buffers.caps.write(rec.gpu, caps);
@@ -158,7 +160,7 @@ pub fn place_blueprint(
         front.get_or_insert_with(|| gbuffer.geometry.clone());
         let sprite = Sprite {
             composition,
-            style: buffers.style.buffer(),
+            style: &buffers.style,
             has_threshold: params.threshold > 0.0,
             count: drawn.count,
             mask: mask.filter(|_| !params.beyond),
@@ -196,7 +198,7 @@ pub fn place_blueprint(
 /// What a blueprint asks of its layers. `mask`: what is to be uncovered; `size`: of the picture, px; `is_kept`: whether somebody
 /// looks at the layers themselves.
 fn request_of<'a>(
-    blueprint: &Blueprint,
+    blueprint: &BlueprintGroup,
     mask: Option<&'a DepthMask>,
     size: [u32; 2],
     is_kept: bool,
@@ -230,7 +232,7 @@ pub const LAYERS: [&str; 4] = ["layer geometry", "layer surface ids", "layer bas
 #[derive(Clone, Copy)]
 struct Sprite<'a> {
     composition: &'a Composition,
-    style: &'a wgpu::Buffer,
+    style: &'a UniformBuffer<BlueprintUniform>,
     /// Whether ink below a threshold is left out.
     has_threshold: bool,
     count: &'a LayerCount,

@@ -11,7 +11,7 @@ use crate::style::gooch::{Gooch, MetalAxis};
 
 /// Twin of `GoochStyle` in `shaders/effects/gooch.wgsl`.
 #[derive(Debug, Clone, Copy, PartialEq, ShaderType, Default)]
-pub struct GoochUniform {
+pub struct GpuGoochStyle {
     cool: Vec3,
     alpha: f32,
     warm: Vec3,
@@ -28,7 +28,7 @@ pub struct GoochUniform {
     own_hue: f32,
 }
 
-impl GoochUniform {
+impl GpuGoochStyle {
     /// Of an object that lies at `world_from_local`.
     fn new(gooch: &Gooch, world_from_local: &DMat4) -> Self {
         let [across, around] = directions(gooch.metal_axis, world_from_local);
@@ -58,7 +58,7 @@ pub struct GoochShading {
 
 impl SurfaceTechnique for GoochShading {
     /// By object id; empty when there are none.
-    type Styles = Vec<GoochUniform>;
+    type Styles = Vec<GpuGoochStyle>;
     type Shared = ();
 
     fn shared(_gpu: &Gpu) {}
@@ -72,7 +72,7 @@ impl SurfaceTechnique for GoochShading {
             && let Some(node) = object.scene.scene.nodes.get(object.node)
             && let Some(entry) = object.entry(styles)
         {
-            *entry = GoochUniform::new(&object.style.gooch, &node.world_from_local);
+            *entry = GpuGoochStyle::new(&object.style.gooch, &node.world_from_local);
         }
     }
 

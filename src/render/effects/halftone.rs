@@ -11,7 +11,7 @@ use encase::ShaderType;
 use glam::{DMat4, DVec3, Mat4, Vec2, Vec3};
 
 use super::technique::{Shaded, Styled, SurfaceTechnique};
-use crate::gpu::{ArrayBuffer, Gpu, GpuError, Inputs, Recorder, Target};
+use crate::gpu::{ArrayBuffer, Gpu, GpuError, ImageArray, Inputs, Recorder, Target};
 use crate::render::base::error::RenderError;
 use crate::render::base::gpu_scene::{GpuScene, Origin};
 use crate::render::base::ids::node_of;
@@ -27,7 +27,7 @@ use threshold_map::{LAYERS, LEVELS, PERIODS, SIDE, ThresholdMap};
 
 /// Twin of `HalftoneStyle` in `shaders/effects/halftone.wgsl`.
 #[derive(Debug, Clone, Copy, PartialEq, ShaderType, Default)]
-pub struct HalftoneUniform {
+pub struct GpuHalftoneStyle {
     pattern_from_view: Mat4,
     ink: Vec3,
     ink_tint: f32,
@@ -49,6 +49,8 @@ pub struct HalftoneUniform {
 const SCREEN: u32 = 1;
 const TRIPLANAR: u32 = 2;
 const UV: u32 = 3;
+
+const THRESHOLDS: wgpu::TextureFormat = wgpu::TextureFormat::Rg8Unorm;
 
 /// A threshold map.
 #[derive(Debug, Clone)]
@@ -72,7 +74,7 @@ impl PartialEq for Map {
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Halftones {
     /// By object id; empty when there are none.
-    styles: Vec<HalftoneUniform>,
+    styles: Vec<GpuHalftoneStyle>,
     /// Their threshold maps, by number.
     maps: Vec<Map>,
 }
@@ -90,7 +92,7 @@ impl Halftones {
         });
         let black = style.black;
         if let Some(slot) = object.entry(&mut self.styles) {
-            *slot = HalftoneUniform {
+            *slot = GpuHalftoneStyle {
                 // Where it lies on the surface depends on the camera: see `placed`.
                 pattern_from_view: Mat4::IDENTITY,
                 ink: style.ink.to_linear(),
@@ -124,9 +126,9 @@ impl Halftones {
 
     /// The same with the place of the patterns for a camera.
     fn placed(&self, scene: &GpuScene, view: &View) -> Self {
-        let placed = |(id, style): (usize, &HalftoneUniform)| {
+        let placed = |(id, style): (usize, &GpuHalftoneStyle)| {
             let place = (style.space == TRIPLANAR).then(|| pattern_from_view(scene, id, view)).flatten();
-            HalftoneUniform { pattern_from_view: place.unwrap_or(Mat4::IDENTITY), ..*style }
+            GpuHalftoneStyle { pattern_from_view: place.unwrap_or(Mat4::IDENTITY), ..*style }
         };
         Self { styles: self.styles.iter().enumerate().map(placed).collect(), maps: self.maps.clone() }
     }
@@ -238,7 +240,7 @@ impl SurfaceTechnique for HalftoneShading {
 
     fn bind<'a>(&'a self, shared: &'a SharedHalftones, inputs: &mut Inputs<'a>) {
         inputs.set("halftone_styles", self.styles.buffer());
-        inputs.set("thresholds", &shared.maps.thresholds);
+        inputs.set("thresholds", shared.maps.thresholds.view());
         inputs.set("threshold_sampler", &shared.maps.sampler);
         inputs.set("calibration", shared.maps.calibration.buffer());
         inputs.set("coordinates_tex", self.coordinates.as_ref());
@@ -272,7 +274,7 @@ pub fn built_in(texture: Texture) -> &'static ThresholdMap {
 /// Threshold maps on the device: those that the visible objects use.
 pub struct ThresholdMaps {
     uploaded: Vec<Map>,
-    thresholds: wgpu::TextureView,
+    thresholds: ImageArray,
     calibration: ArrayBuffer,
     sampler: wgpu::Sampler,
 }
@@ -280,20 +282,11 @@ pub struct ThresholdMaps {
 impl ThresholdMaps {
     /// None yet; a shader that reads none is given an empty texture.
     pub fn new(gpu: &Gpu) -> Self {
-        let sampler = gpu.device.create_sampler(&wgpu::SamplerDescriptor {
-            label: Some("thresholds"),
-            address_mode_u: wgpu::AddressMode::Repeat,
-            address_mode_v: wgpu::AddressMode::Repeat,
-            mag_filter: wgpu::FilterMode::Linear,
-            min_filter: wgpu::FilterMode::Linear,
-            mipmap_filter: wgpu::MipmapFilterMode::Linear,
-            ..Default::default()
-        });
         Self {
             uploaded: Vec::new(),
-            thresholds: view(&texture(gpu, 1, 1, 1)),
+            thresholds: ImageArray::none(gpu, THRESHOLDS),
             calibration: ArrayBuffer::new(gpu, "calibration"),
-            sampler,
+            sampler: ImageArray::tile_sampler(gpu),
         }
     }
 
@@ -314,51 +307,17 @@ impl ThresholdMaps {
                 Map::Own(map) => map.as_ref(),
             })
             .collect();
-        let uploaded = texture(gpu, SIDE as u32, (maps.len() * LAYERS) as u32, LEVELS as u32);
+        let count = (maps.len() * LAYERS) as u32;
+        let thresholds = ImageArray::new(gpu, "thresholds", THRESHOLDS, SIDE as u32, count, LEVELS as u32);
         for (layer, levels) in maps.iter().flat_map(|map| &map.layers).enumerate() {
             for (level, texels) in levels.iter().enumerate() {
-                write(gpu, &uploaded, layer as u32, level as u32, texels);
+                thresholds.write(gpu, layer as u32, level as u32, texels.as_flattened());
             }
         }
-        self.thresholds = view(&uploaded);
+        self.thresholds = thresholds;
         let calibration: Vec<f32> = maps.iter().flat_map(|map| &map.calibration).copied().collect();
         self.calibration.write(gpu, &calibration);
         self.uploaded.clone_from(&halftones.maps);
         Ok(())
     }
-}
-
-fn texture(gpu: &Gpu, side: u32, layers: u32, levels: u32) -> wgpu::Texture {
-    gpu.device.create_texture(&wgpu::TextureDescriptor {
-        label: Some("thresholds"),
-        size: wgpu::Extent3d { width: side, height: side, depth_or_array_layers: layers },
-        mip_level_count: levels,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format: wgpu::TextureFormat::Rg8Unorm,
-        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
-        view_formats: &[],
-    })
-}
-
-fn view(texture: &wgpu::Texture) -> wgpu::TextureView {
-    texture.create_view(&wgpu::TextureViewDescriptor {
-        dimension: Some(wgpu::TextureViewDimension::D2Array),
-        ..Default::default()
-    })
-}
-
-fn write(gpu: &Gpu, texture: &wgpu::Texture, layer: u32, level: u32, texels: &[[u8; 2]]) {
-    let side = (SIDE as u32) >> level;
-    gpu.queue.write_texture(
-        wgpu::TexelCopyTextureInfo {
-            texture,
-            mip_level: level,
-            origin: wgpu::Origin3d { x: 0, y: 0, z: layer },
-            aspect: wgpu::TextureAspect::All,
-        },
-        bytemuck::cast_slice(texels),
-        wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(side * 2), rows_per_image: Some(side) },
-        wgpu::Extent3d { width: side, height: side, depth_or_array_layers: 1 },
-    );
 }

@@ -18,11 +18,11 @@ use encase::ShaderType;
 use glam::{DMat4, Mat4, Vec3, Vec4};
 
 use self::calibration::{calibration, greatest_ink};
-pub use self::indication::IndicationUniform;
+pub use self::indication::GpuIndication;
 pub use self::requests::{missing, missing_strokes, stroke_image_fault};
 use self::requests::{recipe_of, request_of};
 use self::sets::{OwnMap, StrokeSets, TILE, built_in};
-pub use self::strokes::StrokeUniform;
+pub use self::strokes::GpuStroke;
 use super::technique::{Shaded, Styled, SurfaceTechnique};
 use crate::gpu::{ArrayBuffer, Gpu, Inputs, Recorder, Target};
 use crate::render::base::error::RenderError;
@@ -39,13 +39,13 @@ use crate::style::{Curve, Technique};
 
 /// Twin of `HatchingStyle` in `shaders/effects/hatching.wgsl`.
 #[derive(Debug, Clone, Copy, PartialEq, ShaderType, Default)]
-pub struct HatchingUniform {
+pub struct GpuHatchingStyle {
     local_from_view: Mat4,
     ink: Vec3,
     ink_tint: f32,
     paper: Vec3,
     paper_tint: f32,
-    stroke: StrokeUniform,
+    stroke: GpuStroke,
     second: f32,
     third: f32,
     greatest: f32,
@@ -66,7 +66,7 @@ pub struct HatchingUniform {
     turn_step: f32,
     blends_steps: u32,
     towards_light: u32,
-    indication: IndicationUniform,
+    indication: GpuIndication,
     shows_detail: u32,
     curve: [Vec4; 9],
 }
@@ -85,7 +85,7 @@ const CURVE: usize = 33;
 /// What strokes of one kind need to be as dark as asked.
 #[derive(Debug, Clone, PartialEq)]
 struct Table {
-    stroke: StrokeUniform,
+    stroke: GpuStroke,
     tones: Vec<f32>,
     greatest: f32,
 }
@@ -94,7 +94,7 @@ struct Table {
 static TABLES: Mutex<Vec<Table>> = Mutex::new(Vec::new());
 const MOST_TABLES: usize = 32;
 
-fn table_of(stroke: &StrokeUniform) -> Table {
+fn table_of(stroke: &GpuStroke) -> Table {
     let mut tables = TABLES.lock().unwrap_or_else(PoisonError::into_inner);
     if let Some(known) = tables.iter().find(|table| table.stroke == *stroke) {
         return known.clone();
@@ -111,7 +111,7 @@ fn table_of(stroke: &StrokeUniform) -> Table {
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Hatchings {
     /// By object id; empty when there are none.
-    styles: Vec<HatchingUniform>,
+    styles: Vec<GpuHatchingStyle>,
     tables: Vec<Table>,
     /// Maps of strokes that styles describe; their numbers follow those of the built-in ones.
     own: Vec<OwnMap>,
@@ -124,24 +124,24 @@ impl Hatchings {
         let style = &object.style.hatching;
         let request = request_of(object.scene, object.node, style, object.stripes);
         let place = request.and_then(|request| object.scene.stripe_place(&request));
-        let stroke = StrokeUniform::new(&style.stroke, object.scale);
+        let stroke = GpuStroke::new(&style.stroke, object.scale);
         let known = self.tables.iter().position(|table| table.stroke == stroke);
         let table = known.unwrap_or_else(|| {
             self.tables.push(table_of(&stroke));
             self.tables.len() - 1
         });
         let greatest = self.tables.get(table).map_or(1.0, |table| table.greatest);
-        let stroke = StrokeUniform { table: table as u32, ..stroke };
+        let stroke = GpuStroke { table: table as u32, ..stroke };
         let mapping = match style.mapping {
             Mapping::Uv if object.scene.has_uvs(object.node) => BY_UV,
             Mapping::Stripes | Mapping::Uv if place.is_some() => STRIPES,
             // Until stripes are found.
             Mapping::Stripes | Mapping::Uv | Mapping::Paper => ON_PAPER,
         };
-        let uniform = HatchingUniform {
+        let uniform = GpuHatchingStyle {
             strokes: self.number_of(style, style.set, object),
             strokes_in_shadow: self.number_of(style, style.shadows.set, object),
-            ..uniform(style, mapping, (stroke, greatest), object.scale, place)
+            ..uniform(style, mapping, stroke, greatest, object.scale, place)
         };
         if let Some(slot) = object.entry(&mut self.styles) {
             *slot = uniform;
@@ -183,13 +183,14 @@ impl Hatchings {
 fn uniform(
     style: &Hatching,
     mapping: u32,
-    (stroke, greatest): (StrokeUniform, f32),
+    stroke: GpuStroke,
+    greatest: f32,
     scale: f32,
     place: Option<StripePlace>,
-) -> HatchingUniform {
+) -> GpuHatchingStyle {
     let (layers, tone) = (&style.layers, &style.tone);
     let second = layers.second;
-    HatchingUniform {
+    GpuHatchingStyle {
         // Depends on the camera: see `placed`.
         local_from_view: Mat4::IDENTITY,
         ink: style.ink.to_linear(),
@@ -219,7 +220,7 @@ fn uniform(
         turn_step: style.turn_step.to_radians(),
         blends_steps: u32::from(style.blend_steps),
         towards_light: u32::from(style.direction == Direction::Light),
-        indication: IndicationUniform::new(&style.indication, scale),
+        indication: GpuIndication::new(&style.indication, scale),
         shows_detail: u32::from(style.shows_detail),
         curve: samples(&tone.curve),
     }
@@ -292,9 +293,9 @@ impl SurfaceTechnique for HatchingShading {
     }
 
     fn placed(styles: &Hatchings, scene: &GpuScene, view: &View) -> Hatchings {
-        let placed = |(id, style): (usize, &HatchingUniform)| {
+        let placed = |(id, style): (usize, &GpuHatchingStyle)| {
             let place = (style.frequency > 0.0).then(|| local_from_view(scene, id, view)).flatten();
-            HatchingUniform { local_from_view: place.unwrap_or(Mat4::IDENTITY), ..*style }
+            GpuHatchingStyle { local_from_view: place.unwrap_or(Mat4::IDENTITY), ..*style }
         };
         Hatchings { styles: styles.styles.iter().enumerate().map(placed).collect(), ..styles.clone() }
     }
@@ -381,8 +382,8 @@ impl SurfaceTechnique for HatchingShading {
     }
 
     fn bind<'a>(&'a self, shared: &'a SharedHatching, inputs: &mut Inputs<'a>) {
-        inputs.set("light_tones", &shared.sets.tones);
-        inputs.set("stroke_priorities", &shared.sets.priorities);
+        inputs.set("light_tones", shared.sets.tones.view());
+        inputs.set("stroke_priorities", shared.sets.priorities.view());
         inputs.set("tile_of_strokes", &shared.sets.sampler);
         let [triangles, vertices, patches] = match &self.records {
             Some(records) => records.each_ref().map(Some),

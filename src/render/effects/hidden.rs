@@ -16,10 +16,10 @@ use crate::render::base::frame_uniform::FrameUniform;
 use crate::render::base::group::Group;
 use crate::render::base::scene_view::SceneView;
 use crate::render::base::stage::{Output, Stage};
+use crate::render::passes::count::MOST_LAYERS;
 use crate::render::passes::edge_map::EdgeMap;
 use crate::render::passes::layers::Reported;
 use crate::render::passes::lines::{LineShader, lines};
-use crate::render::passes::peel::MOST_LAYERS;
 use crate::render::passes::traversal::GBufferPass;
 use crate::style;
 
@@ -44,7 +44,7 @@ struct Band {
 
 impl Hidden {
     /// Adds the hidden lines of an object, if it has any, in a scene with `count` object ids.
-    pub fn add(&mut self, (count, id): (usize, usize), style: EdgeUniform, hidden: &style::Hidden) {
+    pub fn add(&mut self, count: usize, id: usize, style: EdgeUniform, hidden: &style::Hidden) {
         if !style.is_exact() && !style.is_paper() {
             return;
         }

@@ -12,13 +12,13 @@ use crate::render::base::frame_uniform::FrameUniform;
 use crate::render::base::group::Group;
 use crate::render::base::instances::{DrawCall, Instance};
 use crate::render::base::scene_view::SceneView;
+use crate::render::passes::count::LayerCount;
 use crate::render::passes::designated::Uncover;
 use crate::render::passes::layer_report::LayerReport;
 use crate::render::passes::layers::{
     DrawnLayer, LayerEdges, LayerInputs, LayerLines, LayerLinesInputs, LayerMethod, Layers, Reported,
 };
 use crate::render::passes::lines::Lines;
-use crate::render::passes::peel::LayerCount;
 use crate::render::passes::segments::Segments;
 use crate::render::passes::traversal::GBufferPass;
 

@@ -6,7 +6,7 @@ use std::sync::{Arc, OnceLock};
 use encase::ShaderType;
 
 use super::technique::{Styled, SurfaceTechnique};
-use crate::gpu::{ArrayBuffer, Gpu, Inputs};
+use crate::gpu::{ArrayBuffer, Gpu, ImageArray, Inputs};
 use crate::render::base::error::RenderError;
 use crate::render::base::style_images::StyleImages;
 use crate::scene::Texture;
@@ -17,9 +17,11 @@ use crate::style::matcap::Sphere;
 /// Texels per side of a sphere.
 const SIDE: u32 = 512;
 
+const SPHERES: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
+
 /// Twin of `MatcapStyle` in `shaders/effects/matcap.wgsl`.
 #[derive(Debug, Clone, Copy, PartialEq, ShaderType, Default)]
-pub struct MatcapUniform {
+pub struct GpuMatcapStyle {
     own_color: f32,
     shadow: f32,
     sphere: u32,
@@ -33,7 +35,7 @@ struct SpherePicture(Vec<u8>);
 #[derive(Clone, Default)]
 pub struct Matcaps {
     /// By object id; empty when there are none.
-    styles: Vec<MatcapUniform>,
+    styles: Vec<GpuMatcapStyle>,
     /// Their spheres, by number.
     spheres: Vec<Arc<SpherePicture>>,
 }
@@ -51,7 +53,7 @@ impl PartialEq for Matcaps {
 /// The spheres on the device: those that the visible objects use.
 pub struct Spheres {
     uploaded: Vec<Arc<SpherePicture>>,
-    view: wgpu::TextureView,
+    images: ImageArray,
     sampler: wgpu::Sampler,
 }
 
@@ -67,7 +69,7 @@ impl SurfaceTechnique for MatcapShading {
     fn shared(gpu: &Gpu) -> Spheres {
         Spheres {
             uploaded: Vec::new(),
-            view: upload(gpu, 1, &[]),
+            images: ImageArray::none(gpu, SPHERES),
             sampler: gpu.device.create_sampler(&wgpu::SamplerDescriptor {
                 label: Some("spheres"),
                 mag_filter: wgpu::FilterMode::Linear,
@@ -95,7 +97,7 @@ impl SurfaceTechnique for MatcapShading {
         });
         if let Some(entry) = object.entry(&mut matcaps.styles) {
             *entry =
-                MatcapUniform { own_color: style.own_color, shadow: style.shadow, sphere: number as u32 };
+                GpuMatcapStyle { own_color: style.own_color, shadow: style.shadow, sphere: number as u32 };
         }
     }
 
@@ -119,7 +121,11 @@ impl SurfaceTechnique for MatcapShading {
             && shared.uploaded.iter().zip(&matcaps.spheres).all(same);
         if !is_there {
             gpu.check_texture_size("a sphere", [SIDE; 2])?;
-            shared.view = upload(gpu, SIDE, &matcaps.spheres);
+            let count = matcaps.spheres.len() as u32;
+            shared.images = ImageArray::new(gpu, "spheres", SPHERES, SIDE, count, 1);
+            for (number, sphere) in (0..).zip(&matcaps.spheres) {
+                shared.images.write(gpu, number, 0, &sphere.0);
+            }
             shared.uploaded.clone_from(&matcaps.spheres);
         }
         Ok(())
@@ -127,7 +133,7 @@ impl SurfaceTechnique for MatcapShading {
 
     fn bind<'a>(&'a self, shared: &'a Spheres, inputs: &mut Inputs<'a>) {
         inputs.set("matcap_styles", self.styles.buffer());
-        inputs.set("spheres", &shared.view);
+        inputs.set("spheres", shared.images.view());
         inputs.set("sphere_sampler", &shared.sampler);
     }
 }
@@ -168,42 +174,6 @@ fn built_in(sphere: Sphere) -> Arc<SpherePicture> {
         Arc::new(SpherePicture(if is_whole { image.into_raw() } else { gray() }))
     };
     Arc::clone(SPHERES[number].get_or_init(read))
-}
-
-/// A texture with a layer for each sphere, at least one.
-fn upload(gpu: &Gpu, side: u32, spheres: &[Arc<SpherePicture>]) -> wgpu::TextureView {
-    let layers = spheres.len().max(1) as u32;
-    let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
-        label: Some("spheres"),
-        size: wgpu::Extent3d { width: side, height: side, depth_or_array_layers: layers },
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format: wgpu::TextureFormat::Rgba8UnormSrgb,
-        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
-        view_formats: &[],
-    });
-    for (layer, sphere) in (0..).zip(spheres) {
-        gpu.queue.write_texture(
-            wgpu::TexelCopyTextureInfo {
-                texture: &texture,
-                mip_level: 0,
-                origin: wgpu::Origin3d { x: 0, y: 0, z: layer },
-                aspect: wgpu::TextureAspect::All,
-            },
-            &sphere.0,
-            wgpu::TexelCopyBufferLayout {
-                offset: 0,
-                bytes_per_row: Some(side * 4),
-                rows_per_image: Some(side),
-            },
-            wgpu::Extent3d { width: side, height: side, depth_or_array_layers: 1 },
-        );
-    }
-    texture.create_view(&wgpu::TextureViewDescriptor {
-        dimension: Some(wgpu::TextureViewDimension::D2Array),
-        ..Default::default()
-    })
 }
 
 #[cfg(test)]

@@ -6,7 +6,7 @@ use glam::{DVec3, Vec3};
 
 use crate::geometry::{Bounds, Plane};
 use crate::gpu::recorder::{Draw, Onto};
-use crate::gpu::{Program, Recorder, Target, inputs};
+use crate::gpu::{Program, Recorder, Target, UniformBuffer, inputs};
 use crate::render::base::error::RenderError;
 use crate::render::base::view::View;
 use crate::style;
@@ -14,7 +14,7 @@ use crate::style::mirror::Side;
 
 /// A flat object with the role mirror.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Mirror {
+pub struct MirrorObject {
     /// Its object id.
     pub object: u32,
     /// Where it lies, world space.
@@ -34,7 +34,7 @@ pub struct MirrorUniform {
     object: u32,
 }
 
-impl Mirror {
+impl MirrorObject {
     /// A mirror in the plane of an object with this box around it.
     pub fn new(object: u32, plane: Plane, corners: [DVec3; 8], style: &style::Mirror) -> Self {
         let uniform = MirrorUniform {
@@ -79,7 +79,7 @@ impl Mirror {
 }
 
 /// Lays what is seen in a mirror over its surface, where that is in front of the opaque `surfaces` (see
-/// `shaders/common/gbuffer.wgsl`). `uniform`: an array of one [`MirrorUniform`].
+/// `shaders/common/gbuffer.wgsl`). `uniform`: the mirror.
 ///
 /// # Errors
 /// [`RenderError`].
@@ -87,13 +87,13 @@ pub fn mirror(
     rec: &mut Recorder<'_>,
     surfaces: &Target,
     reflection: &Target,
-    uniform: &wgpu::Buffer,
+    uniform: &UniformBuffer<MirrorUniform>,
     color: &Target,
 ) -> Result<(), RenderError> {
     rec.draw(Draw {
         label: "mirror",
         program: Program::new("effects/mirror.wgsl", "fs_main"),
-        inputs: &inputs! { geometry_tex: surfaces, reflection_tex: reflection, mirrors: uniform },
+        inputs: &inputs! { geometry_tex: surfaces, reflection_tex: reflection, mirror: uniform },
         outputs: &[color],
         onto: Onto::Over,
         depth: None,

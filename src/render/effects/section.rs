@@ -19,7 +19,7 @@ const PATTERNS: [(f64, f32); 6] = [(0.0, 1.0), (90.0, 1.0), (0.0, 0.6), (90.0, 0
 
 /// Twin of `Cap` in `shaders/common/cap.wgsl`.
 #[derive(Debug, Clone, Copy, PartialEq, ShaderType, Default)]
-pub struct CapUniform {
+pub struct GpuCap {
     fill: Vec3,
     surface_id: u32,
     ink: Vec3,
@@ -31,7 +31,7 @@ pub struct CapUniform {
 }
 
 /// The caps of a scene by object id, for a view with this many pixels per reference pixel; empty when there are none.
-pub fn caps(scene: &GpuScene, view: &View, scale: f32) -> Vec<CapUniform> {
+pub fn caps(scene: &GpuScene, view: &View, scale: f32) -> Vec<GpuCap> {
     let Some(section) = scene.section.as_ref().filter(|section| section.has_caps()) else {
         return Vec::new();
     };
@@ -39,17 +39,17 @@ pub fn caps(scene: &GpuScene, view: &View, scale: f32) -> Vec<CapUniform> {
     let patterns = PATTERNS.map(|(turn, spacing)| cap_pattern(section, view, scale, turn, spacing));
     let cap = |node| {
         let Some(cap) = section.sectioned(node).and_then(|sectioned| sectioned.cap) else {
-            return CapUniform::default();
+            return GpuCap::default();
         };
         let surface_id = surface_id(object_id(node), cap.surface);
-        CapUniform { surface_id, ..patterns[cap.pattern as usize % PATTERNS.len()] }
+        GpuCap { surface_id, ..patterns[cap.pattern as usize % PATTERNS.len()] }
     };
     // Entry 0 is the background.
-    std::iter::once(CapUniform::default()).chain(nodes.map(cap)).collect()
+    std::iter::once(GpuCap::default()).chain(nodes.map(cap)).collect()
 }
 
 /// One kind of hatching as a view sees it: lines that run in the plane, at the same distance everywhere in the picture.
-fn cap_pattern(section: &Section, view: &View, scale: f32, turn: f64, wider: f32) -> CapUniform {
+fn cap_pattern(section: &Section, view: &View, scale: f32, turn: f64, wider: f32) -> GpuCap {
     let style = &section.style;
     let hatch = &style.hatch;
     let (plane, right) = section.place();
@@ -60,7 +60,7 @@ fn cap_pattern(section: &Section, view: &View, scale: f32, turn: f64, wider: f32
     let spacing = hatch.spacing * scale * wider;
     let is_seen = view.orthographic || -anchor.z > view.clip_range[0];
     let at = if is_seen { view.projector().pixel(anchor).dot(across) } else { 0.0 };
-    CapUniform {
+    GpuCap {
         fill: style.color.to_linear(),
         surface_id: 0,
         ink: hatch.color.to_linear(),
@@ -83,7 +83,7 @@ fn across(view: &View, at: DVec3, along: DVec3) -> DVec2 {
     DVec2::new(seen.y, seen.x).normalize_or(DVec2::X)
 }
 
-/// Draws the caps over the surfaces. `caps`: an array of [`CapUniform`] by object id.
+/// Draws the caps over the surfaces. `caps`: an array of [`GpuCap`] by object id.
 ///
 /// # Errors
 /// [`RenderError`].

@@ -12,41 +12,37 @@
 mod group;
 mod images;
 mod ink;
+mod noise;
+mod placing;
 mod uniforms;
 
-pub use self::group::Sketch;
+pub use self::group::SketchGroup;
+use self::images::SketchImages;
 pub use self::images::prepare_image;
-use self::images::{Prepared, SketchImages};
-use self::ink::{Moved, SketchPass};
+use self::ink::{MovedLines, SketchPasses};
+use self::noise::{NoiseInputs, SketchNoise};
+use self::placing::{Fetched, Placed, Placing};
 pub use self::uniforms::field;
 use self::uniforms::{SketchObject, SketchUniform};
 use super::opaque::{OpaqueInputs, OpaqueLayer, Surfaces};
 use super::surface::{Look, Shading};
 use super::techniques::SharedTechniques;
-use crate::gpu::recorder::{Draw, Onto};
-use crate::gpu::{
-    ArrayBuffer, DepthRule, Gpu, Inputs, Program, Recorder, STENCIL, Target, UniformBuffer, inputs,
-};
+use crate::gpu::{ArrayBuffer, Gpu, Recorder, Target, UniformBuffer, inputs};
 use crate::render::base::edge_style::EdgeUniform;
 use crate::render::base::error::RenderError;
 use crate::render::base::frame_uniform::FrameUniform;
 use crate::render::base::instances::{Instance, InstanceBuffer};
 use crate::render::base::scene_view::SceneView;
 use crate::render::base::stage::{Output, Stage};
-use crate::render::passes::composition::{Composition, PLACED};
+use crate::render::passes::composition::Composition;
 use crate::render::passes::edge_map::EdgeMap;
 use crate::render::passes::gbuffer::GBuffer;
 use crate::render::passes::layers::Reported;
 use crate::render::passes::line_distance::nearest_lines;
-use crate::render::passes::moved_edges::MovedEdgesPass;
-use crate::render::passes::offset_field::{
-    FieldBuffers, FieldUniform, LineField, LineFieldPass, NoiseSource, ObjectUniform, fill_field,
-    nearest_surfaces,
-};
+use crate::render::passes::offset_field::NoiseSource;
 use crate::render::passes::shadows::ShadowMap;
 use crate::render::passes::traversal::GBufferPass;
 use crate::style;
-use crate::style::sketch::{DepthRule as StyleDepth, Tone};
 
 /// What sketches of all cameras share.
 pub struct SharedSketches {
@@ -76,21 +72,13 @@ pub struct SketchInputs<'a> {
     /// The scene as the camera sees it.
     pub scene_view: SceneView<'a>,
     /// What is drawn.
-    pub sketch: &'a Sketch,
+    pub sketch: &'a SketchGroup,
     /// All that is in bind group 0.
     pub uniform: &'a FrameUniform,
     /// How surfaces look.
     pub look: &'a Look,
     /// The maps of the lights that throw shadows, by channel.
     pub shadow_maps: &'a [ShadowMap],
-}
-
-/// What has been placed: all that is opaque so far.
-#[derive(Debug, Clone)]
-struct Placed {
-    geometry: Target,
-    color: Target,
-    ink: Option<Target>,
 }
 
 /// What the color of the surfaces depends on.
@@ -103,27 +91,6 @@ struct ShadeKey {
     look: Look,
     uniform: FrameUniform,
     blends: bool,
-}
-
-/// What noise depends on.
-#[derive(PartialEq)]
-struct FieldKey {
-    /// Lines or surfaces, and the geometry that noise follows.
-    of: [u64; 2],
-    field: FieldUniform,
-    objects: Vec<ObjectUniform>,
-    uniform: FrameUniform,
-}
-
-impl FieldKey {
-    /// That of noise which is of the same field, by what it is of.
-    fn of(
-        field: FieldUniform,
-        objects: &[ObjectUniform],
-        uniform: &FrameUniform,
-    ) -> impl Fn([u64; 2]) -> Self {
-        move |of| Self { of, field, objects: objects.to_vec(), uniform: uniform.without_background() }
-    }
 }
 
 /// What is placed depends on this.
@@ -159,29 +126,11 @@ pub struct SketchState {
     near_lines: Stage<(u64, u32), Target>,
     enlarged: Stage<(u64, f32), GBuffer>,
     instance_buffer: InstanceBuffer,
-    nearest_surfaces: Stage<(u64, u32), Target>,
-    field: UniformBuffer<FieldUniform>,
-    field_objects: ArrayBuffer,
-    line_field_pass: LineFieldPass,
-    line_field: Stage<FieldKey, LineField>,
-    fill_field: Stage<FieldKey, Target>,
-    moved_pass: MovedEdgesPass,
-    passes: Vec<SketchPass>,
+    noise: SketchNoise,
+    passes: SketchPasses,
     uniform: UniformBuffer<SketchUniform>,
     objects: ArrayBuffer,
     placed: Stage<PlaceKey, Placed>,
-}
-
-/// What is fetched from, drawn.
-struct Fetched<'a> {
-    surfaces: &'a Surfaces,
-    color: Output<Target>,
-    edges: Option<Output<EdgeMap>>,
-    near_lines: Option<Output<Target>>,
-    hidden: Option<Output<Target>>,
-    /// By pass; empty: there are no exact lines.
-    moved: Vec<Moved>,
-    fill_field: Output<Target>,
 }
 
 impl SketchState {
@@ -195,14 +144,8 @@ impl SketchState {
             near_lines: Stage::default(),
             enlarged: Stage::default(),
             instance_buffer: InstanceBuffer::new(gpu),
-            nearest_surfaces: Stage::default(),
-            field: UniformBuffer::new(gpu, "offset field"),
-            field_objects: ArrayBuffer::new(gpu, "objects of an offset field"),
-            line_field_pass: LineFieldPass::new(gpu),
-            line_field: Stage::default(),
-            fill_field: Stage::default(),
-            moved_pass: MovedEdgesPass::new(gpu),
-            passes: Vec::new(),
+            noise: SketchNoise::new(gpu),
+            passes: SketchPasses::new(gpu),
             uniform: UniformBuffer::new(gpu, "sketch"),
             objects: ArrayBuffer::new(gpu, "objects of a sketch"),
             placed: Stage::default(),
@@ -213,8 +156,8 @@ impl SketchState {
     pub fn runs(&self) -> Vec<(&'static str, u64)> {
         let mut runs = self.layer.runs().to_vec();
         runs.extend([
-            ("moved edges", self.passes.iter().map(SketchPass::runs).sum()),
-            ("noise", self.line_field.runs() + self.fill_field.runs()),
+            ("moved edges", self.passes.runs()),
+            ("noise", self.noise.runs()),
             ("sketch", self.placed.runs()),
         ]);
         runs
@@ -252,13 +195,19 @@ impl SketchState {
         let images = shared.images.prepare(rec.gpu, noise, paper)?;
         let (field_objects, objects) = sketch.objects(&scene_view);
         let enlarged = self.enlarge(rec, pass, inputs, &surfaces)?;
-        let key = FieldKey::of(sketch.field(), &field_objects, uniform);
-        self.field.write(rec.gpu, &sketch.field());
-        self.field_objects.write(rec.gpu, &field_objects);
-        let moved =
-            self.move_lines(rec, sketch, edges.as_ref(), (&surfaces, enlarged.as_ref()), &images, &key)?;
-        let fill_field =
-            self.fill_field(rec, sketch, enlarged.as_ref().unwrap_or(&surfaces.gbuffer), &key)?;
+        let noise = NoiseInputs { sketch, objects: &field_objects, uniform };
+        self.noise.write(rec.gpu, &noise);
+        let source = if sketch.is_on_screen() {
+            Output { value: NoiseSource::Tile(images.tile), revision: images.revision }
+        } else if let Some(Output { value, revision }) = &enlarged {
+            Output { value: NoiseSource::Enlarged(value), revision: *revision }
+        } else {
+            let Output { value, revision } = &surfaces.gbuffer;
+            Output { value: NoiseSource::Lines(value), revision: *revision }
+        };
+        let moved = self.move_lines(rec, &noise, edges.as_ref(), &source)?;
+        let followed = enlarged.as_ref().unwrap_or(&surfaces.gbuffer);
+        let fill_field = self.noise.of_surfaces(rec, &noise, followed)?;
         let near_lines = self.near_lines(rec, sketch, edges.as_ref())?;
         let lays_ink = is_last && composition.ink.is_none();
         let key = PlaceKey {
@@ -287,7 +236,6 @@ impl SketchState {
             Fetched { surfaces: &surfaces, color: shaded, edges, near_lines, hidden, moved, fill_field };
         // Ink that is there is placed anew once.
         let count = if fetched.edges.is_some() { sketch.passes().len() } else { 1 };
-        self.passes.resize_with(count.max(self.passes.len()), || SketchPass::new(rec.gpu));
         let Self { layer, uniform, objects, placed, passes, .. } = self;
         let placed = placed.run(key, |key| {
             uniform.write(rec.gpu, &key.sketch);
@@ -299,7 +247,7 @@ impl SketchState {
                 paper: images.paper,
                 tile_sampler: images.sampler,
             };
-            let numbers: Vec<_> = (0..count).zip(passes).map(|(i, pass)| pass.number(rec.gpu, i)).collect();
+            let numbers = passes.numbers(rec.gpu, count);
             let before = &color.value;
             let drawing = Placing { sketch, layer, fetched: &fetched, composition, before, own, numbers };
             drawing.place(rec, lays_ink)
@@ -314,61 +262,18 @@ impl SketchState {
     fn move_lines(
         &mut self,
         rec: &mut Recorder<'_>,
-        sketch: &Sketch,
+        noise: &NoiseInputs<'_>,
         edges: Option<&Output<EdgeMap>>,
-        (surfaces, enlarged): (&Surfaces, Option<&Output<GBuffer>>),
-        images: &Prepared<'_>,
-        key: &impl Fn([u64; 2]) -> FieldKey,
-    ) -> Result<Vec<Moved>, RenderError> {
+        source: &Output<NoiseSource<'_>>,
+    ) -> Result<Vec<MovedLines>, RenderError> {
         let spines = edges.and_then(|edges| Some((edges, edges.value.spines.as_ref()?)));
         let Some((edges, spines)) = spines else {
-            self.line_field.clear();
-            self.passes.iter_mut().for_each(SketchPass::forget);
+            self.noise.forget_lines();
+            self.passes.forget();
             return Ok(Vec::new());
         };
-        let (source, revision) = if sketch.is_on_screen() {
-            (NoiseSource::Tile(images.tile), images.revision)
-        } else if let Some(enlarged) = enlarged {
-            (NoiseSource::Enlarged(&enlarged.value), enlarged.revision)
-        } else {
-            (NoiseSource::Lines(&surfaces.gbuffer.value), surfaces.gbuffer.revision)
-        };
-        let buffers = FieldBuffers { field: self.field.buffer(), objects: self.field_objects.buffer() };
-        let pass = &mut self.line_field_pass;
-        let count = sketch.passes().len();
-        let field = self.line_field.run(key([edges.revision, revision]), |_| {
-            pass.compact(rec, spines)?;
-            pass.run(rec, buffers, &edges.value.edges, source, count as u32)
-        })?;
-        rec.note("noise of lines", Some(&field.value.first));
-        self.passes.truncate(count);
-        self.passes.resize_with(count, || SketchPass::new(rec.gpu));
-        let Self { passes, moved_pass, line_field_pass, .. } = self;
-        let pixels = line_field_pass.pixels();
-        let all = passes.iter_mut().enumerate();
-        all.map(|(number, pass)| pass.run(rec, moved_pass, (sketch, number), (edges, spines), &field, pixels))
-            .collect()
-    }
-
-    /// Noise of the nearest surface around each block.
-    fn fill_field(
-        &mut self,
-        rec: &mut Recorder<'_>,
-        sketch: &Sketch,
-        followed: &Output<GBuffer>,
-        key: &impl Fn([u64; 2]) -> FieldKey,
-    ) -> Result<Output<Target>, RenderError> {
-        // Ink of the papers' operators follows surfaces too.
-        let [lines, fill] = uniforms::bands(&sketch.style, sketch.scale);
-        let band = lines.max(fill);
-        let geometry = &followed.value.geometry;
-        let nearest = self
-            .nearest_surfaces
-            .run((followed.revision, band as u32), |_| nearest_surfaces(rec, geometry, band))?;
-        let buffers = FieldBuffers { field: self.field.buffer(), objects: self.field_objects.buffer() };
-        self.fill_field.run(key([nearest.revision, followed.revision]), |_| {
-            fill_field(rec, buffers, geometry, &nearest.value)
-        })
+        let field = self.noise.of_lines(rec, noise, edges, spines, source)?;
+        self.passes.run(rec, noise.sketch, edges, spines, &field, self.noise.line_pixels())
     }
 
     /// The surfaces enlarged along their normals, where the noise beyond outlines follows them.
@@ -434,7 +339,7 @@ impl SketchState {
     fn near_lines(
         &mut self,
         rec: &mut Recorder<'_>,
-        sketch: &Sketch,
+        sketch: &SketchGroup,
         edges: Option<&Output<EdgeMap>>,
     ) -> Result<Option<Output<Target>>, RenderError> {
         let distance = uniforms::smudged(&sketch.style, sketch.scale);
@@ -446,159 +351,5 @@ impl SketchState {
         let radius = &mut self.near_radius;
         let key = (revision, distance.ceil() as u32);
         self.near_lines.run(key, |_| nearest_lines(rec, spines, distance.ceil(), radius)).map(Some)
-    }
-}
-
-/// A sketch while it is being placed.
-struct Placing<'a> {
-    sketch: &'a Sketch,
-    layer: &'a OpaqueLayer,
-    fetched: &'a Fetched<'a>,
-    composition: &'a Composition,
-    before: &'a Target,
-    /// Of the sketch itself.
-    own: Inputs<'a>,
-    /// Numbers of its passes.
-    numbers: Vec<&'a wgpu::Buffer>,
-}
-
-impl Placing<'_> {
-    /// Places color, then ink: over the color if it `lays_ink`.
-    fn place(&self, rec: &mut Recorder<'_>, lays_ink: bool) -> Result<Placed, RenderError> {
-        let Self { composition, before, .. } = *self;
-        let [geometry, color] = [&composition.surfaces.value, before].map(|target| target.format());
-        let geometry = rec.target("geometry with sketch", geometry)?;
-        let color = rec.target("color with sketch", color)?;
-        self.place_color(rec, &geometry, &color)?;
-        let ink = if self.fetched.edges.is_none() && composition.ink.is_none() {
-            None
-        } else if lays_ink {
-            for number in 0..self.numbers.len() {
-                self.draw_ink(rec, number, (&geometry, None), (&color, "fs_lay_ink", Onto::Over))?;
-            }
-            None
-        } else {
-            let mut before = composition.ink.as_ref().map(|ink| ink.value.clone());
-            for number in 0..self.numbers.len() {
-                let ink = rec.target("ink with sketch", PLACED)?;
-                self.draw_ink(rec, number, (&geometry, before.as_ref()), (&ink, "fs_ink", Onto::Clear))?;
-                before = Some(ink);
-            }
-            before
-        };
-        Ok(Placed { geometry, color, ink })
-    }
-
-    /// What color and ink read.
-    fn inputs(&self) -> Inputs<'_> {
-        let Self { fetched, composition, .. } = self;
-        self.own.clone().and(&composition.tested()).and(&inputs! {
-            geometry_tex: &fetched.surfaces.gbuffer.value.geometry,
-            fill_field_tex: &fetched.fill_field.value,
-        })
-    }
-
-    fn switches(&self) -> Vec<(&'static str, bool)> {
-        let Self { sketch, fetched, composition, .. } = self;
-        let style = &sketch.style;
-        let mut switches = vec![
-            ("ON_SCREEN", sketch.is_on_screen()),
-            ("ENLARGED", sketch.is_enlarged()),
-            ("WITH_NEARER", style.wander.depth == StyleDepth::Nearer),
-            ("WITH_GRAIN", style.grain.amount > 0.0),
-            ("WITH_ROUGHNESS", style.grain.roughness > 0.0),
-            ("WITH_STROKES", style.fill.strokes > 0.0),
-            ("WITH_PRESSURE", style.wander.pressure > 0.0),
-            ("WITH_DARKNESS", style.fill.tone == Tone::Darkness),
-            ("WITH_SMUDGE", fetched.near_lines.is_some()),
-            ("WITH_OPACITY", sketch.blends),
-            ("WITH_HIDDEN", fetched.hidden.is_some()),
-        ];
-        switches.extend(composition.switches());
-        switches
-    }
-
-    fn place_color(
-        &self,
-        rec: &mut Recorder<'_>,
-        geometry: &Target,
-        color: &Target,
-    ) -> Result<(), RenderError> {
-        let Self { fetched, composition, before, .. } = self;
-        let inputs = self.inputs().and(&inputs! {
-            shaded_tex: &fetched.color.value,
-            hidden_tex: fetched.hidden.as_ref().map(|hidden| &hidden.value),
-            near_line_tex: fetched.near_lines.as_ref().map(|near| &near.value),
-            before_tex: *before,
-        });
-        let onto = if composition.has_surfaces {
-            rec.copy(&composition.surfaces.value, geometry);
-            rec.copy(before, color);
-            Onto::Load
-        } else {
-            Onto::Clear
-        };
-        let filled = rec.target("covered by color", STENCIL)?;
-        rec.draw(Draw {
-            label: "sketched color",
-            program: Program {
-                file: "effects/sketch.wgsl",
-                entry_point: "fs_fill",
-                switches: self.switches(),
-            },
-            inputs: &inputs,
-            outputs: &[geometry, color],
-            onto,
-            depth: Some((&filled, DepthRule::Where("fs_filled"))),
-        })?;
-        Ok(())
-    }
-
-    /// Draws the ink of a pass, with that `before` it.
-    fn draw_ink(
-        &self,
-        rec: &mut Recorder<'_>,
-        number: usize,
-        (geometry, before): (&Target, Option<&Target>),
-        (output, entry_point, onto): (&Target, &'static str, Onto),
-    ) -> Result<(), RenderError> {
-        let Self { sketch, layer, fetched, .. } = self;
-        let moved = fetched.moved.get(number);
-        let edges = moved.map(|moved| moved.edges.edge_map());
-        let edges = edges.as_ref().or(fetched.edges.as_ref().map(|edges| &edges.value));
-        let mut inputs = self.inputs();
-        let mut switches = self.switches();
-        if let Some(edges) = edges {
-            let line_distance = moved.map(|moved| &moved.line_distance.value);
-            let lines = layer.lines(&sketch.group, fetched.surfaces, edges, line_distance);
-            inputs.extend(&lines.inputs());
-            switches.extend(lines.switches());
-        } else {
-            // What is new hides ink that is there.
-            switches.extend([("WITH_PAPER", false), ("WITH_EXACT", false)]);
-        }
-        inputs.extend(&inputs! {
-            pass_number: self.numbers[number],
-            paper_map_tex: fetched.edges.as_ref().map(|edges| &edges.value.edges),
-            source_tex: moved.map(|moved| &moved.edges.sources),
-            filled_tex: geometry,
-            opaque_ink_tex: before,
-        });
-        switches.retain(|(name, _)| *name != "WITH_OPAQUE_INK");
-        switches.extend([
-            ("MOVED", true),
-            ("WITH_OPAQUE_INK", before.is_some()),
-            ("BEFORE_IS_OTHER", number == 0),
-        ]);
-        let inked = rec.target("covered by ink", STENCIL)?;
-        rec.draw(Draw {
-            label: "sketched ink",
-            program: Program { file: "effects/sketch.wgsl", entry_point, switches },
-            inputs: &inputs,
-            outputs: &[output],
-            onto,
-            depth: Some((&inked, DepthRule::Where("fs_inked"))),
-        })?;
-        Ok(())
     }
 }

@@ -5,7 +5,7 @@
 use encase::ShaderType;
 use glam::Vec3;
 
-use super::section::{CapUniform, draw_caps};
+use super::section::{GpuCap, draw_caps};
 use super::technique::{Shaded, Styled};
 use super::techniques::{SharedTechniques, TechniqueStyles, Techniques};
 use crate::gpu::{ArrayBuffer, Gpu, Program, Recorder, Target, inputs};
@@ -17,13 +17,13 @@ use crate::style::{Style, Technique};
 
 /// Twin of `SurfaceStyle` in `shaders/effects/surface.wgsl`; by default paper only.
 #[derive(Debug, Clone, Copy, PartialEq, ShaderType, Default)]
-pub struct SurfaceUniform {
+pub struct GpuSurfaceStyle {
     highlight: Vec3,
     ambient: f32,
     technique: u32,
 }
 
-impl SurfaceUniform {
+impl GpuSurfaceStyle {
     fn new(style: &Style) -> Self {
         Self {
             highlight: style.blueprint.highlight.to_linear(),
@@ -38,7 +38,7 @@ impl SurfaceUniform {
 #[derive(Clone, PartialEq, Default)]
 pub struct SurfaceStyles {
     /// By object id.
-    surfaces: Vec<SurfaceUniform>,
+    surfaces: Vec<GpuSurfaceStyle>,
     /// What their techniques ask for.
     techniques: TechniqueStyles,
 }
@@ -46,13 +46,13 @@ pub struct SurfaceStyles {
 impl SurfaceStyles {
     /// Nothing of a scene with so many object ids: what is not drawn, entry 0 (the background) included, is paper.
     pub fn new(count: usize) -> Self {
-        Self { surfaces: vec![SurfaceUniform::default(); count], techniques: TechniqueStyles::default() }
+        Self { surfaces: vec![GpuSurfaceStyle::default(); count], techniques: TechniqueStyles::default() }
     }
 
     /// Adds an object.
     pub fn add(&mut self, object: &Styled<'_>) {
         if let Some(surface) = object.entry(&mut self.surfaces) {
-            *surface = SurfaceUniform::new(object.style);
+            *surface = GpuSurfaceStyle::new(object.style);
         }
         self.techniques.add(object);
     }
@@ -63,7 +63,7 @@ impl SurfaceStyles {
 pub struct Look {
     styles: SurfaceStyles,
     /// The caps of a section by object id; empty when there are none.
-    caps: Vec<CapUniform>,
+    caps: Vec<GpuCap>,
 }
 
 /// What of shading lives across frames, for one camera.
@@ -162,12 +162,12 @@ impl Look {
     }
 
     /// The caps of a section by object id; empty when there are none.
-    pub fn caps(&self) -> &Vec<CapUniform> {
+    pub fn caps(&self) -> &Vec<GpuCap> {
         &self.caps
     }
 
     /// How objects of these styles look to a camera, with these caps.
-    pub fn new(styles: &SurfaceStyles, scene_view: &SceneView<'_>, caps: Vec<CapUniform>) -> Self {
+    pub fn new(styles: &SurfaceStyles, scene_view: &SceneView<'_>, caps: Vec<GpuCap>) -> Self {
         let techniques = styles.techniques.placed(scene_view.scene, scene_view.view);
         Self { styles: SurfaceStyles { surfaces: styles.surfaces.clone(), techniques }, caps }
     }

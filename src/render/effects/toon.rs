@@ -23,7 +23,7 @@ const BANDS: wgpu::TextureFormat = wgpu::TextureFormat::R16Uint;
 
 /// Twin of `ToonStyle` in `shaders/effects/toon.wgsl`.
 #[derive(Debug, Clone, Copy, PartialEq, ShaderType, Default)]
-pub struct ToonUniform {
+pub struct GpuToonStyle {
     rim_color: Vec3,
     rim: f32,
     highlight: f32,
@@ -45,7 +45,7 @@ const ANALYTIC: u32 = 3;
 /// Beyond any cosine.
 const NOWHERE: f32 = 2.0;
 
-impl ToonUniform {
+impl GpuToonStyle {
     fn new(toon: &Toon, first_band: u32, bands: u32) -> Self {
         let start = toon.start;
         // A ramp that ends where it begins is one step there.
@@ -80,7 +80,7 @@ impl ToonUniform {
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Toons {
     /// By object id.
-    pub styles: Vec<ToonUniform>,
+    pub styles: Vec<GpuToonStyle>,
     /// The bands of all ramps, one after the other: linear colors from shadow to light.
     pub bands: Vec<Vec4>,
     /// Few differ, however many objects there are.
@@ -89,11 +89,11 @@ pub struct Toons {
 
 /// An image as a ramp: linear colors along its longer side, from the left or the top, each the mean across the other side; at
 /// most [`MAX_RAMP`].
-struct Ramp(Vec<Vec4>);
+struct RampColors(Vec<Vec4>);
 
-fn ramp(image: &Texture) -> Ramp {
+fn ramp(image: &Texture) -> RampColors {
     let size = if image.width >= image.height { [MAX_RAMP, 1] } else { [1, MAX_RAMP] };
-    Ramp(image.averaged(size))
+    RampColors(image.averaged(size))
 }
 
 /// A ramp among [`Toons::bands`].
@@ -113,9 +113,9 @@ impl Toons {
             Some(known) => [known.first_band, known.bands],
             None => self.place_ramp(toon, images),
         };
-        self.styles.resize(count, ToonUniform::default());
+        self.styles.resize(count, GpuToonStyle::default());
         if let Some(style) = self.styles.get_mut(object) {
-            *style = ToonUniform::new(toon, first_band, bands);
+            *style = GpuToonStyle::new(toon, first_band, bands);
         }
     }
 
@@ -195,7 +195,7 @@ impl SurfaceTechnique for ToonShading {
         toons: &Toons,
         layer: &Shaded<'_>,
     ) -> Result<(), RenderError> {
-        let is_asked_for = toons.styles.iter().any(ToonUniform::has_cartoon_map);
+        let is_asked_for = toons.styles.iter().any(GpuToonStyle::has_cartoon_map);
         let styles = self.styles.buffer();
         let mut draw = || cartoon_map(rec, layer.gbuffer, styles, layer.shadow_mask.map(|(mask, _)| mask));
         self.map = match layer.revision {

@@ -3,9 +3,9 @@
 //! are put in order by depth, pixel by pixel.
 
 use super::blended::{BlendedShading, place_blended};
-use super::blueprint::{Blueprint, BlueprintBuffers, BlueprintInputs, place_blueprint};
+use super::blueprint::{BlueprintBuffers, BlueprintGroup, BlueprintInputs, place_blueprint};
 use super::layered::{Layered, LayeredGroup};
-use super::section::CapUniform;
+use super::section::GpuCap;
 use super::surface::Look;
 use crate::gpu::{Gpu, Recorder, Target};
 use crate::render::base::error::RenderError;
@@ -28,7 +28,7 @@ pub struct TranslucentGroups<'a> {
     /// What blends.
     pub blended: &'a Group,
     /// The blueprints.
-    pub blueprints: &'a [Blueprint],
+    pub blueprints: &'a [BlueprintGroup],
 }
 
 /// What they are drawn with.
@@ -38,8 +38,8 @@ pub struct TranslucentInputs<'a> {
     /// Bind group 0.
     pub uniform: &'a FrameUniform,
     /// The caps of a section by object id; empty when there are none.
-    pub caps: &'a Vec<CapUniform>,
-    /// Blueprints are peeled until enough of this is uncovered.
+    pub caps: &'a Vec<GpuCap>,
+    /// Layers of blueprints are drawn until enough of this is uncovered.
     pub mask: Option<&'a Output<DepthMask>>,
     /// What blends is shaded with this.
     pub shading: BlendedShading<'a>,
@@ -60,7 +60,7 @@ struct Key {
 #[derive(Clone, PartialEq)]
 enum Manner {
     Blended { look: Box<Look>, shadows: Vec<u64> },
-    Blueprint { blueprint: Box<Blueprint>, caps: Vec<CapUniform>, mask: Option<u64>, is_kept: bool },
+    Blueprint { blueprint: Box<BlueprintGroup>, caps: Vec<GpuCap>, mask: Option<u64>, is_kept: bool },
 }
 
 /// One group across frames.
@@ -70,7 +70,7 @@ struct GroupState {
     /// Its picture, where it overlaps no other.
     alone: Stage<Key, Translucent>,
     /// What it was drawn as last.
-    last: Option<Blueprint>,
+    last: Option<BlueprintGroup>,
     runs: u64,
 }
 
@@ -167,8 +167,8 @@ impl TranslucentState {
         if !blended.is_empty() {
             all.push((None, &mut self.blended, blended));
         }
-        let peeled = blueprints.iter().zip(&mut self.blueprints);
-        all.extend(peeled.map(|(blueprint, state)| (Some(blueprint), state, &blueprint.group)));
+        let with_states = blueprints.iter().zip(&mut self.blueprints);
+        all.extend(with_states.map(|(blueprint, state)| (Some(blueprint), state, &blueprint.group)));
         let parts: Vec<_> = all
             .iter()
             .map(|(.., group)| group.scissor_rect(inputs.scene_view.scene, inputs.scene_view.view))
@@ -233,7 +233,7 @@ impl TranslucentState {
 /// One group while it is being drawn.
 struct GroupDrawing<'a> {
     /// `None`: what blends.
-    blueprint: Option<&'a Blueprint>,
+    blueprint: Option<&'a BlueprintGroup>,
     layered: &'a mut Layered,
     buffers: &'a mut BlueprintBuffers,
     key: &'a Key,
@@ -248,13 +248,13 @@ impl GroupDrawing<'_> {
         composition: &Composition,
         place: &mut Place<'_>,
     ) -> Result<Option<Target>, RenderError> {
-        let layered = (&mut *self.layered, &self.key.layered);
         let scene_view = inputs.scene_view;
         match self.blueprint {
             None => place_blended(
                 rec,
                 gbuffer_pass,
-                layered,
+                self.layered,
+                &self.key.layered,
                 &scene_view,
                 composition,
                 &mut inputs.shading,
@@ -266,10 +266,12 @@ impl GroupDrawing<'_> {
                 place_blueprint(
                     rec,
                     gbuffer_pass,
-                    layered,
+                    self.layered,
+                    &self.key.layered,
                     &scene_view,
                     composition,
-                    (own, self.buffers),
+                    own,
+                    self.buffers,
                     place,
                 )
             }
@@ -280,7 +282,7 @@ impl GroupDrawing<'_> {
 impl Key {
     fn new(
         rec: &Recorder<'_>,
-        blueprint: Option<&Blueprint>,
+        blueprint: Option<&BlueprintGroup>,
         group: &Group,
         inputs: &TranslucentInputs<'_>,
         composition: &Composition,

@@ -1,4 +1,4 @@
-//! The depth mask: a depth texture of the designated objects alone, and what peeling must know of it (blueprints paper,
+//! The depth mask: a depth texture of the designated objects alone, and what layers must know of it (blueprints paper,
 //! section 4.3, Fig. 6).
 //!
 //! ```text
@@ -70,7 +70,8 @@ impl DepthMaskPass {
         rec: &mut Recorder<'_>,
         gbuffer_pass: &mut GBufferPass,
         scene_view: &SceneView<'_>,
-        (designated, drawn): (&Group, Option<&GBuffer>),
+        designated: &Group,
+        drawn: Option<&GBuffer>,
         surfaces: &Output<Target>,
     ) -> Result<Output<DepthMask>, RenderError> {
         let SceneView { scene, view, .. } = *scene_view;

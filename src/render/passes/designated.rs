@@ -1,4 +1,4 @@
-//! What is known of the designated objects, which peeling is to uncover (blueprints paper, section 4.3).
+//! What is known of the designated objects, which layers are to uncover (blueprints paper, section 4.3).
 
 use encase::ShaderType;
 
@@ -9,7 +9,7 @@ use crate::gpu::Target;
 pub struct Masked {
     /// Its pixels, the paper's Q; 0: nothing designated is in the picture.
     pub pixels: u32,
-    /// Those of them that opaque surfaces hide, which no peeling uncovers.
+    /// Those of them that opaque surfaces hide, which no layer uncovers.
     pub hidden: u32,
     /// Its greatest linear depth, as a number in the same order.
     pub farthest: u32,

@@ -4,8 +4,8 @@
 //! A list holds as many fragments as there is room for, and all are counted: who finds out later that there were more
 //! makes room and draws again. See `shaders/common/fragments.wgsl`.
 
+use super::count::{Layer, LayerCount};
 use super::gbuffer::{DEPTH, GBuffer};
-use super::peel::{Layer, LayerCount};
 use crate::gpu::recorder::{Draw, Onto};
 use crate::gpu::{DepthRule, Gpu, GpuError, Inputs, Program, RecordTexture, Recorder, Target, inputs};
 use crate::render::base::error::RenderError;

@@ -9,7 +9,7 @@ pub(super) const GEOMETRY: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Uint
 pub(super) const BASE_COLOR: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
 /// Which surface of which object.
 pub(super) const SURFACE_ID: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;
-/// Of a layer that was peeled: depth of each pixel, and which draw and surface it is of, see [`crate::render::base::instances::Instance::first_surface`].
+/// Of a depth layer: depth of each pixel, and which draw and surface it is of, see [`crate::render::base::instances::Instance::first_surface`].
 pub(super) const SORT_KEYS: wgpu::TextureFormat = wgpu::TextureFormat::Rg32Uint;
 /// Reversed: 1 at the near plane.
 pub(super) const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;

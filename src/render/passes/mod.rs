@@ -3,6 +3,7 @@
 pub mod accumulate;
 pub mod composition;
 pub mod coordinates;
+pub mod count;
 pub mod depth_mask;
 pub mod designated;
 pub mod edge_map;

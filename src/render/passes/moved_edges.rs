@@ -6,7 +6,7 @@ use glam::Vec4;
 use super::edge_map::{EDGE_MAP, EdgeMap};
 use super::offset_field::LinePixels;
 use super::repeated::SPINES;
-use crate::gpu::{Gpu, Program, RecordBuffer, Recorder, Target, inputs};
+use crate::gpu::{Gpu, Program, RecordBuffer, Recorder, Target, UniformBuffer, inputs};
 use crate::render::base::error::RenderError;
 
 /// Twin of `Movement` in `shaders/passes/moved_edges.wgsl`.
@@ -58,15 +58,16 @@ impl MovedEdgesPass {
     }
 
     /// Moves the exact lines of an edge map, of which these are the `spines`, by a `field` of noise: its texels hold that of four
-    /// passes each. `movement` is a [`MovementUniform`].
+    /// passes each.
     ///
     /// # Errors
     /// [`RenderError`].
     pub fn run(
         &mut self,
         rec: &mut Recorder<'_>,
-        movement: &wgpu::Buffer,
-        (edges, spines): (&Target, &Target),
+        movement: &UniformBuffer<MovementUniform>,
+        edges: &Target,
+        spines: &Target,
         field: &Target,
         pixels: LinePixels<'_>,
     ) -> Result<MovedEdges, RenderError> {

@@ -11,7 +11,7 @@ use glam::{Mat4, UVec4, Vec2, Vec3};
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
 
 use super::gbuffer::GBuffer;
-use crate::gpu::{Gpu, Program, RecordBuffer, Recorder, Target, inputs};
+use crate::gpu::{Gpu, Program, RecordBuffer, Recorder, Target, UniformBuffer, inputs};
 use crate::render::base::error::RenderError;
 use crate::render::base::noise::{fine_waves, mixed_bits, waves};
 
@@ -54,7 +54,7 @@ pub struct FieldUniform {
 
 /// Twin of `FieldObject` in `shaders/passes/offset_field.wgsl`.
 #[derive(Debug, Clone, Copy, PartialEq, ShaderType, Default)]
-pub struct ObjectUniform {
+pub struct GpuFieldObject {
     /// View space to the object's axes about its middle, scene units.
     pub from_view: Mat4,
     /// Told apart by it, where objects are.
@@ -63,7 +63,7 @@ pub struct ObjectUniform {
 
 /// A place that has noise.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Place {
+pub struct NoisePlace {
     /// View space.
     pub at: Vec3,
     /// Width of a pixel there, scene units.
@@ -74,7 +74,7 @@ pub struct Place {
 
 impl FieldUniform {
     /// The noise of a pass of lines at a place on an object, where nothing but the place controls it: twin of `noise_at`.
-    pub fn line_noise(&self, object: &ObjectUniform, place: &Place, pass: usize) -> Vec2 {
+    pub fn line_noise(&self, object: &GpuFieldObject, place: &NoisePlace, pass: usize) -> Vec2 {
         let seed = self.seeds.iter().flat_map(|four| four.to_array()).nth(pass).unwrap_or_default();
         let (own, turbulent) = (mixed_bits(seed ^ object.seed), self.turbulent == 1);
         let at = object.from_view.transform_point3(place.at);
@@ -86,9 +86,9 @@ impl FieldUniform {
 /// What noise is asked for with, on the device.
 #[derive(Clone, Copy)]
 pub struct FieldBuffers<'a> {
-    /// A [`FieldUniform`].
-    pub field: &'a wgpu::Buffer,
-    /// [`ObjectUniform`] by object id.
+    /// Which noise.
+    pub field: &'a UniformBuffer<FieldUniform>,
+    /// [`GpuFieldObject`] by object id.
     pub objects: &'a wgpu::Buffer,
 }
 

@@ -2,9 +2,9 @@
 //! in which the layers of all are put in order.
 
 use super::composition::PLACED;
+use super::count::Layer;
 use super::layer_lists::LayerLists;
 use super::lines::{LineShader, Lines, lines};
-use super::peel::Layer;
 use crate::gpu::recorder::{Draw, Onto};
 use crate::gpu::{DepthRule, Inputs, Program, Recorder, Target};
 use crate::render::base::error::RenderError;

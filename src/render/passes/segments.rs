@@ -12,17 +12,17 @@ use super::gbuffer::GBuffer;
 use super::repeated::NearerLines;
 use crate::geometry::LineSegment;
 use crate::geometry::line_segments::SegmentSet;
-use crate::gpu::{Gpu, Program, RecordBuffer, RecordTexture, Recorder, Target, inputs, size_of_texels};
+use crate::gpu::{Gpu, Program, RecordBuffer, RecordTexture, Recorder, Target, frame_records, inputs};
 use crate::render::base::error::RenderError;
 
 /// Pixels of segments that are tested in one go; each takes 52 bytes while it is.
 const MOST_STEPS: usize = 1 << 20;
 /// Bytes of `SegmentPoint` in `shaders/common/segment_point.wgsl`.
 const POINT_BYTES: u64 = 32;
-/// Steps per workgroup, as in `passes/segments.wgsl`.
+/// What decides which steps are looked at closely.
+const CULL: &str = "passes/segments/cull.wgsl";
+/// Steps per workgroup, as in `passes/segments/steps.wgsl`.
 const GROUP: u32 = 256;
-
-const PLACES: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Uint;
 
 /// No workgroups, and no steps.
 const NONE: [u32; 4] = [0, 1, 1, 0];
@@ -30,7 +30,7 @@ const NONE: [u32; 4] = [0, 1, 1, 0];
 /// What segments have in each pixel, see `shaders/common/segment_point.wgsl`.
 pub(super) const MARKS: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;
 
-/// Fills the last workgroup, as in `passes/segments.wgsl`.
+/// Fills the last workgroup, as in `passes/segments/steps.wgsl`.
 const NO_STEP: [u32; 2] = [u32::MAX; 2];
 
 /// Segments on the device, ready to be put into the edge maps of several G-buffers.
@@ -63,7 +63,7 @@ struct Steps {
     count: u32,
     /// Whether all of them are of strokes, which explain nothing where they are drawn.
     of_strokes: bool,
-    /// For layers: `place_tex` in `passes/segments.wgsl`.
+    /// For layers: `place_tex` in `passes/segments/cull.wgsl`.
     places: Option<Target>,
 }
 
@@ -149,8 +149,7 @@ impl Segments {
         for (part, (chunk, of_strokes)) in self.steps.iter_mut().zip(chunks()) {
             part.count = chunk.len() as u32;
             part.of_strokes = of_strokes;
-            let (pairs, _) = chunk.as_chunks::<2>();
-            part.steps.write(gpu, pairs)?;
+            part.steps.write_pairs(gpu, chunk)?;
         }
         let most = chunks().map(|(chunk, _)| chunk.len()).max().unwrap_or(0) as u64;
         self.kept_steps.reserve(gpu, most * 4)?;
@@ -171,14 +170,18 @@ impl Segments {
 
     /// Finds for each of these steps, once for all layers, what they are asked.
     fn place(&self, rec: &mut Recorder<'_>, part: &Steps) -> Result<Target, RenderError> {
-        let size = size_of_texels(part.count as usize).map(u32::next_power_of_two);
-        let places = rec.target_of("places of steps", PLACES, size)?;
+        let places = frame_records(rec, "places of steps", part.count)?;
         let inputs = inputs! {
             segment_tex: self.records.target(),
             step_tex: part.steps.target(),
             placed_tex: &places,
         };
-        rec.compute("place segments", &program("cs_place", &[]), &inputs, [part.count.div_ceil(GROUP), 1])?;
+        rec.compute(
+            "place segments",
+            &Program::new(CULL, "cs_place"),
+            &inputs,
+            [part.count.div_ceil(GROUP), 1],
+        )?;
         Ok(places)
     }
 
@@ -236,11 +239,9 @@ impl Segments {
         nearer: Option<&NearerLines>,
     ) -> Result<(), RenderError> {
         let own = [("IN_LAYER", self.for_layers), ("WITH_STROKES", self.has_strokes)];
-        let switches: Vec<_> = inputs.switches.iter().copied().chain(own).collect();
         let tested = inputs! {
             geometry_tex: &inputs.gbuffer.geometry,
             surface_id_tex: &inputs.gbuffer.surface_id,
-            edge_styles: inputs.edge_styles,
             segment_tex: self.records.target(),
             tested_tex: self.has_strokes.then(|| self.tested.target()),
             step_tex: part.steps.target(),
@@ -255,35 +256,34 @@ impl Segments {
             place_tex: part.places.as_ref(),
             nearer_lines_tex: nearer.map(|nearer| &nearer.before),
         };
-        let (mut cull, mut cull_switches) = ("cs_cull", switches.clone());
-        if part.places.is_some() {
-            cull = "cs_cull_layer";
-            cull_switches.push(("WITHOUT_REPEATED", nearer.is_some()));
-        }
-        rec.compute(
-            "cull segments",
-            &program(cull, &cull_switches),
-            &culling.and(&tested),
-            [part.count.div_ceil(GROUP), 1],
-        )?;
+        let without_repeated = ("WITHOUT_REPEATED", part.places.is_some() && nearer.is_some());
+        let cull = Program {
+            file: CULL,
+            entry_point: if part.places.is_some() { "cs_cull_layer" } else { "cs_cull" },
+            switches: own.into_iter().chain([without_repeated]).collect(),
+        };
+        let groups = [part.count.div_ceil(GROUP), 1];
+        rec.compute("cull segments", &cull, &culling.and(&tested), groups)?;
         let found = inputs! {
+            edge_styles: inputs.edge_styles,
             kept: &self.kept,
             kept_steps: self.kept_steps.buffer(),
             points: self.points.buffer(),
             keys: self.keys.buffer(),
             finding: &self.found,
         };
-        rec.compute("segments", &program("cs_points", &switches), &tested.and(&found), &self.kept)?;
+        let points = Program {
+            file: "passes/segments.wgsl",
+            entry_point: "cs_points",
+            switches: inputs.switches.iter().copied().chain(own).collect(),
+        };
+        rec.compute("segments", &points, &tested.and(&found), &self.kept)?;
         Ok(())
     }
 }
 
-fn program(entry_point: &'static str, switches: &[(&'static str, bool)]) -> Program {
-    Program { file: "passes/segments.wgsl", entry_point, switches: switches.to_vec() }
-}
-
 /// At most so many pixels has a segment that is half a pixel longer on both sides; see `place_of` in
-/// `passes/segments.wgsl`.
+/// `passes/segments/steps.wgsl`.
 fn steps_of(segment: &LineSegment) -> u32 {
     let [[x0, y0], [x1, y1]] = segment.ends;
     let along = (x1 - x0).abs().max((y1 - y0).abs());

@@ -10,14 +10,14 @@ use crate::render::base::stage::Stage;
 use crate::scene::{NodeId, Scene};
 
 /// The outline across frames.
-pub struct Selection {
+pub struct SelectionOutline {
     bits: ArrayBuffer,
     /// The geometry of the picture's first sample: outlines do not follow the jitter.
     unmoved: Vec<u64>,
     stage: Stage<(Vec<u64>, Vec<u32>), Target>,
 }
 
-impl Selection {
+impl SelectionOutline {
     /// Nothing drawn yet.
     pub fn new(gpu: &Gpu) -> Self {
         Self { bits: ArrayBuffer::new(gpu, "selected"), unmoved: Vec::new(), stage: Stage::default() }
@@ -30,8 +30,10 @@ impl Selection {
     pub fn run(
         &mut self,
         rec: &mut Recorder<'_>,
-        (front, revisions): (&Front, Vec<u64>),
-        (selected, scene): (&[NodeId], &Scene),
+        front: &Front,
+        revisions: Vec<u64>,
+        selected: &[NodeId],
+        scene: &Scene,
         sample: Sample,
     ) -> Result<Option<Target>, RenderError> {
         if selected.is_empty() {

@@ -14,7 +14,7 @@ const MASK: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 
 /// One picture that a light sees; twin of `LightView` in `shaders/passes/shadow.wgsl`.
 #[derive(Debug, Clone, Copy, PartialEq, ShaderType)]
-pub struct LightViewUniform {
+pub struct GpuLightView {
     light_from_view: Mat4,
     scale: Vec2,
     origin: Vec2,
@@ -27,13 +27,13 @@ pub struct LightViewUniform {
 
 /// Which pictures are of one light; twin of `ShadowLight` in `shaders/passes/shadow.wgsl`.
 #[derive(Debug, Clone, Copy, PartialEq, ShaderType, Default)]
-pub struct ShadowLightUniform {
+pub struct GpuShadowLight {
     first: u32,
     count: u32,
     spread: f32,
 }
 
-impl LightViewUniform {
+impl GpuLightView {
     fn new(view: &LightView, view_from_world: &DMat4) -> Self {
         let (scale, origin) = view.texels();
         let [min, size] = view.tile.map(|[x, y]| Vec2::new(x as f32, y as f32));
@@ -78,11 +78,11 @@ impl ShadowPass {
         if maps.is_empty() {
             return Ok(None);
         }
-        let mut views: Vec<LightViewUniform> = Vec::new();
+        let mut views: Vec<GpuLightView> = Vec::new();
         let mut lights = Vec::new();
         for (seen, _) in maps {
-            lights.push(ShadowLightUniform { first: views.len() as u32, count: seen.len() as u32, spread });
-            views.extend(seen.iter().map(|v| LightViewUniform::new(v, view_from_world)));
+            lights.push(GpuShadowLight { first: views.len() as u32, count: seen.len() as u32, spread });
+            views.extend(seen.iter().map(|v| GpuLightView::new(v, view_from_world)));
         }
         self.lights.write(rec.gpu, &lights);
         self.views.write(rec.gpu, &views);

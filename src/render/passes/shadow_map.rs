@@ -67,13 +67,13 @@ pub struct ShadowScene {
 
 /// What tells the pipelines apart.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-struct Key {
+struct Variant {
     has_holes: bool,
     is_clipped: bool,
     culled_face: Option<wgpu::Face>,
 }
 
-impl From<&ShadowCall> for Key {
+impl From<&ShadowCall> for Variant {
     fn from(call: &ShadowCall) -> Self {
         let ShadowCall { has_holes, is_clipped, culled_face, .. } = *call;
         Self { has_holes, is_clipped, culled_face }
@@ -82,7 +82,7 @@ impl From<&ShadowCall> for Key {
 
 /// The pipelines of the pass, made when first needed, and room for the draws of one map.
 pub struct ShadowMapPass {
-    pipelines: HashMap<Key, wgpu::RenderPipeline>,
+    pipelines: HashMap<Variant, wgpu::RenderPipeline>,
     generation: u64,
     draw_layout: wgpu::BindGroupLayout,
     draws: DynamicBuffer,
@@ -105,7 +105,7 @@ impl ShadowMapPass {
         gpu: &Gpu,
         pipelines: &mut Pipelines,
         material_layout: &wgpu::BindGroupLayout,
-        key: Key,
+        key: Variant,
     ) -> Result<(), RenderError> {
         if self.generation != pipelines.generation() {
             self.pipelines.clear();
@@ -155,7 +155,7 @@ impl ShadowMapPass {
                 geometry.bind(&mut pass, 0, &[Some(&geometry.positions), geometry.attributes.as_ref()]);
                 origin = Some(call.origin);
             }
-            let key = Key::from(call);
+            let key = Variant::from(call);
             if bound != Some(key) {
                 let Some(pipeline) = self.pipelines.get(&key) else { continue };
                 pass.set_pipeline(pipeline);
@@ -184,7 +184,7 @@ fn build(
     gpu: &Gpu,
     module: &wgpu::ShaderModule,
     layouts: &[Option<&wgpu::BindGroupLayout>],
-    Key { has_holes, is_clipped, culled_face }: Key,
+    Variant { has_holes, is_clipped, culled_face }: Variant,
 ) -> wgpu::RenderPipeline {
     let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
         label: Some("shadow map"),

@@ -3,9 +3,10 @@
 
 use std::collections::HashMap;
 
+use super::count::LayerCount;
 use super::fragment_lists::FragmentLists;
 use super::gbuffer::{BASE_COLOR, DEPTH, GBuffer, GEOMETRY, SORT_KEYS, SURFACE_ID};
-use super::peel::{LayerCount, Peel};
+use super::peel::Peel;
 use crate::gpu::geometry::{Attributes, POSITIONS, SURFACES};
 use crate::gpu::recorder::Onto;
 use crate::gpu::{Gpu, MaterialBindings, Pipelines, Recorder, Target};

@@ -9,7 +9,7 @@ use crate::scene::NodeId;
 
 /// What tells an object from those that touch it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(super) struct Number {
+pub(super) struct CapNumber {
     /// Different from that of each other one, and small.
     pub pattern: u32,
     /// Greater than that of each smaller one.
@@ -18,24 +18,24 @@ pub(super) struct Number {
 
 /// Numbers by node. They depend on all objects that are visible and not on the plane, so that hatching stays as it is while
 /// that moves. `margin`: boxes that are no farther apart touch.
-pub(super) fn numbers(scene: &GpuScene, visible: &[NodeId], margin: f64) -> Vec<Number> {
+pub(super) fn numbers(scene: &GpuScene, visible: &[NodeId], margin: f64) -> Vec<CapNumber> {
     let boxes: Vec<_> = visible.iter().map(|&node| scene.bounds_of(node)).collect();
-    let mut numbers = vec![Number::default(); scene.scene.nodes.len()];
+    let mut numbers = vec![CapNumber::default(); scene.scene.nodes.len()];
     for (&node, number) in visible.iter().zip(numbers_of(&boxes, margin)) {
         numbers[node] = number;
     }
     numbers
 }
 
-fn numbers_of(boxes: &[Bounds], margin: f64) -> Vec<Number> {
+fn numbers_of(boxes: &[Bounds], margin: f64) -> Vec<CapNumber> {
     let touching = touching(boxes, margin);
     let mut by_size: Vec<usize> = (0..boxes.len()).collect();
     by_size.sort_by(|&a, &b| boxes[a].diagonal().total_cmp(&boxes[b].diagonal()));
-    let mut numbers: Vec<Option<Number>> = vec![None; boxes.len()];
+    let mut numbers: Vec<Option<CapNumber>> = vec![None; boxes.len()];
     for i in by_size {
-        let smaller: Vec<Number> = touching[i].iter().filter_map(|&other| numbers[other]).collect();
+        let smaller: Vec<CapNumber> = touching[i].iter().filter_map(|&other| numbers[other]).collect();
         let is_free = |pattern: &u32| smaller.iter().all(|other| other.pattern != *pattern);
-        numbers[i] = Some(Number {
+        numbers[i] = Some(CapNumber {
             pattern: (0..).find(is_free).unwrap_or(0),
             level: smaller.iter().map(|other| other.level + 1).max().unwrap_or(0),
         });
@@ -96,7 +96,7 @@ mod tests {
                 }
             }
         }
-        assert_eq!(numbers[3], Number::default());
-        assert_eq!(numbers[0], Number { pattern: 2, level: 2 });
+        assert_eq!(numbers[3], CapNumber::default());
+        assert_eq!(numbers[0], CapNumber { pattern: 2, level: 2 });
     }
 }

@@ -4,7 +4,7 @@
 use glam::Vec2;
 use rayon::prelude::*;
 
-use super::strokes::StrokeUniform;
+use super::strokes::GpuStroke;
 
 /// Places in the octave between two densities, and in that between two lengths of strokes. What comes after the last is the first.
 pub(super) const PLACES: usize = 16;
@@ -20,7 +20,7 @@ const PERIOD: usize = 32;
 const ALONG: usize = 8;
 
 /// For each of [`PLACES`], each of [`LENGTHS`] and each of [`INKS`] the tone to ask for, 0 to 1.
-pub(super) fn calibration(stroke: &StrokeUniform) -> Vec<f32> {
+pub(super) fn calibration(stroke: &GpuStroke) -> Vec<f32> {
     let tables: Vec<Vec<f32>> =
         octaves(stroke).into_par_iter().map(|octave| tones_of(stroke, octave)).collect();
     let is_pointed = stroke.taper > 0.0;
@@ -38,7 +38,7 @@ struct Octave {
     length: f32,
 }
 
-fn octaves(stroke: &StrokeUniform) -> Vec<Octave> {
+fn octaves(stroke: &GpuStroke) -> Vec<Octave> {
     let middle = |i: usize, of: usize| (i as f32 + 0.5) / of as f32;
     let lengths = if stroke.taper > 0.0 { LENGTHS } else { 1 };
     let at = |place| {
@@ -48,11 +48,11 @@ fn octaves(stroke: &StrokeUniform) -> Vec<Octave> {
 }
 
 /// The greatest share of ink that is reached everywhere.
-pub(super) fn greatest_ink(stroke: &StrokeUniform) -> f32 {
+pub(super) fn greatest_ink(stroke: &GpuStroke) -> f32 {
     octaves(stroke).into_iter().map(|octave| mean_ink(stroke, 1.0, octave)).fold(1.0, f32::min)
 }
 
-fn tones_of(stroke: &StrokeUniform, octave: Octave) -> Vec<f32> {
+fn tones_of(stroke: &GpuStroke, octave: Octave) -> Vec<f32> {
     let count = TONES[usize::from(stroke.taper <= 0.0)];
     let tone = |i: usize| i as f32 / (count - 1) as f32;
     let mut least = 0.0_f32;
@@ -76,7 +76,7 @@ fn tones_of(stroke: &StrokeUniform, octave: Octave) -> Vec<f32> {
 }
 
 /// Share of ink of an even plane, at a tone and a place in the octaves.
-fn mean_ink(stroke: &StrokeUniform, tone: f32, octave: Octave) -> f32 {
+fn mean_ink(stroke: &GpuStroke, tone: f32, octave: Octave) -> f32 {
     let mut sum = 0.0;
     for row in 0..ROWS {
         for along in 0..ALONG {
@@ -90,7 +90,7 @@ fn mean_ink(stroke: &StrokeUniform, tone: f32, octave: Octave) -> f32 {
 }
 
 /// Ink of one family at a point of a plane: x in strokes, y in rows of the finer level.
-fn ink(stroke: &StrokeUniform, tone: f32, Octave { place, length: octave }: Octave, at: Vec2) -> f32 {
+fn ink(stroke: &GpuStroke, tone: f32, Octave { place, length: octave }: Octave, at: Vec2) -> f32 {
     let Vec2 { x, y } = at;
     let spacing = stroke.spacing * place.exp2();
     let row = y.round();
@@ -183,7 +183,7 @@ mod tests {
         let all =
             presets.map(|p| (p.name, p.style.hatching)).chain([("default".into(), Hatching::default())]);
         for (name, hatching) in all {
-            let stroke = StrokeUniform::new(&hatching.stroke, 1.0);
+            let stroke = GpuStroke::new(&hatching.stroke, 1.0);
             let (table, greatest) = (calibration(&stroke), greatest_ink(&stroke));
             assert!(greatest > 0.3, "{name}: {greatest}");
             let mut worst = 0.0_f32;

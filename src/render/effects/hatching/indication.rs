@@ -6,7 +6,7 @@ use crate::style::indication::{DetailBy, Indication};
 
 /// Twin of `Indication` in `shaders/effects/hatching/indication.wgsl`. Lengths in px.
 #[derive(Debug, Clone, Copy, PartialEq, ShaderType, Default)]
-pub struct IndicationUniform {
+pub struct GpuIndication {
     pub(super) amount: f32,
     by_fields: u32,
     distance: f32,
@@ -30,7 +30,7 @@ pub struct IndicationUniform {
 /// Farthest that edges are looked for, px.
 const MOST_REACH: f32 = 512.0;
 
-impl IndicationUniform {
+impl GpuIndication {
     /// Of a style; `scale`: pixels per reference pixel.
     pub(super) fn new(indication: &Indication, scale: f32) -> Self {
         let (patches, silhouettes) = (&indication.patches, &indication.silhouettes);
@@ -44,15 +44,15 @@ impl IndicationUniform {
             patch_offset: patches.offset,
             patch_slope: patches.slope,
             patch_power: patches.power,
-            silhouette_share: silhouettes.share,
+            silhouette_share: silhouettes.weight.share,
             radius: silhouettes.radius * scale,
             step: silhouettes.step * scale,
             alpha: silhouettes.alpha,
             beta: silhouettes.beta,
             lambda: silhouettes.lambda,
-            silhouette_offset: silhouettes.offset,
-            silhouette_slope: silhouettes.slope,
-            silhouette_power: silhouettes.power,
+            silhouette_offset: silhouettes.weight.offset,
+            silhouette_slope: silhouettes.weight.slope,
+            silhouette_power: silhouettes.weight.power,
         }
     }
 

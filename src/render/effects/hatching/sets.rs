@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, OnceLock};
 
-use crate::gpu::{Gpu, GpuError};
+use crate::gpu::{Gpu, GpuError, ImageArray};
 use crate::hatching::tonal_art_map::{TonalArtMap, sets};
 
 /// Texels along the side of a tile at its finest resolution, as in `shaders/effects/hatching/tonal_art_map.wgsl`.
@@ -10,10 +10,12 @@ pub(super) const TILE: usize = 256;
 /// Resolutions.
 const LEVELS: usize = 4;
 
+const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
+
 /// The built-in sets and those that styles describe on the device, made when first asked for.
 pub(super) struct StrokeSets {
-    pub(super) tones: wgpu::TextureView,
-    pub(super) priorities: wgpu::TextureView,
+    pub(super) tones: ImageArray,
+    pub(super) priorities: ImageArray,
     pub(super) sampler: wgpu::Sampler,
     /// Those beside the built-in ones; `None`: nothing is there yet.
     own: Option<Vec<OwnMap>>,
@@ -44,17 +46,8 @@ fn maps() -> &'static [TonalArtMap] {
 impl StrokeSets {
     /// None yet; a shader that reads none is given an empty texture.
     pub(super) fn new(gpu: &Gpu) -> Self {
-        let sampler = gpu.device.create_sampler(&wgpu::SamplerDescriptor {
-            label: Some("strokes"),
-            address_mode_u: wgpu::AddressMode::Repeat,
-            address_mode_v: wgpu::AddressMode::Repeat,
-            mag_filter: wgpu::FilterMode::Linear,
-            min_filter: wgpu::FilterMode::Linear,
-            mipmap_filter: wgpu::MipmapFilterMode::Linear,
-            ..Default::default()
-        });
-        let nothing = || view(&texture(gpu, 1, 1, 1));
-        Self { tones: nothing(), priorities: nothing(), sampler, own: None }
+        let nothing = || ImageArray::none(gpu, FORMAT);
+        Self { tones: nothing(), priorities: nothing(), sampler: ImageArray::tile_sampler(gpu), own: None }
     }
 
     /// Uploads them, unless they are there.
@@ -64,21 +57,23 @@ impl StrokeSets {
         }
         gpu.check_texture_size("strokes", [TILE as u32; 2])?;
         let maps: Vec<&TonalArtMap> = maps().iter().chain(own.iter().map(|own| &*own.0)).collect();
-        let [tones, priorities] = [(); 2].map(|()| texture(gpu, TILE, maps.len(), LEVELS));
+        let [tones, priorities] = [(); 2]
+            .map(|()| ImageArray::new(gpu, "strokes", FORMAT, TILE as u32, maps.len() as u32, LEVELS as u32));
         for (layer, map) in maps.iter().enumerate() {
             let mut lights = Vec::new();
             for (number, level) in map.levels.iter().take(LEVELS).enumerate() {
+                let (tile, depth) = (layer as u32, number as u32);
                 lights = if number == 0 { lights_of(&level.tones) } else { halved(&lights, level.side) };
-                write(gpu, &tones, [layer, number], level.side, &lights);
+                tones.write(gpu, tile, depth, lights.as_flattened());
                 let texels: Vec<[u8; 4]> = level
                     .priorities
                     .iter()
                     .map(|p| [p.thresholds[0], p.inks[0], p.thresholds[1], p.inks[1]])
                     .collect();
-                write(gpu, &priorities, [layer, number], level.side, &texels);
+                priorities.write(gpu, tile, depth, texels.as_flattened());
             }
         }
-        (self.tones, self.priorities, self.own) = (view(&tones), view(&priorities), Some(own.to_vec()));
+        (self.tones, self.priorities, self.own) = (tones, priorities, Some(own.to_vec()));
         Ok(())
     }
 }
@@ -101,51 +96,6 @@ fn halved(texels: &[[u8; 4]], side: usize) -> Vec<[u8; 4]> {
         std::array::from_fn(|c| ((four.iter().map(|t| u32::from(t[c])).sum::<u32>() + 2) / 4) as u8)
     };
     (0..side * side).map(texel).collect()
-}
-
-fn texture(gpu: &Gpu, side: usize, layers: usize, levels: usize) -> wgpu::Texture {
-    gpu.device.create_texture(&wgpu::TextureDescriptor {
-        label: Some("strokes"),
-        size: wgpu::Extent3d {
-            width: side as u32,
-            height: side as u32,
-            depth_or_array_layers: layers.max(1) as u32,
-        },
-        mip_level_count: levels as u32,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format: wgpu::TextureFormat::Rgba8Unorm,
-        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
-        view_formats: &[],
-    })
-}
-
-fn view(texture: &wgpu::Texture) -> wgpu::TextureView {
-    texture.create_view(&wgpu::TextureViewDescriptor {
-        dimension: Some(wgpu::TextureViewDimension::D2Array),
-        ..Default::default()
-    })
-}
-
-fn write(gpu: &Gpu, texture: &wgpu::Texture, [layer, level]: [usize; 2], side: usize, texels: &[[u8; 4]]) {
-    if side != TILE >> level || texels.len() != side * side {
-        return;
-    }
-    gpu.queue.write_texture(
-        wgpu::TexelCopyTextureInfo {
-            texture,
-            mip_level: level as u32,
-            origin: wgpu::Origin3d { x: 0, y: 0, z: layer as u32 },
-            aspect: wgpu::TextureAspect::All,
-        },
-        texels.as_flattened(),
-        wgpu::TexelCopyBufferLayout {
-            offset: 0,
-            bytes_per_row: Some(side as u32 * 4),
-            rows_per_image: Some(side as u32),
-        },
-        wgpu::Extent3d { width: side as u32, height: side as u32, depth_or_array_layers: 1 },
-    );
 }
 
 #[cfg(test)]

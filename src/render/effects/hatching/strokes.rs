@@ -6,7 +6,7 @@ use crate::style::hatching::Stroke;
 
 /// Twin of `Stroke` in `shaders/effects/hatching/stripes.wgsl`: lengths in px, widths as shares of the spacing.
 #[derive(Debug, Clone, Copy, PartialEq, ShaderType, Default)]
-pub struct StrokeUniform {
+pub struct GpuStroke {
     pub(super) spacing: f32,
     pub(super) thin: f32,
     pub(super) thick: f32,
@@ -21,7 +21,7 @@ pub struct StrokeUniform {
     pub(super) table: u32,
 }
 
-impl StrokeUniform {
+impl GpuStroke {
     /// Of a style; `scale`: pixels per reference pixel.
     pub(super) fn new(stroke: &Stroke, scale: f32) -> Self {
         let thin = stroke.thin;

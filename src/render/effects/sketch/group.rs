@@ -2,7 +2,7 @@
 
 use glam::Vec2;
 
-use super::images::Paper;
+use super::images::SketchPaper;
 use super::uniforms::{self, SketchObject};
 use crate::render::base::group::Group;
 use crate::render::base::ids::object_id;
@@ -13,27 +13,27 @@ use crate::render::base::style_images::StyleImages;
 use crate::render::effects::hidden::Hidden;
 use crate::render::passes::line_distance::Widths;
 use crate::render::passes::moved_edges::MovementUniform;
-use crate::render::passes::offset_field::{FieldUniform, ObjectUniform};
+use crate::render::passes::offset_field::{FieldUniform, GpuFieldObject};
 use crate::scene::AlphaMode;
 use crate::style::sketch::{Anchor, Exterior};
 use crate::style::{self, Style, Technique};
 
 /// Objects that are drawn as by hand in one way, together.
 #[derive(Clone, PartialEq)]
-pub struct Sketch {
+pub struct SketchGroup {
     /// The objects.
     pub group: Group,
     /// Their hidden lines.
     pub hidden: Hidden,
     pub(super) style: style::Sketch,
-    pub(super) paper: Paper,
+    pub(super) paper: SketchPaper,
     /// Whether something shows through any of them.
     pub(super) blends: bool,
     /// Pixels per reference pixel.
     pub(super) scale: f32,
 }
 
-impl Sketch {
+impl SketchGroup {
     /// Whether a style is drawn as by hand; one that moves and roughens nothing is not.
     pub fn moves(style: &Style) -> bool {
         let sketch = &style.sketch;
@@ -74,7 +74,7 @@ impl Sketch {
                 group: Group::new(count).with_strokes(strokes),
                 hidden: Hidden::default(),
                 style: style.sketch.clone(),
-                paper: Paper::of(&style.sketch, images),
+                paper: SketchPaper::of(&style.sketch, images),
                 blends: false,
                 scale,
             });
@@ -126,9 +126,9 @@ impl Sketch {
     }
 
     /// How noise is found for each of its objects, and where their middles are.
-    pub(super) fn objects(&self, scene_view: &SceneView<'_>) -> (Vec<ObjectUniform>, Vec<SketchObject>) {
+    pub(super) fn objects(&self, scene_view: &SceneView<'_>) -> (Vec<GpuFieldObject>, Vec<SketchObject>) {
         let count = self.group.edge_styles.len();
-        let mut fields = vec![ObjectUniform::default(); count];
+        let mut fields = vec![GpuFieldObject::default(); count];
         let mut places = vec![SketchObject::default(); count];
         // The noise does not shake with the samples of a picture.
         let view = scene_view.view.moved(Vec2::ZERO);

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::path::Path;
 use std::sync::{Arc, OnceLock};
 
-use crate::gpu::{Gpu, GpuError};
+use crate::gpu::{Gpu, GpuError, ImageArray};
 use crate::render::base::noise::{SIDE, paper_tile, ranked, turbulence_tile};
 use crate::render::base::style_images::StyleImages;
 use crate::scene::Texture;
@@ -16,12 +16,12 @@ const MOST_KEPT: usize = 8;
 
 /// What a sketch is drawn on.
 #[derive(Clone, Default)]
-pub(super) struct Paper(Option<Arc<Tooth>>);
+pub(super) struct SketchPaper(Option<Arc<ToothImage>>);
 
 /// The tooth of a paper by rank, a tile of `SIDE` × `SIDE`.
-struct Tooth(Vec<u8>);
+struct ToothImage(Vec<u8>);
 
-impl PartialEq for Paper {
+impl PartialEq for SketchPaper {
     fn eq(&self, other: &Self) -> bool {
         // Each image has one.
         match (&self.0, &other.0) {
@@ -31,21 +31,21 @@ impl PartialEq for Paper {
     }
 }
 
-impl Paper {
+impl SketchPaper {
     /// That of a style; generated where its image is missing.
     pub(super) fn of(sketch: &style::Sketch, images: &StyleImages) -> Self {
-        Self(sketch.tooth_image().and_then(|path| images.made(path, Tooth::of_image)))
+        Self(sketch.tooth_image().and_then(|path| images.made(path, ToothImage::of_image)))
     }
 }
 
 /// Makes what takes long of an image that the parameter `key` names.
 pub fn prepare_image(images: &StyleImages, key: &str, path: &Path) {
     if key == "sketch.grain.image" {
-        images.made(path, Tooth::of_image);
+        images.made(path, ToothImage::of_image);
     }
 }
 
-impl Tooth {
+impl ToothImage {
     fn of_image(image: &Texture) -> Self {
         let [width, height] = [image.width, image.height].map(|side| side.max(1) as usize);
         let light = |x: usize, y: usize| {
@@ -82,10 +82,17 @@ struct TileKey {
 /// Tiles on the device, made when first asked for.
 pub(super) struct SketchImages {
     sampler: wgpu::Sampler,
-    nothing: wgpu::TextureView,
-    tiles: HashMap<TileKey, (wgpu::TextureView, u64)>,
-    papers: Vec<(Paper, wgpu::TextureView, u64)>,
+    nothing: ImageArray,
+    tiles: HashMap<TileKey, Tile>,
+    papers: Vec<(SketchPaper, Tile)>,
     made: u64,
+}
+
+/// A tile on the device.
+struct Tile {
+    image: ImageArray,
+    /// Told apart by it.
+    number: u64,
 }
 
 /// What a sketch is drawn with.
@@ -103,15 +110,8 @@ pub(super) struct Prepared<'a> {
 impl SketchImages {
     /// None yet.
     pub(super) fn new(gpu: &Gpu) -> Self {
-        let sampler = gpu.device.create_sampler(&wgpu::SamplerDescriptor {
-            label: Some("tiles"),
-            address_mode_u: wgpu::AddressMode::Repeat,
-            address_mode_v: wgpu::AddressMode::Repeat,
-            mag_filter: wgpu::FilterMode::Linear,
-            min_filter: wgpu::FilterMode::Linear,
-            ..Default::default()
-        });
-        let nothing = upload(gpu, wgpu::TextureFormat::Rgba8Unorm, 1, &[0; 4]);
+        let nothing = ImageArray::none(gpu, wgpu::TextureFormat::Rgba8Unorm);
+        let sampler = ImageArray::tile_sampler(gpu);
         Self { sampler, nothing, tiles: HashMap::new(), papers: Vec::new(), made: 0 }
     }
 
@@ -123,7 +123,7 @@ impl SketchImages {
         &mut self,
         gpu: &Gpu,
         noise: Option<&Wander>,
-        paper: Option<&Paper>,
+        paper: Option<&SketchPaper>,
     ) -> Result<Prepared<'_>, GpuError> {
         gpu.check_texture_size("a tile of noise", [SIDE as u32; 2])?;
         let key = noise.map(|wander| TileKey {
@@ -139,34 +139,33 @@ impl SketchImages {
             let halves: Vec<u16> =
                 texels.iter().flatten().map(|value| half::f16::from_f32(*value).to_bits()).collect();
             let bytes = bytemuck::cast_slice(&halves);
-            let view = upload(gpu, wgpu::TextureFormat::Rg16Float, SIDE as u32, bytes);
+            let image = tile(gpu, wgpu::TextureFormat::Rg16Float, bytes);
             self.made += 1;
-            self.tiles.insert(key, (view, self.made));
+            self.tiles.insert(key, Tile { image, number: self.made });
         }
-        let known = |papers: &[(Paper, wgpu::TextureView, u64)]| {
-            papers.iter().position(|(known, ..)| Some(known) == paper)
-        };
+        let known =
+            |papers: &[(SketchPaper, Tile)]| papers.iter().position(|(known, _)| Some(known) == paper);
         if let Some(paper) = paper.filter(|_| known(&self.papers).is_none()) {
             if self.papers.len() >= MOST_KEPT {
                 self.papers.clear();
             }
-            let view = upload(gpu, wgpu::TextureFormat::Rgba8Unorm, SIDE as u32, &texels_of(paper));
+            let image = tile(gpu, wgpu::TextureFormat::Rgba8Unorm, &texels_of(paper));
             self.made += 1;
-            self.papers.push((paper.clone(), view, self.made));
+            self.papers.push((paper.clone(), Tile { image, number: self.made }));
         }
         let tile = key.and_then(|key| self.tiles.get(&key));
-        let paper = known(&self.papers).and_then(|i| self.papers.get(i));
+        let paper = known(&self.papers).and_then(|i| self.papers.get(i)).map(|(_, tile)| tile);
         Ok(Prepared {
-            tile: tile.map_or(&self.nothing, |(view, _)| view),
-            paper: paper.map_or(&self.nothing, |(_, view, _)| view),
+            tile: tile.map_or(&self.nothing, |tile| &tile.image).view(),
+            paper: paper.map_or(&self.nothing, |tile| &tile.image).view(),
             sampler: &self.sampler,
-            revision: tile.map_or(0, |(_, made)| *made) + (paper.map_or(0, |(.., made)| *made) << 32),
+            revision: tile.map_or(0, |tile| tile.number) + (paper.map_or(0, |tile| tile.number) << 32),
         })
     }
 }
 
 /// The tile of paper: generated, or with the tooth of an image.
-fn texels_of(paper: &Paper) -> Vec<u8> {
+fn texels_of(paper: &SketchPaper) -> Vec<u8> {
     static GENERATED: OnceLock<Vec<[u8; 4]>> = OnceLock::new();
     let mut texels = GENERATED.get_or_init(paper_tile).clone();
     if let Some(tooth) = &paper.0 {
@@ -177,27 +176,8 @@ fn texels_of(paper: &Paper) -> Vec<u8> {
     texels.into_flattened()
 }
 
-fn upload(gpu: &Gpu, format: wgpu::TextureFormat, side: u32, bytes: &[u8]) -> wgpu::TextureView {
-    let size = wgpu::Extent3d { width: side, height: side, depth_or_array_layers: 1 };
-    let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
-        label: Some("tile"),
-        size,
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format,
-        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
-        view_formats: &[],
-    });
-    // All of these formats have four bytes.
-    gpu.queue.write_texture(
-        texture.as_image_copy(),
-        bytes,
-        wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(side * 4), rows_per_image: Some(side) },
-        size,
-    );
-    texture.create_view(&wgpu::TextureViewDescriptor {
-        dimension: Some(wgpu::TextureViewDimension::D2Array),
-        ..Default::default()
-    })
+fn tile(gpu: &Gpu, format: wgpu::TextureFormat, bytes: &[u8]) -> ImageArray {
+    let tile = ImageArray::new(gpu, "tile", format, SIDE as u32, 1, 1);
+    tile.write(gpu, 0, 0, bytes);
+    tile
 }

@@ -1,6 +1,6 @@
-//! The lines of one pass of a sketch: where its noise moves them, and which of them reach each pixel then.
+//! The lines of the passes of a sketch: where noise moves them, and which of them reach each pixel then.
 
-use super::group::Sketch;
+use super::group::SketchGroup;
 use crate::gpu::{ArrayBuffer, Gpu, Recorder, Target, UniformBuffer};
 use crate::render::base::error::RenderError;
 use crate::render::base::stage::{Output, Stage};
@@ -19,13 +19,64 @@ struct MovedKey {
 
 /// Lines of a pass, moved.
 #[derive(Clone)]
-pub(super) struct Moved {
+pub(super) struct MovedLines {
     pub(super) edges: MovedEdges,
     pub(super) line_distance: Output<LineDistance>,
 }
 
+/// What of the passes lives across frames.
+pub(super) struct SketchPasses {
+    moved_edges: MovedEdgesPass,
+    passes: Vec<SketchPass>,
+}
+
+impl SketchPasses {
+    /// None yet.
+    pub(super) fn new(gpu: &Gpu) -> Self {
+        Self { moved_edges: MovedEdgesPass::new(gpu), passes: Vec::new() }
+    }
+
+    /// How often lines were moved.
+    pub(super) fn runs(&self) -> u64 {
+        self.passes.iter().map(|pass| pass.moved.runs()).sum()
+    }
+
+    /// Lets go of the lines.
+    pub(super) fn forget(&mut self) {
+        for pass in &mut self.passes {
+            pass.moved.clear();
+            pass.line_distance.clear();
+        }
+    }
+
+    /// Moves the lines of an edge map, of which the `pixels` have been listed, for each pass.
+    pub(super) fn run(
+        &mut self,
+        rec: &mut Recorder<'_>,
+        sketch: &SketchGroup,
+        edges: &Output<EdgeMap>,
+        spines: &Target,
+        field: &Output<LineField>,
+        pixels: LinePixels<'_>,
+    ) -> Result<Vec<MovedLines>, RenderError> {
+        let count = sketch.passes().len();
+        self.passes.truncate(count);
+        self.passes.resize_with(count, || SketchPass::new(rec.gpu));
+        let Self { moved_edges, passes } = self;
+        let all = passes.iter_mut().enumerate();
+        all.map(|(number, pass)| pass.run(rec, moved_edges, sketch, number, edges, spines, field, pixels))
+            .collect()
+    }
+
+    /// The numbers of so many passes, on the device.
+    pub(super) fn numbers(&mut self, gpu: &Gpu, count: usize) -> Vec<&UniformBuffer<u32>> {
+        self.passes.resize_with(count.max(self.passes.len()), || SketchPass::new(gpu));
+        (0..count).zip(&mut self.passes).map(|(number, pass)| pass.number(gpu, number)).collect()
+    }
+}
+
 /// What of a pass lives across frames.
-pub(super) struct SketchPass {
+struct SketchPass {
     movement: UniformBuffer<MovementUniform>,
     number: UniformBuffer<u32>,
     greatest_radius: ArrayBuffer,
@@ -35,7 +86,7 @@ pub(super) struct SketchPass {
 
 impl SketchPass {
     /// Nothing moved yet.
-    pub(super) fn new(gpu: &Gpu) -> Self {
+    fn new(gpu: &Gpu) -> Self {
         Self {
             movement: UniformBuffer::new(gpu, "movement of lines"),
             number: UniformBuffer::new(gpu, "number of a pass"),
@@ -46,44 +97,35 @@ impl SketchPass {
     }
 
     /// Its number, on the device.
-    pub(super) fn number(&mut self, gpu: &Gpu, number: usize) -> &wgpu::Buffer {
+    fn number(&mut self, gpu: &Gpu, number: usize) -> &UniformBuffer<u32> {
         self.number.write(gpu, &(number as u32));
-        self.number.buffer()
-    }
-
-    /// Lets go of the lines.
-    pub(super) fn forget(&mut self) {
-        self.moved.clear();
-        self.line_distance.clear();
-    }
-
-    /// How often lines were moved.
-    pub(super) fn runs(&self) -> u64 {
-        self.moved.runs()
+        &self.number
     }
 
     /// Moves the lines of an edge map, of which the pixels have been listed; `number`: that of the pass.
-    pub(super) fn run(
+    fn run(
         &mut self,
         rec: &mut Recorder<'_>,
         pass: &mut MovedEdgesPass,
-        (sketch, number): (&Sketch, usize),
-        (edges, spines): (&Output<EdgeMap>, &Target),
+        sketch: &SketchGroup,
+        number: usize,
+        edges: &Output<EdgeMap>,
+        spines: &Target,
         field: &Output<LineField>,
         pixels: LinePixels<'_>,
-    ) -> Result<Moved, RenderError> {
+    ) -> Result<MovedLines, RenderError> {
         let (noise, component) = field.value.of_pass(number);
         let (movement, widths) = sketch.movement(number, component);
         let key = MovedKey { edges: edges.revision, field: field.revision, movement };
         let buffer = &mut self.movement;
         let moved = self.moved.run(key, |key| {
             buffer.write(rec.gpu, &key.movement);
-            pass.run(rec, buffer.buffer(), (&edges.value.edges, spines), noise, pixels)
+            pass.run(rec, buffer, &edges.value.edges, spines, noise, pixels)
         })?;
         let radius = &mut self.greatest_radius;
         let line_distance = self
             .line_distance
             .run((moved.revision, widths), |_| line_distance(rec, &moved.value.spines, widths, radius))?;
-        Ok(Moved { edges: moved.value, line_distance })
+        Ok(MovedLines { edges: moved.value, line_distance })
     }
 }

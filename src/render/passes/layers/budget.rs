@@ -1,15 +1,12 @@
 //! The budget of a frame: for how many layers and fragments it has room, guessed before it and known after it.
 
 use crate::document::LayersBy;
-use crate::gpu::Gpu;
+use crate::gpu::{Gpu, parted_counter};
 use crate::render::passes::fragment_lists::FragmentLists;
 use crate::render::passes::layer_report::{LayerReport, LayersEnd};
 
 /// Fragments per pixel of the picture, as long as nobody has counted them.
 const FIRST_GUESS: u64 = 4;
-
-/// A square with sides of so many pixels has a tile for each part that counts fragments; see `passes/peel.rs`.
-const TILES: u32 = 128;
 
 /// After so many complete pictures in a row, more than one picture has samples, guesses may be tight again.
 const CALM: u32 = 2 * crate::render::base::sample::MAX_SAMPLES;
@@ -126,7 +123,7 @@ impl Budget {
     }
 
     fn plan_within(&self, bound: Result<u64, Reason>, size: [u32; 2], most: u32) -> Recorded {
-        let [width, height] = size.map(|side| u64::from(side.next_multiple_of(TILES)));
+        let [width, height] = size.map(|side| u64::from(side.next_multiple_of(parted_counter::SQUARE)));
         let first = FIRST_GUESS * width * height;
         // More than there were, as there may be more by now: a quarter.
         let reserve = 1 << self.mistakes;

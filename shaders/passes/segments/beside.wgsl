@@ -1,0 +1,84 @@
+// The surfaces beside a segment: what hides it, and what carries it.
+#import common/frame.wgsl
+#import common/gbuffer.wgsl
+#import common/plane.wgsl
+#import passes/segments/segment.wgsl
+
+// Whether any object has holes by alpha: there a line needs one of its own surfaces beside it.
+override WITH_HOLES: bool = true;
+// Whether the G-buffer is a depth layer: only what its own surfaces carry is a line of it.
+override IN_LAYER: bool = false;
+
+var surface_id_tex: texture_storage_2d<r32uint, read>;
+
+// So far, in pixels, may a surface lie before a line that is drawn on it.
+const SLACK: f32 = 0.4;
+// How far beside the spine is looked, px: just far enough that the pixel lies wholly on that side.
+const BESIDE: f32 = 0.8;
+
+fn texel_of(at: vec2<f32>) -> vec2<i32> {
+    return clamp(vec2<i32>(floor(at)), vec2(0), vec2<i32>(frame.size) - 1);
+}
+
+// How far along the normal of a spine pixels are asked for the surfaces that carry it, px.
+const PLACES: array<f32, 5> = array(-2.0 * BESIDE, -BESIDE, 0.0, BESIDE, 2.0 * BESIDE);
+
+fn texel_beside(spine: Spine, along: f32) -> vec2<i32> {
+    return texel_of(spine.at + along * spine.normal);
+}
+
+// What a pixel near the spine shows.
+struct Beside {
+    surfel: Surfel,
+    // How far its surface, continued to the spine, lies before it, px.
+    lead: f32,
+    // Whether a layer's surface is one of the segment's and runs through the spine, as exactly as its slope allows: curved
+    // surfaces bend away from their plane the more, the steeper it is.
+    carries: bool,
+}
+
+// So far along the normal of the spine, px.
+fn beside(spine: Spine, along: f32, surface_ids: vec2<u32>) -> Beside {
+    let px = texel_beside(spine, along);
+    var surface_id = 0u;
+    var texel = textureLoad(geometry_tex, px);
+    if IN_LAYER {
+        surface_id = textureLoad(surface_id_tex, px).x;
+        // Where a layer has nothing its geometry is undefined.
+        texel = select(texel, vec4(0u), surface_id == 0u);
+    }
+    let s = unpack_surfel(texel);
+    let plane = plane_of(px, s.depth, s.face_normal);
+    let lead = nearness_at(plane, spine.at - vec2<f32>(px) - 0.5) - spine.nearness;
+    var carries = false;
+    if IN_LAYER {
+        let miss = abs(lead) - length(plane.slope);
+        carries = any(surface_ids == vec2(surface_id)) && step_px(miss, spine.depth) <= 2.0;
+    }
+    return Beside(s, select(step_px(lead, spine.depth), -1e9, s.object == 0u), carries && s.object != 0u);
+}
+
+// Whether one of these surfaces is seen on either side of a spine, or on it.
+fn is_carried_beside(spine: Spine, surface_ids: vec2<u32>) -> bool {
+    var found = false;
+    for (var i = 1; i <= 3; i++) {
+        found = found || any(surface_ids == vec2(textureLoad(surface_id_tex, texel_beside(spine, PLACES[i])).x));
+    }
+    return found;
+}
+
+// Whether another object lies so far before a line there that it hides its ink.
+fn is_covered(there: Beside, own: u32) -> bool {
+    return there.surfel.object != own && there.lead > 2.0;
+}
+
+// Whether one of the line's own surfaces is seen there.
+fn is_carried(tested: Spine, spine: Spine, left: Beside, right: Beside, surface_ids: vec2<u32>) -> bool {
+    if IN_LAYER {
+        return left.carries || right.carries
+            || beside(spine, PLACES[2], surface_ids).carries
+            || beside(spine, PLACES[4], surface_ids).carries
+            || beside(spine, PLACES[0], surface_ids).carries;
+    }
+    return !WITH_HOLES || is_carried_beside(tested, surface_ids);
+}
