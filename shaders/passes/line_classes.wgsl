@@ -6,9 +6,10 @@
 //
 // Dots: pieces of lines that are too short to tell anything, and that nothing continues, are left out.
 //
-// 1. `cs_lines` collects the pixels of lines, which are few. 2. `cs_links` finds for each of them the next pixel of its line in both
-// directions, and which classes run there. 3. `cs_settle` follows these links, and decides. 4. `cs_change` writes what changes. The last three
-// run once more for the pixels where classes meet.
+// 1. `cs_lines` collects the pixels of lines, which are few.
+// 2. `cs_links` finds for each of them the next pixel of its line in both directions, and which classes run there.
+// 3. `cs_settle` follows these links, and decides.
+// 4. `cs_change` writes what changes. The last three run once more for the pixels where classes meet.
 #import common/frame.wgsl
 #import common/gbuffer.wgsl
 #import common/edge_map.wgsl
@@ -148,7 +149,8 @@ struct Link {
     distance: f32,
 }
 
-// Links take 10 bits: first that in the direction of the tangent, then that against it. Below them 11 bits tell which classes run here.
+// Links take 10 bits: first that in the direction of the tangent, then that against it. Below them 11 bits tell which classes run
+// here.
 const LINK_BITS: u32 = 10u;
 const CLASS_BITS: u32 = 11u;
 

@@ -8,7 +8,7 @@ use crate::style::{Color, DepthOperator, EdgeMode, Edges, HiddenMode};
 
 /// Twin of `LineStyle` in `shaders/common/edge_style.wgsl`.
 #[derive(Debug, Clone, Copy, PartialEq, ShaderType, Default)]
-pub struct LineUniform {
+pub struct GpuLineStyle {
     color: Vec3,
     /// Opacity; 0: not drawn.
     pub strength: f32,
@@ -24,9 +24,9 @@ pub struct LineUniform {
 
 /// Twin of `EdgeStyle` in `shaders/common/edge_style.wgsl`.
 #[derive(Debug, Clone, Copy, PartialEq, ShaderType, Default)]
-pub struct EdgeUniform {
+pub struct GpuEdgeStyle {
     /// By class.
-    pub lines: [LineUniform; EdgeClass::ALL.len()],
+    pub lines: [GpuLineStyle; EdgeClass::ALL.len()],
     /// 0: none.
     pub mode: u32,
     /// Of profile edges; 0: both sides of the spine.
@@ -85,7 +85,7 @@ fn width_in_px(width: f32, scale: f32) -> f32 {
     (width * scale).max((0.25 * width).min(0.75))
 }
 
-impl EdgeUniform {
+impl GpuEdgeStyle {
     /// The parameters of an object in a picture with this many pixels per reference pixel.
     pub fn new(edges: &Edges, scale: f32) -> Self {
         let (profile, inner) = (&edges.profile, &edges.inner);
@@ -94,7 +94,7 @@ impl EdgeUniform {
         let (length, gap) = (edges.dash.length, edges.dash.gap);
         let lines = EdgeClass::ALL.map(|class| {
             let line = edges.line(class);
-            LineUniform {
+            GpuLineStyle {
                 color: line.color.to_linear(),
                 strength: if line.show { line.strength } else { 0.0 },
                 width: width_in_px(line.width, scale),
@@ -259,7 +259,7 @@ impl EdgeUniform {
     }
 
     /// The lines that are drawn in exact mode.
-    pub fn drawn(&self) -> impl Iterator<Item = (EdgeClass, &LineUniform)> {
+    pub fn drawn(&self) -> impl Iterator<Item = (EdgeClass, &GpuLineStyle)> {
         let is_exact = self.mode == EXACT;
         EdgeClass::ALL.into_iter().zip(&self.lines).filter(move |(_, l)| is_exact && l.strength > 0.0)
     }
@@ -271,7 +271,7 @@ impl EdgeUniform {
 
     /// Greatest distance from the spine at which a line of this object has ink, px.
     pub fn greatest_radius(&self) -> f32 {
-        let reach = |(class, line): (EdgeClass, &LineUniform)| {
+        let reach = |(class, line): (EdgeClass, &GpuLineStyle)| {
             if self.alignment != 0 && class.is_profile() { line.width } else { 0.5 * line.width }
         };
         self.drawn().map(reach).fold(0.0, f32::max)

@@ -1,6 +1,6 @@
 //! The lines that topology knows, for one view.
 
-use super::edge_style::EdgeUniform;
+use super::edge_style::GpuEdgeStyle;
 use super::gpu_scene::GpuScene;
 use super::group::Group;
 use super::ids::{object_id, surface_id};
@@ -94,7 +94,7 @@ fn find(
 
 /// What an object's style asks for. Creases that separate surfaces are found even where they are not drawn: they tell
 /// that there is no intersection, nor a step in depth where one of the surfaces is steep.
-fn wanted(style: &EdgeUniform, crease_angle: f32) -> LineSelection {
+fn wanted(style: &GpuEdgeStyle, crease_angle: f32) -> LineSelection {
     let of = |class: EdgeClass| &style.lines[class as usize];
     let classes = style.drawn().fold(ClassSet::NONE, |classes, (class, _)| classes.with(class));
     let dashed = style.drawn().filter(|(_, line)| line.dashed == 1);

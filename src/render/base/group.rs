@@ -2,7 +2,7 @@
 
 use glam::{DMat4, Mat3, Mat4};
 
-use super::edge_style::EdgeUniform;
+use super::edge_style::GpuEdgeStyle;
 use super::gpu_scene::{GpuScene, Origin};
 use super::ids::{ENHANCED, object_id};
 use super::instances::{Detail, DrawCall, Instance};
@@ -111,7 +111,7 @@ impl VisibleSubmesh {
 pub struct Group {
     visible: Vec<Visible>,
     /// Edge parameters by object id; those of other objects draw nothing.
-    pub edge_styles: Vec<EdgeUniform>,
+    pub edge_styles: Vec<GpuEdgeStyle>,
     /// Whether any object with lines has holes by alpha.
     pub has_holes: bool,
     /// Whether what faces away from the eye or lies behind a solid's front is drawn too.
@@ -128,7 +128,7 @@ impl Group {
 
     /// Nothing of a scene with so many object ids.
     pub fn new(count: usize) -> Self {
-        Self { edge_styles: vec![EdgeUniform::default(); count], ..Self::default() }
+        Self { edge_styles: vec![GpuEdgeStyle::default(); count], ..Self::default() }
     }
 
     /// The same with straight lines drawn by a hand.
@@ -143,7 +143,7 @@ impl Group {
     }
 
     /// Adds an object with its lines.
-    pub fn add(&mut self, object: Visible, edges: EdgeUniform, scene: &GpuScene) {
+    pub fn add(&mut self, object: Visible, edges: GpuEdgeStyle, scene: &GpuScene) {
         self.visible.push(object);
         if object.enhanced {
             self.edge_styles[object_id(object.node) as usize] = edges;
@@ -152,7 +152,7 @@ impl Group {
     }
 
     /// The same objects, nothing culled, with lines by object id.
-    pub fn unculled_with_lines(&self, edge_styles: &[EdgeUniform]) -> Self {
+    pub fn unculled_with_lines(&self, edge_styles: &[GpuEdgeStyle]) -> Self {
         Self { edge_styles: edge_styles.to_vec(), is_unculled: true, ..self.clone() }
     }
 
@@ -168,7 +168,7 @@ impl Group {
 
     /// Greatest distance from its spine at which a line has ink, px.
     pub fn greatest_radius(&self) -> f32 {
-        self.edge_styles.iter().map(EdgeUniform::greatest_radius).fold(0.0, f32::max)
+        self.edge_styles.iter().map(GpuEdgeStyle::greatest_radius).fold(0.0, f32::max)
     }
 
     /// Greatest distance from its edge at which a line has ink, px.

@@ -4,7 +4,7 @@ use glam::DMat4;
 
 use crate::document::{Document, Resolved, Show};
 use crate::geometry::{Bounds, EdgeClass};
-use crate::render::base::edge_style::EdgeUniform;
+use crate::render::base::edge_style::GpuEdgeStyle;
 use crate::render::base::gpu_scene::GpuScene;
 use crate::render::base::group::{Group, Submeshes, Visible, box_of};
 use crate::render::base::ids::object_id;
@@ -105,11 +105,11 @@ impl Objects {
         }
         // The width of lines that are nowhere would decide how all others are drawn; and what is only shaded smoothly has
         // no relief.
-        let possible = |edges: EdgeUniform| {
+        let possible = |edges: GpuEdgeStyle| {
             let edges = if scene.is_sectioned(node) { edges } else { edges.without(EdgeClass::Section) };
             if scene.has_relief(node) { edges } else { edges.without(EdgeClass::Relief) }
         };
-        let edges = possible(EdgeUniform::new(&r.style.edges, scale));
+        let edges = possible(GpuEdgeStyle::new(&r.style.edges, scale));
         let edges = if has_layers { edges.inked(&r.style.edges, r.style.blueprint.near) } else { edges };
         let edges = if has_layers { edges.without_fainter(r.style.blueprint.threshold) } else { edges };
         let whole = Visible { node, enhanced: r.enhanced, submeshes: Submeshes::All };
@@ -121,14 +121,14 @@ impl Objects {
             sketch.group.add(whole, edges, scene);
             sketch.add_alphas(scene.alphas(node));
             if r.enhanced {
-                let style = possible(EdgeUniform::of_hidden_lines(&r.style.edges, scale));
+                let style = possible(GpuEdgeStyle::of_hidden_lines(&r.style.edges, scale));
                 sketch.hidden.add(count, id, style, &r.style.edges.hidden);
             }
         } else if is_opaque {
             let submeshes = if has_blended { Submeshes::Opaque } else { Submeshes::All };
             self.surfaces.add(Visible { submeshes, ..whole }, edges, scene);
             if r.enhanced && as_picture {
-                let style = possible(EdgeUniform::of_hidden_lines(&r.style.edges, scale));
+                let style = possible(GpuEdgeStyle::of_hidden_lines(&r.style.edges, scale));
                 self.hidden.add(count, id, style, &r.style.edges.hidden);
             }
         }

@@ -10,7 +10,7 @@ use glam::Vec3;
 use super::layered::{LayerRequest, Layered, LayeredGroup, LineRequest, Visit, least_pixels};
 use super::section::GpuCap;
 use crate::gpu::{ArrayBuffer, Gpu, Inputs, Recorder, Target, UniformBuffer, inputs};
-use crate::render::base::edge_style::EdgeUniform;
+use crate::render::base::edge_style::GpuEdgeStyle;
 use crate::render::base::error::RenderError;
 use crate::render::base::group::Group;
 use crate::render::base::scene_view::SceneView;
@@ -202,10 +202,10 @@ fn request_of<'a>(
     mask: Option<&'a DepthMask>,
     size: [u32; 2],
     is_kept: bool,
-    line_styles: &'a [&'a Vec<EdgeUniform>],
+    line_styles: &'a [&'a Vec<GpuEdgeStyle>],
 ) -> LayerRequest<'a> {
     let params = &blueprint.style;
-    let any = |has: fn(&EdgeUniform) -> bool| blueprint.group.edge_styles.iter().any(has);
+    let any = |has: fn(&GpuEdgeStyle) -> bool| blueprint.group.edge_styles.iter().any(has);
     LayerRequest {
         max_layers: if mask.is_some() { blueprint.last() } else { blueprint.layers() },
         min_pixels: least_pixels(params.least, size),
@@ -215,11 +215,11 @@ fn request_of<'a>(
             most_without: blueprint.layers(),
         }),
         by: None,
-        with_color: is_kept || any(EdgeUniform::reads_color),
-        with_normals: is_kept || any(EdgeUniform::reads_normals),
+        with_color: is_kept || any(GpuEdgeStyle::reads_color),
+        with_normals: is_kept || any(GpuEdgeStyle::reads_normals),
         with_depth: is_kept,
         // The first one that is drawn is what a click means.
-        whole_layers: if is_kept || any(EdgeUniform::compares_geometry) { MOST_LAYERS } else { params.from },
+        whole_layers: if is_kept || any(GpuEdgeStyle::compares_geometry) { MOST_LAYERS } else { params.from },
         line_styles,
         nearer: None,
     }

@@ -10,7 +10,7 @@
 use super::layered::{LayerRequest, Layered, LayeredGroup, LineRequest, Visit, least_pixels};
 use crate::gpu::recorder::Onto;
 use crate::gpu::{Gpu, Recorder, Target, inputs};
-use crate::render::base::edge_style::EdgeUniform;
+use crate::render::base::edge_style::GpuEdgeStyle;
 use crate::render::base::error::RenderError;
 use crate::render::base::frame_uniform::FrameUniform;
 use crate::render::base::group::Group;
@@ -27,7 +27,7 @@ use crate::style;
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Hidden {
     /// By object id, how its hidden lines look.
-    styles: Vec<EdgeUniform>,
+    styles: Vec<GpuEdgeStyle>,
     /// By object id, how many layers behind the visible one have lines of it.
     depths: Vec<u32>,
     /// The least share of the picture, percent, that any of them asks for.
@@ -39,18 +39,18 @@ struct Band {
     /// The last layer, from 1 on; 0 is the visible one.
     last: u32,
     /// By object id.
-    styles: Vec<EdgeUniform>,
+    styles: Vec<GpuEdgeStyle>,
 }
 
 impl Hidden {
     /// Adds the hidden lines of an object, if it has any, in a scene with `count` object ids.
-    pub fn add(&mut self, count: usize, id: usize, style: EdgeUniform, hidden: &style::Hidden) {
+    pub fn add(&mut self, count: usize, id: usize, style: GpuEdgeStyle, hidden: &style::Hidden) {
         if !style.is_exact() && !style.is_paper() {
             return;
         }
         let least = hidden.least;
         self.least = if self.styles.is_empty() { least } else { self.least.min(least) };
-        self.styles.resize(count, EdgeUniform::default());
+        self.styles.resize(count, GpuEdgeStyle::default());
         self.depths.resize(count, 0);
         self.styles[id] = style;
         self.depths[id] = hidden.depth();
@@ -63,7 +63,7 @@ impl Hidden {
 
     /// Greatest distance from its spine at which a line has ink, px.
     pub fn greatest_radius(&self) -> f32 {
-        self.styles.iter().map(EdgeUniform::greatest_radius).fold(0.0, f32::max)
+        self.styles.iter().map(GpuEdgeStyle::greatest_radius).fold(0.0, f32::max)
     }
 
     fn bands(&self) -> Vec<Band> {
@@ -73,7 +73,7 @@ impl Hidden {
         let of = |last: u32| {
             let has_lines = self.styles.iter().zip(&self.depths);
             let styles =
-                has_lines.map(|(style, depth)| if *depth >= last { *style } else { EdgeUniform::default() });
+                has_lines.map(|(style, depth)| if *depth >= last { *style } else { GpuEdgeStyle::default() });
             Band { last, styles: styles.collect() }
         };
         lasts.into_iter().map(of).collect()
@@ -142,17 +142,17 @@ impl HiddenLines {
                 Some(edges) => Some(edges.value.all_lines(rec)?),
                 None => None,
             };
-            let any = |has: fn(&EdgeUniform) -> bool| bands.iter().any(|band| band.styles.iter().any(has));
+            let any = |has: fn(&GpuEdgeStyle) -> bool| bands.iter().any(|band| band.styles.iter().any(has));
             let line_styles: Vec<_> = bands.iter().map(|band| &band.styles).collect();
             let request = LayerRequest {
                 max_layers: bands.last().map_or(0, |band| band.last) + 1,
                 min_pixels: least_pixels(hidden.least, rec.size()),
                 uncover: None,
                 by: None,
-                with_color: any(EdgeUniform::reads_color),
-                with_normals: any(EdgeUniform::reads_normals),
+                with_color: any(GpuEdgeStyle::reads_color),
+                with_normals: any(GpuEdgeStyle::reads_normals),
                 with_depth: false,
-                whole_layers: if any(EdgeUniform::compares_geometry) { MOST_LAYERS } else { 0 },
+                whole_layers: if any(GpuEdgeStyle::compares_geometry) { MOST_LAYERS } else { 0 },
                 line_styles: &line_styles,
                 nearer: visible.as_ref(),
             };

@@ -5,7 +5,7 @@ use glam::Vec2;
 
 use crate::document::LayersBy;
 use crate::gpu::{Gpu, Recorder, Target};
-use crate::render::base::edge_style::EdgeUniform;
+use crate::render::base::edge_style::GpuEdgeStyle;
 use crate::render::base::error::RenderError;
 use crate::render::base::feature_lines::plain_feature_lines;
 use crate::render::base::frame_uniform::FrameUniform;
@@ -78,7 +78,7 @@ pub struct LayerRequest<'a> {
     /// The geometry of so many layers is 0 where they have nothing; of the others it is undefined there.
     pub whole_layers: u32,
     /// How lines look, by object id; objects may differ from layer to layer, so there are as many as are told apart.
-    pub line_styles: &'a [&'a Vec<EdgeUniform>],
+    pub line_styles: &'a [&'a Vec<GpuEdgeStyle>],
     /// Lines before the first layer, which are not repeated.
     pub nearer: Option<&'a Target>,
 }
@@ -101,7 +101,7 @@ pub struct Visit<'w> {
     /// The layer.
     pub drawn: DrawnLayer<'w>,
     lines: &'w mut [LayerLines],
-    line_styles: &'w [&'w Vec<EdgeUniform>],
+    line_styles: &'w [&'w Vec<GpuEdgeStyle>],
     segments: &'w Segments,
     has_holes: bool,
     is_clipped: bool,

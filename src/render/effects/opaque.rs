@@ -9,7 +9,7 @@ use super::hidden::{Hidden, HiddenLines};
 use crate::geometry::EdgeClass;
 use crate::geometry::line_segments::SegmentSet;
 use crate::gpu::{ArrayBuffer, Gpu, Recorder, Target};
-use crate::render::base::edge_style::EdgeUniform;
+use crate::render::base::edge_style::GpuEdgeStyle;
 use crate::render::base::error::RenderError;
 use crate::render::base::feature_lines::feature_lines;
 use crate::render::base::frame_uniform::FrameUniform;
@@ -86,7 +86,7 @@ struct GeometryKey {
 struct SegmentsKey {
     scene_revision: u64,
     view: View,
-    styles: Vec<EdgeUniform>,
+    styles: Vec<GpuEdgeStyle>,
     crease_angle: f32,
     strokes: Option<StrokeStyle>,
 }
@@ -96,7 +96,7 @@ struct SegmentsKey {
 struct EdgeKey {
     gbuffer: u64,
     shadows: Option<u64>,
-    styles: Vec<EdgeUniform>,
+    styles: Vec<GpuEdgeStyle>,
     depth_range: Vec2,
     light: Option<FrameUniform>,
     strokes: Option<StrokeStyle>,
@@ -108,7 +108,7 @@ struct InkKey {
     gbuffer: u64,
     edges: u64,
     line_distance: Option<u64>,
-    edge_styles: Vec<EdgeUniform>,
+    edge_styles: Vec<GpuEdgeStyle>,
     uniform: FrameUniform,
 }
 
@@ -219,7 +219,7 @@ impl OpaqueLayer {
         surfaces: &Surfaces,
     ) -> Result<Output<EdgeMap>, RenderError> {
         let OpaqueInputs { scene_view, group, uniform, .. } = *inputs;
-        let styles: Vec<_> = group.edge_styles.iter().map(EdgeUniform::for_finding).collect();
+        let styles: Vec<_> = group.edge_styles.iter().map(GpuEdgeStyle::for_finding).collect();
         // Only widths that follow the light depend on more than the geometry.
         let light = styles.iter().any(|s| s.by_light > 0.0).then(|| uniform.without_background());
         // Which edges are lines does not change from sample to sample.

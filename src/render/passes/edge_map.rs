@@ -11,7 +11,7 @@ use super::segments::{MARKS, SegmentInputs, Segments};
 use crate::geometry::EdgeClass;
 use crate::gpu::recorder::{Draw, Onto};
 use crate::gpu::{DepthRule, Inputs, Program, Recorder, Target, inputs};
-use crate::render::base::edge_style::EdgeUniform;
+use crate::render::base::edge_style::GpuEdgeStyle;
 use crate::render::base::error::RenderError;
 
 pub(super) const EDGE_MAP: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Uint;
@@ -48,7 +48,7 @@ pub struct EdgeInputs<'a> {
     /// Per-pixel geometry.
     pub gbuffer: &'a GBuffer,
     /// Edge styles by object id.
-    pub styles: &'a [EdgeUniform],
+    pub styles: &'a [GpuEdgeStyle],
     /// The same on the device.
     pub edge_styles: &'a wgpu::Buffer,
     /// Whether the map is looked at by itself. Otherwise it is undefined where no spines and no ink of operators are.
@@ -78,11 +78,11 @@ pub fn edge_map(rec: &mut Recorder<'_>, inputs: &EdgeInputs<'_>) -> Result<EdgeM
     let edge_map = rec.target("edge map", EDGE_MAP)?;
     let mut spines = None;
     let mut onto = Onto::Clear;
-    if inputs.styles.iter().any(EdgeUniform::is_exact) {
+    if inputs.styles.iter().any(GpuEdgeStyle::is_exact) {
         spines = Some(exact_edges(rec, inputs, &edge_map)?);
         onto = Onto::Load;
     }
-    let has_paper = inputs.styles.iter().any(EdgeUniform::is_paper);
+    let has_paper = inputs.styles.iter().any(GpuEdgeStyle::is_paper);
     // Without exact edges it is this that clears the map.
     if onto == Onto::Clear || has_paper {
         paper_edges(rec, inputs.gbuffer, inputs.styles, inputs.edge_styles, &edge_map, onto)?;
@@ -139,13 +139,13 @@ fn exact_edges(
         marked,
         ..
     } = *inputs;
-    let any = |has: fn(&EdgeUniform) -> bool| styles.iter().any(|s| s.is_exact() && has(s));
+    let any = |has: fn(&GpuEdgeStyle) -> bool| styles.iter().any(|s| s.is_exact() && has(s));
     let variation =
-        [("WITH_VARIATION", any(EdgeUniform::varies)), ("WITH_PRESSURE", any(|s| s.pressure > 0.0))];
+        [("WITH_VARIATION", any(GpuEdgeStyle::varies)), ("WITH_PRESSURE", any(|s| s.pressure > 0.0))];
     let with_angles = any(|s| s.by_angle > 0.0);
     let spines = rec.target("spines", SPINES)?;
     let marks = rec.target("marks of segments", MARKS)?;
-    let with_edges = (is_whole || styles.iter().any(EdgeUniform::is_paper)).then_some(edge_map);
+    let with_edges = (is_whole || styles.iter().any(GpuEdgeStyle::is_paper)).then_some(edge_map);
     rec.clear("no lines", &[&spines, &marks].into_iter().chain(with_edges).collect::<Vec<_>>());
     let switches: Vec<_> =
         [("WITH_HOLES", has_holes), ("WITH_ANGLES", with_angles)].into_iter().chain(variation).collect();

@@ -18,7 +18,7 @@ pub use self::budget::{LayerMethod, Reason, Reported};
 use self::budget::{Budget, Recorded};
 use crate::document::LayersBy;
 use crate::gpu::{ArrayBuffer, Gpu, Predicate, Recorder, Reports, Target};
-use crate::render::base::edge_style::EdgeUniform;
+use crate::render::base::edge_style::GpuEdgeStyle;
 use crate::render::base::error::RenderError;
 use crate::render::base::gpu_scene::GpuScene;
 use crate::render::base::instances::{DrawCall, Instance, InstanceBuffer};
@@ -242,7 +242,7 @@ pub struct LayerLines {
 #[derive(Clone, Copy)]
 pub struct LayerLinesInputs<'a> {
     /// Edge styles by object id.
-    pub styles: &'a [EdgeUniform],
+    pub styles: &'a [GpuEdgeStyle],
     /// See [`EdgeInputs::is_whole`].
     pub is_whole: bool,
     /// What topology knows, hidden edges included.
@@ -273,7 +273,7 @@ impl LayerEdges {
         &'a self,
         layer: &'a Layer,
         lines: &'a LayerLines,
-        styles: &'a [EdgeUniform],
+        styles: &'a [GpuEdgeStyle],
     ) -> Lines<'a> {
         Lines {
             gbuffer: &layer.gbuffer,
@@ -295,7 +295,7 @@ impl LayerLines {
     }
 
     /// Uploads the styles for what is recorded next.
-    pub fn begin(&mut self, gpu: &Gpu, styles: &Vec<EdgeUniform>) {
+    pub fn begin(&mut self, gpu: &Gpu, styles: &Vec<GpuEdgeStyle>) {
         self.edge_styles.write(gpu, styles);
     }
 

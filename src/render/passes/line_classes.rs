@@ -9,7 +9,7 @@ use wgpu::util::{BufferInitDescriptor, DeviceExt};
 use super::edge_map::EdgeMap;
 use super::gbuffer::GBuffer;
 use crate::gpu::{ArrayBuffer, Gpu, Inputs, Program, RecordBuffer, Recorder, inputs};
-use crate::render::base::edge_style::EdgeUniform;
+use crate::render::base::edge_style::GpuEdgeStyle;
 use crate::render::base::error::RenderError;
 use crate::render::base::view::REFERENCE_HEIGHT;
 
@@ -164,7 +164,7 @@ pub struct Decisions {
 impl Decisions {
     /// For lines of these styles; `crossing`: they cross each other without being one, as strokes of a hand do.
     #[must_use]
-    pub fn of(styles: &[EdgeUniform], crossing: bool) -> Self {
+    pub fn of(styles: &[GpuEdgeStyle], crossing: bool) -> Self {
         let mut classes = styles.iter().flat_map(|style| style.drawn().map(|(class, _)| class));
         let first = classes.next();
         Self {

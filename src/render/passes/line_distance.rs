@@ -1,7 +1,7 @@
 //! Which line each pixel belongs to: an exact distance transform whose cost does not depend on the lines' width.
 
 use crate::gpu::{ArrayBuffer, Program, Recorder, Target, inputs};
-use crate::render::base::edge_style::EdgeUniform;
+use crate::render::base::edge_style::GpuEdgeStyle;
 use crate::render::base::error::RenderError;
 
 const INDEX: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;
@@ -95,7 +95,7 @@ pub struct Widths {
 
 impl Widths {
     /// Those of the lines of these styles.
-    pub fn of(styles: &[EdgeUniform]) -> Self {
+    pub fn of(styles: &[GpuEdgeStyle]) -> Self {
         let widths = styles.iter().flat_map(|style| {
             let thinnest = if style.varies() { 0.1 } else { 1.0 };
             style.drawn().flat_map(move |(_, line)| [line.width, line.width * thinnest])
@@ -103,7 +103,7 @@ impl Widths {
         let (least, most) =
             widths.fold((f32::INFINITY, 0.0_f32), |(least, most), width| (least.min(width), most.max(width)));
         Self {
-            greatest_radius: styles.iter().map(EdgeUniform::greatest_radius).fold(0.0, f32::max),
+            greatest_radius: styles.iter().map(GpuEdgeStyle::greatest_radius).fold(0.0, f32::max),
             differ: most - least > 2.0,
             are_moved: false,
         }

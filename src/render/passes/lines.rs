@@ -6,7 +6,7 @@ use super::line_distance::LineDistance;
 use crate::gpu::bindings::NOTHING;
 use crate::gpu::recorder::{Draw, Onto};
 use crate::gpu::{DepthRule, Inputs, Program, Recorder, STENCIL, Target, inputs};
-use crate::render::base::edge_style::EdgeUniform;
+use crate::render::base::edge_style::GpuEdgeStyle;
 use crate::render::base::error::RenderError;
 
 /// The lines of an edge map.
@@ -19,7 +19,7 @@ pub struct Lines<'a> {
     /// Which line reaches each pixel; needed where any object is drawn in exact mode.
     pub line_distance: Option<&'a LineDistance>,
     /// Edge styles by object id.
-    pub styles: &'a [EdgeUniform],
+    pub styles: &'a [GpuEdgeStyle],
     /// The same on the device.
     pub edge_styles: &'a wgpu::Buffer,
 }
@@ -74,15 +74,15 @@ impl<'a> Lines<'a> {
 
     /// Its switches.
     pub fn switches(&self) -> Vec<(&'static str, bool)> {
-        let any = |has: fn(&EdgeUniform) -> bool| self.styles.iter().any(has);
+        let any = |has: fn(&GpuEdgeStyle) -> bool| self.styles.iter().any(has);
         vec![
-            ("WITH_PAPER", any(EdgeUniform::is_paper)),
+            ("WITH_PAPER", any(GpuEdgeStyle::is_paper)),
             ("WITH_EXACT", self.line_distance.is_some()),
             ("WITH_WIDTHS", matches!(self.line_distance, Some(LineDistance::Wide { nearest: Some(_), .. }))),
             ("NARROW", matches!(self.line_distance, Some(LineDistance::Narrow { .. }))),
             ("NARROW_BY_TWO", matches!(self.line_distance, Some(LineDistance::Narrow { by_two: true, .. }))),
             ("WITH_DASHES", any(|s| s.drawn().any(|(_, l)| l.dashed == 1))),
-            ("WITH_SURFACE_COLOR", any(EdgeUniform::takes_surface_color)),
+            ("WITH_SURFACE_COLOR", any(GpuEdgeStyle::takes_surface_color)),
         ]
     }
 }

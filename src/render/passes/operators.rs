@@ -4,15 +4,15 @@
 use super::gbuffer::GBuffer;
 use crate::gpu::recorder::{Draw, Onto};
 use crate::gpu::{DepthRule, Program, Recorder, Target, inputs};
-use crate::render::base::edge_style::EdgeUniform;
+use crate::render::base::edge_style::GpuEdgeStyle;
 use crate::render::base::error::RenderError;
 
-fn program(entry_point: &'static str, styles: &[EdgeUniform]) -> Program {
-    let any = |has: fn(&EdgeUniform) -> bool| styles.iter().any(has);
+fn program(entry_point: &'static str, styles: &[GpuEdgeStyle]) -> Program {
+    let any = |has: fn(&GpuEdgeStyle) -> bool| styles.iter().any(has);
     let switches = vec![
-        ("WITH_C1", entry_point == VALUES || any(EdgeUniform::is_c1)),
-        ("WITH_SOBEL", any(EdgeUniform::is_sobel)),
-        ("WITH_COLOR", any(EdgeUniform::is_paper_with_color)),
+        ("WITH_C1", entry_point == VALUES || any(GpuEdgeStyle::is_c1)),
+        ("WITH_SOBEL", any(GpuEdgeStyle::is_sobel)),
+        ("WITH_COLOR", any(GpuEdgeStyle::is_paper_with_color)),
     ];
     Program { file: "passes/operators.wgsl", entry_point, switches }
 }
@@ -27,7 +27,7 @@ const VALUES: &str = "fs_operators";
 pub fn paper_edges(
     rec: &mut Recorder<'_>,
     gbuffer: &GBuffer,
-    styles: &[EdgeUniform],
+    styles: &[GpuEdgeStyle],
     edge_styles: &wgpu::Buffer,
     edge_map: &Target,
     onto: Onto,
