@@ -428,6 +428,7 @@ fn cs_settle(@builtin(global_invocation_id) id: vec3<u32>) {
     share = select(share, 1.0, first.x == ENDLESS);
     share = select(share, 0.0, first.y == ENDLESS);
     let tangent = unpack_tangent(u32(own.tangent));
+    let depth = mix(bitcast<f32>(next.texel.z), bitcast<f32>(last.texel.z), share);
     let shift = mix(next.shift, last.shift, share) * vec2(tangent.y, -tangent.x);
     let offset = pack_offset(offset_of(own.texel) + shift);
     let look = select(last.texel, next.texel, vec4(first.x <= first.y));
@@ -435,12 +436,11 @@ fn cs_settle(@builtin(global_invocation_id) id: vec3<u32>) {
     let edge = vec4(
         (class_of << 28u) | (own.texel.x & 0x0fff0000u) | offset,
         look.y,
-        own.texel.z,
+        bitcast<u32>(depth),
         (look.w & ~phase) | (own.texel.w & phase),
     );
     let rank = select(0.0, 1.0, is_of_profile(class_of));
-    let nearness = 1.0 - range_share(bitcast<f32>(own.texel.z));
-    change(px, edge, spine_of(edge, halves_of(look.y, class_of), rank, nearness));
+    change(px, edge, spine_of(edge, halves_of(look.y, class_of), rank, 1.0 - range_share(depth)));
 }
 
 @compute @workgroup_size(GROUP)
