@@ -467,6 +467,7 @@ fn the_order_of_objects_changes_no_layer() {
             .collect::<Vec<_>>();
         pictures.push(depths);
     }
+    assert!(pictures[0].iter().filter(|depths| depths.len() > 1).count() > 300);
     assert!(pictures[0] == pictures[1]);
 }
 
@@ -616,9 +617,12 @@ fn a_class_with_a_color_of_its_own_keeps_it_in_a_blueprint() {
     let (ridges, others) = (count(&mut session, &opened, green), count(&mut session, &opened, black));
     assert!(ridges > 60 && others > 100 && ridges + others <= all + 40, "{ridges} + {others} of {all}");
     // It fades as all lines do.
+    // From within, the far edges are valleys.
+    set(&mut opened, "edges.valley.color", "#00c000");
+    set(&mut opened, "blueprint.from", "2");
+    assert!(count(&mut session, &opened, green) > 30);
     set(&mut opened, "blueprint.far", "#ffffff");
     set(&mut opened, "blueprint.by_layer", "1");
-    set(&mut opened, "blueprint.from", "2");
     assert_eq!(count(&mut session, &opened, green), 0);
 }
 

@@ -239,10 +239,13 @@ fn a_designated_object_is_in_no_layer_and_stands_in_the_picture_in_its_own_style
         set(&mut scene, key, value);
     }
     draw(&mut session, &scene);
+    let mut seen = 0;
     for geometry in common::kept_layers(&mut session, "layer geometry") {
         let surfels = texels::<[u32; 4]>(&mut session, &geometry);
+        seen += surfels.iter().filter(|s| s[3] != 0).count();
         assert!(surfels.iter().all(|s| s[3] & 0x7fff_ffff != object_id(0)));
     }
+    assert!(seen > 1000, "{seen}");
     let image = |session: &mut Session, opened: &Opened| common::image(session, opened, SIDE);
     let mask = mask_of(&mut session);
     let middle = mask.chunks(SIDE as usize).nth(SIDE as usize / 2).unwrap();

@@ -191,6 +191,7 @@ fn darker_tones_only_add_ink() {
             assert!(last.iter().zip(&next).all(|(a, b)| *b >= a - 1e-6), "{texture:?}, tone {step}/20");
             last = next;
         }
+        assert!(mean(&last) > 0.99, "{texture:?}: black is not all ink");
     }
 }
 
@@ -346,6 +347,7 @@ fn a_picture_twice_as_large_is_the_same_drawing() {
             session.set_scene(&opened).unwrap();
             let small = inks(&mut session, &opened, SIDE);
             let large = inks(&mut session, &opened, 2 * SIDE);
+            assert!((0.02..0.98).contains(&mean(&small)), "{texture:?}, {fixed:?}: {}", mean(&small));
             let side = SIDE as usize;
             let errors: Vec<f32> = (0..side * side)
                 .map(|i| {

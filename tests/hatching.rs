@@ -307,6 +307,8 @@ fn the_unit_of_a_model_does_not_matter() {
             middle.iter().zip(other.iter()).filter(|(a, b)| a.unwrap_or(0.0) > 0.5 && b.unwrap_or(0.0) < 0.1);
         let share = apart.count() as f64 / middle.iter().flatten().count() as f64;
         assert!(share < 0.01, "{share}");
+        let (here, there) = (mean(middle), mean(other));
+        assert!(here > 0.25 && (here - there).abs() < 0.03, "{here} {there}");
     }
 }
 

@@ -228,6 +228,7 @@ fn soup_of_a_sphere_is_welded_and_smooth() {
     let scene = open_bytes("sphere.stl", &stl);
     let mesh = &scene.meshes[0];
     assert_eq!(mesh.positions.len(), 23 * 48 + 2);
+    assert_eq!(mesh.normals.len(), mesh.positions.len());
     for (p, n) in mesh.positions.iter().zip(&mesh.normals) {
         assert!(n.distance(*p * 0.5) < 0.02);
     }

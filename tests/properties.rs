@@ -65,11 +65,13 @@ fn the_outline_of_a_cube_is_closed_from_any_side() {
         let picture = draw(&mut session, &opened, 96);
         let buffer = surfels(&mut session, &picture);
         let ink = ink(&mut session, &picture);
+        let mut boundary = 0;
         for y in 1..95 {
             for x in 1..95 {
                 let neighbors = [y * 96 + x - 1, y * 96 + x + 1, (y - 1) * 96 + x, (y + 1) * 96 + x];
                 let here = y * 96 + x;
                 if buffer[here].object != 0 && neighbors.iter().any(|n| buffer[*n].object == 0) {
+                    boundary += 1;
                     assert!(
                         ink[here].0.max(ink[here].1) > 0.3,
                         "gap at {x},{y} from {direction}: {:?}",
@@ -78,6 +80,7 @@ fn the_outline_of_a_cube_is_closed_from_any_side() {
                 }
             }
         }
+        assert!(boundary > 100, "nothing to see from {direction}: {boundary}");
     }
 }
 
@@ -248,9 +251,11 @@ fn shaders_and_program_number_surfaces_alike() {
     let regions = common::texels::<u32>(&mut session, &regions);
     let surfels = common::surfels(&mut session, &picture);
     assert!(surfels.iter().any(|s| s.object != 0));
+    let mut seen = std::collections::BTreeSet::new();
     for (region, surfel) in regions.into_iter().zip(surfels).filter(|(_, s)| s.object != 0) {
-        assert!(
-            (0..6).any(|surface| region == hachure::render::base::ids::surface_id(surfel.object, surface))
-        );
+        let is_its =
+            |surface: &u32| region == hachure::render::base::ids::surface_id(surfel.object, *surface);
+        seen.insert((0..6).find(is_its).unwrap());
     }
+    assert!(seen.len() >= 3, "three sides are seen: {seen:?}");
 }

@@ -131,8 +131,13 @@ fn no_line_of_sight_leaves_the_hidden_chamber() {
 #[test]
 fn no_two_faces_of_the_temple_lie_in_one_place() {
     let scene = imported("temple");
-    let shared = shared(&scene);
-    assert!(shared.is_empty(), "{shared:#?}");
+    let found = shared(&scene);
+    assert!(found.is_empty(), "{found:#?}");
+    // Twice the same ground is found.
+    let ground = scene.find("/temple/ground").unwrap();
+    let mut twice = scene.clone();
+    twice.nodes.push(hachure::scene::Node { path: "/again".to_owned(), ..scene.nodes[ground].clone() });
+    assert!(!shared(&twice).is_empty());
 }
 
 /// How far along a ray it meets a triangle, in lengths of `way`.

@@ -22,7 +22,7 @@ fn a_cube_keeps_its_edges_below_its_angle_and_loses_them_above() {
     assert_eq!(Adjacency::new(&sharp).edges.len(), 18);
 
     let round = by_crease_angle(cube(2.0), 100.0);
-    assert_eq!(round.positions.len(), 8);
+    assert_eq!([round.positions.len(), round.normals.len()], [8; 2]);
     for (p, n) in round.positions.iter().zip(&round.normals) {
         // Angle weights make the corner's diagonal exact, whichever way the sides are triangulated.
         assert!(n.distance(p.normalize()) < 1e-6);
@@ -35,7 +35,7 @@ fn soup_becomes_as_smooth_as_the_indexed_mesh() {
     let flat_soup = flat(soup(&exact));
     assert!(flat_soup.normals.is_empty());
     let smooth = by_crease_angle(flat_soup, 40.0);
-    assert_eq!(smooth.positions.len(), exact.indices.len());
+    assert_eq!([smooth.positions.len(), smooth.normals.len()], [exact.indices.len(); 2]);
     for (p, n) in smooth.positions.iter().zip(&smooth.normals) {
         assert!(n.distance(*p) < 0.01, "{n} at {p}");
     }

@@ -30,6 +30,7 @@ fn check_same_layers(name: &str, opened: &Opened, side: u32) -> u32 {
     assert_eq!(counted, counted_too, "{name}");
     let drawn = counted.layers as usize;
     assert!(drawn > 0, "{name}");
+    assert!(peeled.len() >= drawn && cut.len() >= drawn, "{name}: {} and {} kept", peeled.len(), cut.len());
     for (number, (a, b)) in peeled.iter().zip(&cut).enumerate().take(drawn) {
         assert!(a.3 == b.3, "{name}: depth of layer {number}");
         assert!(a.0 == b.0, "{name}: geometry of layer {number}");

@@ -76,6 +76,7 @@ fn where_parts_touch_lines_keep_their_class() {
         session.set_scene(&opened).unwrap();
         let lines = Lines::draw(&mut session, &opened, 400);
         let found = alternations(&lines, 400);
+        assert!(lines.length() > 300.0, "from {z}: hardly any line");
         assert!(
             found.is_empty(),
             "from {z}: {} runs in {:.0} px of line: {found:?}",
@@ -103,6 +104,7 @@ fn lines_of_models_keep_their_class() {
         all.changes = all.changes.and(row.changes);
     }
     println!("{:<20} {}", "all", all.line());
+    assert!(all.length > 1000.0, "nothing was measured");
     let [alternations, _, strengths] = all.numbers();
     assert!(alternations <= MOST_ALTERNATIONS, "{alternations:.3} alternations, wanted {MOST_ALTERNATIONS}");
     assert!(strengths <= MOST_STRENGTHS, "{strengths:.3} % change their ink, wanted {MOST_STRENGTHS}");

@@ -248,7 +248,8 @@ fn what_hides_what_is_right_with_sketches_in_a_hundred_scenes() {
 #[test]
 fn the_papers_rule_of_depth_lets_nothing_through_a_wall_either() {
     let mut session = common::session();
-    check_all(&mut session, Layout::BehindWall, 302..308, |style| {
+    let behind = check_all(&mut session, Layout::BehindWall, 302..308, |style| {
         style.sketch.wander.depth = SketchDepth::Nearer;
     });
+    assert!(behind.hidden > 6 * 1000, "{behind:?}");
 }

@@ -1,0 +1,88 @@
+// What continues a line: links from pixel to pixel.
+#import common/frame.wgsl
+#import common/edge_map.wgsl
+
+var edge_map_tex: texture_storage_2d<rgba32uint, read>;
+
+// Two lines that are closer than this, px, are one: their ink overlaps.
+const BESIDE: f32 = 1.5;
+// Points are side by side up to this distance along their line, px.
+const ABREAST: f32 = 0.75;
+// Angle up to which two tangents belong to one line, of 512 for a full turn: 32 degrees.
+const PARALLEL: i32 = 45;
+
+// The class of a line in a texel of the edge map; `NO_EDGE`: there is no ink of one.
+fn line_class(texel: vec4<u32>) -> u32 {
+    let class_of = class_of(texel);
+    return select(NO_EDGE, class_of, (texel.w >> 26u) != 0u && class_of <= SECTION);
+}
+
+// The point of a line in a pixel.
+struct Point {
+    texel: vec4<u32>,
+    class_of: u32,
+    // px.
+    at: vec2<f32>,
+    // As in the edge map.
+    tangent: i32,
+}
+
+fn point_at(px: vec2<i32>) -> Point {
+    let texel = textureLoad(edge_map_tex, px);
+    let is_inside = all(px >= vec2(0)) && all(px < vec2<i32>(frame.size));
+    let class_of = select(NO_EDGE, line_class(texel), is_inside);
+    return Point(texel, class_of, vec2<f32>(px) + 0.5 + offset_of(texel), i32((texel.x >> 16u) & 511u));
+}
+
+// The least angle from one tangent to another one, of 512 for a full turn, −256 to 255.
+fn turn(one: Point, other: Point) -> i32 {
+    return ((other.tangent - one.tangent + 256) & 511) - 256;
+}
+
+// How far a point lies along and beside the line of another one, px; far beside if it is not of that line.
+fn seen_from(own: Point, towards: vec2<f32>, point: Point) -> vec2<f32> {
+    let away = point.at - own.at;
+    let angle = abs(turn(own, point));
+    let is_same = point.class_of != NO_EDGE && min(angle, 256 - angle) < PARALLEL;
+    return vec2(dot(away, towards), select(1e9, abs(away.x * towards.y - away.y * towards.x), is_same));
+}
+
+// The pixels around one, row by row: two in each direction.
+const AROUND: u32 = 25u;
+const OWN: u32 = 12u;
+
+fn away_of(place: u32) -> vec2<i32> {
+    return vec2<i32>(vec2(place % 5u, place / 5u)) - 2;
+}
+
+// The next pixel of a line.
+struct Link {
+    // Of those around; `OWN`: the line ends here.
+    place: u32,
+    // Whether the tangent there points backwards.
+    is_turned: bool,
+    // Along the line, px, up to 2.5.
+    distance: f32,
+}
+
+// Links take 10 bits: first that in the direction of the tangent, then that against it. Below them 11 bits tell which classes run
+// here.
+const LINK_BITS: u32 = 10u;
+const CLASS_BITS: u32 = 11u;
+
+fn pack_link(link: Link) -> u32 {
+    return link.place | (select(0u, 1u, link.is_turned) << 5u) | (u32(round(6.0 * link.distance)) << 6u);
+}
+
+fn unpack_link(texel: u32, side: u32) -> Link {
+    let bits = texel >> (CLASS_BITS + side * LINK_BITS);
+    return Link(bits & 31u, ((bits >> 5u) & 1u) != 0u, f32((bits >> 6u) & 15u) / 6.0);
+}
+
+fn classes_in(texel: u32) -> u32 {
+    return texel & ((1u << CLASS_BITS) - 1u);
+}
+
+fn bit_of(class_of: u32) -> u32 {
+    return 1u << (class_of - 1u);
+}

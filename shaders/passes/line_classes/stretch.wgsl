@@ -1,0 +1,177 @@
+// What is met along a line, and the class that it has there.
+#import common/edge_map.wgsl
+#import passes/line_classes/links.wgsl
+
+// The shortest stretch, px.
+var<storage, read> least: array<f32>;
+// As `pack_link` packs links. Undefined where no line is.
+var link_tex: texture_2d<u32>;
+
+// Most steps of a stretch that are told apart: twice as many have to fit into the bits of a number.
+const MOST_STEPS: f32 = 15.0;
+// Longer than any.
+const ENDLESS: i32 = 1000;
+
+// Where each class runs: the steps along a line as the bits of a number.
+struct Steps {
+    classes_1: vec4<u32>,
+    classes_5: vec4<u32>,
+    classes_9: vec4<u32>,
+}
+
+fn with_step(steps: Steps, classes: u32, step: u32) -> Steps {
+    let four = (vec4(classes) >> vec4(0u, 1u, 2u, 3u)) & vec4(1u);
+    let next = (vec4(classes) >> vec4(4u, 5u, 6u, 7u)) & vec4(1u);
+    let last = (vec4(classes) >> vec4(8u, 9u, 10u, 11u)) & vec4(1u);
+    return Steps(
+        steps.classes_1 | (four << vec4(step)),
+        steps.classes_5 | (next << vec4(step)),
+        steps.classes_9 | (last << vec4(step)),
+    );
+}
+
+// What following a line in one direction comes to.
+struct Stretch {
+    steps: Steps,
+    // All classes that are met.
+    classes: u32,
+    // The step behind which nothing continues the line, or else `ENDLESS`.
+    end: i32,
+    // The last pixel.
+    last: vec2<i32>,
+}
+
+fn steps_per_px() -> f32 {
+    return min(1.0, MOST_STEPS / least[0]);
+}
+
+fn step_at(distance: f32) -> u32 {
+    return u32(distance * steps_per_px() + 0.5);
+}
+
+fn follow(px: vec2<i32>, links: u32, first_side: u32) -> Stretch {
+    let farthest = 2.0 * min(least[0], MOST_STEPS / steps_per_px());
+    var stretch = Stretch(Steps(vec4(0u), vec4(0u), vec4(0u)), 0u, ENDLESS, px);
+    var texel = links;
+    var side = first_side;
+    var distance = 0.0;
+    while stretch.end == ENDLESS && distance < farthest {
+        let classes = classes_in(texel);
+        stretch.classes |= classes;
+        stretch.steps = with_step(stretch.steps, classes, step_at(distance));
+        let link = unpack_link(texel, side);
+        if link.place == OWN {
+            stretch.end = i32(step_at(distance));
+        }
+        stretch.last += away_of(link.place);
+        side ^= select(0u, 1u, link.is_turned);
+        distance += link.distance;
+        texel = textureLoad(link_tex, stretch.last, 0).x;
+    }
+    return stretch;
+}
+
+fn steps_in(steps: Steps, class_of: u32) -> u32 {
+    let index = class_of - 1u;
+    let four = select(select(steps.classes_9, steps.classes_5, index < 8u), steps.classes_1, index < 4u);
+    return four[index % 4u];
+}
+
+// Of a class, in both directions.
+fn steps_of(ahead: Stretch, behind: Stretch, class_of: u32) -> vec2<u32> {
+    return vec2(steps_in(ahead.steps, class_of), steps_in(behind.steps, class_of));
+}
+
+// Steps without a class that are no gap in it.
+fn longest_gap() -> i32 {
+    return i32(min(ceil(least[0]), MOST_STEPS));
+}
+
+// The last of these steps that is reached from one of them without a gap as long as a stretch.
+fn last_step(steps: u32, first: i32, longest: i32) -> i32 {
+    var last = first;
+    for (var step = first + 1; step <= last + longest && step < 32; step++) {
+        if (steps & (1u << u32(step))) != 0u {
+            last = step;
+        }
+    }
+    return last;
+}
+
+// The first step of a class in both directions.
+fn first_of(steps: vec2<u32>) -> vec2<i32> {
+    return vec2<i32>(select(countTrailingZeros(steps), vec2<u32>(u32(ENDLESS)), steps == vec2(0u)));
+}
+
+// Where a class runs nearest along a line, in one direction.
+struct Nearest {
+    // Of the edge map.
+    texel: vec4<u32>,
+    // From the line to the left of it there, px.
+    shift: f32,
+}
+
+fn nearest_of(class_of: u32, px: vec2<i32>, links: u32, first_side: u32) -> Nearest {
+    var at = px;
+    var texel = links;
+    var side = first_side;
+    for (var i = 0; i < 64 && (classes_in(texel) & bit_of(class_of)) == 0u; i++) {
+        let link = unpack_link(texel, side);
+        at += away_of(link.place);
+        side ^= select(0u, 1u, link.is_turned);
+        texel = textureLoad(link_tex, at, 0).x;
+    }
+    let line = point_at(at);
+    let towards = unpack_tangent(u32(line.tangent));
+    let left = vec2(towards.y, -towards.x) * select(-1.0, 1.0, side == first_side);
+    var nearest = Nearest(line.texel, 0.0);
+    var least_distance = 1e9;
+    for (var place = 0u; place < AROUND; place++) {
+        let point = point_at(at + away_of(place));
+        let seen = seen_from(line, towards, point);
+        let distance = abs(seen.x) + seen.y;
+        if point.class_of == class_of && seen.y < BESIDE && abs(seen.x) <= ABREAST && distance < least_distance {
+            least_distance = distance;
+            nearest = Nearest(point.texel, dot(point.at - line.at, left));
+        }
+    }
+    return nearest;
+}
+
+// The class of a line here.
+fn settled(px: vec2<i32>, own: u32, links: u32, ahead: Stretch, behind: Stretch) -> u32 {
+    let longest = longest_gap();
+    let ends = vec2(ahead.end, behind.end);
+    var settled = NO_EDGE;
+    var greatest = -1.0;
+    // The nearest other class on either side.
+    var nearest = vec2<i32>(ENDLESS);
+    var beside = vec2<u32>(NO_EDGE);
+    for (var left = ahead.classes | behind.classes; left != 0u; left &= left - 1u) {
+        let class_of = countTrailingZeros(left) + 1u;
+        let steps = steps_of(ahead, behind, class_of);
+        let first = first_of(steps);
+        if first.x + first.y <= longest {
+            let last = vec2(last_step(steps.x, first.x, longest), last_step(steps.y, first.y, longest));
+            if last.x + last.y + 1 >= longest || any(last + 1 >= ends) {
+                // Of equal ones the first.
+                let side = select(0u, 1u, first.y < first.x);
+                let width = half_width_of(nearest_of(class_of, px, links, side).texel);
+                if width > greatest + 0.01 {
+                    greatest = width;
+                    settled = class_of;
+                }
+            }
+        }
+        if class_of != own {
+            beside = select(beside, vec2(class_of), first < nearest);
+            nearest = min(nearest, first);
+        }
+    }
+    if settled != NO_EDGE {
+        return settled;
+    }
+    // No class has a stretch here: the line is as beside it.
+    let is_between = all(beside != vec2(NO_EDGE)) && all(nearest <= vec2(longest));
+    return select(own, min(beside.x, beside.y), is_between);
+}
