@@ -140,23 +140,23 @@ fn cs_settle(@builtin(global_invocation_id) id: vec3<u32>) {
         return;
     }
     let px = unpacked(kept_lines[id.x]);
+    let own = point_at(px);
+    if own.class_of == NO_EDGE {
+        // It was left out the first time.
+        return;
+    }
     let links = textureLoad(link_tex, px, 0).x;
     let ahead = follow(px, links, 0u);
     let behind = follow(px, links, 1u);
-    let classes = ahead.classes | behind.classes;
-    let is_one_class = (classes & (classes - 1u)) == 0u;
-    if WITH_DOTS {
-        let own = textureLoad(edge_map_tex, px);
-        if is_dot(px, own.y, ahead, behind) {
-            change(px, vec4(0u), 0u);
-            return;
-        }
+    if WITH_DOTS && is_dot(px, own.texel.y, ahead, behind) {
+        change(px, vec4(0u), 0u);
+        return;
     }
-    if !WITH_CLASSES || is_one_class {
+    let classes = ahead.classes | behind.classes;
+    if !WITH_CLASSES || (classes & (classes - 1u)) == 0u {
         return;
     }
     keep(px);
-    let own = point_at(px);
     let class_of = settled(px, own.class_of, links, ahead, behind);
     if class_of == own.class_of {
         return;

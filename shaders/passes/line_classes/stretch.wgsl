@@ -9,6 +9,8 @@ var link_tex: texture_2d<u32>;
 
 // Most steps of a stretch that are told apart: twice as many have to fit into the bits of a number.
 const MOST_STEPS: f32 = 15.0;
+// More than the links of two stretches in the largest pictures.
+const MOST_LINKS: i32 = 64;
 // Longer than any.
 const ENDLESS: i32 = 1000;
 
@@ -28,6 +30,20 @@ fn with_step(steps: Steps, classes: u32, step: u32) -> Steps {
         steps.classes_5 | (next << vec4(step)),
         steps.classes_9 | (last << vec4(step)),
     );
+}
+
+// A place on the way along a line.
+struct Walk {
+    px: vec2<i32>,
+    // The links of the pixel.
+    texel: u32,
+    // Which of them goes on: 0 or 1.
+    side: u32,
+}
+
+fn advanced(walk: Walk, link: Link) -> Walk {
+    let px = walk.px + away_of(link.place);
+    return Walk(px, textureLoad(link_tex, px, 0).x, walk.side ^ select(0u, 1u, link.is_turned));
 }
 
 // What following a line in one direction comes to.
@@ -52,22 +68,20 @@ fn step_at(distance: f32) -> u32 {
 fn follow(px: vec2<i32>, links: u32, first_side: u32) -> Stretch {
     let farthest = 2.0 * min(least[0], MOST_STEPS / steps_per_px());
     var stretch = Stretch(Steps(vec4(0u), vec4(0u), vec4(0u)), 0u, ENDLESS, px);
-    var texel = links;
-    var side = first_side;
+    var walk = Walk(px, links, first_side);
     var distance = 0.0;
     while stretch.end == ENDLESS && distance < farthest {
-        let classes = classes_in(texel);
+        let classes = classes_in(walk.texel);
         stretch.classes |= classes;
         stretch.steps = with_step(stretch.steps, classes, step_at(distance));
-        let link = unpack_link(texel, side);
+        let link = unpack_link(walk.texel, walk.side);
         if link.place == OWN {
             stretch.end = i32(step_at(distance));
         }
-        stretch.last += away_of(link.place);
-        side ^= select(0u, 1u, link.is_turned);
         distance += link.distance;
-        texel = textureLoad(link_tex, stretch.last, 0).x;
+        walk = advanced(walk, link);
     }
+    stretch.last = walk.px;
     return stretch;
 }
 
@@ -112,22 +126,17 @@ struct Nearest {
 }
 
 fn nearest_of(class_of: u32, px: vec2<i32>, links: u32, first_side: u32) -> Nearest {
-    var at = px;
-    var texel = links;
-    var side = first_side;
-    for (var i = 0; i < 64 && (classes_in(texel) & bit_of(class_of)) == 0u; i++) {
-        let link = unpack_link(texel, side);
-        at += away_of(link.place);
-        side ^= select(0u, 1u, link.is_turned);
-        texel = textureLoad(link_tex, at, 0).x;
+    var walk = Walk(px, links, first_side);
+    for (var i = 0; i < MOST_LINKS && (classes_in(walk.texel) & bit_of(class_of)) == 0u; i++) {
+        walk = advanced(walk, unpack_link(walk.texel, walk.side));
     }
-    let line = point_at(at);
+    let line = point_at(walk.px);
     let towards = unpack_tangent(u32(line.tangent));
-    let left = vec2(towards.y, -towards.x) * select(-1.0, 1.0, side == first_side);
+    let left = vec2(towards.y, -towards.x) * select(-1.0, 1.0, walk.side == first_side);
     var nearest = Nearest(line.texel, 0.0);
     var least_distance = 1e9;
     for (var place = 0u; place < AROUND; place++) {
-        let point = point_at(at + away_of(place));
+        let point = point_at(walk.px + away_of(place));
         let seen = seen_from(line, towards, point);
         let distance = abs(seen.x) + seen.y;
         if point.class_of == class_of && seen.y < BESIDE && abs(seen.x) <= ABREAST && distance < least_distance {

@@ -4,11 +4,9 @@
 //! spines ─► lines ─► links ─► settle ─► change ─► edge map, spines
 //! ```
 
-use wgpu::util::{BufferInitDescriptor, DeviceExt};
-
 use super::edge_map::EdgeMap;
 use super::gbuffer::GBuffer;
-use crate::gpu::{ArrayBuffer, Gpu, Inputs, Program, RecordBuffer, Recorder, inputs};
+use crate::gpu::{ArrayBuffer, Gpu, Inputs, Program, RecordList, Recorder, inputs};
 use crate::render::base::edge_style::GpuEdgeStyle;
 use crate::render::base::error::RenderError;
 use crate::render::base::view::REFERENCE_HEIGHT;
@@ -24,43 +22,18 @@ const CHANGED: u64 = 8;
 
 const LINKS: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;
 
-/// No workgroups, and no lines.
-const NONE: [u32; 4] = [0, 1, 1, 0];
-
-/// Records that shaders append.
-struct List {
-    records: RecordBuffer,
-    /// How many they are, and workgroups for them: `Kept` in `common/kept.wgsl`.
-    kept: wgpu::Buffer,
-}
-
-impl List {
-    /// Without room for any.
-    fn new(gpu: &Gpu, label: &'static str) -> Self {
-        let usage = wgpu::BufferUsages::INDIRECT | wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST;
-        Self { records: RecordBuffer::new(gpu, label), kept: counter(gpu, label, usage) }
-    }
-
-    /// What appends pixels to it.
-    fn appended(&self) -> Inputs<'_> {
-        inputs! { keeping: &self.kept, keeping_lines: self.records.buffer() }
-    }
-}
-
-fn counter(gpu: &Gpu, label: &'static str, usage: wgpu::BufferUsages) -> wgpu::Buffer {
-    let contents = bytemuck::bytes_of(&NONE);
-    gpu.device.create_buffer_init(&BufferInitDescriptor { label: Some(label), contents, usage })
+/// What appends pixels to a list.
+fn appended(pixels: &RecordList) -> Inputs<'_> {
+    inputs! { keeping: pixels.count(), keeping_lines: pixels.buffer() }
 }
 
 /// What deciding needs.
 pub struct LineClasses {
     /// Pixels of lines.
-    lines: List,
+    lines: RecordList,
     /// Those where classes meet.
-    meetings: List,
-    changes: List,
-    /// What lists begin with.
-    none: wgpu::Buffer,
+    meetings: RecordList,
+    changes: RecordList,
     least: ArrayBuffer,
 }
 
@@ -68,10 +41,9 @@ impl LineClasses {
     /// Without room for any.
     pub fn new(gpu: &Gpu) -> Self {
         Self {
-            lines: List::new(gpu, "pixels of lines"),
-            meetings: List::new(gpu, "where classes meet"),
-            changes: List::new(gpu, "changes of lines"),
-            none: counter(gpu, "no lines", wgpu::BufferUsages::COPY_SRC),
+            lines: RecordList::new(gpu, "pixels of lines"),
+            meetings: RecordList::new(gpu, "where classes meet"),
+            changes: RecordList::new(gpu, "changes of lines"),
             least: ArrayBuffer::new(gpu, "shortest stretch"),
         }
     }
@@ -92,9 +64,9 @@ impl LineClasses {
         let Some(spines) = edge_map.spines.as_ref().filter(|_| decisions.any()) else { return Ok(()) };
         let [width, height] = rec.size();
         let pixels = u64::from(width) * u64::from(height);
-        self.lines.records.reserve(rec.gpu, pixels * 4)?;
-        self.meetings.records.reserve(rec.gpu, pixels * 4)?;
-        self.changes.records.reserve(rec.gpu, pixels.div_ceil(CHANGED) * CHANGE_BYTES)?;
+        self.lines.reserve(rec.gpu, pixels * 4)?;
+        self.meetings.reserve(rec.gpu, pixels * 4)?;
+        self.changes.reserve(rec.gpu, pixels.div_ceil(CHANGED) * CHANGE_BYTES)?;
         self.least.write(rec.gpu, &vec![LEAST * height as f32 / REFERENCE_HEIGHT as f32]);
         let links = rec.target("links of lines", LINKS)?;
         let groups = [width, height].map(|side| side.div_ceil(LINES_GROUP));
@@ -108,11 +80,11 @@ impl LineClasses {
         };
         let written = inputs! { linking_tex: &links, edge_tex: &edge_map.edges, changed_spine_tex: spines };
         let all = read.and(&written);
-        self.empty(rec, &self.lines);
+        self.lines.empty(rec);
         rec.compute(
             "lines to follow",
             &program("cs_lines", decisions),
-            &self.lines.appended().and(&all),
+            &appended(&self.lines).and(&all),
             groups,
         )?;
         self.round(rec, &all, &self.lines, &self.meetings, decisions)?;
@@ -128,27 +100,23 @@ impl LineClasses {
         &self,
         rec: &mut Recorder<'_>,
         inputs: &Inputs<'_>,
-        lines: &List,
-        meetings: &List,
+        lines: &RecordList,
+        meetings: &RecordList,
         decisions: Decisions,
     ) -> Result<(), RenderError> {
-        self.empty(rec, meetings);
-        self.empty(rec, &self.changes);
-        let followed = inputs! { kept: &lines.kept, kept_lines: lines.records.buffer() };
+        meetings.empty(rec);
+        self.changes.empty(rec);
+        let followed = inputs! { kept: lines.count(), kept_lines: lines.buffer() };
         let changed = inputs! {
-            changing: &self.changes.kept,
-            changed: &self.changes.kept,
-            changes: self.changes.records.buffer(),
+            changing: self.changes.count(),
+            changed: self.changes.count(),
+            changes: self.changes.buffer(),
         };
-        let all = followed.and(&meetings.appended()).and(&changed).and(inputs);
-        rec.compute("links of lines", &program("cs_links", decisions), &all, &lines.kept)?;
-        rec.compute("classes of lines", &program("cs_settle", decisions), &all, &lines.kept)?;
-        rec.compute("change classes", &program("cs_change", decisions), &all, &self.changes.kept)?;
+        let all = followed.and(&appended(meetings)).and(&changed).and(inputs);
+        rec.compute("links of lines", &program("cs_links", decisions), &all, lines.count())?;
+        rec.compute("classes of lines", &program("cs_settle", decisions), &all, lines.count())?;
+        rec.compute("change classes", &program("cs_change", decisions), &all, self.changes.count())?;
         Ok(())
-    }
-
-    fn empty(&self, rec: &mut Recorder<'_>, list: &List) {
-        rec.encoder.copy_buffer_to_buffer(&self.none, 0, &list.kept, 0, None);
     }
 }
 

@@ -4,9 +4,8 @@ use encase::ShaderType;
 use glam::Vec4;
 
 use super::edge_map::{EDGE_MAP, EdgeMap};
-use super::offset_field::LinePixels;
 use super::repeated::SPINES;
-use crate::gpu::{Gpu, Program, RecordBuffer, Recorder, Target, UniformBuffer, inputs};
+use crate::gpu::{Gpu, Program, RecordBuffer, RecordList, Recorder, Target, UniformBuffer, inputs};
 use crate::render::base::error::RenderError;
 
 /// Twin of `Movement` in `shaders/passes/moved_edges.wgsl`.
@@ -69,7 +68,7 @@ impl MovedEdgesPass {
         edges: &Target,
         spines: &Target,
         field: &Target,
-        pixels: LinePixels<'_>,
+        pixels: &RecordList,
     ) -> Result<MovedEdges, RenderError> {
         let [width, height] = rec.size().map(u64::from);
         self.keys.reserve(rec.gpu, width * height * 4)?;
@@ -83,8 +82,8 @@ impl MovedEdgesPass {
             edge_map_tex: edges,
             spine_tex: spines,
             line_field_tex: field,
-            kept: pixels.kept,
-            kept_pixels: pixels.pixels,
+            kept: pixels.count(),
+            kept_pixels: pixels.buffer(),
             keys: self.keys.buffer(),
             winners: self.winners.buffer(),
             moved_edge_tex: &moved,
@@ -93,7 +92,7 @@ impl MovedEdgesPass {
         };
         for entry_point in ["cs_move", "cs_compare", "cs_put"] {
             let program = Program::new("passes/moved_edges.wgsl", entry_point);
-            rec.compute("moved edges", &program, &inputs, pixels.kept)?;
+            rec.compute("moved edges", &program, &inputs, pixels.count())?;
         }
         Ok(MovedEdges { edges: moved, spines: moved_spines, sources })
     }

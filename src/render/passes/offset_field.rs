@@ -8,10 +8,8 @@
 use encase::ShaderType;
 use glam::{Mat4, UVec4, Vec2, Vec3};
 
-use wgpu::util::{BufferInitDescriptor, DeviceExt};
-
 use super::gbuffer::GBuffer;
-use crate::gpu::{Gpu, Program, RecordBuffer, Recorder, Target, UniformBuffer, inputs};
+use crate::gpu::{Gpu, Program, RecordList, Recorder, Target, UniformBuffer, inputs};
 use crate::render::base::error::RenderError;
 use crate::render::base::noise::{fine_waves, mixed_bits, waves};
 
@@ -21,8 +19,6 @@ pub const BLOCK: u32 = 4;
 const PASSES_PER_TEXEL: u32 = 4;
 /// Pixels or blocks per side of a workgroup.
 const GROUP: u32 = 8;
-/// No workgroups, and no pixels.
-const NONE: [u32; 4] = [0, 1, 1, 0];
 
 const HALVES: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Uint;
 const INDEX: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;
@@ -110,15 +106,6 @@ impl LineField {
     }
 }
 
-/// The pixels in which lines run, on the device.
-#[derive(Clone, Copy)]
-pub struct LinePixels<'a> {
-    /// How many they are: `Kept` in `common/kept.wgsl`, in workgroups of 64.
-    pub kept: &'a wgpu::Buffer,
-    /// Columns in the lower 16 bits, rows in the upper ones; in any order.
-    pub pixels: &'a wgpu::Buffer,
-}
-
 /// What the noise of lines is that of.
 #[derive(Clone, Copy)]
 pub enum NoiseSource<'a> {
@@ -132,27 +119,14 @@ pub enum NoiseSource<'a> {
 
 /// What finding the noise of lines needs across frames.
 pub struct LineFieldPass {
-    /// The pixels in which lines run.
-    pixels: RecordBuffer,
-    /// How many they are: `Kept` in `common/kept.wgsl`.
-    kept: wgpu::Buffer,
-    /// What that begins with.
-    none: wgpu::Buffer,
+    /// The pixels in which lines run: columns in the lower 16 bits, rows in the upper ones; in any order, in workgroups of 64.
+    pixels: RecordList,
 }
 
 impl LineFieldPass {
     /// Nothing found yet.
     pub fn new(gpu: &Gpu) -> Self {
-        let kept = |label, usage| {
-            let contents = bytemuck::bytes_of(&NONE);
-            gpu.device.create_buffer_init(&BufferInitDescriptor { label: Some(label), contents, usage })
-        };
-        let used = wgpu::BufferUsages::INDIRECT | wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST;
-        Self {
-            pixels: RecordBuffer::new(gpu, "pixels of lines"),
-            kept: kept("workgroups of pixels of lines", used),
-            none: kept("no workgroups", wgpu::BufferUsages::COPY_SRC),
-        }
+        Self { pixels: RecordList::new(gpu, "pixels of lines") }
     }
 
     /// Lists the pixels in which lines run, as their `spines` say.
@@ -163,17 +137,18 @@ impl LineFieldPass {
         rec.gpu.check_bytes_of_pixels("as a sketch", rec.size(), 4)?;
         let [width, height] = rec.size();
         self.pixels.reserve(rec.gpu, u64::from(width) * u64::from(height) * 4)?;
-        rec.encoder.copy_buffer_to_buffer(&self.none, 0, &self.kept, 0, None);
+        self.pixels.empty(rec);
         let program = Program::new("passes/offset_field.wgsl", "cs_compact");
-        let inputs = inputs! { spine_tex: spines, keeping: &self.kept, keeping_pixels: self.pixels.buffer() };
+        let inputs =
+            inputs! { spine_tex: spines, keeping: self.pixels.count(), keeping_pixels: self.pixels.buffer() };
         let groups = [width, height].map(|side| side.div_ceil(GROUP));
         rec.compute("compact pixels of lines", &program, &inputs, groups)?;
         Ok(())
     }
 
     /// What has been listed.
-    pub fn pixels(&self) -> LinePixels<'_> {
-        LinePixels { kept: &self.kept, pixels: self.pixels.buffer() }
+    pub fn pixels(&self) -> &RecordList {
+        &self.pixels
     }
 
     /// Finds the noise of the lines of an edge map that have been listed, for so many passes.
@@ -201,13 +176,13 @@ impl LineFieldPass {
             geometry_tex: geometry,
             edge_map_tex: edges,
             tiles: tiles,
-            kept: &self.kept,
+            kept: self.pixels.count(),
             kept_pixels: self.pixels.buffer(),
             line_field_tex: &first,
             more_line_field_tex: more.as_ref(),
         };
         let program = Program::new("passes/offset_field.wgsl", entry_point);
-        rec.compute("noise of lines", &program, &inputs, &self.kept)?;
+        rec.compute("noise of lines", &program, &inputs, self.pixels.count())?;
         Ok(LineField { first, more })
     }
 }

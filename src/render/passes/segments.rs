@@ -6,13 +6,13 @@
 //!                                            └─► keys: which of the points of a pixel counts
 //! ```
 
-use wgpu::util::{BufferInitDescriptor, DeviceExt};
-
 use super::gbuffer::GBuffer;
 use super::repeated::NearerLines;
 use crate::geometry::LineSegment;
 use crate::geometry::line_segments::SegmentSet;
-use crate::gpu::{Gpu, Program, RecordBuffer, RecordTexture, Recorder, Target, frame_records, inputs};
+use crate::gpu::{
+    Gpu, Program, RecordBuffer, RecordList, RecordTexture, Recorder, Target, frame_records, inputs,
+};
 use crate::render::base::error::RenderError;
 
 /// Pixels of segments that are tested in one go; each takes 52 bytes while it is.
@@ -23,9 +23,6 @@ const POINT_BYTES: u64 = 32;
 const CULL: &str = "passes/segments/cull.wgsl";
 /// Steps per workgroup, as in `passes/segments/steps.wgsl`.
 const GROUP: u32 = 256;
-
-/// No workgroups, and no steps.
-const NONE: [u32; 4] = [0, 1, 1, 0];
 
 /// What segments have in each pixel, see `shaders/common/segment_point.wgsl`.
 pub(super) const MARKS: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;
@@ -42,15 +39,9 @@ pub struct Segments {
     steps: Vec<Steps>,
     for_layers: bool,
     /// The steps that are looked at closely.
-    kept_steps: RecordBuffer,
-    /// Workgroups that look at them, and how many they are: `Kept` in `common/kept.wgsl`.
-    kept: wgpu::Buffer,
+    kept_steps: RecordList,
     /// What is found of them.
-    points: RecordBuffer,
-    /// As `kept`.
-    found: wgpu::Buffer,
-    /// What both begin with.
-    none: wgpu::Buffer,
+    points: RecordList,
     /// 0 between frames, as winners are: who reads the last of them clears them.
     keys: RecordBuffer,
     winners: RecordBuffer,
@@ -92,22 +83,14 @@ pub struct SegmentInputs<'a> {
 impl Segments {
     /// None yet.
     pub fn new(gpu: &Gpu) -> Self {
-        let kept = |label, usage| {
-            let contents = bytemuck::bytes_of(&NONE);
-            gpu.device.create_buffer_init(&BufferInitDescriptor { label: Some(label), contents, usage })
-        };
-        let used = wgpu::BufferUsages::INDIRECT | wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST;
         Self {
             records: RecordTexture::new(gpu, "segments"),
             tested: RecordTexture::new(gpu, "where segments are tested"),
             has_strokes: false,
             steps: Vec::new(),
             for_layers: false,
-            kept_steps: RecordBuffer::new(gpu, "kept steps"),
-            kept: kept("workgroups of kept steps", used),
-            points: RecordBuffer::new(gpu, "points of segments"),
-            found: kept("workgroups of points", used),
-            none: kept("no workgroups", wgpu::BufferUsages::COPY_SRC),
+            kept_steps: RecordList::new(gpu, "kept steps"),
+            points: RecordList::new(gpu, "points of segments"),
             keys: RecordBuffer::new(gpu, "keys of segments"),
             winners: RecordBuffer::new(gpu, "points of pixels"),
         }
@@ -202,7 +185,7 @@ impl Segments {
             self.find(rec, inputs, part, nearer)?;
             let found = inputs! {
                 points: self.points.buffer(),
-                found: &self.found,
+                found: self.points.count(),
                 keys: self.keys.buffer(),
                 winners: self.winners.buffer(),
                 edge_tex: edge_map,
@@ -220,9 +203,9 @@ impl Segments {
                     ("WITHOUT_MARKS", part.of_strokes),
                 ],
             };
-            rec.compute("compare points", &program("cs_compare"), &found, &self.found)?;
+            rec.compute("compare points", &program("cs_compare"), &found, self.points.count())?;
             let put = if nearer.is_some() { "cs_put_unrepeated" } else { "cs_put" };
-            rec.compute("put points", &program(put), &found, &self.found)?;
+            rec.compute("put points", &program(put), &found, self.points.count())?;
         }
         if has_chunks {
             rec.encoder.clear_buffer(self.keys.buffer(), 0, None);
@@ -247,11 +230,10 @@ impl Segments {
             step_tex: part.steps.target(),
         };
         // Where the recorder's predicate is cleared nobody counts any.
-        for counted in [&self.kept, &self.found] {
-            rec.encoder.copy_buffer_to_buffer(&self.none, 0, counted, 0, None);
-        }
+        self.kept_steps.empty(rec);
+        self.points.empty(rec);
         let culling = inputs! {
-            keeping: &self.kept,
+            keeping: self.kept_steps.count(),
             keeping_steps: self.kept_steps.buffer(),
             place_tex: part.places.as_ref(),
             nearer_lines_tex: nearer.map(|nearer| &nearer.before),
@@ -266,18 +248,18 @@ impl Segments {
         rec.compute("cull segments", &cull, &culling.and(&tested), groups)?;
         let found = inputs! {
             edge_styles: inputs.edge_styles,
-            kept: &self.kept,
+            kept: self.kept_steps.count(),
             kept_steps: self.kept_steps.buffer(),
             points: self.points.buffer(),
             keys: self.keys.buffer(),
-            finding: &self.found,
+            finding: self.points.count(),
         };
         let points = Program {
             file: "passes/segments.wgsl",
             entry_point: "cs_points",
             switches: inputs.switches.iter().copied().chain(own).collect(),
         };
-        rec.compute("segments", &points, &tested.and(&found), &self.kept)?;
+        rec.compute("segments", &points, &tested.and(&found), self.kept_steps.count())?;
         Ok(())
     }
 }

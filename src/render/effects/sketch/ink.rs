@@ -1,13 +1,13 @@
 //! The lines of the passes of a sketch: where noise moves them, and which of them reach each pixel then.
 
 use super::group::SketchGroup;
-use crate::gpu::{ArrayBuffer, Gpu, Recorder, Target, UniformBuffer};
+use crate::gpu::{ArrayBuffer, Gpu, RecordList, Recorder, Target, UniformBuffer};
 use crate::render::base::error::RenderError;
 use crate::render::base::stage::{Output, Stage};
 use crate::render::passes::edge_map::EdgeMap;
 use crate::render::passes::line_distance::{LineDistance, Widths, line_distance};
 use crate::render::passes::moved_edges::{MovedEdges, MovedEdgesPass, MovementUniform};
-use crate::render::passes::offset_field::{LineField, LinePixels};
+use crate::render::passes::offset_field::LineField;
 
 /// What moving lines depends on.
 #[derive(PartialEq)]
@@ -57,7 +57,7 @@ impl SketchPasses {
         edges: &Output<EdgeMap>,
         spines: &Target,
         field: &Output<LineField>,
-        pixels: LinePixels<'_>,
+        pixels: &RecordList,
     ) -> Result<Vec<MovedLines>, RenderError> {
         let count = sketch.passes().len();
         self.passes.truncate(count);
@@ -112,7 +112,7 @@ impl SketchPass {
         edges: &Output<EdgeMap>,
         spines: &Target,
         field: &Output<LineField>,
-        pixels: LinePixels<'_>,
+        pixels: &RecordList,
     ) -> Result<MovedLines, RenderError> {
         let (noise, component) = field.value.of_pass(number);
         let (movement, widths) = sketch.movement(number, component);

@@ -2,15 +2,15 @@
 
 use super::group::SketchGroup;
 use super::uniforms;
-use crate::gpu::{ArrayBuffer, Gpu, Recorder, Target, UniformBuffer};
+use crate::gpu::{ArrayBuffer, Gpu, RecordList, Recorder, Target, UniformBuffer};
 use crate::render::base::error::RenderError;
 use crate::render::base::frame_uniform::FrameUniform;
 use crate::render::base::stage::{Output, Stage};
 use crate::render::passes::edge_map::EdgeMap;
 use crate::render::passes::gbuffer::GBuffer;
 use crate::render::passes::offset_field::{
-    FieldBuffers, FieldUniform, GpuFieldObject, LineField, LineFieldPass, LinePixels, NoiseSource,
-    fill_field, nearest_surfaces,
+    FieldBuffers, FieldUniform, GpuFieldObject, LineField, LineFieldPass, NoiseSource, fill_field,
+    nearest_surfaces,
 };
 
 /// What noise depends on.
@@ -104,7 +104,7 @@ impl SketchNoise {
     }
 
     /// The pixels of those lines.
-    pub(super) fn line_pixels(&self) -> LinePixels<'_> {
+    pub(super) fn line_pixels(&self) -> &RecordList {
         self.line_field_pass.pixels()
     }
 
