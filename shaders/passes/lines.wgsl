@@ -58,6 +58,14 @@ fn is_occluded(g: Surfel, px: vec2<i32>, edge: Edge, spine: vec2<f32>) -> bool {
     return g.object != edge.object && hides(g, px, edge.depth, spine - vec2<f32>(px) - 0.5, slack());
 }
 
+// Whether an edge ends before another object, or paper, that lies behind it here: what touches it there does not.
+fn ends_before(g: Surfel, px: vec2<i32>, edge: Edge, spine: vec2<f32>) -> bool {
+    let plane = plane_of(px, g.depth, g.face_normal);
+    let farthest = max(plane.center, nearness_at(plane, spine - vec2<f32>(px) - 0.5));
+    let is_behind = step_px(nearness_of(edge.depth) - farthest, edge.depth) > slack();
+    return g.object == 0u || (g.object != edge.object && is_behind);
+}
+
 struct Line {
     // Linear color times coverage, and coverage.
     ink: vec4<f32>,
@@ -129,10 +137,11 @@ fn line_at(at: vec2<f32>, g: Surfel, found: u32) -> Line {
     coverage *= strength;
     // The round end of a fold that is wider than the outline there would stand out beyond it.
     let is_fold = edge.class_of == RIDGE || edge.class_of == VALLEY;
-    let is_beyond = ON_SURFACES && !NARROW && is_fold && surface.object != edge.object && !is_stroke(texel)
+    let ends_with_object = ON_SURFACES && !NARROW && is_fold && !is_stroke(texel)
         && edge_styles[edge.object].lines[SILHOUETTE - 1u].strength > 0.0;
     let at_source = vec2<i32>(floor(at + to_source));
-    if coverage <= 0.0 || is_beyond || (!is_tested && is_occluded(surface, at_source, edge, spine + to_source)) {
+    let is_cut = ends_with_object && ends_before(surface, at_source, edge, spine + to_source);
+    if coverage <= 0.0 || is_cut || (!is_tested && is_occluded(surface, at_source, edge, spine + to_source)) {
         return Line(vec4(0.0), edge.depth, coverage > 0.0, 0.0, d, to_source);
     }
     var color = edge_styles[edge.object].lines[index].color;

@@ -12,7 +12,7 @@ const ON_PLANE: f64 = 1e-6;
 
 /// The intersections between different meshes, and inside one mesh between triangles that have no corner in common.
 /// `firsts` are the meshes' first triangles and objects. Triangles in one plane do not intersect, nor do surfaces that
-/// touch along an edge of both.
+/// touch along an edge of both: what that edge is, its own triangles say.
 pub(super) fn find(
     meshes: &[PlacedMesh<'_>],
     firsts: &[(usize, u32)],
@@ -49,7 +49,7 @@ pub(super) fn find(
                 let Some(ends) = crossing([corners, triangles[other]], tolerance) else { return };
                 let is_seam =
                     || [corners, triangles[other]].iter().all(|t| along_an_edge(ends, t, 4.0 * tolerance));
-                if is_inside && (are_neighbors() || is_seam()) {
+                if (is_inside && are_neighbors()) || is_seam() {
                     return;
                 }
                 found.push(WorldEdge {
