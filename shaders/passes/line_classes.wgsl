@@ -4,12 +4,12 @@
 // every pixel which of them is found there. Such lines become one: of the widest class that has no gap as long as a stretch
 // there, bridged between its points. No other class shows in between on less than a stretch.
 //
-// Dots: pieces of lines that are too short to tell anything, and that nothing continues, are left out.
+// Dots: pieces of lines that are too short to tell anything, and that nothing continues but a line beside them, are left out.
 //
 // 1. `cs_lines` collects the pixels of lines, which are few.
 // 2. `cs_links` finds for each of them the next pixel of its line in both directions, and which classes run there.
 // 3. `cs_settle` follows these links, and decides.
-// 4. `cs_change` writes what changes. The last three run once more for the pixels where classes meet.
+// 4. `cs_change` writes what changes. The last three run once more for the pixels where classes meet and those of short pieces.
 #import common/frame.wgsl
 #import common/edge_map.wgsl
 #import common/line_width.wgsl
@@ -19,12 +19,15 @@
 #import passes/line_classes/stretch.wgsl
 #import passes/line_classes/dots.wgsl
 
-// Whether classes are decided, and whether dots are left out.
+// Whether classes are decided, and whether dots and short pieces beside longer lines are left out.
 override WITH_CLASSES: bool = true;
 override WITH_DOTS: bool = true;
+override WITH_PIECES: bool = true;
+// Whether this is the last round of deciding: lines are as they will be.
+override LAST_ROUND: bool = true;
 
 // While pixels are collected (column in the lower 16 bits, row in the upper ones), in any order: those of lines, then those of
-// them where classes meet.
+// them that are decided once more.
 var<storage, read_write> keeping: Counting;
 var<storage, read_write> keeping_lines: array<u32>;
 // Afterwards the same.
@@ -45,6 +48,9 @@ struct Change {
     spine: u32,
     px: u32,
 }
+
+// Beside a line, px.
+const NEARBY: f32 = 2.5;
 
 // Pixels per workgroup, as in src/render/passes/line_classes.rs.
 const GROUP: u32 = 256u;
@@ -134,6 +140,24 @@ fn is_dot(px: vec2<i32>, object: u32, ahead: Stretch, behind: Stretch) -> bool {
     return f32(max(extent.x, extent.y)) < shortest && is_short(px, object, shortest);
 }
 
+// Whether a pixel of a piece that ends or runs into another line on both sides lies beside a longer one: of two lines that are so
+// near each other, chance shows now and then both.
+fn is_beside_longer(px: vec2<i32>, own: Point, own_length: f32) -> bool {
+    let towards = unpack_tangent(u32(own.tangent));
+    var nearest = NEARBY;
+    var beside = px;
+    for (var place = 0u; place < AROUND; place++) {
+        let other = px + away_of(place);
+        let seen = seen_from(own, towards, point_at(other));
+        if abs(seen.x) <= ABREAST && seen.y > 0.5 && seen.y < nearest {
+            nearest = seen.y;
+            beside = other;
+        }
+    }
+    let links = textureLoad(link_tex, beside, 0).x;
+    return nearest < NEARBY && follow(beside, links, 0u).own_length + follow(beside, links, 1u).own_length > own_length;
+}
+
 @compute @workgroup_size(GROUP)
 fn cs_settle(@builtin(global_invocation_id) id: vec3<u32>) {
     if id.x >= kept.count {
@@ -148,15 +172,21 @@ fn cs_settle(@builtin(global_invocation_id) id: vec3<u32>) {
     let links = textureLoad(link_tex, px, 0).x;
     let ahead = follow(px, links, 0u);
     let behind = follow(px, links, 1u);
-    if WITH_DOTS && is_dot(px, own.texel.y, ahead, behind) {
+    let own_length = ahead.own_length + behind.own_length;
+    let is_short = WITH_PIECES && own_length < least[0];
+    if (WITH_DOTS && is_dot(px, own.texel.y, ahead, behind))
+        || (is_short && LAST_ROUND && is_beside_longer(px, own, own_length)) {
         change(px, vec4(0u), 0u);
         return;
     }
     let classes = ahead.classes | behind.classes;
-    if !WITH_CLASSES || (classes & (classes - 1u)) == 0u {
+    let is_meeting = WITH_CLASSES && (classes & (classes - 1u)) != 0u;
+    if !LAST_ROUND && (is_meeting || is_short) {
+        keep(px);
+    }
+    if !is_meeting {
         return;
     }
-    keep(px);
     let class_of = settled(px, own.class_of, links, ahead, behind);
     if class_of == own.class_of {
         return;

@@ -55,6 +55,10 @@ fn away_of(place: u32) -> vec2<i32> {
     return vec2<i32>(vec2(place % 5u, place / 5u)) - 2;
 }
 
+fn opposite_of(place: u32) -> u32 {
+    return 2u * OWN - place;
+}
+
 // The next pixel of a line.
 struct Link {
     // Of those around; `OWN`: the line ends here.

@@ -55,6 +55,8 @@ struct Stretch {
     end: i32,
     // The last pixel.
     last: vec2<i32>,
+    // How far it is to where the line ends or runs into another one, px, or else `ENDLESS`.
+    own_length: f32,
 }
 
 fn steps_per_px() -> f32 {
@@ -67,7 +69,7 @@ fn step_at(distance: f32) -> u32 {
 
 fn follow(px: vec2<i32>, links: u32, first_side: u32) -> Stretch {
     let farthest = 2.0 * min(least[0], MOST_STEPS / steps_per_px());
-    var stretch = Stretch(Steps(vec4(0u), vec4(0u), vec4(0u)), 0u, ENDLESS, px);
+    var stretch = Stretch(Steps(vec4(0u), vec4(0u), vec4(0u)), 0u, ENDLESS, px, f32(ENDLESS));
     var walk = Walk(px, links, first_side);
     var distance = 0.0;
     while stretch.end == ENDLESS && distance < farthest {
@@ -78,8 +80,12 @@ fn follow(px: vec2<i32>, links: u32, first_side: u32) -> Stretch {
         if link.place == OWN {
             stretch.end = i32(step_at(distance));
         }
-        distance += link.distance;
         walk = advanced(walk, link);
+        let is_answered = unpack_link(walk.texel, 1u - walk.side).place == opposite_of(link.place);
+        if link.place == OWN || !is_answered {
+            stretch.own_length = min(stretch.own_length, distance);
+        }
+        distance += link.distance;
     }
     stretch.last = walk.px;
     return stretch;

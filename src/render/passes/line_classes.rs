@@ -31,8 +31,8 @@ fn appended(pixels: &RecordList) -> Inputs<'_> {
 pub struct LineClasses {
     /// Pixels of lines.
     lines: RecordList,
-    /// Those where classes meet.
-    meetings: RecordList,
+    /// Those that are decided once more.
+    again: RecordList,
     changes: RecordList,
     least: ArrayBuffer,
 }
@@ -42,7 +42,7 @@ impl LineClasses {
     pub fn new(gpu: &Gpu) -> Self {
         Self {
             lines: RecordList::new(gpu, "pixels of lines"),
-            meetings: RecordList::new(gpu, "where classes meet"),
+            again: RecordList::new(gpu, "lines to decide again"),
             changes: RecordList::new(gpu, "changes of lines"),
             least: ArrayBuffer::new(gpu, "shortest stretch"),
         }
@@ -65,7 +65,7 @@ impl LineClasses {
         let [width, height] = rec.size();
         let pixels = u64::from(width) * u64::from(height);
         self.lines.reserve(rec.gpu, pixels * 4)?;
-        self.meetings.reserve(rec.gpu, pixels * 4)?;
+        self.again.reserve(rec.gpu, pixels * 4)?;
         self.changes.reserve(rec.gpu, pixels.div_ceil(CHANGED) * CHANGE_BYTES)?;
         self.least.write(rec.gpu, &vec![LEAST * height as f32 / REFERENCE_HEIGHT as f32]);
         let links = rec.target("links of lines", LINKS)?;
@@ -81,30 +81,26 @@ impl LineClasses {
         let written = inputs! { linking_tex: &links, edge_tex: &edge_map.edges, changed_spine_tex: spines };
         let all = read.and(&written);
         self.lines.empty(rec);
-        rec.compute(
-            "lines to follow",
-            &program("cs_lines", decisions),
-            &appended(&self.lines).and(&all),
-            groups,
-        )?;
-        self.round(rec, &all, &self.lines, &self.meetings, decisions)?;
+        rec.compute("lines to follow", &program("cs_lines"), &appended(&self.lines).and(&all), groups)?;
+        let once = !decisions.classes;
+        self.round(rec, &all, [&self.lines, &self.again], decisions, once)?;
         // Neighbors that decided differently, at the ends of stretches, agree the second time.
-        if decisions.classes {
-            self.round(rec, &all, &self.meetings, &self.lines, decisions)?;
+        if !once {
+            self.round(rec, &all, [&self.again, &self.lines], decisions, true)?;
         }
         Ok(())
     }
 
-    /// Decides pixels of lines; appends those where classes meet to `meetings`.
+    /// Decides pixels of lines; unless it is the last round, those that are to be decided `again` are listed.
     fn round(
         &self,
         rec: &mut Recorder<'_>,
         inputs: &Inputs<'_>,
-        lines: &RecordList,
-        meetings: &RecordList,
+        [lines, again]: [&RecordList; 2],
         decisions: Decisions,
+        is_last: bool,
     ) -> Result<(), RenderError> {
-        meetings.empty(rec);
+        again.empty(rec);
         self.changes.empty(rec);
         let followed = inputs! { kept: lines.count(), kept_lines: lines.buffer() };
         let changed = inputs! {
@@ -112,10 +108,19 @@ impl LineClasses {
             changed: self.changes.count(),
             changes: self.changes.buffer(),
         };
-        let all = followed.and(&appended(meetings)).and(&changed).and(inputs);
-        rec.compute("links of lines", &program("cs_links", decisions), &all, lines.count())?;
-        rec.compute("classes of lines", &program("cs_settle", decisions), &all, lines.count())?;
-        rec.compute("change classes", &program("cs_change", decisions), &all, self.changes.count())?;
+        let all = followed.and(&appended(again)).and(&changed).and(inputs);
+        let settle = Program {
+            switches: vec![
+                ("WITH_CLASSES", decisions.classes),
+                ("WITH_DOTS", decisions.dots),
+                ("WITH_PIECES", decisions.pieces),
+                ("LAST_ROUND", is_last),
+            ],
+            ..program("cs_settle")
+        };
+        rec.compute("links of lines", &program("cs_links"), &all, lines.count())?;
+        rec.compute("classes of lines", &settle, &all, lines.count())?;
+        rec.compute("change classes", &program("cs_change"), &all, self.changes.count())?;
         Ok(())
     }
 }
@@ -125,8 +130,10 @@ impl LineClasses {
 pub struct Decisions {
     /// Their class.
     pub classes: bool,
-    /// Whether they are too short.
+    /// Whether they are dots: too short, and nothing continues them.
     pub dots: bool,
+    /// Whether they are short pieces beside a longer line.
+    pub pieces: bool,
 }
 
 impl Decisions {
@@ -135,9 +142,11 @@ impl Decisions {
     pub fn of(styles: &[GpuEdgeStyle], crossing: bool) -> Self {
         let mut classes = styles.iter().flat_map(|style| style.drawn().map(|(class, _)| class));
         let first = classes.next();
+        let dots = styles.iter().any(|s| s.is_exact() && s.shortest > 0.0);
         Self {
             classes: !crossing && classes.any(|class| Some(class) != first),
-            dots: styles.iter().any(|s| s.is_exact() && s.shortest > 0.0),
+            dots,
+            pieces: !crossing && dots,
         }
     }
 
@@ -146,10 +155,6 @@ impl Decisions {
     }
 }
 
-fn program(entry_point: &'static str, decisions: Decisions) -> Program {
-    let switches = match entry_point {
-        "cs_settle" => vec![("WITH_CLASSES", decisions.classes), ("WITH_DOTS", decisions.dots)],
-        _ => Vec::new(),
-    };
-    Program { file: "passes/line_classes.wgsl", entry_point, switches }
+fn program(entry_point: &'static str) -> Program {
+    Program::new("passes/line_classes.wgsl", entry_point)
 }
