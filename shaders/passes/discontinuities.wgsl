@@ -101,6 +101,20 @@ fn goes_on_nearer(px: vec2<i32>, surface_id: u32) -> bool {
     return textureLoad(before_tex, q, 0).x == surface_id || textureLoad(before_that_tex, q, 0).x == surface_id;
 }
 
+fn angle_between(one: vec3<f32>, other: vec3<f32>) -> f32 {
+    return acos(clamp(abs(dot(one, other)), 0.0, 1.0));
+}
+
+// How much more the shading normals of two neighbors differ than those of the pixels before or behind them. Round surfaces that
+// lie on each other, like a pin and its hole, alternate as their triangles do, but bend no more than each of them.
+fn bend_between(px: vec2<i32>, towards: vec2<i32>, x: Surfel, n: Surfel) -> f32 {
+    let before = unpack_surfel(geometry_at(px - towards));
+    let after = unpack_surfel(geometry_at(px + 2 * towards));
+    let bend_before = select(angle_between(before.normal, x.normal), 0.0, before.object == 0u);
+    let bend_after = select(angle_between(after.normal, n.normal), 0.0, after.object == 0u);
+    return angle_between(x.normal, n.normal) - min(bend_before, bend_after);
+}
+
 // What lies between pixel `px` (surface `x`) and its neighbor of a `surface_id`; class 0: nothing that `x` has to draw.
 fn between(px: vec2<i32>, x: Surfel, own: u32, plane: Plane, towards: vec2<i32>, surface_id: u32) -> Spine {
     let q = px + towards;
@@ -138,10 +152,14 @@ fn between(px: vec2<i32>, x: Surfel, own: u32, plane: Plane, towards: vec2<i32>,
         }
         return none;
     }
-    let angle = acos(clamp(abs(dot(x.face_normal, n.face_normal)), 0.0, 1.0));
+    let angle = angle_between(x.face_normal, n.face_normal);
+    let least = edge_styles[x.object].lines[INTERSECTION - 1u].threshold;
     let other_draws = n.enhanced && edge_styles[n.object].lines[INTERSECTION - 1u].strength > 0.0;
     // One of the two draws it.
-    if angle < edge_styles[x.object].lines[INTERSECTION - 1u].threshold || (other_draws && surface_id < own) {
+    if angle < least || (other_draws && surface_id < own) {
+        return none;
+    }
+    if bend_between(px, towards, x, n) < least {
         return none;
     }
     // Where the two planes meet.

@@ -209,7 +209,8 @@ impl GpuEdgeStyle {
 
     /// Whether shading normals decide where its lines run or how wide they are.
     pub fn reads_normals(&self) -> bool {
-        self.is_paper() || self.by_light > 0.0 || self.draws(EdgeClass::Relief)
+        let classes = [EdgeClass::Intersection, EdgeClass::Relief];
+        self.is_paper() || self.by_light > 0.0 || classes.into_iter().any(|class| self.draws(class))
     }
 
     /// Whether its lines take the color of the surface beside them.
