@@ -15,7 +15,7 @@ mod common;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use common::line_scenes::{Subject, analytic, models};
+use common::line_scenes::{Subject, analytic, models, models_in_patches};
 use common::line_truth::{Look, Measured, Stage, directions, modes};
 use common::session;
 use hachure::export::Session;
@@ -94,7 +94,9 @@ fn pictures_of_lines_are_measured() {
     );
     let only = std::env::var("HACHURE_LINES_ONLY").unwrap_or_default();
     let mut missed = Vec::new();
-    for (title, mut subjects) in [("analytic", analytic()), ("models", models())] {
+    for (title, mut subjects) in
+        [("analytic", analytic()), ("models", models()), ("models in patches", models_in_patches())]
+    {
         subjects.retain(|subject| subject.name.contains(&only));
         if subjects.is_empty() {
             continue;

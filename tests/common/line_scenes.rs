@@ -48,16 +48,34 @@ pub fn named(name: &str) -> Subject {
     analytic().into_iter().find(|subject| subject.name == name).unwrap()
 }
 
-/// The sample models, and those of the shared collection that are here; says which are not.
+/// The samples, and the models of others as far as they are here.
 pub fn models() -> Vec<Subject> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let shared = root.join("../shared/models");
+    let samples = ["assets/models/crank.glb", "assets/models/ogre.glb"].map(|file| root.join(file));
+    let (_, whole): (Vec<_>, Vec<_>) = of_others().into_iter().partition(|file| is_in_patches(file));
+    loaded(samples.into_iter().chain(whole))
+}
+
+/// Models as a CAD program leaves them: each face a patch with borders of its own. Their exact edges have needles in the cracks
+/// that no picture should show: how well they are drawn is told by `tests/seams.rs`.
+pub fn models_in_patches() -> Vec<Subject> {
+    loaded(of_others().into_iter().filter(|file| is_in_patches(file)))
+}
+
+fn is_in_patches(file: &Path) -> bool {
+    file.components().any(|part| part.as_os_str() == "repatched")
+}
+
+fn of_others() -> Vec<PathBuf> {
+    let shared = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/models");
     let index = std::fs::read_to_string(shared.join("INDEX.tsv")).unwrap_or_default();
     if index.is_empty() {
         println!("no shared models here: only the samples are measured");
     }
-    let samples = ["assets/models/crank.glb", "assets/models/ogre.glb"].map(|file| root.join(file));
-    let listed = index.lines().skip(1).filter_map(|line| Some(shared.join(line.split('\t').next()?)));
+    index.lines().skip(1).filter_map(|line| Some(shared.join(line.split('\t').next()?))).collect()
+}
+
+fn loaded(files: impl Iterator<Item = PathBuf>) -> Vec<Subject> {
     let present = |file: &PathBuf| {
         let is_there = file.exists();
         if !is_there {
@@ -65,9 +83,7 @@ pub fn models() -> Vec<Subject> {
         }
         is_there
     };
-    samples
-        .into_iter()
-        .chain(listed)
+    files
         .filter(present)
         .map(|file| Subject {
             name: file.file_stem().unwrap().to_string_lossy().into_owned(),

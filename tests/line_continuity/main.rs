@@ -21,7 +21,7 @@ mod runs;
 use std::path::PathBuf;
 
 use common::line_drawing::line_drawing;
-use common::line_scenes::{Subject, models};
+use common::line_scenes::{Subject, models, models_in_patches};
 use common::line_truth::{Stage, directions, projector};
 use common::session;
 use glam::DVec3;
@@ -96,7 +96,8 @@ fn lines_of_models_keep_their_class() {
          % of line pixels, per {STEP}°"
     );
     let mut all = Row::default();
-    for subject in models().into_iter().filter(|subject| subject.name.contains(&only)) {
+    let subjects = models().into_iter().chain(models_in_patches());
+    for subject in subjects.filter(|subject| subject.name.contains(&only)) {
         let row = measure(&mut session, &subject);
         println!("{:<20} {}", subject.name, row.line());
         all.length += row.length;
