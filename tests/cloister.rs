@@ -6,21 +6,15 @@
     reason = "a test may stop at the first surprise in files that the project itself made"
 )]
 
-mod planes;
+mod solids;
 
 use std::collections::BTreeSet;
 
-use hachure::geometry::{CreaseRule, Topology};
-
-use planes::{file, imported, shared};
+use solids::{check_places, check_solids, imported};
 
 #[test]
 fn the_cloister_is_made_of_named_solids() {
-    let scene = imported("cloister");
-    assert_eq!(scene.warnings, []);
-    assert!((30_000..150_000).contains(&scene.triangle_count()), "{}", scene.triangle_count());
-    assert!(file("cloister").metadata().unwrap().len() < 1 << 20, "larger than 1 MiB");
-    for path in [
+    let paths = [
         "ground",
         "floor",
         "court/pavement",
@@ -44,16 +38,8 @@ fn the_cloister_is_made_of_named_solids() {
         "church/gable.2",
         "tower/bell",
         "tower/cross",
-    ] {
-        let found = scene.find(&format!("/cloister/{path}")).and_then(|id| scene.nodes[id].mesh);
-        assert!(found.is_some(), "{path}");
-    }
-    let names: BTreeSet<&str> = scene.nodes.iter().map(|node| node.path.as_str()).collect();
-    assert_eq!(names.len(), scene.nodes.len(), "two parts of one name");
-    for node in &scene.nodes {
-        let Some(mesh) = node.mesh.map(|mesh| &scene.meshes[mesh]) else { continue };
-        assert!(Topology::new(mesh, 0.6, CreaseRule::default()).is_solid, "{}", node.path);
-    }
+    ];
+    check_solids("cloister", 30_000..150_000, 1, &paths);
 }
 
 #[test]
@@ -68,12 +54,5 @@ fn the_columns_share_their_stones() {
 
 #[test]
 fn no_two_faces_of_the_cloister_lie_in_one_place() {
-    let scene = imported("cloister");
-    let found = shared(&scene);
-    assert!(found.is_empty(), "{found:#?}");
-    // Twice the same ground is found.
-    let ground = scene.find("/cloister/ground").unwrap();
-    let mut twice = scene.clone();
-    twice.nodes.push(hachure::scene::Node { path: "/again".to_owned(), ..scene.nodes[ground].clone() });
-    assert!(!shared(&twice).is_empty());
+    check_places("cloister");
 }

@@ -13,6 +13,7 @@ use hachure::export::Session;
 use hachure::export::session::Opened;
 use hachure::geometry::primitives;
 use hachure::gpu::Gpu;
+use hachure::render::{Reported, Request};
 use hachure::scene::{AlphaMode, Camera};
 use image::RgbaImage;
 
@@ -51,17 +52,45 @@ fn drawn(session: &mut Session, opened: &Opened) -> RgbaImage {
     common::image(session, opened, SIDE)
 }
 
+/// Draws frame by frame until nothing is missing: in how many bands each frame was drawn.
+fn bands_of_frames(session: &mut Session, opened: &Opened) -> Vec<usize> {
+    session.set_scene(opened).unwrap();
+    let request = Request {
+        document: &opened.document,
+        camera: &opened.document.camera.unwrap(),
+        size: [SIDE; 2],
+        transparent: false,
+        selected: &[],
+        samples: 1,
+    };
+    let (renderer, mut bands) = (session.renderer(), Vec::new());
+    loop {
+        renderer.render(&request).unwrap();
+        bands.push(renderer.bands());
+        renderer.gpu().wait().unwrap();
+        if renderer.take_reports() != Reported::Incomplete {
+            return bands;
+        }
+    }
+}
+
 #[test]
 fn with_room_for_a_few_layers_only_a_picture_is_drawn_in_bands_and_is_the_same() {
     let rings = rings([0, 1, 2, 3]);
-    let expected = drawn(&mut session(), &rings);
-    for room in [20_000, 4_000, 900] {
+    let mut roomy = session();
+    assert_eq!(bands_of_frames(&mut roomy, &rings), [1]);
+    let expected = drawn(&mut roomy, &rings);
+    for room in [4_000, 900] {
         let mut gpu = Gpu::headless().unwrap();
         gpu.most_listed = room;
         let mut session = Session::new(gpu);
+        // That there is too little room is known after the first frame.
+        let frames = bands_of_frames(&mut session, &rings);
+        let bands = frames.last().copied().unwrap_or_default();
+        assert!(frames == [1, bands] && bands > 1, "room for {room}: frames of {frames:?} bands");
         assert!(drawn(&mut session, &rings) == expected, "room for {room}");
         // What is known by then is enough at once.
-        assert!(drawn(&mut session, &rings) == expected, "room for {room}, again");
+        assert_eq!(bands_of_frames(&mut session, &rings), [bands], "room for {room}, again");
     }
 }
 

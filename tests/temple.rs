@@ -6,16 +6,15 @@
     reason = "a test may stop at the first surprise in files that the project itself made"
 )]
 
-mod planes;
+mod solids;
 
-use std::collections::BTreeSet;
 use std::f64::consts::TAU;
 
 use glam::{DVec3, dvec3};
-use hachure::geometry::{Bounds, CreaseRule, Topology};
+use hachure::geometry::Bounds;
 use hachure::scene::Scene;
 
-use planes::{Triangle, file, imported, shared, triangles};
+use solids::{Triangle, check_places, check_solids, imported, triangles};
 
 /// The box around what a node and those below it show.
 fn bounds(scene: &Scene, path: &str) -> Bounds {
@@ -31,11 +30,7 @@ fn bounds(scene: &Scene, path: &str) -> Bounds {
 
 #[test]
 fn the_temple_is_made_of_named_solids() {
-    let scene = imported("temple");
-    assert_eq!(scene.warnings, []);
-    assert!((30_000..80_000).contains(&scene.triangle_count()), "{}", scene.triangle_count());
-    assert!(file("temple").metadata().unwrap().len() < 2 << 20, "larger than 2 MiB");
-    for path in [
+    let paths = [
         "ground",
         "forecourt/obelisk.2/needle",
         "pylon/tower.1",
@@ -64,16 +59,8 @@ fn the_temple_is_made_of_named_solids() {
         "hidden_chamber/wall.4",
         "hidden_chamber/roof",
         "hidden_chamber/sarcophagus/lid",
-    ] {
-        let found = scene.find(&format!("/temple/{path}")).and_then(|id| scene.nodes[id].mesh);
-        assert!(found.is_some(), "{path}");
-    }
-    let names: BTreeSet<&str> = scene.nodes.iter().map(|node| node.path.as_str()).collect();
-    assert_eq!(names.len(), scene.nodes.len(), "two parts of one name");
-    for node in &scene.nodes {
-        let Some(mesh) = node.mesh.map(|mesh| &scene.meshes[mesh]) else { continue };
-        assert!(Topology::new(mesh, 0.6, CreaseRule::default()).is_solid, "{}", node.path);
-    }
+    ];
+    check_solids("temple", 30_000..80_000, 2, &paths);
 }
 
 #[test]
@@ -130,14 +117,7 @@ fn no_line_of_sight_leaves_the_hidden_chamber() {
 
 #[test]
 fn no_two_faces_of_the_temple_lie_in_one_place() {
-    let scene = imported("temple");
-    let found = shared(&scene);
-    assert!(found.is_empty(), "{found:#?}");
-    // Twice the same ground is found.
-    let ground = scene.find("/temple/ground").unwrap();
-    let mut twice = scene.clone();
-    twice.nodes.push(hachure::scene::Node { path: "/again".to_owned(), ..scene.nodes[ground].clone() });
-    assert!(!shared(&twice).is_empty());
+    check_places("temple");
 }
 
 /// How far along a ray it meets a triangle, in lengths of `way`.

@@ -421,6 +421,11 @@ impl Renderer {
         self.state.drawing().last_layer_report_of(style)
     }
 
+    /// In how many bands of rows the groups of the last picture that overlap were drawn, as far as there was room; 0: none do.
+    pub fn bands(&self) -> usize {
+        self.state.drawing().bands()
+    }
+
     /// How often each stage has run so far.
     pub fn runs(&self) -> Vec<(&'static str, u64)> {
         self.state.runs()

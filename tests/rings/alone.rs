@@ -5,11 +5,15 @@ use std::collections::BTreeMap;
 use glam::DVec4;
 use hachure::export::Session;
 use hachure::scene::{Camera, NodeId};
+use hachure::style::Technique;
 
 use super::looks::{GLASS, Kind, Look};
 use super::picture::Picture;
 use super::rays::{Cast, Hit, pixels};
 use super::stage::Stage;
+
+/// Least share of what rays meet of a ring, away from its edges, that its own picture shows.
+const LEAST_SEEN: f64 = 0.99;
 
 /// What a ring, or the rings of one blueprint, are alone.
 enum Alone {
@@ -61,19 +65,17 @@ impl<'a> Shot<'a> {
     pub fn steps(&mut self, session: &mut Session, company: &[NodeId]) -> Vec<Vec<Step>> {
         let mut steps = vec![Vec::new(); pixels()];
         for group in self.groups(company) {
-            let alone = self.alone.remove(&group).unwrap_or_else(|| self.draw_alone(session, &group));
+            let alone = self.alone.remove(&group).unwrap_or_else(|| {
+                let alone = self.draw_alone(session, &group);
+                self.check_seen(&group, &alone);
+                alone
+            });
             for (px, steps) in steps.iter_mut().enumerate() {
-                let of_node = |node: &NodeId| {
-                    let node = *node;
-                    self.cast(node).hits[px].iter().map(move |hit| (node, *hit))
-                };
-                let mut hits: Vec<(NodeId, Hit)> = group.iter().flat_map(of_node).collect();
-                hits.sort_by(|(_, a), (_, b)| a.depth.total_cmp(&b.depth));
                 let step = |(layer, (node, hit)): (usize, (NodeId, Hit))| {
                     let (color, hides) = alone.color(px, layer, hit);
                     Step { node, depth: hit.depth, color, hides }
                 };
-                steps.extend(hits.into_iter().enumerate().map(step));
+                steps.extend(self.hits(&group, px).into_iter().enumerate().map(step));
             }
             self.alone.insert(group, alone);
         }
@@ -119,6 +121,40 @@ impl<'a> Shot<'a> {
                 Alone::Layers((1..=layers).map(layer).collect())
             }
         }
+    }
+
+    /// Where rays meet rings, they are in their own picture: of blank pictures all others would be blank, and right.
+    fn check_seen(&self, group: &[NodeId], alone: &Alone) {
+        let look = &self.stage.rings[group[0]].look;
+        let is_steady = |px: &usize| group.iter().all(|node| self.cast(*node).is_steady[*px]);
+        let (mut met, mut seen) = (0, 0);
+        for px in (0..pixels()).filter(is_steady) {
+            for (layer, (_, hit)) in self.hits(group, px).into_iter().enumerate() {
+                let (color, hides) = alone.color(px, layer, hit);
+                met += 1;
+                seen += usize::from(color.w > 0.0);
+                if hides {
+                    break;
+                }
+            }
+        }
+        if look.style.technique == Technique::Blank {
+            assert_eq!(seen, 0, "{} has a surface", look.name);
+            let is_inked = |picture: &Picture| picture.colors.iter().any(|color| color.w > 0.0);
+            let is_seen = matches!(alone, Alone::Surface(picture) if is_inked(picture));
+            assert!(is_seen || look.kind == Kind::Glass, "{} has no lines", look.name);
+        } else {
+            let share = seen as f64 / met as f64;
+            assert!(share > LEAST_SEEN, "{} is seen in {share:.4} of its {met} places", look.name);
+        }
+    }
+
+    /// What a ray meets of some rings, the nearest first.
+    fn hits(&self, group: &[NodeId], px: usize) -> Vec<(NodeId, Hit)> {
+        let of_node = |&node: &NodeId| self.cast(node).hits[px].iter().map(move |hit| (node, *hit));
+        let mut hits: Vec<_> = group.iter().flat_map(of_node).collect();
+        hits.sort_by(|(_, a), (_, b)| a.depth.total_cmp(&b.depth));
+        hits
     }
 
     /// Parts of a ring's triangles of which no ray meets one twice.

@@ -2,10 +2,11 @@
 
 use glam::{DVec2, Vec2};
 use hachure::export::Session;
+use hachure::render::passes::offset_field::FieldUniform;
 use half::f16;
 
 use super::common::{kept, texels};
-use super::model::{Anchor, Eye, SIDE};
+use super::model::{Anchor, Eye};
 
 /// The texture that says where lines go.
 pub(crate) const NOISE: &str = "noise of lines";
@@ -34,7 +35,7 @@ impl Drawn {
     fn pixel_of(&self, anchor: &Anchor) -> Option<usize> {
         let spot = self.eye.spot(anchor.world, anchor.along)?;
         let cell = spot.pixel.floor();
-        let index = (cell.y * f64::from(SIDE) + cell.x) as usize;
+        let index = (cell.y * f64::from(self.eye.side) + cell.x) as usize;
         let [class, object, depth, _] = self.edges[index];
         let offset = [class >> 8, class].map(|bits| f64::from(bits & 255) / 127.0 - 1.0);
         let spine = cell + 0.5 + DVec2::from(offset);
@@ -49,6 +50,16 @@ impl Drawn {
     fn noise_at(&self, index: usize) -> Vec2 {
         let bits = self.noise[index][0];
         Vec2::from([bits as u16, (bits >> 16) as u16].map(|half| f16::from_bits(half).to_f32()))
+    }
+
+    /// How far what the device found is from what its twin makes of the same places, of those that have a pixel.
+    pub(crate) fn unlike_twin(&self, anchors: &[Anchor], field: &FieldUniform) -> Vec<f64> {
+        let unlike = |anchor: &Anchor| {
+            let spot = self.eye.spot(anchor.world, anchor.along)?;
+            let twin = field.line_noise(self.eye.object(anchor.object), &spot.place, 0);
+            Some(f64::from(self.noise(anchor)?.distance(twin)))
+        };
+        anchors.iter().filter_map(unlike).collect()
     }
 
     /// What the device found next to a place on a line; `None`: it has no pixel.

@@ -5,7 +5,7 @@ use hachure::export::Session;
 use hachure::render::passes::offset_field::{FieldUniform, GpuFieldObject, NoisePlace};
 use rayon::prelude::*;
 
-use super::model::{Anchor, Eye, Model, Spot};
+use super::model::{Anchor, Eye, Model, SIDE, Spot};
 use super::paths::{Length, Path, runs};
 
 /// Fields that are compared.
@@ -75,7 +75,7 @@ pub(crate) fn walk(
 ) -> Walked {
     let runs: Vec<Vec<Eye>> = runs(model, path, target, length)
         .into_iter()
-        .map(|run| run.into_iter().map(|camera| Eye::new(session, camera)).collect())
+        .map(|run| run.into_iter().map(|camera| Eye::new(session, camera, SIDE)).collect())
         .collect();
     let count = model.opened.scene.nodes.len() as u32;
     let scales =

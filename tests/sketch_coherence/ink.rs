@@ -11,6 +11,7 @@ use glam::{DVec2, Vec2};
 use hachure::export::Session;
 use hachure::export::session::Opened;
 use hachure::render::passes::offset_field::FieldUniform;
+use hachure::scene::Camera;
 use rayon::prelude::*;
 
 use super::common::line_drawing::{Ink, line_drawing, set_width};
@@ -105,9 +106,9 @@ impl Changes {
 }
 
 /// Lines only, each drawn once, evenly.
-fn drawing(model: &Model, moved: Moved, wave: f32) -> Opened {
+fn drawing(model: &Model, moved: Moved, wave: f32, side: u32) -> Opened {
     let mut opened = line_drawing(&model.opened.scene, model.camera());
-    set_width(&mut opened, WIDTH, SIDE);
+    set_width(&mut opened, WIDTH, side);
     let [a, b] = MATRIX;
     if moved != Moved::Not {
         set(&mut opened, "sketch.enabled", "true");
@@ -140,19 +141,38 @@ pub(crate) struct Draftsman {
 impl Draftsman {
     /// One for each way: undisturbed, by the surface, by the screen.
     pub(crate) fn all(model: &Model, wave: f32) -> [Self; 3] {
-        [Moved::Not, Moved::BySurface, Moved::ByScreen].map(|moved| {
-            let opened = drawing(model, moved, wave);
-            let mut session = session();
-            session.renderer().keep(NOISE);
-            session.set_scene(&opened).unwrap();
-            Self { session, opened }
-        })
+        [Moved::Not, Moved::BySurface, Moved::ByScreen].map(|moved| Self::new(model, moved, wave, SIDE))
+    }
+
+    fn new(model: &Model, moved: Moved, wave: f32, side: u32) -> Self {
+        let opened = drawing(model, moved, wave, side);
+        let mut session = session();
+        session.renderer().keep(NOISE);
+        session.set_scene(&opened).unwrap();
+        Self { session, opened }
     }
 
     fn draw(&mut self, eye: &Eye) -> Ink {
         self.opened.document.camera = Some(eye.camera);
-        Ink::of(&mut self.session, &self.opened, [SIDE; 2])
+        Ink::of(&mut self.session, &self.opened, [eye.side; 2])
     }
+}
+
+/// What the device finds in a small picture of a model, px, from each of these cameras.
+pub(crate) fn drawn_small(
+    session: &mut Session,
+    model: &Model,
+    wave: f32,
+    (cameras, side): (&[Camera], u32),
+) -> Vec<Drawn> {
+    let [mut plain, mut by_surface] =
+        [Moved::Not, Moved::BySurface].map(|moved| Draftsman::new(model, moved, wave, side));
+    let mut drawn = |camera: &Camera| {
+        let eye = Eye::new(session, *camera, side);
+        let _ink = [&mut plain, &mut by_surface].map(|draftsman| draftsman.draw(&eye));
+        Drawn::new(&mut plain.session, &mut by_surface.session, eye)
+    };
+    cameras.iter().map(|camera| drawn(camera)).collect()
 }
 
 /// Draws a picture in all ways.

@@ -16,7 +16,7 @@ use hachure::render::base::object_axes::ObjectAxes;
 use hachure::render::passes::offset_field::{GpuFieldObject, NoisePlace};
 use hachure::scene::Camera;
 
-/// Pixels per side of all pictures: one of them is one reference pixel.
+/// Pixels per side of the pictures that are measured: one of them is one reference pixel.
 pub(crate) const SIDE: u32 = 1080;
 
 /// A model on the device and as edges.
@@ -151,6 +151,8 @@ pub(crate) struct Eye {
     pub(crate) camera: Camera,
     pub(crate) view: View,
     pub(crate) projector: Projector,
+    /// Pixels per side of its picture.
+    pub(crate) side: u32,
     objects: Vec<GpuFieldObject>,
 }
 
@@ -162,10 +164,10 @@ pub(crate) struct Spot {
 }
 
 impl Eye {
-    pub(crate) fn new(session: &mut Session, camera: Camera) -> Self {
+    pub(crate) fn new(session: &mut Session, camera: Camera, side: u32) -> Self {
         let scene = session.renderer().scene().unwrap();
         let bounds = scene.scene.bounds();
-        let view = View::new(&camera, &bounds, UVec2::splat(SIDE));
+        let view = View::new(&camera, &bounds, UVec2::splat(side));
         // Rays want an end.
         let far = camera.position.distance(bounds.center()) + bounds.diagonal();
         let objects = (0..=scene.scene.nodes.len() as u32)
@@ -177,7 +179,7 @@ impl Eye {
                 })
             })
             .collect();
-        Self { camera, projector: Projector { far, ..view.projector() }, view, objects }
+        Self { camera, projector: Projector { far, ..view.projector() }, view, side, objects }
     }
 
     pub(crate) fn object(&self, id: u32) -> &GpuFieldObject {
@@ -185,13 +187,13 @@ impl Eye {
     }
 
     fn pixel_at(&self, depth: f64) -> f64 {
-        2.0 * f64::from(self.view.half_extent.y) / f64::from(SIDE) * depth
+        2.0 * f64::from(self.view.half_extent.y) / f64::from(self.side) * depth
     }
 
     /// A point of a line as the shader finds it again, from its pixel and its depth; `None`: it is not in the picture.
     pub(crate) fn spot(&self, world: DVec3, along: DVec3) -> Option<Spot> {
         self.seen_or_not(world, along)
-            .filter(|spot| spot.pixel.min_element() >= 0.0 && spot.pixel.max_element() < f64::from(SIDE))
+            .filter(|spot| spot.pixel.min_element() >= 0.0 && spot.pixel.max_element() < f64::from(self.side))
     }
 
     /// The same for all that lies before the eye.
@@ -211,11 +213,11 @@ impl Eye {
 
     /// What a pixel of this depth shows, as the shader finds it.
     pub(crate) fn place(&self, pixel: DVec2, depth: f32, stretch: f32) -> NoisePlace {
-        let ndc = pixel.as_vec2() / SIDE as f32 * Vec2::new(2.0, -2.0) + Vec2::new(-1.0, 1.0);
+        let ndc = pixel.as_vec2() / self.side as f32 * Vec2::new(2.0, -2.0) + Vec2::new(-1.0, 1.0);
         let at = ndc * self.view.half_extent * depth;
         NoisePlace {
             at: at.extend(-depth),
-            pixel: 2.0 * self.view.half_extent.y / SIDE as f32 * depth,
+            pixel: 2.0 * self.view.half_extent.y / self.side as f32 * depth,
             stretch,
         }
     }

@@ -154,6 +154,11 @@ impl Drawing {
         runs
     }
 
+    /// In how many bands of rows the groups that overlap were drawn; 0: none do.
+    pub fn bands(&self) -> usize {
+        self.translucent.as_ref().map_or(0, TranslucentState::bands)
+    }
+
     /// What has been reported about the layers of its pictures and of what mirrors show; it draws incomplete ones again.
     /// Never waits.
     pub fn take_reports(&mut self) -> Reported {

@@ -94,6 +94,8 @@ pub struct TranslucentState {
     together: Stage<Vec<Key>, Translucent>,
     /// `None` while none do.
     lists: Option<LayerLists>,
+    /// In how many bands of rows it was drawn.
+    bands: usize,
 }
 
 impl TranslucentState {
@@ -104,7 +106,13 @@ impl TranslucentState {
             blueprints: Vec::new(),
             together: Stage::default(),
             lists: None,
+            bands: 0,
         }
+    }
+
+    /// In how many bands of rows the groups that overlap were drawn; 0: none do.
+    pub fn bands(&self) -> usize {
+        self.bands
     }
 
     /// How often layers of blueprints have been drawn.
@@ -197,13 +205,14 @@ impl TranslucentState {
         }
         if overlapping.is_empty() {
             self.together.clear();
-            self.lists = None;
+            (self.lists, self.bands) = (None, 0);
             return Ok(());
         }
         let lists = self.lists.get_or_insert_with(|| LayerLists::new(rec.gpu));
         let picture = self.together.run(keys, |keys| {
             let color = rec.target("overlapping groups", wgpu::TextureFormat::Rgba16Float)?;
             let bands = lists.plan(rec.gpu, rec.size())?;
+            self.bands = bands.len();
             let mut fronts = Vec::new();
             for (number, band) in bands.iter().enumerate() {
                 if number > 0 {

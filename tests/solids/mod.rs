@@ -1,15 +1,17 @@
-//! Finds faces of a scene that lie in one place, where no renderer can tell which is in front.
+//! What must hold of every sample model of named solids: all are there, each is closed, and no faces of two lie in one place, where no
+//! renderer can tell which is in front.
 #![allow(dead_code, unreachable_pub, reason = "each test binary uses its own part")]
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use glam::{DVec2, DVec3, dvec3};
+use hachure::geometry::{CreaseRule, Topology};
 use hachure::import::{ImportOptions, Progress, load};
-use hachure::scene::Scene;
+use hachure::scene::{Node, Scene};
 
 /// The file of a sample model.
-pub fn file(name: &str) -> PathBuf {
+fn file(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("assets/models/{name}.glb"))
 }
 
@@ -35,7 +37,7 @@ pub fn triangles(scene: &Scene) -> Vec<(&str, Triangle)> {
 }
 
 /// The paths of nodes with faces in one place, in pairs.
-pub fn shared(scene: &Scene) -> BTreeSet<(&str, &str)> {
+fn shared(scene: &Scene) -> BTreeSet<(&str, &str)> {
     let mut planes: BTreeMap<[i64; 3], Vec<(f64, DVec3, &str, Triangle)>> = BTreeMap::new();
     for (path, triangle) in triangles(scene) {
         let [a, b, c] = triangle;
@@ -77,4 +79,34 @@ fn overlap(normal: DVec3, a: Triangle, b: Triangle) -> bool {
             a1.min(b1) - a0.max(b0) > 2e-3
         })
     })
+}
+
+/// A sample model of so many triangles, in a file of less than so many MiB, has a solid at each of these paths, and others.
+pub fn check_solids(name: &str, triangles: std::ops::Range<usize>, mebibytes: u64, paths: &[&str]) {
+    let scene = imported(name);
+    assert_eq!(scene.warnings, []);
+    assert!(triangles.contains(&scene.triangle_count()), "{}", scene.triangle_count());
+    assert!(file(name).metadata().unwrap().len() < mebibytes << 20, "larger than {mebibytes} MiB");
+    for path in paths {
+        let found = scene.find(&format!("/{name}/{path}")).and_then(|id| scene.nodes[id].mesh);
+        assert!(found.is_some(), "{path}");
+    }
+    let names: BTreeSet<&str> = scene.nodes.iter().map(|node| node.path.as_str()).collect();
+    assert_eq!(names.len(), scene.nodes.len(), "two parts of one name");
+    for node in &scene.nodes {
+        let Some(mesh) = node.mesh.map(|mesh| &scene.meshes[mesh]) else { continue };
+        assert!(Topology::new(mesh, 0.6, CreaseRule::default()).is_solid, "{}", node.path);
+    }
+}
+
+/// No two faces of a sample model lie in one place.
+pub fn check_places(name: &str) {
+    let scene = imported(name);
+    let found = shared(&scene);
+    assert!(found.is_empty(), "{found:#?}");
+    // Twice the same ground is found.
+    let ground = scene.find(&format!("/{name}/ground")).unwrap();
+    let mut twice = scene.clone();
+    twice.nodes.push(Node { path: "/again".to_owned(), ..scene.nodes[ground].clone() });
+    assert!(!shared(&twice).is_empty());
 }
