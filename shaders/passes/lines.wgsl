@@ -77,10 +77,12 @@ struct Line {
 // on thin forms, all around, most inwards first; without any where the object is not seen there.
 fn with_surface_color(own: vec3<f32>, object: u32, spine: vec2<f32>, inwards: vec2<f32>) -> vec3<f32> {
     let last = vec2<i32>(frame.size) - 1;
-    for (var i = 0; i < 9; i++) {
-        let turn = 0.7853982 * f32(i / 2) * f32(1 - 2 * (i & 1));
+    for (var i = 0; i < 17; i++) {
+        let eighth = max(i - 1, 0) % 8;
+        let turn = 0.7853982 * f32((eighth + 1) / 2) * f32(1 - 2 * (eighth & 1));
         let towards = vec2(inwards.x * cos(turn) - inwards.y * sin(turn), inwards.x * sin(turn) + inwards.y * cos(turn));
-        let px = clamp(vec2<i32>(floor(spine + select(1.8, 0.8, i == 0) * towards)), vec2(0), last);
+        let far = select(select(1.8, 0.8, i == 0), 3.6, i > 8);
+        let px = clamp(vec2<i32>(floor(spine + far * towards)), vec2(0), last);
         if (geometry_at(px).w & ~ENHANCED) == object {
             let base = textureLoad(base_color_tex, px, 0).rgb;
             return mix(own, base * (1.0 - edge_styles[object].darken), edge_styles[object].surface_color);
