@@ -256,6 +256,30 @@ fn metal_is_off_at_strength_zero_and_differs_from_object_to_object() {
 }
 
 #[test]
+fn stripes_lie_around_turned_forms_and_on_no_others() {
+    let mut session = session();
+    let mut striped = |stretch: Vec3, place: DMat4| {
+        let mut mesh = primitives::sphere(1.0, 48, 64);
+        mesh.positions.iter_mut().for_each(|p| *p *= stretch);
+        let scene = scene(vec![("form", mesh, place, [0.6; 3])]);
+        let mut drawn = |metal| {
+            let settings = [("gooch.metal", metal), ("gooch.metal_axis", "form")];
+            image(&mut session, &gooch(&scene, DVec3::Z, &settings), SIDE as u32)
+        };
+        let (with, without) = (drawn("1"), drawn("0"));
+        with.pixels()
+            .zip(without.pixels())
+            .filter(|(a, b)| (0..3).any(|c| a.0[c].abs_diff(b.0[c]) > 24))
+            .count()
+    };
+    let turned = DMat4::from_euler(EulerRot::XYZ, 0.5, 0.4, -0.7);
+    let lying = striped(Vec3::new(1.8, 0.9, 0.9), turned);
+    let standing = striped(Vec3::new(0.9, 1.8, 0.9), turned);
+    assert!(lying > 2000 && standing > 2000, "{lying} {standing}");
+    assert_eq!(striped(Vec3::new(0.6, 1.8, 0.9), turned), 0);
+}
+
+#[test]
 fn a_surface_is_shaded_on_the_side_that_is_seen() {
     let mut session = session();
     let sheet = scene(vec![("sheet", primitives::plane(1.0), DMat4::IDENTITY, [0.7, 0.5, 0.3])]);

@@ -3,6 +3,7 @@
 #import common/gbuffer.wgsl
 #import common/light.wgsl
 #import common/same_surface.wgsl
+#import common/surface_id.wgsl
 
 // How far shadows go to the cool end.
 const SHADE: f32 = 0.7;
@@ -30,16 +31,29 @@ struct GoochStyle {
     metal: f32,
     stripes: f32,
     is_of_view: u32,
-    // 1 where stripes lie around the axis that the surface turns about: `across`, `around` or the one across both.
+    // 1 where stripes lie around the axes of forms.
     is_of_form: u32,
     // How far the key is turned to the side, 0 to 1.
     aside: f32,
     // How far cool and warm are multiplied by the object's own color, 0 to 1.
     own_hue: f32,
+    // Where the forms of its surfaces are, and how many.
+    first_form: u32,
+    forms: u32,
+}
+
+// Twin: `GpuForm` in src/render/effects/gooch.rs.
+struct Form {
+    // As in `GoochStyle`, world space.
+    across: vec3<f32>,
+    // How surely the surface is a turned or extruded form, 0 to 1.
+    strength: f32,
+    around: vec3<f32>,
 }
 
 // By object id.
 var<storage, read> gooch_styles: array<GoochStyle>;
+var<storage, read> forms: array<Form>;
 
 const TAU: f32 = 6.28318530718;
 
@@ -50,22 +64,13 @@ fn chance(index: u32, seed: u32) -> f32 {
     return f32(((word >> 22u) ^ word) >> 8u) / 16777216.0;
 }
 
-// A direction in view space, by the axes of the stripes.
-fn by_axes(style: GoochStyle, direction: vec3<f32>) -> vec3<f32> {
+// A direction in view space, seen along the axis of the stripes.
+fn along_axis(style: GoochStyle, direction: vec3<f32>) -> vec2<f32> {
     var d = direction;
     if style.is_of_view == 0u {
         d = (frame.world_from_view * vec4(d, 0.0)).xyz;
     }
-    return vec3(dot(d, style.across), dot(d, style.around), dot(d, cross(style.across, style.around)));
-}
-
-// The axis of the stripes, where they do not follow the form.
-const OWN_AXIS: u32 = 2u;
-
-// A direction in view space, seen along one of the axes.
-fn along_axis(style: GoochStyle, axis: u32, direction: vec3<f32>) -> vec2<f32> {
-    let d = by_axes(style, direction);
-    return vec2(d[(axis + 1u) % 3u], d[(axis + 2u) % 3u]);
+    return vec2(dot(d, style.across), dot(d, style.around));
 }
 
 // The angle of such a direction around the axis, in turns from 0 to 1.
@@ -101,61 +106,31 @@ fn stripes_at(turn: f32, count: f32, seed: u32, footprint: f32) -> f32 {
 }
 
 // Change of the turn per pixel along an axis of the picture, from both sides where the surface goes on there.
-fn turn_slope(px: vec2<i32>, s: Surfel, style: GoochStyle, about: u32, turn: f32, axis: vec2<i32>) -> f32 {
+fn turn_slope(px: vec2<i32>, s: Surfel, style: GoochStyle, turn: f32, axis: vec2<i32>) -> f32 {
     var change = vec2(0.0);
     for (var side = -1; side <= 1; side += 2) {
         let q = px + side * axis;
         let other = unpack_surfel(geometry_at(q));
         let is_inside = all(q >= vec2(0)) && all(q < vec2<i32>(frame.size));
         if is_inside && goes_on(px, s, q, other) {
-            change += vec2(f32(side) * turned(turn, turn_of(along_axis(style, about, other.normal))), 1.0);
+            change += vec2(f32(side) * turned(turn, turn_of(along_axis(style, other.normal))), 1.0);
         }
     }
     return change.x / max(change.y, 1.0);
 }
 
-// Turns per pixel, radians, between which a surface goes from flat to rounded.
-const ROUNDED: vec2<f32> = vec2(2e-4, 8e-4);
-
-// How much a surface turns about each of the axes, all 0 where it is flat, of sum 1 where it is rounded.
-fn axes_of_form(px: vec2<i32>, s: Surfel, style: GoochStyle) -> vec3<f32> {
-    var turns = vec3(0.0);
-    for (var i = 0; i < 2; i++) {
-        // The lesser change of both sides: facets that are shaded flat are flat up to their borders.
-        var change = vec3(0.0);
-        var is_first = true;
-        for (var side = -1; side <= 1; side += 2) {
-            let q = px + side * vec2(1 - i, i);
-            let other = unpack_surfel(geometry_at(q));
-            let is_inside = all(q >= vec2(0)) && all(q < vec2<i32>(frame.size));
-            if is_inside && goes_on(px, s, q, other) {
-                let next = f32(side) * (other.normal - s.normal);
-                change = select(change, next, is_first || dot(next, next) < dot(change, change));
-                is_first = false;
-            }
-        }
-        let about = by_axes(style, cross(s.normal, change));
-        turns += about * about;
-    }
-    // The square keeps the stripes of the axes apart, and lets them change without a seam.
-    let shares = turns * turns / max(dot(turns, turns), 1e-30);
-    return shares * smoothstep(ROUNDED.x, ROUNDED.y, sqrt(turns.x + turns.y + turns.z));
-}
-
 // A shade in the stripes of milled metal: black at intensity 0, as it is at one half, white at 1. The paper makes the
 // stripe nearest to the light white; here that one stands where the light does, so that none of them ever jumps.
-fn metallic_about(
-    axis: u32, px: vec2<i32>, s: Surfel, style: GoochStyle, shade: vec3<f32>, light: vec3<f32>,
-) -> vec3<f32> {
-    let across = along_axis(style, axis, s.normal);
+fn metallic(px: vec2<i32>, s: Surfel, style: GoochStyle, shade: vec3<f32>, light: vec3<f32>) -> vec3<f32> {
+    let across = along_axis(style, s.normal);
     let turn = turn_of(across);
     let slope = vec2(
-        turn_slope(px, s, style, axis, turn, vec2(1, 0)),
-        turn_slope(px, s, style, axis, turn, vec2(0, 1)),
+        turn_slope(px, s, style, turn, vec2(1, 0)),
+        turn_slope(px, s, style, turn, vec2(0, 1)),
     );
     let footprint = length(slope) * style.stripes * frame.coverage_ramp;
     var intensity = stripes_at(turn, style.stripes, s.object, footprint);
-    let light_across = along_axis(style, axis, light);
+    let light_across = along_axis(style, light);
     let off = abs(turned(turn, turn_of(light_across))) * style.stripes;
     let width = max(footprint, 1.0);
     let white = max(1.0 - off / width, 0.0) / width * smoothstep(0.05, 0.3, length(light_across));
@@ -166,18 +141,19 @@ fn metallic_about(
     return mix(shade, color, style.metal * smoothstep(0.1, 0.5, length(across)));
 }
 
-fn metallic(px: vec2<i32>, s: Surfel, style: GoochStyle, shade: vec3<f32>, light: vec3<f32>) -> vec3<f32> {
-    if style.is_of_form == 0u {
-        return metallic_about(OWN_AXIS, px, s, style, shade, light);
+// The style with the axis of the form that a pixel shows.
+fn about_form(px: vec2<i32>, object: u32, style: GoochStyle) -> GoochStyle {
+    var own = style;
+    let surface = surface_of(textureLoad(surface_id_tex, px, 0).x, object);
+    if surface >= style.forms {
+        own.metal = 0.0;
+        return own;
     }
-    let axes = axes_of_form(px, s, style);
-    var color = shade;
-    for (var axis = 0u; axis < 3u; axis++) {
-        if axes[axis] > 0.02 {
-            color += axes[axis] * (metallic_about(axis, px, s, style, shade, light) - shade);
-        }
-    }
-    return color;
+    let form = forms[style.first_form + surface];
+    own.across = form.across;
+    own.around = form.around;
+    own.metal *= form.strength;
+    return own;
 }
 
 // Where the key stands for Gooch shading: from where it is towards the side, across the line of sight, where the paper has it
@@ -202,8 +178,10 @@ fn gooch(px: vec2<i32>, s: Surfel, base: vec3<f32>, pos_view: vec3<f32>) -> vec3
         warmth *= 1.0 - SHADE * shadow_at(px, 0u, n_l);
     }
     var shade = mix(cool, warm, warmth);
-    if WITH_METAL && style.metal > 0.0 {
+    if WITH_METAL && style.metal > 0.0 && style.is_of_form == 0u {
         shade = metallic(px, s, style, shade, l);
+    } else if WITH_METAL && style.metal > 0.0 {
+        shade = metallic(px, s, about_form(px, s.object, style), shade, l);
     }
     let reflected = reflect(-l, s.normal);
     let gloss = pow(max(dot(reflected, eye), 0.0), style.shininess);

@@ -273,6 +273,26 @@ struct Filled {
     @location(1) color: vec4<f32>,
 }
 
+// Color between the middles of pixels, of which the nearest one shows a surface: where colors meet that wander there are no stairs,
+// and what does not wander stays as it is.
+fn shaded_at(y: vec2<f32>) -> vec4<f32> {
+    let first = vec2<i32>(floor(y - 0.5));
+    let f = y - 0.5 - vec2<f32>(first);
+    let last = vec2<i32>(frame.size) - 1;
+    var sum = vec4(0.0);
+    var surfaces = 0.0;
+    for (var i = 0; i < 4; i++) {
+        let offset = vec2(i & 1, i >> 1u);
+        let weights = mix(1.0 - f, f, vec2<f32>(offset));
+        let px = clamp(first + offset, vec2(0), last);
+        if (geometry_at(px).w & ~ENHANCED) != 0u {
+            sum += weights.x * weights.y * textureLoad(shaded_tex, px, 0);
+            surfaces += weights.x * weights.y;
+        }
+    }
+    return sum / max(surfaces, 1e-6);
+}
+
 @fragment
 fn fs_fill(@builtin(position) position: vec4<f32>) -> Filled {
     let px = vec2<i32>(position.xy);
@@ -302,7 +322,7 @@ fn fs_fill(@builtin(position) position: vec4<f32>) -> Filled {
     var color = vec4(0.0);
     var opacity = 1.0;
     if sketch.shows_fill == 1u {
-        let shaded = textureLoad(shaded_tex, vec2<i32>(floor(y)), 0);
+        let shaded = shaded_at(y);
         opacity = select(1.0, shaded.a, WITH_OPACITY);
         let own = shaded.rgb / max(shaded.a, 1e-4);
         var density = sketch.density;

@@ -81,6 +81,24 @@ struct Line {
     to_source: vec2<f32>,
 }
 
+// A line's color with that of its own object's surface beside the spine: inwards, or where that is another's, as at corners and
+// on thin forms, all around, most inwards first; without any where the object is not seen there.
+fn with_surface_color(own: vec3<f32>, object: u32, spine: vec2<f32>, inwards: vec2<f32>) -> vec3<f32> {
+    let last = vec2<i32>(frame.size) - 1;
+    for (var i = 0; i < 17; i++) {
+        let eighth = max(i - 1, 0) % 8;
+        let turn = 0.7853982 * f32((eighth + 1) / 2) * f32(1 - 2 * (eighth & 1));
+        let towards = vec2(inwards.x * cos(turn) - inwards.y * sin(turn), inwards.x * sin(turn) + inwards.y * cos(turn));
+        let far = select(select(1.8, 0.8, i == 0), 3.6, i > 8);
+        let px = clamp(vec2<i32>(floor(spine + far * towards)), vec2(0), last);
+        if (geometry_at(px).w & ~ENHANCED) == object {
+            let base = textureLoad(base_color_tex, px, 0).rgb;
+            return mix(own, base * (1.0 - edge_styles[object].darken), edge_styles[object].surface_color);
+        }
+    }
+    return own;
+}
+
 fn no_line() -> Line {
     return Line(vec4(0.0), 0.0, false, 0.0, vec2(0.0), vec2(0.0));
 }
@@ -146,11 +164,7 @@ fn line_at(at: vec2<f32>, g: Surfel, found: u32) -> Line {
     }
     var color = edge_styles[edge.object].lines[index].color;
     if WITH_SURFACE_COLOR {
-        // Of the object's pixel beside the spine.
-        let inwards = vec2<i32>(floor(spine + to_source - 0.8 * left * edge.outside));
-        let inside = clamp(inwards, vec2(0), vec2<i32>(frame.size) - 1);
-        let base = textureLoad(base_color_tex, inside, 0).rgb;
-        color = mix(color, base * (1.0 - edge_styles[edge.object].darken), edge_styles[edge.object].surface_color);
+        color = with_surface_color(color, edge.object, spine + to_source, -left * edge.outside);
     }
     return Line(vec4(color, 1.0) * coverage, edge.depth, false, strength, d, to_source);
 }

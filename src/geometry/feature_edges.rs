@@ -79,6 +79,11 @@ pub struct FeatureEdges {
 }
 
 impl FeatureEdges {
+    /// The surfaces of the mesh.
+    pub fn surfaces(&self) -> &Surfaces {
+        &self.surfaces
+    }
+
     /// Gathers the edges of a mesh. Adjacency and surfaces must be those of the same mesh.
     pub fn new(mesh: &Mesh, adjacency: &Adjacency, surfaces: impl Into<Arc<Surfaces>>) -> Self {
         let count = adjacency.edges.len();

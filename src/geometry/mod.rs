@@ -36,6 +36,7 @@ pub mod surfaces;
 pub mod text;
 pub mod topology;
 pub mod triangulate;
+pub mod turned;
 pub mod visible_edges;
 pub mod weld;
 
@@ -65,4 +66,5 @@ pub use surfaces::{Provoking, Surfaces, provoking};
 pub use text::Text;
 pub use topology::Adjacency;
 pub use triangulate::Triangulator;
+pub use turned::{FormAxis, form_axes};
 pub use weld::Weld;

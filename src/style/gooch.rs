@@ -45,8 +45,8 @@ choice! {
         Y,
         /// Its third one.
         Z,
-        /// Whichever of these the surface turns about, place by place: what is flat has no stripes.
-    Form,
+        /// That of each turned or extruded form: what is none has no stripes.
+        Form,
     /// The vertical of the picture: stripes follow the eye.
         View,
     }
@@ -112,7 +112,7 @@ impl Gooch {
         list.choice(
             "metal_axis",
             "Stripe axis",
-            "The object's axis around which the stripes lie, that of each of its rounded forms, or the vertical of the view.",
+            "The object's axis around which the stripes lie, that of each turned or extruded form, or the vertical of the view.",
             &mut self.metal_axis,
         );
         list.integer(

@@ -9,7 +9,9 @@ use super::section::{Section, SectionResult};
 use super::stripes::{GpuStripes, SolvedStripes, StripePlace, StripeRequest};
 use super::view::View;
 use crate::document::Document;
-use crate::geometry::{Bodies, Bounds, CreaseRule, FeatureEdges, Mesh, NotFlat, Plane, Topology, Weld};
+use crate::geometry::{
+    Bodies, Bounds, CreaseRule, FeatureEdges, FormAxis, Mesh, NotFlat, Plane, Topology, Weld, form_axes,
+};
 use crate::gpu::geometry::{MeshRange, MeshSource};
 use crate::gpu::{GeometryBuffers, Gpu, GpuError, MaterialBindings};
 use crate::scene::{Addition, AlphaMode, Material, NodeId, Scene};
@@ -67,6 +69,8 @@ struct MeshSet {
     bodies: Vec<Arc<Bodies>>,
     /// The plane of each mesh, once somebody asked for it.
     planes: Arc<[OnceLock<Result<Plane, NotFlat>>]>,
+    /// The axes of the surfaces of each mesh, once somebody asked for them.
+    form_axes: Arc<[OnceLock<Vec<FormAxis>>]>,
 }
 
 impl MeshSet {
@@ -80,6 +84,7 @@ impl MeshSet {
             is_solid: topology.iter().map(|t| t.is_solid).collect(),
             bodies: bodies(topology),
             planes: meshes.iter().map(|_| OnceLock::new()).collect(),
+            form_axes: meshes.iter().map(|_| OnceLock::new()).collect(),
         })
     }
 }
@@ -344,6 +349,16 @@ impl GpuScene {
         });
         let (plane, mesh) = plane.ok_or(NotFlat::NoArea)?;
         plane.get_or_init(|| Plane::of_mesh(mesh)).and_then(|p| p.transformed(&node.world_from_local))
+    }
+
+    /// The axis of each surface of a node's own mesh, local space; empty until topology is known.
+    pub fn form_axes(&self, node: NodeId) -> &[FormAxis] {
+        let Some(m) = self.scene.nodes[node].mesh else { return &[] };
+        let (set, number) = self.set(m);
+        match (set.form_axes.get(number), self.scene.meshes.get(m), set.edges.get(number)) {
+            (Some(axes), Some(mesh), Some(edges)) => axes.get_or_init(|| form_axes(mesh, edges.surfaces())),
+            _ => &[],
+        }
     }
 
     /// The corners of the box around a node's own mesh in its own space, world space, in the order of

@@ -4,6 +4,7 @@ use encase::ShaderType;
 use glam::{DMat4, DVec3, Vec3};
 
 use super::technique::{Styled, SurfaceTechnique};
+use crate::geometry::FormAxis;
 use crate::gpu::{ArrayBuffer, Gpu, Inputs};
 use crate::render::base::error::RenderError;
 use crate::style::Technique;
@@ -26,6 +27,28 @@ pub struct GpuGoochStyle {
     is_of_form: u32,
     aside: f32,
     own_hue: f32,
+    first_form: u32,
+    forms: u32,
+}
+
+/// Twin of `Form` in `shaders/effects/gooch.wgsl`.
+#[derive(Debug, Clone, Copy, PartialEq, ShaderType, Default)]
+pub struct GpuForm {
+    across: Vec3,
+    strength: f32,
+    around: Vec3,
+}
+
+impl GpuForm {
+    /// A form around an axis of a mesh that lies at `world_from_local`.
+    fn new(form: &FormAxis, world_from_local: &DMat4) -> Self {
+        // One sense and one beginning for all forms around parallel axes, so that their stripes meet.
+        let sense = if form.direction.dot(DVec3::new(0.9, 1.0, 1.1)) < 0.0 { -1.0 } else { 1.0 };
+        let side = if form.direction.y.abs() < 0.7 { DVec3::Y } else { DVec3::Z };
+        let [axis, side] = [form.direction * sense, side].map(|v| world_from_local.transform_vector3(v));
+        let [across, around] = directions_about(axis, side, DVec3::Z);
+        Self { across, strength: form.strength as f32, around }
+    }
 }
 
 impl GpuGoochStyle {
@@ -47,49 +70,70 @@ impl GpuGoochStyle {
             is_of_form: u32::from(gooch.metal_axis == MetalAxis::Form),
             aside: gooch.aside,
             own_hue: gooch.own_hue,
+            first_form: 0,
+            forms: 0,
         }
     }
+}
+
+/// All visible objects that are drawn so.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct GoochStyles {
+    /// By object id; empty when there are none.
+    objects: Vec<GpuGoochStyle>,
+    /// The forms of objects with stripes around them.
+    forms: Vec<GpuForm>,
 }
 
 /// Gooch shading on the device.
 pub struct GoochShading {
     styles: ArrayBuffer,
+    forms: ArrayBuffer,
 }
 
 impl SurfaceTechnique for GoochShading {
-    /// By object id; empty when there are none.
-    type Styles = Vec<GpuGoochStyle>;
+    type Styles = GoochStyles;
     type Shared = ();
 
     fn shared(_gpu: &Gpu) {}
 
     fn new(gpu: &Gpu) -> Self {
-        Self { styles: ArrayBuffer::new(gpu, "gooch styles") }
+        Self { styles: ArrayBuffer::new(gpu, "gooch styles"), forms: ArrayBuffer::new(gpu, "forms") }
     }
 
     fn add(styles: &mut Self::Styles, object: &Styled<'_>) {
         if object.style.technique == Technique::Gooch
             && let Some(node) = object.scene.scene.nodes.get(object.node)
-            && let Some(entry) = object.entry(styles)
+            && let Some(entry) = object.entry(&mut styles.objects)
         {
-            *entry = GpuGoochStyle::new(&object.style.gooch, &node.world_from_local);
+            let gooch = &object.style.gooch;
+            *entry = GpuGoochStyle::new(gooch, &node.world_from_local);
+            if gooch.metal > 0.0 && gooch.metal_axis == MetalAxis::Form {
+                let axes = object.scene.form_axes(object.node);
+                (entry.first_form, entry.forms) = (styles.forms.len() as u32, axes.len() as u32);
+                styles.forms.extend(axes.iter().map(|axis| GpuForm::new(axis, &node.world_from_local)));
+            }
         }
     }
 
     fn switches(styles: &Self::Styles) -> Vec<(&'static str, bool)> {
-        let has_metal = styles.iter().any(|style| style.metal > 0.0);
-        vec![("WITH_GOOCH", !styles.is_empty()), ("WITH_METAL", has_metal)]
+        let has_metal = styles.objects.iter().any(|style| style.metal > 0.0);
+        vec![("WITH_GOOCH", !styles.objects.is_empty()), ("WITH_METAL", has_metal)]
     }
 
     fn upload(&mut self, (): &mut (), gpu: &Gpu, styles: &Self::Styles) -> Result<(), RenderError> {
-        if !styles.is_empty() {
-            self.styles.write(gpu, styles);
+        if !styles.objects.is_empty() {
+            self.styles.write(gpu, &styles.objects);
+        }
+        if !styles.forms.is_empty() {
+            self.forms.write(gpu, &styles.forms);
         }
         Ok(())
     }
 
     fn bind<'a>(&'a self, (): &'a (), inputs: &mut Inputs<'a>) {
         inputs.set("gooch_styles", self.styles.buffer());
+        inputs.set("forms", self.forms.buffer());
     }
 }
 
@@ -103,6 +147,11 @@ fn directions(axis: MetalAxis, world_from_local: &DMat4) -> [Vec3; 2] {
         MetalAxis::Z | MetalAxis::Form => (z, x, DVec3::Z),
         MetalAxis::View => (DVec3::Y, DVec3::Z, DVec3::Y),
     };
+    directions_about(axis, side, default)
+}
+
+/// The same for an axis; the first one on the side of `side`.
+fn directions_about(axis: DVec3, side: DVec3, default: DVec3) -> [Vec3; 2] {
     let axis = axis.normalize_or(default);
     let across = side.reject_from_normalized(axis).normalize_or(axis.any_orthonormal_vector());
     [across, axis.cross(across)].map(|v| v.as_vec3())
