@@ -37,23 +37,13 @@ struct GoochStyle {
     aside: f32,
     // How far cool and warm are multiplied by the object's own color, 0 to 1.
     own_hue: f32,
-    // Where the forms of its surfaces are, and how many.
+    // Where the styles of its forms are, and how many.
     first_form: u32,
     forms: u32,
 }
 
-// Twin: `GpuForm` in src/render/effects/gooch.rs.
-struct Form {
-    // As in `GoochStyle`, world space.
-    across: vec3<f32>,
-    // How surely the surface is a turned or extruded form, 0 to 1.
-    strength: f32,
-    around: vec3<f32>,
-}
-
-// By object id.
+// By object id; behind them those of forms, with an axis of their own.
 var<storage, read> gooch_styles: array<GoochStyle>;
-var<storage, read> forms: array<Form>;
 
 const TAU: f32 = 6.28318530718;
 
@@ -141,18 +131,14 @@ fn metallic(px: vec2<i32>, s: Surfel, style: GoochStyle, shade: vec3<f32>, light
     return mix(shade, color, style.metal * smoothstep(0.1, 0.5, length(across)));
 }
 
-// The style with the axis of the form that a pixel shows.
-fn about_form(px: vec2<i32>, object: u32, style: GoochStyle) -> GoochStyle {
-    var own = style;
+// The style of the form that a pixel shows.
+fn style_of_form(px: vec2<i32>, object: u32, style: GoochStyle) -> GoochStyle {
     let surface = surface_of(textureLoad(surface_id_tex, px, 0).x, object);
-    if surface >= style.forms {
-        own.metal = 0.0;
-        return own;
+    if surface < style.forms {
+        return gooch_styles[style.first_form + surface];
     }
-    let form = forms[style.first_form + surface];
-    own.across = form.across;
-    own.around = form.around;
-    own.metal *= form.strength;
+    var own = style;
+    own.metal = 0.0;
     return own;
 }
 
@@ -181,7 +167,7 @@ fn gooch(px: vec2<i32>, s: Surfel, base: vec3<f32>, pos_view: vec3<f32>) -> vec3
     if WITH_METAL && style.metal > 0.0 && style.is_of_form == 0u {
         shade = metallic(px, s, style, shade, l);
     } else if WITH_METAL && style.metal > 0.0 {
-        shade = metallic(px, s, about_form(px, s.object, style), shade, l);
+        shade = metallic(px, s, style_of_form(px, s.object, style), shade, l);
     }
     let reflected = reflect(-l, s.normal);
     let gloss = pow(max(dot(reflected, eye), 0.0), style.shininess);

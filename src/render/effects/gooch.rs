@@ -31,26 +31,6 @@ pub struct GpuGoochStyle {
     forms: u32,
 }
 
-/// Twin of `Form` in `shaders/effects/gooch.wgsl`.
-#[derive(Debug, Clone, Copy, PartialEq, ShaderType, Default)]
-pub struct GpuForm {
-    across: Vec3,
-    strength: f32,
-    around: Vec3,
-}
-
-impl GpuForm {
-    /// A form around an axis of a mesh that lies at `world_from_local`.
-    fn new(form: &FormAxis, world_from_local: &DMat4) -> Self {
-        // One sense and one beginning for all forms around parallel axes, so that their stripes meet.
-        let sense = if form.direction.dot(DVec3::new(0.9, 1.0, 1.1)) < 0.0 { -1.0 } else { 1.0 };
-        let side = if form.direction.y.abs() < 0.7 { DVec3::Y } else { DVec3::Z };
-        let [axis, side] = [form.direction * sense, side].map(|v| world_from_local.transform_vector3(v));
-        let [across, around] = directions_about(axis, side, DVec3::Z);
-        Self { across, strength: form.strength as f32, around }
-    }
-}
-
 impl GpuGoochStyle {
     /// Of an object that lies at `world_from_local`.
     fn new(gooch: &Gooch, world_from_local: &DMat4) -> Self {
@@ -74,6 +54,16 @@ impl GpuGoochStyle {
             forms: 0,
         }
     }
+
+    /// The style of a form around an axis of a mesh that lies at `world_from_local`.
+    fn of_form(self, form: &FormAxis, world_from_local: &DMat4) -> Self {
+        // One sense and one beginning for all forms around parallel axes, so that their stripes meet.
+        let sense = if form.direction.dot(DVec3::new(0.9, 1.0, 1.1)) < 0.0 { -1.0 } else { 1.0 };
+        let side = if form.direction.y.abs() < 0.7 { DVec3::Y } else { DVec3::Z };
+        let [axis, side] = [form.direction * sense, side].map(|v| world_from_local.transform_vector3(v));
+        let [across, around] = directions_about(axis, side, DVec3::Z);
+        Self { across, around, metal: self.metal * form.strength as f32, ..self }
+    }
 }
 
 /// All visible objects that are drawn so.
@@ -81,14 +71,13 @@ impl GpuGoochStyle {
 pub struct GoochStyles {
     /// By object id; empty when there are none.
     objects: Vec<GpuGoochStyle>,
-    /// The forms of objects with stripes around them.
-    forms: Vec<GpuForm>,
+    /// Those of the forms of objects with stripes around them.
+    forms: Vec<GpuGoochStyle>,
 }
 
 /// Gooch shading on the device.
 pub struct GoochShading {
     styles: ArrayBuffer,
-    forms: ArrayBuffer,
 }
 
 impl SurfaceTechnique for GoochShading {
@@ -98,7 +87,7 @@ impl SurfaceTechnique for GoochShading {
     fn shared(_gpu: &Gpu) {}
 
     fn new(gpu: &Gpu) -> Self {
-        Self { styles: ArrayBuffer::new(gpu, "gooch styles"), forms: ArrayBuffer::new(gpu, "forms") }
+        Self { styles: ArrayBuffer::new(gpu, "gooch styles") }
     }
 
     fn add(styles: &mut Self::Styles, object: &Styled<'_>) {
@@ -110,8 +99,10 @@ impl SurfaceTechnique for GoochShading {
             *entry = GpuGoochStyle::new(gooch, &node.world_from_local);
             if gooch.metal > 0.0 && gooch.metal_axis == MetalAxis::Form {
                 let axes = object.scene.form_axes(object.node);
-                (entry.first_form, entry.forms) = (styles.forms.len() as u32, axes.len() as u32);
-                styles.forms.extend(axes.iter().map(|axis| GpuForm::new(axis, &node.world_from_local)));
+                entry.first_form = (object.count + styles.forms.len()) as u32;
+                entry.forms = axes.len() as u32;
+                let own = *entry;
+                styles.forms.extend(axes.iter().map(|axis| own.of_form(axis, &node.world_from_local)));
             }
         }
     }
@@ -123,17 +114,13 @@ impl SurfaceTechnique for GoochShading {
 
     fn upload(&mut self, (): &mut (), gpu: &Gpu, styles: &Self::Styles) -> Result<(), RenderError> {
         if !styles.objects.is_empty() {
-            self.styles.write(gpu, &styles.objects);
-        }
-        if !styles.forms.is_empty() {
-            self.forms.write(gpu, &styles.forms);
+            self.styles.write(gpu, &[styles.objects.as_slice(), &styles.forms].concat());
         }
         Ok(())
     }
 
     fn bind<'a>(&'a self, (): &'a (), inputs: &mut Inputs<'a>) {
         inputs.set("gooch_styles", self.styles.buffer());
-        inputs.set("forms", self.forms.buffer());
     }
 }
 
