@@ -167,12 +167,12 @@ pub(crate) fn drawn_small(
 ) -> Vec<Drawn> {
     let [mut plain, mut by_surface] =
         [Moved::Not, Moved::BySurface].map(|moved| Draftsman::new(model, moved, wave, side));
-    let mut drawn = |camera: &Camera| {
+    let drawn = |camera: &Camera| {
         let eye = Eye::new(session, *camera, side);
         let _ink = [&mut plain, &mut by_surface].map(|draftsman| draftsman.draw(&eye));
         Drawn::new(&mut plain.session, &mut by_surface.session, eye)
     };
-    cameras.iter().map(|camera| drawn(camera)).collect()
+    cameras.iter().map(drawn).collect()
 }
 
 /// Draws a picture in all ways.
