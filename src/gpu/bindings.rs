@@ -9,117 +9,14 @@ use wgpu::naga::{
     StorageAccess, StorageFormat, TypeInner,
 };
 
-use super::{Gpu, ShaderError, Target, UniformBuffer};
+use super::buffer::Element;
+pub use super::inputs::NOTHING;
+use super::inputs::{Inputs, Resource};
+use super::placeholders::Placeholders;
+use super::{Gpu, ShaderError};
 
 /// The bind group of what a pass reads and writes.
 pub const INPUTS: u32 = 1;
-
-/// What a variable of a shader can stand for.
-#[derive(Clone, Copy)]
-pub enum Resource<'a> {
-    /// A texture as large as a picture, read or written as the shader says.
-    Target(&'a Target),
-    /// A uniform or storage buffer.
-    Buffer(&'a wgpu::Buffer),
-    /// Images of one size above each other, read through a sampler.
-    Layers(&'a wgpu::TextureView),
-    /// How they are read.
-    Sampler(&'a wgpu::Sampler),
-}
-
-impl<'a> From<&'a Target> for Resource<'a> {
-    fn from(target: &'a Target) -> Self {
-        Self::Target(target)
-    }
-}
-
-impl<'a> From<&'a wgpu::Buffer> for Resource<'a> {
-    fn from(buffer: &'a wgpu::Buffer) -> Self {
-        Self::Buffer(buffer)
-    }
-}
-
-impl<'a, T> From<&'a UniformBuffer<T>> for Resource<'a> {
-    fn from(uniform: &'a UniformBuffer<T>) -> Self {
-        Self::Buffer(uniform.buffer())
-    }
-}
-
-impl<'a> From<&'a wgpu::TextureView> for Resource<'a> {
-    fn from(layers: &'a wgpu::TextureView) -> Self {
-        Self::Layers(layers)
-    }
-}
-
-impl<'a> From<&'a wgpu::Sampler> for Resource<'a> {
-    fn from(sampler: &'a wgpu::Sampler) -> Self {
-        Self::Sampler(sampler)
-    }
-}
-
-/// A resource, or `None` of one: an input that there is not.
-pub trait IntoInput<'a> {
-    /// The resource, if there is one.
-    fn into_input(self) -> Option<Resource<'a>>;
-}
-
-impl<'a, R: Into<Resource<'a>>> IntoInput<'a> for R {
-    fn into_input(self) -> Option<Resource<'a>> {
-        Some(self.into())
-    }
-}
-
-impl<'a, R: Into<Resource<'a>>> IntoInput<'a> for Option<R> {
-    fn into_input(self) -> Option<Resource<'a>> {
-        self.map(Into::into)
-    }
-}
-
-/// What a pass reads and writes, by the names of the shader's variables. Made by [`crate::gpu::inputs!`]. What is `None` is
-/// replaced by a placeholder, for shaders that do not read it by the switches they are run with.
-#[derive(Clone, Default)]
-pub struct Inputs<'a>(Vec<(&'static str, Option<Resource<'a>>)>);
-
-/// No inputs.
-pub static NOTHING: Inputs<'static> = Inputs(Vec::new());
-
-impl<'a> Inputs<'a> {
-    /// Adds one, in place of an earlier one of that name.
-    pub fn set(&mut self, name: &'static str, input: impl IntoInput<'a>) {
-        self.0.retain(|(known, _)| *known != name);
-        self.0.push((name, input.into_input()));
-    }
-
-    /// Adds others, in place of earlier ones of the same names.
-    pub fn extend(&mut self, others: &Self) {
-        for (name, input) in &others.0 {
-            self.set(name, *input);
-        }
-    }
-
-    /// These and others.
-    #[must_use]
-    pub fn and(mut self, others: &Self) -> Self {
-        self.extend(others);
-        self
-    }
-
-    fn find(&self, name: &str) -> Option<Option<Resource<'a>>> {
-        self.0.iter().find(|(known, _)| *known == name).map(|(_, input)| *input)
-    }
-}
-
-/// [`Inputs`] by name: `inputs! { geometry_tex: &gbuffer.geometry, seen_tex: seen }`.
-#[macro_export]
-macro_rules! inputs {
-    ($($name:ident: $value:expr),* $(,)?) => {{
-        #[allow(unused_mut, reason = "there may be none")]
-        let mut inputs = $crate::gpu::Inputs::default();
-        $(inputs.set(stringify!($name), $value);)*
-        inputs
-    }};
-}
-pub use inputs;
 
 /// A variable of a shader that a pass has to give something to.
 #[derive(Debug, Clone)]
@@ -129,6 +26,8 @@ pub struct Binding {
     ty: wgpu::BindingType,
     /// Of the type of the variable; of an array that grows, of one element.
     bytes: u64,
+    /// The struct that it is, or whose array it is.
+    struct_name: Option<String>,
 }
 
 /// The bindings of group 1 of a shader.
@@ -170,7 +69,12 @@ impl Bindings {
             let inner = &module.types[variable.ty].inner;
             let ty = type_of(variable, inner).ok_or_else(|| name.clone())?;
             let bytes = u64::from(inner.size(module.to_ctx()));
-            bindings.all.push(Binding { name, number: place.binding, ty, bytes });
+            let element = match *inner {
+                TypeInner::Array { base, .. } => base,
+                _ => variable.ty,
+            };
+            let struct_name = module.types[element].name.clone();
+            bindings.all.push(Binding { name, number: place.binding, ty, bytes, struct_name });
             handles.push(handle);
         }
         for (number, entry_point) in module.entry_points.iter().enumerate() {
@@ -228,7 +132,7 @@ impl Bindings {
             name: name.to_owned(),
             problem,
         };
-        if let Some((name, _)) = inputs.0.iter().find(|(name, _)| !self.all.iter().any(|b| b.name == *name)) {
+        if let Some(name) = inputs.names().find(|name| !self.all.iter().any(|b| b.name == *name)) {
             return Err(wrong(name, "the shader has no such variable".to_owned()));
         }
         for binding in self.used_by(entry_point) {
@@ -249,6 +153,7 @@ impl Bindings {
                 let resource = match inputs.find(&binding.name)? {
                     Some(Resource::Target(target)) => wgpu::BindingResource::TextureView(target.view()),
                     Some(Resource::Buffer(buffer)) => buffer.as_entire_binding(),
+                    Some(Resource::Array(array)) => array.buffer().as_entire_binding(),
                     Some(Resource::Layers(view)) => wgpu::BindingResource::TextureView(view),
                     Some(Resource::Sampler(sampler)) => wgpu::BindingResource::Sampler(sampler),
                     None => placeholders.find(binding.ty)?,
@@ -342,90 +247,39 @@ fn mismatch(binding: &Binding, resource: Resource<'_>) -> Option<String> {
                 buffer.size() > binding.bytes && buffer.usage().contains(wgpu::BufferUsages::STORAGE);
             (format!("{} bytes", buffer.size()), buffer.size() == binding.bytes || is_longer)
         }
+        (
+            wgpu::BindingType::Buffer { ty: wgpu::BufferBindingType::Storage { .. }, .. },
+            Resource::Array(array),
+        ) => return array.element().and_then(|element| wrong_element(binding, element)),
         (wgpu::BindingType::Buffer { .. }, Resource::Buffer(_))
         | (wgpu::BindingType::Sampler(_), Resource::Sampler(_)) => return None,
         (_, Resource::Target(target)) => (format!("{:?}", target.format()), false),
         (_, Resource::Buffer(_)) => ("a buffer".to_owned(), false),
+        (_, Resource::Array(_)) => ("an array".to_owned(), false),
         (_, Resource::Layers(_)) => ("an array of images".to_owned(), false),
         (_, Resource::Sampler(_)) => ("a sampler".to_owned(), false),
     };
     (!fits).then(|| format!("it is given {kind}, and has the type {ty:?}"))
 }
 
-/// What stands for inputs that there are not.
-#[derive(Clone, Default)]
-pub struct Placeholders(HashMap<wgpu::BindingType, Placeholder>);
-
-#[derive(Clone)]
-enum Placeholder {
-    Texture(wgpu::TextureView),
-    Buffer(wgpu::Buffer),
-    Sampler(wgpu::Sampler),
-}
-
-/// More bytes than any struct or array element of a shader has.
-const PLACEHOLDER_BYTES: u64 = 1 << 14;
-
-impl Placeholders {
-    fn make(&mut self, gpu: &Gpu, ty: wgpu::BindingType) {
-        self.0.entry(ty).or_insert_with(|| placeholder(gpu, ty));
-    }
-
-    fn find(&self, ty: wgpu::BindingType) -> Option<wgpu::BindingResource<'_>> {
-        Some(match self.0.get(&ty)? {
-            Placeholder::Texture(view) => wgpu::BindingResource::TextureView(view),
-            Placeholder::Buffer(buffer) => buffer.as_entire_binding(),
-            Placeholder::Sampler(sampler) => wgpu::BindingResource::Sampler(sampler),
-        })
-    }
-}
-
-fn placeholder(gpu: &Gpu, ty: wgpu::BindingType) -> Placeholder {
-    let texture = |format, usage, view_dimension| {
-        let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
-            label: Some("placeholder"),
-            size: wgpu::Extent3d { width: 1, height: 1, depth_or_array_layers: 1 },
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format,
-            usage,
-            view_formats: &[],
-        });
-        let dimension = Some(view_dimension);
-        Placeholder::Texture(
-            texture.create_view(&wgpu::TextureViewDescriptor { dimension, ..Default::default() }),
+/// What is wrong with what an array holds.
+fn wrong_element(binding: &Binding, element: Element) -> Option<String> {
+    let Element { name, bytes } = element;
+    let expected = binding.struct_name.as_deref();
+    let fits = bytes == binding.bytes && expected.is_none_or(|expected| expected == name);
+    (!fits).then(|| {
+        let expected = expected.unwrap_or("plain numbers");
+        format!(
+            "it is given an array of {name}, {bytes} bytes each, and is one of {expected}, {} bytes each",
+            binding.bytes
         )
-    };
-    match ty {
-        wgpu::BindingType::Texture { sample_type, view_dimension, .. } => {
-            let format = match sample_type {
-                wgpu::TextureSampleType::Uint => wgpu::TextureFormat::R32Uint,
-                wgpu::TextureSampleType::Sint => wgpu::TextureFormat::R32Sint,
-                wgpu::TextureSampleType::Depth => wgpu::TextureFormat::Depth32Float,
-                wgpu::TextureSampleType::Float { .. } => wgpu::TextureFormat::Rgba8Unorm,
-            };
-            texture(format, wgpu::TextureUsages::TEXTURE_BINDING, view_dimension)
-        }
-        wgpu::BindingType::StorageTexture { format, view_dimension, .. } => {
-            texture(format, wgpu::TextureUsages::STORAGE_BINDING, view_dimension)
-        }
-        wgpu::BindingType::Sampler(_) => {
-            Placeholder::Sampler(gpu.device.create_sampler(&wgpu::SamplerDescriptor::default()))
-        }
-        _ => Placeholder::Buffer(gpu.device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some("placeholder"),
-            size: PLACEHOLDER_BYTES,
-            usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::UNIFORM,
-            mapped_at_creation: false,
-        })),
-    }
+    })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::gpu::{Pipelines, Program, Shaders, TargetPool};
+    use crate::gpu::{ArrayBuffer, Pipelines, Program, Shaders, Target, TargetPool, UniformBuffer, inputs};
 
     const SHADER: &str = "
         override WITH_OTHER: bool = false;
@@ -433,6 +287,9 @@ mod tests {
         var other_tex: texture_2d<f32>;
         var<storage, read_write> sums: array<u32>;
         var<uniform> place: vec4<f32>;
+        struct Turn { by: vec4<f32> }
+        var<storage, read> turns: array<Turn>;
+        var<storage, read> numbers: array<u32>;
         @compute @workgroup_size(1)
         fn cs_main() {
             sums[0] = textureLoad(first_tex, vec2(0)).x;
@@ -442,7 +299,21 @@ mod tests {
         fn cs_sums() { sums[0] = 1u; }
         @compute @workgroup_size(1)
         fn cs_place() { sums[0] = u32(place.x); }
+        @compute @workgroup_size(1)
+        fn cs_turns() { sums[0] = u32(turns[0].by.x); }
+        @compute @workgroup_size(1)
+        fn cs_numbers() { sums[0] = numbers[0]; }
     ";
+
+    #[derive(Clone, encase::ShaderType)]
+    struct GpuTurn {
+        by: glam::Vec4,
+    }
+
+    #[derive(Clone, encase::ShaderType)]
+    struct GpuShift {
+        by: glam::Vec4,
+    }
 
     #[test]
     fn inputs_find_their_variables_by_name_and_are_checked() {
@@ -479,6 +350,24 @@ mod tests {
         // Another struct's buffer is told by its size.
         let other = bind("cs_place", inputs! { sums: &sums, place: &camera }).unwrap_err();
         assert!(other.contains("place: it is given 64 bytes"), "{other}");
+        // Another struct's array is told by its name, even if its elements are as large.
+        let mut turns = ArrayBuffer::new(&gpu, "turns");
+        assert_eq!(bind("cs_turns", inputs! { sums: &sums, turns: &turns }), Ok(()), "nothing is in it yet");
+        turns.write(&gpu, &vec![GpuTurn { by: glam::Vec4::ONE }; 2]);
+        assert_eq!(bind("cs_turns", inputs! { sums: &sums, turns: &turns }), Ok(()));
+        turns.write(&gpu, &vec![GpuShift { by: glam::Vec4::ONE }; 2]);
+        let other = bind("cs_turns", inputs! { sums: &sums, turns: &turns }).unwrap_err();
+        let expected =
+            "turns: it is given an array of Shift, 16 bytes each, and is one of Turn, 16 bytes each";
+        assert!(other.contains(expected), "{other}");
+        // Plain numbers are told by their size.
+        turns.write(&gpu, &vec![1_u32; 2]);
+        assert_eq!(bind("cs_numbers", inputs! { sums: &sums, numbers: &turns }), Ok(()));
+        turns.write(&gpu, &vec![glam::Vec2::ONE; 2]);
+        let other = bind("cs_numbers", inputs! { sums: &sums, numbers: &turns }).unwrap_err();
+        let expected =
+            "numbers: it is given an array of Vec2, 8 bytes each, and is one of plain numbers, 4 bytes each";
+        assert!(other.contains(expected), "{other}");
         let wrong = [
             (inputs! { first_tex: &numbers, sums: &sums }, "other_tex: nothing is given for it"),
             (inputs! { third_tex: &numbers }, "third_tex: the shader has no such variable"),
