@@ -287,8 +287,8 @@ mod tests {
         var other_tex: texture_2d<f32>;
         var<storage, read_write> sums: array<u32>;
         var<uniform> place: vec4<f32>;
-        struct Turn { by: vec4<f32> }
-        var<storage, read> turns: array<Turn>;
+        struct Vec4 { by: vec4<f32> }
+        var<storage, read> turns: array<Vec4>;
         var<storage, read> numbers: array<u32>;
         @compute @workgroup_size(1)
         fn cs_main() {
@@ -304,16 +304,6 @@ mod tests {
         @compute @workgroup_size(1)
         fn cs_numbers() { sums[0] = numbers[0]; }
     ";
-
-    #[derive(Clone, encase::ShaderType)]
-    struct GpuTurn {
-        by: glam::Vec4,
-    }
-
-    #[derive(Clone, encase::ShaderType)]
-    struct GpuShift {
-        by: glam::Vec4,
-    }
 
     #[test]
     fn inputs_find_their_variables_by_name_and_are_checked() {
@@ -353,12 +343,12 @@ mod tests {
         // Another struct's array is told by its name, even if its elements are as large.
         let mut turns = ArrayBuffer::new(&gpu, "turns");
         assert_eq!(bind("cs_turns", inputs! { sums: &sums, turns: &turns }), Ok(()), "nothing is in it yet");
-        turns.write(&gpu, &vec![GpuTurn { by: glam::Vec4::ONE }; 2]);
+        turns.write(&gpu, &vec![glam::Vec4::ONE; 2]);
         assert_eq!(bind("cs_turns", inputs! { sums: &sums, turns: &turns }), Ok(()));
-        turns.write(&gpu, &vec![GpuShift { by: glam::Vec4::ONE }; 2]);
+        turns.write(&gpu, &vec![glam::UVec4::ONE; 2]);
         let other = bind("cs_turns", inputs! { sums: &sums, turns: &turns }).unwrap_err();
         let expected =
-            "turns: it is given an array of Shift, 16 bytes each, and is one of Turn, 16 bytes each";
+            "turns: it is given an array of UVec4, 16 bytes each, and is one of Vec4, 16 bytes each";
         assert!(other.contains(expected), "{other}");
         // Plain numbers are told by their size.
         turns.write(&gpu, &vec![1_u32; 2]);
