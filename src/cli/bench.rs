@@ -67,7 +67,8 @@ impl Row {
             }
         }
         for stage in &mut self.stages {
-            let own: Vec<f64> = passes.iter().filter(|(name, _)| *name == stage.name).map(|(_, ms)| *ms).collect();
+            let own: Vec<f64> =
+                passes.iter().filter(|(name, _)| *name == stage.name).map(|(_, ms)| *ms).collect();
             stage.ms.push(own.iter().sum());
             stage.passes = stage.passes.max(own.len());
         }
