@@ -1,76 +1,29 @@
-//! The picture in the window: what the mouse does in it, when it is drawn again, what lies under a pixel.
+//! The picture in the window: when it is drawn again, and how long that takes.
 
-use eframe::egui;
+mod pointer;
+mod shown_texture;
+
 use std::time::{Duration, Instant};
 
-use eframe::egui::emath::GuiRounding as _;
-use eframe::egui::{PointerButton, Rect, Sense, Ui};
+use eframe::egui::{self, Rect, Ui};
 use eframe::egui_wgpu;
-use glam::DVec2;
 
-use super::gesture::{self, Gestures};
+pub use self::pointer::{Moved, PickFor};
+use self::shown_texture::ShownTexture;
+use super::gesture::Gestures;
 use super::jobs::Job;
-use super::navigation;
 use super::refining::Refining;
 use super::screenshot::Shot;
 use crate::document::Document;
-use crate::gpu::{Gpu, Target};
+use crate::gpu::Gpu;
 use crate::hatching::tonal_art_map::generator::Recipe;
 use crate::render::LayerReport;
 use crate::render::{
-    GpuScene, GpuStripes, LayerMethod, Pick, RenderError, Renderer, Reported, Request, SolvedStripes,
+    GpuScene, GpuStripes, LayerMethod, RenderError, Renderer, Reported, Request, SolvedStripes,
     StripeRequest, StrokeMap, StyleImages, UploadedTopology, Uploader,
 };
-use crate::scene::{Camera, NodeId, Up};
+use crate::scene::NodeId;
 use crate::style::Style;
-
-/// How long to wait between two looks for an answer of the device.
-const POLL: Duration = Duration::from_millis(8);
-
-/// At its border, the picture leaves the pointer to the handles of the panels; points.
-const EDGE: f32 = 3.0;
-
-/// Why a person asked what lies under a pixel.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum PickFor {
-    /// To select it.
-    Select {
-        /// In addition to what is selected.
-        add: bool,
-    },
-    /// To turn about it.
-    Center,
-    /// To place a point of a glyph there.
-    Place {
-        /// No further one is wanted.
-        is_last: bool,
-    },
-}
-
-/// A texture of egui's that shows a target.
-#[derive(Default)]
-struct ShownTexture {
-    id: Option<egui::TextureId>,
-    texture: Option<wgpu::Texture>,
-}
-
-impl ShownTexture {
-    fn show(&mut self, state: &egui_wgpu::RenderState, target: &Target) -> egui::TextureId {
-        if let (Some(id), true) = (self.id, self.texture.as_ref() == Some(target.texture())) {
-            return id;
-        }
-        self.texture = Some(target.texture().clone());
-        let mut renderer = state.renderer.write();
-        let (device, view, filter) = (&state.device, target.view(), wgpu::FilterMode::Nearest);
-        if let Some(id) = self.id {
-            renderer.update_egui_texture_from_wgpu_texture(device, view, filter, id);
-            return id;
-        }
-        let id = renderer.register_native_texture(device, view, filter);
-        self.id = Some(id);
-        id
-    }
-}
 
 /// All that a picture depends on, its outlines apart.
 #[derive(PartialEq)]
@@ -105,15 +58,6 @@ pub struct Viewport {
     is_covered: bool,
     milliseconds: f64,
     pictures: u64,
-}
-
-/// What the mouse did to the picture.
-#[derive(Default)]
-pub struct Moved {
-    /// The camera after it.
-    pub camera: Option<Camera>,
-    /// The response, for a context menu.
-    pub response: Option<egui::Response>,
 }
 
 impl Viewport {
@@ -312,92 +256,6 @@ impl Viewport {
         self.generation += 1;
     }
 
-    /// Lets the mouse work on the picture.
-    pub fn input(&mut self, ui: &mut Ui, camera: Option<&Camera>, up: Up, diagonal: f64) -> Moved {
-        let pixels_per_point = ui.ctx().pixels_per_point();
-        let rect = ui.available_rect_before_wrap().round_to_pixels(pixels_per_point);
-        self.rect = rect;
-        self.size = [rect.width(), rect.height()].map(|s| (s * pixels_per_point).round().max(1.0) as u32);
-        self.is_laid_out = true;
-        let response = ui.interact(rect, ui.scope_id().with("picture"), Sense::click_and_drag());
-        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Picture"));
-        if self.is_covered {
-            // A drag that was under way ends here.
-            self.gestures = Gestures::default();
-            return Moved::default();
-        }
-        let Some(&camera) = camera else { return Moved { camera: None, response: Some(response) } };
-        let mut moved = camera;
-        let height = f64::from(rect.height().max(1.0));
-        let share = |v: egui::Vec2| DVec2::new(f64::from(v.x), f64::from(v.y)) / height;
-        let cursor = |p: egui::Pos2| share(p - rect.center()) * DVec2::new(1.0, -1.0);
-
-        let (layer, inside) = (ui.layer_id(), rect.shrink(EDGE));
-        let is_picture = |pos| inside.contains(pos) && ui.ctx().layer_id_at(pos) == Some(layer);
-        for drag in self.gestures.drags(ui, is_picture) {
-            let by = share(drag.by);
-            moved = match drag.button {
-                PointerButton::Middle => navigation::pan(&moved, by),
-                PointerButton::Primary if drag.modifiers.shift => navigation::pan(&moved, by),
-                PointerButton::Primary if drag.modifiers.command => navigation::roll(&moved, by.x),
-                PointerButton::Primary => navigation::orbit(&moved, up, by),
-                _ => navigation::zoom(&moved, by.y * 20.0, DVec2::ZERO, diagonal),
-            };
-        }
-        match self.gestures.dragging() {
-            Some(PointerButton::Middle) => ui.ctx().set_cursor_icon(egui::CursorIcon::Move),
-            Some(PointerButton::Primary) => ui.ctx().set_cursor_icon(egui::CursorIcon::Grabbing),
-            Some(_) => ui.ctx().set_cursor_icon(egui::CursorIcon::ResizeVertical),
-            None => {}
-        }
-
-        if let (true, Some(pointer)) = (response.contains_pointer(), ui.input(|i| i.pointer.hover_pos())) {
-            let notches = gesture::notches(ui);
-            if notches != 0.0 {
-                moved = navigation::zoom(&moved, notches, cursor(pointer), diagonal);
-            }
-        }
-        if !self.gestures.was_drag() {
-            self.click(ui, &response);
-        }
-        Moved { camera: (moved != camera).then_some(moved), response: Some(response) }
-    }
-
-    fn click(&mut self, ui: &Ui, response: &egui::Response) {
-        let purpose = if self.is_placing && response.double_clicked() {
-            PickFor::Place { is_last: true }
-        } else if self.is_placing && response.clicked() {
-            PickFor::Place { is_last: false }
-        } else if response.double_clicked() || response.middle_clicked() {
-            PickFor::Center
-        } else if response.clicked() {
-            PickFor::Select { add: ui.input(|i| i.modifiers.shift || i.modifiers.command) }
-        } else {
-            return;
-        };
-        let Some(at) = response.interact_pointer_pos() else { return };
-        let px = (at - self.rect.min) * ui.ctx().pixels_per_point();
-        match self.renderer.start_pick([px.x.max(0.0) as u32, px.y.max(0.0) as u32]) {
-            Ok(()) => self.pick = Some(purpose),
-            Err(error) => log::warn!("{error}"),
-        }
-        ui.ctx().request_repaint_after(POLL);
-    }
-
-    /// What lies where the person clicked, once it is known.
-    pub fn poll_pick(&mut self, context: &egui::Context) -> Option<(PickFor, Pick)> {
-        let purpose = self.pick?;
-        if let Some(pick) = self.renderer.poll_pick() {
-            self.pick = None;
-            return Some((purpose, pick));
-        }
-        if !self.renderer.is_picking() {
-            self.pick = None;
-        }
-        context.request_repaint_after(POLL);
-        None
-    }
-
     /// Draws the picture if anything changed that it depends on, and shows it. When nothing has moved for a moment, it
     /// gets one sample more, and so on up to `samples_at_rest`.
     ///
@@ -437,8 +295,8 @@ impl Viewport {
             self.heed_reports(ui.ctx());
         }
         let whole = Rect::from_min_max(egui::pos2(0.0, 0.0), egui::pos2(1.0, 1.0));
-        let outline = self.outline.id.filter(|_| self.has_outline);
-        for id in self.image.id.into_iter().chain(outline) {
+        let outline = self.outline.id().filter(|_| self.has_outline);
+        for id in self.image.id().into_iter().chain(outline) {
             ui.painter().image(id, self.rect, whole, egui::Color32::WHITE);
         }
         result

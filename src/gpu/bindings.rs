@@ -9,117 +9,12 @@ use wgpu::naga::{
     StorageAccess, StorageFormat, TypeInner,
 };
 
-use super::{Gpu, ShaderError, Target, UniformBuffer};
+use super::inputs::{Inputs, Resource};
+use super::placeholders::Placeholders;
+use super::{Gpu, ShaderError};
 
 /// The bind group of what a pass reads and writes.
 pub const INPUTS: u32 = 1;
-
-/// What a variable of a shader can stand for.
-#[derive(Clone, Copy)]
-pub enum Resource<'a> {
-    /// A texture as large as a picture, read or written as the shader says.
-    Target(&'a Target),
-    /// A uniform or storage buffer.
-    Buffer(&'a wgpu::Buffer),
-    /// Images of one size above each other, read through a sampler.
-    Layers(&'a wgpu::TextureView),
-    /// How they are read.
-    Sampler(&'a wgpu::Sampler),
-}
-
-impl<'a> From<&'a Target> for Resource<'a> {
-    fn from(target: &'a Target) -> Self {
-        Self::Target(target)
-    }
-}
-
-impl<'a> From<&'a wgpu::Buffer> for Resource<'a> {
-    fn from(buffer: &'a wgpu::Buffer) -> Self {
-        Self::Buffer(buffer)
-    }
-}
-
-impl<'a, T> From<&'a UniformBuffer<T>> for Resource<'a> {
-    fn from(uniform: &'a UniformBuffer<T>) -> Self {
-        Self::Buffer(uniform.buffer())
-    }
-}
-
-impl<'a> From<&'a wgpu::TextureView> for Resource<'a> {
-    fn from(layers: &'a wgpu::TextureView) -> Self {
-        Self::Layers(layers)
-    }
-}
-
-impl<'a> From<&'a wgpu::Sampler> for Resource<'a> {
-    fn from(sampler: &'a wgpu::Sampler) -> Self {
-        Self::Sampler(sampler)
-    }
-}
-
-/// A resource, or `None` of one: an input that there is not.
-pub trait IntoInput<'a> {
-    /// The resource, if there is one.
-    fn into_input(self) -> Option<Resource<'a>>;
-}
-
-impl<'a, R: Into<Resource<'a>>> IntoInput<'a> for R {
-    fn into_input(self) -> Option<Resource<'a>> {
-        Some(self.into())
-    }
-}
-
-impl<'a, R: Into<Resource<'a>>> IntoInput<'a> for Option<R> {
-    fn into_input(self) -> Option<Resource<'a>> {
-        self.map(Into::into)
-    }
-}
-
-/// What a pass reads and writes, by the names of the shader's variables. Made by [`crate::gpu::inputs!`]. What is `None` is
-/// replaced by a placeholder, for shaders that do not read it by the switches they are run with.
-#[derive(Clone, Default)]
-pub struct Inputs<'a>(Vec<(&'static str, Option<Resource<'a>>)>);
-
-/// No inputs.
-pub static NOTHING: Inputs<'static> = Inputs(Vec::new());
-
-impl<'a> Inputs<'a> {
-    /// Adds one, in place of an earlier one of that name.
-    pub fn set(&mut self, name: &'static str, input: impl IntoInput<'a>) {
-        self.0.retain(|(known, _)| *known != name);
-        self.0.push((name, input.into_input()));
-    }
-
-    /// Adds others, in place of earlier ones of the same names.
-    pub fn extend(&mut self, others: &Self) {
-        for (name, input) in &others.0 {
-            self.set(name, *input);
-        }
-    }
-
-    /// These and others.
-    #[must_use]
-    pub fn and(mut self, others: &Self) -> Self {
-        self.extend(others);
-        self
-    }
-
-    fn find(&self, name: &str) -> Option<Option<Resource<'a>>> {
-        self.0.iter().find(|(known, _)| *known == name).map(|(_, input)| *input)
-    }
-}
-
-/// [`Inputs`] by name: `inputs! { geometry_tex: &gbuffer.geometry, seen_tex: seen }`.
-#[macro_export]
-macro_rules! inputs {
-    ($($name:ident: $value:expr),* $(,)?) => {{
-        #[allow(unused_mut, reason = "there may be none")]
-        let mut inputs = $crate::gpu::Inputs::default();
-        $(inputs.set(stringify!($name), $value);)*
-        inputs
-    }};
-}
-pub use inputs;
 
 /// A variable of a shader that a pass has to give something to.
 #[derive(Debug, Clone)]
@@ -228,7 +123,7 @@ impl Bindings {
             name: name.to_owned(),
             problem,
         };
-        if let Some((name, _)) = inputs.0.iter().find(|(name, _)| !self.all.iter().any(|b| b.name == *name)) {
+        if let Some(name) = inputs.names().find(|name| !self.all.iter().any(|b| b.name == *name)) {
             return Err(wrong(name, "the shader has no such variable".to_owned()));
         }
         for binding in self.used_by(entry_point) {
@@ -248,7 +143,7 @@ impl Bindings {
             .filter_map(|binding| {
                 let resource = match inputs.find(&binding.name)? {
                     Some(Resource::Target(target)) => wgpu::BindingResource::TextureView(target.view()),
-                    Some(Resource::Buffer(buffer)) => buffer.as_entire_binding(),
+                    Some(Resource::Buffer(buffer) | Resource::Array(buffer, _)) => buffer.as_entire_binding(),
                     Some(Resource::Layers(view)) => wgpu::BindingResource::TextureView(view),
                     Some(Resource::Sampler(sampler)) => wgpu::BindingResource::Sampler(sampler),
                     None => placeholders.find(binding.ty)?,
@@ -342,90 +237,29 @@ fn mismatch(binding: &Binding, resource: Resource<'_>) -> Option<String> {
                 buffer.size() > binding.bytes && buffer.usage().contains(wgpu::BufferUsages::STORAGE);
             (format!("{} bytes", buffer.size()), buffer.size() == binding.bytes || is_longer)
         }
+        // Another struct's array is told by the size of its elements.
+        (
+            wgpu::BindingType::Buffer { ty: wgpu::BufferBindingType::Storage { .. }, .. },
+            Resource::Array(_, element),
+        ) => {
+            let bytes = element.unwrap_or(binding.bytes);
+            (format!("elements of {bytes} bytes"), bytes == binding.bytes)
+        }
         (wgpu::BindingType::Buffer { .. }, Resource::Buffer(_))
         | (wgpu::BindingType::Sampler(_), Resource::Sampler(_)) => return None,
         (_, Resource::Target(target)) => (format!("{:?}", target.format()), false),
         (_, Resource::Buffer(_)) => ("a buffer".to_owned(), false),
+        (_, Resource::Array(..)) => ("an array".to_owned(), false),
         (_, Resource::Layers(_)) => ("an array of images".to_owned(), false),
         (_, Resource::Sampler(_)) => ("a sampler".to_owned(), false),
     };
     (!fits).then(|| format!("it is given {kind}, and has the type {ty:?}"))
 }
 
-/// What stands for inputs that there are not.
-#[derive(Clone, Default)]
-pub struct Placeholders(HashMap<wgpu::BindingType, Placeholder>);
-
-#[derive(Clone)]
-enum Placeholder {
-    Texture(wgpu::TextureView),
-    Buffer(wgpu::Buffer),
-    Sampler(wgpu::Sampler),
-}
-
-/// More bytes than any struct or array element of a shader has.
-const PLACEHOLDER_BYTES: u64 = 1 << 14;
-
-impl Placeholders {
-    fn make(&mut self, gpu: &Gpu, ty: wgpu::BindingType) {
-        self.0.entry(ty).or_insert_with(|| placeholder(gpu, ty));
-    }
-
-    fn find(&self, ty: wgpu::BindingType) -> Option<wgpu::BindingResource<'_>> {
-        Some(match self.0.get(&ty)? {
-            Placeholder::Texture(view) => wgpu::BindingResource::TextureView(view),
-            Placeholder::Buffer(buffer) => buffer.as_entire_binding(),
-            Placeholder::Sampler(sampler) => wgpu::BindingResource::Sampler(sampler),
-        })
-    }
-}
-
-fn placeholder(gpu: &Gpu, ty: wgpu::BindingType) -> Placeholder {
-    let texture = |format, usage, view_dimension| {
-        let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
-            label: Some("placeholder"),
-            size: wgpu::Extent3d { width: 1, height: 1, depth_or_array_layers: 1 },
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format,
-            usage,
-            view_formats: &[],
-        });
-        let dimension = Some(view_dimension);
-        Placeholder::Texture(
-            texture.create_view(&wgpu::TextureViewDescriptor { dimension, ..Default::default() }),
-        )
-    };
-    match ty {
-        wgpu::BindingType::Texture { sample_type, view_dimension, .. } => {
-            let format = match sample_type {
-                wgpu::TextureSampleType::Uint => wgpu::TextureFormat::R32Uint,
-                wgpu::TextureSampleType::Sint => wgpu::TextureFormat::R32Sint,
-                wgpu::TextureSampleType::Depth => wgpu::TextureFormat::Depth32Float,
-                wgpu::TextureSampleType::Float { .. } => wgpu::TextureFormat::Rgba8Unorm,
-            };
-            texture(format, wgpu::TextureUsages::TEXTURE_BINDING, view_dimension)
-        }
-        wgpu::BindingType::StorageTexture { format, view_dimension, .. } => {
-            texture(format, wgpu::TextureUsages::STORAGE_BINDING, view_dimension)
-        }
-        wgpu::BindingType::Sampler(_) => {
-            Placeholder::Sampler(gpu.device.create_sampler(&wgpu::SamplerDescriptor::default()))
-        }
-        _ => Placeholder::Buffer(gpu.device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some("placeholder"),
-            size: PLACEHOLDER_BYTES,
-            usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::UNIFORM,
-            mapped_at_creation: false,
-        })),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::gpu::{Pipelines, Program, Shaders, TargetPool};
+    use crate::gpu::{ArrayBuffer, Pipelines, Program, Shaders, Target, TargetPool, UniformBuffer, inputs};
 
     const SHADER: &str = "
         override WITH_OTHER: bool = false;
@@ -433,6 +267,7 @@ mod tests {
         var other_tex: texture_2d<f32>;
         var<storage, read_write> sums: array<u32>;
         var<uniform> place: vec4<f32>;
+        var<storage, read> turns: array<mat4x4<f32>>;
         @compute @workgroup_size(1)
         fn cs_main() {
             sums[0] = textureLoad(first_tex, vec2(0)).x;
@@ -442,6 +277,8 @@ mod tests {
         fn cs_sums() { sums[0] = 1u; }
         @compute @workgroup_size(1)
         fn cs_place() { sums[0] = u32(place.x); }
+        @compute @workgroup_size(1)
+        fn cs_turns() { sums[0] = u32(turns[0][0].x); }
     ";
 
     #[test]
@@ -479,6 +316,13 @@ mod tests {
         // Another struct's buffer is told by its size.
         let other = bind("cs_place", inputs! { sums: &sums, place: &camera }).unwrap_err();
         assert!(other.contains("place: it is given 64 bytes"), "{other}");
+        // So is another array's.
+        let [mut turns, mut places] = ["turns", "places"].map(|label| ArrayBuffer::new(&gpu, label));
+        turns.write(&gpu, &vec![glam::Mat4::IDENTITY; 2]);
+        places.write(&gpu, &vec![glam::Vec4::ONE; 8]);
+        assert_eq!(bind("cs_turns", inputs! { sums: &sums, turns: &turns }), Ok(()));
+        let other = bind("cs_turns", inputs! { sums: &sums, turns: &places }).unwrap_err();
+        assert!(other.contains("turns: it is given elements of 16 bytes"), "{other}");
         let wrong = [
             (inputs! { first_tex: &numbers, sums: &sums }, "other_tex: nothing is given for it"),
             (inputs! { third_tex: &numbers }, "third_tex: the shader has no such variable"),

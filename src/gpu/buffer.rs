@@ -127,13 +127,14 @@ pub const EMPTY_ARRAY: u64 = 1024;
 /// A read-only storage buffer that holds an array and grows with it.
 pub struct ArrayBuffer {
     buffer: wgpu::Buffer,
+    element_bytes: Option<u64>,
     label: &'static str,
 }
 
 impl ArrayBuffer {
     /// An empty array.
     pub fn new(gpu: &Gpu, label: &'static str) -> Self {
-        Self { buffer: Self::create(gpu, label, EMPTY_ARRAY), label }
+        Self { buffer: Self::create(gpu, label, EMPTY_ARRAY), element_bytes: None, label }
     }
 
     fn create(gpu: &Gpu, label: &str, size: u64) -> wgpu::Buffer {
@@ -157,6 +158,12 @@ impl ArrayBuffer {
             self.buffer = Self::create(gpu, self.label, needed.next_power_of_two());
         }
         gpu.queue.write_buffer(&self.buffer, 0, bytes);
+        self.element_bytes = Some(T::min_size().get());
+    }
+
+    /// Bytes of an element of what was written, of a struct with the first one; `None`: nothing was.
+    pub fn element_bytes(&self) -> Option<u64> {
+        self.element_bytes
     }
 
     /// The buffer itself.

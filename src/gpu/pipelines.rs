@@ -4,7 +4,8 @@ use std::borrow::Cow;
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 
-use super::bindings::{Bindings, Placeholders};
+use super::bindings::Bindings;
+use super::placeholders::Placeholders;
 use super::{Gpu, Inputs, ShaderError, Shaders, Target};
 
 /// A shader of a file below `shaders/`, specialized: switches are its `override` constants, and what is switched off is

@@ -8,7 +8,7 @@ mod stages;
 use self::objects::Objects;
 use self::reflections::Reflection;
 use self::stages::{ColorKey, TogetherKey};
-use crate::gpu::{Gpu, Recorder, Target, UniformBuffer};
+use crate::gpu::{ArrayBuffer, Gpu, Recorder, Target, UniformBuffer};
 use crate::render::base::error::RenderError;
 use crate::render::base::frame_uniform::FrameUniform;
 use crate::render::base::scene_view::SceneView;
@@ -131,7 +131,7 @@ impl Drawing {
     }
 
     /// Edge styles by object id on the device.
-    pub fn edge_styles(&self) -> &wgpu::Buffer {
+    pub fn edge_styles(&self) -> &ArrayBuffer {
         self.surfaces.edge_styles()
     }
 

@@ -182,7 +182,7 @@ pub fn place_blueprint(
             let inputs = own.and(&inputs! {
                 surface_id_tex: &gbuffer.surface_id,
                 edge_styles: visit.edge_styles(0),
-                caps: has_caps.then_some(buffers.caps.buffer()),
+                caps: has_caps.then_some(&buffers.caps),
             });
             let switches = [&[("WITH_CAPS", has_caps)][..], &switches].concat();
             let shader = LayerShader { file: "effects/blueprint.wgsl", inputs: &inputs, switches: &switches };

@@ -120,7 +120,7 @@ impl SurfaceTechnique for GoochShading {
     }
 
     fn bind<'a>(&'a self, (): &'a (), inputs: &mut Inputs<'a>) {
-        inputs.set("gooch_styles", self.styles.buffer());
+        inputs.set("gooch_styles", &self.styles);
     }
 }
 

@@ -239,10 +239,10 @@ impl SurfaceTechnique for HalftoneShading {
     }
 
     fn bind<'a>(&'a self, shared: &'a SharedHalftones, inputs: &mut Inputs<'a>) {
-        inputs.set("halftone_styles", self.styles.buffer());
+        inputs.set("halftone_styles", &self.styles);
         inputs.set("thresholds", shared.maps.thresholds.view());
         inputs.set("threshold_sampler", &shared.maps.sampler);
-        inputs.set("calibration", shared.maps.calibration.buffer());
+        inputs.set("calibration", &shared.maps.calibration);
         inputs.set("coordinates_tex", self.coordinates.as_ref());
     }
 }

@@ -389,8 +389,8 @@ impl SurfaceTechnique for HatchingShading {
             Some(records) => records.each_ref().map(Some),
             None => [None; 3],
         };
-        inputs.set("hatching_styles", self.styles.buffer());
-        inputs.set("stripe_tones", self.tones.buffer());
+        inputs.set("hatching_styles", &self.styles);
+        inputs.set("stripe_tones", &self.tones);
         inputs.set("triangle_map_tex", self.triangle_map.as_ref());
         inputs.set("nearest_edge_tex", self.nearest_edges.as_ref());
         inputs.set("stripe_triangles", triangles);

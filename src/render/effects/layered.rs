@@ -4,7 +4,7 @@
 use glam::Vec2;
 
 use crate::document::LayersBy;
-use crate::gpu::{Gpu, Recorder, Target};
+use crate::gpu::{ArrayBuffer, Gpu, Recorder, Target};
 use crate::render::base::edge_style::GpuEdgeStyle;
 use crate::render::base::error::RenderError;
 use crate::render::base::feature_lines::plain_feature_lines;
@@ -142,7 +142,7 @@ impl Visit<'_> {
     }
 
     /// Edge styles by object id on the device.
-    pub fn edge_styles(&self, style: usize) -> Option<&wgpu::Buffer> {
+    pub fn edge_styles(&self, style: usize) -> Option<&ArrayBuffer> {
         self.lines.get(style).map(LayerLines::edge_styles)
     }
 }

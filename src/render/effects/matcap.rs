@@ -132,7 +132,7 @@ impl SurfaceTechnique for MatcapShading {
     }
 
     fn bind<'a>(&'a self, shared: &'a Spheres, inputs: &mut Inputs<'a>) {
-        inputs.set("matcap_styles", self.styles.buffer());
+        inputs.set("matcap_styles", &self.styles);
         inputs.set("spheres", shared.images.view());
         inputs.set("sphere_sampler", &shared.sampler);
     }

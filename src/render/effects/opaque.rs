@@ -132,8 +132,8 @@ impl OpaqueLayer {
     }
 
     /// Edge styles by object id on the device.
-    pub fn edge_styles(&self) -> &wgpu::Buffer {
-        self.edge_styles.buffer()
+    pub fn edge_styles(&self) -> &ArrayBuffer {
+        &self.edge_styles
     }
 
     /// Finds shadows, on other layers too.
@@ -256,7 +256,7 @@ impl OpaqueLayer {
                 &EdgeInputs {
                     gbuffer: &surfaces.gbuffer.value,
                     styles,
-                    edge_styles: self.edge_styles.buffer(),
+                    edge_styles: &self.edge_styles,
                     is_whole: true,
                     nearer: None,
                     marked: None,
@@ -269,7 +269,7 @@ impl OpaqueLayer {
             )?;
             let decisions = Decisions::of(styles, group.strokes.is_some());
             let gbuffer = &surfaces.gbuffer.value;
-            self.line_classes.settle(rec, &edges, gbuffer, self.edge_styles.buffer(), decisions)?;
+            self.line_classes.settle(rec, &edges, gbuffer, &self.edge_styles, decisions)?;
             Ok(edges)
         })
     }
@@ -311,7 +311,7 @@ impl OpaqueLayer {
             edge_map: edges,
             line_distance,
             styles: &group.edge_styles,
-            edge_styles: self.edge_styles.buffer(),
+            edge_styles: &self.edge_styles,
         }
     }
 
@@ -344,7 +344,7 @@ impl OpaqueLayer {
             edge_map: &edges.value,
             line_distance: line_distance.map(|line_distance| &line_distance.value),
             styles: &group.edge_styles,
-            edge_styles: self.edge_styles.buffer(),
+            edge_styles: &self.edge_styles,
         };
         self.ink.run(key, |_| ink(rec, &drawn)).map(Some)
     }

@@ -5,7 +5,7 @@ use glam::{DVec2, DVec3, Vec2, Vec3};
 
 use crate::document::section::Fill;
 use crate::gpu::recorder::{Draw, Onto};
-use crate::gpu::{DepthRule, Program, Recorder, Target, inputs};
+use crate::gpu::{ArrayBuffer, DepthRule, Program, Recorder, Target, inputs};
 use crate::render::base::error::RenderError;
 use crate::render::base::gpu_scene::GpuScene;
 use crate::render::base::ids::{object_id, surface_id};
@@ -83,14 +83,14 @@ fn across(view: &View, at: DVec3, along: DVec3) -> DVec2 {
     DVec2::new(seen.y, seen.x).normalize_or(DVec2::X)
 }
 
-/// Draws the caps over the surfaces. `caps`: an array of [`GpuCap`] by object id.
+/// Draws the caps over the surfaces. `caps`: [`GpuCap`]s by object id.
 ///
 /// # Errors
 /// [`RenderError`].
 pub fn draw_caps(
     rec: &mut Recorder<'_>,
     gbuffer: &GBuffer,
-    caps: &wgpu::Buffer,
+    caps: &ArrayBuffer,
     color: &Target,
 ) -> Result<(), RenderError> {
     rec.draw(Draw {

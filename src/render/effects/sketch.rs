@@ -242,7 +242,7 @@ impl SketchState {
             objects.write(rec.gpu, &key.objects);
             let own = inputs! {
                 sketch: uniform.buffer(),
-                sketch_objects: objects.buffer(),
+                sketch_objects: &*objects,
                 tiles: images.tile,
                 paper: images.paper,
                 tile_sampler: images.sampler,

@@ -142,13 +142,13 @@ impl Shading {
             surface_id_tex: &gbuffer.surface_id,
             base_color_tex: &gbuffer.base_color,
             shadow_mask_tex: layer.shadow_mask.map(|(mask, _)| mask),
-            surface_styles: self.surfaces.buffer(),
+            surface_styles: &self.surfaces,
         };
         self.techniques.bind(shared, &mut inputs);
         let program = Program { file: "effects/surface.wgsl", entry_point: "fs_main", switches };
         rec.fullscreen("surface", program, &inputs, &[&color], Some(&gbuffer.depth))?;
         if !caps.is_empty() {
-            draw_caps(rec, gbuffer, self.caps.buffer(), &color)?;
+            draw_caps(rec, gbuffer, &self.caps, &color)?;
         }
         Ok(color)
     }

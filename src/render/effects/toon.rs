@@ -196,7 +196,7 @@ impl SurfaceTechnique for ToonShading {
         layer: &Shaded<'_>,
     ) -> Result<(), RenderError> {
         let is_asked_for = toons.styles.iter().any(GpuToonStyle::has_cartoon_map);
-        let styles = self.styles.buffer();
+        let styles = &self.styles;
         let mut draw = || cartoon_map(rec, layer.gbuffer, styles, layer.shadow_mask.map(|(mask, _)| mask));
         self.map = match layer.revision {
             Some(gbuffer) if is_asked_for => {
@@ -214,7 +214,7 @@ impl SurfaceTechnique for ToonShading {
     }
 
     fn bind<'a>(&'a self, (): &'a (), inputs: &mut Inputs<'a>) {
-        inputs.set("toon_styles", self.styles.buffer());
+        inputs.set("toon_styles", &self.styles);
         inputs.set("toon_bands", self.bands.target());
         inputs.set("cartoon_map_tex", self.map.as_ref());
     }
@@ -231,7 +231,7 @@ impl SurfaceTechnique for ToonShading {
 fn cartoon_map(
     rec: &mut Recorder<'_>,
     gbuffer: &GBuffer,
-    toon_styles: &wgpu::Buffer,
+    toon_styles: &ArrayBuffer,
     shadow_mask: Option<&Target>,
 ) -> Result<Target, RenderError> {
     let map = rec.target("cartoon map", BANDS)?;

@@ -10,7 +10,7 @@ use super::repeated::{NearerLines, SPINES, add_ink};
 use super::segments::{MARKS, SegmentInputs, Segments};
 use crate::geometry::EdgeClass;
 use crate::gpu::recorder::{Draw, Onto};
-use crate::gpu::{DepthRule, Inputs, Program, Recorder, Target, inputs};
+use crate::gpu::{ArrayBuffer, DepthRule, Inputs, Program, Recorder, Target, inputs};
 use crate::render::base::edge_style::GpuEdgeStyle;
 use crate::render::base::error::RenderError;
 
@@ -50,7 +50,7 @@ pub struct EdgeInputs<'a> {
     /// Edge styles by object id.
     pub styles: &'a [GpuEdgeStyle],
     /// The same on the device.
-    pub edge_styles: &'a wgpu::Buffer,
+    pub edge_styles: &'a ArrayBuffer,
     /// Whether the map is looked at by itself. Otherwise it is undefined where no spines and no ink of operators are.
     pub is_whole: bool,
     /// What topology knows, for the view of the G-buffer.

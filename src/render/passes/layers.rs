@@ -280,7 +280,7 @@ impl LayerEdges {
             edge_map: &self.edge_map,
             line_distance: self.line_distance.as_ref(),
             styles,
-            edge_styles: lines.edge_styles.buffer(),
+            edge_styles: &lines.edge_styles,
         }
     }
 }
@@ -300,8 +300,8 @@ impl LayerLines {
     }
 
     /// Edge styles by object id on the device.
-    pub fn edge_styles(&self) -> &wgpu::Buffer {
-        self.edge_styles.buffer()
+    pub fn edge_styles(&self) -> &ArrayBuffer {
+        &self.edge_styles
     }
 
     /// The edges of the next layer. `nearer`: where the layers before it have lines, to which those of this layer are added.
@@ -324,7 +324,7 @@ impl LayerLines {
             &EdgeInputs {
                 gbuffer: &layer.gbuffer,
                 styles: inputs.styles,
-                edge_styles: self.edge_styles.buffer(),
+                edge_styles: &self.edge_styles,
                 is_whole: inputs.is_whole,
                 segments: inputs.segments,
                 has_holes: inputs.has_holes,

@@ -58,7 +58,7 @@ impl LineClasses {
         rec: &mut Recorder<'_>,
         edge_map: &EdgeMap,
         gbuffer: &GBuffer,
-        edge_styles: &wgpu::Buffer,
+        edge_styles: &ArrayBuffer,
         decisions: Decisions,
     ) -> Result<(), RenderError> {
         let Some(spines) = edge_map.spines.as_ref().filter(|_| decisions.any()) else { return Ok(()) };
@@ -76,7 +76,7 @@ impl LineClasses {
             link_tex: &links,
             geometry_tex: &gbuffer.geometry,
             edge_styles: edge_styles,
-            least: self.least.buffer(),
+            least: &self.least,
         };
         let written = inputs! { linking_tex: &links, edge_tex: &edge_map.edges, changed_spine_tex: spines };
         let all = read.and(&written);

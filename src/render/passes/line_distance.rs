@@ -50,7 +50,7 @@ pub fn nearest_lines(
     radius: &mut ArrayBuffer,
 ) -> Result<Target, RenderError> {
     radius.write(rec.gpu, &vec![distance]);
-    transform(rec, spines, radius.buffer(), true)
+    transform(rec, spines, radius, true)
 }
 
 /// Finds the lines that reach each pixel from where spines run; `radius` is a buffer for the greatest radius.
@@ -77,8 +77,8 @@ pub fn line_distance(
         return Ok(LineDistance::Narrow { spines: spines.clone(), near, by_two });
     }
     radius.write(rec.gpu, &vec![widths.greatest_radius]);
-    let farthest = transform(rec, spines, radius.buffer(), false)?;
-    let nearest = if widths.differ { Some(transform(rec, spines, radius.buffer(), true)?) } else { None };
+    let farthest = transform(rec, spines, radius, false)?;
+    let nearest = if widths.differ { Some(transform(rec, spines, radius, true)?) } else { None };
     Ok(LineDistance::Wide { farthest, nearest })
 }
 
@@ -113,7 +113,7 @@ impl Widths {
 fn transform(
     rec: &mut Recorder<'_>,
     spines: &Target,
-    radius: &wgpu::Buffer,
+    radius: &ArrayBuffer,
     nearest: bool,
 ) -> Result<Target, RenderError> {
     let columns = rec.target("line of column", INDEX)?;

@@ -3,9 +3,9 @@
 use super::edge_map::EdgeMap;
 use super::gbuffer::GBuffer;
 use super::line_distance::LineDistance;
-use crate::gpu::bindings::NOTHING;
+use crate::gpu::inputs::NOTHING;
 use crate::gpu::recorder::{Draw, Onto};
-use crate::gpu::{DepthRule, Inputs, Program, Recorder, STENCIL, Target, inputs};
+use crate::gpu::{ArrayBuffer, DepthRule, Inputs, Program, Recorder, STENCIL, Target, inputs};
 use crate::render::base::edge_style::GpuEdgeStyle;
 use crate::render::base::error::RenderError;
 
@@ -21,7 +21,7 @@ pub struct Lines<'a> {
     /// Edge styles by object id.
     pub styles: &'a [GpuEdgeStyle],
     /// The same on the device.
-    pub edge_styles: &'a wgpu::Buffer,
+    pub edge_styles: &'a ArrayBuffer,
 }
 
 /// What draws lines: a shader that imports `passes/lines.wgsl`.

@@ -9,7 +9,7 @@ use encase::ShaderType;
 use glam::{Mat4, UVec4, Vec2, Vec3};
 
 use super::gbuffer::GBuffer;
-use crate::gpu::{Gpu, Program, RecordList, Recorder, Target, UniformBuffer, inputs};
+use crate::gpu::{ArrayBuffer, Gpu, Program, RecordList, Recorder, Target, UniformBuffer, inputs};
 use crate::render::base::error::RenderError;
 use crate::render::base::noise::{fine_waves, mixed_bits, waves};
 
@@ -85,7 +85,7 @@ pub struct FieldBuffers<'a> {
     /// Which noise.
     pub field: &'a UniformBuffer<FieldUniform>,
     /// [`GpuFieldObject`] by object id.
-    pub objects: &'a wgpu::Buffer,
+    pub objects: &'a ArrayBuffer,
 }
 
 /// The noise of lines: undefined where none run.

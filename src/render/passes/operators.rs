@@ -3,7 +3,7 @@
 
 use super::gbuffer::GBuffer;
 use crate::gpu::recorder::{Draw, Onto};
-use crate::gpu::{DepthRule, Program, Recorder, Target, inputs};
+use crate::gpu::{ArrayBuffer, DepthRule, Program, Recorder, Target, inputs};
 use crate::render::base::edge_style::GpuEdgeStyle;
 use crate::render::base::error::RenderError;
 
@@ -28,7 +28,7 @@ pub fn paper_edges(
     rec: &mut Recorder<'_>,
     gbuffer: &GBuffer,
     styles: &[GpuEdgeStyle],
-    edge_styles: &wgpu::Buffer,
+    edge_styles: &ArrayBuffer,
     edge_map: &Target,
     onto: Onto,
 ) -> Result<(), RenderError> {
@@ -54,7 +54,7 @@ pub fn paper_edges(
 pub fn operators(
     rec: &mut Recorder<'_>,
     gbuffer: &GBuffer,
-    edge_styles: &wgpu::Buffer,
+    edge_styles: &ArrayBuffer,
 ) -> Result<Target, RenderError> {
     let out = rec.target("operators", wgpu::TextureFormat::Rgba32Float)?;
     let inputs = inputs! { geometry_tex: &gbuffer.geometry, edge_styles: edge_styles };

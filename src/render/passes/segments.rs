@@ -11,7 +11,8 @@ use super::repeated::NearerLines;
 use crate::geometry::LineSegment;
 use crate::geometry::line_segments::SegmentSet;
 use crate::gpu::{
-    Gpu, Program, RecordBuffer, RecordList, RecordTexture, Recorder, Target, frame_records, inputs,
+    ArrayBuffer, Gpu, Program, RecordBuffer, RecordList, RecordTexture, Recorder, Target, frame_records,
+    inputs,
 };
 use crate::render::base::error::RenderError;
 
@@ -75,7 +76,7 @@ pub struct SegmentInputs<'a> {
     /// Per-pixel geometry.
     pub gbuffer: &'a GBuffer,
     /// Edge styles by object id.
-    pub edge_styles: &'a wgpu::Buffer,
+    pub edge_styles: &'a ArrayBuffer,
     /// Switches of `passes/segments.wgsl`.
     pub switches: &'a [(&'static str, bool)],
 }

@@ -47,7 +47,7 @@ impl SelectionOutline {
         let found = stage.run((unmoved.clone(), bits(selected, scene)), |(_, bits)| {
             buffer.write(rec.gpu, bits);
             let front = front.nearest(rec)?;
-            outline(rec, &front, buffer.buffer())
+            outline(rec, &front, buffer)
         })?;
         Ok(Some(found.value))
     }
@@ -71,11 +71,7 @@ fn bits(selected: &[NodeId], scene: &Scene) -> Vec<u32> {
 ///
 /// # Errors
 /// [`RenderError`].
-fn outline(
-    rec: &mut Recorder<'_>,
-    geometry: &Target,
-    selected: &wgpu::Buffer,
-) -> Result<Target, RenderError> {
+fn outline(rec: &mut Recorder<'_>, geometry: &Target, selected: &ArrayBuffer) -> Result<Target, RenderError> {
     let out = rec.target("selection", FINAL)?;
     let inputs = inputs! { geometry_tex: geometry, selected: selected };
     rec.fullscreen("selection", Program::new("passes/selection.wgsl", "fs_main"), &inputs, &[&out], None)?;

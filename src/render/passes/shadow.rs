@@ -104,8 +104,8 @@ impl ShadowPass {
             },
             &inputs! {
                 geometry_tex: &gbuffer.geometry,
-                shadow_lights: self.lights.buffer(),
-                light_views: self.views.buffer(),
+                shadow_lights: &self.lights,
+                light_views: &self.views,
                 map_0: map(0),
                 map_1: map(1),
                 map_2: map(2),

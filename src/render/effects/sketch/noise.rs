@@ -93,7 +93,7 @@ impl SketchNoise {
         source: &Output<NoiseSource<'_>>,
     ) -> Result<Output<LineField>, RenderError> {
         let Self { field, objects, line_field_pass: pass, .. } = self;
-        let buffers = FieldBuffers { field, objects: objects.buffer() };
+        let buffers = FieldBuffers { field, objects };
         let count = inputs.sketch.passes().len() as u32;
         let found = self.line_field.run(inputs.key([edges.revision, source.revision]), |_| {
             pass.compact(rec, spines)?;
@@ -123,7 +123,7 @@ impl SketchNoise {
         let nearest = self
             .nearest_surfaces
             .run((followed.revision, band as u32), |_| nearest_surfaces(rec, geometry, band))?;
-        let buffers = FieldBuffers { field: &self.field, objects: self.objects.buffer() };
+        let buffers = FieldBuffers { field: &self.field, objects: &self.objects };
         self.fill_field.run(inputs.key([nearest.revision, followed.revision]), |_| {
             fill_field(rec, buffers, geometry, &nearest.value)
         })
