@@ -2,7 +2,7 @@
 //!
 //! A turned form glides in itself when it turns about its axis: the velocity of each point lies across the normal there. Of all
 //! motions the one that comes nearest to that is found by least squares (Pottmann and Wallner 2001, "Computational Line
-//! Geometry", section 4.1). A form that is extruded along an axis has all normals across it.
+//! Geometry"). A form that is extruded along an axis has all normals across it.
 
 use glam::{DMat3, DVec3};
 
