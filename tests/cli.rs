@@ -21,6 +21,9 @@ fn crank() -> String {
 fn render(folder: &Path, name: &str, file: &str, args: &[&str]) -> (Output, PathBuf) {
     let output = folder.join(name);
     let mut all = vec!["render", file, "--resolution", "96,96", "--output", output.to_str().unwrap()];
+    if !args.iter().any(|arg| arg.starts_with("--samples")) {
+        all.extend(["--samples", "1"]);
+    }
     all.extend(args);
     (hachure(&all), output)
 }
@@ -293,6 +296,17 @@ fn more_samples_are_smoother() {
     let (one, four, many) =
         (colors("1.png", &[]), colors("4.png", &["--samples", "4"]), colors("64.png", &["--samples", "64"]));
     assert_eq!((one.1, four.1, many.1), (1, 4, 64));
+    let unset = hachure(&[
+        "render",
+        &crank(),
+        "--resolution",
+        "32,32",
+        "--json",
+        "-o",
+        folder.path().join("a.png").to_str().unwrap(),
+    ]);
+    let said: serde_json::Value = serde_json::from_str(&stdout(&unset)).unwrap();
+    assert_eq!(said["samples"], 16, "pictures are smooth unless told otherwise");
     assert!(one.0 == 2 && (5..=6).contains(&four.0) && many.0 > 50, "{one:?} {four:?} {many:?}");
 }
 

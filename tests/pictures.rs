@@ -201,7 +201,7 @@ fn render(model: &str, args: &[&str], output: &Path) {
         .arg("render")
         .arg(model)
         .args(args)
-        .args(["--resolution", "256,256", "--output"])
+        .args(["--resolution", "256,256", "--samples", "1", "--output"])
         .arg(output)
         .output()
         .unwrap();

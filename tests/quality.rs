@@ -70,7 +70,7 @@ fn ball(triangles: u32) -> Mesh {
 fn run(model: &Path, output: &Path) -> (f64, f64) {
     let began = Instant::now();
     let mut child = Command::new(env!("CARGO_BIN_EXE_hachure"))
-        .args(["render", "--resolution", "800,800", "-o"])
+        .args(["render", "--resolution", "800,800", "--samples", "1", "-o"])
         .arg(output)
         .arg(model)
         .spawn()

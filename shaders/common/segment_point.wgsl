@@ -1,4 +1,5 @@
 // A pixel of a line that topology knows.
+#import common/edge_map.wgsl
 
 struct SegmentPoint {
     // See common/edge_map.wgsl.
@@ -15,10 +16,21 @@ struct SegmentPoint {
 
 const NO_POINT: SegmentPoint = SegmentPoint(vec4<u32>(0u, 0u, 0u, 0u), 0u, 0u, 0u, 0u);
 
-// What segments have in a pixel: 0, `EXPLAINED`, or both bits.
+// What segments have in a pixel: 0, or `EXPLAINED`, perhaps `DRAWN`, one of the last two, and above them the tangent as in the edge
+// map.
 const EXPLAINED: u32 = 1u;
 const DRAWN: u32 = 2u;
+// Whether the line is nearer to the horizontal or to the vertical one of the picture.
+const LEVEL: u32 = 4u;
+const UPRIGHT: u32 = 8u;
 
-fn mark_of(key: u32) -> u32 {
-    return EXPLAINED | ((key & 1u) * DRAWN);
+fn mark_of(point: SegmentPoint) -> u32 {
+    let packed = (point.edge.x >> 16u) & 511u;
+    let tangent = unpack_tangent(packed);
+    let side = select(UPRIGHT, LEVEL, abs(tangent.x) >= abs(tangent.y));
+    return EXPLAINED | ((point.key & 1u) * DRAWN) | side | (packed << 4u);
+}
+
+fn tangent_of(mark: u32) -> vec2<f32> {
+    return unpack_tangent(mark >> 4u);
 }

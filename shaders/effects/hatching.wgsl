@@ -157,15 +157,15 @@ fn stripes_seen(object: u32, texel: vec4<u32>, s: Surfel, pos_view: vec3<f32>) -
 }
 
 // Strokes on the surface.
-fn stripes_ink(texel: vec4<u32>, s: Surfel, pos_view: vec3<f32>, inks: vec3<f32>) -> f32 {
+fn stripes_ink(px: vec2<i32>, texel: vec4<u32>, s: Surfel, pos_view: vec3<f32>, inks: vec3<f32>) -> f32 {
     let stripes = stripes_seen(s.object, texel, s, pos_view);
     let stroke = hatching_styles[s.object].stroke;
-    var left = 1.0 - stripe_ink(stripes, 0u, stroke, inks.x);
+    var left = 1.0 - stripe_ink(px, stripes, 0u, stroke, inks.x);
     if WITH_SECOND && inks.y > 0.0 {
-        left *= 1.0 - stripe_ink(stripes, 1u, stroke, inks.y);
+        left *= 1.0 - stripe_ink(px, stripes, 1u, stroke, inks.y);
     }
     if WITH_THIRD && inks.z > 0.0 {
-        left *= 1.0 - stripe_ink(stripes, 2u, stroke, inks.z);
+        left *= 1.0 - stripe_ink(px, stripes, 2u, stroke, inks.z);
     }
     return 1.0 - left;
 }
@@ -308,7 +308,7 @@ fn hatching(px: vec2<i32>, s: Surfel, base: vec3<f32>, pos_view: vec3<f32>) -> v
     let mapping = hatching_styles[object].mapping;
     var ink = 0.0;
     if WITH_STRIPES && mapping == STRIPES && texel.x != 0u {
-        ink = stripes_ink(texel, s, pos_view, inks);
+        ink = stripes_ink(px, texel, s, pos_view, inks);
     } else if WITH_STROKES_BY_UV && mapping == BY_UV && any(texel != vec4(0u)) {
         ink = strokes_by_uv(texel, object, inks, laid_at(object, dark));
     } else if WITH_STROKES_ON_PAPER {

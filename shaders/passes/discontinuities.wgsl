@@ -27,6 +27,8 @@ override WITH_CLIP_PLANE: bool = false;
 
 // A step in depth, in pixels, from which two surfaces do not touch.
 const STEP: f32 = 2.0;
+// Cosine of the angle up to which a segment runs along what is found beside it.
+const ALONG: f32 = 0.7;
 
 // The surface ids of a pixel and of those beside it.
 struct SurfaceIds {
@@ -68,13 +70,15 @@ fn fs_borders(@builtin(position) position: vec4<f32>) {
     let px = vec2<i32>(position.xy);
     let surface_ids = surface_ids_at(px);
     let own = surface_ids.own;
-    let begins = begins_at(px, vec2(-1, 0), surface_ids.left, own) | begins_at(px, vec2(1, 0), surface_ids.right, own)
-        | begins_at(px, vec2(0, -1), surface_ids.above, own) | begins_at(px, vec2(0, 1), surface_ids.below, own);
+    let beside = begins_at(px, vec2(-1, 0), surface_ids.left, own) | begins_at(px, vec2(1, 0), surface_ids.right, own);
+    let over = begins_at(px, vec2(0, -1), surface_ids.above, own) | begins_at(px, vec2(0, 1), surface_ids.below, own);
     // The corners are looked at later, of the few that are left.
     let marks = mark_at(px) | mark_at(px + vec2(1, 0)) | mark_at(px - vec2(1, 0)) | mark_at(px + vec2(0, 1))
         | mark_at(px - vec2(0, 1));
     let is_repeated = WITHOUT_REPEATED && textureLoad(nearer_lines_tex, px).x != 0u;
-    if begins == 0u || is_repeated || (marks & DRAWN) != 0u {
+    let along = select(0u, UPRIGHT, beside != 0u) | select(0u, LEVEL, over != 0u);
+    let is_drawn = (marks & DRAWN) != 0u && (marks & along) != 0u;
+    if along == 0u || is_repeated || is_drawn {
         discard;
     }
 }
@@ -173,6 +177,16 @@ fn between(px: vec2<i32>, x: Surfel, own: u32, plane: Plane, towards: vec2<i32>,
     return Spine(INTERSECTION, offset, normalize(vec2(slope.y, -slope.x)), false);
 }
 
+// What segments have around a pixel, as far as they run along what is found there: one that crosses it explains nothing.
+fn marks_along(px: vec2<i32>, tangent: vec2<f32>) -> u32 {
+    var marks = 0u;
+    for (var i = 0; i < 9; i++) {
+        let mark = mark_at(px + vec2(i % 3, i / 3) - 1);
+        marks |= select(0u, mark, abs(dot(tangent_of(mark), tangent)) > ALONG);
+    }
+    return marks;
+}
+
 // Whether the first is an edge, and the second none or farther from the pixel's center.
 fn is_nearer(first: Spine, second: Spine) -> bool {
     return first.class_of != NO_EDGE
@@ -192,12 +206,8 @@ fn fs_main(@builtin(position) position: vec4<f32>) -> Out {
     let x = unpack_surfel(geometry_at(px));
     let surface_ids = surface_ids_at(px);
     let own = surface_ids.own;
-    // An edge near a segment is the segment's; where the near plane cuts, there is no edge.
-    var marks = 0u;
-    for (var i = 0; i < 9; i++) {
-        marks |= mark_at(px + vec2(i % 3, i / 3) - 1);
-    }
-    if !x.enhanced || (marks & DRAWN) != 0u || x.depth < 1.5 * frame.near_clip_depth {
+    // Where the near plane cuts, there is no edge.
+    if !x.enhanced || x.depth < 1.5 * frame.near_clip_depth {
         discard;
     }
     if edge_styles[x.object].mode != EXACT_MODE {
@@ -225,9 +235,11 @@ fn fs_main(@builtin(position) position: vec4<f32>) -> Out {
     } else if is_nearer(other, spine) {
         spine = other;
     }
-    // A crease that is not drawn explains what is inside its object, but not where another one ends.
+    // An edge near a segment is the segment's. A crease that is not drawn explains what is inside its object, but not where another
+    // one ends.
+    let marks = marks_along(px, spine.tangent);
     let is_explained = (marks & EXPLAINED) != 0u && !spine.ends_object;
-    if spine.class_of == NO_EDGE || is_explained {
+    if spine.class_of == NO_EDGE || (marks & DRAWN) != 0u || is_explained {
         discard;
     }
     let pos_view = pos_view_of(px, x.depth);

@@ -52,7 +52,7 @@ fn put(point: SegmentPoint, px: vec2<i32>, spine: u32) {
     textureStore(edge_tex, px, point.edge);
     textureStore(spine_tex, px, vec4(spine, 0u, 0u, 0u));
     if !WITHOUT_MARKS {
-        textureStore(mark_tex, px, vec4(mark_of(point.key), 0u, 0u, 0u));
+        textureStore(mark_tex, px, vec4(mark_of(point), 0u, 0u, 0u));
     }
 }
 

@@ -57,7 +57,7 @@ pub(super) struct RenderArgs {
     #[arg(long, value_name = "W,H", default_value = "1000,800")]
     pub resolution: Resolution,
     /// Samples per pixel, 1 to 1024: more are smoother and take as many times as long; 64 is as smooth as eyes can tell
-    #[arg(long, value_name = "N", default_value = "1", value_parser = samples)]
+    #[arg(long, value_name = "N", default_value = "16", value_parser = samples)]
     pub samples: u32,
     #[command(flatten)]
     pub look: LookArgs,

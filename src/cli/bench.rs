@@ -46,10 +46,34 @@ enum Behind {
 struct Row {
     name: &'static str,
     frame_ms: Vec<f64>,
-    stages: Vec<(&'static str, Vec<f64>)>,
+    stages: Vec<Stage>,
+}
+
+/// The passes of one name.
+struct Stage {
+    name: &'static str,
+    /// Of all of them, in each frame.
+    ms: Vec<f64>,
+    /// How many there are in a frame.
+    passes: usize,
 }
 
 impl Row {
+    /// Notes what the passes of a frame took.
+    fn add_passes(&mut self, passes: &[(&'static str, f64)]) {
+        for &(name, _) in passes {
+            if self.stages.iter().all(|stage| stage.name != name) {
+                self.stages.push(Stage { name, ms: Vec::new(), passes: 0 });
+            }
+        }
+        for stage in &mut self.stages {
+            let own: Vec<f64> =
+                passes.iter().filter(|(name, _)| *name == stage.name).map(|(_, ms)| *ms).collect();
+            stage.ms.push(own.iter().sum());
+            stage.passes = stage.passes.max(own.len());
+        }
+    }
+
     /// How often it takes the time of another row: frame by frame against the one drawn in the same round.
     fn ratio_to(&self, other: &Self) -> f64 {
         median(&self.frame_ms.iter().zip(&other.frame_ms).map(|(a, b)| a / b).collect::<Vec<_>>())
@@ -88,11 +112,9 @@ pub(super) fn run(args: &BenchArgs) -> Result<(), CliError> {
             bench.get_ready(look, turn(frame, i))?;
             bench.session.renderer().timings()?;
             bench.frame(look, turn(frame, i))?;
-            for (label, ms) in bench.session.renderer().timings()?.into_iter().filter(|_| frame >= WARM_UP) {
-                match row.stages.iter_mut().find(|(known, _)| *known == label) {
-                    Some((_, all)) => all.push(ms),
-                    None => row.stages.push((label, vec![ms])),
-                }
+            let passes = bench.session.renderer().timings()?;
+            if frame >= WARM_UP {
+                row.add_passes(&passes);
             }
         }
     }
@@ -380,7 +402,10 @@ fn layer_costs(rows: &[Row]) -> Vec<(&'static str, f64)> {
         let (a, b) = (find(a)?, find(b)?);
         Some(median(&a.frame_ms.iter().zip(&b.frame_ms).map(|(a, b)| b - a).collect::<Vec<_>>()))
     };
-    let traversal = |row: &Row| Some(median(&row.stages.iter().find(|(stage, _)| *stage == "peel")?.1));
+    let traversal = |row: &Row| {
+        let peel = row.stages.iter().find(|stage| stage.name == "peel")?;
+        Some(median(&peel.ms) / peel.passes as f64)
+    };
     let costs = [
         ("each layer more, from lists", more(ONE[0], SIX[0]).map(|ms| ms / 5.0)),
         ("each layer more, by peeling", more(ONE[1], SIX[1]).map(|ms| ms / 5.0)),
@@ -412,7 +437,7 @@ fn report(args: &BenchArgs, bench: &mut Bench, load_ms: f64, rows: &[Row]) -> Re
             .iter()
             .map(|row| {
                 let stages: serde_json::Map<_, _> =
-                    row.stages.iter().map(|(label, ms)| ((*label).to_owned(), json!(median(ms)))).collect();
+                    row.stages.iter().map(|stage| (stage.name.to_owned(), json!(median(&stage.ms)))).collect();
                 json!({ "style": row.name, "frame_ms": median(&row.frame_ms), "ratio_to_plain": ratio(row), "stages_ms": stages })
             })
             .collect();
@@ -427,7 +452,7 @@ fn report(args: &BenchArgs, bench: &mut Bench, load_ms: f64, rows: &[Row]) -> Re
     print_line(&format!("{:<26}{:>9}{:>9}   stages (ms)", "style", "ms", "× plain"))?;
     for row in rows {
         let stages: Vec<_> =
-            row.stages.iter().map(|(label, ms)| format!("{label} {:.1}", median(ms))).collect();
+            row.stages.iter().map(|stage| format!("{} {:.1}", stage.name, median(&stage.ms))).collect();
         print_line(&format!(
             "{:<26}{:>9.1}{:>9.2}   {}",
             row.name,

@@ -1,8 +1,8 @@
 //! Turned and extruded forms: the axis that a surface lies around, where it has one.
 //!
 //! A turned form glides in itself when it turns about its axis: the velocity of each point lies across the normal there. Of all
-//! motions the one that comes nearest to that is found by least squares, which fits a linear complex to the normals (Pottmann and
-//! Wallner, "Computational Line Geometry", 2001). A form that is extruded along an axis has all normals across it.
+//! motions the one that comes nearest to that is found by least squares (Pottmann and Wallner 2001, "Computational Line
+//! Geometry"). A form that is extruded along an axis has all normals across it.
 
 use glam::{DMat3, DVec3};
 

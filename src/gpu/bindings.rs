@@ -10,7 +10,6 @@ use wgpu::naga::{
 };
 
 use super::buffer::Element;
-pub use super::inputs::NOTHING;
 use super::inputs::{Inputs, Resource};
 use super::placeholders::Placeholders;
 use super::{Gpu, ShaderError};

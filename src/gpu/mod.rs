@@ -7,7 +7,7 @@ pub mod device;
 mod faults;
 pub mod geometry;
 mod image_array;
-mod inputs;
+pub mod inputs;
 pub mod integer_textures;
 pub mod material;
 pub mod parted_counter;

@@ -1,7 +1,9 @@
 // Stripes of hatching: lines that were found on the surface (Knoeppel et al. 2015, "Stripe Patterns on Surfaces"), of which each pixel
 // takes the level that is about as dense as wanted, so that strokes keep their width on paper. Lines that the denser level has more
 // than the coarser one begin as points and come last.
+#import common/frame.wgsl
 #import common/octahedral.wgsl
+#import common/same_surface.wgsl
 #import gpu/record_texture.wgsl
 
 // Twin: `GpuStroke` in src/render/effects/hatching/strokes.rs. Lengths in px, widths as shares of the spacing.
@@ -241,8 +243,28 @@ fn tone_for(table: u32, place: f32, length: f32, ink: f32) -> f32 {
     return mix(by_row.x, by_row.y, fract(column));
 }
 
+// Strokes are followed so far at most, px.
+const FOLLOWED: f32 = 8.0;
+
+// Length that the surface leaves of a stroke through a pixel, px; beyond `length` it does not matter.
+fn length_left(px: vec2<i32>, along: vec2<f32>, length: f32) -> f32 {
+    let own = textureLoad(surface_id_tex, px, 0).x;
+    let most = vec2<i32>(frame.size) - 1;
+    var left = 1.0;
+    for (var way = -1.0; way <= 1.0; way += 2.0) {
+        for (var i = 1.0; left < length; i += 1.0) {
+            let q = px + vec2<i32>(round(i * way * along));
+            if textureLoad(surface_id_tex, clamp(q, vec2(0), most), 0).x != own {
+                break;
+            }
+            left += 1.0;
+        }
+    }
+    return left;
+}
+
 // Ink of a family where `ink` of all is to be inked.
-fn stripe_ink(s: Stripes, number: u32, stroke: Stroke, ink: f32) -> f32 {
+fn stripe_ink(px: vec2<i32>, s: Stripes, number: u32, stroke: Stroke, ink: f32) -> f32 {
     let family = family_of(s, number);
     let sense = select(1.0, -1.0, family.up < 0.0);
     let level = level_of(family.per_px, stroke.spacing);
@@ -308,6 +330,13 @@ fn stripe_ink(s: Stripes, number: u32, stroke: Stroke, ink: f32) -> f32 {
     // Nor hair lines of paper: strokes that nearly touch do.
     let next = 0.5 * level.spacing;
     width += smoothstep(next - 2.0 * LEAST_WIDTH, next, width);
+    if max(width, 2.0 * LEAST_WIDTH) * 0.5 + 0.5 <= abs(away) || width <= 0.0 {
+        return 0.0;
+    }
+    // What crosses a narrow facet would be a tooth of a comb.
+    let along = vec2(-family.screen.y, family.screen.x) / family.per_px;
+    let enough = min(2.0 * stroke.spacing, FOLLOWED);
+    width *= smoothstep(0.4, 1.0, length_left(px, along, enough) / enough);
     let covered = clamp(max(width, 2.0 * LEAST_WIDTH) * 0.5 - abs(away) + 0.5, 0.0, 1.0);
     return covered * min(width / (2.0 * LEAST_WIDTH), 1.0);
 }

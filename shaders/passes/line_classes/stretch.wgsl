@@ -153,12 +153,35 @@ fn nearest_of(class_of: u32, px: vec2<i32>, links: u32, first_side: u32) -> Near
     return nearest;
 }
 
+// Half the width of a class where it runs nearest, px.
+fn half_width_nearby(class_of: u32, px: vec2<i32>, links: u32, first: vec2<i32>) -> f32 {
+    return half_width_of(nearest_of(class_of, px, links, select(0u, 1u, first.y < first.x)).texel);
+}
+
+// The widest of these classes, which are bits of a number; of equal ones the first.
+fn widest_of(classes: u32, px: vec2<i32>, links: u32, ahead: Stretch, behind: Stretch) -> u32 {
+    var widest = countTrailingZeros(classes) + 1u;
+    if (classes & (classes - 1u)) == 0u {
+        return widest;
+    }
+    var greatest = -1.0;
+    for (var left = classes; left != 0u; left &= left - 1u) {
+        let class_of = countTrailingZeros(left) + 1u;
+        let width = half_width_nearby(class_of, px, links, first_of(steps_of(ahead, behind, class_of)));
+        if width > greatest + 0.01 {
+            greatest = width;
+            widest = class_of;
+        }
+    }
+    return widest;
+}
+
 // The class of a line here.
 fn settled(px: vec2<i32>, own: u32, links: u32, ahead: Stretch, behind: Stretch) -> u32 {
     let longest = longest_gap();
     let ends = vec2(ahead.end, behind.end);
-    var settled = NO_EDGE;
-    var greatest = -1.0;
+    // Those that have a stretch here.
+    var running = 0u;
     // The nearest other class on either side.
     var nearest = vec2<i32>(ENDLESS);
     var beside = vec2<u32>(NO_EDGE);
@@ -169,13 +192,7 @@ fn settled(px: vec2<i32>, own: u32, links: u32, ahead: Stretch, behind: Stretch)
         if first.x + first.y <= longest {
             let last = vec2(last_step(steps.x, first.x, longest), last_step(steps.y, first.y, longest));
             if last.x + last.y + 1 >= longest || any(last + 1 >= ends) {
-                // Of equal ones the first.
-                let side = select(0u, 1u, first.y < first.x);
-                let width = half_width_of(nearest_of(class_of, px, links, side).texel);
-                if width > greatest + 0.01 {
-                    greatest = width;
-                    settled = class_of;
-                }
+                running |= bit_of(class_of);
             }
         }
         if class_of != own {
@@ -183,8 +200,8 @@ fn settled(px: vec2<i32>, own: u32, links: u32, ahead: Stretch, behind: Stretch)
             nearest = min(nearest, first);
         }
     }
-    if settled != NO_EDGE {
-        return settled;
+    if running != 0u {
+        return widest_of(running, px, links, ahead, behind);
     }
     // No class has a stretch here: the line is as beside it.
     let is_between = all(beside != vec2(NO_EDGE)) && all(nearest <= vec2(longest));

@@ -99,6 +99,7 @@ fn preset_ui(ui: &mut Ui, editing: &Editing<'_>, style: &Style) -> Option<Style>
         let combo = egui::ComboBox::from_id_salt("preset")
             .width(ui.available_width())
             .height(PRESETS_HEIGHT)
+            .truncate()
             .selected_text(current)
             .show_ui(ui, |ui| {
                 for preset in editing.presets {

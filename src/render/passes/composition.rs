@@ -10,7 +10,7 @@
 use super::front::Front;
 use super::lines::{LineShader, Lines, lines};
 use super::overlay::overlay;
-use crate::gpu::bindings::NOTHING;
+use crate::gpu::inputs::NOTHING;
 use crate::gpu::recorder::{Draw, Onto};
 use crate::gpu::{Inputs, Program, Recorder, Target, inputs};
 use crate::render::base::error::RenderError;

@@ -112,7 +112,8 @@ impl LineClasses {
         let settle = Program {
             switches: vec![
                 ("WITH_CLASSES", decisions.classes),
-                ("WITH_DOTS", decisions.dots),
+                // What is short is decided in the last round, when lines are as they will be.
+                ("WITH_DOTS", decisions.dots && is_last),
                 ("WITH_PIECES", decisions.pieces),
                 ("LAST_ROUND", is_last),
             ],

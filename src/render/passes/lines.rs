@@ -3,7 +3,7 @@
 use super::edge_map::EdgeMap;
 use super::gbuffer::GBuffer;
 use super::line_distance::LineDistance;
-use crate::gpu::bindings::NOTHING;
+use crate::gpu::inputs::NOTHING;
 use crate::gpu::recorder::{Draw, Onto};
 use crate::gpu::{ArrayBuffer, DepthRule, Inputs, Program, Recorder, STENCIL, Target, inputs};
 use crate::render::base::edge_style::GpuEdgeStyle;
