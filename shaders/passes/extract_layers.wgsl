@@ -1,5 +1,6 @@
 // Depth layers of fragment lists: the fragments of each pixel are sorted, as many layers as there are targets at a time, and
 // each layer is made of its own ones.
+#import common/first_eight.wgsl
 #import common/fragments.wgsl
 #import common/fullscreen.wgsl
 #import common/layer_color.wgsl
@@ -13,11 +14,6 @@ var<storage, read> colors: array<u32>;
 // last; cutting: that which is cut.
 var number_tex: texture_storage_2d<r32uint, read>;
 
-// Whether so many are sorted.
-override THREE_OR_MORE: bool = true;
-override FIVE_OR_MORE: bool = true;
-override SEVEN_OR_MORE: bool = true;
-
 // Whether anybody asks for shading normals.
 override WITH_NORMALS: bool = true;
 
@@ -27,38 +23,6 @@ fn link_at(number: u32) -> Link {
 
 fn number_at(position: vec4<f32>) -> u32 {
     return textureLoad(number_tex, vec2<i32>(position.xy)).x;
-}
-
-// A fragment that is being sorted.
-struct Sorted {
-    depth: u32,
-    order: u32,
-    number: u32,
-}
-
-// Lies behind all others, which depth 0 does not count among: the far plane itself is not drawn.
-const NONE: Sorted = Sorted(0u, 0xffffffffu, 0u);
-
-// Whether `a` comes before `b`: what is nearer, and of what is equally deep what is drawn first.
-fn is_before(a: Sorted, b: Sorted) -> bool {
-    return a.depth > b.depth || (a.depth == b.depth && a.order < b.order);
-}
-
-// Of a fragment that is kept and another one, the first is kept and the other one goes on. A surface that comes twice equally
-// deep is kept once, as it was drawn first.
-fn sort(kept: ptr<function, Sorted>, other: ptr<function, Sorted>) {
-    let a = *kept;
-    let b = *other;
-    let is_same = a.depth == b.depth && a.order == b.order;
-    let swaps = is_before(b, a);
-    let takes = swaps || is_same;
-    *kept = Sorted(select(a.depth, b.depth, takes), select(a.order, b.order, takes), select(a.number, b.number, takes));
-    let passes = vec3(select(b.depth, a.depth, swaps), select(b.order, a.order, swaps), select(b.number, a.number, swaps));
-    *other = Sorted(
-        select(passes.x, NONE.depth, is_same),
-        select(passes.y, NONE.order, is_same),
-        select(passes.z, NONE.number, is_same),
-    );
 }
 
 struct Depth {
@@ -86,44 +50,35 @@ struct Numbers {
     @location(7) h: u32,
 }
 
+// What is nearer comes first, and of what is equally deep what is drawn first. A surface that comes twice equally deep is kept
+// once, as it was drawn first. Reversed depth 0 is the far plane itself, which is not drawn.
 fn sorted(position: vec4<f32>, last: Sorted) -> Numbers {
-    var a = NONE;
-    var b = NONE;
-    var c = NONE;
-    var d = NONE;
-    var e = NONE;
-    var f = NONE;
-    var g = NONE;
-    var h = NONE;
+    var first = EMPTY;
     var number = heads[list_of(vec2<u32>(position.xy))];
     while number != 0u {
         let link = link_at(number);
-        var own = Sorted(link.depth, link.order, number);
-        if !is_before(last, own) || own.depth == 0u {
+        var own = Sorted(~link.depth, link.order, number);
+        if !is_before(last, own) || link.depth == 0u {
             own = NONE;
         }
-        sort(&a, &own);
-        sort(&b, &own);
-        if THREE_OR_MORE {
-            sort(&c, &own);
-            sort(&d, &own);
-        }
-        if FIVE_OR_MORE {
-            sort(&e, &own);
-            sort(&f, &own);
-        }
-        if SEVEN_OR_MORE {
-            sort(&g, &own);
-            sort(&h, &own);
-        }
+        first = with_another(first, own);
         number = link.next;
     }
-    return Numbers(a.number, b.number, c.number, d.number, e.number, f.number, g.number, h.number);
+    return Numbers(
+        first.a.number,
+        first.b.number,
+        first.c.number,
+        first.d.number,
+        first.e.number,
+        first.f.number,
+        first.g.number,
+        first.h.number,
+    );
 }
 
 @fragment
 fn fs_sort(@builtin(position) position: vec4<f32>) -> Numbers {
-    return sorted(position, Sorted(0xffffffffu, 0u, 0u));
+    return sorted(position, Sorted(0u, 0u, 0u));
 }
 
 // Those behind the layer that was sorted last.
@@ -132,7 +87,7 @@ fn fs_sort_behind(@builtin(position) position: vec4<f32>) -> Numbers {
     let number = number_at(position);
     let link = link_at(max(number, 1u));
     // Behind none there are none.
-    return sorted(position, Sorted(select(link.depth, 0u, number == 0u), link.order, number));
+    return sorted(position, Sorted(select(~link.depth, NONE.depth, number == 0u), link.order, number));
 }
 
 @fragment

@@ -1,4 +1,5 @@
 // Layers of several groups in one list per pixel, put in order and blended.
+#import common/first_eight.wgsl
 #import common/frame.wgsl
 #import common/fullscreen.wgsl
 #import common/placed.wgsl
@@ -88,83 +89,47 @@ fn cs_append(@builtin(global_invocation_id) id: vec3<u32>, @builtin(local_invoca
     }
 }
 
-// An entry that is being put in order. What was appended first has a smaller number.
-struct Entry {
-    depth: u32,
-    number: u32,
-}
-
-// Behind everything.
-const NONE: Entry = Entry(0xffffffffu, 0xffffffffu);
-
-fn is_before(a: Entry, b: Entry) -> bool {
-    return a.depth < b.depth || (a.depth == b.depth && a.number < b.number);
-}
-
-// Keeps the first of two, and goes on with the other one.
-fn sort(kept: ptr<function, Entry>, other: ptr<function, Entry>) {
-    let a = *kept;
-    let b = *other;
-    let swaps = is_before(b, a);
-    *kept = Entry(select(a.depth, b.depth, swaps), select(a.number, b.number, swaps));
-    *other = Entry(select(b.depth, a.depth, swaps), select(b.number, a.number, swaps));
-}
-
-fn beneath(front: vec4<f32>, entry: Entry) -> vec4<f32> {
-    if entry.number == NONE.number {
+fn beneath(front: vec4<f32>, entry: Sorted) -> vec4<f32> {
+    if entry.order == NONE.order {
         return front;
     }
-    let texel = textureLoad(entry_tex, texel_of_record(entry.number));
+    let texel = textureLoad(entry_tex, texel_of_record(entry.order));
     let color = vec4(unpack2x16float(texel.z), unpack2x16float(texel.w));
     return front + color * (1.0 - front.a);
 }
 
-// Eight entries at a time, as many as registers hold well; the nearest ones first.
+// Eight entries at a time, the nearest ones first; of those that are equally deep what was appended first.
 @fragment
 fn fs_blend(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     let px = vec2<u32>(position.xy);
     let head = listed[px.y * u32(frame.size.x) + px.x];
     var color = vec4(0.0);
-    var last = Entry(0u, 0u);
+    var last = NONE;
     var is_first = true;
     loop {
-        var a = NONE;
-        var b = NONE;
-        var c = NONE;
-        var d = NONE;
-        var e = NONE;
-        var f = NONE;
-        var g = NONE;
-        var h = NONE;
+        var first = EMPTY;
         var next = head;
         while next != 0u {
             let number = next - 1u;
             let texel = textureLoad(entry_tex, texel_of_record(number));
-            var own = Entry(texel.y, number);
+            var own = Sorted(texel.y, number, 0u);
             if !is_first && !is_before(last, own) {
                 own = NONE;
             }
-            sort(&a, &own);
-            sort(&b, &own);
-            sort(&c, &own);
-            sort(&d, &own);
-            sort(&e, &own);
-            sort(&f, &own);
-            sort(&g, &own);
-            sort(&h, &own);
+            first = with_another(first, own);
             next = texel.x;
         }
-        color = beneath(color, a);
-        color = beneath(color, b);
-        color = beneath(color, c);
-        color = beneath(color, d);
-        color = beneath(color, e);
-        color = beneath(color, f);
-        color = beneath(color, g);
-        color = beneath(color, h);
-        last = h;
+        color = beneath(color, first.a);
+        color = beneath(color, first.b);
+        color = beneath(color, first.c);
+        color = beneath(color, first.d);
+        color = beneath(color, first.e);
+        color = beneath(color, first.f);
+        color = beneath(color, first.g);
+        color = beneath(color, first.h);
+        last = first.h;
         is_first = false;
-        if h.number == NONE.number || color.a >= 0.9999 {
+        if last.order == NONE.order || color.a >= 0.9999 {
             break;
         }
     }

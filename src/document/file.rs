@@ -212,7 +212,8 @@ impl Document {
         let paper = self.style.paper.color;
         let view =
             diff_to_toml(&mut self.view.clone().params(paper), &mut ViewSettings::default().params(paper));
-        let cut = diff_to_toml(&mut self.section.clone().params(), &mut SectionSettings::default().params());
+        let plane =
+            diff_to_toml(&mut self.section.clone().params(), &mut SectionSettings::default().params());
         let light =
             diff_to_toml(&mut self.lighting.clone().params(), &mut default_lighting(has_lights).params());
         let form = Form {
@@ -223,7 +224,7 @@ impl Document {
             lights: has_lights.then(|| self.lights.clone()),
             light: section("light", light),
             view: section("view", view),
-            section: section("section", cut),
+            section: section("section", plane),
             style: style_table(&self.style),
             nodes: self
                 .nodes

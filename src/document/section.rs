@@ -138,9 +138,9 @@ impl SectionSettings {
     }
 
     /// The same for a model that reaches so far along the plane's direction, in a unit.
-    pub fn params_within(&mut self, reach: RangeInclusive<f32>, unit: &'static str) -> Vec<Param<'_>> {
+    pub fn params_within(&mut self, extent: RangeInclusive<f32>, unit: &'static str) -> Vec<Param<'_>> {
         let mut list = Params::default();
-        self.declare(reach, unit, &mut list);
+        self.declare(extent, unit, &mut list);
         list.finish()
     }
 
@@ -152,8 +152,8 @@ impl SectionSettings {
         clamped
     }
 
-    fn declare<'a>(&'a mut self, reach: RangeInclusive<f32>, unit: &'static str, list: &mut Params<'a>) {
-        let middle = 0.5 * (reach.start() + reach.end());
+    fn declare<'a>(&'a mut self, extent: RangeInclusive<f32>, unit: &'static str, list: &mut Params<'a>) {
+        let middle = 0.5 * (extent.start() + extent.end());
         list.section("section", |list| {
             list.head("show", "Section plane", "Cut away what lies beyond a plane, in its direction.", &mut self.show);
             list.choice(
@@ -184,7 +184,7 @@ impl SectionSettings {
                 "position",
                 "Position",
                 unit,
-                reach,
+                extent,
                 -MOST..=MOST,
                 "Where the plane is along its direction, in units of the model; what lies farther along is cut away, unless flipped.",
                 StyleField::Inheriting {

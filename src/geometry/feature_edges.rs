@@ -4,6 +4,7 @@
 
 pub(super) mod chains;
 pub(super) mod crease_angles;
+mod pieces;
 pub(super) mod straights;
 mod stretches;
 
@@ -111,7 +112,7 @@ impl FeatureEdges {
             let ends = edge.vertices.map(point);
             match edge.kind {
                 EdgeKind::Border | EdgeKind::Stitched if !own_seams.is_empty() => {
-                    stretches::cut(mesh, adjacency, number, own_seams, shortest, &mut own_stretches);
+                    stretches::split(mesh, adjacency, number, own_seams, shortest, &mut own_stretches);
                     for stretch in own_stretches.drain(..) {
                         all.add_stretch(&stretch, point, &materials);
                     }

@@ -21,6 +21,33 @@ pub(super) struct ChainLink {
     pub reversed: bool,
 }
 
+/// One of the two ends of a link.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Half {
+    point: u32,
+    kind: u8,
+    /// Twice the number of the link, plus the number of the end.
+    pub number: u32,
+}
+
+/// Visits the points at which links can be joined, with the halves of one kind that meet there.
+pub(super) fn for_each_meeting(links: &[Link], mut visit: impl FnMut(&[Half])) {
+    let mut halves: Vec<Half> = (0_u32..)
+        .step_by(2)
+        .zip(links)
+        .flat_map(|(first, link)| {
+            let half = |end: u32| {
+                Some(Half { point: link.ends[end as usize]?, kind: link.kind, number: first | end })
+            };
+            [half(0), half(1)].into_iter().flatten()
+        })
+        .collect();
+    halves.sort_unstable();
+    for here in halves.chunk_by(|a, b| (a.point, a.kind) == (b.point, b.kind)) {
+        visit(here);
+    }
+}
+
 /// All links in the order of their chains.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub(super) struct Chains {
@@ -30,34 +57,22 @@ pub(super) struct Chains {
 }
 
 impl Chains {
-    /// Joins links at points where exactly two of a kind meet and `goes_on` says of both (link, end there) that the
-    /// chain goes on.
-    pub(super) fn new(links: &[Link], goes_on: impl Fn((u32, usize), (u32, usize)) -> bool) -> Self {
-        // A half is the number of a link and of one of its ends.
-        let mut halves: Vec<(u32, u8, u32)> = (0_u32..)
-            .step_by(2)
-            .zip(links)
-            .flat_map(|(half, link)| {
-                let at = |end: u32| Some((link.ends[end as usize]?, link.kind, half | end));
-                [at(0), at(1)].into_iter().flatten()
-            })
-            .collect();
-        halves.sort_unstable();
+    /// Joins links at points where exactly two of a kind meet and `goes_on` says of both halves there that the chain goes on.
+    pub(super) fn new(links: &[Link], goes_on: impl Fn(u32, u32) -> bool) -> Self {
         let mut partner = vec![NO_HALF; 2 * links.len()];
-        for here in halves.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
-            if let &[(_, _, a), (_, _, b)] = here
+        for_each_meeting(links, |here| {
+            if let &[Half { number: a, .. }, Half { number: b, .. }] = here
                 && a >> 1 != b >> 1
-                && goes_on((a >> 1, (a & 1) as usize), (b >> 1, (b & 1) as usize))
+                && goes_on(a, b)
             {
                 partner[a as usize] = b;
                 partner[b as usize] = a;
             }
-        }
+        });
         Self::joined(&partner)
     }
 
-    /// Chains of links of which it is known how they go on: for each half (twice the number of a link, plus the number of one
-    /// of its ends) the other one there, or [`NO_HALF`].
+    /// Chains of links of which it is known how they go on: for each half the other one there, or [`NO_HALF`].
     pub(super) fn joined(partner: &[u32]) -> Self {
         let mut all = Self::default();
         let mut is_used = vec![false; partner.len() / 2];
@@ -112,7 +127,7 @@ mod tests {
     }
 
     /// (links, negative where reversed and counted from 1; closed) of each chain.
-    fn chains(links: &[Link], goes_on: impl Fn((u32, usize), (u32, usize)) -> bool) -> Vec<(Vec<i32>, bool)> {
+    fn chains(links: &[Link], goes_on: impl Fn(u32, u32) -> bool) -> Vec<(Vec<i32>, bool)> {
         let signed = |l: &ChainLink| if l.reversed { -(l.link as i32 + 1) } else { l.link as i32 + 1 };
         let chains = Chains::new(links, goes_on);
         chains.iter().map(|(own, closed)| (own.iter().map(signed).collect(), closed)).collect()
@@ -122,10 +137,10 @@ mod tests {
     fn links_are_joined_end_to_end() {
         let links = [link(5, 6, 0), link(8, 7, 0), link(6, 7, 0)];
         assert_eq!(chains(&links, |_, _| true), [(vec![1, 3, -2], false)]);
-        assert_eq!(chains(&links, |a, b| a.0 + b.0 != 3), [(vec![1, 3], false), (vec![2], false)]);
-        let mut cut = links;
-        cut[2].ends[0] = None;
-        assert_eq!(chains(&cut, |_, _| true), [(vec![1], false), (vec![2, -3], false)]);
+        assert_eq!(chains(&links, |a, b| (a >> 1) + (b >> 1) != 3), [(vec![1, 3], false), (vec![2], false)]);
+        let mut loose = links;
+        loose[2].ends[0] = None;
+        assert_eq!(chains(&loose, |_, _| true), [(vec![1], false), (vec![2, -3], false)]);
     }
 
     #[test]

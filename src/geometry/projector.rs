@@ -122,10 +122,10 @@ mod tests {
         for lens in LENSES {
             let p = projector(lens);
             let a = DVec3::new(0.1, 0.2, -3.0);
-            let cut = p.clip([a, DVec3::new(90.0, 10.0, -3.0)]).unwrap();
-            assert!(cut[0] == a && (p.pixel(cut[1]).x - 200.0).abs() < 1e-9);
-            let cut = p.clip([DVec3::new(0.0, 0.0, 5.0), DVec3::new(0.0, 0.0, -3.0)]).unwrap();
-            assert!((cut[0].z + 0.1).abs() < 1e-12);
+            let clipped = p.clip([a, DVec3::new(90.0, 10.0, -3.0)]).unwrap();
+            assert!(clipped[0] == a && (p.pixel(clipped[1]).x - 200.0).abs() < 1e-9);
+            let clipped = p.clip([DVec3::new(0.0, 0.0, 5.0), DVec3::new(0.0, 0.0, -3.0)]).unwrap();
+            assert!((clipped[0].z + 0.1).abs() < 1e-12);
             assert_eq!(p.clip([DVec3::new(0.0, 0.0, 5.0), DVec3::new(1.0, 0.0, 6.0)]), None);
         }
     }

@@ -9,6 +9,7 @@ use wgpu::naga::{
     StorageAccess, StorageFormat, TypeInner,
 };
 
+use super::buffer::Element;
 use super::inputs::{Inputs, Resource};
 use super::placeholders::Placeholders;
 use super::{Gpu, ShaderError};
@@ -24,6 +25,8 @@ pub struct Binding {
     ty: wgpu::BindingType,
     /// Of the type of the variable; of an array that grows, of one element.
     bytes: u64,
+    /// The struct that it is, or whose array it is.
+    struct_name: Option<String>,
 }
 
 /// The bindings of group 1 of a shader.
@@ -65,7 +68,12 @@ impl Bindings {
             let inner = &module.types[variable.ty].inner;
             let ty = type_of(variable, inner).ok_or_else(|| name.clone())?;
             let bytes = u64::from(inner.size(module.to_ctx()));
-            bindings.all.push(Binding { name, number: place.binding, ty, bytes });
+            let element = match *inner {
+                TypeInner::Array { base, .. } => base,
+                _ => variable.ty,
+            };
+            let struct_name = module.types[element].name.clone();
+            bindings.all.push(Binding { name, number: place.binding, ty, bytes, struct_name });
             handles.push(handle);
         }
         for (number, entry_point) in module.entry_points.iter().enumerate() {
@@ -143,7 +151,8 @@ impl Bindings {
             .filter_map(|binding| {
                 let resource = match inputs.find(&binding.name)? {
                     Some(Resource::Target(target)) => wgpu::BindingResource::TextureView(target.view()),
-                    Some(Resource::Buffer(buffer) | Resource::Array(buffer, _)) => buffer.as_entire_binding(),
+                    Some(Resource::Buffer(buffer)) => buffer.as_entire_binding(),
+                    Some(Resource::Array(array)) => array.buffer().as_entire_binding(),
                     Some(Resource::Layers(view)) => wgpu::BindingResource::TextureView(view),
                     Some(Resource::Sampler(sampler)) => wgpu::BindingResource::Sampler(sampler),
                     None => placeholders.find(binding.ty)?,
@@ -237,23 +246,33 @@ fn mismatch(binding: &Binding, resource: Resource<'_>) -> Option<String> {
                 buffer.size() > binding.bytes && buffer.usage().contains(wgpu::BufferUsages::STORAGE);
             (format!("{} bytes", buffer.size()), buffer.size() == binding.bytes || is_longer)
         }
-        // Another struct's array is told by the size of its elements.
         (
             wgpu::BindingType::Buffer { ty: wgpu::BufferBindingType::Storage { .. }, .. },
-            Resource::Array(_, element),
-        ) => {
-            let bytes = element.unwrap_or(binding.bytes);
-            (format!("elements of {bytes} bytes"), bytes == binding.bytes)
-        }
+            Resource::Array(array),
+        ) => return array.element().and_then(|element| wrong_element(binding, element)),
         (wgpu::BindingType::Buffer { .. }, Resource::Buffer(_))
         | (wgpu::BindingType::Sampler(_), Resource::Sampler(_)) => return None,
         (_, Resource::Target(target)) => (format!("{:?}", target.format()), false),
         (_, Resource::Buffer(_)) => ("a buffer".to_owned(), false),
-        (_, Resource::Array(..)) => ("an array".to_owned(), false),
+        (_, Resource::Array(_)) => ("an array".to_owned(), false),
         (_, Resource::Layers(_)) => ("an array of images".to_owned(), false),
         (_, Resource::Sampler(_)) => ("a sampler".to_owned(), false),
     };
     (!fits).then(|| format!("it is given {kind}, and has the type {ty:?}"))
+}
+
+/// What is wrong with what an array holds.
+fn wrong_element(binding: &Binding, element: Element) -> Option<String> {
+    let Element { name, bytes } = element;
+    let expected = binding.struct_name.as_deref();
+    let fits = bytes == binding.bytes && expected.is_none_or(|expected| expected == name);
+    (!fits).then(|| {
+        let expected = expected.unwrap_or("plain numbers");
+        format!(
+            "it is given an array of {name}, {bytes} bytes each, and is one of {expected}, {} bytes each",
+            binding.bytes
+        )
+    })
 }
 
 #[cfg(test)]
@@ -267,7 +286,9 @@ mod tests {
         var other_tex: texture_2d<f32>;
         var<storage, read_write> sums: array<u32>;
         var<uniform> place: vec4<f32>;
-        var<storage, read> turns: array<mat4x4<f32>>;
+        struct Vec4 { by: vec4<f32> }
+        var<storage, read> turns: array<Vec4>;
+        var<storage, read> numbers: array<u32>;
         @compute @workgroup_size(1)
         fn cs_main() {
             sums[0] = textureLoad(first_tex, vec2(0)).x;
@@ -278,7 +299,9 @@ mod tests {
         @compute @workgroup_size(1)
         fn cs_place() { sums[0] = u32(place.x); }
         @compute @workgroup_size(1)
-        fn cs_turns() { sums[0] = u32(turns[0][0].x); }
+        fn cs_turns() { sums[0] = u32(turns[0].by.x); }
+        @compute @workgroup_size(1)
+        fn cs_numbers() { sums[0] = numbers[0]; }
     ";
 
     #[test]
@@ -316,13 +339,24 @@ mod tests {
         // Another struct's buffer is told by its size.
         let other = bind("cs_place", inputs! { sums: &sums, place: &camera }).unwrap_err();
         assert!(other.contains("place: it is given 64 bytes"), "{other}");
-        // So is another array's.
-        let [mut turns, mut places] = ["turns", "places"].map(|label| ArrayBuffer::new(&gpu, label));
-        turns.write(&gpu, &vec![glam::Mat4::IDENTITY; 2]);
-        places.write(&gpu, &vec![glam::Vec4::ONE; 8]);
+        // Another struct's array is told by its name, even if its elements are as large.
+        let mut turns = ArrayBuffer::new(&gpu, "turns");
+        assert_eq!(bind("cs_turns", inputs! { sums: &sums, turns: &turns }), Ok(()), "nothing is in it yet");
+        turns.write(&gpu, &vec![glam::Vec4::ONE; 2]);
         assert_eq!(bind("cs_turns", inputs! { sums: &sums, turns: &turns }), Ok(()));
-        let other = bind("cs_turns", inputs! { sums: &sums, turns: &places }).unwrap_err();
-        assert!(other.contains("turns: it is given elements of 16 bytes"), "{other}");
+        turns.write(&gpu, &vec![glam::UVec4::ONE; 2]);
+        let other = bind("cs_turns", inputs! { sums: &sums, turns: &turns }).unwrap_err();
+        let expected =
+            "turns: it is given an array of UVec4, 16 bytes each, and is one of Vec4, 16 bytes each";
+        assert!(other.contains(expected), "{other}");
+        // Plain numbers are told by their size.
+        turns.write(&gpu, &vec![1_u32; 2]);
+        assert_eq!(bind("cs_numbers", inputs! { sums: &sums, numbers: &turns }), Ok(()));
+        turns.write(&gpu, &vec![glam::Vec2::ONE; 2]);
+        let other = bind("cs_numbers", inputs! { sums: &sums, numbers: &turns }).unwrap_err();
+        let expected =
+            "numbers: it is given an array of Vec2, 8 bytes each, and is one of plain numbers, 4 bytes each";
+        assert!(other.contains(expected), "{other}");
         let wrong = [
             (inputs! { first_tex: &numbers, sums: &sums }, "other_tex: nothing is given for it"),
             (inputs! { third_tex: &numbers }, "third_tex: the shader has no such variable"),

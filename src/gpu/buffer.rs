@@ -124,17 +124,36 @@ impl DynamicBuffer {
 /// Bytes of an array without elements: shaders ask for room for one, and none is larger.
 pub const EMPTY_ARRAY: u64 = 1024;
 
+/// What an array holds, as far as it can be compared with what a shader expects.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Element {
+    /// The type, by the name that it has in WGSL if it is a struct.
+    pub name: &'static str,
+    /// Bytes from one to the next; of a struct that ends with an array, with the first one.
+    pub bytes: u64,
+}
+
+impl Element {
+    /// Of an array, or of a struct that ends with one. `GpuToonStyle` and `ScaleBarUniform` are `ToonStyle` and `ScaleBar` in WGSL.
+    fn of<T: ShaderType>() -> Self {
+        let path = std::any::type_name::<T>().trim_end_matches(['>', ']']);
+        let name = path.rsplit([':', '<', '[']).next().unwrap_or(path);
+        let name = name.strip_prefix("Gpu").unwrap_or(name);
+        Self { name: name.strip_suffix("Uniform").unwrap_or(name), bytes: T::min_size().get() }
+    }
+}
+
 /// A read-only storage buffer that holds an array and grows with it.
 pub struct ArrayBuffer {
     buffer: wgpu::Buffer,
-    element_bytes: Option<u64>,
+    element: Option<Element>,
     label: &'static str,
 }
 
 impl ArrayBuffer {
     /// An empty array.
     pub fn new(gpu: &Gpu, label: &'static str) -> Self {
-        Self { buffer: Self::create(gpu, label, EMPTY_ARRAY), element_bytes: None, label }
+        Self { buffer: Self::create(gpu, label, EMPTY_ARRAY), element: None, label }
     }
 
     fn create(gpu: &Gpu, label: &str, size: u64) -> wgpu::Buffer {
@@ -158,16 +177,16 @@ impl ArrayBuffer {
             self.buffer = Self::create(gpu, self.label, needed.next_power_of_two());
         }
         gpu.queue.write_buffer(&self.buffer, 0, bytes);
-        self.element_bytes = Some(T::min_size().get());
+        self.element = Some(Element::of::<T>());
     }
 
-    /// Bytes of an element of what was written, of a struct with the first one; `None`: nothing was.
-    pub fn element_bytes(&self) -> Option<u64> {
-        self.element_bytes
+    /// What was written; `None`: nothing yet.
+    pub(super) fn element(&self) -> Option<Element> {
+        self.element
     }
 
     /// The buffer itself.
-    pub fn buffer(&self) -> &wgpu::Buffer {
+    pub(super) fn buffer(&self) -> &wgpu::Buffer {
         &self.buffer
     }
 }

@@ -9,8 +9,8 @@ pub enum Resource<'a> {
     Target(&'a Target),
     /// A uniform or storage buffer.
     Buffer(&'a wgpu::Buffer),
-    /// A storage buffer that holds an array, and bytes of one element, if it has been written.
-    Array(&'a wgpu::Buffer, Option<u64>),
+    /// A storage buffer that holds an array.
+    Array(&'a ArrayBuffer),
     /// Images of one size above each other, read through a sampler.
     Layers(&'a wgpu::TextureView),
     /// How they are read.
@@ -37,7 +37,7 @@ impl<'a, T> From<&'a UniformBuffer<T>> for Resource<'a> {
 
 impl<'a> From<&'a ArrayBuffer> for Resource<'a> {
     fn from(array: &'a ArrayBuffer) -> Self {
-        Self::Array(array.buffer(), array.element_bytes())
+        Self::Array(array)
     }
 }
 

@@ -18,20 +18,33 @@ var nearer_lines_tex: texture_storage_2d<r32uint, read>;
 var<storage, read_write> keeping: Counting;
 var<storage, read_write> keeping_steps: array<u32>;
 
-@compute @workgroup_size(GROUP)
-fn cs_place(@builtin(global_invocation_id) id: vec3<u32>) {
-    let step = step_at(id.x);
+// A step with the point of its segment's line.
+struct PlacedStep {
+    segment_number: u32,
+    segment: Segment,
+    place: Place,
+    spine: Spine,
+}
+
+fn placed_step(number: u32) -> PlacedStep {
+    let step = step_at(number);
     let segment = segment_at(step.x);
     let place = place_of(segment.ends, step.y);
-    let spine = spine_at(segment, place.px);
+    return PlacedStep(step.x, segment, place, spine_at(segment, place.px));
+}
+
+@compute @workgroup_size(GROUP)
+fn cs_place(@builtin(global_invocation_id) id: vec3<u32>) {
+    let step = placed_step(id.x);
+    let place = step.place;
     var around = 0u;
     for (var i = 0u; i < 5u; i++) {
-        let away = vec2<u32>(texel_beside(spine, PLACES[i]) - vec2<i32>(place.px) + 4);
+        let away = vec2<u32>(texel_beside(step.spine, PLACES[i]) - vec2<i32>(place.px) + 4);
         around |= ((away.x & 7u) | ((away.y & 7u) << 3u)) << (6u * i);
     }
-    let is_on = step.x != NO_STEP && place.is_on;
+    let is_on = step.segment_number != NO_STEP && place.is_on;
     let px = select(NO_STEP, u32(place.px.x) | (u32(place.px.y) << 16u), is_on);
-    textureStore(placed_tex, texel_of_record(id.x), vec4(px, around, segment.ids.zw));
+    textureStore(placed_tex, texel_of_record(id.x), vec4(px, around, step.segment.ids.zw));
 }
 
 fn keep(number: u32) {
@@ -62,14 +75,11 @@ fn cs_cull_layer(@builtin(global_invocation_id) id: vec3<u32>) {
 // Otherwise, if no surface lies before it.
 @compute @workgroup_size(GROUP)
 fn cs_cull(@builtin(global_invocation_id) id: vec3<u32>) {
-    let step = step_at(id.x);
-    let segment = segment_at(step.x);
-    let place = place_of(segment.ends, step.y);
-    let spine = spine_at(segment, place.px);
-    let tested = tested_spine(segment, step.x, spine);
-    let left = beside(tested, BESIDE, segment.ids.zw);
-    let right = beside(tested, -BESIDE, segment.ids.zw);
-    if step.x != NO_STEP && place.is_on && min(left.lead, right.lead) <= SLACK {
+    let step = placed_step(id.x);
+    let tested = tested_spine(step.segment, step.segment_number, step.spine);
+    let left = beside(tested, BESIDE, step.segment.ids.zw);
+    let right = beside(tested, -BESIDE, step.segment.ids.zw);
+    if step.segment_number != NO_STEP && step.place.is_on && min(left.lead, right.lead) <= SLACK {
         keep(id.x);
     }
 }

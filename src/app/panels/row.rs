@@ -210,8 +210,8 @@ struct NumberSlider<'a> {
 impl NumberSlider<'_> {
     fn ui(self, ui: &mut Ui, value: &mut f64, label: egui::Id, help: &str) {
         let gap = ui.spacing().item_spacing.x;
-        let reach = self.soft.end() - self.soft.start();
-        let (speed, decimals) = (reach / 200.0, decimals_of(reach));
+        let span = self.soft.end() - self.soft.start();
+        let (speed, decimals) = (span / 200.0, decimals_of(span));
         let suffix = if self.unit.is_empty() { String::new() } else { format!(" {}", self.unit) };
         let width = number_width(ui, label, format!("{}{suffix}", short(*value, decimals)));
         ui.spacing_mut().slider_width = (ui.available_width() - width - gap).max(40.0);
@@ -326,9 +326,9 @@ fn slot_ui(ui: &mut Ui, param: &mut Param<'_>, label: egui::Id, help: &str) -> b
     false
 }
 
-/// How many decimals a number has whose slider reaches so far.
-fn decimals_of(reach: f64) -> usize {
-    let digits = reach.log10().floor();
+/// How many decimals a number has whose slider spans so much.
+fn decimals_of(span: f64) -> usize {
+    let digits = span.log10().floor();
     let decimals = if digits < 0.0 { (2.0 - digits).clamp(3.0, 9.0) } else { (4.0 - digits).clamp(0.0, 3.0) };
     decimals as usize
 }

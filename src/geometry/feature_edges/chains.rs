@@ -2,7 +2,10 @@
 
 use std::sync::Arc;
 
+use glam::Vec3;
+
 use super::crease_angles::CreaseAngles;
+use super::pieces::Piece;
 use super::{FeatureEdges, Traits};
 use crate::geometry::Mesh;
 use crate::geometry::line_chains::{Chains, Link};
@@ -39,8 +42,20 @@ impl FeatureEdges {
         self.kept_chains.get(angles, || FeatureChains::new(self, mesh, angles))
     }
 
-    /// Only edges of one kind follow each other; `None` for those that are lines only as silhouettes.
-    pub(super) fn kind(&self, edge: usize, angles: CreaseAngles) -> Option<u8> {
+    /// All edges that are lines from all sides, for these angles.
+    pub(super) fn pieces(&self, mesh: &Mesh, angles: CreaseAngles) -> Vec<Piece> {
+        (0..self.len())
+            .filter_map(|edge| {
+                let kind = self.kind(edge, angles)?;
+                let vertices = *self.ends.get(edge)?;
+                let [a, b] = vertices.map(|v| mesh.positions.get(v as usize).copied());
+                Some(Piece { edge: edge as u32, kind, vertices, ends: [a?, b?] })
+            })
+            .collect()
+    }
+
+    /// `None` for edges that are lines only as silhouettes.
+    fn kind(&self, edge: usize, angles: CreaseAngles) -> Option<u8> {
         let (&traits, &dihedral) = (self.traits.get(edge)?, self.dihedral.get(edge)?);
         let is_hard = !traits.any(Traits::SOFT);
         let kinds = [
@@ -56,30 +71,21 @@ impl FeatureEdges {
 
 impl FeatureChains {
     fn new(all: &FeatureEdges, mesh: &Mesh, angles: CreaseAngles) -> Self {
-        let mut edges: Vec<u32> = Vec::new();
-        let mut links = Vec::new();
-        for (edge, &ends) in all.ends.iter().enumerate() {
-            if let Some(kind) = all.kind(edge, angles) {
-                edges.push(edge as u32);
-                links.push(Link { ends: ends.map(Some), kind });
-            }
-        }
-        let span = |link: u32| {
-            let ends = edges.get(link as usize).and_then(|&edge| all.ends.get(edge as usize));
-            let [a, b] = ends.copied().unwrap_or_default().map(|v| mesh.positions.get(v as usize).copied());
-            b.unwrap_or_default() - a.unwrap_or_default()
-        };
-        // From the common point along a link.
-        let leave = |(link, end): (u32, usize)| {
-            let span = span(link).normalize_or_zero();
-            if end == 0 { span } else { -span }
-        };
+        let pieces = all.pieces(mesh, angles);
+        let edges: Vec<u32> = pieces.iter().map(|piece| piece.edge).collect();
+        let links: Vec<Link> = pieces.iter().map(Piece::link).collect();
+        let leave =
+            |half: u32| pieces.get(half as usize >> 1).map_or(Vec3::ZERO, |piece| piece.leave(half & 1));
         let chains = Chains::new(&links, |a, b| leave(a).dot(leave(b)) <= -MOST_TURN);
         let mut by_edge = Vec::with_capacity(edges.len());
         let mut anchors = Vec::with_capacity(chains.starts.len());
         let mut link = 0;
         for (chain, (own, is_closed)) in (0..).zip(chains.iter()) {
-            let lengths: Vec<f32> = own.iter().map(|l| span(l.link).length()).collect();
+            let lengths: Vec<f32> = own
+                .iter()
+                .filter_map(|l| pieces.get(l.link as usize))
+                .map(|piece| piece.span().length())
+                .collect();
             // A loop is held where it begins.
             anchors.push(if is_closed { (0, 0.0) } else { middle(&lengths) });
             for l in own {

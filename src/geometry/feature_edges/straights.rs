@@ -8,8 +8,9 @@ use glam::Vec3;
 
 use super::FeatureEdges;
 use super::crease_angles::CreaseAngles;
+use super::pieces::Piece;
 use crate::geometry::Mesh;
-use crate::geometry::line_chains::{ChainLink, Chains, NO_HALF};
+use crate::geometry::line_chains::{ChainLink, Chains, Half, Link, NO_HALF, for_each_meeting};
 use crate::geometry::strokes::mix;
 
 /// Cosine of the angle by which a straight line may turn at a point, 1°: finely tessellated arcs turn by more.
@@ -51,33 +52,9 @@ impl FeatureEdges {
     }
 }
 
-/// An edge with its ends in space.
-#[derive(Clone, Copy)]
-struct Piece {
-    edge: u32,
-    kind: u8,
-    vertices: [u32; 2],
-    ends: [Vec3; 2],
-}
-
-impl Piece {
-    /// From one of its ends along it.
-    fn leave(&self, end: u32) -> Vec3 {
-        let span = (self.ends[1] - self.ends[0]).normalize_or_zero();
-        if end == 0 { span } else { -span }
-    }
-}
-
 impl Straights {
     fn new(all: &FeatureEdges, mesh: &Mesh, angles: CreaseAngles) -> Self {
-        let pieces: Vec<Piece> = (0..all.len())
-            .filter_map(|edge| {
-                let kind = all.kind(edge, angles)?;
-                let vertices = *all.ends.get(edge)?;
-                let [a, b] = vertices.map(|v| mesh.positions.get(v as usize).copied());
-                Some(Piece { edge: edge as u32, kind, vertices, ends: [a?, b?] })
-            })
-            .collect();
+        let pieces = all.pieces(mesh, angles);
         let Joints { straight, smooth } = Joints::new(&pieces);
         let chains = Chains::joined(&straight);
         let lines: Vec<Option<[Vec3; 2]>> =
@@ -137,24 +114,19 @@ struct Joints {
 
 impl Joints {
     fn new(pieces: &[Piece]) -> Self {
-        let mut halves: Vec<(u32, u8, u32)> = (0_u32..)
-            .step_by(2)
-            .zip(pieces)
-            .flat_map(|(half, piece)| [0, 1].map(|end| (piece.vertices[end], piece.kind, half | end as u32)))
-            .collect();
-        halves.sort_unstable();
-        let none = vec![NO_HALF; halves.len()];
+        let links: Vec<Link> = pieces.iter().map(Piece::link).collect();
+        let none = vec![NO_HALF; 2 * links.len()];
         let mut all = Self { straight: none.clone(), smooth: none };
         let leave =
             |half: u32| pieces.get(half as usize >> 1).map_or(Vec3::ZERO, |piece| piece.leave(half & 1));
         let mut pairs: Vec<(f32, u32, u32)> = Vec::new();
-        for here in halves.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
+        for_each_meeting(&links, |here| {
             if !(2..=MOST_HERE).contains(&here.len()) {
-                continue;
+                return;
             }
             pairs.clear();
-            for (i, &(_, _, a)) in here.iter().enumerate() {
-                for &(_, _, b) in &here[i + 1..] {
+            for (i, &Half { number: a, .. }) in here.iter().enumerate() {
+                for &Half { number: b, .. } in &here[i + 1..] {
                     let cosine = -leave(a).dot(leave(b));
                     if cosine >= SMOOTH && a >> 1 != b >> 1 {
                         pairs.push((cosine, a, b));
@@ -172,7 +144,7 @@ impl Joints {
                 joints[a] = b as u32;
                 joints[b] = a as u32;
             }
-        }
+        });
         all
     }
 }
@@ -212,15 +184,15 @@ fn curves(chains: &Chains, lines: &[Option<[Vec3; 2]>], next: impl Fn(u32) -> Op
     let mut is_curve: Vec<bool> = lines.iter().map(Option::is_none).collect();
     let mut is_seen = vec![false; neighbors.len()];
     for start in 0..neighbors.len() as u32 {
-        let (mut run, mut open) = (Vec::new(), vec![start]);
+        let (mut row, mut open) = (Vec::new(), vec![start]);
         while let Some(chain) = open.pop() {
             if !std::mem::replace(&mut is_seen[chain as usize], true) {
-                run.push(chain);
+                row.push(chain);
                 open.extend(neighbors[chain as usize].iter().flatten());
             }
         }
-        if run.len() as u32 >= CURVE {
-            for chain in run {
+        if row.len() as u32 >= CURVE {
+            for chain in row {
                 is_curve[chain as usize] = true;
             }
         }

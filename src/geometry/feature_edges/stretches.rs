@@ -38,7 +38,7 @@ pub(super) fn seams_by_edge(adjacency: &Adjacency) -> Vec<(u32, u32)> {
 
 /// The stretches of edge `number`, whose seams are given, without those shorter than `shortest` (units of the mesh). A
 /// stretch is listed for the first edge that it belongs to.
-pub(super) fn cut(
+pub(super) fn split(
     mesh: &Mesh,
     adjacency: &Adjacency,
     number: u32,
@@ -51,7 +51,7 @@ pub(super) fn cut(
     let [a, b] = own.vertices.map(position);
     let along = |v: u32| ((position(v) - a).dot(b - a) / a.distance_squared(b)).clamp(0.0, 1.0);
     // Where stretches may begin and end, and the vertex that is there.
-    let mut cuts: Vec<(f64, u32)> = vec![(1.0, own.vertices[1])];
+    let mut splits: Vec<(f64, u32)> = vec![(1.0, own.vertices[1])];
     let mut others = Vec::with_capacity(seams.len());
     for seam in seams.iter().filter_map(|&(_, seam)| adjacency.seams.get(seam as usize)) {
         let which = usize::from(seam.edges[0] == number);
@@ -65,12 +65,12 @@ pub(super) fn cut(
             is_soft: seam.is_soft,
             span: [from.min(to), from.max(to)],
         });
-        cuts.extend(vertices.map(|v| (along(v), v)).into_iter().filter(|&(t, _)| t > 0.0 && t < 1.0));
+        splits.extend(vertices.map(|v| (along(v), v)).into_iter().filter(|&(t, _)| t > 0.0 && t < 1.0));
     }
-    cuts.sort_by(|a, b| a.0.total_cmp(&b.0));
+    splits.sort_by(|a, b| a.0.total_cmp(&b.0));
     let shortest = shortest / a.distance(b);
     let (mut from, mut start) = (0.0, own.vertices[0]);
-    for (to, end) in cuts {
+    for (to, end) in splits {
         if to - from <= shortest {
             continue;
         }

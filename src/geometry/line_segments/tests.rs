@@ -161,8 +161,8 @@ fn unwanted_creases_are_found_as_suppressed() {
     };
     let segments = cube.segments(DMat4::IDENTITY, &view, &wanted);
     assert_eq!((segments.len(), count(&segments, EdgeClass::Silhouette)), (9, 6));
-    let hidden: Vec<_> = segments.iter().filter(|s| s.is_suppressed()).collect();
-    assert!(hidden.len() == 3 && hidden.iter().all(|s| s.edge_class() == Some(EdgeClass::Ridge)));
+    let suppressed: Vec<_> = segments.iter().filter(|s| s.is_suppressed()).collect();
+    assert!(suppressed.len() == 3 && suppressed.iter().all(|s| s.edge_class() == Some(EdgeClass::Ridge)));
     // Too blunt for a ridge, not for a boundary of surfaces.
     let wanted = LineSelection { ridge_angle: 1.6, suppress_angle: 1.0, ..everything() };
     let segments = cube.segments(DMat4::IDENTITY, &view, &wanted);

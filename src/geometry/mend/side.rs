@@ -36,9 +36,9 @@ pub(super) struct Nearest {
 
 impl<'a> Side<'a> {
     /// The side that consists of consecutive edges; `reversed` when the seam is followed against them.
-    pub(super) fn new(borders: &'a Borders, run: &[u32], reversed: bool) -> Self {
+    pub(super) fn new(borders: &'a Borders, row: &[u32], reversed: bool) -> Self {
         let shares = if reversed { [1.0, 0.0] } else { [0.0, 1.0] };
-        let mut steps: Vec<Step> = run.iter().map(|&border| Step { border, shares }).collect();
+        let mut steps: Vec<Step> = row.iter().map(|&border| Step { border, shares }).collect();
         if reversed {
             steps.reverse();
         }

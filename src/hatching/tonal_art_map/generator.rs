@@ -243,7 +243,7 @@ impl Work<'_> {
 
 /// A stroke that adds about `gain` to the mean ink: the beginning of another one, or a thinner one.
 fn shortened(sheet: &Sheet, stroke: &Stroke, gain: f32) -> Stroke {
-    let cut = |share: f32| Stroke {
+    let with_share = |share: f32| Stroke {
         length: stroke.length * share,
         width: if stroke.length > 0.0 { stroke.width } else { stroke.width * share },
         swing: stroke.swing.map(|swing| swing * share),
@@ -252,9 +252,9 @@ fn shortened(sheet: &Sheet, stroke: &Stroke, gain: f32) -> Stroke {
     let [mut least, mut most] = [0.1, 1.0];
     for _ in 0..8 {
         let middle = 0.5 * (least + most);
-        if sheet.gain(&cut(middle)) > gain { most = middle } else { least = middle }
+        if sheet.gain(&with_share(middle)) > gain { most = middle } else { least = middle }
     }
-    cut(least)
+    with_share(least)
 }
 
 #[cfg(test)]

@@ -110,8 +110,9 @@ fn tiles_have_no_seams() {
     }
     // The same is not true of a tile that is cut off in the middle.
     let half = level.side / 2;
-    let cut: Vec<u8> = (0..half * half).map(|i| level.tones[0][i / half * level.side + i % half]).collect();
-    let [columns, _] = steps(half, &cut);
+    let quarter: Vec<u8> =
+        (0..half * half).map(|i| level.tones[0][i / half * level.side + i % half]).collect();
+    let [columns, _] = steps(half, &quarter);
     let (seam, others) = columns.split_last().unwrap();
     assert!(*seam > 2.0 * others.iter().sum::<f32>() / others.len() as f32);
 }

@@ -269,6 +269,7 @@ impl LayerExtraction {
                     ("THREE_OR_MORE", layers >= 3),
                     ("FIVE_OR_MORE", layers >= 5),
                     ("SEVEN_OR_MORE", layers >= 7),
+                    ("ONCE_EACH", true),
                 ],
             },
             inputs: &inputs,

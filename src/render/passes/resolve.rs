@@ -69,7 +69,7 @@ impl Resolve {
             };
             let inputs = inputs! {
                 color_tex: &color.value,
-                scale_bar: bar.is_some().then_some(scale_bar.buffer()),
+                scale_bar: bar.is_some().then_some(&*scale_bar),
             };
             rec.fullscreen("resolve", program, &inputs, &[&image], None)?;
             Ok(image)

@@ -186,11 +186,11 @@ mod tests {
     const SIZE: [u32; 2] = [640; 2];
 
     /// With fragments that take so many times that much.
-    fn report(layers: u32, has_ended: bool, runs: u32) -> LayerReport {
+    fn report(layers: u32, has_ended: bool, chunks: u32) -> LayerReport {
         let mut pixels = vec![0; 64];
         pixels[..layers as usize].fill(100);
         let ended = if has_ended { LayersEnd::TooFewPixels } else { LayersEnd::MostLayers };
-        let (passed, capacity) = (vec![0; 64], CHUNK * u64::from(runs));
+        let (passed, capacity) = (vec![0; 64], CHUNK * u64::from(chunks));
         LayerReport {
             layers,
             ended,
