@@ -126,6 +126,7 @@ impl Outliner {
         });
     }
 
+    // Long, as it lays out one row from both ends: each thing is placed beside the one before it.
     fn row_ui(
         &mut self,
         ui: &mut Ui,

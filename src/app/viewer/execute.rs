@@ -83,6 +83,7 @@ impl Viewer {
         }
     }
 
+    // Long, as it is a table: one arm per command.
     /// Carries a command out.
     pub(super) fn execute(&mut self, context: &egui::Context, command: Command) {
         match command {

@@ -168,6 +168,7 @@ impl SketchState {
         self.layer.take_reports()
     }
 
+    // Long, as its key names everything that the placed sketch is made of.
     /// Places the sketch among what is opaque, of which `color` is the color without lines; returns that with the sketch, and with
     /// its ink if `is_last`: nothing is placed among it any more.
     ///
