@@ -45,7 +45,7 @@ bench:
 # Heavy measurements, in release.
 quality:
 	@sh .ci/packages test
-	cargo test --release --test quality --test many_objects --test line_table --test line_continuity --test line_width --test shadows \
+	cargo test --release --no-fail-fast --test quality --test many_objects --test line_table --test line_continuity --test line_width --test shadows \
 		--test halftone --test layers --test blueprint --test sketch_coherence --test hatching --test stroke_coherence --test seams -- --ignored --nocapture --test-threads 1
 
 # The sample models, from their generator.

@@ -78,6 +78,7 @@ impl ClassStyle {
         }
     }
 
+    // Long, as it is a list: the place and the entry of each parameter.
     /// Declares the parameters of `class`, whose group has the key `edges.GROUP` and the look `group`.
     pub(super) fn params<'a>(
         &'a mut self,
