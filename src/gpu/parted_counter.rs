@@ -12,7 +12,7 @@ const RUN: u64 = 1024;
 pub const COUNTER_WORDS: usize = 64;
 
 /// So many entries there has to be room for: as runs are dealt out in turn, each part takes as much as the fullest one.
-pub fn room(words: &[u32; COUNTER_WORDS]) -> u64 {
+pub fn capacity(words: &[u32; COUNTER_WORDS]) -> u64 {
     let fullest = words.iter().max().map_or(0, |&most| u64::from(most));
     fullest.next_multiple_of(RUN) * PARTS
 }

@@ -10,10 +10,10 @@ pub mod files;
 pub mod generator;
 mod placement;
 pub mod priorities;
-mod room;
 pub mod sets;
 pub mod stroke;
 pub mod stroke_image;
+mod vacancy;
 
 /// Stroke textures over tones and levels.
 #[derive(Debug, Clone, PartialEq)]

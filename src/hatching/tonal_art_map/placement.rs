@@ -1,9 +1,9 @@
-//! Where strokes go: of many random ones the one with the most room around it.
+//! Where strokes go: of many random ones the one that lies where most is vacant.
 
 use rayon::prelude::*;
 
-use super::room::Room;
 use super::stroke::{Brush, Stroke, StrokeShape, random};
+use super::vacancy::VacancyMap;
 
 /// What a stroke did to a texel.
 #[derive(Debug, Clone, Copy)]
@@ -23,7 +23,7 @@ pub(super) struct Sheet {
     pub(super) paper: Vec<f32>,
     /// The same strokes in the same width at half the side, a quarter and so on: there they take up the space around them
     /// (the image pyramid of Praun et al. 2001).
-    rooms: Vec<Room>,
+    vacancies: Vec<VacancyMap>,
     /// All texels of all strokes, in their order.
     pub(super) touches: Vec<Touch>,
     inked: f64,
@@ -43,7 +43,10 @@ impl Sheet {
             side,
             brush: Brush::new(shape, side),
             paper: vec![1.0; side * side],
-            rooms: halves.take_while(|side| *side >= SMALLEST).map(|side| Room::new(shape, side)).collect(),
+            vacancies: halves
+                .take_while(|side| *side >= SMALLEST)
+                .map(|side| VacancyMap::new(shape, side))
+                .collect(),
             touches: Vec::new(),
             inked: 0.0,
         }
@@ -74,8 +77,8 @@ impl Sheet {
         for touch in self.touches.iter_mut().skip(first) {
             touch.amount = amount;
         }
-        for room in &mut self.rooms {
-            room.take(stroke);
+        for vacancy in &mut self.vacancies {
+            vacancy.occupy(stroke);
         }
     }
 }
@@ -96,17 +99,17 @@ pub(super) fn best(sheets: &[Sheet], shape: &StrokeShape, seed: u64, number: u64
     lot(best.map_or(0, |best| best.number))
 }
 
-/// What share of a stroke would be on paper, and how much room there is for it at coarser resolutions; nothing if that is no
+/// What share of a stroke would be on paper, and how vacant its place is at coarser resolutions; nothing if that is no
 /// more than `least`.
 fn goodness(sheets: &[Sheet], stroke: &Stroke, least: f32) -> Option<f32> {
     // None adds more than its weight, and coarse ones cost little: most strokes are out of the question early.
-    let weights = |sheet: &Sheet| (0..=sheet.rooms.len() as i32).map(|i| FARTHER.powi(i)).sum::<f32>();
+    let weights = |sheet: &Sheet| (0..=sheet.vacancies.len() as i32).map(|i| FARTHER.powi(i)).sum::<f32>();
     let mut open: f32 = sheets.iter().map(weights).sum();
     let mut sum = 0.0;
     for sheet in sheets.iter().rev() {
-        for (i, room) in sheet.rooms.iter().enumerate().rev() {
+        for (i, vacancy) in sheet.vacancies.iter().enumerate().rev() {
             let weight = FARTHER.powi(i as i32 + 1);
-            sum += weight * room.around(stroke);
+            sum += weight * vacancy.around(stroke);
             open -= weight;
             if sum + open <= least {
                 return None;

@@ -110,7 +110,7 @@ impl GpuCounted {
             masked: self.masked,
             hidden: self.hidden,
             fragments: self.fragments.iter().map(|&fragments| u64::from(fragments)).sum(),
-            capacity: parted_counter::room(&self.fragments),
+            capacity: parted_counter::capacity(&self.fragments),
             pixels: self.pixels.to_vec(),
             passed: self.passed.to_vec(),
         }
