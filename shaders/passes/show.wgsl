@@ -6,11 +6,11 @@
 #import common/edge_map.wgsl
 
 // Silhouette, border, object boundary, ridge, valley, material boundary, intersection, texture, relief,
-// shadow.
-const CLASS_COLORS = array<vec3<f32>, 10>(
+// shadow, section.
+const CLASS_COLORS = array<vec3<f32>, 11>(
     vec3(0.0), vec3(0.0, 0.35, 0.8), vec3(0.45, 0.0, 0.6), vec3(0.85, 0.25, 0.0), vec3(0.0, 0.5, 0.15),
     vec3(0.5, 0.4, 0.0), vec3(0.9, 0.0, 0.35), vec3(0.0, 0.6, 0.6),
-    vec3(0.6, 0.3, 0.5), vec3(0.35, 0.35, 0.45),
+    vec3(0.6, 0.3, 0.5), vec3(0.35, 0.35, 0.45), vec3(0.9, 0.6, 0.0),
 );
 
 var surface_id_tex: texture_2d<u32>;
