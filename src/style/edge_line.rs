@@ -1,4 +1,5 @@
-//! The look of one class of lines, which it has from its group as far as it has none of its own.
+//! The look of one class of lines, which it has from its group as far as it has none of its own; and the ranges of width, opacity
+//! and threshold, for classes and groups.
 
 use super::Color;
 use super::edge_mode::EdgeMode;

@@ -1,5 +1,5 @@
 //! What a surface technique is: each is one file that says what it makes of the styles of objects, what it needs of a layer
-//! beyond its G-buffer, and what its shader reads. Nobody but the list in `techniques.rs` knows it by name.
+//! beyond its G-buffer, and what its shader reads. Of what draws surfaces only the list in `techniques.rs` knows it by name.
 
 use crate::gpu::{Gpu, Inputs, Recorder, Target};
 use crate::render::base::error::RenderError;
