@@ -209,7 +209,7 @@ fn a_screenshot_is_drawn_beside_the_window_and_disturbs_nothing() {
     let opened = slanted();
     session.set_scene(&opened).unwrap();
     let shot = |session: &mut Session| Shot {
-        renderer: session.renderer().twin(),
+        renderer: session.renderer().fork(),
         document: opened.document.clone(),
         size: [SIDE, SIDE],
         transparent: true,
@@ -231,12 +231,12 @@ fn a_screenshot_is_drawn_beside_the_window_and_disturbs_nothing() {
     // What is complete already is not drawn once more, and more samples go on from there.
     let complete = sample(&mut session, &opened, 16, &[]);
     assert!(complete.sample.is_last());
-    let mut twin = session.renderer().twin();
+    let mut fork = session.renderer().fork();
     let mut again = |samples| {
         let camera = opened.document.camera.unwrap();
         let (document, size) = (&opened.document, [SIDE, SIDE]);
         let request = Request { document, camera: &camera, size, transparent: true, selected: &[], samples };
-        twin.render(&request).unwrap()
+        fork.render(&request).unwrap()
     };
     let (same, finer) = (again(16), again(20));
     assert_eq!((same.sample.index, finer.sample.index), (15, 16));

@@ -336,7 +336,7 @@ impl Viewport {
 
     /// The picture as it is in the window, without outline, or without paper, to be taken beside the window.
     pub fn shot(&self, document: &Document, transparent: bool, samples: u32) -> Shot {
-        let (renderer, size) = (self.renderer.twin(), self.size);
+        let (renderer, size) = (self.renderer.fork(), self.size);
         Shot { renderer, document: document.clone(), size, transparent, samples }
     }
 

@@ -125,22 +125,22 @@ impl Renderer {
     /// Another renderer of the same scene: it draws in another thread, and neither disturbs the other's pictures. Asked
     /// for the present picture, it goes on with the samples that there are.
     #[must_use]
-    pub fn twin(&self) -> Self {
-        let mut twin = Self::new(self.gpu.clone());
-        twin.pipelines = self.pipelines.clone();
-        twin.scene = self.scene.clone();
-        twin.scene_revision = self.scene_revision;
-        twin.glyphs = self.glyphs.clone();
-        twin.has_new_additions = self.has_new_additions;
-        twin.incomplete = self.incomplete;
-        twin.additions = self.additions.clone();
-        twin.images = self.images.clone();
-        twin.strokes = self.strokes.clone();
+    pub fn fork(&self) -> Self {
+        let mut fork = Self::new(self.gpu.clone());
+        fork.pipelines = self.pipelines.clone();
+        fork.scene = self.scene.clone();
+        fork.scene_revision = self.scene_revision;
+        fork.glyphs = self.glyphs.clone();
+        fork.has_new_additions = self.has_new_additions;
+        fork.incomplete = self.incomplete;
+        fork.additions = self.additions.clone();
+        fork.images = self.images.clone();
+        fork.strokes = self.strokes.clone();
         // Of a sample that may yet turn out to be incomplete nothing is taken over.
         if self.is_settled {
-            twin.state.go_on_from(&self.state);
+            fork.state.go_on_from(&self.state);
         }
-        twin
+        fork
     }
 
     /// The device it draws with.

@@ -36,7 +36,7 @@ impl VacancyMap {
         vacancy / ink.max(1e-6)
     }
 
-    /// Inks where a stroke is.
+    /// Adds the ink of a stroke: its place is less vacant from now on.
     pub(super) fn occupy(&mut self, stroke: &Stroke) {
         let Self { brush, density, sum, vacancy, scale } = self;
         brush.visit(stroke, |texel, ink| {
