@@ -13,8 +13,6 @@ use super::{Gpu, GpuError, Inputs, Predicate, ShaderError, Target, TargetPool, T
 pub enum Onto {
     /// They are cleared to 0.
     Clear,
-    /// All but the first one are cleared to 0: that is undefined where nothing is drawn.
-    DontCare,
     /// What is not drawn over stays.
     Load,
     /// Drawn over it with premultiplied alpha.
@@ -28,12 +26,11 @@ pub enum Onto {
 impl Onto {
     /// Targets as outputs of a pass.
     pub fn attachments<'t>(self, outputs: &[&'t Target]) -> Vec<Option<wgpu::RenderPassColorAttachment<'t>>> {
-        let load = |number| match self {
-            Self::DontCare if number == 0 => wgpu::LoadOp::Load,
-            Self::Clear | Self::DontCare => wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
+        let load = match self {
+            Self::Clear => wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
             Self::Load | Self::Over | Self::Under | Self::Max => wgpu::LoadOp::Load,
         };
-        (0..).zip(outputs).map(|(number, output)| Some(color_attachment(output, load(number)))).collect()
+        outputs.iter().map(|output| Some(color_attachment(output, load))).collect()
     }
 
     fn blend(self) -> Option<wgpu::BlendState> {
@@ -48,7 +45,7 @@ impl Onto {
             operation: wgpu::BlendOperation::Max,
         };
         match self {
-            Self::Clear | Self::DontCare | Self::Load => None,
+            Self::Clear | Self::Load => None,
             Self::Over => Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING),
             Self::Under => Some(wgpu::BlendState { color: under, alpha: under }),
             Self::Max => Some(wgpu::BlendState { color: greatest, alpha: greatest }),

@@ -6,7 +6,6 @@ use super::base::error::RenderError;
 use super::base::stage::{Output, Stage};
 use super::drawing::{Drawing, DrawingInputs, DrawnSurfaces, Shared};
 use super::effects::layered::{LayerRequest, Layered, LayeredGroup, LineRequest, Visit};
-use super::passes::count::MOST_LAYERS;
 use super::passes::front::Front;
 use super::passes::gbuffer::GBuffer;
 use super::passes::operators::operators;
@@ -148,7 +147,6 @@ impl DebugViews {
                 with_color: true,
                 with_normals: true,
                 with_depth: true,
-                whole_layers: MOST_LAYERS,
                 line_styles: &[&key.group.edge_styles],
                 nearer: None,
             };
@@ -164,7 +162,7 @@ impl DebugViews {
                     if visit.drawn.number + 1 < number {
                         return Ok(());
                     }
-                    let request = LineRequest { is_whole: true, repeated: true, ..LineRequest::default() };
+                    let request = LineRequest { repeated: true, ..LineRequest::default() };
                     let edges = visit.edges(rec, request)?;
                     let gbuffer = visit.drawn.layer.gbuffer.clone();
                     found = edges.map(|edges| (gbuffer, edges.edge_map.edges));

@@ -223,12 +223,6 @@ impl GpuEdgeStyle {
         self.takes_surface_color() || self.draws(EdgeClass::Texture) || self.is_paper_with_color()
     }
 
-    /// Whether its lines are found by comparing the geometry of all pixels around: the papers' operators and details do.
-    pub fn compares_geometry(&self) -> bool {
-        let details = [EdgeClass::Texture, EdgeClass::Relief, EdgeClass::Shadow];
-        self.is_paper() || details.into_iter().any(|class| self.draws(class))
-    }
-
     /// Whether the width of its lines varies.
     pub fn varies(&self) -> bool {
         self.by_distance > 0.0 || self.by_light > 0.0 || self.pressure > 0.0

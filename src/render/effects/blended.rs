@@ -9,7 +9,6 @@ use crate::gpu::{Recorder, Target, inputs};
 use crate::render::base::error::RenderError;
 use crate::render::base::scene_view::SceneView;
 use crate::render::passes::composition::Composition;
-use crate::render::passes::count::MOST_LAYERS;
 use crate::render::passes::place::{LayerShader, Pending, Place};
 use crate::render::passes::shadows::{ShadowMap, ShadowMask};
 use crate::render::passes::traversal::GBufferPass;
@@ -53,7 +52,6 @@ pub fn place_blended(
         with_color: true,
         with_normals: true,
         with_depth: true,
-        whole_layers: MOST_LAYERS,
         line_styles: &[&key.group.edge_styles],
         nearer: None,
     };

@@ -218,8 +218,6 @@ fn request_of<'a>(
         with_color: is_kept || any(GpuEdgeStyle::reads_color),
         with_normals: is_kept || any(GpuEdgeStyle::reads_normals),
         with_depth: is_kept,
-        // The first one that is drawn is what a click means.
-        whole_layers: if is_kept || any(GpuEdgeStyle::compares_geometry) { MOST_LAYERS } else { params.from },
         line_styles,
         nearer: None,
     }

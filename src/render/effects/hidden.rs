@@ -16,7 +16,6 @@ use crate::render::base::frame_uniform::FrameUniform;
 use crate::render::base::group::Group;
 use crate::render::base::scene_view::SceneView;
 use crate::render::base::stage::{Output, Stage};
-use crate::render::passes::count::MOST_LAYERS;
 use crate::render::passes::edge_map::EdgeMap;
 use crate::render::passes::layers::Reported;
 use crate::render::passes::lines::{LineShader, lines};
@@ -152,7 +151,6 @@ impl HiddenLines {
                 with_color: any(GpuEdgeStyle::reads_color),
                 with_normals: any(GpuEdgeStyle::reads_normals),
                 with_depth: false,
-                whole_layers: if any(GpuEdgeStyle::compares_geometry) { MOST_LAYERS } else { 0 },
                 line_styles: &line_styles,
                 nearer: visible.as_ref(),
             };

@@ -75,8 +75,6 @@ pub struct LayerRequest<'a> {
     pub with_normals: bool,
     /// Whether their depths are.
     pub with_depth: bool,
-    /// The geometry of so many layers is 0 where they have nothing; of the others it is undefined there.
-    pub whole_layers: u32,
     /// How lines look, by object id; objects may differ from layer to layer, so there are as many as are told apart.
     pub line_styles: &'a [&'a Vec<GpuEdgeStyle>],
     /// Lines before the first layer, which are not repeated.
@@ -88,8 +86,6 @@ pub struct LayerRequest<'a> {
 pub struct LineRequest<'a> {
     /// Index of [`LayerRequest::line_styles`].
     pub style: usize,
-    /// Whether the edge map is looked at by itself.
-    pub is_whole: bool,
     /// Regions of the last layer and of that before it, if what goes on there has no outline.
     pub before: Option<[&'a Target; 2]>,
     /// Whether a line is drawn again where a nearer layer has one.
@@ -125,7 +121,6 @@ impl Visit<'_> {
         };
         let inputs = LayerLinesInputs {
             styles,
-            is_whole: request.is_whole,
             segments: self.segments,
             has_holes: self.has_holes,
             is_clipped: self.is_clipped,
@@ -214,7 +209,6 @@ impl Layered {
             with_color: request.with_color,
             with_normals: request.with_normals,
             with_depth: request.with_depth,
-            whole_layers: request.whole_layers,
         };
         layers.each(rec, gbuffer_pass, &inputs, |rec, drawn| {
             let visit = Visit {

@@ -257,7 +257,6 @@ impl OpaqueLayer {
                     gbuffer: &surfaces.gbuffer.value,
                     styles,
                     edge_styles: &self.edge_styles,
-                    is_whole: true,
                     nearer: None,
                     marked: None,
                     segments: &self.placed_segments,

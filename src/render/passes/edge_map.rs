@@ -51,8 +51,6 @@ pub struct EdgeInputs<'a> {
     pub styles: &'a [GpuEdgeStyle],
     /// The same on the device.
     pub edge_styles: &'a ArrayBuffer,
-    /// Whether the map is looked at by itself. Otherwise it is undefined where no spines and no ink of operators are.
-    pub is_whole: bool,
     /// What topology knows, for the view of the G-buffer.
     pub segments: &'a Segments,
     /// Whether any material of an object with lines has holes.
@@ -130,7 +128,6 @@ fn exact_edges(
         gbuffer,
         styles,
         edge_styles,
-        is_whole,
         segments,
         has_holes,
         is_clipped,
@@ -145,8 +142,7 @@ fn exact_edges(
     let with_angles = any(|s| s.by_angle > 0.0);
     let spines = rec.target("spines", SPINES)?;
     let marks = rec.target("marks of segments", MARKS)?;
-    let with_edges = (is_whole || styles.iter().any(GpuEdgeStyle::is_paper)).then_some(edge_map);
-    rec.clear("no lines", &[&spines, &marks].into_iter().chain(with_edges).collect::<Vec<_>>());
+    rec.clear("no lines", &[edge_map, &spines, &marks]);
     let switches: Vec<_> =
         [("WITH_HOLES", has_holes), ("WITH_ANGLES", with_angles)].into_iter().chain(variation).collect();
     let tested = SegmentInputs { gbuffer, edge_styles, switches: &switches };

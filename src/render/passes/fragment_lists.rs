@@ -179,8 +179,6 @@ pub struct LayerOutputs {
     pub with_normals: bool,
     /// Their depth.
     pub with_depth: bool,
-    /// Whether their geometry is 0 where they have nothing; otherwise it is undefined there.
-    pub is_whole: bool,
 }
 
 /// The lists of one group while they are split into layers.
@@ -207,7 +205,7 @@ impl LayerExtraction {
     /// # Errors
     /// [`RenderError`].
     pub fn next(&mut self, rec: &mut Recorder<'_>, asked: LayerOutputs) -> Result<Layer, RenderError> {
-        let LayerOutputs { with_color, with_normals, with_depth, is_whole } = asked;
+        let LayerOutputs { with_color, with_normals, with_depth } = asked;
         let numbers = match self.numbers.pop() {
             Some(numbers) => numbers,
             None => self.sort(rec)?,
@@ -245,7 +243,7 @@ impl LayerExtraction {
             },
             inputs: &inputs,
             outputs: &outputs,
-            onto: if is_whole { Onto::Clear } else { Onto::DontCare },
+            onto: Onto::Clear,
             depth: Some((depth, rule)),
         })?;
         self.last = Some(numbers);

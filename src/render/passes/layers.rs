@@ -62,8 +62,6 @@ pub struct LayerInputs<'a> {
     pub with_normals: bool,
     /// Whether their depth is; see [`crate::render::passes::gbuffer::GBuffer::depth`].
     pub with_depth: bool,
-    /// The geometry of so many layers, the nearest ones, is 0 where they have nothing; of the others it is undefined there.
-    pub whole_layers: u32,
 }
 
 /// A layer that has been extracted.
@@ -191,11 +189,10 @@ impl Layers {
         let with_depth = inputs.with_depth || mask.is_some();
         let mut last = None;
         for number in 0..recorded.layers {
-            let is_whole = number < inputs.whole_layers;
             let layer = match &mut lists {
                 Some(lists) => {
                     let with_normals = inputs.with_normals;
-                    lists.next(rec, LayerOutputs { with_color, with_normals, with_depth, is_whole })?
+                    lists.next(rec, LayerOutputs { with_color, with_normals, with_depth })?
                 }
                 None => {
                     let before = match last.take() {
@@ -206,7 +203,7 @@ impl Layers {
                         true => None,
                         false => Some(rec.target("sort keys", before.format())?),
                     };
-                    let peel = Peel { last: &before, sort_keys: last.as_ref(), with_color, is_whole };
+                    let peel = Peel { last: &before, sort_keys: last.as_ref(), with_color };
                     let gbuffer = gbuffer_pass.run(
                         rec,
                         scene,
@@ -243,8 +240,6 @@ pub struct LayerLines {
 pub struct LayerLinesInputs<'a> {
     /// Edge styles by object id.
     pub styles: &'a [GpuEdgeStyle],
-    /// See [`EdgeInputs::is_whole`].
-    pub is_whole: bool,
     /// What topology knows, hidden edges included.
     pub segments: &'a Segments,
     /// Whether any material of an object with lines has holes.
@@ -325,7 +320,6 @@ impl LayerLines {
                 gbuffer: &layer.gbuffer,
                 styles: inputs.styles,
                 edge_styles: &self.edge_styles,
-                is_whole: inputs.is_whole,
                 segments: inputs.segments,
                 has_holes: inputs.has_holes,
                 is_clipped: inputs.is_clipped,

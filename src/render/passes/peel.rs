@@ -13,8 +13,6 @@ pub struct Peel<'a> {
     pub sort_keys: Option<&'a Target>,
     /// Whether it has a base color.
     pub with_color: bool,
-    /// Whether its geometry is 0 where it has nothing; otherwise it is undefined there.
-    pub is_whole: bool,
 }
 
 impl Peel<'_> {

@@ -109,7 +109,6 @@ struct Traversal<'a> {
     purpose: Purpose,
     with_color: bool,
     /// Whether all of `color` is cleared, or all but the first one.
-    is_whole: bool,
     color: &'a [&'a Target],
     depth: &'a Target,
     /// Bind group 1.
@@ -165,20 +164,20 @@ impl GBufferPass {
     ) -> Result<GBuffer, RenderError> {
         let gbuffer = GBuffer::new(rec)?;
         let GBuffer { geometry, base_color, surface_id, depth } = &gbuffer;
-        let (label, purpose, with_color, is_whole, color) = match peel {
+        let (label, purpose, with_color, color) = match peel {
             // Nobody looks at colors and surface ids where nothing is.
-            None if parts.1.is_empty() => ("g-buffer", Purpose::Surfaces, true, true, vec![geometry]),
-            None => ("g-buffer", Purpose::Surfaces, true, true, vec![geometry, base_color, surface_id]),
-            Some(Peel { sort_keys: None, .. }) => ("peel", Purpose::Counted, false, true, vec![surface_id]),
-            Some(Peel { sort_keys: Some(sort_keys), with_color, is_whole, .. }) => {
+            None if parts.1.is_empty() => ("g-buffer", Purpose::Surfaces, true, vec![geometry]),
+            None => ("g-buffer", Purpose::Surfaces, true, vec![geometry, base_color, surface_id]),
+            Some(Peel { sort_keys: None, .. }) => ("peel", Purpose::Counted, false, vec![surface_id]),
+            Some(Peel { sort_keys: Some(sort_keys), with_color, .. }) => {
                 let mut color = vec![geometry, surface_id, *sort_keys];
                 let with_color = *with_color && rec.gpu.has_room_for(&LAYER_WITH_COLOR);
                 color.extend(with_color.then_some(base_color));
-                ("peel", Purpose::Layer, with_color, *is_whole, color)
+                ("peel", Purpose::Layer, with_color, color)
             }
         };
         let group = peel.map(|peel| Peel::group_of(rec.gpu, &self.layer_layout, peel.last));
-        let traversal = Traversal { label, purpose, with_color, is_whole, color: &color, depth, group };
+        let traversal = Traversal { label, purpose, with_color, color: &color, depth, group };
         self.traverse(rec, scene, instance_buffer, parts, is_clipped, traversal)?;
         if let Some(Peel { sort_keys: Some(own), with_color: true, .. }) = peel
             && !with_color
@@ -187,8 +186,7 @@ impl GBufferPass {
             // Fragments are told by their sort keys.
             let depth = &rec.target("depth", DEPTH)?;
             let (label, purpose, color) = ("peel colors", Purpose::LayerColor, &[base_color][..]);
-            let traversal =
-                Traversal { label, purpose, with_color: true, is_whole: true, color, depth, group };
+            let traversal = Traversal { label, purpose, with_color: true, color, depth, group };
             self.traverse(rec, scene, instance_buffer, parts, is_clipped, traversal)?;
         }
         Ok(gbuffer)
@@ -211,8 +209,7 @@ impl GBufferPass {
         let GBuffer { geometry, base_color, surface_id, depth } = &gbuffer;
         let color = &[geometry, base_color, surface_id];
         let (label, purpose) = ("enlarged", Purpose::Enlarged);
-        let traversal =
-            Traversal { label, purpose, with_color: true, is_whole: true, color, depth, group: None };
+        let traversal = Traversal { label, purpose, with_color: true, color, depth, group: None };
         self.traverse(rec, scene, instance_buffer, parts, is_clipped, traversal)?;
         Ok(gbuffer)
     }
@@ -235,7 +232,7 @@ impl GBufferPass {
         // A pass has to have an output.
         let depth = &rec.target("depth", DEPTH)?;
         let (label, purpose) = ("fragment lists", Purpose::Lists);
-        let traversal = Traversal { label, purpose, with_color, is_whole: true, color: &[], depth, group };
+        let traversal = Traversal { label, purpose, with_color, color: &[], depth, group };
         self.traverse(rec, scene, instance_buffer, parts, is_clipped, traversal)
     }
 
@@ -248,7 +245,7 @@ impl GBufferPass {
         is_clipped: bool,
         traversal: Traversal<'_>,
     ) -> Result<(), RenderError> {
-        let Traversal { label, purpose, with_color, is_whole, color, depth, group: own } = traversal;
+        let Traversal { label, purpose, with_color, color, depth, group: own } = traversal;
         let gpu = rec.gpu;
         let variant = |call: &DrawCall| {
             let DrawCall { detail, culled_face, .. } = *call;
@@ -260,8 +257,7 @@ impl GBufferPass {
         instance_buffer.write(gpu, drawn, calls)?;
         let materials = instance_buffer.material_group(gpu, &self.instance_layout);
         let batches = batches(rec, calls);
-        let onto = if is_whole { Onto::Clear } else { Onto::DontCare };
-        let color: Vec<_> = onto.attachments(color);
+        let color: Vec<_> = Onto::Clear.attachments(color);
         let depth = wgpu::RenderPassDepthStencilAttachment {
             view: depth.view(),
             depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Store }),
