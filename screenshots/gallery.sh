@@ -56,7 +56,7 @@ draw pressure "$ogre" --style lines --set edges.profile.width=7 --set edges.inne
 	--set edges.pressure.amount=0.9 --set edges.pressure.scale=70
 
 # Lines in the surface's own color, darkened.
-draw surface_color "$ogre" --style statue --set edges.surface_color=1 --set edges.darken=0.65 \
+draw surface_color "$ogre" --style statue --set edges.object_color=1 --set edges.darken=0.65 \
 	--set edges.profile.width=5 --set edges.inner.width=3
 
 # Every object in a style of its own: Gooch before toon before halftone before plain paper.
@@ -94,7 +94,7 @@ draw sketch_twice "$ogre" --style ballpoint --set sketch.passes=2 --set sketch.p
 	--set sketch.pass2.color=#b04a20 --set sketch.amount=1.6
 # Chalk on rough paper (Fig. 8).
 draw sketch_chalk "$ogre" --style chalk-on-slate --set paper=#f6f3ea --set edges.profile.color=#2a2622 \
-	--set edges.inner.color=#2a2622 --set sketch.fill.surface_color=1 --set sketch.grain.roughness=1.6
+	--set edges.inner.color=#2a2622 --set sketch.fill.object_color=1 --set sketch.grain.roughness=1.6
 # Uncertainty controlled by the surface: more where it is curved, from enlarged geometry (Fig. 9).
 draw sketch_curvature "$ogre" --style loose-ink --set sketch.anchor=curvature --set sketch.exterior=enlarged
 
@@ -109,7 +109,7 @@ OBJ
 for tone in 0.882 0.755 0.616 0.479 0.351 0.234; do
 	target/release/hachure render "$work/sheet.obj" --output "$work/tone_$tone.png" --resolution 200,200 --samples 16 \
 		--set technique=hatching --set hatching.mapping=paper --set "hatching.tone.curve=0,$tone,1,$tone" \
-		--set hatching.tone.white=0 --set hatching.tone.darkest=1 --set hatching.stroke.spacing=32 --set hatching.direction=y \
+		--set hatching.tone.lightest=0 --set hatching.tone.darkest=1 --set hatching.stroke.spacing=32 --set hatching.direction=y \
 		--camera-position 0,0,3 --camera-focal-point 0,0,0 --set edges.profile.show=false
 done
 montage "$work"/tone_0.882.png "$work"/tone_0.755.png "$work"/tone_0.616.png "$work"/tone_0.479.png "$work"/tone_0.351.png \
@@ -176,7 +176,7 @@ echo screenshots/toon_borders.png
 # Blueprints: all layers of an assembly (Blueprints paper, Fig. 1) and of a building, before opaque statues.
 draw blueprint "$crank" --style blueprint
 draw blueprint_temple assets/models/temple.glb --style blueprint --object-style '/temple/statues*=technical-illustration' \
-	--set blueprint.layers=16 --set 'blueprint.opacity=0.03' --camera-azimuth-angle 35 --camera-elevation-angle 35
+	--set blueprint.max_layers=16 --set 'blueprint.fill_opacity=0.03' --camera-azimuth-angle 35 --camera-elevation-angle 35
 
 # What each depth layer is drawn from: depth, normals and edge map (Blueprints paper, Fig. 4).
 for buffer in depth normals edge_map; do
@@ -201,13 +201,13 @@ draw blueprint_white_on_blue "$crank" --style blueprint-white-on-blue
 for side in top right; do
 	[ "$side" = top ] && size=760,1340 || size=1340,760
 	draw "temple_$side" assets/models/temple.glb --style blueprint --look-from "$side" --camera-orthographic \
-		--scale 1:400 --dpi 160 --set blueprint.layers=32 --set blueprint.opacity=0.02 --set view.scale_bar=true
+		--scale 1:400 --dpi 160 --set blueprint.max_layers=32 --set blueprint.fill_opacity=0.02 --set view.scale_bar=true
 done
 size=1000,1000
 # Blueprints of several styles that go through each other.
 draw see_through "$crank" --style gooch --object-style 'piston*=blueprint' --object-style 'rod*=blueprint-vellum' \
-	--set 'rod*:blueprint.opacity=0.5' --object-style 'crankshaft*=blueprint' \
-	--set 'crankshaft*:blueprint.fill=#c03010' --set 'crankshaft*:blueprint.opacity=0.35'
+	--set 'rod*:blueprint.fill_opacity=0.5' --object-style 'crankshaft*=blueprint' \
+	--set 'crankshaft*:blueprint.fill=#c03010' --set 'crankshaft*:blueprint.fill_opacity=0.35'
 # Hidden lines of surfaces.
 draw hidden_lines "$crank" --style hidden-lines --set edges.hidden.layers=next
 draw x_ray assets/models/temple.glb --style x-ray --camera-azimuth-angle 35 --camera-elevation-angle 30

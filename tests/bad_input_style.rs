@@ -67,7 +67,8 @@ fn ramp(width: u32, height: u32) -> Vec<u8> {
     png(&RgbImage::from_fn(width, height, |x, _| Rgb(shade(x))).into())
 }
 
-const TOON: [&str; 6] = ["--set", "technique=toon", "--set", "toon.ramp=image", "--set", "toon.tint=0"];
+const TOON: [&str; 6] =
+    ["--set", "technique=toon", "--set", "toon.ramp=image", "--set", "toon.object_color=0"];
 const HALFTONE: [&str; 4] = ["--set", "technique=halftone", "--set", "halftone.texture=image"];
 
 #[test]
@@ -82,7 +83,7 @@ fn an_image_that_cannot_be_had_is_a_warning_and_the_rest_is_drawn() {
     gif.extend([1, 0, 1, 0, 0, 0, 0]);
     place.write("image.png", &gif);
     std::fs::create_dir(place.path("folder.png")).unwrap();
-    let bands = place.drawn(&["model.obj", "--set", "technique=toon", "--set", "toon.tint=0"]).0;
+    let bands = place.drawn(&["model.obj", "--set", "technique=toon", "--set", "toon.object_color=0"]).0;
     let strokes = place.drawn(&["model.obj", "--set", "technique=halftone"]).0;
     let uses = [("toon.image", &TOON[..], bands), ("halftone.image", &HALFTONE[..], strokes)];
     let rows: &[(&str, &str)] = &[

@@ -26,8 +26,8 @@ fn at(z: f64) -> DMat4 {
 /// Everything as a blueprint, of which all layers are drawn.
 fn blueprint(mut opened: Opened) -> Opened {
     set(&mut opened, "technique", "blueprint");
-    set(&mut opened, "blueprint.layers", "64");
-    set(&mut opened, "blueprint.least", "0");
+    set(&mut opened, "blueprint.max_layers", "64");
+    set(&mut opened, "blueprint.min_coverage", "0");
     opened
 }
 
@@ -231,7 +231,7 @@ fn layers_end_with_the_last_surface_the_most_layers_or_the_least_pixels() {
     assert!(pixels[4..].iter().all(|p| *p == 0), "{pixels:?}");
 
     for most in [1, 3] {
-        for key in ["blueprint.layers", "blueprint.to"] {
+        for key in ["blueprint.max_layers", "blueprint.to"] {
             let mut fewer = few.clone();
             set(&mut fewer, key, &most.to_string());
             let (count, of_fewer) = layers_of(&mut session, &fewer);
@@ -243,7 +243,7 @@ fn layers_end_with_the_last_surface_the_most_layers_or_the_least_pixels() {
     for (least, expected) in [(pixels[2], 3), (pixels[2] + 1, 2), (pixels[0] + 1, 0)] {
         let mut ended = few.clone();
         let percent = (f64::from(least) - 0.5) * 100.0 / 4096.0;
-        set(&mut ended, "blueprint.least", &percent.to_string());
+        set(&mut ended, "blueprint.min_coverage", &percent.to_string());
         let (count, of_ended) = layers_of(&mut session, &ended);
         assert_eq!(count, expected, "at least {least} of {pixels:?}");
         // That which ended it has been counted, and nothing after it.
@@ -291,7 +291,7 @@ fn cube_and_ball(z: f64) -> Opened {
         ("edges.inner.show", "false"),
         ("view.background", "#ffffff"),
         ("blueprint.fill", "#000000"),
-        ("blueprint.opacity", "0.5"),
+        ("blueprint.fill_opacity", "0.5"),
     ] {
         set(&mut opened, key, value);
     }
@@ -333,7 +333,7 @@ fn layers_are_drawn_from_and_to_where_they_are_told() {
         ("edges.inner.show", "false"),
         ("view.background", "#ffffff"),
         ("blueprint.fill", "#000000"),
-        ("blueprint.opacity", "0.5"),
+        ("blueprint.fill_opacity", "0.5"),
     ] {
         set(&mut opened, key, value);
     }
@@ -362,7 +362,7 @@ fn hidden_lines_are_drawn_in_the_color_of_their_layer() {
     let mut opened = blueprint(opened(&scene(objects), DVec3::new(0.5, 0.4, 1.0)));
     for (key, value) in [
         ("view.background", "#ffffff"),
-        ("blueprint.opacity", "0"),
+        ("blueprint.fill_opacity", "0"),
         ("blueprint.by_layer", "1"),
         ("blueprint.by_distance", "0"),
         ("blueprint.near", "#000000"),
@@ -396,7 +396,7 @@ fn repeated_lines_are_drawn_only_on_demand() {
     let mut opened = blueprint(opened(&scene(objects), DVec3::Z));
     for (key, value) in [
         ("view.background", "#ffffff"),
-        ("blueprint.opacity", "0"),
+        ("blueprint.fill_opacity", "0"),
         ("blueprint.to", "2"),
         ("blueprint.near", "#000000"),
         ("blueprint.by_layer", "0"),
@@ -413,9 +413,9 @@ fn repeated_lines_are_drawn_only_on_demand() {
             set(&mut opened, "blueprint.from", "2");
             let hidden = inked(&common::image(&mut session, &opened, 96));
             set(&mut opened, "blueprint.from", "1");
-            set(&mut opened, "edges.profile.strength", "0.4");
+            set(&mut opened, "edges.profile.opacity", "0.4");
             let image = common::image(&mut session, &opened, 96);
-            set(&mut opened, "edges.profile.strength", "1");
+            set(&mut opened, "edges.profile.opacity", "1");
             (hidden, image.pixels().map(|p| u64::from(255 - p.0[0])).sum::<u64>())
         });
         ink.reverse();
@@ -446,7 +446,7 @@ fn without_a_blueprint_there_are_no_layers_and_without_a_change_nothing_again() 
     session.draw(&layered, [32; 2], false).unwrap();
     session.draw(&layered, [32; 2], false).unwrap();
     assert_eq!(runs(&mut session), 1);
-    set(&mut layered, "blueprint.opacity", "0.3");
+    set(&mut layered, "blueprint.fill_opacity", "0.3");
     session.draw(&layered, [32; 2], false).unwrap();
     assert_eq!(runs(&mut session), 2);
 }
@@ -537,7 +537,7 @@ fn outlined() -> Opened {
     ));
     for (key, value) in [
         ("view.background", "#ffffff"),
-        ("blueprint.opacity", "0"),
+        ("blueprint.fill_opacity", "0"),
         ("blueprint.by_layer", "0"),
         ("blueprint.by_distance", "0"),
         ("blueprint.near", "#000000"),
@@ -561,10 +561,10 @@ fn a_threshold_leaves_faint_lines_out_and_makes_all_others_full() {
     };
     for mode in ["exact", "paper"] {
         let full = drawn(&mut session, &[("edges.mode", mode), ("blueprint.threshold", "0")]);
-        let faint = drawn(&mut session, &[("edges.inner.strength", "0.5")]);
+        let faint = drawn(&mut session, &[("edges.inner.opacity", "0.5")]);
         let some = drawn(&mut session, &[("blueprint.threshold", "0.3")]);
         let few = drawn(&mut session, &[("blueprint.threshold", "0.7")]);
-        let none = drawn(&mut session, &[("edges.inner.show", "false"), ("edges.inner.strength", "1")]);
+        let none = drawn(&mut session, &[("edges.inner.show", "false"), ("edges.inner.opacity", "1")]);
         drawn(&mut session, &[("edges.inner.show", "true")]);
         let [full, faint, some, few, none] = [&full, &faint, &some, &few, &none].map(inked);
         assert!(none > 100 && full > none + 100 && faint > none, "{mode}: {none} {faint} {full}");
@@ -590,7 +590,7 @@ fn a_threshold_leaves_flat_folds_out_of_exact_lines() {
     let roof = primitives::from_triangles(corners, vec![0, 1, 3, 0, 3, 2, 2, 3, 5, 2, 5, 4]);
     let mut opened = blueprint(opened(&scene(vec![object("roof", roof, DMat4::IDENTITY)]), DVec3::Z));
     for (key, value) in
-        [("blueprint.opacity", "0"), ("edges.profile.width", "16"), ("edges.inner.width", "16")]
+        [("blueprint.fill_opacity", "0"), ("edges.profile.width", "16"), ("edges.inner.width", "16")]
     {
         set(&mut opened, key, value);
     }
@@ -634,7 +634,7 @@ fn lines_of_all_layers_take_the_color_of_their_surfaces() {
     let two = opened(&scene(vec![red, green]), DVec3::new(0.5, 0.4, 1.0));
     let mut opened = Opened { scene: two.scene, document: outlined().document };
     opened.document.camera = two.document.camera;
-    set(&mut opened, "edges.surface_color", "1");
+    set(&mut opened, "edges.object_color", "1");
     set(&mut opened, "edges.darken", "0");
     for by in ["lists", "peeling"] {
         set(&mut opened, "view.layers", by);

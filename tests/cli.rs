@@ -135,6 +135,42 @@ fn later_ways_to_set_a_parameter_win_over_earlier_ones() {
 }
 
 #[test]
+fn keys_of_earlier_versions_are_read_with_a_warning_that_names_the_new_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let style = folder.path().join("old.toml");
+    std::fs::write(&style, "technique = \"toon\"\n[toon]\ntint = 0\n").unwrap();
+    let document = folder.path().join("old.hachure");
+    let models = serde_json::json!([crank()]);
+    let text = format!(
+        "models = {models}\n[style.gooch]\naside = 0.5\n[nodes.\"/crank\".style.gooch]\nown_hue = 1\n"
+    );
+    std::fs::write(&document, text).unwrap();
+    let render = |file: &str, args: &[&str]| {
+        let (output, path) = render(folder.path(), "out.png", file, args);
+        let (said, code) = (String::from_utf8(output.stderr).unwrap(), output.status.code());
+        assert_eq!(code, Some(0), "{said}");
+        (said, std::fs::read(path).unwrap())
+    };
+
+    let style = style.to_str().unwrap();
+    let args = ["--style", style, "--set", "edges.profile.strength=0.4"];
+    let (said, old) = render(&crank(), &args);
+    assert!(said.contains("old.toml: `toon.tint` is now called `toon.object_color`"), "{said}");
+    assert!(said.contains("--set: `edges.profile.strength` is now called `edges.profile.opacity`"), "{said}");
+    let new_style = folder.path().join("new.toml");
+    std::fs::write(&new_style, "technique = \"toon\"\n[toon]\nobject_color = 0\n").unwrap();
+    let new_style = new_style.to_str().unwrap();
+    let (said, new) = render(&crank(), &["--style", new_style, "--set", "edges.profile.opacity=0.4"]);
+    assert!(!said.contains("is now called"), "{said}");
+    assert!(old == new);
+    assert!(render(&crank(), &["--style", new_style]).1 != new, "the parameter matters");
+
+    let (said, _) = render(document.to_str().unwrap(), &[]);
+    assert!(said.contains("old.hachure, style: `gooch.aside` is now called `gooch.side_light`"), "{said}");
+    assert!(said.contains("old.hachure, /crank: `gooch.own_hue` is now called `gooch.object_hue`"), "{said}");
+}
+
+#[test]
 fn the_page_of_parameters_is_what_the_program_prints() {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/parameters.md");
     let page = std::fs::read_to_string(file).unwrap_or_default();
@@ -346,8 +382,9 @@ fn how_many_layers_blueprints_have_and_what_that_uncovered_is_printed() {
     };
     assert_eq!(blueprints(&["--style", "gooch"]).0, serde_json::json!([]));
     let designated = ["--style", "blueprint", "--mask", "rod*", "--set"];
-    let masked =
-        |setting: &str| blueprints(&[&designated[..], &[setting, "--set", "blueprint.least=0"]].concat());
+    let masked = |setting: &str| {
+        blueprints(&[&designated[..], &[setting, "--set", "blueprint.min_coverage=0"]].concat())
+    };
     let (all, warnings) = masked("blueprint.fraction=1");
     let mask = &all[0]["mask"];
     assert_eq!(warnings, serde_json::json!([]));

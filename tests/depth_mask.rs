@@ -25,8 +25,8 @@ fn designated(objects: Vec<Object>, towards_viewer: DVec3) -> Opened {
     let mut opened = opened(&scene(objects), towards_viewer);
     for (key, value) in [
         ("technique", "blueprint"),
-        ("blueprint.layers", "64"),
-        ("blueprint.least", "0"),
+        ("blueprint.max_layers", "64"),
+        ("blueprint.min_coverage", "0"),
         ("view.background", "#ffffff"),
     ] {
         set(&mut opened, key, value);
@@ -232,7 +232,7 @@ fn a_designated_object_is_in_no_layer_and_stands_in_the_picture_in_its_own_style
     for (key, value) in [
         ("edges.profile.show", "false"),
         ("edges.inner.show", "false"),
-        ("blueprint.opacity", "0"),
+        ("blueprint.fill_opacity", "0"),
         ("blueprint.fraction", "1"),
         ("blueprint.highlight", "#ff0000"),
     ] {
@@ -295,7 +295,7 @@ fn the_limit_of_layers_is_lifted_until_enough_is_uncovered() {
         let mut all = scene;
         set(&mut all, "blueprint.fraction", "1");
         let unlimited = draw(&mut session, &all);
-        set(&mut all, "blueprint.layers", "2");
+        set(&mut all, "blueprint.max_layers", "2");
         let limited = draw(&mut session, &all);
         assert_eq!(limited.ended, LayersEnd::MaskUncovered);
         assert!(
@@ -326,11 +326,11 @@ fn what_cannot_be_uncovered_is_told() {
 
     // No layer has so many pixels: not even the first one is drawn, and R is that of the layer which ended it.
     set(&mut scene, "blueprint.to", "64");
-    set(&mut scene, "blueprint.least", "90");
+    set(&mut scene, "blueprint.min_coverage", "90");
     let report = draw(&mut session, &scene);
     assert_eq!((report.layers, report.ended), (0, LayersEnd::TooFewPixels));
     assert!(report.passed[0] > 0 && report.uncovered() == report.passed[0]);
-    assert!(report.shortfall().unwrap().contains("blueprint.least"));
+    assert!(report.shortfall().unwrap().contains("blueprint.min_coverage"));
 }
 
 #[test]
@@ -387,7 +387,7 @@ fn beyond_the_mask_nothing_is_drawn_on_demand() {
         DVec3::Z,
     );
     set(&mut scene, "blueprint.by_distance", "0");
-    set(&mut scene, "blueprint.opacity", "0.3");
+    set(&mut scene, "blueprint.fill_opacity", "0.3");
     let whole = common::image(&mut session, &scene, SIDE);
     set(&mut scene, "blueprint.beyond", "false");
     let cut = common::image(&mut session, &scene, SIDE);
@@ -422,7 +422,7 @@ fn mirrors_show_layers_of_their_own_view() {
     for (key, value) in parameters {
         scene.document.set_for(&nodes, &[2], key, &hachure::style::Value::parse(value)).unwrap();
     }
-    set(&mut scene, "blueprint.opacity", "0.1");
+    set(&mut scene, "blueprint.fill_opacity", "0.1");
     set(&mut scene, "blueprint.highlight", "#ff0000");
     let mut pictures = ["0", "1"].map(|fraction| {
         set(&mut scene, "blueprint.fraction", fraction);

@@ -50,9 +50,9 @@ fn document(text: &str) -> Document {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.hachure");
     std::fs::write(&path, text).unwrap();
-    let document = Document::open(&path).unwrap();
+    let document = Document::open(&path).unwrap().document;
     document.save(&path).unwrap();
-    assert_eq!(Document::open(&path).unwrap(), document, "saving loses nothing");
+    assert_eq!(Document::open(&path).unwrap().document, document, "saving loses nothing");
     document
 }
 

@@ -40,7 +40,7 @@ fn halftone(scene: &Arc<Scene>, towards_viewer: DVec3, texture: Texture) -> Open
         ("halftone.texture", name(texture)),
         ("halftone.ink", "#000000"),
         ("halftone.paper", "#ffffff"),
-        ("halftone.own_tone", "0"),
+        ("halftone.object_tone", "0"),
         ("edges.profile.show", "false"),
         ("edges.inner.show", "false"),
     ] {
@@ -387,7 +387,7 @@ fn one_halftones_parameters_change_no_pixel_of_another() {
         ("halftone.paper", "#00ff00"),
         ("halftone.paper_tint", "1"),
         ("halftone.ambient", "0.9"),
-        ("halftone.own_tone", "1"),
+        ("halftone.object_tone", "1"),
         ("halftone.black", "0.3"),
         ("halftone.white", "0.6"),
         ("halftone.gamma", "3"),

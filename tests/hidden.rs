@@ -30,7 +30,7 @@ fn red_hidden(scene: &Arc<Scene>, towards_viewer: DVec3) -> Opened {
         ("edges.hidden.color", "#ff0000"),
         ("edges.hidden.width", "12"),
         ("edges.hidden.dashed", "false"),
-        ("edges.hidden.least", "0"),
+        ("edges.hidden.min_coverage", "0"),
     ] {
         set(&mut opened, key, value);
     }
@@ -104,7 +104,7 @@ fn lines_are_drawn_where_edges_lie_behind_so_many_surfaces() {
             // So that the operators find no steps in faces that are seen aslant.
             set(&mut opened, "edges.profile.gain", "2");
             set(&mut opened, "edges.hidden.layers", layers);
-            set(&mut opened, "edges.hidden.most", most);
+            set(&mut opened, "edges.hidden.max_layers", most);
             let image = image(&mut session, &opened, SIDE);
             let edges = cube_edges(&opened, SIDE);
             let nearest = |px: DVec2, found: &dyn Fn(usize) -> bool| {
@@ -231,7 +231,7 @@ fn each_object_says_how_deep_its_own_are_drawn() {
     for (depth, expected) in [("1", 1), ("2", 1), ("3", 2)] {
         for node in [1, 3] {
             set_for(&mut opened, node, "edges.hidden.mode", "own");
-            set_for(&mut opened, node, "edges.hidden.most", depth);
+            set_for(&mut opened, node, "edges.hidden.max_layers", depth);
         }
         assert_eq!(squares(&mut session, &opened), expected, "{depth}");
     }
@@ -254,8 +254,8 @@ fn faint_ones_are_paler_and_narrower_and_dashed_ones_have_dashes() {
     let mut opened = red_hidden(&two(), DVec3::Z);
     set(&mut opened, "edges.profile.width", "48");
     set(&mut opened, "edges.hidden.mode", "faint");
-    set(&mut opened, "edges.hidden.strength", "0.5");
-    set(&mut opened, "edges.hidden.narrow", "0.25");
+    set(&mut opened, "edges.hidden.opacity", "0.5");
+    set(&mut opened, "edges.hidden.relative_width", "0.25");
     // The rows above the middle one cross the left border of the square, which is black by half and 12 · 128 / 1080 px wide.
     let ink = |p: &Rgba<u8>| 1.0 - (f64::from(p.0[0]) / 255.0).powf(2.2);
     let faint = image(&mut session, &opened, 128);
@@ -294,8 +294,8 @@ fn hidden_lines_that_run_over_each_other_are_no_stronger() {
     for (key, value) in [
         ("edges.profile.width", "60"),
         ("edges.hidden.mode", "faint"),
-        ("edges.hidden.strength", "0.5"),
-        ("edges.hidden.narrow", "0.4"),
+        ("edges.hidden.opacity", "0.5"),
+        ("edges.hidden.relative_width", "0.4"),
     ] {
         set(&mut opened, key, value);
     }
@@ -335,7 +335,7 @@ fn hidden_lines_take_the_color_of_their_surfaces() {
     set(&mut opened, "edges.hidden.layers", "all");
     set(&mut opened, "edges.darken", "0");
     let of_style = red(&image(&mut session, &opened, 192));
-    set(&mut opened, "edges.surface_color", "1");
+    set(&mut opened, "edges.object_color", "1");
     let of_surface = red(&image(&mut session, &opened, 192));
     assert!(of_style == 0 && of_surface > 200, "{of_style}, {of_surface}");
 }

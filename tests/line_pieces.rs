@@ -92,7 +92,7 @@ fn ink_of_box(session: &mut Session, size: f32, shortest: &str, slab: bool) -> f
     }
     let scene = scene(vec![("box", from_triangles(positions, indices), DMat4::IDENTITY, [0.7; 3])]);
     let mut opened = line_drawing(&scene, camera(0.0, 0.0));
-    set(&mut opened, "edges.shortest", shortest);
+    set(&mut opened, "edges.min_length", shortest);
     session.set_scene(&opened).unwrap();
     let ink = Ink::of(session, &opened, [SIDE; 2]);
     (0..50).flat_map(|y| (0..50).map(move |x| (x, y))).map(|(x, y)| ink.at(120 + x, 105 + y)).sum()

@@ -39,10 +39,10 @@ fn rings(order: [usize; 4]) -> Opened {
         set_for(&mut opened, node, "technique", technique);
         if LOOKS[*i] == "other blueprint" {
             set_for(&mut opened, node, "blueprint.fill", "#e04020");
-            set_for(&mut opened, node, "blueprint.opacity", "0.5");
+            set_for(&mut opened, node, "blueprint.fill_opacity", "0.5");
         }
     }
-    set(&mut opened, "blueprint.layers", "32");
+    set(&mut opened, "blueprint.max_layers", "32");
     // The range of distances is that of all objects.
     set(&mut opened, "blueprint.by_distance", "0");
     opened

@@ -161,8 +161,8 @@ fn zero_strength_is_the_picture_without_edges() {
             }
             image(session, &opened, 128)
         };
-        let with = drawn(&mut session, [("edges.profile.strength", "1"), ("edges.inner.strength", "1")]);
-        let zero = drawn(&mut session, [("edges.profile.strength", "0"), ("edges.inner.strength", "0")]);
+        let with = drawn(&mut session, [("edges.profile.opacity", "1"), ("edges.inner.opacity", "1")]);
+        let zero = drawn(&mut session, [("edges.profile.opacity", "0"), ("edges.inner.opacity", "0")]);
         let off = drawn(&mut session, [("edges.profile.show", "false"), ("edges.inner.show", "false")]);
         assert!(zero == off && zero != with, "{mode}");
     }

@@ -62,7 +62,7 @@ const SETTINGS: [(&str, &str); 11] = [
     ("toon.shadow", "#402060"),
     ("toon.mid", "#a08060"),
     ("toon.light", "#fff0c0"),
-    ("toon.tint", "0.5"),
+    ("toon.object_color", "0.5"),
     ("toon.highlight", "0.8"),
     ("toon.highlight_size", "20"),
     ("toon.rim", "0.5"),
@@ -270,7 +270,7 @@ fn one_toons_parameters_change_no_pixel_of_another() {
             ("toon.shadow", "#ff0000"),
             ("toon.light", "#00ff00"),
             ("toon.start", "-0.5"),
-            ("toon.tint", "0"),
+            ("toon.object_color", "0"),
             ("toon.highlight", "1"),
             ("toon.rim", "1"),
             ("toon.border", if border == "nearest" { "cartoon_map" } else { "nearest" }),
@@ -310,7 +310,7 @@ fn an_image_is_a_ramp_of_its_texels() {
     let ball = ball();
     let mut with = |border: &str, image: &str| {
         let mut opened = toon(&ball, DVec3::Z, border);
-        for (key, value) in [("toon.ramp", "image"), ("toon.image", image), ("toon.tint", "0")] {
+        for (key, value) in [("toon.ramp", "image"), ("toon.image", image), ("toon.object_color", "0")] {
             set(&mut opened, key, value);
         }
         drawn(&mut session, &opened)
@@ -348,7 +348,7 @@ fn the_bands_that_a_pixel_touches_have_their_shares_in_it() {
     ));
     let mut opened = toon(&ball(), DVec3::Z, "analytic");
     for (key, value) in
-        [("toon.ramp", "image"), ("toon.image", "ramp.png"), ("toon.tint", "0"), ("toon.start", "-1")]
+        [("toon.ramp", "image"), ("toon.image", "ramp.png"), ("toon.object_color", "0"), ("toon.start", "-1")]
     {
         set(&mut opened, key, value);
     }

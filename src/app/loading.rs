@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use crate::document::{Document, DocumentError, Glyph, ViewSettings};
+use crate::document::{Document, DocumentError, DocumentFile, Glyph, ViewSettings};
 use crate::export::session::{import_options, is_document};
 use crate::geometry::Bounds;
 use crate::gpu::GpuError;
@@ -174,18 +174,21 @@ pub fn load(
     let absolute = |p: &PathBuf| std::path::absolute(p).unwrap_or_else(|_unknown| p.clone());
     let mut models = Vec::new();
     let mut document = None;
+    let mut warnings = Vec::new();
     for path in paths.iter().map(absolute) {
         if !is_document(&path) {
             models.push(path);
         } else if document.is_none() {
-            let mut opened = Document::open(&path)?;
+            let DocumentFile { document: mut opened, warnings: renamed } = Document::open(&path)?;
+            warnings = renamed;
             opened.models = opened.models.iter().map(absolute).collect();
             models.extend(opened.models.iter().cloned());
             document = Some((path, opened));
         }
     }
     let view = document.as_ref().map_or(view, |(_, d)| &d.view);
-    let scene = loader(&models, &import_options(view), progress)?;
+    let mut scene = loader(&models, &import_options(view), progress)?;
+    scene.warnings.extend(warnings);
     let model = Model::new(scene);
     let on_device = uploader.scene(&model.files, &[])?;
     Ok(Loaded { model, on_device, models, document, intent })

@@ -251,7 +251,7 @@ impl Bench {
 /// A blueprint of so many layers, however small they are.
 fn blueprint(layers: u32) -> Result<Style, StyleError> {
     let mut style = preset::load("blueprint")?.style;
-    (style.blueprint.layers, style.blueprint.least) = (layers, 0.0);
+    (style.blueprint.max_layers, style.blueprint.min_coverage) = (layers, 0.0);
     Ok(style)
 }
 
@@ -260,7 +260,7 @@ fn blueprint(layers: u32) -> Result<Style, StyleError> {
 fn ending(pixels: &[u32], [width, height]: [u32; 2]) -> Result<Option<Style>, StyleError> {
     let [.., last, next] = pixels.get(..7).unwrap_or(&[]) else { return Ok(None) };
     let mut style = blueprint(MOST_LAYERS)?;
-    style.blueprint.least = 50.0 * (*last as f32 + *next as f32) / (width as f32 * height as f32);
+    style.blueprint.min_coverage = 50.0 * (*last as f32 + *next as f32) / (width as f32 * height as f32);
     Ok(Some(style))
 }
 

@@ -86,6 +86,9 @@ pub fn run() -> Result<i32, CliError> {
 
 fn window(mut files: Vec<PathBuf>, style: Option<&str>) -> Result<(), CliError> {
     let style = style.map(preset::load).transpose()?;
+    for renamed in style.iter().flat_map(|preset| &preset.renamed) {
+        warn(renamed);
+    }
     if files.is_empty() {
         files.extend(sample());
     }
@@ -104,6 +107,11 @@ fn print_json(value: &serde_json::Value) -> Result<(), CliError> {
     serde_json::to_writer_pretty(&mut out, value).map_err(std::io::Error::from)?;
     writeln!(out)?;
     Ok(())
+}
+
+/// Prints a warning where errors go too.
+fn warn(warning: impl std::fmt::Display) {
+    eprintln!("hachure: warning: {warning}");
 }
 
 /// Prints a line of text.

@@ -5,7 +5,7 @@ use std::thread::JoinHandle;
 use serde_json::json;
 
 use super::args::{CameraArgs, LookArgs, RenderArgs, SectionAt};
-use super::{CliError, layers, print_json};
+use super::{CliError, layers, print_json, warn};
 use crate::document::{Document, Pattern, Role, SectionSettings, ViewSettings, glyph, section};
 use crate::export::session::{OpenError, Opened, initial_camera, open};
 use crate::export::{Session, save_png};
@@ -13,8 +13,8 @@ use crate::gpu::{Gpu, GpuError};
 use crate::hatching::cache::Cache;
 use crate::import::{ImageCache, Progress};
 use crate::render::{RenderError, StyleImages};
-use crate::scene::{Camera, NodeId, Projection, Scene};
-use crate::style::{Color, param, preset};
+use crate::scene::{Camera, NodeId, Projection, Scene, Warning};
+use crate::style::{Color, Style, param, preset};
 
 /// Pixels per inch of paper, as printers expect them.
 const DPI: f64 = 300.0;
@@ -24,7 +24,7 @@ const METERS_PER_INCH: f64 = 0.0254;
 pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
     let device = StartingDevice::new()?;
     let mut opened = open(&args.files, |view| look_at_files(view, &args.look), &Progress::default())?;
-    apply_look(&mut opened, &args.look)?;
+    let renamed = apply_look(&mut opened, &args.look)?;
     opened.document.view.background = args.background.or(opened.document.view.background);
     let uses = opened.document.images();
     let images = ImageCache::default().read(&uses, &Progress::default()).map_err(OpenError::from)?;
@@ -59,8 +59,8 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
     let faults = faults.chain(document.coordinate_faults(scene)).chain(uncapped);
     let reports: Vec<_> = session.renderer().last_layer_reports().into_iter().flatten().collect();
     let strokes = crate::render::image_faults(session.renderer().images(), &uses);
-    let warnings =
-        images.warnings(&uses).into_iter().chain(strokes).chain(scene.warnings.iter().cloned()).chain(faults);
+    let files = scene.warnings.iter().cloned().chain(renamed);
+    let warnings = images.warnings(&uses).into_iter().chain(strokes).chain(files).chain(faults);
     let warnings =
         warnings.map(|w| w.to_string()).chain(layers::warnings(&reports, opened.document.view.layers));
     if args.json {
@@ -75,7 +75,7 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
         }))
     } else {
         for warning in warnings {
-            eprintln!("hachure: warning: {warning}");
+            warn(warning);
         }
         Ok(())
     }
@@ -116,31 +116,38 @@ fn matching(scene: &Scene, pattern: &str) -> Result<Vec<NodeId>, CliError> {
     Ok(Document::matching(scene, &Pattern::new(pattern)?)?)
 }
 
-/// Styles, parameters and roles in their order of precedence.
-pub(super) fn apply_look(opened: &mut Opened, look: &LookArgs) -> Result<(), CliError> {
+/// Sets styles, parameters and roles in their order of precedence, and warns of keys of earlier versions.
+fn apply_look(opened: &mut Opened, look: &LookArgs) -> Result<Vec<Warning>, CliError> {
+    let mut warnings = Vec::new();
+    let mut loaded = |name: &str| -> Result<Style, CliError> {
+        let preset = preset::load(name)?;
+        warnings.extend(preset.renamed.iter().map(|renamed| Warning::new(name, renamed)));
+        Ok(preset.style)
+    };
     let Opened { document, scene } = opened;
     // Glyphs are meant by their paths too.
     let scene = &*document.scene_with_glyphs(scene);
     if let Some(name) = &look.style {
-        document.style = preset::load(name)?.style;
+        document.style = loaded(name)?;
         for (_, node) in document.nodes.iter_mut().filter(|(path, _)| !path.starts_with(glyph::FOLDER)) {
             node.style = None;
         }
     }
     for assignment in &look.object_style {
-        let style = preset::load(&assignment.style)?.style;
+        let style = loaded(&assignment.style)?;
         document.set_style(scene, &matching(scene, &assignment.pattern)?, &style);
     }
     if let Some(SectionAt { axis, position }) = look.section {
         document.section = SectionSettings { show: true, axis, position, ..document.section.clone() };
     }
     for setting in &look.set {
-        match &setting.pattern {
+        let renamed = match &setting.pattern {
             None => document.set(&setting.key, &setting.value)?,
             Some(pattern) => {
-                document.set_for(scene, &matching(scene, pattern)?, &setting.key, &setting.value)?;
+                document.set_for(scene, &matching(scene, pattern)?, &setting.key, &setting.value)?
             }
-        }
+        };
+        warnings.extend(renamed.map(|renamed| Warning::new("--set", renamed)));
     }
     for pattern in &look.hide {
         for id in matching(scene, pattern)? {
@@ -161,7 +168,7 @@ pub(super) fn apply_look(opened: &mut Opened, look: &LookArgs) -> Result<(), Cli
     document.up = look.up.or(document.up);
     document.meters_per_unit = look.unit.map(|unit| unit.meters).or(document.meters_per_unit);
     document.tidy();
-    Ok(())
+    Ok(warnings)
 }
 
 /// The camera that the flags describe, as F3D reads them: position, focal point, up and angle first, then everything

@@ -39,7 +39,7 @@ pub(super) fn run(args: &StylesArgs) -> Result<(), CliError> {
     }
     print_line("Presets")?;
     let width = presets.iter().map(|p| p.id.len()).max().unwrap_or_default();
-    for Preset { id, name, description, style } in &presets {
+    for Preset { id, name, description, style, .. } in &presets {
         let technique: &str = style.technique.into();
         print_line(&format!("  {id:<width$} {technique:<9} {name}: {description}"))?;
     }

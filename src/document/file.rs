@@ -1,5 +1,6 @@
 //! Documents as `.hachure` files (TOML).
 
+use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
@@ -8,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use super::lighting::{Lighting, Source};
 use super::{Document, NodeSettings, SectionSettings, ViewSettings, glyph};
-use crate::scene::{Camera, Light, Up};
+use crate::scene::{Camera, Light, Up, Warning};
 use crate::style::param::{Param, map_paths};
 use crate::style::{MadeFrom, Style, StyleError, diff_to_toml, set_from_toml};
 
@@ -99,12 +100,21 @@ struct NodeForm {
 /// The ending of documents, without dot.
 pub const DOCUMENT_ENDING: &str = "hachure";
 
+/// What a `.hachure` file holds.
+#[derive(Debug, Clone)]
+pub struct DocumentFile {
+    /// The document.
+    pub document: Document,
+    /// Keys of earlier versions in it, at the part of the document that has them.
+    pub warnings: Vec<Warning>,
+}
+
 impl Document {
     /// Reads a `.hachure` file. Paths of models and images become relative to the current folder.
     ///
     /// # Errors
     /// See [`DocumentError`]; nothing is half read.
-    pub fn open(path: &Path) -> Result<Self, DocumentError> {
+    pub fn open(path: &Path) -> Result<DocumentFile, DocumentError> {
         let read_error = |source| DocumentError::Read { path: path.into(), source };
         let size = std::fs::metadata(path).map_err(read_error)?.len();
         if size > MAX_FILE_BYTES {
@@ -117,7 +127,7 @@ impl Document {
         Self::from_text(&text, path)
     }
 
-    fn from_text(text: &str, path: &Path) -> Result<Self, DocumentError> {
+    fn from_text(text: &str, path: &Path) -> Result<DocumentFile, DocumentError> {
         let form: Form = toml::from_str(text).map_err(|e| DocumentError::Malformed {
             path: path.into(),
             message: e.to_string().trim_end().to_owned(),
@@ -132,15 +142,20 @@ impl Document {
         if form.lights.iter().flatten().any(|l| !l.is_valid()) {
             return Err(malformed("lights: their numbers must be finite"));
         }
+        let warnings = RefCell::new(Vec::new());
         let fill = |params: &mut [Param<'_>], table: &toml::Table, place: &str| {
-            set_from_toml(params, &table.to_string(), place).map_err(|e| DocumentError::Style {
-                path: path.into(),
-                place: place.to_owned(),
-                source: match e {
-                    StyleError::InFile { source, .. } => *source,
-                    other => other,
-                },
-            })
+            let renamed =
+                set_from_toml(params, &table.to_string(), place).map_err(|e| DocumentError::Style {
+                    path: path.into(),
+                    place: place.to_owned(),
+                    source: match e {
+                        StyleError::InFile { source, .. } => *source,
+                        other => other,
+                    },
+                })?;
+            let place = format!("{}, {place}", path.display());
+            warnings.borrow_mut().extend(renamed.iter().map(|r| Warning::new(&place, r)));
+            Ok(())
         };
         let style = |mut table: toml::Table, place: &str| {
             let mut style = Style::default();
@@ -183,7 +198,7 @@ impl Document {
             map_paths(&mut style.params(), |image| folder.join(image));
         }
         document.tidy();
-        Ok(document)
+        Ok(DocumentFile { document, warnings: warnings.into_inner() })
     }
 
     /// Writes a `.hachure` file; paths of models and images are written relative to it where they share a folder with it.
@@ -316,7 +331,7 @@ mod tests {
         document.save(&path).unwrap();
         let text = std::fs::read_to_string(&path).unwrap();
         assert!(text.contains("\"models/crank.glb\"") && text.contains("\"images/ramp.png\""), "{text}");
-        let again = Document::open(&path).unwrap();
+        let again = Document::open(&path).unwrap().document;
         assert_eq!(again, document);
         assert_eq!(again.style.made_from.0.as_deref(), Some("gooch"));
         assert_eq!(again.nodes["/crank/rod.3"].style.as_ref().unwrap().made_from.0, None);
@@ -333,8 +348,8 @@ mod tests {
             "[style]\ntoon.image = 'ramp.png'\n[nodes.'/m'.style]\ntoon.image = 'ramp.png'\n",
         )
         .unwrap();
-        Document::open(&first).unwrap().save(&second).unwrap();
-        let again = Document::open(&second).unwrap();
+        Document::open(&first).unwrap().document.save(&second).unwrap();
+        let again = Document::open(&second).unwrap().document;
         let styles = [Some(&again.style), again.nodes["/m"].style.as_ref()];
         assert!(styles.iter().all(|s| s.unwrap().toon.image.as_ref().unwrap().exists()), "{again:?}");
         assert!(std::fs::read_to_string(&second).unwrap().contains("\"../ramp.png\""));
@@ -347,10 +362,10 @@ mod tests {
         for (text, source) in
             [(lights.to_owned(), Source::File), (format!("{lights}[light]\nsource = \"rig\""), Source::Rig)]
         {
-            let document = Document::from_text(&text, Path::new("a.hachure")).unwrap();
+            let document = Document::from_text(&text, Path::new("a.hachure")).unwrap().document;
             assert_eq!((document.lights.len(), document.lighting.source), (1, source));
             let again = document.to_text(Path::new("a.hachure")).unwrap();
-            assert_eq!(Document::from_text(&again, Path::new("a.hachure")).unwrap(), document);
+            assert_eq!(Document::from_text(&again, Path::new("a.hachure")).unwrap().document, document);
         }
     }
 

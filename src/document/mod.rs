@@ -20,9 +20,10 @@ use std::path::PathBuf;
 use glam::DVec3;
 
 use crate::scene::{Camera, Light, LightKind, NodeId, Scene, Up};
-use crate::style::{Color, Style, StyleError, Value, param};
+use crate::style::param::{self, Renamed};
+use crate::style::{Color, Style, StyleError, Value};
 
-pub use file::{DOCUMENT_ENDING, DocumentError};
+pub use file::{DOCUMENT_ENDING, DocumentError, DocumentFile};
 pub use glyph::Glyph;
 pub use history::History;
 pub use lighting::Lighting;
@@ -277,26 +278,26 @@ impl Document {
     }
 
     /// Sets one parameter of the default style, of the view, the light or the section plane, and in all styles that single
-    /// nodes have; glyphs keep theirs.
+    /// nodes have; glyphs keep theirs. A key of an earlier version is said to be one.
     ///
     /// # Errors
     /// See [`param::set`].
-    pub fn set(&mut self, key: &str, value: &Value) -> Result<(), StyleError> {
+    pub fn set(&mut self, key: &str, value: &Value) -> Result<Option<Renamed>, StyleError> {
         let mut params = self.view.params(self.style.paper.color);
         params.extend(self.lighting.params());
         params.extend(self.section.params());
         params.extend(self.style.params());
-        param::set(&mut params, key, value)?;
+        let renamed = param::set(&mut params, key, value)?;
         if !["view.", "light.", "section."].iter().any(|section| key.starts_with(section)) {
             let of_objects = self.nodes.iter_mut().filter(|(path, _)| !path.starts_with(glyph::FOLDER));
             for style in of_objects.filter_map(|(_, n)| n.style.as_mut()) {
                 param::set(&mut style.params(), key, value)?;
             }
         }
-        Ok(())
+        Ok(renamed)
     }
 
-    /// Sets one parameter of the given nodes and of everything below them.
+    /// Sets one parameter of the given nodes and of everything below them. A key of an earlier version is said to be one.
     ///
     /// # Errors
     /// See [`param::set`].
@@ -306,7 +307,7 @@ impl Document {
         nodes: &[NodeId],
         key: &str,
         value: &Value,
-    ) -> Result<(), StyleError> {
+    ) -> Result<Option<Renamed>, StyleError> {
         // Resolved once: thousands of nodes may be set at a time.
         let inherited: Vec<Style> = {
             let resolved = self.resolve(scene);
@@ -315,6 +316,7 @@ impl Document {
                 .map(|&id| resolved.get(id).map_or_else(Style::default, |r| r.style.clone()))
                 .collect()
         };
+        let mut renamed = None;
         for (&id, inherited) in nodes.iter().zip(inherited) {
             let Some(node) = scene.nodes.get(id) else { continue };
             for inner in scene.subtree(id).skip(1) {
@@ -328,9 +330,9 @@ impl Document {
                 }
             }
             let style = self.node_mut(&node.path).style.get_or_insert(inherited);
-            param::set(&mut style.params(), key, value)?;
+            renamed = param::set(&mut style.params(), key, value)?;
         }
-        Ok(())
+        Ok(renamed)
     }
 }
 

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use image::RgbaImage;
 
-use crate::document::{Creases, DOCUMENT_ENDING, Document, DocumentError, ViewSettings};
+use crate::document::{Creases, DOCUMENT_ENDING, Document, DocumentError, DocumentFile, ViewSettings};
 use crate::geometry::Topology;
 use crate::gpu::{Gpu, GpuError, readback};
 use crate::hatching::cache::Cache;
@@ -69,10 +69,14 @@ pub fn open(
         return Err(OpenError::DocumentAmongFiles { path: path.clone() });
     }
     let is_new = document.is_none();
-    let mut document = document.unwrap_or_else(|| Document { models: files.to_vec(), ..Document::default() });
+    let DocumentFile { mut document, warnings } = document.unwrap_or_else(|| DocumentFile {
+        document: Document { models: files.to_vec(), ..Document::default() },
+        warnings: Vec::new(),
+    });
     let mut view = document.view.clone();
     adjust(&mut view);
-    let scene = load_all(&document.models, &import_options(&view), progress)?;
+    let mut scene = load_all(&document.models, &import_options(&view), progress)?;
+    scene.warnings.extend(warnings);
     if is_new {
         document.use_lights_of(&scene);
     }

@@ -90,6 +90,13 @@ pub struct Warning {
     pub message: String,
 }
 
+impl Warning {
+    /// A warning about something in `place`.
+    pub fn new(place: impl Into<String>, message: impl ToString) -> Self {
+        Self { place: place.into(), message: message.to_string() }
+    }
+}
+
 impl std::fmt::Display for Warning {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "{}: {}", self.place, self.message)

@@ -27,15 +27,15 @@ pub struct Blueprint {
     /// Color of the surfaces.
     pub fill: Color,
     /// Opacity of the fill of each layer.
-    pub opacity: f32,
+    pub fill_opacity: f32,
     /// The first layer that is drawn.
     pub from: u32,
     /// The last layer that is drawn, also where more would uncover more.
     pub to: u32,
     /// Most layers, where nothing is to be uncovered; never more than `to`.
-    pub layers: u32,
+    pub max_layers: u32,
     /// Layers end before one with fewer pixels; percent of the picture's.
-    pub least: f32,
+    pub min_coverage: f32,
     /// Layers end with the one that leaves this share of the depth mask uncovered (section 4.3).
     pub fraction: f32,
     /// Whether what lies farther than the depth mask is drawn.
@@ -54,11 +54,11 @@ impl Default for Blueprint {
             threshold: 0.0,
             repeated: false,
             fill: Color([70, 120, 200]),
-            opacity: 0.05,
+            fill_opacity: 0.05,
             from: 1,
             to: 64,
-            layers: 8,
-            least: 0.1,
+            max_layers: 8,
+            min_coverage: 0.1,
             fraction: 0.9,
             beyond: true,
             highlight: Color([226, 110, 44]),
@@ -93,14 +93,15 @@ impl Blueprint {
         );
         list.color("fill", "Fill", "Color of the surfaces between the lines.", &mut self.fill);
         list.wide_number(
-            "opacity",
+            "fill_opacity",
             "Fill opacity",
             "",
             0.0..=0.5,
             0.0..=1.0,
             "Opacity of the fill of each layer; 0 draws lines only.",
-            &mut self.opacity,
+            &mut self.fill_opacity,
         );
+        list.formerly("opacity");
         list.span("Layers", |list| {
             list.integer(
                 "from",
@@ -120,22 +121,24 @@ impl Blueprint {
             );
         });
         list.integer(
-            "layers",
+            "max_layers",
             "Max. layers",
             "",
             1..=64,
             "Layers end after so many, or after To layer if that is less; to uncover designated objects they go on to there.",
-            &mut self.layers,
+            &mut self.max_layers,
         );
+        list.formerly("layers");
         list.wide_number(
-            "least",
+            "min_coverage",
             "Min. coverage",
             "%",
             0.0..=1.0,
             0.0..=100.0,
             "Layers end before one that covers a smaller share of the picture.",
-            &mut self.least,
+            &mut self.min_coverage,
         );
+        list.formerly("least");
         list.only(Scope::Masks, |list| {
             list.share(
                 "fraction",

@@ -18,11 +18,11 @@ fn curve(numbers: &[[f32; 2]]) -> Curve {
 
 /// As `--set` has it.
 fn set(curve: &mut Curve, value: &str) -> Result<(), String> {
-    param::set(&mut params(curve), KEY, &Value::parse(value)).map_err(|e| e.to_string())
+    param::set(&mut params(curve), KEY, &Value::parse(value)).map(drop).map_err(|e| e.to_string())
 }
 
 fn read(curve: &mut Curve, text: &str) -> Result<(), String> {
-    set_from_toml(&mut params(curve), text, "my.toml").map_err(|e| e.to_string())
+    set_from_toml(&mut params(curve), text, "my.toml").map(drop).map_err(|e| e.to_string())
 }
 
 fn written(curve: Curve) -> String {

@@ -96,6 +96,7 @@ impl<'a> Params<'a> {
             detail: self.detail,
             head: false,
             span: None,
+            former: None,
             slot,
         });
     }
@@ -111,6 +112,13 @@ impl<'a> Params<'a> {
         self.switch(key, label, help, value);
         if let Some(param) = self.list.last_mut() {
             param.head = true;
+        }
+    }
+
+    /// Says how the parameter that was declared last was called in files of earlier versions, in the same section.
+    pub fn formerly(&mut self, key: &str) {
+        if let Some(param) = self.list.last_mut() {
+            param.former = Some(format!("{}{key}", self.prefix));
         }
     }
 

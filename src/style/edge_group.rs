@@ -13,7 +13,7 @@ pub struct EdgeGroup<More> {
     /// Color of the lines.
     pub color: Color,
     /// Opacity of full ink.
-    pub strength: f32,
+    pub opacity: f32,
     /// Width in reference pixels. Exact mode.
     pub width: f32,
     /// Whether the lines are drawn in dashes. Exact mode.
@@ -52,7 +52,7 @@ impl Default for EdgeGroup<Profile> {
         Self {
             show: true,
             color: Color::BLACK,
-            strength: 1.0,
+            opacity: 1.0,
             width: 2.5,
             dashed: false,
             // A step of 0.1 in one diagonal pair gives 1 − I_Z = 1 − 0.95², about 1 / 10.3.
@@ -68,7 +68,7 @@ impl Default for EdgeGroup<Inner> {
         Self {
             show: true,
             color: Color::BLACK,
-            strength: 1.0,
+            opacity: 1.0,
             width: 2.2,
             dashed: false,
             // Full ink at a dihedral angle of about 41°, none below about 18° (1 − cos).
@@ -85,7 +85,7 @@ impl<More> EdgeGroup<More> {
         LineStyle {
             show: self.show,
             color: self.color,
-            strength: self.strength,
+            opacity: self.opacity,
             width: self.width,
             dashed: self.dashed,
             threshold: 0.0,
@@ -100,7 +100,7 @@ impl EdgeGroup<Profile> {
         let places = LineFields {
             show: (&mut self.show).into(),
             color: (&mut self.color).into(),
-            strength: (&mut self.strength).into(),
+            opacity: (&mut self.opacity).into(),
             width: (&mut self.width).into(),
             dashed: (&mut self.dashed).into(),
         };
@@ -148,7 +148,7 @@ impl EdgeGroup<Inner> {
         let places = LineFields {
             show: (&mut self.show).into(),
             color: (&mut self.color).into(),
-            strength: (&mut self.strength).into(),
+            opacity: (&mut self.opacity).into(),
             width: (&mut self.width).into(),
             dashed: (&mut self.dashed).into(),
         };

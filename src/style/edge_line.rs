@@ -17,7 +17,7 @@ pub struct LineStyle {
     /// Color.
     pub color: Color,
     /// Opacity.
-    pub strength: f32,
+    pub opacity: f32,
     /// Width in reference pixels.
     pub width: f32,
     /// Whether it is drawn in dashes.
@@ -36,7 +36,7 @@ pub struct ClassStyle {
     /// Color.
     pub color: Option<Color>,
     /// Opacity.
-    pub strength: Option<f32>,
+    pub opacity: Option<f32>,
     /// Width in reference pixels.
     pub width: Option<f32>,
     /// Whether it is drawn in dashes.
@@ -64,7 +64,7 @@ impl ClassStyle {
         let show = (class == EdgeClass::Material || class.is_detail()).then_some(false);
         // Where something is cut, draftsmen draw the heaviest lines.
         let width = (class == EdgeClass::Section).then_some(SECTION_WIDTH);
-        Self { show, color: None, strength: None, width, dashed: None, threshold }
+        Self { show, color: None, opacity: None, width, dashed: None, threshold }
     }
 
     /// Fills in from the group what is not set.
@@ -72,7 +72,7 @@ impl ClassStyle {
         LineStyle {
             show: self.show.unwrap_or(group.show),
             color: self.color.unwrap_or(group.color),
-            strength: self.strength.unwrap_or(group.strength),
+            opacity: self.opacity.unwrap_or(group.opacity),
             width: self.width.unwrap_or(group.width),
             dashed: self.dashed.unwrap_or(group.dashed),
             threshold: self.threshold,
@@ -97,10 +97,10 @@ impl ClassStyle {
                 inherited: group.color,
                 from: from("color"),
             },
-            strength: StyleField::Inheriting {
-                own: &mut self.strength,
-                inherited: group.strength,
-                from: from("strength"),
+            opacity: StyleField::Inheriting {
+                own: &mut self.opacity,
+                inherited: group.opacity,
+                from: from("opacity"),
             },
             width: StyleField::Inheriting {
                 own: &mut self.width,
@@ -193,7 +193,7 @@ fn words(class: EdgeClass) -> (&'static str, &'static str) {
 pub(super) struct LineFields<'a> {
     pub show: StyleField<'a, bool>,
     pub color: StyleField<'a, Color>,
-    pub strength: StyleField<'a, f32>,
+    pub opacity: StyleField<'a, f32>,
     pub width: StyleField<'a, f32>,
     pub dashed: StyleField<'a, bool>,
 }
@@ -203,7 +203,8 @@ impl<'a> LineFields<'a> {
     pub(super) fn declare(self, label: &'static str, help: &'static str, list: &mut Params<'a>) {
         list.head("show", label, help, self.show);
         list.color("color", "Color", "Color of these lines.", self.color);
-        list.share("strength", "Opacity", "Opacity of these lines.", self.strength);
+        list.share("opacity", "Opacity", "Opacity of these lines.", self.opacity);
+        list.formerly("strength");
         list.when("edges.mode", EdgeMode::Exact, |list| {
             list.wide_number(
                 "width",

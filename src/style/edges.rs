@@ -15,7 +15,7 @@ pub struct Edges {
     /// Where the width of profile edges lies; inner edges are centered. Exact mode.
     pub alignment: Alignment,
     /// Shorter pieces of lines that nothing continues are left out, in reference pixels; 0: none. Exact mode.
-    pub shortest: f32,
+    pub min_length: f32,
     /// The operator that finds depth discontinuities. Paper mode.
     pub operator: DepthOperator,
     /// What Sobel operators look at. Paper mode.
@@ -29,7 +29,7 @@ pub struct Edges {
     /// Dashes of the lines that have them. Exact mode.
     pub dash: Dash,
     /// Share of the surface's color in the lines; 0: the constant color, 1: the surface's own. Exact mode.
-    pub surface_color: f32,
+    pub object_color: f32,
     /// How much the surface's color is darkened in lines; 0: not, 1: black. Exact mode.
     pub darken: f32,
     /// What makes lines thinner. Exact mode.
@@ -109,14 +109,14 @@ impl Default for Edges {
         Self {
             mode: EdgeMode::default(),
             alignment: Alignment::default(),
-            shortest: 4.0,
+            min_length: 4.0,
             operator: DepthOperator::default(),
             sobel: Sobel::default(),
             profile: EdgeGroup::default(),
             inner: EdgeGroup::default(),
             classes: EdgeClass::ALL.map(ClassStyle::new),
             dash: Dash { length: 12.0, gap: 6.0 },
-            surface_color: 0.0,
+            object_color: 0.0,
             darken: 0.6,
             variation: Variation::default(),
             pressure: Pressure { amount: 0.0, scale: 60.0 },
@@ -172,16 +172,18 @@ impl Edges {
                 &mut self.alignment,
             );
             list.wide_number(
-                "shortest",
+                "min_length",
                 "Min. length",
                 "px",
                 0.0..=12.0,
                 0.0..=32.0,
                 "Shorter pieces of lines that nothing continues are left out; 0 draws all.",
-                &mut self.shortest,
+                &mut self.min_length,
             );
+            list.formerly("shortest");
             let help = "Share of the surface's own color in the lines; 0 leaves the colors below.";
-            list.share("surface_color", "Surface color", help, &mut self.surface_color);
+            list.share("object_color", "Object color", help, &mut self.object_color);
+            list.formerly("surface_color");
             let help = "How much darker than the surface its color is in the lines.";
             list.share("darken", "Darken color", help, &mut self.darken);
         });
@@ -288,7 +290,7 @@ mod tests {
                 if class.is_profile() { (edges.profile.line(), 2.5) } else { (edges.inner.line(), 2.2) };
             let line = edges.line(class);
             let width = if class == EdgeClass::Section { 4.0 } else { width };
-            assert_eq!((line.color, line.strength, line.width), (group.color, 1.0, width), "{class:?}");
+            assert_eq!((line.color, line.opacity, line.width), (group.color, 1.0, width), "{class:?}");
             assert_eq!(line.show, class != EdgeClass::Material && !class.is_detail());
         }
         edges.inner.color = Color::WHITE;

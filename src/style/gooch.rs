@@ -20,9 +20,9 @@ pub struct Gooch {
     pub beta: f32,
     /// How far blue and yellow are multiplied by the base color, 0 (added as they are) to 1: dark and saturated ones keep
     /// their hue.
-    pub own_hue: f32,
+    pub object_hue: f32,
     /// How far the key light is turned to the side; 0: where it is, 1: across the line of sight.
-    pub aside: f32,
+    pub side_light: f32,
     /// Strength of the highlight; 0: none, 1: white.
     pub highlight: f32,
     /// Phong exponent of the highlight; 1: wide, 256: small.
@@ -59,8 +59,8 @@ impl Default for Gooch {
             warm: Color([168, 142, 62]),
             alpha: 0.3,
             beta: 0.65,
-            own_hue: 0.0,
-            aside: 0.0,
+            object_hue: 0.0,
+            side_light: 0.0,
             highlight: 0.45,
             shininess: 32.0,
             metal: 0.0,
@@ -76,18 +76,20 @@ impl Gooch {
         list.color("warm", "Warm", "Yellow of the side that faces the light.", &mut self.warm);
         list.share(
             "alpha",
-            "Cool base color",
+            "Cool object color",
             "Share of the object's own color on the cool side.",
             &mut self.alpha,
         );
         list.share(
             "beta",
-            "Warm base color",
+            "Warm object color",
             "Share of the object's own color on the warm side.",
             &mut self.beta,
         );
-        list.share("own_hue", "Keep hue", "How far blue and yellow are multiplied by the object's own color: dark and saturated ones keep their hue.", &mut self.own_hue);
-        list.share("aside", "Side light", "How far the key is turned to the side: at 1 it shines across the line of sight and sets faces apart.", &mut self.aside);
+        list.share("object_hue", "Object hue", "How far blue and yellow are multiplied by the object's own color: dark and saturated ones keep their hue.", &mut self.object_hue);
+        list.formerly("own_hue");
+        list.share("side_light", "Light from the side", "How far the key is turned to the side: at 1 it shines across the line of sight and sets faces apart.", &mut self.side_light);
+        list.formerly("aside");
         list.share(
             "highlight",
             "Highlight",

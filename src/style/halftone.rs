@@ -38,7 +38,7 @@ pub struct Halftone {
     /// Light that reaches every point from everywhere.
     pub ambient: f32,
     /// How far an object's own color makes its tone darker; 0: not at all, 1: as much as it is dark.
-    pub own_tone: f32,
+    pub object_tone: f32,
     /// Light that becomes black.
     pub black: f32,
     /// Light that becomes paper.
@@ -101,7 +101,7 @@ impl Default for Halftone {
             paper: Color([250, 248, 242]),
             paper_tint: 0.0,
             ambient: 0.1,
-            own_tone: 0.3,
+            object_tone: 0.3,
             black: 0.0,
             white: 1.0,
             gamma: 1.0,
@@ -168,21 +168,22 @@ impl Halftone {
             &mut self.smoothness,
         );
         list.color("ink", "Ink", "Color of the ink.", &mut self.ink);
-        list.share("ink_tint", "Object in ink", "Share of the object's own color.", &mut self.ink_tint);
+        list.share("ink_tint", "Ink tint", "Share of the object's own color in the ink.", &mut self.ink_tint);
         list.color("paper", "Paper", "Color between the ink.", &mut self.paper);
         list.share(
             "paper_tint",
-            "Object on paper",
+            "Paper tint",
             "How far the paper is multiplied by the object's own color.",
             &mut self.paper_tint,
         );
         list.share("ambient", "Ambient", "Light that reaches every point, lit or not.", &mut self.ambient);
         list.share(
-            "own_tone",
+            "object_tone",
             "Object tone",
             "How far the object's own color darkens: 0 draws all as if white.",
-            &mut self.own_tone,
+            &mut self.object_tone,
         );
+        list.formerly("own_tone");
         list.share("black", "Black point", "Light at and below which all is ink.", &mut self.black);
         list.wide_number(
             "white",

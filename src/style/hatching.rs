@@ -50,9 +50,9 @@ pub struct Stroke {
     /// Least distance between strokes, reference pixels; on a surface up to twice as much.
     pub spacing: f32,
     /// Width of a stroke that just begins, as a share of the spacing.
-    pub thin: f32,
+    pub min_width: f32,
     /// Greatest width, as a share of the spacing.
-    pub thick: f32,
+    pub max_width: f32,
     /// Least length, reference pixels; up to twice as much.
     pub length: f32,
     /// Length of pointed ends, reference pixels; 0: strokes go on and on.
@@ -60,13 +60,13 @@ pub struct Stroke {
     /// Half of the gap between the ends of strokes, reference pixels.
     pub gap: f32,
     /// How far strokes come one after the other as it gets darker, instead of all at once getting wider.
-    pub spread: f32,
+    pub tone_by_count: f32,
     /// How much chance decides which come first.
-    pub chance: f32,
+    pub randomness: f32,
     /// How much later the ends of a stroke come than its middle.
-    pub pointed: f32,
+    pub pointedness: f32,
     /// How much later a line comes that is inserted between two others.
-    pub inserted: f32,
+    pub late_insertion: f32,
     /// How much widths vary from stroke to stroke.
     pub variation: f32,
 }
@@ -103,9 +103,9 @@ pub struct Tone {
     /// Light that reaches every point from everywhere.
     pub ambient: f32,
     /// How far an object's own color makes its tone darker; 0: not at all, 1: as much as it is dark.
-    pub own_color: f32,
+    pub object_tone: f32,
     /// Darkness up to which there is only paper.
-    pub white: f32,
+    pub lightest: f32,
     /// The greatest darkness.
     pub darkest: f32,
 }
@@ -181,23 +181,23 @@ impl Default for Hatching {
             blend_steps: false,
             stroke: Stroke {
                 spacing: 6.0,
-                thin: 0.16,
-                thick: 0.54,
+                min_width: 0.16,
+                max_width: 0.54,
                 length: 120.0,
                 taper: 22.0,
                 gap: 1.5,
-                spread: 0.45,
-                chance: 1.0,
-                pointed: 0.5,
-                inserted: 0.45,
+                tone_by_count: 0.45,
+                randomness: 1.0,
+                pointedness: 0.5,
+                late_insertion: 0.45,
                 variation: 0.3,
             },
             layers: Layers { count: 3, second: 0.42, third: 0.7, shadows_cross: true },
             tone: Tone {
                 curve: paper_in_the_light(),
                 ambient: 0.06,
-                own_color: 0.2,
-                white: 0.1,
+                object_tone: 0.2,
+                lightest: 0.1,
                 darkest: 0.86,
             },
             indication: Indication::default(),
@@ -245,11 +245,11 @@ impl Hatching {
             );
         });
         list.color("ink", "Ink", "Color of the ink.", &mut self.ink);
-        list.share("ink_tint", "Object in ink", "Share of the object's own color.", &mut self.ink_tint);
+        list.share("ink_tint", "Ink tint", "Share of the object's own color in the ink.", &mut self.ink_tint);
         list.color("paper", "Paper", "Color between the ink.", &mut self.paper);
         list.share(
             "paper_tint",
-            "Object on paper",
+            "Paper tint",
             "How far the paper is multiplied by the object's own color.",
             &mut self.paper_tint,
         );
@@ -285,8 +285,10 @@ impl Stroke {
                           help,
                           value: &'a mut f32| list.wide_number(key, label, unit, soft, hard, help, value);
             let share = ("", 0.02..=1.0, 0.02..=1.2);
-            number(list, "thin", "Min. width", share.clone(), "Width of a stroke that just begins, as a share of the spacing.", &mut self.thin);
-            number(list, "thick", "Max. width", share, "Width where all is dark, as a share of the spacing.", &mut self.thick);
+            number(list, "min_width", "Min. width", share.clone(), "Width of a stroke that just begins, as a share of the spacing.", &mut self.min_width);
+            list.formerly("thin");
+            number(list, "max_width", "Max. width", share, "Width where all is dark, as a share of the spacing.", &mut self.max_width);
+            list.formerly("thick");
             let length = ("px", 10.0..=300.0, 5.0..=1000.0);
             number(list, "length", "Length", length, "Least length of strokes; up to twice as much.", &mut self.length);
             let taper = ("px", 0.0..=40.0, 0.0..=100.0);
@@ -294,10 +296,14 @@ impl Stroke {
             let gap = ("px", 0.0..=8.0, 0.0..=20.0);
             number(list, "gap", "Gap", gap, "Half of the gap between the ends of two strokes.", &mut self.gap);
             let unit = ("", 0.0..=1.0, 0.0..=1.0);
-            number(list, "spread", "Tone by count", unit.clone(), "0: all strokes get wider where it is dark, as an engraver's; 1: more and more come, as of a pen.", &mut self.spread);
-            number(list, "chance", "Randomness", unit.clone(), "How much chance decides which strokes come first.", &mut self.chance);
-            number(list, "pointed", "End delay", ("", 0.0..=2.0, 0.0..=2.0), "How much darker it must be for the ends of a stroke than for its middle.", &mut self.pointed);
-            number(list, "inserted", "Insertion delay", unit.clone(), "How much darker it must be for lines that are inserted between others.", &mut self.inserted);
+            number(list, "tone_by_count", "Tone by count", unit.clone(), "0: all strokes get wider where it is dark, as an engraver's; 1: more and more come, as of a pen.", &mut self.tone_by_count);
+            list.formerly("spread");
+            number(list, "randomness", "Randomness", unit.clone(), "How much chance decides which strokes come first.", &mut self.randomness);
+            list.formerly("chance");
+            number(list, "pointedness", "Pointed ends", ("", 0.0..=2.0, 0.0..=2.0), "How far strokes thin out towards their ends; at 0 they are blunt. Ends need so much more darkness than the middle.", &mut self.pointedness);
+            list.formerly("pointed");
+            number(list, "late_insertion", "Late insertion", unit.clone(), "How much darker it must be before lines are inserted between others.", &mut self.late_insertion);
+            list.formerly("inserted");
             number(list, "variation", "Variation", unit, "How much widths vary from stroke to stroke.", &mut self.variation);
         });
     }
@@ -363,14 +369,16 @@ impl Tone {
         );
         list.share("ambient", "Ambient", "Light that reaches every point, lit or not.", &mut self.ambient);
         list.share(
-            "own_color",
-            "Object color",
+            "object_tone",
+            "Object tone",
             "How far the object's own color darkens: 0 draws all as if white.",
-            &mut self.own_color,
+            &mut self.object_tone,
         );
+        list.formerly("own_color");
         let help =
             "Darkness up to which no stroke is drawn: 0.1 leaves the lightest tenth of the tones bare.";
-        list.share("white", "Bare up to", help, &mut self.white);
+        list.share("lightest", "Lightest tone", help, &mut self.lightest);
+        list.formerly("white");
         list.share("darkest", "Darkest tone", "Greatest share of ink.", &mut self.darkest);
     }
 }

@@ -14,13 +14,13 @@ pub struct Hidden {
     /// Of which layers they are.
     pub layers: HiddenLayers,
     /// With [`HiddenLayers::All`]: most layers behind the visible one.
-    pub most: u32,
+    pub max_layers: u32,
     /// They end before a layer with fewer pixels; percent of the picture's.
-    pub least: f32,
+    pub min_coverage: f32,
     /// Opacity as a share of the visible lines'.
-    pub strength: f32,
+    pub opacity: f32,
     /// Width as a share of the visible lines'. Exact mode.
-    pub narrow: f32,
+    pub relative_width: f32,
     /// Their own color.
     pub color: Color,
     /// Their own width in reference pixels. Exact mode.
@@ -64,11 +64,11 @@ impl Default for Hidden {
         Self {
             mode: HiddenMode::default(),
             layers: HiddenLayers::default(),
-            most: 12,
-            least: 0.1,
-            strength: 0.6,
+            max_layers: 12,
+            min_coverage: 0.1,
+            opacity: 0.6,
             // ISO 128-2: hidden edges are narrow dashed lines, half as wide as visible ones.
-            narrow: 0.5,
+            relative_width: 0.5,
             color: Color([80, 110, 160]),
             width: 1.2,
             dashed: true,
@@ -84,7 +84,7 @@ impl Hidden {
         match (self.mode, self.layers) {
             (HiddenMode::Off, _) => 0,
             (_, HiddenLayers::Next) => 1,
-            (_, HiddenLayers::All) => self.most.max(1),
+            (_, HiddenLayers::All) => self.max_layers.max(1),
         }
     }
 
@@ -102,31 +102,34 @@ impl Hidden {
             );
             list.when("edges.hidden.layers", HiddenLayers::All, |list| {
                 list.integer(
-                    "most",
+                    "max_layers",
                     "Max. layers",
                     "",
                     1..=63,
                     "So many layers behind the visible one have lines.",
-                    &mut self.most,
+                    &mut self.max_layers,
                 );
+                list.formerly("most");
             });
             list.wide_number(
-                "least",
+                "min_coverage",
                 "Min. coverage",
                 "%",
                 0.0..=1.0,
                 0.0..=100.0,
                 "They end before a layer that covers a smaller share of the picture.",
-                &mut self.least,
+                &mut self.min_coverage,
             );
+            list.formerly("least");
         });
         list.when_any(MODE, [Faint, Dashed], |list| {
             list.share(
-                "strength",
+                "opacity",
                 "Opacity",
                 "Opacity of hidden lines as a share of the visible ones'.",
-                &mut self.strength,
+                &mut self.opacity,
             );
+            list.formerly("strength");
         });
         list.when(MODE, Own, |list| {
             list.color("color", "Color", "Color of hidden lines.", &mut self.color);
@@ -134,13 +137,14 @@ impl Hidden {
         list.when("edges.mode", EdgeMode::Exact, |list| {
             list.when_any(MODE, [Faint, Dashed], |list| {
                 list.number(
-                    "narrow",
+                    "relative_width",
                     "Relative width",
                     "",
                     0.1..=1.0,
                     "Width of hidden lines as a share of the visible ones'.",
-                    &mut self.narrow,
+                    &mut self.relative_width,
                 );
+                list.formerly("narrow");
             });
             list.when(MODE, Own, |list| {
                 list.wide_number(

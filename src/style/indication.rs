@@ -163,11 +163,11 @@ impl SilhouetteField {
         list.wide_number("radius", "Radius", "px", 2.0..=60.0, 1.0..=200.0, help, radius);
         let help = "Step off the plane of the surface that is a silhouette, in widths of a px at that depth.";
         list.wide_number("step", "Step", "px", 0.5..=20.0, 0.1..=100.0, help, step);
-        list.wide_number("alpha", "α", "", 0.0..=4.0, 0.0..=10.0, "α of x = α / (n^β + λ).", alpha);
-        list.wide_number("beta", "β", "", 0.1..=3.0, 0.1..=4.0, "β of x = α / (n^β + λ).", beta);
+        list.wide_number("alpha", "Numerator α", "", 0.0..=4.0, 0.0..=10.0, "α of x = α / (n^β + λ).", alpha);
+        list.wide_number("beta", "Exponent β", "", 0.1..=3.0, 0.1..=4.0, "β of x = α / (n^β + λ).", beta);
         list.wide_number(
             "lambda",
-            "λ",
+            "Denominator λ",
             "",
             0.0..=2.0,
             0.0..=10.0,

@@ -13,7 +13,7 @@ pub struct Matcap {
     /// The image of [`Sphere::Image`]: a square picture of a sphere that touches its border. Without one there is clay.
     pub image: Option<PathBuf>,
     /// How far the sphere is multiplied by the object's own color.
-    pub own_color: f32,
+    pub object_color: f32,
     /// How dark cast shadows are; 0: not at all, 1: black.
     pub shadow: f32,
 }
@@ -37,7 +37,7 @@ choice! {
 
 impl Default for Matcap {
     fn default() -> Self {
-        Self { sphere: Sphere::default(), image: None, own_color: 0.0, shadow: 0.6 }
+        Self { sphere: Sphere::default(), image: None, object_color: 0.0, shadow: 0.6 }
     }
 }
 
@@ -58,7 +58,8 @@ impl Matcap {
             );
         });
         let own_color = "How far the sphere is multiplied by the object's own color.";
-        list.share("own_color", "Object color", own_color, &mut self.own_color);
+        list.share("object_color", "Object color", own_color, &mut self.object_color);
+        list.formerly("own_color");
         list.share("shadow", "Shadow", "How dark cast shadows are.", &mut self.shadow);
     }
 }

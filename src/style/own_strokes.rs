@@ -18,9 +18,9 @@ pub struct OwnStrokes {
     /// Strokes are wider or narrower by up to this share.
     pub width_spread: f32,
     /// Share of the length over which a stroke gets wider.
-    pub begin: f32,
+    pub taper_in: f32,
     /// Share of the length over which it gets thinner.
-    pub end: f32,
+    pub taper_out: f32,
     /// How far strokes swing to either side, as a share of their length.
     pub waviness: f32,
     /// Strokes are turned by up to this to either side, degrees.
@@ -41,8 +41,8 @@ impl Default for OwnStrokes {
             length_spread: 0.4,
             width: 1.6,
             width_spread: 0.2,
-            begin: 0.1,
-            end: 0.3,
+            taper_in: 0.1,
+            taper_out: 0.3,
             waviness: 0.01,
             turn_spread: 2.0,
             pressure: 1.0,
@@ -81,9 +81,11 @@ impl OwnStrokes {
         number(list, "width_spread", "Widths vary", "", 0.0..=1.0, help, &mut self.width_spread);
         list.when("hatching.set", super::hatching::Set::Own, |list| {
             let help = "Over which share of its length a stroke gets wider.";
-            number(list, "begin", "Begin", "", 0.0..=1.0, help, &mut self.begin);
+            number(list, "taper_in", "Taper in", "", 0.0..=1.0, help, &mut self.taper_in);
+            list.formerly("begin");
             let help = "Over which share of its length it gets thinner.";
-            number(list, "end", "End", "", 0.0..=1.0, help, &mut self.end);
+            number(list, "taper_out", "Taper out", "", 0.0..=1.0, help, &mut self.taper_out);
+            list.formerly("end");
         });
         let help = "How far strokes swing, as a share of their length.";
         number(list, "waviness", "Waviness", "", 0.0..=0.25, help, &mut self.waviness);

@@ -34,6 +34,8 @@ pub struct Param<'a> {
     pub head: bool,
     /// That it and the next one are the ends of one range: what the panel calls it.
     pub span: Option<&'static str>,
+    /// The key that it has in files of earlier versions, where that was another one.
+    pub former: Option<String>,
     /// Where the value is.
     pub slot: Slot<'a>,
 }
@@ -181,13 +183,33 @@ pub fn map_paths(params: &mut [Param<'_>], map: impl Fn(&Path) -> PathBuf) {
     }
 }
 
-/// Sets one parameter of a list by its key. What inherits from it follows in the next list that is made.
+/// A key of earlier versions and what it is called now.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Renamed {
+    /// As it was given.
+    pub former: String,
+    /// As it is now.
+    pub key: String,
+}
+
+impl std::fmt::Display for Renamed {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "`{}` is now called `{}`; the old name was read as the new one", self.former, self.key)
+    }
+}
+
+/// Sets one parameter of a list by its key, or by that of an earlier version, and says so then. What inherits from it follows in
+/// the next list that is made.
 ///
 /// # Errors
 /// [`StyleError::UnknownKey`], or what [`Param::set`] says.
-pub fn set(params: &mut [Param<'_>], key: &str, value: &Value) -> Result<(), StyleError> {
+pub fn set(params: &mut [Param<'_>], key: &str, value: &Value) -> Result<Option<Renamed>, StyleError> {
     if let Some(param) = params.iter_mut().find(|p| p.key == key) {
-        return param.set(value);
+        return param.set(value).map(|()| None);
+    }
+    if let Some(param) = params.iter_mut().find(|p| p.former.as_deref() == Some(key)) {
+        let renamed = Renamed { former: key.to_owned(), key: param.key.clone() };
+        return param.set(value).map(|()| Some(renamed));
     }
     Err(StyleError::UnknownKey {
         key: key.to_owned(),

@@ -25,7 +25,7 @@ fn other_values() -> Vec<(String, Value)> {
 }
 
 fn set(style: &mut Style, key: &str, value: &str) -> Result<(), String> {
-    param::set(&mut style.params(), key, &Value::parse(value)).map_err(|e| e.to_string())
+    param::set(&mut style.params(), key, &Value::parse(value)).map(drop).map_err(|e| e.to_string())
 }
 
 fn own(style: &Style, key: &str) -> Value {
@@ -57,6 +57,66 @@ fn keys_are_unique_and_defaults_lie_in_their_ranges() {
             assert!(range.contains(value), "{}", param.key);
         }
     }
+}
+
+/// Keys of version 0.1 as they stood in its files, and what they are called now.
+const FORMER_KEYS: [(&str, &str); 27] = [
+    ("gooch.own_hue", "gooch.object_hue"),
+    ("gooch.aside", "gooch.side_light"),
+    ("toon.tint", "toon.object_color"),
+    ("halftone.own_tone", "halftone.object_tone"),
+    ("matcap.own_color", "matcap.object_color"),
+    ("hatching.stroke.thin", "hatching.stroke.min_width"),
+    ("hatching.stroke.thick", "hatching.stroke.max_width"),
+    ("hatching.stroke.spread", "hatching.stroke.tone_by_count"),
+    ("hatching.stroke.chance", "hatching.stroke.randomness"),
+    ("hatching.stroke.pointed", "hatching.stroke.pointedness"),
+    ("hatching.stroke.inserted", "hatching.stroke.late_insertion"),
+    ("hatching.own.begin", "hatching.own.taper_in"),
+    ("hatching.own.end", "hatching.own.taper_out"),
+    ("hatching.tone.own_color", "hatching.tone.object_tone"),
+    ("hatching.tone.white", "hatching.tone.lightest"),
+    ("blueprint.opacity", "blueprint.fill_opacity"),
+    ("blueprint.layers", "blueprint.max_layers"),
+    ("blueprint.least", "blueprint.min_coverage"),
+    ("sketch.fill.density", "sketch.fill.opacity"),
+    ("sketch.fill.surface_color", "sketch.fill.object_color"),
+    ("edges.shortest", "edges.min_length"),
+    ("edges.surface_color", "edges.object_color"),
+    ("edges.profile.strength", "edges.profile.opacity"),
+    ("edges.hidden.most", "edges.hidden.max_layers"),
+    ("edges.hidden.least", "edges.hidden.min_coverage"),
+    ("edges.hidden.strength", "edges.hidden.opacity"),
+    ("edges.hidden.narrow", "edges.hidden.relative_width"),
+];
+
+#[test]
+fn keys_of_earlier_versions_set_what_they_are_called_now_and_say_so() {
+    let passes = (1..=8).flat_map(|n| {
+        [("density", "opacity"), ("width", "relative_width")]
+            .map(|names| [names.0, names.1].map(|name| format!("sketch.pass{n}.{name}")))
+    });
+    let classes = EdgeClass::ALL.map(<&str>::from).into_iter().chain(["inner"]);
+    let classes = classes.map(|class| ["strength", "opacity"].map(|name| format!("edges.{class}.{name}")));
+    let listed = FORMER_KEYS.map(|(former, key)| [former, key].map(str::to_owned));
+    let all: Vec<_> = listed.into_iter().chain(passes).chain(classes).collect();
+    let values = other_values();
+    for [former, key] in &all {
+        let value = &values.iter().find(|(k, _)| k == key).unwrap().1;
+        let (mut old, mut new) = (Style::default(), Style::default());
+        assert_eq!(param::set(&mut new.params(), key, value).unwrap(), None);
+        let renamed = param::set(&mut old.params(), former, value).unwrap().unwrap();
+        assert_eq!((&renamed.former, &renamed.key), (former, key));
+        assert_eq!(old, new, "{former}");
+
+        let mut read = Style::default();
+        let renamed = set_from_toml(&mut read.params(), &format!("{former} = {value}"), "old.toml").unwrap();
+        assert_eq!((read, renamed.len()), (new.clone(), 1), "{former}");
+        assert!(to_toml(&new).contains(key.rsplit('.').next().unwrap()) && !to_toml(&new).contains(former));
+    }
+    let mut style = Style::default();
+    let declared = style.params().iter().filter(|p| p.former.is_some()).count();
+    assert_eq!(declared, all.len(), "every former key is among them");
 }
 
 #[test]

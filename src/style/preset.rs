@@ -4,7 +4,7 @@ use std::path::Path;
 
 use include_dir::{Dir, include_dir};
 
-use super::param::map_paths;
+use super::param::{Renamed, map_paths};
 use super::{Style, StyleError, nearest, set_from_toml};
 
 /// The preset that a style was made from, by its id; a parameter that is reset has its value there. Styles that differ in nothing
@@ -34,6 +34,8 @@ pub struct Preset {
     pub description: String,
     /// The look.
     pub style: Style,
+    /// Keys of earlier versions that it was written with.
+    pub renamed: Vec<Renamed>,
 }
 
 /// The built-in presets, by id.
@@ -81,11 +83,17 @@ pub fn load(id_or_path: &str) -> Result<Preset, StyleError> {
 
 fn read(id: &str, text: &str, place: &str) -> Result<Preset, StyleError> {
     let mut style = Style::default();
-    set_from_toml(&mut style.params(), text, place)?;
+    let renamed = set_from_toml(&mut style.params(), text, place)?;
     let table = text.parse::<toml::Table>().unwrap_or_default();
     let said = |key: &str| table.get(key).and_then(toml::Value::as_str).map(str::to_owned);
     let name = said("name").unwrap_or_else(|| id.to_owned());
-    Ok(Preset { id: id.to_owned(), name, description: said("description").unwrap_or_default(), style })
+    Ok(Preset {
+        id: id.to_owned(),
+        name,
+        description: said("description").unwrap_or_default(),
+        style,
+        renamed,
+    })
 }
 
 #[cfg(test)]

@@ -6,7 +6,7 @@
 use toml::de::{DeArray, DeTable, DeValue};
 use toml::{Spanned, Table};
 
-use super::param::{self, Param, Slot};
+use super::param::{self, Param, Renamed, Slot};
 use super::{Matrix, Point, StyleError, Value, widened};
 
 /// The parameters of `params` that differ from `defaults`, as nested tables.
@@ -44,11 +44,12 @@ pub fn diff_to_toml(params: &mut [Param<'_>], defaults: &mut [Param<'_>]) -> Tab
     root
 }
 
-/// Sets what the TOML text `text` says. The keys `name` and `description` are left to the caller.
+/// Sets what the TOML text `text` says and returns the keys of earlier versions among it. The keys `name` and `description` are
+/// left to the caller.
 ///
 /// # Errors
 /// The first mistake, with `place` (a file name) and line. Parameters before it have been set.
-pub fn set_from_toml(params: &mut [Param<'_>], text: &str, place: &str) -> Result<(), StyleError> {
+pub fn set_from_toml(params: &mut [Param<'_>], text: &str, place: &str) -> Result<Vec<Renamed>, StyleError> {
     let line_of = |offset: usize| 1 + text.bytes().take(offset).filter(|b| *b == b'\n').count();
     let in_file = |offset: usize, source| StyleError::InFile {
         path: place.to_owned(),
@@ -60,14 +61,17 @@ pub fn set_from_toml(params: &mut [Param<'_>], text: &str, place: &str) -> Resul
     })?;
     let mut values = Vec::new();
     collect(table.get_ref(), "", &mut values);
+    let mut renamed = Vec::new();
     for (key, offset, value) in values {
         if key == "name" || key == "description" {
             continue;
         }
         let value = value.map_err(|e| asked_of(params, e));
-        value.and_then(|value| param::set(params, &key, &value)).map_err(|e| in_file(offset, e))?;
+        renamed.extend(
+            value.and_then(|value| param::set(params, &key, &value)).map_err(|e| in_file(offset, e))?,
+        );
     }
-    Ok(())
+    Ok(renamed)
 }
 
 /// With what the parameter takes in place of what any takes.

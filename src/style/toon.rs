@@ -36,7 +36,7 @@ pub struct Toon {
     /// Color of the lightest band.
     pub light: Color,
     /// Share of the object's own color; 0: the ramp's colors as they are, 1: they multiply the object's color.
-    pub tint: f32,
+    pub object_color: f32,
     /// N·L at which the ramp begins; the paper's ramp begins at 0.
     pub start: f32,
     /// N·L at which the ramp ends; the paper's ramp ends at 1.
@@ -76,7 +76,7 @@ impl Default for Toon {
             shadow: Color([110, 106, 140]),
             mid: Color([196, 194, 208]),
             light: Color::WHITE,
-            tint: 1.0,
+            object_color: 1.0,
             start: 0.0,
             end: 1.0,
             highlight: 0.0,
@@ -133,11 +133,12 @@ impl Toon {
         });
         list.choice("border", "Borders", "How borders between bands are smoothed.", &mut self.border);
         list.share(
-            "tint",
+            "object_color",
             "Object color",
             "How far the bands are multiplied by the object's own color; 0 leaves them as they are.",
-            &mut self.tint,
+            &mut self.object_color,
         );
+        list.formerly("tint");
         list.number(
             "start",
             "Ramp start",

@@ -10,7 +10,7 @@ pub fn even(mut hatching: Hatching, darkness: f32, side: u32) -> Style {
     let tone = (1.0 - darkness) * 1000.0;
     let points = [[0.0, tone.round() / 1000.0], [1.0, tone.round() / 1000.0]];
     hatching.tone.curve = Curve::of_points(&points.map(Into::into)).unwrap();
-    (hatching.tone.white, hatching.tone.darkest) = (0.0, 1.0);
+    (hatching.tone.lightest, hatching.tone.darkest) = (0.0, 1.0);
     (hatching.ink, hatching.paper) = (Color([0; 3]), Color([255; 3]));
     hatching.indication.amount = 0.0;
     // As large as in a picture of 1080 pixels.

@@ -222,7 +222,7 @@ fn enter_saves_and_goes_on_only_when_that_succeeded() {
         !v.is_loading() && v.document().models[0].ends_with("other.glb")
     });
     assert!(says(&window, "Saved"));
-    assert_eq!(Document::open(&path).unwrap(), document);
+    assert_eq!(Document::open(&path).unwrap().document, document);
 
     change(&mut window);
     dialogs.lock().unwrap().answers.push(vec![path.clone()]);
@@ -230,7 +230,7 @@ fn enter_saves_and_goes_on_only_when_that_succeeded() {
     press(&mut window, Key::Enter);
     until(&mut window, "it is saved", |v| !v.is_unsaved());
     assert!(closes(&mut window));
-    assert_eq!(&Document::open(&path).unwrap(), window.state().document());
+    assert_eq!(&Document::open(&path).unwrap().document, window.state().document());
 }
 
 #[test]

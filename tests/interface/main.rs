@@ -739,7 +739,7 @@ fn a_document_opens_with_its_styles_and_camera() {
     click(&mut window, Role::CheckBox, "Show wheel");
     ask(&mut window, Command::Save);
     until(&mut window, "it is saved", |v| v.notices().list().iter().any(|n| n.text.starts_with("Saved")));
-    assert_eq!(&Document::open(&path).unwrap(), window.state().document());
+    assert_eq!(&Document::open(&path).unwrap().document, window.state().document());
 }
 
 /// What the window asks of the system in answer to a click on its close button.
@@ -770,7 +770,7 @@ fn a_changed_drawing_is_not_closed_without_a_question() {
     settle(&mut window);
     click(&mut window, Role::Button, "Save");
     until(&mut window, "it is saved", |v| v.notices().list().iter().any(|n| n.text.starts_with("Saved")));
-    assert_eq!(&Document::open(&path).unwrap(), window.state().document());
+    assert_eq!(&Document::open(&path).unwrap().document, window.state().document());
     assert!(!close(&mut window).contains(&egui::ViewportCommand::CancelClose));
 }
 

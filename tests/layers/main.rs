@@ -70,7 +70,9 @@ fn way(session: &mut Session) -> LayerMethod {
 }
 
 fn blueprint(mut opened: Opened) -> Opened {
-    for (key, value) in [("technique", "blueprint"), ("blueprint.layers", "64"), ("blueprint.least", "0")] {
+    for (key, value) in
+        [("technique", "blueprint"), ("blueprint.max_layers", "64"), ("blueprint.min_coverage", "0")]
+    {
         set(&mut opened, key, value);
     }
     opened

@@ -24,8 +24,8 @@ fn nested_balls() -> Opened {
     });
     let mut opened = blueprint(opened(&scene(objects.collect()), glam::DVec3::Z));
     for (key, value) in [
-        ("blueprint.layers", "10"),
-        ("blueprint.opacity", "0"),
+        ("blueprint.max_layers", "10"),
+        ("blueprint.fill_opacity", "0"),
         ("edges.profile.show", "false"),
         ("edges.inner.show", "false"),
     ] {

@@ -74,8 +74,8 @@ impl Look {
     fn blueprint(name: &str, fill: [u8; 3], near: [u8; 3], opacity: f32) -> Self {
         let mut look = Self::new(name, Kind::Blueprint, "blueprint");
         let blueprint = &mut look.style.blueprint;
-        (blueprint.fill, blueprint.near, blueprint.opacity) = (Color(fill), Color(near), opacity);
-        (blueprint.layers, blueprint.to, blueprint.least) = (64, 64, 0.0);
+        (blueprint.fill, blueprint.near, blueprint.fill_opacity) = (Color(fill), Color(near), opacity);
+        (blueprint.max_layers, blueprint.to, blueprint.min_coverage) = (64, 64, 0.0);
         look
     }
 

@@ -69,7 +69,7 @@ fn random_sketch(random: &mut Random) -> (Style, f64) {
     for pass in &mut sketch.pass {
         pass.matrix = matrix(random);
         pass.color = random.chance(0.3).then_some(Color([200, 30, 30]));
-        pass.width = random.within(0.6, 1.6) as f32;
+        pass.relative_width = random.within(0.6, 1.6) as f32;
     }
     sketch.fill.show = random.chance(0.75);
     sketch.fill.matrix = matrix(random);

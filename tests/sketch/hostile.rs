@@ -60,8 +60,8 @@ fn numbers_that_are_none_or_too_great_are_held_back() {
         }
         for number in [
             &mut fill.wave,
-            &mut fill.density,
-            &mut fill.surface_color,
+            &mut fill.opacity,
+            &mut fill.object_color,
             &mut fill.stroke_width,
             &mut fill.angle,
         ] {
@@ -70,7 +70,7 @@ fn numbers_that_are_none_or_too_great_are_held_back() {
         (fill.strokes, grain.amount) = (wild, wild);
         (grain.soft, grain.size, grain.roughness, grain.smudge) = (wild, wild, wild, wild);
         for pass in &mut sketch.pass {
-            (pass.width, pass.density) = (wild, wild);
+            (pass.relative_width, pass.opacity) = (wild, wild);
         }
         picture(&style);
     }
@@ -80,7 +80,7 @@ fn numbers_that_are_none_or_too_great_are_held_back() {
 fn a_paper_that_is_missing_is_said_and_the_generated_one_is_used() {
     let mut session = common::session();
     let mut style = sketched(style("gooch"), 4.0, 4.0);
-    (style.sketch.grain.amount, style.sketch.fill.density) = (0.8, 0.6);
+    (style.sketch.grain.amount, style.sketch.fill.opacity) = (0.8, 0.6);
     let mut missing = style.clone();
     missing.sketch.grain.texture = Tooth::Image;
     missing.sketch.grain.image = Some(PathBuf::from("no/such/paper.png"));

@@ -63,7 +63,7 @@ fn rich(technique: &str) -> Style {
     (sketch.passes, sketch.wander.pressure) = (2, 0.3);
     (sketch.grain.amount, sketch.grain.roughness, sketch.grain.smudge) = (0.5, 1.0, 0.3);
     sketch.grain.image = Some(PathBuf::from("paper"));
-    (sketch.fill.surface_color, sketch.fill.strokes, sketch.fill.density) = (0.5, 0.5, 0.8);
+    (sketch.fill.object_color, sketch.fill.strokes, sketch.fill.opacity) = (0.5, 0.5, 0.8);
     style
 }
 

@@ -48,7 +48,7 @@ const LINES: [&[(&str, &str)]; 7] = [
     &[("edges.mode", "paper")],
     THIN,
     &[("edges.dash.length", "30"), ("edges.silhouette.dashed", "true")],
-    &[("edges.surface_color", "0.6"), ("edges.variation.distance", "0.7"), ("edges.pressure.amount", "0.7")],
+    &[("edges.object_color", "0.6"), ("edges.variation.distance", "0.7"), ("edges.pressure.amount", "0.7")],
     &[("edges.profile.show", "false"), ("edges.inner.show", "false")],
 ];
 

@@ -41,7 +41,7 @@ fn where_lines_and_colors_go_is_no_reason_to_draw_geometry_again() {
     };
     let only_placed: [(&str, &dyn Fn(&mut Style)); 4] = [
         ("the fill's matrix", &|style| style.sketch.fill.matrix = turned(13.9)),
-        ("density", &|style| style.sketch.pass[0].density = 0.5),
+        ("density", &|style| style.sketch.pass[0].opacity = 0.5),
         ("color", &|style| style.sketch.pass[0].color = Some(Color([200, 0, 0]))),
         ("grain", &|style| style.sketch.grain.amount = 0.5),
     ];

@@ -148,8 +148,9 @@ pub fn set(
     value: &Value,
 ) -> Result<(), StyleError> {
     if nodes.is_empty() {
-        param::set(&mut document.style.params(), key, value)
+        param::set(&mut document.style.params(), key, value)?;
     } else {
-        document.set_for(scene, nodes, key, value)
+        document.set_for(scene, nodes, key, value)?;
     }
+    Ok(())
 }

@@ -70,7 +70,7 @@ fn from_table(mut table: Table) -> Result<Glyph, String> {
     };
     let mut glyph = Glyph::new(form.name.unwrap_or(form.kind), shape);
     let section = Table::from_iter([("glyph".to_owned(), Value::Table(table))]);
-    set_from_toml(&mut glyph.params(), &section.to_string(), "").map_err(|e| match e {
+    set_from_toml(&mut glyph.params(), &section.to_string(), "").map(drop).map_err(|e| match e {
         StyleError::InFile { source, .. } => source.to_string(),
         other => other.to_string(),
     })?;

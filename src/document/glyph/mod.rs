@@ -244,7 +244,7 @@ fn label<'a>(list: &mut Params<'a>, label: &'a mut Label) {
 pub(super) fn base_style() -> &'static Style {
     static STYLE: LazyLock<Style> = LazyLock::new(|| {
         let mut style = Style { technique: Technique::Unlit, ..Style::default() };
-        style.edges.surface_color = 1.0;
+        style.edges.object_color = 1.0;
         style.edges.darken = 0.5;
         style
     });

@@ -96,7 +96,7 @@ impl GpuEdgeStyle {
             let line = edges.line(class);
             GpuLineStyle {
                 color: line.color.to_linear(),
-                strength: if line.show { line.strength } else { 0.0 },
+                strength: if line.show { line.opacity } else { 0.0 },
                 width: width_in_px(line.width, scale),
                 threshold: match class {
                     EdgeClass::Silhouette | EdgeClass::Border | EdgeClass::Object => line.threshold * scale,
@@ -115,7 +115,7 @@ impl GpuEdgeStyle {
             alignment: edges.alignment as u32,
             dash_period: (length + gap) * scale,
             dash_share: length / (length + gap),
-            surface_color: edges.surface_color,
+            surface_color: edges.object_color,
             darken: edges.darken,
             by_angle: edges.inner.more.by_angle,
             by_distance: edges.variation.distance,
@@ -123,9 +123,9 @@ impl GpuEdgeStyle {
             pressure: edges.pressure.amount,
             pressure_scale: edges.pressure.scale * scale,
             profile_color: profile.color.to_linear(),
-            profile_strength: profile.strength,
+            profile_strength: profile.opacity,
             inner_color: inner.color.to_linear(),
-            inner_strength: inner.strength,
+            inner_strength: inner.opacity,
             gain_z: gain(profile.show, profile.gain),
             gain_c1: gain(profile.show, profile.more.gain_c1),
             gain_n: gain(inner.show, inner.gain),
@@ -137,7 +137,7 @@ impl GpuEdgeStyle {
             depth_gradient: threshold(edges.sobel.depth && profile.show, edges.sobel.depth_threshold),
             color_gradient: threshold(edges.sobel.color && inner.show, edges.sobel.color_threshold),
             sums_changes: u32::from(edges.sobel.sum),
-            shortest: edges.shortest * scale,
+            shortest: edges.min_length * scale,
         }
     }
 
@@ -167,8 +167,8 @@ impl GpuEdgeStyle {
                 line.width = width_in_px(hidden.width, scale);
                 line.dashed = u32::from(hidden.dashed);
             } else {
-                line.strength *= hidden.strength;
-                line.width *= hidden.narrow;
+                line.strength *= hidden.opacity;
+                line.width *= hidden.relative_width;
                 line.dashed = u32::from(hidden.mode == HiddenMode::Dashed);
             }
         }
@@ -176,8 +176,8 @@ impl GpuEdgeStyle {
             style.surface_color = 0.0;
             (style.profile_color, style.inner_color) = (hidden.color.to_linear(), hidden.color.to_linear());
         } else {
-            style.profile_strength *= hidden.strength;
-            style.inner_strength *= hidden.strength;
+            style.profile_strength *= hidden.opacity;
+            style.inner_strength *= hidden.opacity;
         }
         let (length, gap) = (hidden.dash, hidden.gap);
         Self { dash_period: (length + gap) * scale, dash_share: length / (length + gap), ..style }

@@ -47,7 +47,7 @@ impl From<&style::Blueprint> for BlueprintUniform {
             far: style.far.to_linear(),
             by_layer: style.by_layer,
             fill: style.fill.to_linear(),
-            opacity: style.opacity,
+            opacity: style.fill_opacity,
             by_distance: style.by_distance,
             threshold: style.threshold,
         }
@@ -81,7 +81,7 @@ impl BlueprintGroup {
 
     /// Most layers where nothing is to be uncovered.
     fn layers(&self) -> u32 {
-        self.style.layers.min(self.last())
+        self.style.max_layers.min(self.last())
     }
 
     fn shows(&self, layer: u32) -> bool {
@@ -178,7 +178,7 @@ pub fn place_blueprint(
             let shader = LayerShader { file: "effects/blueprint.wgsl", inputs: &inputs, switches: &switches };
             place.lines(rec, &mut pending, &lines, shader)?;
         }
-        if params.opacity > 0.0 || has_caps {
+        if params.fill_opacity > 0.0 || has_caps {
             let inputs = own.and(&inputs! {
                 surface_id_tex: &gbuffer.surface_id,
                 edge_styles: visit.edge_styles(0),
@@ -208,7 +208,7 @@ fn request_of<'a>(
     let any = |has: fn(&GpuEdgeStyle) -> bool| blueprint.group.edge_styles.iter().any(has);
     LayerRequest {
         max_layers: if mask.is_some() { blueprint.last() } else { blueprint.layers() },
-        min_pixels: least_pixels(params.least, size),
+        min_pixels: least_pixels(params.min_coverage, size),
         uncover: mask.map(|mask| Uncover {
             mask,
             fraction: params.fraction,

@@ -48,8 +48,8 @@ impl GpuGoochStyle {
             stripes: gooch.stripes as f32,
             is_of_view: u32::from(gooch.metal_axis == MetalAxis::View),
             is_of_form: u32::from(gooch.metal_axis == MetalAxis::Form),
-            aside: gooch.aside,
-            own_hue: gooch.own_hue,
+            aside: gooch.side_light,
+            own_hue: gooch.object_hue,
             first_form: 0,
             forms: 0,
         }

@@ -103,7 +103,7 @@ impl Halftones {
                 tile: style.scale * scale * PERIODS as f32,
                 footprint: style.smoothness,
                 ambient: style.ambient,
-                own_tone: style.own_tone,
+                own_tone: style.object_tone,
                 black,
                 // Points that meet make a step.
                 range: (style.white - black).max(1e-3),

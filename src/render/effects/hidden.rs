@@ -47,7 +47,7 @@ impl Hidden {
         if !style.is_exact() && !style.is_paper() {
             return;
         }
-        let least = hidden.least;
+        let least = hidden.min_coverage;
         self.least = if self.styles.is_empty() { least } else { self.least.min(least) };
         self.styles.resize(count, GpuEdgeStyle::default());
         self.depths.resize(count, 0);

@@ -97,7 +97,7 @@ impl SurfaceTechnique for MatcapShading {
         });
         if let Some(entry) = object.entry(&mut matcaps.styles) {
             *entry =
-                GpuMatcapStyle { own_color: style.own_color, shadow: style.shadow, sphere: number as u32 };
+                GpuMatcapStyle { own_color: style.object_color, shadow: style.shadow, sphere: number as u32 };
         }
     }
 

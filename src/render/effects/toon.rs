@@ -57,7 +57,7 @@ impl GpuToonStyle {
             highlight: toon.highlight,
             highlight_from: if toon.highlight > 0.0 { angle.cos() } else { NOWHERE },
             rim_to: if toon.rim > 0.0 { toon.rim_width } else { -NOWHERE },
-            tint: toon.tint,
+            tint: toon.object_color,
             first_band,
             bands,
             start,

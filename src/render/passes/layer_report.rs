@@ -73,7 +73,7 @@ impl LayerReport {
             LayersEnd::MostLayers if layers as usize >= self.passed.len() => "no picture has more layers",
             LayersEnd::MostLayers => "allow more layers (blueprint.to)",
             LayersEnd::TooFewPixels if self.share_uncovered() < asked => {
-                "allow smaller layers (blueprint.least)"
+                "allow smaller layers (blueprint.min_coverage)"
             }
             _ if 1.0 - hidden < asked => {
                 let hidden = percent(hidden);

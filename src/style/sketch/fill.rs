@@ -16,13 +16,13 @@ pub struct Fill {
     /// Length of a wave, reference pixels.
     pub wave: f32,
     /// Opacity of the pigment.
-    pub density: f32,
+    pub opacity: f32,
     /// What is rubbed on more densely.
     pub tone: Tone,
     /// Color of the pigment.
     pub color: Color,
     /// Share of the surface's own color in it.
-    pub surface_color: f32,
+    pub object_color: f32,
     /// How visible the strokes of the hand are.
     pub strokes: f32,
     /// Width of a stroke, reference pixels.
@@ -48,10 +48,10 @@ impl Default for Fill {
             show: true,
             matrix: Matrix([[1.5, -5.0], [5.0, 1.5]]),
             wave: 240.0,
-            density: 1.0,
+            opacity: 1.0,
             tone: Tone::default(),
             color: Color([40, 40, 44]),
-            surface_color: 1.0,
+            object_color: 1.0,
             strokes: 0.0,
             stroke_width: 7.0,
             angle: -40.0,
@@ -72,7 +72,8 @@ impl Fill {
                 &mut self.matrix,
             );
             wave_param(list, &mut self.wave);
-            list.share("density", "Opacity", "Opacity of the pigment.", &mut self.density);
+            list.share("opacity", "Opacity", "Opacity of the pigment.", &mut self.opacity);
+            list.formerly("density");
             list.choice(
                 "tone",
                 "Tone",
@@ -81,11 +82,12 @@ impl Fill {
             );
             list.color("color", "Pigment", "Color of the pigment.", &mut self.color);
             list.share(
-                "surface_color",
-                "Surface color",
+                "object_color",
+                "Object color",
                 "Share of the surface's own color in the pigment.",
-                &mut self.surface_color,
+                &mut self.object_color,
             );
+            list.formerly("surface_color");
             list.share("strokes", "Strokes", "How visible the strokes of the hand are.", &mut self.strokes);
             list.wide_number(
                 "stroke_width",

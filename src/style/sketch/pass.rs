@@ -14,9 +14,9 @@ pub struct Pass {
     /// Color; `None`: that of the lines.
     pub color: Option<Color>,
     /// Width as a share of the lines'.
-    pub width: f32,
+    pub relative_width: f32,
     /// Opacity as a share of the lines'.
-    pub density: f32,
+    pub opacity: f32,
     /// Number of its noise.
     pub seed: u32,
 }
@@ -32,8 +32,8 @@ impl Pass {
                 _ => Matrix([[2.0, -1.5], [1.5, 2.0]]),
             },
             color: None,
-            width: 1.0,
-            density: if number == 0 { 1.0 } else { 0.55 },
+            relative_width: 1.0,
+            opacity: if number == 0 { 1.0 } else { 0.55 },
             seed: number as u32 + 1,
         }
     }
@@ -58,15 +58,17 @@ impl Pass {
             },
         );
         list.wide_number(
-            "width",
-            "Width",
+            "relative_width",
+            "Relative width",
             "",
             0.25..=2.0,
             0.1..=4.0,
             "Width as a share of the lines' own.",
-            &mut self.width,
+            &mut self.relative_width,
         );
-        list.share("density", "Opacity", "Opacity as a share of the lines' own.", &mut self.density);
+        list.formerly("width");
+        list.share("opacity", "Opacity", "Opacity as a share of the lines' own.", &mut self.opacity);
+        list.formerly("density");
         list.integer("seed", "Seed", "", 0..=9999, "Number of its noise.", &mut self.seed);
     }
 }

@@ -96,7 +96,7 @@ pub(super) fn recipe_of(style: &Hatching, set: Set, images: &StyleImages) -> Opt
         length_spread: own.length_spread,
         width: own.width,
         width_spread: own.width_spread,
-        taper: [own.begin, own.end],
+        taper: [own.taper_in, own.taper_out],
         waviness: own.waviness,
         angle_spread: own.turn_spread.to_radians(),
         pressure: own.pressure,

@@ -24,19 +24,19 @@ pub struct GpuStroke {
 impl GpuStroke {
     /// Of a style; `scale`: pixels per reference pixel.
     pub(super) fn new(stroke: &Stroke, scale: f32) -> Self {
-        let thin = stroke.thin;
+        let thin = stroke.min_width;
         Self {
             // Closer than two pixels there are no lines.
             spacing: (stroke.spacing * scale).max(2.0),
             thin,
-            thick: stroke.thick.max(thin),
+            thick: stroke.max_width.max(thin),
             length: stroke.length * scale,
             taper: stroke.taper * scale,
             gap: stroke.gap * scale,
-            spread: stroke.spread,
-            chance: stroke.chance,
-            pointed: stroke.pointed,
-            inserted: stroke.inserted,
+            spread: stroke.tone_by_count,
+            chance: stroke.randomness,
+            pointed: stroke.pointedness,
+            inserted: stroke.late_insertion,
             variation: stroke.variation,
             table: 0,
         }

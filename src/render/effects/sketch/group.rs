@@ -41,12 +41,11 @@ impl SketchGroup {
         let still = style::Sketch::default();
         let is_still = |matrix: style::Matrix| wander.amount <= 0.0 || matrix == style::Matrix::ZERO;
         let is_plain_pass = |pass: &style::sketch::Pass| {
-            is_still(pass.matrix) && pass.color.is_none() && pass.width == 1.0 && pass.density == 1.0
+            is_still(pass.matrix) && pass.color.is_none() && pass.relative_width == 1.0 && pass.opacity == 1.0
         };
         let is_plain_fill = fill.show
             && is_still(fill.matrix)
-            && (fill.density, fill.tone, fill.surface_color, fill.strokes)
-                == (1.0, still.fill.tone, 1.0, 0.0);
+            && (fill.opacity, fill.tone, fill.object_color, fill.strokes) == (1.0, still.fill.tone, 1.0, 0.0);
         let is_plain_grain = grain.amount <= 0.0 && grain.roughness <= 0.0 && grain.smudge <= 0.0;
         let is_plain = *passes == 1
             && is_plain_pass(&pass[0])

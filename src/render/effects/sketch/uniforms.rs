@@ -86,7 +86,7 @@ pub(super) fn smudged(sketch: &style::Sketch, scale: f32) -> f32 {
 
 /// Factor of the widths of a pass.
 pub(super) fn width(pass: &style::sketch::Pass) -> f32 {
-    pass.width
+    pass.relative_width
 }
 
 /// How a pass moves lines; `component`: which noise of a texel it has.
@@ -149,20 +149,20 @@ impl SketchUniform {
             color: pass.color.unwrap_or_default().to_linear(),
             has_color: u32::from(pass.color.is_some()),
             width: width(pass),
-            density: pass.density,
+            density: pass.opacity,
         };
         let ink = sketch.pass[0].color.unwrap_or(fill.color);
         Self {
             passes: std::array::from_fn(|number| pass(&sketch.pass[number])),
             fill_matrix: rows(sketch, fill.matrix, scale),
             pigment: fill.color.to_linear(),
-            surface_color: fill.surface_color,
+            surface_color: fill.object_color,
             smudge_color: ink.to_linear(),
             smudge: grain.smudge,
             turn: Vec2::from_angle(fill.angle.to_radians()),
             stroke_width: fill.stroke_width * scale,
             strokes: fill.strokes,
-            density: fill.density,
+            density: fill.opacity,
             pressure: wander.pressure,
             grain: grain.amount,
             soft: grain.soft,
