@@ -81,7 +81,7 @@ fn draw(session: &mut Session, opened: &Opened) -> LayerReport {
 
 /// The depth mask of the last picture.
 fn mask_of(session: &mut Session) -> Vec<f32> {
-    let mask = common::kept(session, "depth mask").unwrap();
+    let mask = common::captured(session, "depth mask").unwrap();
     texels::<f32>(session, &mask)
 }
 
@@ -279,7 +279,7 @@ fn what_opaque_objects_hide_of_the_mask_is_counted_and_told() {
         .unwrap();
     let report = draw(&mut session, &scene);
     let mask = mask_of(&mut session);
-    let geometry = common::kept(&mut session, "geometry").unwrap();
+    let geometry = common::captured(&mut session, "geometry").unwrap();
     let front = texels::<[u32; 4]>(&mut session, &geometry);
     let hidden =
         mask.iter().zip(&front).filter(|(m, f)| **m > 0.0 && f[3] & 0x7fff_ffff == object_id(4)).count();
@@ -344,13 +344,13 @@ fn without_a_mask_in_the_picture_the_plain_rules_hold() {
     };
     assert!(plain.document.role_faults(&plain.scene).is_empty());
     let report = draw(&mut session, &plain);
-    assert!(common::kept(&mut session, "depth mask").is_none());
+    assert!(common::captured(&mut session, "depth mask").is_none());
     assert_eq!((report.layers, report.masked), (4, 0));
 
     let mut hidden = behind_sheets();
     hidden.document.node_mut("/cube").visible = Some(false);
     let of_hidden = draw(&mut session, &hidden);
-    assert!(common::kept(&mut session, "depth mask").is_none());
+    assert!(common::captured(&mut session, "depth mask").is_none());
     assert_eq!(of_hidden.pixels, report.pixels);
     assert!(
         hidden.document.role_faults(&hidden.scene)[0].to_string().contains("/cube: is designated but hidden")

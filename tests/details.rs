@@ -65,7 +65,7 @@ fn spines(session: &mut Session, opened: &Opened, class: EdgeClass) -> Vec<DVec2
     session.set_scene(opened).unwrap();
     let picture = session.draw(opened, [SIDE; 2], false).unwrap();
     let classes = edge_classes(session, &picture);
-    let edge_map = common::kept(session, "edge map").unwrap();
+    let edge_map = common::captured(session, "edge map").unwrap();
     let offsets = texels::<[u32; 4]>(session, &edge_map);
     let offset = |texel: u32, shift: u32| f64::from(texel >> shift & 255) / 127.0 - 1.0;
     let found =

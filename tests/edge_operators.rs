@@ -81,7 +81,7 @@ fn compare(towards_viewer: DVec3, orthographic: bool) {
         .unwrap();
     let range = [-fitted.max.z as f32, -fitted.min.z as f32];
 
-    let shown = common::kept(&mut session, "operators").unwrap();
+    let shown = common::captured(&mut session, "operators").unwrap();
     let values = texels::<[f32; 4]>(&mut session, &shown);
     let ink = ink(&mut session, &picture);
     let (mut enhanced, mut edges) = (0, 0);
@@ -218,10 +218,10 @@ fn sobel_edges_equal_their_twins() {
             set(&mut opened, key, value);
         }
         let mut session = session();
-        session.renderer().keep("base color");
+        session.renderer().capture("base color");
         let picture = draw(&mut session, &opened, SIDE as u32);
         let buffer = surfels(&mut session, &picture);
-        let shown = common::kept(&mut session, "base color").unwrap();
+        let shown = common::captured(&mut session, "base color").unwrap();
         let colors = texels::<[u8; 4]>(&mut session, &shown);
         let ink = ink(&mut session, &picture);
         let range = opened_range(&scene, &opened);

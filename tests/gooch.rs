@@ -37,7 +37,7 @@ fn gooch(scene: &Arc<Scene>, towards_viewer: DVec3, settings: &[(&str, &str)]) -
 fn drawn(session: &mut Session, opened: &Opened) -> (RgbaImage, Vec<Surfel>, Vec<u32>) {
     let picture = draw(session, opened, SIDE as u32);
     let image = RgbaImage::from_raw(SIDE as u32, SIDE as u32, texels::<u8>(session, &picture.image)).unwrap();
-    let regions = common::kept(session, "surface ids").unwrap();
+    let regions = common::captured(session, "surface ids").unwrap();
     let regions = texels::<u32>(session, &regions);
     (image, surfels(session, &picture), regions)
 }

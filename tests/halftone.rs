@@ -275,7 +275,7 @@ fn the_smooth_threshold_equals_its_twin() {
 
         fix(&mut opened, Fixed::Uv);
         draw(&mut session, &opened, SIDE);
-        let coordinates = common::kept(&mut session, "coordinates").unwrap();
+        let coordinates = common::captured(&mut session, "coordinates").unwrap();
         let drawn = inks(&mut session, &opened, SIDE);
         let halves = |packed: u32| {
             let half = |bits: u32| {

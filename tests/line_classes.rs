@@ -100,7 +100,7 @@ fn turning_a_class_off_removes_its_lines_and_nobody_elses() {
     session.set_scene(&opened).unwrap();
     let mut lines = |opened: &Opened| {
         let picture = session.draw(opened, [SIDE; 2], false).unwrap();
-        let edge_map = common::kept(&mut session, "edge map").unwrap();
+        let edge_map = common::captured(&mut session, "edge map").unwrap();
         let weights = texels::<[u32; 4]>(&mut session, &edge_map);
         let classes = edge_classes(&mut session, &picture);
         let drawn =
@@ -139,7 +139,7 @@ fn materials_have_no_lines_until_asked_for_and_classes_follow_their_group() {
     session.set_scene(&opened).unwrap();
     let mut drawn = |opened: &Opened| {
         session.draw(opened, [SIDE; 2], false).unwrap();
-        let edges = common::kept(&mut session, "edge map");
+        let edges = common::captured(&mut session, "edge map");
         let edges = edges.map(|edges| texels::<[u32; 4]>(&mut session, &edges));
         let found = edges.unwrap_or_default();
         let is_drawn =
@@ -176,7 +176,7 @@ fn every_class_has_its_own_width() {
     }
     session.draw(&opened, [SIDE; 2], false).unwrap();
     let mut seen = [0; EdgeClass::ALL.len()];
-    let edge_map = common::kept(&mut session, "edge map").unwrap();
+    let edge_map = common::captured(&mut session, "edge map").unwrap();
     for texel in texels::<[u32; 4]>(&mut session, &edge_map) {
         if texel[0] != 0 {
             let class = EdgeClass::ALL[(texel[0] >> 28) as usize - 1];

@@ -247,7 +247,7 @@ fn shaders_and_program_number_surfaces_alike() {
     let mut session = session();
     let cubes = ["a", "b"].map(|name| (name, primitives::cube(2.0), DMat4::IDENTITY, [0.7; 3]));
     let picture = draw(&mut session, &opened(&scene(cubes.to_vec()), DVec3::new(0.3, 0.5, 1.0)), 64);
-    let regions = common::kept(&mut session, "surface ids").unwrap();
+    let regions = common::captured(&mut session, "surface ids").unwrap();
     let regions = common::texels::<u32>(&mut session, &regions);
     let surfels = common::surfels(&mut session, &picture);
     assert!(surfels.iter().any(|s| s.object != 0));

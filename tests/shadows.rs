@@ -87,7 +87,7 @@ impl Score {
 fn scores(session: &mut Session, opened: &Opened, bvh: &Bvh, side: u32) -> Vec<Score> {
     let picture = draw(session, opened, side);
     let surfels = surfels(session, &picture);
-    let mask = common::kept(session, "shadow mask").unwrap();
+    let mask = common::captured(session, "shadow mask").unwrap();
     let mask: Vec<[u8; 4]> = texels(session, &mask);
     let bounds = opened.scene.bounds();
     let view = View::new(&opened.document.camera.unwrap(), &bounds, UVec2::splat(side));
@@ -294,7 +294,7 @@ fn only_the_shadows_that_changed_are_found_again() {
     off(&mut document);
     session.draw(&Opened { document, ..opened.clone() }, [64, 64], false).unwrap();
     session.draw(&Opened { document: Document::default(), ..opened }, [64, 64], false).unwrap();
-    assert!(common::kept(&mut session, "shadow mask").is_none());
+    assert!(common::captured(&mut session, "shadow mask").is_none());
 }
 
 #[test]
@@ -328,7 +328,7 @@ fn light_falls_through_holes_and_past_what_is_hidden() {
     let dark = |session: &mut Session, opened: &Opened| {
         let picture = draw(session, opened, 128);
         let surfels = surfels(session, &picture);
-        let mask = common::kept(session, "shadow mask").unwrap();
+        let mask = common::captured(session, "shadow mask").unwrap();
         let mask: Vec<[u8; 4]> = texels(session, &mask);
         surfels.iter().zip(&mask).filter(|(s, m)| s.object == 1 && m[0] < 128).count()
     };
@@ -361,7 +361,7 @@ fn soft_borders_are_wider_the_farther_they_fall_and_smooth_in_the_mean() {
     lit_by(&mut opened, &[directional(-1.0, 1.0, 0.0)]);
     set(&mut opened, "light.shadow_softness", "4");
     draw(&mut session, &opened, 256);
-    let mask = common::kept(&mut session, "shadow mask").unwrap();
+    let mask = common::captured(&mut session, "shadow mask").unwrap();
     let mask: Vec<[u8; 4]> = texels(&mut session, &mask);
     // How wide the soft border along the shadow's side is in a column.
     let gray = |x: usize| (0..256).filter(|y| (16..240).contains(&mask[y * 256 + x][0])).count();

@@ -45,7 +45,7 @@ struct Drawn {
 fn drawn(session: &mut Session, opened: &Opened) -> Drawn {
     let picture = draw(session, opened, SIDE as u32);
     let (regions, cartoon_map) =
-        (common::kept(session, "surface ids").unwrap(), common::kept(session, "cartoon map"));
+        (common::captured(session, "surface ids").unwrap(), common::captured(session, "cartoon map"));
     Drawn {
         image: RgbaImage::from_raw(SIDE as u32, SIDE as u32, texels::<u8>(session, &picture.image)).unwrap(),
         surfels: surfels(session, &picture),

@@ -14,7 +14,7 @@
 #import common/edge_map.wgsl
 #import common/line_width.wgsl
 #import gpu/neighbors.wgsl
-#import common/kept.wgsl
+#import common/list_head.wgsl
 #import passes/line_classes/links.wgsl
 #import passes/line_classes/stretch.wgsl
 #import passes/line_classes/dots.wgsl
@@ -31,15 +31,15 @@ override LAST_ROUND: bool = true;
 var<storage, read_write> keeping: Counting;
 var<storage, read_write> keeping_lines: array<u32>;
 // Afterwards the same.
-var<storage, read> kept: Kept;
-var<storage, read> kept_lines: array<u32>;
+var<storage, read> list: ListHead;
+var<storage, read> listed_lines: array<u32>;
 // See `pack_link`.
 var linking_tex: texture_storage_2d<r32uint, write>;
 // What changes, in any order.
 var<storage, read_write> changing: Counting;
 var<storage, read_write> changes: array<Change>;
 // Afterwards the same.
-var<storage, read> changed: Kept;
+var<storage, read> changed: ListHead;
 var edge_tex: texture_storage_2d<rgba32uint, write>;
 var changed_spine_tex: texture_storage_2d<r32uint, write>;
 
@@ -90,10 +90,10 @@ fn cs_lines(@builtin(global_invocation_id) id: vec3<u32>) {
 // Finds what continues a line in both directions (over a hole of a pixel too), and which classes run here.
 @compute @workgroup_size(GROUP)
 fn cs_links(@builtin(global_invocation_id) id: vec3<u32>) {
-    if id.x >= kept.count {
+    if id.x >= list.count {
         return;
     }
-    let px = unpacked(kept_lines[id.x]);
+    let px = unpacked(listed_lines[id.x]);
     let own = point_at(px);
     let towards = unpack_tangent(u32(own.tangent));
     var classes = 0u;
@@ -160,10 +160,10 @@ fn is_beside_longer(px: vec2<i32>, own: Point, own_length: f32) -> bool {
 
 @compute @workgroup_size(GROUP)
 fn cs_settle(@builtin(global_invocation_id) id: vec3<u32>) {
-    if id.x >= kept.count {
+    if id.x >= list.count {
         return;
     }
-    let px = unpacked(kept_lines[id.x]);
+    let px = unpacked(listed_lines[id.x]);
     let own = point_at(px);
     if own.class_of == NO_EDGE {
         // It was left out the first time.

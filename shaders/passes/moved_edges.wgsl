@@ -3,7 +3,7 @@
 #import common/frame.wgsl
 #import common/plane.wgsl
 #import common/edge_map.wgsl
-#import common/kept.wgsl
+#import common/list_head.wgsl
 
 // Pixels per workgroup, as in src/render/passes/moved_edges.rs.
 const GROUP: u32 = 64u;
@@ -29,8 +29,8 @@ var edge_map_tex: texture_storage_2d<rgba32uint, read>;
 var spine_tex: texture_2d<u32>;
 // See passes/offset_field.wgsl, which also lists the pixels of lines.
 var line_field_tex: texture_storage_2d<rgba32uint, read>;
-var<storage, read> kept: Kept;
-var<storage, read> kept_pixels: array<u32>;
+var<storage, read> list: ListHead;
+var<storage, read> listed_pixels: array<u32>;
 // The greatest key of each pixel, and the greatest source of those that have it; 0 again once it has been put.
 var<storage, read_write> keys: array<atomic<u32>>;
 var<storage, read_write> winners: array<atomic<u32>>;
@@ -141,11 +141,11 @@ fn index_of(px: vec2<i32>) -> u32 {
 
 @compute @workgroup_size(GROUP)
 fn cs_move(@builtin(global_invocation_id) id: vec3<u32>) {
-    if id.x >= kept.count {
+    if id.x >= list.count {
         return;
     }
     for (var i = 0u; i < POINTS; i++) {
-        let point = moved(kept_pixels[id.x], i);
+        let point = moved(listed_pixels[id.x], i);
         if point.is_there {
             atomicMax(&keys[index_of(point.px)], point.key);
         }
@@ -154,11 +154,11 @@ fn cs_move(@builtin(global_invocation_id) id: vec3<u32>) {
 
 @compute @workgroup_size(GROUP)
 fn cs_compare(@builtin(global_invocation_id) id: vec3<u32>) {
-    if id.x >= kept.count {
+    if id.x >= list.count {
         return;
     }
     for (var i = 0u; i < POINTS; i++) {
-        let point = moved(kept_pixels[id.x], i);
+        let point = moved(listed_pixels[id.x], i);
         if point.is_there && atomicLoad(&keys[index_of(point.px)]) == point.key {
             atomicMax(&winners[index_of(point.px)], point.rank + 1u);
         }
@@ -167,11 +167,11 @@ fn cs_compare(@builtin(global_invocation_id) id: vec3<u32>) {
 
 @compute @workgroup_size(GROUP)
 fn cs_put(@builtin(global_invocation_id) id: vec3<u32>) {
-    if id.x >= kept.count {
+    if id.x >= list.count {
         return;
     }
     for (var i = 0u; i < POINTS; i++) {
-        let point = moved(kept_pixels[id.x], i);
+        let point = moved(listed_pixels[id.x], i);
         if point.is_there && atomicLoad(&winners[index_of(point.px)]) == point.rank + 1u {
             // Nobody else asks any more: only one has this rank.
             atomicStore(&keys[index_of(point.px)], 0u);

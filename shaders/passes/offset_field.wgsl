@@ -5,7 +5,7 @@
 #import common/frame.wgsl
 #import common/gbuffer.wgsl
 #import common/edge_map.wgsl
-#import common/kept.wgsl
+#import common/list_head.wgsl
 #import common/noise.wgsl
 #import common/noise_tile.wgsl
 
@@ -62,8 +62,8 @@ var spine_tex: texture_2d<u32>;
 // The pixels in which they do, while they are listed, and afterwards.
 var<storage, read_write> keeping: Counting;
 var<storage, read_write> keeping_pixels: array<u32>;
-var<storage, read> kept: Kept;
-var<storage, read> kept_pixels: array<u32>;
+var<storage, read> list: ListHead;
+var<storage, read> listed_pixels: array<u32>;
 // A tile of noise of the picture: (turbulence(s, t), turbulence(1 − s, 1 − t)).
 var tiles: texture_2d_array<f32>;
 // Noise of the lines at the pixels in which they run, two halves for each pass.
@@ -164,8 +164,8 @@ fn cs_compact(@builtin(global_invocation_id) id: vec3<u32>) {
     }
 }
 
-fn kept_pixel(number: u32) -> vec2<i32> {
-    let px = kept_pixels[number];
+fn listed_pixel(number: u32) -> vec2<i32> {
+    let px = listed_pixels[number];
     return vec2<i32>(vec2(px & 0xffffu, px >> 16u));
 }
 
@@ -183,10 +183,10 @@ fn store(px: vec2<i32>, noise: array<vec2<f32>, 8>) {
 
 @compute @workgroup_size(GROUP)
 fn cs_lines(@builtin(global_invocation_id) id: vec3<u32>) {
-    if id.x >= kept.count {
+    if id.x >= list.count {
         return;
     }
-    let px = kept_pixel(id.x);
+    let px = listed_pixel(id.x);
     let edge = unpack_edge(textureLoad(edge_map_tex, px));
     let spine = vec2<f32>(px) + 0.5 + edge.offset;
     let tangent = unpack_tangent(edge.tangent);
@@ -206,10 +206,10 @@ fn cs_lines(@builtin(global_invocation_id) id: vec3<u32>) {
 // Noise of whatever enlarged surface the pixel of a line shows (sketchy drawings paper, section 4).
 @compute @workgroup_size(GROUP)
 fn cs_enlarged(@builtin(global_invocation_id) id: vec3<u32>) {
-    if id.x >= kept.count {
+    if id.x >= list.count {
         return;
     }
-    let px = kept_pixel(id.x);
+    let px = listed_pixel(id.x);
     let s = unpack_surfel(geometry_at(px));
     var noise = array<vec2<f32>, 8>();
     if s.object != 0u {
@@ -226,10 +226,10 @@ fn cs_enlarged(@builtin(global_invocation_id) id: vec3<u32>) {
 // Noise of the picture where lines run (sketchy drawings paper, section 3.2).
 @compute @workgroup_size(GROUP)
 fn cs_screen(@builtin(global_invocation_id) id: vec3<u32>) {
-    if id.x >= kept.count {
+    if id.x >= list.count {
         return;
     }
-    let px = kept_pixel(id.x);
+    let px = listed_pixel(id.x);
     let at = vec2<f32>(px) + 0.5 + offset_of(textureLoad(edge_map_tex, px));
     var noise = array<vec2<f32>, 8>();
     for (var i = 0u; i < field.passes; i++) {

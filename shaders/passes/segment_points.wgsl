@@ -1,12 +1,12 @@
 // Puts what passes/segments.wgsl found into the edge map. Of equal points of one pixel that of the first
 // segment counts, so that it does not matter in which order they are found.
 #import common/frame.wgsl
-#import common/kept.wgsl
+#import common/list_head.wgsl
 #import common/segment_point.wgsl
 #import common/repeated.wgsl
 
 var<storage, read> points: array<SegmentPoint>;
-var<storage, read> found: Kept;
+var<storage, read> found: ListHead;
 // The greatest key of each pixel, and 0 again once it has been put.
 var<storage, read_write> keys: array<u32>;
 // For each pixel the inverted number of its point's segment; 0 again once it has been put.

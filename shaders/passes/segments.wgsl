@@ -7,7 +7,7 @@
 #import common/edge_map.wgsl
 #import common/edge_style.wgsl
 #import common/line_width.wgsl
-#import common/kept.wgsl
+#import common/list_head.wgsl
 #import common/segment_point.wgsl
 #import passes/segments/segment.wgsl
 #import passes/segments/steps.wgsl
@@ -15,8 +15,8 @@
 #import passes/segments/goes_on.wgsl
 
 // The steps that were kept.
-var<storage, read> kept: Kept;
-var<storage, read> kept_steps: array<u32>;
+var<storage, read> list: ListHead;
+var<storage, read> listed_steps: array<u32>;
 // What is found of them, in any order.
 var<storage, read_write> points: array<SegmentPoint>;
 // The greatest key of each pixel.
@@ -44,7 +44,7 @@ fn point_at(v: Segment, number: u32, px: vec2<f32>) -> SegmentPoint {
     let depth = spine.depth;
     let surface_ids = v.ids.zw;
     let tested = tested_spine(v, number, spine);
-    let hand = hand_at(number);
+    let hand = stroke_weights_at(number);
     let left = beside(tested, PLACES[3], surface_ids);
     let right = beside(tested, PLACES[1], surface_ids);
     let own = v.ids.y;
@@ -116,12 +116,12 @@ fn point_at(v: Segment, number: u32, px: vec2<f32>) -> SegmentPoint {
 
 @compute @workgroup_size(GROUP)
 fn cs_points(@builtin(global_invocation_id) id: vec3<u32>) {
-    if id.x >= kept.count {
+    if id.x >= list.count {
         return;
     }
-    let step = step_at(kept_steps[id.x]);
+    let step = step_at(listed_steps[id.x]);
     let segment = segment_at(step.x);
-    let point = point_at(segment, step.x, place_of(segment.ends, step.y).px);
+    let point = point_at(segment, step.x, step_pixel(segment.ends, step.y).px);
     if point.key != 0u {
         let index = atomicAdd(&finding.count, 1u);
         points[index] = point;

@@ -7,21 +7,21 @@ use crate::document::Document;
 
 /// What is left of the drawing when it goes.
 #[derive(Debug, Default)]
-pub(super) struct Kept {
+pub(super) struct Saved {
     /// Its file, once it has one.
     pub(super) file: Option<PathBuf>,
     /// What is in the file; without one, what opening the models again brings.
     pub(super) document: Document,
 }
 
-impl Kept {
+impl Saved {
     /// What opening models brings. Looking at them from elsewhere changes nothing.
     pub(super) fn models(document: &Document) -> Self {
         Self { file: None, document: Document { camera: None, ..document.clone() } }
     }
 
     /// What is in a file.
-    pub(super) fn saved(file: PathBuf, document: Document) -> Self {
+    pub(super) fn in_file(file: PathBuf, document: Document) -> Self {
         Self { file: Some(file), document }
     }
 
@@ -33,7 +33,7 @@ impl Kept {
 }
 
 /// What takes the place of the drawing.
-pub(super) enum Next {
+pub(super) enum Replacement {
     /// Nothing: the window closes.
     Close,
     /// What the person is about to choose.
@@ -51,9 +51,9 @@ pub(super) enum Leaving {
     #[default]
     No,
     /// The question is on the screen.
-    Asked(Next),
+    Asked(Replacement),
     /// As soon as it is saved.
-    AfterSaving(Next),
+    AfterSaving(Replacement),
 }
 
 #[cfg(test)]
@@ -64,7 +64,8 @@ mod tests {
     #[test]
     fn another_view_is_a_change_only_where_the_file_holds_one() {
         let mut document = Document { camera: Some(Camera::default()), ..Document::default() };
-        let (models, saved) = (Kept::models(&document), Kept::saved("a.hachure".into(), document.clone()));
+        let (models, saved) =
+            (Saved::models(&document), Saved::in_file("a.hachure".into(), document.clone()));
         assert!(!models.differs_from(&document) && !saved.differs_from(&document));
         document.camera = document.camera.map(|c| c.with_orthographic(true));
         assert!(!models.differs_from(&document) && saved.differs_from(&document));

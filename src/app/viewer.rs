@@ -24,7 +24,7 @@ use super::placing::Placing;
 use super::screenshot::{Destination, ScreenshotError, Shot};
 use super::selection::Selection;
 use super::state::AppState;
-use super::unsaved::{Kept, Leaving};
+use super::unsaved::{Leaving, Saved};
 use super::viewport::Viewport;
 use super::{AppError, theme};
 use crate::document::{Creases, Document, DocumentError, History};
@@ -112,7 +112,7 @@ pub struct Viewer {
     commands: Vec<Command>,
     open: Open,
     /// What would not be lost.
-    kept: Kept,
+    saved: Saved,
     /// The models that the scene was made of.
     loaded: Vec<PathBuf>,
     /// The crease angle of the topology that the renderer has or is about to get.
@@ -169,7 +169,7 @@ impl Viewer {
             presets: preset::all(),
             commands: Vec::new(),
             open: Open::default(),
-            kept: Kept::default(),
+            saved: Saved::default(),
             loaded: Vec::new(),
             topology_for: None,
             mended_for: SeamTolerance::default(),
@@ -299,7 +299,7 @@ impl Viewer {
     }
 
     fn show_title(&mut self, context: &egui::Context) {
-        let is_empty = self.kept.file.is_none() && self.document.models.is_empty();
+        let is_empty = self.saved.file.is_none() && self.document.models.is_empty();
         let mark = if self.is_unsaved() { "*" } else { "" };
         let name = (!is_empty).then(|| format!("{}{mark}", self.file_name()));
         let title = name.map_or_else(|| "Hachure".to_owned(), |name| format!("{name} - Hachure"));

@@ -26,7 +26,7 @@ use crate::style::toon::Border;
 use crate::style::{DepthOperator, EdgeMode, HiddenMode, Style, StyleError, Technique, hatching, preset};
 
 /// What is measured: a style in some light, and what stands behind the model.
-struct Look {
+struct BenchLook {
     name: &'static str,
     style: Style,
     lighting: Lighting,
@@ -201,7 +201,7 @@ impl Bench {
 
     /// How many pixels each depth layer of the model has.
     fn layers(&mut self) -> Result<Vec<u32>, CliError> {
-        let look = Look {
+        let look = BenchLook {
             name: "all layers",
             style: blueprint(MOST_LAYERS)?,
             lighting: Lighting::default(),
@@ -215,7 +215,7 @@ impl Bench {
     }
 
     /// Draws what comes before a frame that counts.
-    fn get_ready(&mut self, look: &Look, turn: f64) -> Result<(), CliError> {
+    fn get_ready(&mut self, look: &BenchLook, turn: f64) -> Result<(), CliError> {
         for degrees in BEFORE {
             self.frame(look, turn - degrees)?;
         }
@@ -223,7 +223,7 @@ impl Bench {
     }
 
     /// Draws everything in one look, turned by so many degrees; returns milliseconds.
-    fn frame(&mut self, look: &Look, turn: f64) -> Result<f64, CliError> {
+    fn frame(&mut self, look: &BenchLook, turn: f64) -> Result<f64, CliError> {
         let mut document = self.opened.document.clone();
         document.style = look.style.clone();
         document.lighting = look.lighting.clone();
@@ -354,19 +354,19 @@ fn exact(width: f32) -> Result<Style, CliError> {
 }
 
 /// `pixels`: how many each depth layer of the model has, in a picture of this size.
-fn looks(has_uvs: bool, pixels: &[u32], size: [u32; 2]) -> Result<Vec<Look>, CliError> {
+fn looks(has_uvs: bool, pixels: &[u32], size: [u32; 2]) -> Result<Vec<BenchLook>, CliError> {
     let plain = preset::load("plain")?.style;
     let unshadowed = Lighting::default();
     let hard = Lighting { shadows: true, ..Lighting::default() };
     let soft = Lighting { shadow_softness: 2.0, ..hard.clone() };
-    let look = |name, style, lighting: &Lighting| Look {
+    let look = |name, style, lighting: &Lighting| BenchLook {
         name,
         style,
         lighting: lighting.clone(),
         behind: Behind::Nothing,
         layers_by: LayersBy::Auto,
     };
-    let mut looks: Vec<Look> =
+    let mut looks: Vec<BenchLook> =
         styles(has_uvs)?.into_iter().map(|(name, style)| look(name, style, &unshadowed)).collect();
     let mut hatching_paper = exact(2.0)?;
     hatching_paper.technique = Technique::Hatching;
@@ -382,14 +382,14 @@ fn looks(has_uvs: bool, pixels: &[u32], size: [u32; 2]) -> Result<Vec<Look>, Cli
         let five = look(FIVE[way], blueprint(5)?, &unshadowed);
         let six = look(SIX[way], blueprint(6)?, &unshadowed);
         let ends = ending(pixels, size)?.map(|style| look(ENDING[way], style, &unshadowed));
-        looks.extend([one, five, six].into_iter().chain(ends).map(|look| Look { layers_by, ..look }));
+        looks.extend([one, five, six].into_iter().chain(ends).map(|look| BenchLook { layers_by, ..look }));
     }
     looks.push(look("blueprint, 5, paper mode", as_in_paper, &unshadowed));
     looks.push(look("blueprint, all layers", blueprint(MOST_LAYERS)?, &unshadowed));
     looks.push(look("plain, shadow", plain.clone(), &hard));
     looks.push(look("plain, soft shadow", plain, &soft));
     for (name, behind) in [("before a wall", Behind::Wall), (MIRROR, Behind::Mirror)] {
-        looks.push(Look { behind, ..look(name, exact(2.0)?, &unshadowed) });
+        looks.push(BenchLook { behind, ..look(name, exact(2.0)?, &unshadowed) });
     }
     Ok(looks)
 }

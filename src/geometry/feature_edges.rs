@@ -11,7 +11,7 @@ mod stretches;
 use std::sync::Arc;
 
 use self::chains::FeatureChains;
-use self::crease_angles::Kept;
+use self::crease_angles::Cached;
 use self::straights::Straights;
 use self::stretches::Stretch;
 use super::edge::{FOLDED, NO_FACE};
@@ -31,7 +31,7 @@ impl Traits {
     pub(super) const MATERIAL: Self = Self(4);
     /// Three triangles or more, or another mesh goes on; all of them are in [`FeatureEdges::fans`].
     pub(super) const FAN: Self = Self(8);
-    /// [`super::Edge::is_soft`], [`super::Beyond::is_soft`]: no crease, whatever the angle.
+    /// [`super::Edge::is_soft`], [`super::BorderLink::is_soft`]: no crease, whatever the angle.
     pub(super) const SOFT: Self = Self(16);
 
     /// All traits of both.
@@ -69,14 +69,14 @@ pub struct FeatureEdges {
     pub(super) dihedral: Vec<f32>,
     pub(super) traits: Vec<Traits>,
     /// Every (edge, triangle) of the edges with more than two triangles, in order. Numbers from that of the mesh's
-    /// triangles on are those of [`Mesh::beyond`].
+    /// triangles on are those of [`Mesh::border_links`].
     pub(super) fans: Vec<(u32, u32)>,
     /// The surfaces of the mesh.
     pub(super) surfaces: Arc<Surfaces>,
     /// The box around the mesh, local space.
     pub(super) bounds: Bounds,
-    kept_chains: Kept<FeatureChains>,
-    kept_straights: Kept<Straights>,
+    cached_chains: Cached<FeatureChains>,
+    cached_straights: Cached<Straights>,
 }
 
 impl FeatureEdges {
@@ -96,8 +96,8 @@ impl FeatureEdges {
             fans: Vec::new(),
             surfaces: surfaces.into(),
             bounds: mesh.bounds(),
-            kept_chains: Kept::default(),
-            kept_straights: Kept::default(),
+            cached_chains: Cached::default(),
+            cached_straights: Cached::default(),
         };
         let point = |v: u32| adjacency.weld.representative.get(v as usize).copied().unwrap_or(v);
         let materials = Materials::new(mesh);
@@ -117,11 +117,12 @@ impl FeatureEdges {
                         all.add_stretch(&stretch, point, &materials);
                     }
                 }
-                EdgeKind::Border | EdgeKind::Stitched => match adjacency.beyond(number) {
+                EdgeKind::Border | EdgeKind::Stitched => match adjacency.border_link(number) {
                     Some(beyond) => {
                         let faces = [edge.faces[0], mesh.triangle_count() as u32 + beyond];
                         all.add_fan(ends, [faces[0]; 2], 0.0, faces.into_iter());
-                        let is_soft = mesh.beyond.get(beyond as usize).is_some_and(|beyond| beyond.is_soft);
+                        let is_soft =
+                            mesh.border_links.get(beyond as usize).is_some_and(|beyond| beyond.is_soft);
                         if let Some(traits) = all.traits.last_mut() {
                             *traits = traits.and(Traits::SOFT.when(is_soft));
                         }

@@ -1,7 +1,7 @@
 //! Edges one after the other: what dashes run along.
 
 /// Marks the end of a chain.
-pub(super) const NO_HALF: u32 = u32::MAX;
+pub(super) const NO_END: u32 = u32::MAX;
 
 /// An edge that takes part in chains.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -23,7 +23,7 @@ pub(super) struct ChainLink {
 
 /// One of the two ends of a link.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct Half {
+pub(super) struct LinkEnd {
     point: u32,
     kind: u8,
     /// Twice the number of the link, plus the number of the end.
@@ -31,13 +31,13 @@ pub(super) struct Half {
 }
 
 /// Visits the points at which links can be joined, with the halves of one kind that meet there.
-pub(super) fn for_each_meeting(links: &[Link], mut visit: impl FnMut(&[Half])) {
-    let mut halves: Vec<Half> = (0_u32..)
+pub(super) fn for_each_meeting(links: &[Link], mut visit: impl FnMut(&[LinkEnd])) {
+    let mut halves: Vec<LinkEnd> = (0_u32..)
         .step_by(2)
         .zip(links)
         .flat_map(|(first, link)| {
             let half = |end: u32| {
-                Some(Half { point: link.ends[end as usize]?, kind: link.kind, number: first | end })
+                Some(LinkEnd { point: link.ends[end as usize]?, kind: link.kind, number: first | end })
             };
             [half(0), half(1)].into_iter().flatten()
         })
@@ -59,9 +59,9 @@ pub(super) struct Chains {
 impl Chains {
     /// Joins links at points where exactly two of a kind meet and `goes_on` says of both halves there that the chain goes on.
     pub(super) fn new(links: &[Link], goes_on: impl Fn(u32, u32) -> bool) -> Self {
-        let mut partner = vec![NO_HALF; 2 * links.len()];
+        let mut partner = vec![NO_END; 2 * links.len()];
         for_each_meeting(links, |here| {
-            if let &[Half { number: a, .. }, Half { number: b, .. }] = here
+            if let &[LinkEnd { number: a, .. }, LinkEnd { number: b, .. }] = here
                 && a >> 1 != b >> 1
                 && goes_on(a, b)
             {
@@ -72,13 +72,13 @@ impl Chains {
         Self::joined(&partner)
     }
 
-    /// Chains of links of which it is known how they go on: for each half the other one there, or [`NO_HALF`].
+    /// Chains of links of which it is known how they go on: for each half the other one there, or [`NO_END`].
     pub(super) fn joined(partner: &[u32]) -> Self {
         let mut all = Self::default();
         let mut is_used = vec![false; partner.len() / 2];
         // Open chains first: each from the one of its ends that comes first.
         for half in 0..partner.len() as u32 {
-            if partner[half as usize] == NO_HALF && !is_used[half as usize >> 1] {
+            if partner[half as usize] == NO_END && !is_used[half as usize >> 1] {
                 all.walk(half, partner, &mut is_used, false);
             }
         }
@@ -111,7 +111,7 @@ impl Chains {
             is_used[link as usize] = true;
             self.links.push(ChainLink { link, reversed: half & 1 == 1 });
             half = partner[half as usize ^ 1];
-            if half == NO_HALF || half == start {
+            if half == NO_END || half == start {
                 return;
             }
         }

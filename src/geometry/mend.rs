@@ -25,6 +25,7 @@
 //! turned over, they meet elsewhere than in the middle of the gap, or not at all (`settle`).
 
 mod anchors;
+mod border_points;
 mod borders;
 mod closure;
 mod holes;
@@ -33,7 +34,6 @@ mod join;
 mod limits;
 mod open;
 mod pairs;
-mod places;
 mod proximity;
 mod settle;
 mod side;
@@ -41,12 +41,12 @@ mod split;
 mod zip;
 
 use self::anchors::{Joined, anchored};
+use self::border_points::PointGroups;
 use self::borders::{Borders, NO_BORDER};
 use self::holes::thin_holes;
 use self::limits::Limits;
 pub use self::limits::SeamTolerance;
 use self::open::Open;
-use self::places::Places;
 use self::proximity::Stretches;
 use super::weld::TOLERANCE;
 use super::{Adjacency, Mesh};
@@ -148,7 +148,7 @@ pub fn mended(mesh: Mesh, tolerance: SeamTolerance) -> Mesh {
 struct Matching<'a> {
     borders: &'a Borders,
     limits: Limits,
-    places: Places,
+    places: PointGroups,
     is_joined: Vec<bool>,
     has_ties: bool,
 }
@@ -156,7 +156,7 @@ struct Matching<'a> {
 impl<'a> Matching<'a> {
     fn new(mesh: &Mesh, borders: &'a Borders, limits: Limits) -> Self {
         let count = borders.list.len();
-        let places = Places::new(&mesh.positions, borders, &limits);
+        let places = PointGroups::new(&mesh.positions, borders, &limits);
         Self { borders, limits, places, is_joined: vec![false; count], has_ties: false }
     }
 

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::{Vec2, Vec3, Vec4};
 
 use super::mend::Mended;
-use super::{Beyond, Bounds, Rig};
+use super::{BorderLink, Bounds, Rig};
 
 /// Triangles in their node's local coordinates (the file's units).
 ///
@@ -35,7 +35,7 @@ pub struct Mesh {
     /// Consecutive ranges of `indices`, one per material, that cover all of it.
     pub submeshes: Vec<Submesh>,
     /// Its border edges at which another mesh goes on.
-    pub beyond: Vec<Beyond>,
+    pub border_links: Vec<BorderLink>,
     /// What a skinned mesh needs to be posed again; `None` for all others.
     pub rig: Option<Arc<Rig>>,
 }
@@ -112,7 +112,7 @@ impl Mesh {
             tangents: pick(&self.tangents, sources),
             indices: Vec::new(),
             submeshes: Vec::new(),
-            beyond: Vec::new(),
+            border_links: Vec::new(),
             rig: self.rig.as_ref().map(|r| Arc::new(r.gather(sources))),
         }
     }

@@ -2,8 +2,8 @@
 
 pub mod angle;
 pub mod arrow;
-pub mod beyond;
 pub mod bodies;
+pub mod border_links;
 pub mod bounds;
 pub mod box_frame;
 pub mod bvh;
@@ -41,8 +41,8 @@ pub mod visible_edges;
 pub mod weld;
 
 pub use arrow::{Heads, arrow};
-pub use beyond::Beyond;
 pub use bodies::{Bodies, BodyKind};
+pub use border_links::BorderLink;
 pub use bounds::Bounds;
 pub use box_frame::box_frame;
 pub use bvh::Bvh;

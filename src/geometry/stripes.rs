@@ -18,7 +18,7 @@ use super::octahedron::{from_octahedron, to_octahedron};
 use super::{FieldOptions, Mesh};
 
 pub use self::levels::{BASE_LEVEL, CYCLES_PER_EXTENT, FAMILIES, LEVELS, Phases, WORDS};
-pub use self::lift::{Corner, Lifted, lift};
+pub use self::lift::{Corner, TrianglePhases, lift};
 
 /// What stripes need to know of a vertex: 50 bytes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -13,7 +13,7 @@ use super::needles::judge_needles;
 use super::normals::face_normals;
 use super::seams::{Seam, find_seams};
 use super::soft_edges::{SoftNormals, judge_steep};
-use super::{Beyond, CreaseRule, Mesh, Weld};
+use super::{BorderLink, CreaseRule, Mesh, Weld};
 
 /// All edges of a mesh, sorted by their smaller, then their larger welded end.
 #[derive(Debug, Clone, PartialEq)]
@@ -29,8 +29,8 @@ pub struct Adjacency {
     pub seams: Vec<Seam>,
     /// Every (edge, triangle) of the non-manifold edges, in order.
     pub non_manifold: Vec<(u32, u32)>,
-    /// The border edges at which other meshes go on, each with an index into [`Mesh::beyond`], in order.
-    pub beyond: Vec<(u32, u32)>,
+    /// The border edges at which other meshes go on, each with an index into [`Mesh::border_links`], in order.
+    pub border_links: Vec<(u32, u32)>,
     /// Triangles with two corners at one welded point, which take part in no edge, each with a triangle that it
     /// borders on ([`NO_FACE`] if there is none).
     pub collapsed: Vec<(u32, u32)>,
@@ -92,7 +92,7 @@ impl Adjacency {
             first_edge,
             seams: Vec::new(),
             non_manifold: Vec::new(),
-            beyond: Vec::new(),
+            border_links: Vec::new(),
             collapsed: Vec::new(),
             face_count: mesh.triangle_count(),
             border_count: 0,
@@ -110,14 +110,14 @@ impl Adjacency {
             let stitched = all.edges.iter().filter(|e| e.kind == EdgeKind::Stitched).count();
             all.border_count -= stitched;
         }
-        all.beyond = (0..)
-            .zip(&mesh.beyond)
-            .filter_map(|(number, Beyond { vertices: [a, b], .. })| {
+        all.border_links = (0..)
+            .zip(&mesh.border_links)
+            .filter_map(|(number, BorderLink { vertices: [a, b], .. })| {
                 Some((all.edge_between(*a, *b)? as u32, number))
             })
             .filter(|&(edge, _)| all.edges[edge as usize].kind == EdgeKind::Border)
             .collect();
-        all.beyond.sort_unstable();
+        all.border_links.sort_unstable();
         judge_needles(mesh, &normals, &mut all);
         judge_steep(mesh, &mut all.edges, &mut all.seams);
         all.collapsed = half_edges
@@ -159,10 +159,10 @@ impl Adjacency {
         })
     }
 
-    /// How a border edge goes on in another mesh, if it does: an index into [`Mesh::beyond`].
-    pub fn beyond(&self, edge: u32) -> Option<u32> {
-        let found = self.beyond.binary_search_by_key(&edge, |&(edge, _)| edge).ok()?;
-        self.beyond.get(found).map(|&(_, beyond)| beyond)
+    /// How a border edge goes on in another mesh, if it does: an index into [`Mesh::border_links`].
+    pub fn border_link(&self, edge: u32) -> Option<u32> {
+        let found = self.border_links.binary_search_by_key(&edge, |&(edge, _)| edge).ok()?;
+        self.border_links.get(found).map(|&(_, beyond)| beyond)
     }
 
     /// A triangle on any edge between these vertices.

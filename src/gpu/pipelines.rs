@@ -171,7 +171,7 @@ pub struct RasterKey {
 
 /// A pipeline and the layout of its group 1.
 #[derive(Clone)]
-struct Made<P> {
+struct Cached<P> {
     pipeline: P,
     inputs: wgpu::BindGroupLayout,
 }
@@ -197,8 +197,8 @@ pub struct Pipelines {
     shaders: Shaders,
     compiled: HashMap<&'static str, Shader>,
     placeholders: Placeholders,
-    raster: HashMap<RasterKey, Made<wgpu::RenderPipeline>>,
-    compute: HashMap<Program, Made<wgpu::ComputePipeline>>,
+    raster: HashMap<RasterKey, Cached<wgpu::RenderPipeline>>,
+    compute: HashMap<Program, Cached<wgpu::ComputePipeline>>,
     frame_layout: wgpu::BindGroupLayout,
     generation: u64,
 }
@@ -376,7 +376,7 @@ fn build_raster(
     Shader { module, bindings }: &Shader,
     frame_layout: &wgpu::BindGroupLayout,
     key: &RasterKey,
-) -> Made<wgpu::RenderPipeline> {
+) -> Cached<wgpu::RenderPipeline> {
     let label = key.program.file;
     let inputs = bindings.layout(gpu, label, key.program.entry_point, wgpu::ShaderStages::FRAGMENT);
     let constants = key.program.constants();
@@ -410,7 +410,7 @@ fn build_raster(
         multiview_mask: None,
         cache: None,
     });
-    Made { pipeline, inputs }
+    Cached { pipeline, inputs }
 }
 
 fn build_compute(
@@ -418,7 +418,7 @@ fn build_compute(
     Shader { module, bindings }: &Shader,
     frame_layout: &wgpu::BindGroupLayout,
     program: &Program,
-) -> Made<wgpu::ComputePipeline> {
+) -> Cached<wgpu::ComputePipeline> {
     let label = program.file;
     let inputs = bindings.layout(gpu, label, program.entry_point, wgpu::ShaderStages::COMPUTE);
     let constants = program.constants();
@@ -430,5 +430,5 @@ fn build_compute(
         compilation_options: wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() },
         cache: None,
     });
-    Made { pipeline, inputs }
+    Cached { pipeline, inputs }
 }

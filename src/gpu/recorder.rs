@@ -143,7 +143,7 @@ impl<'a> Recorder<'a> {
     }
 
     /// Whether anybody looks at what has this name.
-    pub fn keeps(&self, name: &str) -> bool {
+    pub fn captures(&self, name: &str) -> bool {
         self.intermediates.contains_key(name)
     }
 

@@ -8,11 +8,11 @@ use super::Recorder;
 
 /// The reports that are on their way; `T` is what the processor has to know to understand one when it arrives.
 pub struct Reports<T> {
-    sent: VecDeque<Sent<T>>,
+    sent: VecDeque<InFlight<T>>,
     free: Vec<wgpu::Buffer>,
 }
 
-struct Sent<T> {
+struct InFlight<T> {
     copy: wgpu::Buffer,
     /// Held by the device, too, until it is decided.
     has_arrived: Arc<AtomicBool>,
@@ -43,7 +43,7 @@ impl<T> Reports<T> {
         rec.encoder.map_buffer_on_submit(&copy, wgpu::MapMode::Read, .., move |result| {
             signal.store(result.is_ok(), Ordering::Release);
         });
-        self.sent.push_back(Sent { copy, has_arrived, about });
+        self.sent.push_back(InFlight { copy, has_arrived, about });
     }
 
     /// The latest report that has arrived since the last call; earlier ones are out of date. Never waits: somebody has to

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
-use crate::geometry::beyond::link_meshes;
+use crate::geometry::border_links::link_meshes;
 use crate::geometry::{Adjacency, SeamTolerance};
 use crate::scene::Scene;
 

@@ -274,12 +274,12 @@ impl Renderer {
     /// `surface ids`, `base color`, `depth` (see `passes/gbuffer.rs`), `edge map`, `shadow mask`, `cartoon map`, `coordinates`,
     /// `operators`, `depth mask`, `triangles`, of the last sketch `noise of lines`, and of the layers of a blueprint
     /// [`crate::render::LAYERS`].
-    pub fn keep(&mut self, name: &'static str) {
+    pub fn capture(&mut self, name: &'static str) {
         self.intermediates.entry(name).or_default();
     }
 
     /// The textures of that name that the last picture was made of; none where it was made without.
-    pub fn kept(&self, name: &str) -> &[Target] {
+    pub fn captured(&self, name: &str) -> &[Target] {
         self.intermediates.get(name).map_or(&[], Vec::as_slice)
     }
 

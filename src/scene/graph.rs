@@ -171,7 +171,7 @@ impl Scene {
             for part in &mut moved.submeshes {
                 part.material += materials;
             }
-            for beyond in &mut moved.beyond {
+            for beyond in &mut moved.border_links {
                 beyond.mesh += meshes;
             }
             if let Some(rig) = &mut moved.rig {

@@ -76,19 +76,14 @@ impl Gooch {
         list.color("warm", "Warm", "Yellow of the side that faces the light.", &mut self.warm);
         list.share(
             "alpha",
-            "Cool object color",
+            "Cool tint",
             "Share of the object's own color on the cool side.",
             &mut self.alpha,
         );
-        list.share(
-            "beta",
-            "Warm object color",
-            "Share of the object's own color on the warm side.",
-            &mut self.beta,
-        );
+        list.share("beta", "Warm tint", "Share of the object's own color on the warm side.", &mut self.beta);
         list.share("object_hue", "Object hue", "How far blue and yellow are multiplied by the object's own color: dark and saturated ones keep their hue.", &mut self.object_hue);
         list.formerly("own_hue");
-        list.share("side_light", "Light from the side", "How far the key is turned to the side: at 1 it shines across the line of sight and sets faces apart.", &mut self.side_light);
+        list.share("side_light", "Key from side", "How far the key is turned to the side: at 1 it shines across the line of sight and sets faces apart.", &mut self.side_light);
         list.formerly("aside");
         list.share(
             "highlight",

@@ -91,7 +91,7 @@ impl Ink {
 
 /// The class of the edge at each pixel of the edge map, and the object that draws it.
 pub fn edge_classes(session: &mut Session, picture: &Picture) -> Vec<Option<(EdgeClass, u32)>> {
-    let Some(edge_map) = super::kept(session, "edge map") else {
+    let Some(edge_map) = super::captured(session, "edge map") else {
         return vec![None; (picture.image.size()[0] * picture.image.size()[1]) as usize];
     };
     let edge = |[what, object, ..]: [u32; 4]| {

@@ -30,7 +30,7 @@ pub fn session() -> Session {
         Ok(gpu) => {
             let mut session = Session::new(gpu);
             for name in LOOKED_AT {
-                session.renderer().keep(name);
+                session.renderer().capture(name);
             }
             session
         }
@@ -51,19 +51,19 @@ const LOOKED_AT: [&str; 8] = [
 ];
 
 /// A texture that the last picture was made of, by its name; `None` if it was made without.
-pub fn kept(session: &mut Session, name: &str) -> Option<Target> {
-    session.renderer().kept(name).first().cloned()
+pub fn captured(session: &mut Session, name: &str) -> Option<Target> {
+    session.renderer().captured(name).first().cloned()
 }
 
 /// The layers of the only blueprint, as they are kept under a name, the nearest first. They have to be asked for before.
 pub fn kept_layers(session: &mut Session, name: &str) -> Vec<Target> {
-    session.renderer().kept(name).to_vec()
+    session.renderer().captured(name).to_vec()
 }
 
 /// Keeps the layers of blueprints from now on.
 pub fn keep_layers(session: &mut Session) {
     for name in LAYERS {
-        session.renderer().keep(name);
+        session.renderer().capture(name);
     }
 }
 
@@ -208,7 +208,7 @@ pub fn objects_in_front(session: &mut Session, picture: &Picture) -> Vec<u32> {
 
 /// The G-buffer of a picture, row by row.
 pub fn surfels(session: &mut Session, picture: &Picture) -> Vec<Surfel> {
-    let geometry = kept(session, "geometry").unwrap();
+    let geometry = captured(session, "geometry").unwrap();
     assert_eq!(geometry.size(), picture.image.size());
     texels::<[u32; 4]>(session, &geometry)
         .into_iter()
@@ -224,7 +224,7 @@ pub fn surfels(session: &mut Session, picture: &Picture) -> Vec<Surfel> {
 
 /// Inner and profile ink per pixel, 0 to 1, and whose it is. See `shaders/common/edge_map.wgsl`.
 pub fn ink(session: &mut Session, picture: &Picture) -> Vec<(f32, f32, u32)> {
-    let Some(edge_map) = kept(session, "edge map") else {
+    let Some(edge_map) = captured(session, "edge map") else {
         return vec![(0.0, 0.0, 0); (picture.image.size()[0] * picture.image.size()[1]) as usize];
     };
     texels::<[u32; 4]>(session, &edge_map)

@@ -5,7 +5,7 @@ use hachure::export::Session;
 use hachure::export::session::Opened;
 use hachure::geometry::EdgeClass;
 
-use crate::common::{kept, texels};
+use crate::common::{captured, texels};
 
 /// Cosine of the angle up to which two tangents belong to one line.
 const PARALLEL: f64 = 0.85;
@@ -60,7 +60,7 @@ impl Lines {
     /// Of a square picture of the scene that was set.
     pub(crate) fn draw(session: &mut Session, opened: &Opened, side: u32) -> Self {
         session.draw(opened, [side; 2], false).unwrap();
-        let edge_map = kept(session, "edge map").unwrap();
+        let edge_map = captured(session, "edge map").unwrap();
         let side = side as usize;
         let point = |(i, texel)| Point::new(texel, DVec2::new((i % side) as f64, (i / side) as f64));
         let points = texels::<[u32; 4]>(session, &edge_map).into_iter().enumerate().map(point).collect();

@@ -5,7 +5,7 @@ use hachure::export::Session;
 use hachure::render::passes::offset_field::FieldUniform;
 use half::f16;
 
-use super::common::{kept, texels};
+use super::common::{captured, texels};
 use super::model::{Anchor, Eye};
 
 /// The texture that says where lines go.
@@ -26,8 +26,8 @@ impl Drawn {
     /// What was found in the pictures that these have drawn last: the edge map of the one without a sketch, which is that of the
     /// sketch too, and what lines were given there.
     pub(crate) fn new(plain: &mut Session, sketched: &mut Session, eye: Eye) -> Self {
-        let edges = kept(plain, "edge map").unwrap();
-        let noise = kept(sketched, NOISE).unwrap();
+        let edges = captured(plain, "edge map").unwrap();
+        let noise = captured(sketched, NOISE).unwrap();
         Self { eye, edges: texels(plain, &edges), noise: texels(sketched, &noise) }
     }
 

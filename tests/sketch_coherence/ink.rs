@@ -147,7 +147,7 @@ impl Draftsman {
     fn new(model: &Model, moved: Moved, wave: f32, side: u32) -> Self {
         let opened = drawing(model, moved, wave, side);
         let mut session = session();
-        session.renderer().keep(NOISE);
+        session.renderer().capture(NOISE);
         session.set_scene(&opened).unwrap();
         Self { session, opened }
     }

@@ -1,5 +1,5 @@
 // Which steps of segments are worth a close look: passes/segments.wgsl takes it.
-#import common/kept.wgsl
+#import common/list_head.wgsl
 #import common/repeated.wgsl
 #import gpu/record_texture.wgsl
 #import passes/segments/segment.wgsl
@@ -22,28 +22,28 @@ var<storage, read_write> keeping_steps: array<u32>;
 struct PlacedStep {
     segment_number: u32,
     segment: Segment,
-    place: Place,
+    pixel: StepPixel,
     spine: Spine,
 }
 
 fn placed_step(number: u32) -> PlacedStep {
     let step = step_at(number);
     let segment = segment_at(step.x);
-    let place = place_of(segment.ends, step.y);
-    return PlacedStep(step.x, segment, place, spine_at(segment, place.px));
+    let pixel = step_pixel(segment.ends, step.y);
+    return PlacedStep(step.x, segment, pixel, spine_at(segment, pixel.px));
 }
 
 @compute @workgroup_size(GROUP)
 fn cs_place(@builtin(global_invocation_id) id: vec3<u32>) {
     let step = placed_step(id.x);
-    let place = step.place;
+    let pixel = step.pixel;
     var around = 0u;
     for (var i = 0u; i < 5u; i++) {
-        let away = vec2<u32>(texel_beside(step.spine, PLACES[i]) - vec2<i32>(place.px) + 4);
+        let away = vec2<u32>(texel_beside(step.spine, PLACES[i]) - vec2<i32>(pixel.px) + 4);
         around |= ((away.x & 7u) | ((away.y & 7u) << 3u)) << (6u * i);
     }
-    let is_on = step.segment_number != NO_STEP && place.is_on;
-    let px = select(NO_STEP, u32(place.px.x) | (u32(place.px.y) << 16u), is_on);
+    let is_on = step.segment_number != NO_STEP && pixel.is_on;
+    let px = select(NO_STEP, u32(pixel.px.x) | (u32(pixel.px.y) << 16u), is_on);
     textureStore(placed_tex, texel_of_record(id.x), vec4(px, around, step.segment.ids.zw));
 }
 
@@ -79,7 +79,7 @@ fn cs_cull(@builtin(global_invocation_id) id: vec3<u32>) {
     let tested = tested_spine(step.segment, step.segment_number, step.spine);
     let left = beside(tested, BESIDE, step.segment.ids.zw);
     let right = beside(tested, -BESIDE, step.segment.ids.zw);
-    if step.segment_number != NO_STEP && step.place.is_on && min(left.lead, right.lead) <= SLACK {
+    if step.segment_number != NO_STEP && step.pixel.is_on && min(left.lead, right.lead) <= SLACK {
         keep(id.x);
     }
 }

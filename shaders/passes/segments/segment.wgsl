@@ -50,7 +50,7 @@ fn length_of(v: Segment) -> f32 {
 }
 
 // How a segment is drawn.
-struct Hand {
+struct StrokeWeights {
     // At both ends.
     weights: vec2<f32>,
     // The greatest counts where segments share a pixel.
@@ -58,12 +58,12 @@ struct Hand {
     is_stroke: bool,
 }
 
-fn hand_at(index: u32) -> Hand {
+fn stroke_weights_at(index: u32) -> StrokeWeights {
     if !WITH_STROKES {
-        return Hand(vec2(1.0), 1.0, false);
+        return StrokeWeights(vec2(1.0), 1.0, false);
     }
     let texel = texel_at(tested_tex, 2u * index + 1u);
-    return Hand(bitcast<vec2<f32>>(texel.xy), bitcast<f32>(texel.z), texel.w == 1u);
+    return StrokeWeights(bitcast<vec2<f32>>(texel.xy), bitcast<f32>(texel.z), texel.w == 1u);
 }
 
 // The point of a segment's line next to the center of a pixel.

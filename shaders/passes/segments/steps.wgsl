@@ -16,12 +16,12 @@ fn step_at(number: u32) -> vec2<u32> {
 
 // The pixel of a step along the longer side of a segment, which is half a pixel longer on both sides, so that every segment
 // meets the next one; `false` behind its end or beyond the picture.
-struct Place {
+struct StepPixel {
     px: vec2<f32>,
     is_on: bool,
 }
 
-fn place_of(ends: vec4<f32>, step: u32) -> Place {
+fn step_pixel(ends: vec4<f32>, step: u32) -> StepPixel {
     let d = ends.zw - ends.xy;
     let is_steep = abs(d.y) > abs(d.x);
     // Along, across.
@@ -34,5 +34,5 @@ fn place_of(ends: vec4<f32>, step: u32) -> Place {
     let at = vec2(along, from_end.y + (along - from_end.x) * slope);
     let px = floor(select(at, at.yx, is_steep));
     let is_on = along < max(from_end.x, to_end.x) + 0.5;
-    return Place(px, is_on && all(px >= vec2(0.0)) && all(px < frame.size));
+    return StepPixel(px, is_on && all(px >= vec2(0.0)) && all(px < frame.size));
 }

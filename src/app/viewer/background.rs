@@ -12,7 +12,7 @@ use crate::app::jobs::Job;
 use crate::app::loading::{self, Intent, LoadError, Loaded};
 use crate::app::navigation;
 use crate::app::screenshot::{self, Destination};
-use crate::app::unsaved::{Kept, Next};
+use crate::app::unsaved::{Replacement, Saved};
 use crate::app::viewport::PickFor;
 use crate::document::{DOCUMENT_ENDING, Document};
 use crate::export::session::{self, is_document};
@@ -34,7 +34,7 @@ impl Viewer {
         let is_replaced =
             intent == Intent::Open || intent == Intent::Add && files.iter().any(|f| is_document(f));
         if is_replaced {
-            self.leave_for(context, Next::Open(files));
+            self.leave_for(context, Replacement::Open(files));
         } else {
             self.start_loading(context, files, intent);
         }
@@ -69,7 +69,7 @@ impl Viewer {
                     self.notices.saved(path.clone());
                     self.state.note_opened(&path);
                     self.look_for_recent();
-                    self.kept = Kept::saved(path, document);
+                    self.saved = Saved::in_file(path, document);
                     self.go_on_after_saving(context);
                 }
                 Ok(Err(error)) => self.save_failed(&error.to_string()),
@@ -97,7 +97,7 @@ impl Viewer {
         match result {
             // The drawing may have been changed since it was left for this one.
             Ok(Ok(loaded)) if loaded.intent == Intent::Open => {
-                self.leave_for(context, Next::Show(Box::new(loaded)));
+                self.leave_for(context, Replacement::Show(Box::new(loaded)));
             }
             Ok(Ok(loaded)) => self.show_loaded(loaded),
             Ok(Err(LoadError::Import(ImportError::Canceled))) => self.stay(),
@@ -142,8 +142,8 @@ impl Viewer {
                     self.look_from(Standard::Home);
                 }
                 // Added to nothing, they are as if opened.
-                if self.loaded.is_empty() && self.kept.file.is_none() {
-                    self.kept = Kept::models(&self.document);
+                if self.loaded.is_empty() && self.saved.file.is_none() {
+                    self.saved = Saved::models(&self.document);
                 }
             }
             Intent::Reload | Intent::Restore => {}
@@ -153,7 +153,7 @@ impl Viewer {
             self.mended_for = self.document.view.seam_tolerance();
         }
         if intent != Intent::Restore {
-            for path in self.loaded.iter().rev().chain(&self.kept.file) {
+            for path in self.loaded.iter().rev().chain(&self.saved.file) {
                 self.state.note_opened(path);
             }
             self.look_for_recent();
@@ -282,7 +282,7 @@ impl Viewer {
         let scene = &self.model.scene;
         let is_saved = document.is_some();
         if let Some((path, document)) = document {
-            self.kept = Kept::saved(path, document.clone());
+            self.saved = Saved::in_file(path, document.clone());
             self.document = document;
         } else {
             let memory = models.first().and_then(|m| self.state.memory(m));
@@ -302,7 +302,7 @@ impl Viewer {
             self.document.style = style;
         }
         if !is_saved {
-            self.kept = Kept::models(&self.document);
+            self.saved = Saved::models(&self.document);
         }
         self.given_up = None;
         if self.document.camera.is_none() {
@@ -446,7 +446,7 @@ impl Viewer {
 
     /// The name that files made from this get: that of the document or of the first model.
     pub(super) fn name(&self) -> String {
-        let path = self.kept.file.as_ref().or(self.document.models.first());
+        let path = self.saved.file.as_ref().or(self.document.models.first());
         let stem = path.and_then(|p| p.file_stem());
         stem.map_or_else(|| "drawing".to_owned(), |s| s.to_string_lossy().into_owned())
     }

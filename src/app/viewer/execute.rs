@@ -11,7 +11,7 @@ use crate::app::navigation::STEP;
 use crate::app::placing::PlacedGlyph;
 use crate::app::screenshot::{self, Destination};
 use crate::app::theme;
-use crate::app::unsaved::Next;
+use crate::app::unsaved::Replacement;
 use crate::document::Glyph;
 use crate::document::glyph::Shape;
 use crate::scene::{Extent, NodeId, Projection, Standard};
@@ -22,7 +22,7 @@ impl Viewer {
         let (any, selected) = (!self.model.scene.nodes.is_empty(), !self.selection.is_empty());
         match command {
             Command::Reload => !self.document.models.is_empty(),
-            Command::Save => any || self.kept.file.is_some(),
+            Command::Save => any || self.saved.file.is_some(),
             Command::AddBox => self.selection.lead_object(&self.model.files).is_some(),
             Command::AddArrow | Command::AddPath | Command::AddLabel => any && self.document.camera.is_some(),
             Command::Delete => {
@@ -87,13 +87,13 @@ impl Viewer {
     /// Carries a command out.
     pub(super) fn execute(&mut self, context: &egui::Context, command: Command) {
         match command {
-            Command::Open => self.leave_for(context, Next::Choose),
+            Command::Open => self.leave_for(context, Replacement::Choose),
             Command::Add => self.ask_for_file(context, DialogFor::Add),
             Command::Reload => {
                 self.load(context, self.document.models.clone(), Intent::Reload);
                 self.images.look_again();
             }
-            Command::Save => match self.kept.file.clone() {
+            Command::Save => match self.saved.file.clone() {
                 Some(path) => self.save_document(context, path),
                 None => self.ask_for_file(context, DialogFor::Save),
             },
@@ -101,7 +101,7 @@ impl Viewer {
             Command::Screenshot => self.capture(context, false, self.numbered()),
             Command::TransparentScreenshot => self.capture(context, true, self.numbered()),
             Command::ScreenshotAs => self.ask_for_file(context, DialogFor::Screenshot),
-            Command::Quit => self.leave_for(context, Next::Close),
+            Command::Quit => self.leave_for(context, Replacement::Close),
             Command::AddBox => self.add_box(),
             Command::AddArrow => self.begin_placing(PlacedGlyph::Arrow),
             Command::AddPath => self.begin_placing(PlacedGlyph::Path),

@@ -9,14 +9,14 @@ use super::{DialogFor, Viewer};
 use crate::app::command::Command;
 use crate::app::loading::Intent;
 use crate::app::panels::leave::{self, Answer};
-use crate::app::unsaved::{Leaving, Next};
+use crate::app::unsaved::{Leaving, Replacement};
 
 impl Viewer {
     /// Whether the person changed something that is in no file.
     pub fn is_unsaved(&self) -> bool {
         // Without objects and without a file there is nothing yet that could be saved.
-        let is_drawing = self.kept.file.is_some() || !self.model.scene.nodes.is_empty();
-        is_drawing && self.kept.differs_from(&self.document)
+        let is_drawing = self.saved.file.is_some() || !self.model.scene.nodes.is_empty();
+        is_drawing && self.saved.differs_from(&self.document)
     }
 
     /// Whether the question is on the screen; then nothing behind it acts.
@@ -25,7 +25,7 @@ impl Viewer {
     }
 
     /// Lets something take the drawing's place, or asks first if anything would be lost that the person has not given up.
-    pub(super) fn leave_for(&mut self, context: &egui::Context, next: Next) {
+    pub(super) fn leave_for(&mut self, context: &egui::Context, next: Replacement) {
         if self.is_unsaved() && self.given_up.as_ref() != Some(&self.document) {
             self.leaving = Leaving::Asked(next);
             context.request_repaint();
@@ -33,10 +33,10 @@ impl Viewer {
         }
         self.leaving = Leaving::No;
         match next {
-            Next::Close => context.send_viewport_cmd(egui::ViewportCommand::Close),
-            Next::Choose => self.ask_for_file(context, DialogFor::Open),
-            Next::Open(files) => self.start_loading(context, files, Intent::Open),
-            Next::Show(loaded) => self.show_loaded(*loaded),
+            Replacement::Close => context.send_viewport_cmd(egui::ViewportCommand::Close),
+            Replacement::Choose => self.ask_for_file(context, DialogFor::Open),
+            Replacement::Open(files) => self.start_loading(context, files, Intent::Open),
+            Replacement::Show(loaded) => self.show_loaded(*loaded),
         }
     }
 
@@ -62,7 +62,7 @@ impl Viewer {
         let is_closing = context.input(|i| i.viewport().close_requested());
         if is_closing && self.is_unsaved() && self.given_up.as_ref() != Some(&self.document) {
             context.send_viewport_cmd(egui::ViewportCommand::CancelClose);
-            self.leaving = Leaving::Asked(Next::Close);
+            self.leaving = Leaving::Asked(Replacement::Close);
         }
     }
 
@@ -71,7 +71,7 @@ impl Viewer {
         if !self.is_asking() {
             return;
         }
-        let Some(answer) = leave::leave_ui(context, &self.file_name(), self.kept.file.is_some()) else {
+        let Some(answer) = leave::leave_ui(context, &self.file_name(), self.saved.file.is_some()) else {
             return;
         };
         let Leaving::Asked(next) = std::mem::take(&mut self.leaving) else { return };
@@ -90,7 +90,7 @@ impl Viewer {
 
     /// The name of the drawing's file or of its first model.
     pub(super) fn file_name(&self) -> String {
-        let path: Option<&PathBuf> = self.kept.file.as_ref().or(self.document.models.first());
+        let path: Option<&PathBuf> = self.saved.file.as_ref().or(self.document.models.first());
         let name = path.and_then(|p| p.file_name());
         name.map_or_else(|| "The drawing".to_owned(), |n| n.to_string_lossy().into_owned())
     }

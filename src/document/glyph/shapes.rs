@@ -58,7 +58,7 @@ impl Document {
             };
             let made = made.unwrap_or_else(|fault| {
                 notes.push(format!("is not drawn: {fault}"));
-                Made::default()
+                GlyphMesh::default()
             });
             let place = glyph.path();
             shapes
@@ -104,7 +104,7 @@ impl Document {
 
 /// A mesh about a point of the files' coordinates.
 #[derive(Default)]
-struct Made {
+struct GlyphMesh {
     mesh: Mesh,
     origin: DVec3,
     facing: Option<Facing>,
@@ -166,7 +166,7 @@ impl Measures<'_> {
         f64::from(thickness) / 100.0 * self.diagonal
     }
 
-    fn around(&self, shape: &BoxAround) -> Result<Made, String> {
+    fn around(&self, shape: &BoxAround) -> Result<GlyphMesh, String> {
         let thickness = self.absolute(shape.thickness);
         let node = self.bounds_below(&shape.node)?;
         let origin = node.center();
@@ -180,10 +180,10 @@ impl Measures<'_> {
             mesh.positions.iter_mut().for_each(|p| *p *= size);
             mesh
         };
-        Ok(Made { mesh, origin, facing: None })
+        Ok(GlyphMesh { mesh, origin, facing: None })
     }
 
-    fn path(&self, shape: &ArrowPath, notes: &mut Vec<String>) -> Result<Made, String> {
+    fn path(&self, shape: &ArrowPath, notes: &mut Vec<String>) -> Result<GlyphMesh, String> {
         if let Some(number) = shape.points.iter().position(|p| self.is_too_far(*p)) {
             return Err(format!("its point {} is too far from the model", number + 1));
         }
@@ -198,7 +198,7 @@ impl Measures<'_> {
         if mesh.indices.is_empty() {
             return Err("a path needs two different points".to_owned());
         }
-        Ok(Made { mesh, origin, facing: None })
+        Ok(GlyphMesh { mesh, origin, facing: None })
     }
 
     fn label(
@@ -207,7 +207,7 @@ impl Measures<'_> {
         ink: Color,
         paper: Color,
         notes: &mut Vec<String>,
-    ) -> Result<Made, String> {
+    ) -> Result<GlyphMesh, String> {
         let anchor = match &shape.anchor {
             Anchor::Point(point) => *point,
             Anchor::Node(path) => self.bounds_below(path)?.center(),
@@ -227,6 +227,6 @@ impl Measures<'_> {
         };
         let mesh = label_mesh(shape, &text, ink, paper);
         let facing = Facing { anchor, size, in_front: shape.in_front };
-        Ok(Made { mesh, origin: anchor, facing: Some(facing) })
+        Ok(GlyphMesh { mesh, origin: anchor, facing: Some(facing) })
     }
 }

@@ -39,7 +39,7 @@ pub(in crate::geometry) struct FeatureChains {
 impl FeatureEdges {
     /// The chains for these angles; made when they are asked for first.
     pub(in crate::geometry) fn chains(&self, mesh: &Mesh, angles: CreaseAngles) -> Arc<FeatureChains> {
-        self.kept_chains.get(angles, || FeatureChains::new(self, mesh, angles))
+        self.cached_chains.get(angles, || FeatureChains::new(self, mesh, angles))
     }
 
     /// All edges that are lines from all sides, for these angles.

@@ -10,13 +10,13 @@ pub(in crate::geometry) struct CreaseAngles {
 }
 
 /// How many choices of angles are kept.
-const MOST_KEPT: usize = 8;
+const MOST_CACHED: usize = 8;
 
 /// What was asked for before. No part of what makes edges equal.
 #[derive(Debug)]
-pub(super) struct Kept<T>(Mutex<Vec<(CreaseAngles, Arc<T>)>>);
+pub(super) struct Cached<T>(Mutex<Vec<(CreaseAngles, Arc<T>)>>);
 
-impl<T> Kept<T> {
+impl<T> Cached<T> {
     /// That of these angles; made when it is asked for first.
     pub(super) fn get(&self, angles: CreaseAngles, make: impl FnOnce() -> T) -> Arc<T> {
         let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
@@ -24,7 +24,7 @@ impl<T> Kept<T> {
             return Arc::clone(found);
         }
         let made = Arc::new(make());
-        if kept.len() >= MOST_KEPT {
+        if kept.len() >= MOST_CACHED {
             kept.remove(0);
         }
         kept.push((angles, Arc::clone(&made)));
@@ -32,19 +32,19 @@ impl<T> Kept<T> {
     }
 }
 
-impl<T> Default for Kept<T> {
+impl<T> Default for Cached<T> {
     fn default() -> Self {
         Self(Mutex::default())
     }
 }
 
-impl<T> Clone for Kept<T> {
+impl<T> Clone for Cached<T> {
     fn clone(&self) -> Self {
         Self::default()
     }
 }
 
-impl<T> PartialEq for Kept<T> {
+impl<T> PartialEq for Cached<T> {
     fn eq(&self, _: &Self) -> bool {
         true
     }

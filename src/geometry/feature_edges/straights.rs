@@ -10,7 +10,7 @@ use super::FeatureEdges;
 use super::crease_angles::CreaseAngles;
 use super::pieces::Piece;
 use crate::geometry::Mesh;
-use crate::geometry::line_chains::{ChainLink, Chains, Half, Link, NO_HALF, for_each_meeting};
+use crate::geometry::line_chains::{ChainLink, Chains, Link, LinkEnd, NO_END, for_each_meeting};
 use crate::geometry::strokes::mix;
 
 /// Cosine of the angle by which a straight line may turn at a point, 1°: finely tessellated arcs turn by more.
@@ -48,7 +48,7 @@ pub(in crate::geometry) struct Straights {
 impl FeatureEdges {
     /// The straight lines for these angles; made when they are asked for first.
     pub(in crate::geometry) fn straights(&self, mesh: &Mesh, angles: CreaseAngles) -> Arc<Straights> {
-        self.kept_straights.get(angles, || Straights::new(self, mesh, angles))
+        self.cached_straights.get(angles, || Straights::new(self, mesh, angles))
     }
 }
 
@@ -66,7 +66,7 @@ impl Straights {
             }
         }
         let next = |half: u32| {
-            let other = smooth.get(half as usize).copied().filter(|&half| half != NO_HALF)?;
+            let other = smooth.get(half as usize).copied().filter(|&half| half != NO_END)?;
             chain_of.get(other as usize >> 1).copied()
         };
         let is_curve = curves(&chains, &lines, next);
@@ -115,7 +115,7 @@ struct Joints {
 impl Joints {
     fn new(pieces: &[Piece]) -> Self {
         let links: Vec<Link> = pieces.iter().map(Piece::link).collect();
-        let none = vec![NO_HALF; 2 * links.len()];
+        let none = vec![NO_END; 2 * links.len()];
         let mut all = Self { straight: none.clone(), smooth: none };
         let leave =
             |half: u32| pieces.get(half as usize >> 1).map_or(Vec3::ZERO, |piece| piece.leave(half & 1));
@@ -125,8 +125,8 @@ impl Joints {
                 return;
             }
             pairs.clear();
-            for (i, &Half { number: a, .. }) in here.iter().enumerate() {
-                for &Half { number: b, .. } in &here[i + 1..] {
+            for (i, &LinkEnd { number: a, .. }) in here.iter().enumerate() {
+                for &LinkEnd { number: b, .. } in &here[i + 1..] {
                     let cosine = -leave(a).dot(leave(b));
                     if cosine >= SMOOTH && a >> 1 != b >> 1 {
                         pairs.push((cosine, a, b));
@@ -137,7 +137,7 @@ impl Joints {
             pairs.sort_by(|a, b| b.0.total_cmp(&a.0));
             for &(cosine, a, b) in &pairs {
                 let [a, b] = [a, b].map(|half| half as usize);
-                if [a, b].iter().any(|&h| all.straight[h] != NO_HALF || all.smooth[h] != NO_HALF) {
+                if [a, b].iter().any(|&h| all.straight[h] != NO_END || all.smooth[h] != NO_END) {
                     continue;
                 }
                 let joints = if cosine >= STRAIGHT { &mut all.straight } else { &mut all.smooth };

@@ -17,7 +17,7 @@ pub(super) struct Stretch {
 }
 
 /// Another edge on one that is being cut.
-struct Other {
+struct OverlappingEdge {
     edge: u32,
     face: u32,
     dihedral: f32,
@@ -58,7 +58,7 @@ pub(super) fn split(
         let edge = seam.edges[which];
         let Some(vertices) = adjacency.edges.get(edge as usize).map(|e| e.vertices) else { continue };
         let [from, to] = vertices.map(along);
-        others.push(Other {
+        others.push(OverlappingEdge {
             edge,
             face: seam.faces[which],
             dihedral: seam.dihedral,
@@ -75,7 +75,8 @@ pub(super) fn split(
             continue;
         }
         let middle = 0.5 * (from + to);
-        let here: Vec<&Other> = others.iter().filter(|o| o.span[0] <= middle && middle < o.span[1]).collect();
+        let here: Vec<&OverlappingEdge> =
+            others.iter().filter(|o| o.span[0] <= middle && middle < o.span[1]).collect();
         if here.iter().all(|other| other.edge >= number) {
             out.push(Stretch {
                 ends: [start, end],

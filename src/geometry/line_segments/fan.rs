@@ -4,7 +4,7 @@ use glam::{DMat4, DVec3};
 
 use super::PlacedEdges;
 use crate::geometry::feature_edges::Materials;
-use crate::geometry::{Beyond, EdgeClass, FeatureEdges, Lens, Mesh};
+use crate::geometry::{BorderLink, EdgeClass, FeatureEdges, Lens, Mesh};
 
 /// Two surfaces that leave an edge in directions closer than this (radians) lie on each other.
 const SAME_DIRECTION: f64 = 1e-3;
@@ -13,7 +13,7 @@ const EDGE_ON: f64 = 1e-9;
 
 /// What is seen of a fan.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Seen {
+pub(super) struct FanView {
     /// The class, if all surfaces are on one side.
     pub rim: Option<EdgeClass>,
     /// Angle between the two surfaces that are seen, positive convex; 0 at a border.
@@ -40,7 +40,7 @@ impl<'a> Fans<'a> {
     }
 
     /// What is seen of an edge; `None`: nothing, or it has no extent.
-    pub(super) fn look(&self, edge: u32) -> Option<Seen> {
+    pub(super) fn look(&self, edge: u32) -> Option<FanView> {
         let ends = self.edges.ends.get(edge as usize)?;
         let [a, b] = ends.map(|v| self.view_position(v));
         let (a, b) = (a?, b?);
@@ -73,24 +73,24 @@ impl<'a> Fans<'a> {
         }
         let rim = if is_fold { EdgeClass::Silhouette } else { EdgeClass::Border };
         match (left, right) {
-            (Some((left, one)), Some((right, two))) => Some(Seen {
+            (Some((left, one)), Some((right, two))) => Some(FanView {
                 rim: None,
                 angle: (left + right - std::f64::consts::PI) as f32,
                 faces: [one, two],
-                materials_differ: match self.beyond(one).or(self.beyond(two)) {
+                materials_differ: match self.border_link(one).or(self.border_link(two)) {
                     Some(beyond) => beyond.materials_differ,
                     None => Materials::new(self.mesh).differ([one, two]),
                 },
             }),
             // The other mesh draws it.
-            (Some((_, face)), None) | (None, Some((_, face))) if self.beyond(face).is_some() => None,
+            (Some((_, face)), None) | (None, Some((_, face))) if self.border_link(face).is_some() => None,
             (Some((_, face)), None) | (None, Some((_, face))) => {
-                Some(Seen { rim: Some(rim), angle: 0.0, faces: [face; 2], materials_differ: false })
+                Some(FanView { rim: Some(rim), angle: 0.0, faces: [face; 2], materials_differ: false })
             }
             (None, None) if is_fold => None,
             (None, None) => {
                 let (_, face) = first?;
-                Some(Seen { rim: Some(rim), angle: 0.0, faces: [face; 2], materials_differ: false })
+                Some(FanView { rim: Some(rim), angle: 0.0, faces: [face; 2], materials_differ: false })
             }
         }
     }
@@ -98,7 +98,7 @@ impl<'a> Fans<'a> {
     /// From an edge into a triangle: a unit vector in view space, perpendicular to the edge.
     fn away(&self, face: u32, start: DVec3, along: DVec3) -> Option<DVec3> {
         let aside = |p: DVec3| (p - start) - along * (p - start).dot(along);
-        if let Some(beyond) = self.beyond(face) {
+        if let Some(beyond) = self.border_link(face) {
             let is_shown = self.shown.get(beyond.mesh).copied().unwrap_or(false);
             let apex = self.view_from_local.transform_point3(beyond.apex.as_dvec3());
             return aside(apex).try_normalize().filter(|_| is_shown);
@@ -110,8 +110,8 @@ impl<'a> Fans<'a> {
     }
 
     /// How the mesh goes on, if that is the number of no triangle of its own.
-    fn beyond(&self, face: u32) -> Option<&Beyond> {
-        self.mesh.beyond.get((face as usize).checked_sub(self.mesh.triangle_count())?)
+    fn border_link(&self, face: u32) -> Option<&BorderLink> {
+        self.mesh.border_links.get((face as usize).checked_sub(self.mesh.triangle_count())?)
     }
 
     fn view_position(&self, vertex: u32) -> Option<DVec3> {

@@ -104,7 +104,7 @@ pub struct PlacedEdges<'a> {
     pub object: u32,
     /// [`crate::geometry::Topology::is_solid`].
     pub is_solid: bool,
-    /// For each mesh of the scene whether it is drawn alike. Where one goes on at a border ([`Mesh::beyond`]) and is not,
+    /// For each mesh of the scene whether it is drawn alike. Where one goes on at a border ([`Mesh::border_links`]) and is not,
     /// the surface ends.
     pub shown: &'a [bool],
 }

@@ -2,10 +2,10 @@
 
 use rayon::prelude::*;
 
+use super::border_points::Tie;
 use super::borders::{Borders, MOST_AT_A_POINT};
 use super::limits::{COS_ANCHORED_FOLD, Limits};
 use super::open::Open;
-use super::places::Tie;
 use super::side::Side;
 use super::zip::Fit;
 

@@ -1,9 +1,9 @@
 //! Where two borders run along each other: rows of joined stretches, with what lies opposite.
 
+use super::border_points::Tie;
 use super::borders::{Borders, NO_BORDER};
 use super::closure::Closed;
 use super::limits::Limits;
-use super::places::Tie;
 use super::proximity::{Partner, Stretches};
 use super::side::{Side, Step};
 use super::zip::Fit;

@@ -5,8 +5,8 @@ use std::collections::{HashMap, HashSet};
 use glam::Vec4;
 
 use super::super::{Mesh, Submesh};
+use super::border_points::{Insertion, PointGroups};
 use super::borders::Borders;
-use super::places::{Cut, Places};
 use super::settle::{Settled, settle};
 use super::split::CutTriangle;
 
@@ -33,7 +33,7 @@ pub(super) struct Draft {
     corners: Vec<u32>,
 }
 
-pub(super) fn join(mesh: &Mesh, weld: &[u32], borders: &Borders, places: &Places) -> Outcome {
+pub(super) fn join(mesh: &Mesh, weld: &[u32], borders: &Borders, places: &PointGroups) -> Outcome {
     let mut draft = cut(mesh, weld, borders, places);
     let settled = settle(mesh, borders, &draft, places);
     let moves = draft.mesh.positions.iter().zip(&settled.positions).map(|(a, b)| a.distance(*b));
@@ -50,7 +50,7 @@ pub(super) fn join(mesh: &Mesh, weld: &[u32], borders: &Borders, places: &Places
     draft.mesh.indices = triangles.into_flattened();
     Outcome {
         joined_length,
-        added_vertices: places.cuts.len(),
+        added_vertices: places.insertions.len(),
         dropped_triangles: dropped.len(),
         farthest_move,
         mesh: if dropped.is_empty() { draft.mesh } else { draft.mesh.without_unused_vertices() },
@@ -91,14 +91,17 @@ fn without_area(draft: &Draft, settled: &Settled) -> HashSet<usize> {
 }
 
 /// Cuts the border edges at their new vertices, which get their attributes from their own edge.
-fn cut(mesh: &Mesh, weld: &[u32], borders: &Borders, places: &Places) -> Draft {
+fn cut(mesh: &Mesh, weld: &[u32], borders: &Borders, places: &PointGroups) -> Draft {
     let mut new = Mesh { indices: Vec::new(), submeshes: Vec::new(), ..mesh.clone() };
     let mut place_of_vertex = weld.to_vec();
     let mut corners_of_vertex = weld.to_vec();
     let mut cut_triangles: HashMap<u32, CutTriangle> = HashMap::new();
     for (number, border) in (0..).zip(&borders.list) {
-        let mut cuts: Vec<(u32, &Cut)> =
-            places.cuts_of(number).iter().filter_map(|&place| Some((place, places.cut(place)?))).collect();
+        let mut cuts: Vec<(u32, &Insertion)> = places
+            .insertions_on(number)
+            .iter()
+            .filter_map(|&place| Some((place, places.cut(place)?)))
+            .collect();
         if cuts.is_empty() {
             continue;
         }
@@ -115,7 +118,7 @@ fn cut(mesh: &Mesh, weld: &[u32], borders: &Borders, places: &Places) -> Draft {
             append_between(&mut new, border.vertices, cut.share as f32);
         }
     }
-    let mut triangles = Vec::with_capacity(mesh.triangle_count() + 2 * places.cuts.len());
+    let mut triangles = Vec::with_capacity(mesh.triangle_count() + 2 * places.insertions.len());
     let mut sources = Vec::with_capacity(triangles.capacity());
     for (number, &triangle) in (0..).zip(mesh.triangles()) {
         match cut_triangles.remove(&number) {
@@ -183,11 +186,11 @@ fn errors(borders: &Borders, draft: &Draft, settled: &Settled, is_open: &[bool],
 
 /// Length of the parts of border edges both of whose ends became those of another one, and for each place whether it is an
 /// end of one of the others.
-fn joined(borders: &Borders, places: &Places, points: &[u32]) -> (f64, Vec<bool>) {
+fn joined(borders: &Borders, places: &PointGroups, points: &[u32]) -> (f64, Vec<bool>) {
     let point = |place: u32| points[place as usize];
     let mut pieces: Vec<([u32; 2], f64)> = Vec::with_capacity(borders.list.len());
     for (number, border) in (0..).zip(&borders.list) {
-        let cuts = places.cuts_of(number).iter();
+        let cuts = places.insertions_on(number).iter();
         let mut cuts: Vec<(f64, u32)> =
             cuts.filter_map(|&place| Some((places.cut(place)?.share, point(place)))).collect();
         cuts.sort_by(|a, b| a.0.total_cmp(&b.0));

@@ -1,7 +1,7 @@
 //! The border edges that are not joined yet, by the points at their ends as joined so far.
 
+use super::border_points::PointGroups;
 use super::borders::{Borders, MOST_AT_A_POINT};
-use super::places::Places;
 
 /// A snapshot of what is still open.
 pub(super) struct Open {
@@ -16,7 +16,7 @@ pub(super) struct Open {
 }
 
 impl Open {
-    pub(super) fn new(borders: &Borders, places: &Places, is_joined: &[bool]) -> Self {
+    pub(super) fn new(borders: &Borders, places: &PointGroups, is_joined: &[bool]) -> Self {
         let groups: Vec<[u32; 2]> =
             borders.list.iter().map(|b| b.ends.map(|point| places.group(point))).collect();
         let edges: Vec<u32> =

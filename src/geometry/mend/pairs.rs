@@ -3,9 +3,9 @@
 use glam::{DVec3, I64Vec3};
 use rayon::prelude::*;
 
+use super::border_points::{BorderPoint, Tie};
 use super::borders::{Border, Borders, NO_BORDER};
 use super::limits::{COS_FOLD, Limits};
-use super::places::{Place, Tie};
 
 /// Width of the cells in which middles are sorted, in widest gaps: few places are near a wall.
 const CELL: f64 = 8.0;
@@ -26,7 +26,7 @@ pub(super) fn pairs(borders: &Borders, limits: &Limits) -> Vec<u32> {
 /// What joining two edges of which both ends nearly coincide takes.
 pub(super) fn ties(a: &Border, b: &Border) -> [Tie; 2] {
     let ends = facing_ends(a, b);
-    [0, 1].map(|k| Tie::new([Place::Point(a.ends[k]), Place::Point(ends[k])]))
+    [0, 1].map(|k| Tie::new([BorderPoint::Point(a.ends[k]), BorderPoint::Point(ends[k])]))
 }
 
 /// The ends of `b` in the order in which `a` meets them.

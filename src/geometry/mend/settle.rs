@@ -6,9 +6,9 @@ use glam::Vec3;
 
 use super::super::Mesh;
 use super::super::normals::face_normal;
+use super::border_points::PointGroups;
 use super::borders::Borders;
 use super::join::Draft;
-use super::places::Places;
 
 /// Cosine of the largest angle by which joining may turn a triangle.
 const COS_TURN: f32 = 0.0;
@@ -32,7 +32,7 @@ pub(super) struct Settled {
 }
 
 /// Finds places for the vertices of the draft.
-pub(super) fn settle(mesh: &Mesh, borders: &Borders, draft: &Draft, places: &Places) -> Settled {
+pub(super) fn settle(mesh: &Mesh, borders: &Borders, draft: &Draft, places: &PointGroups) -> Settled {
     let mut settling = Settling::new(mesh, borders, draft, places);
     for round in 0..2 * ROUNDS {
         let turned = settling.turned_triangles();
@@ -59,7 +59,7 @@ struct Settling<'a> {
     mesh: &'a Mesh,
     borders: &'a Borders,
     draft: &'a Draft,
-    places: &'a Places,
+    places: &'a PointGroups,
     /// The group of each vertex.
     groups: Vec<u32>,
     /// Where each group goes; `None`: its members stay where they are.
@@ -71,7 +71,7 @@ struct Settling<'a> {
 }
 
 impl<'a> Settling<'a> {
-    fn new(mesh: &'a Mesh, borders: &'a Borders, draft: &'a Draft, places: &'a Places) -> Self {
+    fn new(mesh: &'a Mesh, borders: &'a Borders, draft: &'a Draft, places: &'a PointGroups) -> Self {
         let on_lines = places.on_lines(borders, &mesh.positions);
         let groups = 0..places.count() as u32;
         let targets: Vec<Option<Vec3>> =

@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 
+use super::border_points::BorderPoint;
 use super::borders::{Border, Borders};
-use super::places::Place;
 
 /// A part of a border edge, in the direction in which a seam is followed.
 #[derive(Debug, Clone, Copy)]
@@ -105,17 +105,17 @@ impl<'a> Side<'a> {
     }
 
     /// The vertex of a number, as a place.
-    pub(super) fn vertex(&self, number: usize) -> Place {
+    pub(super) fn vertex(&self, number: usize) -> BorderPoint {
         let (step, end) = if number < self.len() { (number, 0) } else { (self.len() - 1, 1) };
         let Step { border, shares } = self.steps[step];
-        Place::On { border, share: shares[end] }
+        BorderPoint::On { border, share: shares[end] }
     }
 
     /// The place on the edge of a step that is this far along the side.
-    pub(super) fn cut(&self, step: usize, along: f64) -> Place {
+    pub(super) fn cut(&self, step: usize, along: f64) -> BorderPoint {
         let Step { border, shares: [from, to] } = self.steps[step];
         let share = (along - self.along[step]) / (self.along[step + 1] - self.along[step]);
-        Place::On { border, share: from + share * (to - from) }
+        BorderPoint::On { border, share: from + share * (to - from) }
     }
 
     /// The shorter one of the edges at an inner vertex.

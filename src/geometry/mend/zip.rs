@@ -4,8 +4,8 @@ use std::collections::HashSet;
 
 use glam::DVec3;
 
+use super::border_points::{PointOnLine, Tie};
 use super::limits::Limits;
-use super::places::{OnLine, Tie};
 use super::side::{Nearest, Side};
 
 /// Sides with a larger product of their numbers of edges are not compared.
@@ -99,7 +99,7 @@ impl Fit {
             ties.push(Tie {
                 sides: [place(0, a), place(1, b)],
                 on_line: is_on_line
-                    .then(|| OnLine { ends: [a.vertex(0), a.vertex(a.len())], share: 0.5 * share }),
+                    .then(|| PointOnLine { ends: [a.vertex(0), a.vertex(a.len())], share: 0.5 * share }),
             });
             for k in 0..2 {
                 before[k] = step[k].unwrap_or(before[k]);

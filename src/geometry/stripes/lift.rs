@@ -22,7 +22,7 @@ pub struct Corner {
 
 /// A triangle's phases.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Lifted {
+pub struct TrianglePhases {
     /// 1 where the direction of a corner agrees with that of the first corner, −1 where it is its opposite.
     pub signs: [f32; 3],
     /// For each family, level and corner the phase in cycles. Values inside the triangle are to be interpolated between
@@ -52,7 +52,7 @@ pub(super) fn sign(from: Vec3, from_normal: Vec3, to: Vec3, to_normal: Vec3) -> 
 /// corner whose direction is the opposite of the first one's counts backwards. Triangles may hold many cycles. Where
 /// lines end or part, the side opposite to the first corner does not agree with its neighbor: that is so in one triangle
 /// per end.
-pub fn lift(corners: &[Corner; 3], cycles_per_unit: f32) -> Lifted {
+pub fn lift(corners: &[Corner; 3], cycles_per_unit: f32) -> TrianglePhases {
     let signs = [1.0, sign_between(&corners[0], &corners[1]), sign_between(&corners[0], &corners[2])];
     let mut phases = [[[0.0; 3]; LEVELS]; FAMILIES];
     for (family, of_family) in phases.iter_mut().enumerate() {
@@ -71,7 +71,7 @@ pub fn lift(corners: &[Corner; 3], cycles_per_unit: f32) -> Lifted {
             }
         }
     }
-    Lifted { signs, phases }
+    TrianglePhases { signs, phases }
 }
 
 /// What is left of a number of cycles without whole ones, −½ to ½.

@@ -136,7 +136,7 @@ fn split_front<'a, T>(slice: &mut &'a [T], is_front: impl Fn(&T) -> bool) -> &'a
 }
 
 /// An edge that lies on another one.
-struct Other {
+struct OverlappingEdge {
     edge: u32,
     face: u32,
     is_soft: bool,
@@ -164,13 +164,13 @@ impl Gatherer<'_> {
         let adjacency = self.placed.adjacency;
         let on_edge = |p: DVec3| ((p - a).dot(b - a) / a.distance_squared(b)).clamp(0.0, 1.0);
         // Others, and from where to where they lie on this one.
-        let others: Vec<Other> = seams
+        let others: Vec<OverlappingEdge> = seams
             .iter()
             .filter_map(|&(_, seam)| {
                 let seam = adjacency.seams.get(seam as usize)?;
                 let other = usize::from(seam.edges[0] == number);
                 let [from, to] = self.ends(seam.edges[other])?.map(on_edge);
-                Some(Other {
+                Some(OverlappingEdge {
                     edge: seam.edges[other],
                     face: seam.faces[other],
                     is_soft: seam.is_soft,
@@ -188,7 +188,7 @@ impl Gatherer<'_> {
                 continue;
             }
             let middle = 0.5 * (from + to);
-            let here: Vec<&Other> =
+            let here: Vec<&OverlappingEdge> =
                 others.iter().filter(|other| (other.span[0]..other.span[1]).contains(&middle)).collect();
             let faces: Vec<(u32, u32)> =
                 own_face.into_iter().chain(here.iter().map(|other| (other.edge, other.face))).collect();
@@ -214,8 +214,8 @@ impl Gatherer<'_> {
         let mut wings: Vec<Wing> = Vec::new();
         let own =
             faces.iter().filter_map(|&(edge, face)| Some((self.opposite(edge, face)?, self.material(face))));
-        let beyond = self.placed.adjacency.beyond(number);
-        let beyond = beyond.and_then(|beyond| self.placed.mesh.beyond.get(beyond as usize));
+        let beyond = self.placed.adjacency.border_link(number);
+        let beyond = beyond.and_then(|beyond| self.placed.mesh.border_links.get(beyond as usize));
         let is_soft = is_soft || beyond.is_some_and(|beyond| beyond.is_soft);
         let apex = beyond.map(|beyond| {
             let own = faces.first().map_or(0, |&(_, face)| self.material(face));

@@ -127,7 +127,7 @@ pub(super) struct Scaled {
 
 /// Where a place along the stroke is between two columns.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Along {
+pub(super) struct Columns {
     left: usize,
     right: usize,
     share: f32,
@@ -135,14 +135,14 @@ pub(super) struct Along {
 
 impl Scaled {
     /// A place along the stroke, 0 to 1.
-    pub(super) fn along(&self, u: f32) -> Along {
+    pub(super) fn along(&self, u: f32) -> Columns {
         let x = (u * self.columns as f32 - 0.5).clamp(0.0, (self.columns - 1) as f32);
         let left = x as usize;
-        Along { left, right: (left + 1).min(self.columns - 1), share: x - left as f32 }
+        Columns { left, right: (left + 1).min(self.columns - 1), share: x - left as f32 }
     }
 
     /// Ink between texels; there is none above and below. `v` across the stroke, 0 to 1.
-    pub(super) fn ink(&self, along: Along, v: f32) -> f32 {
+    pub(super) fn ink(&self, along: Columns, v: f32) -> f32 {
         // The empty row above is number 0.
         let y = (v * self.rows as f32 + 0.5).clamp(0.0, (self.rows + 1) as f32);
         let above = (y as usize).min(self.rows);

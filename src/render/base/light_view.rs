@@ -88,7 +88,7 @@ impl LightView {
 
 /// Where shadows matter.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct LookedAt {
+pub struct ShadowReceivers {
     /// Points whose hull holds everything that shows shadows, world space; none: anywhere.
     pub points: Vec<DVec3>,
     /// Tangent of the light's radius as seen from there.
@@ -101,7 +101,7 @@ pub struct LookedAt {
 pub fn light_views(
     light: &LightKind,
     boxes: &[(Bounds, DMat4)],
-    looked_at: &LookedAt,
+    looked_at: &ShadowReceivers,
     side: u32,
 ) -> Vec<LightView> {
     let all = boxes.iter().fold(Bounds::EMPTY, |all, (b, m)| all.union(&b.transformed(m)));
@@ -239,7 +239,7 @@ mod tests {
             LightKind::Point { position: DVec3::new(2.0, 9.0, 1.0) },
         ];
         for kind in kinds {
-            let views = light_views(&kind, &boxes(), &LookedAt::default(), 512);
+            let views = light_views(&kind, &boxes(), &ShadowReceivers::default(), 512);
             assert_eq!(views.len(), 1);
             for (bounds, m) in boxes() {
                 for corner in bounds.corners().map(|c| m.transform_point3(c)) {
@@ -263,7 +263,7 @@ mod tests {
         let views = light_views(
             &LightKind::Point { position: DVec3::new(2.0, 0.0, 0.0) },
             &boxes(),
-            &LookedAt::default(),
+            &ShadowReceivers::default(),
             600,
         );
         assert_eq!(views.len(), 6);
@@ -304,9 +304,10 @@ mod tests {
     #[test]
     fn nothing_is_seen_of_nothing() {
         let kind = LightKind::Directional { direction: DVec3::NEG_Y };
-        assert!(light_views(&kind, &[], &LookedAt::default(), 512).is_empty());
+        assert!(light_views(&kind, &[], &ShadowReceivers::default(), 512).is_empty());
         assert!(
-            light_views(&kind, &[(Bounds::EMPTY, DMat4::IDENTITY)], &LookedAt::default(), 512).is_empty()
+            light_views(&kind, &[(Bounds::EMPTY, DMat4::IDENTITY)], &ShadowReceivers::default(), 512)
+                .is_empty()
         );
     }
 }

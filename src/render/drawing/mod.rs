@@ -13,7 +13,7 @@ use crate::render::base::error::RenderError;
 use crate::render::base::frame_uniform::FrameUniform;
 use crate::render::base::scene_view::SceneView;
 use crate::render::base::stage::{Output, Stage};
-use crate::render::effects::opaque::{OpaqueInputs, OpaqueLayer, Surfaces};
+use crate::render::effects::opaque::{OpaqueInputs, OpaqueLayer, OpaqueSurfaces};
 use crate::render::effects::sketch::{SharedSketches, SketchState};
 use crate::render::effects::surface::Shading;
 use crate::render::effects::techniques::SharedTechniques;
@@ -45,7 +45,7 @@ pub struct DrawnSurfaces {
     /// All that is in bind group 0.
     pub uniform: FrameUniform,
     /// The surfaces.
-    pub surfaces: Surfaces,
+    pub surfaces: OpaqueSurfaces,
 }
 
 /// A drawing, drawn.

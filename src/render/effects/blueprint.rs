@@ -136,9 +136,9 @@ pub fn place_blueprint(
         buffers.caps.write(rec.gpu, caps);
     }
     buffers.style.write(rec.gpu, &BlueprintUniform::from(params));
-    let is_kept = LAYERS.into_iter().any(|name| rec.keeps(name));
+    let is_captured = LAYERS.into_iter().any(|name| rec.captures(name));
     let line_styles = [&group.edge_styles];
-    let request = request_of(blueprint, mask, rec.size(), is_kept, &line_styles);
+    let request = request_of(blueprint, mask, rec.size(), is_captured, &line_styles);
     for name in LAYERS {
         rec.note(name, None);
     }
@@ -148,7 +148,7 @@ pub fn place_blueprint(
     let drawn = layered.walk(rec, gbuffer_pass, scene_view, key, &request, |rec, mut visit: Visit<'_>| {
         let drawn = visit.drawn;
         let gbuffer = &drawn.layer.gbuffer;
-        if is_kept {
+        if is_captured {
             let buffers = [&gbuffer.geometry, &gbuffer.surface_id, &gbuffer.base_color, &gbuffer.depth];
             for (name, target) in LAYERS.into_iter().zip(buffers) {
                 rec.note_another(name, target);
@@ -195,13 +195,13 @@ pub fn place_blueprint(
     Ok(front)
 }
 
-/// What a blueprint asks of its layers. `mask`: what is to be uncovered; `size`: of the picture, px; `is_kept`: whether somebody
+/// What a blueprint asks of its layers. `mask`: what is to be uncovered; `size`: of the picture, px; `is_captured`: whether somebody
 /// looks at the layers themselves.
 fn request_of<'a>(
     blueprint: &BlueprintGroup,
     mask: Option<&'a DepthMask>,
     size: [u32; 2],
-    is_kept: bool,
+    is_captured: bool,
     line_styles: &'a [&'a Vec<GpuEdgeStyle>],
 ) -> LayerRequest<'a> {
     let params = &blueprint.style;
@@ -215,9 +215,9 @@ fn request_of<'a>(
             most_without: blueprint.layers(),
         }),
         by: None,
-        with_color: is_kept || any(GpuEdgeStyle::reads_color),
-        with_normals: is_kept || any(GpuEdgeStyle::reads_normals),
-        with_depth: is_kept,
+        with_color: is_captured || any(GpuEdgeStyle::reads_color),
+        with_normals: is_captured || any(GpuEdgeStyle::reads_normals),
+        with_depth: is_captured,
         line_styles,
         nearer: None,
     }

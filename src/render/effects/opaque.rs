@@ -45,7 +45,7 @@ pub struct OpaqueInputs<'a> {
 }
 
 /// The surfaces of a group of one layer.
-pub struct Surfaces {
+pub struct OpaqueSurfaces {
     /// Per-pixel geometry.
     pub gbuffer: Output<GBuffer>,
     /// See [`ShadowMask`]; `None` when no light throws shadows.
@@ -166,7 +166,7 @@ impl OpaqueLayer {
         rec: &mut Recorder<'_>,
         pass: &mut GBufferPass,
         inputs: &OpaqueInputs<'_>,
-    ) -> Result<Surfaces, RenderError> {
+    ) -> Result<OpaqueSurfaces, RenderError> {
         let OpaqueInputs { scene_view, group, shadow_maps, .. } = *inputs;
         let SceneView { scene, view, .. } = scene_view;
         self.edge_styles.write(rec.gpu, &group.edge_styles);
@@ -183,13 +183,13 @@ impl OpaqueLayer {
             pass.run(rec, scene, &mut self.instances, (instances, calls), view.is_clipped(), None)
         })?;
         let shadow_mask = self.shadow_mask.run(rec, &gbuffer, &scene_view, shadow_maps)?;
-        Ok(Surfaces { gbuffer, shadow_mask })
+        Ok(OpaqueSurfaces { gbuffer, shadow_mask })
     }
 
     /// The surfaces as shading asks for them; `uniform`: without the paper; `spines`: see [`Shaded`].
     pub fn shaded<'a>(
         &'a self,
-        surfaces: &'a Surfaces,
+        surfaces: &'a OpaqueSurfaces,
         scene_view: SceneView<'a>,
         uniform: &'a FrameUniform,
         spines: Option<(&'a Target, u64)>,
@@ -216,7 +216,7 @@ impl OpaqueLayer {
         &mut self,
         rec: &mut Recorder<'_>,
         inputs: &OpaqueInputs<'_>,
-        surfaces: &Surfaces,
+        surfaces: &OpaqueSurfaces,
     ) -> Result<Output<EdgeMap>, RenderError> {
         let OpaqueInputs { scene_view, group, uniform, .. } = *inputs;
         let styles: Vec<_> = group.edge_styles.iter().map(GpuEdgeStyle::for_finding).collect();
@@ -301,7 +301,7 @@ impl OpaqueLayer {
     pub fn lines<'a>(
         &'a self,
         group: &'a Group,
-        surfaces: &'a Surfaces,
+        surfaces: &'a OpaqueSurfaces,
         edges: &'a EdgeMap,
         line_distance: Option<&'a LineDistance>,
     ) -> Lines<'a> {
@@ -322,7 +322,7 @@ impl OpaqueLayer {
         &mut self,
         rec: &mut Recorder<'_>,
         inputs: &OpaqueInputs<'_>,
-        surfaces: &Surfaces,
+        surfaces: &OpaqueSurfaces,
         edges: Option<&Output<EdgeMap>>,
         line_distance: Option<&Output<LineDistance>>,
     ) -> Result<Option<Output<Target>>, RenderError> {

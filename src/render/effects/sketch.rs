@@ -24,7 +24,7 @@ use self::noise::{NoiseInputs, SketchNoise};
 use self::placing::{Fetched, Placed, Placing};
 pub use self::uniforms::field;
 use self::uniforms::{SketchObject, SketchUniform};
-use super::opaque::{OpaqueInputs, OpaqueLayer, Surfaces};
+use super::opaque::{OpaqueInputs, OpaqueLayer, OpaqueSurfaces};
 use super::surface::{Look, Shading};
 use super::techniques::SharedTechniques;
 use crate::gpu::{ArrayBuffer, Gpu, Recorder, Target, UniformBuffer, inputs};
@@ -283,7 +283,7 @@ impl SketchState {
         rec: &mut Recorder<'_>,
         pass: &mut GBufferPass,
         inputs: &SketchInputs<'_>,
-        surfaces: &Surfaces,
+        surfaces: &OpaqueSurfaces,
     ) -> Result<Option<Output<GBuffer>>, RenderError> {
         let SketchInputs { scene_view, sketch, uniform, .. } = *inputs;
         if !sketch.is_enlarged() {
@@ -315,7 +315,7 @@ impl SketchState {
         rec: &mut Recorder<'_>,
         techniques: &mut SharedTechniques,
         inputs: &SketchInputs<'_>,
-        surfaces: &Surfaces,
+        surfaces: &OpaqueSurfaces,
         edges: Option<&Output<EdgeMap>>,
     ) -> Result<Output<Target>, RenderError> {
         let SketchInputs { scene_view, sketch, uniform, look, .. } = *inputs;

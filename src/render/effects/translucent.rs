@@ -53,14 +53,14 @@ struct Key {
     layered: LayeredGroup,
     /// The opaque surfaces and their ink.
     opaque: [Option<u64>; 2],
-    manner: Manner,
+    kind: GroupKind,
 }
 
 /// How a group is drawn.
 #[derive(Clone, PartialEq)]
-enum Manner {
+enum GroupKind {
     Blended { look: Box<Look>, shadows: Vec<u64> },
-    Blueprint { blueprint: Box<BlueprintGroup>, caps: Vec<GpuCap>, mask: Option<u64>, is_kept: bool },
+    Blueprint { blueprint: Box<BlueprintGroup>, caps: Vec<GpuCap>, mask: Option<u64>, is_captured: bool },
 }
 
 /// One group across frames.
@@ -300,16 +300,16 @@ impl Key {
         Self {
             layered: LayeredGroup::new(rec, scene_view, uniform, group.clone()),
             opaque: composition.revisions(),
-            manner: match blueprint {
-                None => Manner::Blended {
+            kind: match blueprint {
+                None => GroupKind::Blended {
                     look: Box::new(shading.look.clone()),
                     shadows: shadow_revisions.clone(),
                 },
-                Some(blueprint) => Manner::Blueprint {
+                Some(blueprint) => GroupKind::Blueprint {
                     blueprint: Box::new(blueprint.clone()),
                     caps: (*caps).clone(),
                     mask: mask.map(|mask| mask.revision),
-                    is_kept: super::blueprint::LAYERS.into_iter().any(|name| rec.keeps(name)),
+                    is_captured: super::blueprint::LAYERS.into_iter().any(|name| rec.captures(name)),
                 },
             },
         }

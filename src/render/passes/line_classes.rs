@@ -102,7 +102,7 @@ impl LineClasses {
     ) -> Result<(), RenderError> {
         again.empty(rec);
         self.changes.empty(rec);
-        let followed = inputs! { kept: lines.count(), kept_lines: lines.buffer() };
+        let followed = inputs! { list: lines.count(), listed_lines: lines.buffer() };
         let changed = inputs! {
             changing: self.changes.count(),
             changed: self.changes.count(),

@@ -176,8 +176,8 @@ impl LineFieldPass {
             geometry_tex: geometry,
             edge_map_tex: edges,
             tiles: tiles,
-            kept: self.pixels.count(),
-            kept_pixels: self.pixels.buffer(),
+            list: self.pixels.count(),
+            listed_pixels: self.pixels.buffer(),
             line_field_tex: &first,
             more_line_field_tex: more.as_ref(),
         };

@@ -40,7 +40,7 @@ pub struct Segments {
     steps: Vec<Steps>,
     for_layers: bool,
     /// The steps that are looked at closely.
-    kept_steps: RecordList,
+    listed_steps: RecordList,
     /// What is found of them.
     points: RecordList,
     /// 0 between frames, as winners are: who reads the last of them clears them.
@@ -90,7 +90,7 @@ impl Segments {
             has_strokes: false,
             steps: Vec::new(),
             for_layers: false,
-            kept_steps: RecordList::new(gpu, "kept steps"),
+            listed_steps: RecordList::new(gpu, "listed steps"),
             points: RecordList::new(gpu, "points of segments"),
             keys: RecordBuffer::new(gpu, "keys of segments"),
             winners: RecordBuffer::new(gpu, "points of pixels"),
@@ -136,7 +136,7 @@ impl Segments {
             part.steps.write_pairs(gpu, chunk)?;
         }
         let most = chunks().map(|(chunk, _)| chunk.len()).max().unwrap_or(0) as u64;
-        self.kept_steps.reserve(gpu, most * 4)?;
+        self.listed_steps.reserve(gpu, most * 4)?;
         self.points.reserve(gpu, most * POINT_BYTES)?;
         // Lines of images, as in paper mode, need none.
         if most > 0 {
@@ -231,11 +231,11 @@ impl Segments {
             step_tex: part.steps.target(),
         };
         // Where the recorder's predicate is cleared nobody counts any.
-        self.kept_steps.empty(rec);
+        self.listed_steps.empty(rec);
         self.points.empty(rec);
         let culling = inputs! {
-            keeping: self.kept_steps.count(),
-            keeping_steps: self.kept_steps.buffer(),
+            keeping: self.listed_steps.count(),
+            keeping_steps: self.listed_steps.buffer(),
             place_tex: part.places.as_ref(),
             nearer_lines_tex: nearer.map(|nearer| &nearer.before),
         };
@@ -249,8 +249,8 @@ impl Segments {
         rec.compute("cull segments", &cull, &culling.and(&tested), groups)?;
         let found = inputs! {
             edge_styles: inputs.edge_styles,
-            kept: self.kept_steps.count(),
-            kept_steps: self.kept_steps.buffer(),
+            list: self.listed_steps.count(),
+            listed_steps: self.listed_steps.buffer(),
             points: self.points.buffer(),
             keys: self.keys.buffer(),
             finding: self.points.count(),
@@ -260,7 +260,7 @@ impl Segments {
             entry_point: "cs_points",
             switches: inputs.switches.iter().copied().chain(own).collect(),
         };
-        rec.compute("segments", &points, &tested.and(&found), self.kept_steps.count())?;
+        rec.compute("segments", &points, &tested.and(&found), self.listed_steps.count())?;
         Ok(())
     }
 }

@@ -10,7 +10,7 @@ use crate::gpu::{Gpu, Recorder, Target};
 use crate::render::base::error::RenderError;
 use crate::render::base::gpu_scene::{GpuScene, Origin};
 use crate::render::base::group::{Group, VisibleSubmesh};
-use crate::render::base::light_view::{LightView, LookedAt, light_views};
+use crate::render::base::light_view::{LightView, ShadowReceivers, light_views};
 use crate::render::base::lights::{MAX_SHADOWS, WorldLight};
 use crate::render::base::scene_view::SceneView;
 use crate::render::base::stage::{Output, Stage};
@@ -79,7 +79,7 @@ impl ShadowMaps {
             }
             None => Vec::new(),
         };
-        let looked_at = LookedAt { points, spread: f64::from(lights.spread) };
+        let looked_at = ShadowReceivers { points, spread: f64::from(lights.spread) };
         let side = (lights.detail * width.max(height) as f32).round().max(LEAST_TEXELS as f32) as u32;
         let mut casting = lights.casting();
         let mut made = Vec::new();
@@ -108,7 +108,7 @@ fn seen_by(
     light: &WorldLight,
     scene: &GpuScene,
     groups: &[&Group],
-    looked_at: &LookedAt,
+    looked_at: &ShadowReceivers,
     side: u32,
 ) -> ShadowScene {
     let boxes: Vec<_> = groups.iter().flat_map(|group| group.boxes(scene)).collect();

@@ -6,7 +6,7 @@ use crate::gpu::recorder::{Draw, Onto};
 use crate::gpu::{DepthRule, Inputs, Program, Recorder, STENCIL, Target, UniformBuffer, inputs};
 use crate::render::base::error::RenderError;
 use crate::render::base::stage::Output;
-use crate::render::effects::opaque::{OpaqueLayer, Surfaces};
+use crate::render::effects::opaque::{OpaqueLayer, OpaqueSurfaces};
 use crate::render::passes::composition::{Composition, PLACED};
 use crate::render::passes::edge_map::EdgeMap;
 use crate::style::sketch::{SketchDepth, Tone};
@@ -21,7 +21,7 @@ pub(super) struct Placed {
 
 /// What is fetched from, drawn.
 pub(super) struct Fetched<'a> {
-    pub(super) surfaces: &'a Surfaces,
+    pub(super) surfaces: &'a OpaqueSurfaces,
     pub(super) color: Output<Target>,
     pub(super) edges: Option<Output<EdgeMap>>,
     pub(super) near_lines: Option<Output<Target>>,

@@ -1,5 +1,5 @@
 // What is left of many invocations: how many workgroups look at them, and how many they are.
-struct Kept {
+struct ListHead {
     groups: vec3<u32>,
     count: u32,
 }

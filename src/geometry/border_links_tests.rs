@@ -22,8 +22,8 @@ fn halves_know_each_other_along_their_whole_border() {
     let joined = joined(&halves(Vec3::ZERO));
     for (mesh, other) in joined.iter().flatten().zip([8, 3]) {
         let adjacency = Adjacency::new(mesh);
-        assert!(adjacency.border_count > 0 && adjacency.beyond.len() == adjacency.border_count);
-        assert!(mesh.beyond.iter().all(|beyond| beyond.mesh == other && !beyond.is_soft));
+        assert!(adjacency.border_count > 0 && adjacency.border_links.len() == adjacency.border_count);
+        assert!(mesh.border_links.iter().all(|beyond| beyond.mesh == other && !beyond.is_soft));
     }
     assert_eq!(joined.iter().flatten().count(), 2);
 }
@@ -33,7 +33,10 @@ fn cracks_between_meshes_are_mended_and_gaps_are_not() {
     let crack = joined(&halves(Vec3::splat(1e-5)));
     assert_eq!(crack.iter().flatten().count(), 2);
     for mesh in crack.iter().flatten() {
-        assert!(!mesh.position_errors.is_empty() && Adjacency::new(mesh).beyond.len() == mesh.beyond.len());
+        assert!(
+            !mesh.position_errors.is_empty()
+                && Adjacency::new(mesh).border_links.len() == mesh.border_links.len()
+        );
     }
     assert!(joined(&halves(Vec3::splat(1e-2))).iter().flatten().next().is_none());
 }

@@ -12,7 +12,7 @@ use super::{Adjacency, EdgeKind, Mesh, Submesh};
 
 /// A border edge at which another mesh in the same place goes on.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Beyond {
+pub struct BorderLink {
     /// Vertices at the ends of the edge.
     pub vertices: [u32; 2],
     /// The corner of the other mesh's triangle that is not on the edge, in the units of the mesh.
@@ -29,25 +29,25 @@ pub struct Beyond {
 /// borders know each other, and mends the seams between them. The result is in the same order; `None` for meshes that
 /// meet no other.
 pub fn link_meshes(meshes: &[(usize, &Mesh)], tolerance: SeamTolerance) -> Vec<Option<Mesh>> {
-    let mut whole = Whole::new(meshes);
-    let mut adjacency = Adjacency::new(&whole.mesh);
+    let mut merged = Merged::new(meshes);
+    let mut adjacency = Adjacency::new(&merged.mesh);
     let mut mended = None;
-    if let Some((mesh, report)) = mend(&whole.mesh, &adjacency, tolerance) {
-        whole.mesh = mesh;
-        adjacency = Adjacency::new(&whole.mesh);
+    if let Some((mesh, report)) = mend(&merged.mesh, &adjacency, tolerance) {
+        merged.mesh = mesh;
+        adjacency = Adjacency::new(&merged.mesh);
         mended = Some(report);
     }
-    let mut beyond: Vec<Vec<Beyond>> = vec![Vec::new(); meshes.len()];
+    let mut beyond: Vec<Vec<BorderLink>> = vec![Vec::new(); meshes.len()];
     for edge in &adjacency.edges {
         let has_two_sides = matches!(edge.kind, EdgeKind::Manifold | EdgeKind::Flipped);
         if !has_two_sides || edge.dihedral.abs() > FOLDED {
             continue;
         }
-        let [one, two] = edge.faces.map(|face| whole.part_of(face));
+        let [one, two] = edge.faces.map(|face| merged.part_of(face));
         if one.member == two.member {
             continue;
         }
-        let has_own_normals = |part: Part| {
+        let has_own_normals = |part: Member| {
             let (_, mesh) = meshes[part.member];
             !mesh.normals.is_empty() && !mesh.has_computed_normals
         };
@@ -56,13 +56,13 @@ pub fn link_meshes(meshes: &[(usize, &Mesh)], tolerance: SeamTolerance) -> Vec<O
         {
             let point = |v: u32| adjacency.weld.representative[v as usize];
             let ends = edge.vertices.map(point);
-            let triangles = whole.mesh.triangles();
+            let triangles = merged.mesh.triangles();
             let own_vertex = |end: u32| triangles[own_face as usize].into_iter().find(|&v| point(v) == end);
             let apex = triangles[face as usize].into_iter().find(|&v| !ends.contains(&point(v)));
             let ([Some(a), Some(b)], Some(apex)) = (ends.map(own_vertex), apex) else { continue };
-            beyond[own.member].push(Beyond {
+            beyond[own.member].push(BorderLink {
                 vertices: [a, b],
-                apex: whole.mesh.positions[apex as usize],
+                apex: merged.mesh.positions[apex as usize],
                 mesh: meshes[other.member].0,
                 is_soft: edge.is_soft && has_own_normals(own) && has_own_normals(other),
                 materials_differ: own.material != other.material,
@@ -77,7 +77,7 @@ pub fn link_meshes(meshes: &[(usize, &Mesh)], tolerance: SeamTolerance) -> Vec<O
                 return None;
             }
             let (_, old) = meshes[member];
-            let mut mesh = whole.member(member, old, &beyond);
+            let mut mesh = merged.member(member, old, &beyond);
             if let Some(report) = mended
                 && mesh.positions != old.positions
             {
@@ -88,23 +88,23 @@ pub fn link_meshes(meshes: &[(usize, &Mesh)], tolerance: SeamTolerance) -> Vec<O
         .collect()
 }
 
-/// A part of the whole: which mesh it is of, and its material.
+/// A part of the merged: which mesh it is of, and its material.
 #[derive(Clone, Copy)]
-struct Part {
+struct Member {
     member: usize,
     material: usize,
 }
 
-/// Several meshes as one; the materials of its submeshes are indices into `parts`.
-struct Whole {
+/// Several meshes as one; the materials of its submeshes are indices into `members`.
+struct Merged {
     mesh: Mesh,
-    parts: Vec<Part>,
+    members: Vec<Member>,
 }
 
-impl Whole {
+impl Merged {
     fn new(meshes: &[(usize, &Mesh)]) -> Self {
-        let mut whole = Mesh::default();
-        let mut parts = Vec::new();
+        let mut merged = Mesh::default();
+        let mut members = Vec::new();
         let has = |attribute: fn(&Mesh) -> usize| meshes.iter().any(|(_, mesh)| attribute(mesh) > 0);
         let has_errors = has(|mesh| mesh.position_errors.len());
         let has_normals = has(|mesh| mesh.normals.len());
@@ -112,54 +112,54 @@ impl Whole {
         let has_colors = has(|mesh| mesh.colors.len());
         let has_tangents = has(|mesh| mesh.tangents.len());
         for (member, (_, mesh)) in meshes.iter().enumerate() {
-            let first = whole.positions.len() as u32;
-            whole.positions.extend(&mesh.positions);
-            let count = whole.positions.len();
+            let first = merged.positions.len() as u32;
+            merged.positions.extend(&mesh.positions);
+            let count = merged.positions.len();
             // What some of them lack is filled up, and left out again at the end.
             if has_errors {
-                whole.position_errors.extend(&mesh.position_errors);
-                whole.position_errors.resize(count, 0.0);
+                merged.position_errors.extend(&mesh.position_errors);
+                merged.position_errors.resize(count, 0.0);
             }
             if has_normals {
-                whole.normals.extend(&mesh.normals);
-                whole.normals.resize(count, Vec3::ZERO);
+                merged.normals.extend(&mesh.normals);
+                merged.normals.resize(count, Vec3::ZERO);
             }
             if has_uvs {
-                whole.uvs.extend(&mesh.uvs);
-                whole.uvs.resize(count, Vec2::ZERO);
+                merged.uvs.extend(&mesh.uvs);
+                merged.uvs.resize(count, Vec2::ZERO);
             }
             if has_colors {
-                whole.colors.extend(&mesh.colors);
-                whole.colors.resize(count, [255; 4]);
+                merged.colors.extend(&mesh.colors);
+                merged.colors.resize(count, [255; 4]);
             }
             if has_tangents {
-                whole.tangents.extend(&mesh.tangents);
-                whole.tangents.resize(count, Vec4::ZERO);
+                merged.tangents.extend(&mesh.tangents);
+                merged.tangents.resize(count, Vec4::ZERO);
             }
             for part in &mesh.submeshes {
-                let first_index = whole.indices.len() as u32 + part.first_index;
-                whole.submeshes.push(Submesh { first_index, material: parts.len(), ..*part });
-                parts.push(Part { member, material: part.material });
+                let first_index = merged.indices.len() as u32 + part.first_index;
+                merged.submeshes.push(Submesh { first_index, material: members.len(), ..*part });
+                members.push(Member { member, material: part.material });
             }
-            whole.indices.extend(mesh.indices.iter().map(|v| first + v));
+            merged.indices.extend(mesh.indices.iter().map(|v| first + v));
         }
-        Self { mesh: whole, parts }
+        Self { mesh: merged, members }
     }
 
-    fn part_of(&self, face: u32) -> Part {
+    fn part_of(&self, face: u32) -> Member {
         let submeshes = &self.mesh.submeshes;
         let number = submeshes.partition_point(|submesh| submesh.first_index <= 3 * face).saturating_sub(1);
-        self.parts[submeshes[number].material]
+        self.members[submeshes[number].material]
     }
 
     /// One of the meshes again.
-    fn member(&self, member: usize, old: &Mesh, beyond: &[Beyond]) -> Mesh {
+    fn member(&self, member: usize, old: &Mesh, beyond: &[BorderLink]) -> Mesh {
         let mut new_index = vec![u32::MAX; self.mesh.positions.len()];
         let mut sources = Vec::new();
         let mut indices = Vec::new();
         let mut submeshes = Vec::new();
         for submesh in &self.mesh.submeshes {
-            let Part { member: owner, material } = self.parts[submesh.material];
+            let Member { member: owner, material } = self.members[submesh.material];
             if owner != member {
                 continue;
             }
@@ -198,14 +198,14 @@ impl Whole {
         if lacks[3] {
             mesh.tangents.clear();
         }
-        mesh.beyond = beyond
+        mesh.border_links = beyond
             .iter()
-            .map(|beyond| Beyond { vertices: beyond.vertices.map(|v| new_index[v as usize]), ..*beyond })
+            .map(|beyond| BorderLink { vertices: beyond.vertices.map(|v| new_index[v as usize]), ..*beyond })
             .collect();
         mesh
     }
 }
 
 #[cfg(test)]
-#[path = "beyond_tests.rs"]
+#[path = "border_links_tests.rs"]
 mod tests;

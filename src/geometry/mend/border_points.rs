@@ -6,11 +6,11 @@ use super::borders::Borders;
 use super::limits::Limits;
 
 /// Of more cuts, an edge gets no further ones.
-const MOST_CUTS: usize = 4096;
+const MOST_INSERTIONS: usize = 4096;
 
 /// A place on a border.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Place {
+pub(super) enum BorderPoint {
     /// A welded point.
     Point(u32),
     /// On a border edge, at a share of it.
@@ -19,8 +19,8 @@ pub(super) enum Place {
 
 /// A place on the straight line between two others.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct OnLine {
-    pub(super) ends: [Place; 2],
+pub(super) struct PointOnLine {
+    pub(super) ends: [BorderPoint; 2],
     /// Share of the way from the first to the second.
     pub(super) share: f64,
 }
@@ -28,29 +28,29 @@ pub(super) struct OnLine {
 /// Two places that are to become one.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Tie {
-    pub(super) sides: [Place; 2],
+    pub(super) sides: [BorderPoint; 2],
     /// Where they meet if the seam is straight; else in the middle.
-    pub(super) on_line: Option<OnLine>,
+    pub(super) on_line: Option<PointOnLine>,
 }
 
 impl Tie {
     /// They meet in the middle.
-    pub(super) fn new(sides: [Place; 2]) -> Self {
+    pub(super) fn new(sides: [BorderPoint; 2]) -> Self {
         Self { sides, on_line: None }
     }
 
     /// Whether no edge needs to be cut.
     pub(super) fn is_between_vertices(&self) -> bool {
         self.sides.iter().all(|side| match side {
-            Place::Point(_) => true,
-            Place::On { share, .. } => *share == 0.0 || *share == 1.0,
+            BorderPoint::Point(_) => true,
+            BorderPoint::On { share, .. } => *share == 0.0 || *share == 1.0,
         })
     }
 }
 
 /// A new vertex on a border edge.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Cut {
+pub(super) struct Insertion {
     pub(super) border: u32,
     /// Where on the edge, 0 to 1.
     pub(super) share: f64,
@@ -59,7 +59,7 @@ pub(super) struct Cut {
 /// The welded points and the cuts of the border edges between them, in groups that become one point.
 ///
 /// Two places on one edge never get into one group, so that no border edge vanishes.
-pub(super) struct Places {
+pub(super) struct PointGroups {
     /// The welded points come first, then the cuts.
     parent: Vec<u32>,
     /// The groups as rings.
@@ -67,19 +67,19 @@ pub(super) struct Places {
     size: Vec<u32>,
     /// The box around the places of each group.
     boxes: Vec<[Vec3; 2]>,
-    pub(super) cuts: Vec<Cut>,
+    pub(super) insertions: Vec<Insertion>,
     /// The cuts of each border edge, as places.
-    cuts_of: Vec<Vec<u32>>,
+    insertions_on: Vec<Vec<u32>>,
     point_count: usize,
     /// How far each group may be moved: half of the largest diagonal of its box.
     reach: Vec<f32>,
     /// The least distance of two cuts of an edge.
     spacing: f64,
     /// The places that are on straight seams.
-    on_lines: Vec<(u32, OnLine)>,
+    on_lines: Vec<(u32, PointOnLine)>,
 }
 
-impl Places {
+impl PointGroups {
     pub(super) fn new(positions: &[Vec3], borders: &Borders, limits: &Limits) -> Self {
         let count = positions.len();
         let mut reach = vec![0.0_f32; count];
@@ -93,8 +93,8 @@ impl Places {
             next: (0..count as u32).collect(),
             size: vec![1; count],
             boxes: positions.iter().map(|&p| [p; 2]).collect(),
-            cuts: Vec::new(),
-            cuts_of: vec![Vec::new(); borders.list.len()],
+            insertions: Vec::new(),
+            insertions_on: vec![Vec::new(); borders.list.len()],
             point_count: count,
             reach,
             spacing: limits.spacing,
@@ -116,13 +116,13 @@ impl Places {
     }
 
     /// The cut of a place, unless it is a point.
-    pub(super) fn cut(&self, place: u32) -> Option<&Cut> {
-        self.cuts.get((place as usize).checked_sub(self.point_count)?)
+    pub(super) fn cut(&self, place: u32) -> Option<&Insertion> {
+        self.insertions.get((place as usize).checked_sub(self.point_count)?)
     }
 
     /// The cuts of a border edge, as places, in no order.
-    pub(super) fn cuts_of(&self, border: u32) -> &[u32] {
-        &self.cuts_of[border as usize]
+    pub(super) fn insertions_on(&self, border: u32) -> &[u32] {
+        &self.insertions_on[border as usize]
     }
 
     /// Whether a group has several places.
@@ -154,7 +154,7 @@ impl Places {
     /// Where the groups on straight seams are on their line, if no place is too far from it.
     pub(super) fn on_lines(&self, borders: &Borders, positions: &[Vec3]) -> Vec<Option<Vec3>> {
         let mut targets = vec![None; self.count()];
-        for &(place, OnLine { ends, share }) in &self.on_lines {
+        for &(place, PointOnLine { ends, share }) in &self.on_lines {
             let place_of = |end: u32| {
                 let group = self.group(end);
                 let target = targets[group as usize].or_else(|| self.middle(group)).map(Vec3::as_dvec3);
@@ -201,8 +201,8 @@ impl Places {
                 && self.next[place as usize] == place
                 && let Some(cut) = self.cut(place).copied()
             {
-                self.cuts_of[cut.border as usize].pop();
-                self.cuts.pop();
+                self.insertions_on[cut.border as usize].pop();
+                self.insertions.pop();
                 self.parent.pop();
                 self.next.pop();
                 self.size.pop();
@@ -214,15 +214,15 @@ impl Places {
     }
 
     /// The existing place there, if there is one.
-    fn settle(&self, borders: &Borders, place: Place) -> Option<u32> {
+    fn settle(&self, borders: &Borders, place: BorderPoint) -> Option<u32> {
         match place {
-            Place::Point(point) => Some(point),
-            Place::On { border, share } => {
+            BorderPoint::Point(point) => Some(point),
+            BorderPoint::On { border, share } => {
                 let edge = borders.get(border);
                 let near = |other: f64| (share - other).abs() * edge.length < self.spacing;
                 let end = [0.0, 1.0].into_iter().zip(edge.ends).find(|&(s, _)| near(s));
                 let cut = || {
-                    let cuts = self.cuts_of(border).iter().copied();
+                    let cuts = self.insertions_on(border).iter().copied();
                     cuts.into_iter().find(|&c| self.cut(c).is_some_and(|cut| near(cut.share)))
                 };
                 end.map(|(_, point)| point).or_else(cut)
@@ -230,12 +230,12 @@ impl Places {
         }
     }
 
-    fn make(&mut self, borders: &Borders, place: Place) -> Option<u32> {
+    fn make(&mut self, borders: &Borders, place: BorderPoint) -> Option<u32> {
         if let Some(place) = self.settle(borders, place) {
             return Some(place);
         }
-        let Place::On { border, share } = place else { return None };
-        if self.cuts_of(border).len() >= MOST_CUTS {
+        let BorderPoint::On { border, share } = place else { return None };
+        if self.insertions_on(border).len() >= MOST_INSERTIONS {
             return None;
         }
         let number = self.parent.len() as u32;
@@ -244,8 +244,8 @@ impl Places {
         self.size.push(1);
         self.boxes.push([borders.get(border).at(share).as_vec3(); 2]);
         self.reach.push(self.reach[borders.get(border).ends[0] as usize]);
-        self.cuts.push(Cut { border, share });
-        self.cuts_of[border as usize].push(number);
+        self.insertions.push(Insertion { border, share });
+        self.insertions_on[border as usize].push(number);
         Some(number)
     }
 
@@ -276,7 +276,7 @@ impl Places {
     fn has_neighbor_in(&self, borders: &Borders, place: u32, group: u32) -> bool {
         let on_edge = |border: u32| {
             let ends = borders.get(border).ends;
-            ends.into_iter().chain(self.cuts_of(border).iter().copied()).any(|p| self.group(p) == group)
+            ends.into_iter().chain(self.insertions_on(border).iter().copied()).any(|p| self.group(p) == group)
         };
         match self.cut(place) {
             Some(cut) => on_edge(cut.border),
