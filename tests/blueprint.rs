@@ -105,12 +105,12 @@ fn agree(drawn: &[Hit], cast: &[Hit], around: &[Vec<Hit>]) -> bool {
 
 /// Per pixel what the layers hold, nearest first.
 fn layers(session: &mut Session, opened: &Opened, side: u32) -> Vec<Vec<Hit>> {
-    common::keep_layers(session);
+    common::capture_layers(session);
     session.set_scene(opened).unwrap();
     session.draw(opened, [side; 2], false).unwrap();
     assert_eq!(session.renderer().last_layer_reports().len(), 1, "one group");
     let mut of_pixel = vec![Vec::new(); (side * side) as usize];
-    for geometry in common::kept_layers(session, "layer geometry") {
+    for geometry in common::captured_layers(session, "layer geometry") {
         let surfels = texels::<[u32; 4]>(session, &geometry);
         for (hits, [_, _, depth, object]) in of_pixel.iter_mut().zip(surfels) {
             if object != 0 {

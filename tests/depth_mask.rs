@@ -71,7 +71,7 @@ fn among_rings() -> Opened {
 }
 
 fn draw(session: &mut Session, opened: &Opened) -> LayerReport {
-    common::keep_layers(session);
+    common::capture_layers(session);
     session.set_scene(opened).unwrap();
     session.draw(opened, [SIDE; 2], false).unwrap();
     let report = session.renderer().layer_reports().unwrap();
@@ -91,7 +91,7 @@ fn recount(session: &mut Session) -> (u32, Vec<u32>) {
     let count = |passes: &dyn Fn(usize, f32) -> bool| {
         mask.iter().enumerate().filter(|(i, depth)| **depth > 0.0 && passes(*i, **depth)).count() as u32
     };
-    let passed = common::kept_layers(session, "layer depth")
+    let passed = common::captured_layers(session, "layer depth")
         .iter()
         .map(|depth| {
             let depths = texels::<f32>(session, depth);
@@ -132,7 +132,7 @@ fn counts_equal_a_recount_and_layers_end_with_the_first_layer_that_uncovers_enou
             assert_eq!(report.uncovered(), passed[drawn - 1]);
             assert_eq!(report.shortfall(), None);
             // What comes after the last layer was never drawn.
-            let left = common::kept_layers(&mut session, "layer surface ids").split_off(drawn);
+            let left = common::captured_layers(&mut session, "layer surface ids").split_off(drawn);
             let is_empty = |regions: &hachure::gpu::Target| {
                 texels::<u32>(&mut session, regions).iter().all(|region| *region == 0)
             };
@@ -197,7 +197,7 @@ fn away_from_edges_a_pixel_passes_with_the_layer_before_which_rays_meet_the_mask
         let report = draw(&mut session, &all);
         let rays = Rays::new(&all);
         let mask = mask_of(&mut session);
-        let layers: Vec<Vec<f32>> = common::kept_layers(&mut session, "layer depth")
+        let layers: Vec<Vec<f32>> = common::captured_layers(&mut session, "layer depth")
             .iter()
             .take(report.layers as usize)
             .map(|depth| texels::<f32>(&mut session, depth))
@@ -240,7 +240,7 @@ fn a_designated_object_is_in_no_layer_and_stands_in_the_picture_in_its_own_style
     }
     draw(&mut session, &scene);
     let mut seen = 0;
-    for geometry in common::kept_layers(&mut session, "layer geometry") {
+    for geometry in common::captured_layers(&mut session, "layer geometry") {
         let surfels = texels::<[u32; 4]>(&mut session, &geometry);
         seen += surfels.iter().filter(|s| s[3] != 0).count();
         assert!(surfels.iter().all(|s| s[3] & 0x7fff_ffff != object_id(0)));

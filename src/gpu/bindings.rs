@@ -121,7 +121,8 @@ impl Bindings {
         &self,
         gpu: &Gpu,
         placeholders: &mut Placeholders,
-        (file, entry_point): (&str, &str),
+        file: &str,
+        entry_point: &str,
         layout: &wgpu::BindGroupLayout,
         inputs: &Inputs<'_>,
     ) -> Result<wgpu::BindGroup, ShaderError> {

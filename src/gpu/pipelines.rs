@@ -333,8 +333,8 @@ impl Pipelines {
         inputs: &Inputs<'_>,
     ) -> Result<wgpu::BindGroup, ShaderError> {
         let shader = self.compiled.get(program.file).ok_or_else(|| missing(program))?;
-        let place = (program.file, program.entry_point);
-        shader.bindings.group(gpu, &mut self.placeholders, place, layout, inputs)
+        let Program { file, entry_point, .. } = *program;
+        shader.bindings.group(gpu, &mut self.placeholders, file, entry_point, layout, inputs)
     }
 }
 

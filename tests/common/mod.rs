@@ -3,6 +3,7 @@
 #![allow(clippy::print_stdout, reason = "what is left out is said")]
 #![allow(dead_code, unreachable_pub, reason = "each test program uses a part of it")]
 
+pub mod failures;
 pub mod hatched;
 pub mod line_drawing;
 pub mod line_scenes;
@@ -56,12 +57,12 @@ pub fn captured(session: &mut Session, name: &str) -> Option<Target> {
 }
 
 /// The layers of the only blueprint, as they are kept under a name, the nearest first. They have to be asked for before.
-pub fn kept_layers(session: &mut Session, name: &str) -> Vec<Target> {
+pub fn captured_layers(session: &mut Session, name: &str) -> Vec<Target> {
     session.renderer().captured(name).to_vec()
 }
 
 /// Keeps the layers of blueprints from now on.
-pub fn keep_layers(session: &mut Session) {
+pub fn capture_layers(session: &mut Session) {
     for name in LAYERS {
         session.renderer().capture(name);
     }

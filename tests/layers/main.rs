@@ -46,12 +46,12 @@ type Texels = (Vec<[u32; 4]>, Vec<u32>, Vec<u32>, Vec<u32>);
 fn layers(session: &mut Session, opened: &Opened, side: u32, by: &str) -> (Vec<Texels>, LayerMethod) {
     let mut opened = opened.clone();
     set(&mut opened, "view.layers", by);
-    common::keep_layers(session);
+    common::capture_layers(session);
     session.draw(&opened, [side; 2], false).unwrap();
     assert_eq!(session.renderer().last_layer_reports().len(), 1, "one group");
     let [geometry, colors, regions, depths] =
         ["layer geometry", "layer base color", "layer surface ids", "layer depth"]
-            .map(|name| common::kept_layers(session, name));
+            .map(|name| common::captured_layers(session, name));
     let layers = (0..geometry.len()).map(|i| {
         (
             texels(session, &geometry[i]),

@@ -17,6 +17,7 @@ mod ink;
 mod model;
 mod paths;
 
+use common::failures::Failures;
 use common::session;
 use field::{LOCKED, MAP, SURFACE, walk};
 use hachure::export::Session;
@@ -64,18 +65,6 @@ fn measured() -> Sketch {
     let mut sketch = Sketch::default();
     sketch.wander.wave = WAVE;
     sketch
-}
-
-/// What does not hold, in words.
-#[derive(Default)]
-struct Failures(Vec<String>);
-
-impl Failures {
-    fn check(&mut self, holds: bool, what: String) {
-        if !holds {
-            self.0.push(what);
-        }
-    }
 }
 
 /// Prints a row of offsets; `dolly`: where that leads to.
@@ -206,7 +195,7 @@ fn sketches_move_with_the_model() {
             }
         }
     }
-    assert!(failures.0.is_empty(), "{:#?}", failures.0);
+    failures.report();
 }
 
 /// Pixels per side of the pictures in which the device is compared with its twin.
@@ -245,5 +234,5 @@ fn offsets_of_a_crank_move_with_it() {
         let length = Length { starts: 2, fresh: 20, stride: 1 };
         measure_field(&mut session, &model, (path, dolly), (length, 160.0), &mut failures);
     }
-    assert!(failures.0.is_empty(), "{:#?}", failures.0);
+    failures.report();
 }

@@ -14,6 +14,7 @@ mod frame;
 mod marks;
 mod twins;
 
+use common::failures::Failures;
 use common::hatched::{even, presets};
 use common::{sample, session};
 use glam::{DMat4, DVec3};
@@ -46,22 +47,6 @@ const MOST_UNEVEN: f64 = 0.09;
 const MOST_UNEVEN_ON_PLANE: f64 = 0.15;
 /// Steps in an octave of coming closer.
 const STEPS: u32 = 4;
-
-/// What does not hold, in words.
-#[derive(Default)]
-struct Failures(Vec<String>);
-
-impl Failures {
-    fn check(&mut self, holds: bool, what: String) {
-        if !holds {
-            self.0.push(what);
-        }
-    }
-
-    fn report(self) {
-        assert!(self.0.is_empty(), "{:#?}", self.0);
-    }
-}
 
 /// Ways of a camera, as far as from one picture to the next: 1° around, 1 % closer.
 fn ways(opened: &Opened) -> [(&'static str, Camera, Camera); 2] {

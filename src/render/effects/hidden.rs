@@ -123,7 +123,8 @@ impl HiddenLines {
         gbuffer_pass: &mut GBufferPass,
         scene_view: &SceneView<'_>,
         uniform: &FrameUniform,
-        (surfaces, hidden): (&Group, &Hidden),
+        surfaces: &Group,
+        hidden: &Hidden,
         visible: Option<&Output<EdgeMap>>,
     ) -> Result<Output<Target>, RenderError> {
         let group = surfaces.unculled_with_lines(&hidden.styles);

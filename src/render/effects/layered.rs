@@ -20,7 +20,7 @@ use crate::render::passes::layers::{
 };
 use crate::render::passes::lines::Lines;
 use crate::render::passes::segments::Segments;
-use crate::render::passes::traversal::GBufferPass;
+use crate::render::passes::traversal::{DrawList, GBufferPass};
 
 /// A group as a camera sees it: what any picture of its layers depends on, by value.
 #[derive(Clone, PartialEq)]
@@ -198,10 +198,12 @@ impl Layered {
         )?;
         let mut nearer_lines = request.nearer.cloned();
         let inputs = LayerInputs {
-            scene: scene_view.scene,
-            instances,
-            calls,
-            is_clipped: scene_view.view.is_clipped(),
+            draw_list: DrawList {
+                scene: scene_view.scene,
+                instances,
+                calls,
+                is_clipped: scene_view.view.is_clipped(),
+            },
             max_layers: request.max_layers,
             min_pixels: request.min_pixels,
             uncover: request.uncover,

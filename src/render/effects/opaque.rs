@@ -29,7 +29,7 @@ use crate::render::passes::line_distance::{LineDistance, Widths, line_distance};
 use crate::render::passes::lines::Lines;
 use crate::render::passes::segments::Segments;
 use crate::render::passes::shadows::{ShadowMap, ShadowMask};
-use crate::render::passes::traversal::GBufferPass;
+use crate::render::passes::traversal::{DrawList, GBufferPass};
 
 /// A group of one layer as a camera sees it.
 #[derive(Clone, Copy)]
@@ -180,7 +180,8 @@ impl OpaqueLayer {
             calls,
         };
         let gbuffer = self.gbuffer.run(key, |GeometryKey { instances, calls, .. }| {
-            pass.run(rec, scene, &mut self.instances, (instances, calls), view.is_clipped(), None)
+            let draw_list = DrawList { scene, instances, calls, is_clipped: view.is_clipped() };
+            pass.run(rec, &draw_list, &mut self.instances, None)
         })?;
         let shadow_mask = self.shadow_mask.run(rec, &gbuffer, &scene_view, shadow_maps)?;
         Ok(OpaqueSurfaces { gbuffer, shadow_mask })
@@ -370,8 +371,7 @@ impl OpaqueLayer {
             return Ok(None);
         }
         let hidden = self.hidden.get_or_insert_with(|| HiddenLines::new(rec.gpu));
-        let asked = (inputs.group, asked);
-        hidden.run(rec, pass, &inputs.scene_view, inputs.uniform, asked, edges).map(Some)
+        hidden.run(rec, pass, &inputs.scene_view, inputs.uniform, inputs.group, asked, edges).map(Some)
     }
 
     /// Lets go of what only a picture needs.

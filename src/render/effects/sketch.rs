@@ -41,7 +41,7 @@ use crate::render::passes::layers::Reported;
 use crate::render::passes::line_distance::nearest_lines;
 use crate::render::passes::offset_field::NoiseSource;
 use crate::render::passes::shadows::ShadowMap;
-use crate::render::passes::traversal::GBufferPass;
+use crate::render::passes::traversal::{DrawList, GBufferPass};
 use crate::style;
 
 /// What sketches of all cameras share.
@@ -299,13 +299,13 @@ impl SketchState {
             let layer = layer.shaded(surfaces, scene_view, uniform, None);
             let instances: Vec<_> =
                 layer.instances.iter().map(|instance| Instance { enlarged: px, ..*instance }).collect();
-            pass.run_enlarged(
-                rec,
-                scene_view.scene,
-                instance_buffer,
-                (&instances, layer.calls),
-                scene_view.view.is_clipped(),
-            )
+            let draw_list = DrawList {
+                scene: scene_view.scene,
+                instances: &instances,
+                calls: layer.calls,
+                is_clipped: scene_view.view.is_clipped(),
+            };
+            pass.run_enlarged(rec, &draw_list, instance_buffer)
         })?;
         Ok(Some(drawn))
     }

@@ -9,7 +9,7 @@ use encase::ShaderType as _;
 
 use super::designated::{DepthMask, Masked};
 use super::gbuffer::GBuffer;
-use super::traversal::GBufferPass;
+use super::traversal::{DrawList, GBufferPass};
 use crate::gpu::{Gpu, Program, Recorder, Target, inputs};
 use crate::render::base::error::RenderError;
 use crate::render::base::group::Group;
@@ -88,7 +88,10 @@ impl DepthMaskPass {
         stage.run(key, |Key { view, instances, calls, .. }| {
             let designated = match drawn {
                 Some(drawn) => drawn.clone(),
-                None => gbuffer_pass.run(rec, scene, buffer, (instances, calls), view.is_clipped(), None)?,
+                None => {
+                    let draw_list = DrawList { scene, instances, calls, is_clipped: view.is_clipped() };
+                    gbuffer_pass.run(rec, &draw_list, buffer, None)?
+                }
             };
             rec.encoder.clear_buffer(count, 0, None);
             let [width, height] = rec.size();

@@ -20,8 +20,7 @@ use crate::document::LayersBy;
 use crate::gpu::{ArrayBuffer, Gpu, Predicate, Recorder, Reports, Target};
 use crate::render::base::edge_style::GpuEdgeStyle;
 use crate::render::base::error::RenderError;
-use crate::render::base::gpu_scene::GpuScene;
-use crate::render::base::instances::{DrawCall, Instance, InstanceBuffer};
+use crate::render::base::instances::{DrawCall, InstanceBuffer};
 use crate::render::passes::count::{Layer, LayerCount, MOST_LAYERS, report_from_bytes};
 use crate::render::passes::designated::Uncover;
 use crate::render::passes::edge_map::{EdgeInputs, EdgeMap, edge_map};
@@ -32,7 +31,7 @@ use crate::render::passes::lines::Lines;
 use crate::render::passes::peel::{Peel, before_all};
 use crate::render::passes::repeated::NearerLines;
 use crate::render::passes::segments::Segments;
-use crate::render::passes::traversal::GBufferPass;
+use crate::render::passes::traversal::{DrawList, GBufferPass};
 
 /// Kinds of passes that a layer has beside the draw calls of its objects: entries of the predicate.
 const PASSES: usize = 32;
@@ -40,14 +39,8 @@ const PASSES: usize = 32;
 /// What is split into layers, and how far.
 #[derive(Clone, Copy)]
 pub struct LayerInputs<'a> {
-    /// The scene on the device.
-    pub scene: &'a GpuScene,
-    /// What is drawn: one for each object that is.
-    pub instances: &'a [Instance],
-    /// How it is drawn: the draw calls of those instances.
-    pub calls: &'a [DrawCall],
-    /// Whether what lies behind a plane is left out.
-    pub is_clipped: bool,
+    /// What is drawn.
+    pub draw_list: DrawList<'a>,
     /// Most layers, up to [`MOST_LAYERS`].
     pub max_layers: u32,
     /// It ends before a layer of fewer pixels, at the latest before an empty one.
@@ -140,15 +133,15 @@ impl Layers {
         let plain: Vec<DrawCall>;
         let mut inputs = *inputs;
         if !inputs.with_color && !inputs.with_normals {
-            plain = inputs.calls.iter().map(DrawCall::without_attributes).collect();
-            inputs.calls = &plain;
+            plain = inputs.draw_list.calls.iter().map(DrawCall::without_attributes).collect();
+            inputs.draw_list.calls = &plain;
         }
         self.count.begin(rec.gpu, inputs.min_pixels.max(1), inputs.uncover);
         let mut recorded =
             self.budget.plan(rec.gpu, rec.size(), inputs.max_layers.min(MOST_LAYERS), inputs.by);
         let mut predicate = self.predicate.take().unwrap_or_else(|| Predicate::new(rec.gpu));
         // Objects may be drawn once more, for their coordinates.
-        predicate.clear(rec.gpu, 2 * inputs.calls.len() + PASSES)?;
+        predicate.clear(rec.gpu, 2 * inputs.draw_list.calls.len() + PASSES)?;
         rec.predicate = Some(predicate);
         let drawn = self.draw_each(rec, gbuffer_pass, &inputs, &mut recorded, draw);
         self.predicate = rec.predicate.take();
@@ -167,20 +160,12 @@ impl Layers {
         recorded: &mut Recorded,
         mut draw: impl FnMut(&mut Recorder<'_>, &DrawnLayer<'_>) -> Result<(), RenderError>,
     ) -> Result<(), RenderError> {
-        let LayerInputs { scene, instances, calls, is_clipped, with_color, .. } = *inputs;
+        let LayerInputs { draw_list, with_color, .. } = inputs;
+        let with_color = *with_color;
         let mask = inputs.uncover.map(|uncover| uncover.mask);
         if let Ok(budget) = &mut recorded.fragments {
             *budget = gbuffer_pass.lists.begin(rec, *budget)?;
-            let parts = (instances, calls);
-            gbuffer_pass.collect(
-                rec,
-                scene,
-                &mut self.instances,
-                parts,
-                is_clipped,
-                with_color,
-                &self.count,
-            )?;
+            gbuffer_pass.collect(rec, draw_list, &mut self.instances, with_color, &self.count)?;
         }
         let mut lists = match recorded.by() {
             LayerMethod::Lists => Some(gbuffer_pass.lists.extract(rec, recorded.layers)?),
@@ -204,14 +189,7 @@ impl Layers {
                         false => Some(rec.target("sort keys", before.format())?),
                     };
                     let peel = Peel { last: &before, sort_keys: last.as_ref(), with_color };
-                    let gbuffer = gbuffer_pass.run(
-                        rec,
-                        scene,
-                        &mut self.instances,
-                        (instances, calls),
-                        is_clipped,
-                        Some(&peel),
-                    )?;
+                    let gbuffer = gbuffer_pass.run(rec, draw_list, &mut self.instances, Some(&peel))?;
                     Layer { gbuffer, marked: None }
                 }
             };

@@ -103,12 +103,24 @@ impl Purpose {
 /// What a layer is drawn into at once, where a pass has room for so much.
 const LAYER_WITH_COLOR: [wgpu::TextureFormat; 4] = [GEOMETRY, SURFACE_ID, SORT_KEYS, BASE_COLOR];
 
+/// What is drawn of a scene.
+#[derive(Clone, Copy)]
+pub struct DrawList<'a> {
+    /// The scene on the device.
+    pub scene: &'a GpuScene,
+    /// One for each object that is drawn.
+    pub instances: &'a [Instance],
+    /// The draw calls of those instances.
+    pub calls: &'a [DrawCall],
+    /// Whether what lies behind a plane is left out.
+    pub is_clipped: bool,
+}
+
 /// A traversal of the scene.
 struct Traversal<'a> {
     label: &'static str,
     purpose: Purpose,
     with_color: bool,
-    /// Whether all of `color` is cleared, or all but the first one.
     color: &'a [&'a Target],
     depth: &'a Target,
     /// Bind group 1.
@@ -149,24 +161,22 @@ impl GBufferPass {
         Ok(())
     }
 
-    /// Draws the given parts of a scene, which go to `instance_buffer`; of a layer only what lies behind the last one.
+    /// Draws a list of a scene, whose instances go to `instance_buffer`; of a layer only what lies behind the last one.
     ///
     /// # Errors
     /// [`RenderError`].
     pub fn run(
         &mut self,
         rec: &mut Recorder<'_>,
-        scene: &GpuScene,
+        draw_list: &DrawList<'_>,
         instance_buffer: &mut InstanceBuffer,
-        parts: (&[Instance], &[DrawCall]),
-        is_clipped: bool,
         peel: Option<&Peel<'_>>,
     ) -> Result<GBuffer, RenderError> {
         let gbuffer = GBuffer::new(rec)?;
         let GBuffer { geometry, base_color, surface_id, depth } = &gbuffer;
         let (label, purpose, with_color, color) = match peel {
             // Nobody looks at colors and surface ids where nothing is.
-            None if parts.1.is_empty() => ("g-buffer", Purpose::Surfaces, true, vec![geometry]),
+            None if draw_list.calls.is_empty() => ("g-buffer", Purpose::Surfaces, true, vec![geometry]),
             None => ("g-buffer", Purpose::Surfaces, true, vec![geometry, base_color, surface_id]),
             Some(Peel { sort_keys: None, .. }) => ("peel", Purpose::Counted, false, vec![surface_id]),
             Some(Peel { sort_keys: Some(sort_keys), with_color, .. }) => {
@@ -178,7 +188,7 @@ impl GBufferPass {
         };
         let group = peel.map(|peel| Peel::group_of(rec.gpu, &self.layer_layout, peel.last));
         let traversal = Traversal { label, purpose, with_color, color: &color, depth, group };
-        self.traverse(rec, scene, instance_buffer, parts, is_clipped, traversal)?;
+        self.traverse(rec, draw_list, instance_buffer, traversal)?;
         if let Some(Peel { sort_keys: Some(own), with_color: true, .. }) = peel
             && !with_color
         {
@@ -187,12 +197,12 @@ impl GBufferPass {
             let depth = &rec.target("depth", DEPTH)?;
             let (label, purpose, color) = ("peel colors", Purpose::LayerColor, &[base_color][..]);
             let traversal = Traversal { label, purpose, with_color: true, color, depth, group };
-            self.traverse(rec, scene, instance_buffer, parts, is_clipped, traversal)?;
+            self.traverse(rec, draw_list, instance_buffer, traversal)?;
         }
         Ok(gbuffer)
     }
 
-    /// Draws the nearest surfaces of the given parts enlarged along their normals (sketchy drawings paper, section 4.2), each by
+    /// Draws the nearest surfaces of a list enlarged along their normals (sketchy drawings paper, section 4.2), each by
     /// as much as its instance says.
     ///
     /// # Errors
@@ -200,31 +210,27 @@ impl GBufferPass {
     pub fn run_enlarged(
         &mut self,
         rec: &mut Recorder<'_>,
-        scene: &GpuScene,
+        draw_list: &DrawList<'_>,
         instance_buffer: &mut InstanceBuffer,
-        parts: (&[Instance], &[DrawCall]),
-        is_clipped: bool,
     ) -> Result<GBuffer, RenderError> {
         let gbuffer = GBuffer::new(rec)?;
         let GBuffer { geometry, base_color, surface_id, depth } = &gbuffer;
         let color = &[geometry, base_color, surface_id];
         let (label, purpose) = ("enlarged", Purpose::Enlarged);
         let traversal = Traversal { label, purpose, with_color: true, color, depth, group: None };
-        self.traverse(rec, scene, instance_buffer, parts, is_clipped, traversal)?;
+        self.traverse(rec, draw_list, instance_buffer, traversal)?;
         Ok(gbuffer)
     }
 
-    /// Collects all fragments of the given parts of a scene in [`Self::lists`].
+    /// Collects all fragments of a list in [`Self::lists`].
     ///
     /// # Errors
     /// [`RenderError`].
     pub fn collect(
         &mut self,
         rec: &mut Recorder<'_>,
-        scene: &GpuScene,
+        draw_list: &DrawList<'_>,
         instance_buffer: &mut InstanceBuffer,
-        parts: (&[Instance], &[DrawCall]),
-        is_clipped: bool,
         with_color: bool,
         count: &LayerCount,
     ) -> Result<(), RenderError> {
@@ -233,19 +239,18 @@ impl GBufferPass {
         let depth = &rec.target("depth", DEPTH)?;
         let (label, purpose) = ("fragment lists", Purpose::Lists);
         let traversal = Traversal { label, purpose, with_color, color: &[], depth, group };
-        self.traverse(rec, scene, instance_buffer, parts, is_clipped, traversal)
+        self.traverse(rec, draw_list, instance_buffer, traversal)
     }
 
     fn traverse(
         &mut self,
         rec: &mut Recorder<'_>,
-        scene: &GpuScene,
+        draw_list: &DrawList<'_>,
         instance_buffer: &mut InstanceBuffer,
-        (drawn, calls): (&[Instance], &[DrawCall]),
-        is_clipped: bool,
         traversal: Traversal<'_>,
     ) -> Result<(), RenderError> {
         let Traversal { label, purpose, with_color, color, depth, group: own } = traversal;
+        let DrawList { scene, instances, calls, is_clipped } = *draw_list;
         let gpu = rec.gpu;
         let variant = |call: &DrawCall| {
             let DrawCall { detail, culled_face, .. } = *call;
@@ -254,7 +259,7 @@ impl GBufferPass {
         for call in calls {
             self.prepare(gpu, rec.pipelines, variant(call))?;
         }
-        instance_buffer.write(gpu, drawn, calls)?;
+        instance_buffer.write(gpu, instances, calls)?;
         let materials = instance_buffer.material_group(gpu, &self.instance_layout);
         let batches = batches(rec, calls);
         let color: Vec<_> = Onto::Clear.attachments(color);
