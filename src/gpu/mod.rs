@@ -21,6 +21,7 @@ mod record_texture;
 pub mod recorder;
 pub mod reports;
 pub mod shader;
+mod specialize;
 pub mod timer;
 
 pub use buffer::{ArrayBuffer, DynamicBuffer, RecordBuffer, UniformBuffer};

@@ -4,8 +4,12 @@ use std::borrow::Cow;
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 
+use wgpu::naga::valid::ModuleInfo;
+use wgpu::naga::{Module, ShaderStage};
+
 use super::bindings::Bindings;
 use super::placeholders::Placeholders;
+use super::specialize::specialized;
 use super::{Gpu, Inputs, ShaderError, Shaders, Target};
 
 /// A shader of a file below `shaders/`, specialized: switches are its `override` constants, and what is switched off is
@@ -184,18 +188,25 @@ pub struct Bound<P> {
     pub inputs: wgpu::BindGroup,
 }
 
-/// A compiled shader.
+/// The shader whose vertices cover the picture.
+const FULLSCREEN: &str = "common/fullscreen.wgsl";
+
+/// A shader of which pipelines are made.
 #[derive(Clone)]
 struct Shader {
-    module: wgpu::ShaderModule,
+    /// All of it, with numbered variables.
+    source: Module,
+    info: ModuleInfo,
     bindings: Bindings,
+    /// All of it on the device, for pipelines with bind groups of their own.
+    module: Option<wgpu::ShaderModule>,
 }
 
 /// Shader modules and pipelines, made when first used and kept.
 #[derive(Clone)]
 pub struct Pipelines {
     shaders: Shaders,
-    compiled: HashMap<&'static str, Shader>,
+    parsed: HashMap<&'static str, Shader>,
     placeholders: Placeholders,
     raster: HashMap<RasterKey, Cached<wgpu::RenderPipeline>>,
     compute: HashMap<Program, Cached<wgpu::ComputePipeline>>,
@@ -236,7 +247,7 @@ impl Pipelines {
         });
         Self {
             shaders,
-            compiled: HashMap::new(),
+            parsed: HashMap::new(),
             placeholders: Placeholders::default(),
             raster: HashMap::new(),
             compute: HashMap::new(),
@@ -253,7 +264,7 @@ impl Pipelines {
         let shaders = Shaders::from_environment();
         validate_all(&shaders)?;
         self.shaders = shaders;
-        self.compiled.clear();
+        self.parsed.clear();
         self.raster.clear();
         self.compute.clear();
         self.generation += 1;
@@ -275,13 +286,14 @@ impl Pipelines {
     /// # Errors
     /// [`ShaderError`]; that texts are valid is checked when they are loaded.
     pub fn module(&mut self, gpu: &Gpu, file: &'static str) -> Result<wgpu::ShaderModule, ShaderError> {
-        Ok(self.shader(gpu, file)?.module.clone())
+        let shader = self.shader(gpu, file)?;
+        Ok(shader.module.get_or_insert_with(|| create_module(gpu, file, shader.source.clone())).clone())
     }
 
-    fn shader(&mut self, gpu: &Gpu, file: &'static str) -> Result<&Shader, ShaderError> {
-        match self.compiled.entry(file) {
+    fn shader(&mut self, gpu: &Gpu, file: &'static str) -> Result<&mut Shader, ShaderError> {
+        match self.parsed.entry(file) {
             Entry::Occupied(known) => Ok(known.into_mut()),
-            Entry::Vacant(place) => Ok(place.insert(compile(gpu, &self.shaders, file)?)),
+            Entry::Vacant(place) => Ok(place.insert(parse(gpu, &self.shaders, file)?)),
         }
     }
 
@@ -297,7 +309,8 @@ impl Pipelines {
     ) -> Result<Bound<wgpu::RenderPipeline>, ShaderError> {
         if !self.raster.contains_key(key) {
             let frame = self.frame_layout.clone();
-            let made = build_raster(gpu, self.shader(gpu, key.program.file)?, &frame, key);
+            let vertex = self.module(gpu, FULLSCREEN)?;
+            let made = build_raster(gpu, &vertex, self.shader(gpu, key.program.file)?, &frame, key)?;
             self.raster.insert(key.clone(), made);
         }
         let made = self.raster.get(key).ok_or_else(|| missing(&key.program))?.clone();
@@ -317,7 +330,7 @@ impl Pipelines {
     ) -> Result<Bound<wgpu::ComputePipeline>, ShaderError> {
         if !self.compute.contains_key(program) {
             let frame = self.frame_layout.clone();
-            let made = build_compute(gpu, self.shader(gpu, program.file)?, &frame, program);
+            let made = build_compute(gpu, self.shader(gpu, program.file)?, &frame, program)?;
             self.compute.insert(program.clone(), made);
         }
         let made = self.compute.get(program).ok_or_else(|| missing(program))?.clone();
@@ -332,22 +345,44 @@ impl Pipelines {
         layout: &wgpu::BindGroupLayout,
         inputs: &Inputs<'_>,
     ) -> Result<wgpu::BindGroup, ShaderError> {
-        let shader = self.compiled.get(program.file).ok_or_else(|| missing(program))?;
+        let shader = self.parsed.get(program.file).ok_or_else(|| missing(program))?;
         let Program { file, entry_point, .. } = *program;
         shader.bindings.group(gpu, &mut self.placeholders, file, entry_point, layout, inputs)
     }
 }
 
-fn compile(gpu: &Gpu, shaders: &Shaders, file: &'static str) -> Result<Shader, ShaderError> {
+fn parse(gpu: &Gpu, shaders: &Shaders, file: &'static str) -> Result<Shader, ShaderError> {
     let (module, info) = shaders.module(file, gpu.integer_textures)?;
     let bindings = Bindings::of(&module, &info).map_err(|name| ShaderError::Invalid {
         file: file.to_owned(),
         line: 0,
         message: format!("no pass can give anything for {name}"),
     })?;
-    let source = wgpu::ShaderSource::Naga(Cow::Owned(module));
-    let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor { label: Some(file), source });
-    Ok(Shader { module, bindings })
+    Ok(Shader { source: module, info, bindings, module: None })
+}
+
+fn create_module(gpu: &Gpu, file: &'static str, source: Module) -> wgpu::ShaderModule {
+    let source = wgpu::ShaderSource::Naga(Cow::Owned(source));
+    gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor { label: Some(file), source })
+}
+
+impl Shader {
+    /// The entry point of a program, without what is switched off.
+    fn specialized(
+        &self,
+        gpu: &Gpu,
+        stage: ShaderStage,
+        program: &Program,
+    ) -> Result<wgpu::ShaderModule, ShaderError> {
+        let Program { file, entry_point, .. } = *program;
+        specialized(&self.source, &self.info, stage, entry_point, &program.constants())
+            .map(|source| create_module(gpu, file, source))
+            .map_err(|message| ShaderError::Invalid {
+                file: file.to_owned(),
+                line: 0,
+                message: format!("{entry_point}: {message}"),
+            })
+    }
 }
 
 fn missing(program: &Program) -> ShaderError {
@@ -373,13 +408,14 @@ fn pipeline_layout(
 
 fn build_raster(
     gpu: &Gpu,
-    Shader { module, bindings }: &Shader,
+    vertex: &wgpu::ShaderModule,
+    shader: &Shader,
     frame_layout: &wgpu::BindGroupLayout,
     key: &RasterKey,
-) -> Cached<wgpu::RenderPipeline> {
+) -> Result<Cached<wgpu::RenderPipeline>, ShaderError> {
     let label = key.program.file;
-    let inputs = bindings.layout(gpu, label, key.program.entry_point, wgpu::ShaderStages::FRAGMENT);
-    let constants = key.program.constants();
+    let inputs = shader.bindings.layout(gpu, label, key.program.entry_point, wgpu::ShaderStages::FRAGMENT);
+    let fragment = shader.specialized(gpu, ShaderStage::Fragment, &key.program)?;
     let write_mask = if key.writes { wgpu::ColorWrites::ALL } else { wgpu::ColorWrites::empty() };
     let targets: Vec<_> = key
         .outputs
@@ -390,7 +426,7 @@ fn build_raster(
         label: Some(label),
         layout: Some(&pipeline_layout(gpu, label, frame_layout, &inputs)),
         vertex: wgpu::VertexState {
-            module,
+            module: vertex,
             entry_point: Some("vs_fullscreen"),
             compilation_options: wgpu::PipelineCompilationOptions::default(),
             buffers: &[],
@@ -399,36 +435,33 @@ fn build_raster(
         depth_stencil: key.depth.map(|(format, test)| test.state(format)),
         multisample: wgpu::MultisampleState::default(),
         fragment: Some(wgpu::FragmentState {
-            module,
+            module: &fragment,
             entry_point: Some(key.program.entry_point),
-            compilation_options: wgpu::PipelineCompilationOptions {
-                constants: &constants,
-                ..Default::default()
-            },
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
             targets: &targets,
         }),
         multiview_mask: None,
         cache: None,
     });
-    Cached { pipeline, inputs }
+    Ok(Cached { pipeline, inputs })
 }
 
 fn build_compute(
     gpu: &Gpu,
-    Shader { module, bindings }: &Shader,
+    shader: &Shader,
     frame_layout: &wgpu::BindGroupLayout,
     program: &Program,
-) -> Cached<wgpu::ComputePipeline> {
+) -> Result<Cached<wgpu::ComputePipeline>, ShaderError> {
     let label = program.file;
-    let inputs = bindings.layout(gpu, label, program.entry_point, wgpu::ShaderStages::COMPUTE);
-    let constants = program.constants();
+    let inputs = shader.bindings.layout(gpu, label, program.entry_point, wgpu::ShaderStages::COMPUTE);
+    let module = shader.specialized(gpu, ShaderStage::Compute, program)?;
     let pipeline = gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
         label: Some(label),
         layout: Some(&pipeline_layout(gpu, label, frame_layout, &inputs)),
-        module,
+        module: &module,
         entry_point: Some(program.entry_point),
-        compilation_options: wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() },
+        compilation_options: wgpu::PipelineCompilationOptions::default(),
         cache: None,
     });
-    Cached { pipeline, inputs }
+    Ok(Cached { pipeline, inputs })
 }
