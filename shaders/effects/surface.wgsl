@@ -35,6 +35,16 @@ struct SurfaceStyle {
 var base_color_tex: texture_2d<f32>;
 var<storage, read> surface_styles: array<SurfaceStyle>;
 
+// Steps of depth by which techniques are told apart. Twin: that in src/render/effects/surface.rs.
+const DEPTH_PER_TECHNIQUE: f32 = 1.0 / 64.0;
+
+// Which technique a pixel is drawn in; nothing and paper have depth 0.
+@fragment
+fn fs_technique(@builtin(position) position: vec4<f32>) -> @builtin(frag_depth) f32 {
+    let id = geometry_at(vec2<i32>(position.xy)).w & ~ENHANCED;
+    return select(0.0, f32(surface_styles[id].technique) * DEPTH_PER_TECHNIQUE, id != 0u);
+}
+
 // Linear color times opacity, and opacity.
 @fragment
 fn fs_main(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {

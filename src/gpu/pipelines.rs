@@ -37,12 +37,14 @@ impl Program {
 
 /// How a pass uses its depth buffer (reversed, 0 where nothing is). What covers the picture lies at 1e-30: behind
 /// everything that is drawn, but before nothing.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum DepthRule {
     /// Draws only where something has been drawn.
     Covered,
-    /// Notes where it draws.
+    /// Notes where it draws, or the depth that its shader gives.
     Mark,
+    /// Draws only where the depth is exactly this, as a shader gave it.
+    Equal(f32),
     /// Draws only where an entry point of the same program does not discard, which is run before it and marks a stencil. The
     /// buffer is one of [`STENCIL`], and holds nothing afterwards.
     Where(&'static str),
@@ -70,8 +72,8 @@ pub enum DepthTest {
     Mark,
     /// Passes where something has been drawn, and marks that by its own depth.
     MarkCovered,
-    /// Passes where the depth is that of these marks.
-    Marked,
+    /// Passes where the depth is that at which it is drawn: these marks.
+    Equal,
     /// Passes everywhere, and marks where in a stencil.
     MarkStencil,
     /// Passes where the stencil is marked.
@@ -87,14 +89,14 @@ impl DepthRule {
             Self::Covered | Self::CoveredUnless(_) => DepthTest::Covered,
             Self::Mark => DepthTest::Mark,
             Self::Where(_) => DepthTest::Stencilled,
-            Self::CoveredWhere(..) => DepthTest::Marked,
+            Self::CoveredWhere(..) | Self::Equal(_) => DepthTest::Equal,
         }
     }
 
     /// The entry point that is run before it, and what that does.
     pub fn marker(self) -> Option<(&'static str, DepthTest)> {
         match self {
-            Self::Covered | Self::Mark => None,
+            Self::Covered | Self::Mark | Self::Equal(_) => None,
             Self::Where(entry_point) => Some((entry_point, DepthTest::MarkStencil)),
             Self::CoveredWhere(entry_point, _) => Some((entry_point, DepthTest::MarkCovered)),
             Self::CoveredUnless(entry_point) => Some((entry_point, DepthTest::Uncover)),
@@ -109,6 +111,7 @@ impl DepthRule {
                 let depth = (1.0 - (rounds % MOST_ROUNDS) as f32 / (2 * MOST_ROUNDS) as f32) * 1e-9;
                 [depth, depth]
             }
+            (Self::Equal(depth), _) => [depth, depth],
             (_, DepthTest::Uncover) => [0.0, 0.0],
             _ => [0.0, 1.0],
         }
@@ -118,7 +121,7 @@ impl DepthRule {
     pub fn attachment(self, target: &Target) -> wgpu::RenderPassDepthStencilAttachment<'_> {
         let store = wgpu::StoreOp::Store;
         let (depth_ops, stencil_ops) = match self {
-            Self::Covered => (None, None),
+            Self::Covered | Self::Equal(_) => (None, None),
             Self::Mark => (Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store }), None),
             Self::CoveredWhere(..) | Self::CoveredUnless(_) => {
                 (Some(wgpu::Operations { load: wgpu::LoadOp::Load, store }), None)
@@ -141,7 +144,7 @@ impl DepthTest {
             Self::Covered => depth(wgpu::CompareFunction::Less, false),
             Self::Mark => depth(wgpu::CompareFunction::Always, true),
             Self::MarkCovered | Self::Uncover => depth(wgpu::CompareFunction::Less, true),
-            Self::Marked => depth(wgpu::CompareFunction::Equal, false),
+            Self::Equal => depth(wgpu::CompareFunction::Equal, false),
             Self::MarkStencil => {
                 stencil(wgpu::CompareFunction::Always, wgpu::StencilOperation::IncrementClamp)
             }

@@ -172,6 +172,7 @@ macro_rules! choice {
             Eq,
             Hash,
             Default,
+            strum::EnumIter,
             strum::EnumString,
             strum::IntoStaticStr,
             strum::VariantNames,

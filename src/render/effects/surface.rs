@@ -1,18 +1,25 @@
-//! Shading of a layer by the surface techniques, from its G-buffer in one full-screen pass: the scene is traversed once, where
+//! Shading of a layer by the surface techniques, from its G-buffer in full-screen passes: the scene is traversed once, where
 //! the edge-enhancement paper's pipeline traverses it twice. Opaque surfaces, what blends and whatever else has layers are
 //! shaded by this alone.
+//!
+//! A layer of several techniques has a pass for each: software devices run all branches of a shader for every pixel. A pass
+//! before them writes the number of each pixel's technique as a depth, by which each of them finds its own pixels.
 
 use encase::ShaderType;
 use glam::Vec3;
+use strum::IntoEnumIterator as _;
 
 use super::section::{GpuCap, draw_caps};
 use super::technique::{Shaded, Styled};
 use super::techniques::{SharedTechniques, TechniqueStyles, Techniques};
+use crate::gpu::pipelines::DepthRule;
+use crate::gpu::recorder::{Draw, Onto};
 use crate::gpu::{ArrayBuffer, Gpu, Program, Recorder, Target, inputs};
 use crate::render::base::error::RenderError;
 use crate::render::base::scene_view::SceneView;
 use crate::render::base::stage::Output;
 use crate::render::passes::edge_map::EdgeMap;
+use crate::render::passes::gbuffer::DEPTH;
 use crate::style::{Style, Technique};
 
 /// Twin of `SurfaceStyle` in `shaders/effects/surface.wgsl`; by default paper only.
@@ -130,13 +137,17 @@ impl Shading {
         self.techniques.begin(rec, shared, techniques, layer)?;
         let gbuffer = layer.gbuffer;
         let color = rec.target("color", wgpu::TextureFormat::Rgba16Float)?;
-        let has_plain = surfaces.iter().any(|s| s.technique == Technique::Plain as u32);
-        let mut switches = vec![
-            ("WITH_SHADOWS", layer.shadow_mask.is_some()),
-            ("WITH_OPACITY", by_opacity),
-            ("WITH_PLAIN", has_plain),
-        ];
-        switches.extend(techniques.switches());
+        let program = |entry_point, only: Option<Technique>| {
+            let is_drawn = |technique| surfaces.iter().any(|s| s.technique == technique as u32);
+            let with_plain = is_drawn(Technique::Plain) && only.is_none_or(|only| only == Technique::Plain);
+            let mut switches = vec![
+                ("WITH_SHADOWS", layer.shadow_mask.is_some()),
+                ("WITH_OPACITY", by_opacity),
+                ("WITH_PLAIN", with_plain),
+            ];
+            switches.extend(techniques.switches(only));
+            Program { file: "effects/surface.wgsl", entry_point, switches }
+        };
         let mut inputs = inputs! {
             geometry_tex: &gbuffer.geometry,
             surface_id_tex: &gbuffer.surface_id,
@@ -145,13 +156,48 @@ impl Shading {
             surface_styles: &self.surfaces,
         };
         self.techniques.bind(shared, &mut inputs);
-        let program = Program { file: "effects/surface.wgsl", entry_point: "fs_main", switches };
-        rec.fullscreen("surface", program, &inputs, &[&color], Some(&gbuffer.depth))?;
+        let drawn = drawn_techniques(surfaces);
+        if drawn.len() < 2 {
+            let program = program("fs_main", None);
+            rec.fullscreen("surface", program, &inputs, &[&color], Some(&gbuffer.depth))?;
+        } else {
+            let numbers = rec.target("techniques", DEPTH)?;
+            rec.draw(Draw {
+                label: "techniques",
+                program: program("fs_technique", None),
+                inputs: &inputs,
+                outputs: &[],
+                onto: Onto::Clear,
+                depth: Some((&numbers, DepthRule::Mark)),
+            })?;
+            let mut onto = Onto::Clear;
+            for technique in drawn {
+                rec.draw(Draw {
+                    label: "surface",
+                    program: program("fs_main", Some(technique)),
+                    inputs: &inputs,
+                    outputs: &[&color],
+                    onto,
+                    depth: Some((&numbers, DepthRule::Equal(technique as u32 as f32 * DEPTH_PER_TECHNIQUE))),
+                })?;
+                onto = Onto::Load;
+            }
+        }
         if !caps.is_empty() {
             draw_caps(rec, gbuffer, &self.caps, &color)?;
         }
         Ok(color)
     }
+}
+
+/// Steps of depth by which techniques are told apart. Twin of that in `shaders/effects/surface.wgsl`.
+const DEPTH_PER_TECHNIQUE: f32 = 1.0 / 64.0;
+
+/// The techniques of these objects that draw anything, each once.
+fn drawn_techniques(surfaces: &[GpuSurfaceStyle]) -> Vec<Technique> {
+    let is_drawn =
+        |technique: &Technique| surfaces.iter().any(|surface| surface.technique == *technique as u32);
+    Technique::iter().filter(|technique| *technique != Technique::Blank).filter(is_drawn).collect()
 }
 
 impl Look {

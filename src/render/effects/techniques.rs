@@ -8,6 +8,7 @@ use crate::render::base::error::RenderError;
 use crate::render::base::gpu_scene::GpuScene;
 use crate::render::base::style_images::StyleImages;
 use crate::render::base::view::View;
+use crate::style::Technique;
 
 /// Makes structs with a field for each technique, and functions that ask each in turn.
 macro_rules! techniques {
@@ -35,10 +36,14 @@ macro_rules! techniques {
                 [$(<$technique>::reads_lines(&self.$name),)*].contains(&true)
             }
 
-            /// The switches of their shaders.
-            pub fn switches(&self) -> Vec<(&'static str, bool)> {
+            /// The switches of their shaders; `only`: those of all others are off.
+            pub fn switches(&self, only: Option<Technique>) -> Vec<(&'static str, bool)> {
                 let mut switches = Vec::new();
-                $(switches.extend(<$technique>::switches(&self.$name));)*
+                $({
+                    let is_asked = only.is_none_or(|only| <&str>::from(only) == stringify!($name));
+                    let own = <$technique>::switches(&self.$name);
+                    switches.extend(own.into_iter().map(|(name, is_on)| (name, is_on && is_asked)));
+                })*
                 switches
             }
         }

@@ -12,7 +12,7 @@ pub(super) const SURFACE_ID: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;
 /// Of a depth layer: depth of each pixel, and which draw and surface it is of, see [`crate::render::base::instances::Instance::first_surface`].
 pub(super) const SORT_KEYS: wgpu::TextureFormat = wgpu::TextureFormat::Rg32Uint;
 /// Reversed: 1 at the near plane.
-pub(super) const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
+pub const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 
 /// Per-pixel geometry of everything visible.
 #[derive(Debug, Clone)]
