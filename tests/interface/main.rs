@@ -742,6 +742,22 @@ fn a_document_opens_with_its_styles_and_camera() {
     assert_eq!(&Document::open(&path).unwrap().document, window.state().document());
 }
 
+#[test]
+fn a_document_of_an_earlier_version_opens_with_a_warning_and_is_saved_with_new_keys() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("old.hachure");
+    std::fs::write(&path, "models = [\"engine.glb\"]\n[style.edges.hidden]\nstrength = 0.25\n").unwrap();
+    let mut window = window_with(path.to_str().unwrap(), |paths| Ok(engine(paths)));
+    until(&mut window, "it is there", |v| !v.is_loading());
+    assert_eq!(window.state().document().style.edges.hidden.opacity, 0.25);
+    ask(&mut window, Command::Warnings);
+    assert!(window.query_by_label_contains("is now called `edges.hidden.opacity`").is_some());
+    ask(&mut window, Command::Save);
+    until(&mut window, "it is saved", |v| v.notices().list().iter().any(|n| n.text.starts_with("Saved")));
+    let text = std::fs::read_to_string(&path).unwrap();
+    assert!(text.contains("opacity = 0.25") && !text.contains("strength"), "{text}");
+}
+
 /// What the window asks of the system in answer to a click on its close button.
 fn close(window: &mut Window) -> Vec<egui::ViewportCommand> {
     let info = window.input_mut().viewports.entry(egui::ViewportId::ROOT).or_default();
