@@ -3,7 +3,7 @@
 // What ends it. As in src/render/passes/count.rs.
 const TOO_FEW_PIXELS: u32 = 0u;
 const UNCOVERED: u32 = 1u;
-const MOST_LAYERS: u32 = 2u;
+const MAX_LAYERS_REACHED: u32 = 2u;
 
 struct Counted {
     // A layer with fewer pixels ends it.

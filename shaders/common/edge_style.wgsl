@@ -3,7 +3,7 @@
 struct LineStyle {
     color: vec3<f32>,
     // Opacity, 0 to 1; 0: not drawn.
-    strength: f32,
+    opacity: f32,
     // px of this picture.
     width: f32,
     // What an edge must reach to be drawn: step in depth in widths of a pixel there (silhouettes, borders, objects), difference
@@ -25,7 +25,7 @@ struct EdgeStyle {
     // Share of the period that has ink.
     dash_share: f32,
     // Share of the surface's own color in the lines, and how far it is darkened.
-    surface_color: f32,
+    object_color: f32,
     darken: f32,
     // How far the strength of creases is weighed by their angle.
     by_angle: f32,
@@ -42,9 +42,9 @@ struct EdgeStyle {
     profile_threshold: f32,
     inner_threshold: f32,
     profile_color: vec3<f32>,
-    profile_strength: f32,
+    profile_opacity: f32,
     inner_color: vec3<f32>,
-    inner_strength: f32,
+    inner_opacity: f32,
     // What finds edges in paper mode.
     found_by: u32,
     // Of Sobel operators: 1 where the sign of normals makes silhouettes; gradients that make an edge (0: not looked at);

@@ -36,7 +36,7 @@ struct GoochStyle {
     // How far the key is turned to the side, 0 to 1.
     aside: f32,
     // How far cool and warm are multiplied by the object's own color, 0 to 1.
-    own_hue: f32,
+    object_hue: f32,
     // Where the styles of its forms are, and how many.
     first_form: u32,
     forms: u32,
@@ -154,7 +154,7 @@ fn gooch(px: vec2<i32>, s: Surfel, base: vec3<f32>, pos_view: vec3<f32>) -> vec3
     let style = gooch_styles[s.object];
     let l = towards_light(frame.lights[0], pos_view);
     let eye = towards_eye(pos_view);
-    let hue = mix(vec3(1.0), base, style.own_hue);
+    let hue = mix(vec3(1.0), base, style.object_hue);
     let cool = min(style.cool * hue + style.alpha * base, vec3(1.0));
     let warm = min(style.warm * hue + style.beta * base, vec3(1.0));
     let n_l = dot(s.normal, l);

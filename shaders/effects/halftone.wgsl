@@ -33,7 +33,7 @@ struct HalftoneStyle {
     footprint: f32,
     // Light to tone.
     ambient: f32,
-    own_tone: f32,
+    object_tone: f32,
     black: f32,
     range: f32,
     gamma: f32,
@@ -222,7 +222,7 @@ fn luminance(linear: vec3<f32>) -> f32 {
 fn halftone_tone(px: vec2<i32>, s: Surfel, base: vec3<f32>, pos_view: vec3<f32>) -> f32 {
     let object = s.object;
     let light = halftone_styles[object].ambient + light_at(px, s.normal, pos_view);
-    let reflected = luminance(light) * mix(1.0, luminance(base), halftone_styles[object].own_tone);
+    let reflected = luminance(light) * mix(1.0, luminance(base), halftone_styles[object].object_tone);
     let linear = (reflected - halftone_styles[object].black) / halftone_styles[object].range;
     return pow(clamp(linear, 0.0, 1.0), halftone_styles[object].gamma);
 }

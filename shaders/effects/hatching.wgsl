@@ -41,7 +41,7 @@ struct HatchingStyle {
     directions: u32,
     shadows_cross: u32,
     ambient: f32,
-    own_color: f32,
+    object_tone: f32,
     white: f32,
     darkest: f32,
     mapping: u32,
@@ -115,7 +115,7 @@ fn dark_at(px: vec2<i32>, s: Surfel, base: vec3<f32>, pos_view: vec3<f32>) -> Da
             first = reaches * dot(s.normal, l);
         }
     }
-    let own = mix(1.0, luminance_of(base), hatching_styles[object].own_color);
+    let own = mix(1.0, luminance_of(base), hatching_styles[object].object_tone);
     let all = darkness(object, luminance_of(lit) * own);
     return Dark(all, min(darkness(object, luminance_of(form) * own), all), first < 0.02);
 }

@@ -11,7 +11,7 @@ override WITH_MATCAP: bool = true;
 // Twin: `GpuMatcapStyle` in src/render/effects/matcap.rs.
 struct MatcapStyle {
     // Share of the object's own color.
-    own_color: f32,
+    object_color: f32,
     shadow: f32,
     // Layer of `spheres`.
     sphere: u32,
@@ -37,5 +37,5 @@ fn matcap(px: vec2<i32>, s: Surfel, base: vec3<f32>, pos_view: vec3<f32>) -> vec
     if WITH_SHADOWS {
         lit -= style.shadow * shadow_at(px, 0u, dot(s.normal, towards_light(frame.lights[0], pos_view)));
     }
-    return sphere * mix(vec3(1.0), base, style.own_color) * lit;
+    return sphere * mix(vec3(1.0), base, style.object_color) * lit;
 }

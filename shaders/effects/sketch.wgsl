@@ -15,7 +15,7 @@ struct Pass {
     color: vec3<f32>,
     has_color: u32,
     width: f32,
-    density: f32,
+    opacity: f32,
 }
 
 // Twin: `SketchUniform` in src/render/effects/sketch/uniforms.rs.
@@ -25,7 +25,7 @@ struct Sketch {
     fill_matrix: vec4<f32>,
     // Linear color of the pigment.
     pigment: vec3<f32>,
-    surface_color: f32,
+    object_color: f32,
     // Color that lines are smudged with.
     smudge_color: vec3<f32>,
     smudge: f32,
@@ -33,7 +33,7 @@ struct Sketch {
     turn: vec2<f32>,
     stroke_width: f32,
     strokes: f32,
-    density: f32,
+    opacity: f32,
     pressure: f32,
     grain: f32,
     soft: f32,
@@ -325,14 +325,14 @@ fn fs_fill(@builtin(position) position: vec4<f32>) -> Filled {
         let shaded = shaded_at(y);
         opacity = select(1.0, shaded.a, WITH_OPACITY);
         let own = shaded.rgb / max(shaded.a, 1e-4);
-        var density = sketch.density;
+        var density = sketch.opacity;
         if WITH_DARKNESS {
             // As dark as it looks; and pigment that covers so much of bright paper looks so much darker.
             let light = pow(clamp(dot(own, vec3(0.2126, 0.7152, 0.0722)), 0.0, 1.0), 1.0 / 2.2);
             density = 1.0 - pow(1.0 - density * (1.0 - light), 2.2);
         }
         density *= min(shaded.a / max(opacity, 1e-4), 1.0);
-        var pigment = mix(sketch.pigment, own, sketch.surface_color);
+        var pigment = mix(sketch.pigment, own, sketch.object_color);
         density *= stroke_share(x, s.object);
         if WITH_PRESSURE {
             density *= pressed(source.noise);
@@ -411,7 +411,7 @@ fn drawn_ink(px: vec2<i32>, other: Surfel, rough: vec2<f32>) -> Line {
         return no_line();
     }
     let color = select(line.ink.rgb / line.ink.a, sketched.color, sketched.has_color == 1u);
-    line.ink = vec4(color, 1.0) * deposited(line.ink.a * sketched.density, x);
+    line.ink = vec4(color, 1.0) * deposited(line.ink.a * sketched.opacity, x);
     return line;
 }
 

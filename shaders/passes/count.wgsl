@@ -88,7 +88,7 @@ fn cs_decide(@builtin(local_invocation_index) index: u32) {
     layer_count.passed[layer_count.layers] = atomicExchange(&layer_count.uncovered, 0u);
     if ends {
         layer_count.has_ended = 1u;
-        layer_count.ended_by = select(MOST_LAYERS, TOO_FEW_PIXELS, has_few);
+        layer_count.ended_by = select(MAX_LAYERS_REACHED, TOO_FEW_PIXELS, has_few);
     } else {
         layer_count.layers += 1u;
     }

@@ -169,7 +169,7 @@ struct Out {
 }
 
 fn is_drawn(object: u32, class_of: u32) -> bool {
-    return edge_styles[object].lines[class_of - 1u].strength > 0.0;
+    return edge_styles[object].lines[class_of - 1u].opacity > 0.0;
 }
 
 // Whether a step is so near to the center that the pixel holds it.

@@ -158,7 +158,7 @@ fn between(px: vec2<i32>, x: Surfel, own: u32, plane: Plane, towards: vec2<i32>,
     }
     let angle = angle_between(x.face_normal, n.face_normal);
     let least = edge_styles[x.object].lines[INTERSECTION - 1u].threshold;
-    let other_draws = n.enhanced && edge_styles[n.object].lines[INTERSECTION - 1u].strength > 0.0;
+    let other_draws = n.enhanced && edge_styles[n.object].lines[INTERSECTION - 1u].opacity > 0.0;
     // One of the two draws it.
     if angle < least || (other_draws && surface_id < own) {
         return none;
@@ -256,7 +256,7 @@ fn fs_main(@builtin(position) position: vec4<f32>) -> Out {
         x.depth,
         half_width(x.object, spine.class_of, pos_view, x.normal),
         arc / edge_styles[x.object].dash_period,
-        select(0.0, 1.0, edge_styles[x.object].lines[spine.class_of - 1u].strength > 0.0),
+        select(0.0, 1.0, edge_styles[x.object].lines[spine.class_of - 1u].opacity > 0.0),
     ));
     let rank = select(0.0, 1.0, spine.class_of <= OBJECT);
     let lines = nearer_lines_at(nearer_lines_tex, px, spine_of(texel, halves_of(x.object, spine.class_of), rank, 1.0 - range_share(x.depth)));

@@ -20,7 +20,7 @@ override NARROW: bool = false;
 // Whether they reach one pixel farther.
 override NARROW_BY_TWO: bool = false;
 override WITH_DASHES: bool = true;
-override WITH_SURFACE_COLOR: bool = true;
+override WITH_OBJECT_COLOR: bool = true;
 // Whether lines are tested against other surfaces than those that they were found among.
 override AMONG_OTHERS: bool = false;
 // Whether surfaces are known all around lines: then folds end where their object does.
@@ -151,19 +151,19 @@ fn line_at(at: vec2<f32>, g: Surfel, found: u32) -> Line {
         let until_next = max(inside, arc - period);
         coverage *= clamp(until_next / frame.coverage_ramp + 0.5, 0.0, 1.0);
     }
-    let strength = edge_styles[edge.object].lines[index].strength * edge.weight;
+    let strength = edge_styles[edge.object].lines[index].opacity * edge.weight;
     coverage *= strength;
     // The round end of a fold that is wider than the outline there would stand out beyond it.
     let is_fold = edge.class_of == RIDGE || edge.class_of == VALLEY;
     let ends_with_object = ON_SURFACES && !NARROW && is_fold && !is_stroke(texel)
-        && edge_styles[edge.object].lines[SILHOUETTE - 1u].strength > 0.0;
+        && edge_styles[edge.object].lines[SILHOUETTE - 1u].opacity > 0.0;
     let at_source = vec2<i32>(floor(at + to_source));
     let is_cut = ends_with_object && ends_before(surface, at_source, edge, spine + to_source);
     if coverage <= 0.0 || is_cut || (!is_tested && is_occluded(surface, at_source, edge, spine + to_source)) {
         return Line(vec4(0.0), edge.depth, coverage > 0.0, 0.0, d, to_source);
     }
     var color = edge_styles[edge.object].lines[index].color;
-    if WITH_SURFACE_COLOR {
+    if WITH_OBJECT_COLOR {
         color = with_surface_color(color, edge.object, spine + to_source, -left * edge.outside);
     }
     return Line(vec4(color, 1.0) * coverage, edge.depth, false, strength, d, to_source);
@@ -374,7 +374,7 @@ fn with_paper_ink(lines: Line, texel: vec4<u32>, g: Surfel) -> Line {
     }
     // Edge-enhancement paper, section 5: inner edges first, then profile edges over them.
     let object = texel.y;
-    let ink = paper_ink(texel) * vec2(edge_styles[object].inner_strength, edge_styles[object].profile_strength);
+    let ink = paper_ink(texel) * vec2(edge_styles[object].inner_opacity, edge_styles[object].profile_opacity);
     let inner = vec4(edge_styles[object].inner_color, 1.0) * ink.x;
     let profile = vec4(edge_styles[object].profile_color, 1.0) * ink.y;
     let both = over(over(profile, inner), lines.ink);

@@ -73,7 +73,7 @@ fn point_at(v: Segment, number: u32, px: vec2<f32>) -> SegmentPoint {
     } else if class_of == MATERIAL || class_of == SECTION {
         weight = 1.0;
     }
-    let is_drawn = edge_styles[own].lines[index].strength > 0.0 && weight > 0.0;
+    let is_drawn = edge_styles[own].lines[index].opacity > 0.0 && weight > 0.0;
     let is_suppressed = (v.ids.x & SUPPRESSED) != 0u || !is_drawn;
     let pos_view = pos_view_of(vec2<i32>(px), depth);
     let front = select(left.surfel.normal, right.surfel.normal, left_is_outside);

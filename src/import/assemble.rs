@@ -1,4 +1,4 @@
-//! What the text formats share: finished meshes and their names become the nodes of a scene.
+//! What the formats without a tree of placed nodes share: finished meshes and their names become the nodes of a scene.
 
 use std::path::Path;
 use std::sync::Arc;

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 /// A format that an importer exists for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, strum::VariantArray)]
 pub enum Format {
     /// glTF 2.0, JSON or GLB.
     Gltf,
@@ -17,7 +17,7 @@ pub enum Format {
 
 impl Format {
     /// All of them, in the order in which people are told.
-    pub const ALL: [Self; 4] = [Self::Gltf, Self::Obj, Self::Stl, Self::Ply];
+    pub const ALL: &[Self] = <Self as strum::VariantArray>::VARIANTS;
 
     /// What people call it.
     pub fn name(self) -> &'static str {
@@ -41,12 +41,12 @@ impl Format {
 
     /// The names of all, with commas.
     pub fn names() -> String {
-        Self::ALL.map(Self::name).join(", ")
+        Self::ALL.iter().map(|format| format.name()).collect::<Vec<_>>().join(", ")
     }
 
     /// The endings of all.
     pub fn all_endings() -> impl Iterator<Item = &'static str> {
-        Self::ALL.into_iter().flat_map(Self::endings).copied()
+        Self::ALL.iter().flat_map(|format| format.endings()).copied()
     }
 }
 
@@ -74,7 +74,7 @@ fn by_content(data: &[u8]) -> Option<Format> {
 
 fn by_ending(path: &Path) -> Option<Format> {
     let ending = path.extension()?.to_str()?.to_ascii_lowercase();
-    Format::ALL.into_iter().find(|format| format.endings().contains(&ending.as_str()))
+    Format::ALL.iter().copied().find(|format| format.endings().contains(&ending.as_str()))
 }
 
 /// JSON whose beginning or end names `"asset"`, as every glTF must.
@@ -108,7 +108,7 @@ mod tests {
 
     #[test]
     fn endings_are_of_one_format() {
-        for format in Format::ALL {
+        for &format in Format::ALL {
             for ending in format.endings() {
                 assert_eq!(detect(Path::new(&format!("a.{ending}")), b""), Some(format));
             }

@@ -353,17 +353,18 @@ impl Viewer {
 
     fn dialog(&self, purpose: &DialogFor) -> Dialog {
         let models: Vec<_> = Format::all_endings().collect();
-        let each = Format::ALL.map(|format| (format.name(), format.endings().to_vec()));
+        let each: Vec<_> =
+            Format::ALL.iter().map(|format| (format.name(), format.endings().to_vec())).collect();
         let any = [("All files", vec!["*"])];
         let (title, choice, filters) = match purpose {
             DialogFor::Open => {
                 let supported = [models, vec![DOCUMENT_ENDING]].concat();
                 let first = vec![("All supported", supported), ("Hachure drawing", vec![DOCUMENT_ENDING])];
-                ("Open", Choice::Files, [first, each.into(), any.into()].concat())
+                ("Open", Choice::Files, [first, each, any.into()].concat())
             }
             DialogFor::Add => {
                 let first = vec![("All supported", models)];
-                ("Add", Choice::Files, [first, each.into(), any.into()].concat())
+                ("Add", Choice::Files, [first, each, any.into()].concat())
             }
             DialogFor::Image(_) => {
                 let images = vec![("Images", IMAGE_ENDINGS.to_vec())];

@@ -11,7 +11,7 @@ use crate::style::{Color, DepthOperator, EdgeMode, Edges, HiddenMode};
 pub struct GpuLineStyle {
     color: Vec3,
     /// Opacity; 0: not drawn.
-    pub strength: f32,
+    pub opacity: f32,
     /// px of the picture.
     pub width: f32,
     /// What an edge must reach to be drawn. Silhouettes, borders and outlines of objects: the step in depth behind it, in
@@ -35,7 +35,7 @@ pub struct GpuEdgeStyle {
     pub dash_period: f32,
     dash_share: f32,
     /// Share of the surface's own color.
-    pub surface_color: f32,
+    pub object_color: f32,
     darken: f32,
     /// How far creases are weighed by their angle.
     pub by_angle: f32,
@@ -56,9 +56,9 @@ pub struct GpuEdgeStyle {
     profile_threshold: f32,
     inner_threshold: f32,
     profile_color: Vec3,
-    profile_strength: f32,
+    profile_opacity: f32,
     inner_color: Vec3,
-    inner_strength: f32,
+    inner_opacity: f32,
     /// 0: diagonal, 1: C1, 2: Sobel.
     found_by: u32,
     /// Of Sobel operators: 1 where the sign of normals makes silhouettes.
@@ -96,7 +96,7 @@ impl GpuEdgeStyle {
             let line = edges.line(class);
             GpuLineStyle {
                 color: line.color.to_linear(),
-                strength: if line.show { line.opacity } else { 0.0 },
+                opacity: if line.show { line.opacity } else { 0.0 },
                 width: width_in_px(line.width, scale),
                 threshold: match class {
                     EdgeClass::Silhouette | EdgeClass::Border | EdgeClass::Object => line.threshold * scale,
@@ -115,7 +115,7 @@ impl GpuEdgeStyle {
             alignment: edges.alignment as u32,
             dash_period: (length + gap) * scale,
             dash_share: length / (length + gap),
-            surface_color: edges.object_color,
+            object_color: edges.object_color,
             darken: edges.darken,
             by_angle: edges.inner.more.by_angle,
             by_distance: edges.variation.distance,
@@ -123,9 +123,9 @@ impl GpuEdgeStyle {
             pressure: edges.pressure.amount,
             pressure_scale: edges.pressure.scale * scale,
             profile_color: profile.color.to_linear(),
-            profile_strength: profile.opacity,
+            profile_opacity: profile.opacity,
             inner_color: inner.color.to_linear(),
-            inner_strength: inner.opacity,
+            inner_opacity: inner.opacity,
             gain_z: gain(profile.show, profile.gain),
             gain_c1: gain(profile.show, profile.more.gain_c1),
             gain_n: gain(inner.show, inner.gain),
@@ -160,24 +160,24 @@ impl GpuEdgeStyle {
         let mut style = Self { alignment: 0, ..Self::new(edges, scale) };
         for (class, line) in EdgeClass::ALL.into_iter().zip(&mut style.lines) {
             if class.is_detail() {
-                line.strength = 0.0;
+                line.opacity = 0.0;
             }
             if hidden.mode == HiddenMode::Own {
                 line.color = hidden.color.to_linear();
                 line.width = width_in_px(hidden.width, scale);
                 line.dashed = u32::from(hidden.dashed);
             } else {
-                line.strength *= hidden.opacity;
+                line.opacity *= hidden.opacity;
                 line.width *= hidden.relative_width;
                 line.dashed = u32::from(hidden.mode == HiddenMode::Dashed);
             }
         }
         if hidden.mode == HiddenMode::Own {
-            style.surface_color = 0.0;
+            style.object_color = 0.0;
             (style.profile_color, style.inner_color) = (hidden.color.to_linear(), hidden.color.to_linear());
         } else {
-            style.profile_strength *= hidden.opacity;
-            style.inner_strength *= hidden.opacity;
+            style.profile_opacity *= hidden.opacity;
+            style.inner_opacity *= hidden.opacity;
         }
         let (length, gap) = (hidden.dash, hidden.gap);
         Self { dash_period: (length + gap) * scale, dash_share: length / (length + gap), ..style }
@@ -198,13 +198,13 @@ impl GpuEdgeStyle {
     /// The same, but for a class that is not drawn.
     #[must_use]
     pub fn without(mut self, class: EdgeClass) -> Self {
-        self.lines[class as usize].strength = 0.0;
+        self.lines[class as usize].opacity = 0.0;
         self
     }
 
     /// Whether exact lines are drawn.
     pub fn is_exact(&self) -> bool {
-        self.mode == EXACT && self.lines.iter().any(|l| l.strength > 0.0)
+        self.mode == EXACT && self.lines.iter().any(|l| l.opacity > 0.0)
     }
 
     /// Whether shading normals decide where its lines run or how wide they are.
@@ -214,13 +214,13 @@ impl GpuEdgeStyle {
     }
 
     /// Whether its lines take the color of the surface beside them.
-    pub fn takes_surface_color(&self) -> bool {
-        self.is_exact() && self.surface_color > 0.0
+    pub fn takes_object_color(&self) -> bool {
+        self.is_exact() && self.object_color > 0.0
     }
 
     /// Whether base colors decide where its lines run or what color they have.
     pub fn reads_color(&self) -> bool {
-        self.takes_surface_color() || self.draws(EdgeClass::Texture) || self.is_paper_with_color()
+        self.takes_object_color() || self.draws(EdgeClass::Texture) || self.is_paper_with_color()
     }
 
     /// Whether the width of its lines varies.
@@ -235,7 +235,7 @@ impl GpuEdgeStyle {
             SOBEL => (self.by_sign as f32 + self.depth_gradient, self.normal_gradient + self.color_gradient),
             _ => (self.gain_z, self.gain_n),
         };
-        self.mode == PAPER && (profile * self.profile_strength > 0.0 || inner * self.inner_strength > 0.0)
+        self.mode == PAPER && (profile * self.profile_opacity > 0.0 || inner * self.inner_opacity > 0.0)
     }
 
     /// Whether the papers' operators draw by the C1 operator.
@@ -250,13 +250,13 @@ impl GpuEdgeStyle {
 
     /// Whether the papers' operators compare base colors.
     pub fn is_paper_with_color(&self) -> bool {
-        self.is_sobel() && self.color_gradient * self.inner_strength > 0.0
+        self.is_sobel() && self.color_gradient * self.inner_opacity > 0.0
     }
 
     /// The lines that are drawn in exact mode.
     pub fn drawn(&self) -> impl Iterator<Item = (EdgeClass, &GpuLineStyle)> {
         let is_exact = self.mode == EXACT;
-        EdgeClass::ALL.into_iter().zip(&self.lines).filter(move |(_, l)| is_exact && l.strength > 0.0)
+        EdgeClass::ALL.into_iter().zip(&self.lines).filter(move |(_, l)| is_exact && l.opacity > 0.0)
     }
 
     /// Whether lines of a class are drawn.
@@ -278,10 +278,10 @@ impl GpuEdgeStyle {
         let mut same = *self;
         for line in &mut same.lines {
             line.color = Vec3::ZERO;
-            line.strength = f32::from(u8::from(line.strength > 0.0));
+            line.opacity = f32::from(u8::from(line.opacity > 0.0));
         }
         (same.profile_color, same.inner_color) = (Vec3::ZERO, Vec3::ZERO);
-        (same.surface_color, same.darken) = (0.0, 0.0);
+        (same.object_color, same.darken) = (0.0, 0.0);
         same
     }
 }

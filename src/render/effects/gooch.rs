@@ -26,7 +26,7 @@ pub struct GpuGoochStyle {
     is_of_view: u32,
     is_of_form: u32,
     aside: f32,
-    own_hue: f32,
+    object_hue: f32,
     first_form: u32,
     forms: u32,
 }
@@ -49,7 +49,7 @@ impl GpuGoochStyle {
             is_of_view: u32::from(gooch.metal_axis == MetalAxis::View),
             is_of_form: u32::from(gooch.metal_axis == MetalAxis::Form),
             aside: gooch.side_light,
-            own_hue: gooch.object_hue,
+            object_hue: gooch.object_hue,
             first_form: 0,
             forms: 0,
         }
@@ -81,6 +81,8 @@ pub struct GoochShading {
 }
 
 impl SurfaceTechnique for GoochShading {
+    const TECHNIQUE: Technique = Technique::Gooch;
+
     type Styles = GoochStyles;
     type Shared = ();
 

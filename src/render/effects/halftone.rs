@@ -37,7 +37,7 @@ pub struct GpuHalftoneStyle {
     tile: f32,
     footprint: f32,
     ambient: f32,
-    own_tone: f32,
+    object_tone: f32,
     black: f32,
     range: f32,
     gamma: f32,
@@ -103,7 +103,7 @@ impl Halftones {
                 tile: style.scale * scale * PERIODS as f32,
                 footprint: style.smoothness,
                 ambient: style.ambient,
-                own_tone: style.object_tone,
+                object_tone: style.object_tone,
                 black,
                 // Points that meet make a step.
                 range: (style.white - black).max(1e-3),
@@ -157,6 +157,8 @@ pub struct HalftoneShading {
 }
 
 impl SurfaceTechnique for HalftoneShading {
+    const TECHNIQUE: Technique = Technique::Halftone;
+
     type Styles = Halftones;
     type Shared = SharedHalftones;
 

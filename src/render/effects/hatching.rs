@@ -52,7 +52,7 @@ pub struct GpuHatchingStyle {
     directions: u32,
     shadows_cross: u32,
     ambient: f32,
-    own_color: f32,
+    object_tone: f32,
     white: f32,
     darkest: f32,
     mapping: u32,
@@ -204,7 +204,7 @@ fn uniform(
         directions: layers.count,
         shadows_cross: u32::from(layers.shadows_cross),
         ambient: tone.ambient,
-        own_color: tone.object_tone,
+        object_tone: tone.object_tone,
         white: tone.lightest,
         darkest: tone.darkest,
         mapping,
@@ -262,6 +262,8 @@ pub struct HatchingShading {
 }
 
 impl SurfaceTechnique for HatchingShading {
+    const TECHNIQUE: Technique = Technique::Hatching;
+
     type Styles = Hatchings;
     type Shared = SharedHatching;
 

@@ -22,7 +22,7 @@ const SPHERES: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
 /// Twin of `MatcapStyle` in `shaders/effects/matcap.wgsl`.
 #[derive(Debug, Clone, Copy, PartialEq, ShaderType, Default)]
 pub struct GpuMatcapStyle {
-    own_color: f32,
+    object_color: f32,
     shadow: f32,
     sphere: u32,
 }
@@ -63,6 +63,8 @@ pub struct MatcapShading {
 }
 
 impl SurfaceTechnique for MatcapShading {
+    const TECHNIQUE: Technique = Technique::Matcap;
+
     type Styles = Matcaps;
     type Shared = Spheres;
 
@@ -96,8 +98,11 @@ impl SurfaceTechnique for MatcapShading {
             matcaps.spheres.len() - 1
         });
         if let Some(entry) = object.entry(&mut matcaps.styles) {
-            *entry =
-                GpuMatcapStyle { own_color: style.object_color, shadow: style.shadow, sphere: number as u32 };
+            *entry = GpuMatcapStyle {
+                object_color: style.object_color,
+                shadow: style.shadow,
+                sphere: number as u32,
+            };
         }
     }
 

@@ -1,4 +1,4 @@
-//! What an object looks like: one file per effect, named as its style and its shader.
+//! What an object looks like: one file per effect, named as its style and its shader, and what several share.
 
 pub mod blended;
 pub mod blueprint;

@@ -13,7 +13,7 @@ use crate::render::base::style_images::StyleImages;
 use crate::render::base::view::View;
 use crate::render::passes::gbuffer::GBuffer;
 use crate::scene::NodeId;
-use crate::style::Style;
+use crate::style::{Style, Technique};
 
 /// A visible object and its style.
 #[derive(Clone, Copy)]
@@ -71,6 +71,9 @@ pub struct Shaded<'a> {
 
 /// A surface technique.
 pub trait SurfaceTechnique: Sized {
+    /// Which one it is in styles.
+    const TECHNIQUE: Technique;
+
     /// What the styles of all visible objects ask of it, by value; the default: nothing.
     type Styles: Clone + PartialEq + Default;
 

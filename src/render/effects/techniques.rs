@@ -40,7 +40,7 @@ macro_rules! techniques {
             pub fn switches(&self, only: Option<Technique>) -> Vec<(&'static str, bool)> {
                 let mut switches = Vec::new();
                 $({
-                    let is_asked = only.is_none_or(|only| <&str>::from(only) == stringify!($name));
+                    let is_asked = only.is_none_or(|only| only == <$technique>::TECHNIQUE);
                     let own = <$technique>::switches(&self.$name);
                     switches.extend(own.into_iter().map(|(name, is_on)| (name, is_on && is_asked)));
                 })*

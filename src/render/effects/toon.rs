@@ -150,6 +150,8 @@ struct MapKey {
 }
 
 impl SurfaceTechnique for ToonShading {
+    const TECHNIQUE: Technique = Technique::Toon;
+
     type Styles = Toons;
     type Shared = ();
 

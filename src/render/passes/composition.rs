@@ -1,4 +1,5 @@
-//! The composition of a drawing: what is where so far, and the only place where it is decided what hides what.
+//! The composition of a drawing: what is where so far, by which it is decided what hides what. Each way of placing tests its own
+//! pixels against it: `passes/lines.rs`, `passes/place.rs`, `effects/sketch/placing.rs`.
 //!
 //! ```text
 //! nearest:  surfaces with their lines ─► geometry (object, depth, plane), ink (color, depth of its edge)

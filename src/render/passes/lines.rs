@@ -82,7 +82,7 @@ impl<'a> Lines<'a> {
             ("NARROW", matches!(self.line_distance, Some(LineDistance::Narrow { .. }))),
             ("NARROW_BY_TWO", matches!(self.line_distance, Some(LineDistance::Narrow { by_two: true, .. }))),
             ("WITH_DASHES", any(|s| s.drawn().any(|(_, l)| l.dashed == 1))),
-            ("WITH_SURFACE_COLOR", any(GpuEdgeStyle::takes_surface_color)),
+            ("WITH_OBJECT_COLOR", any(GpuEdgeStyle::takes_object_color)),
         ]
     }
 }

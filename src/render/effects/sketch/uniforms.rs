@@ -22,7 +22,7 @@ pub(super) struct PassUniform {
     color: Vec3,
     has_color: u32,
     width: f32,
-    density: f32,
+    opacity: f32,
 }
 
 /// Twin of `Sketch` in `shaders/effects/sketch.wgsl`.
@@ -31,13 +31,13 @@ pub(super) struct SketchUniform {
     passes: [PassUniform; MOST_PASSES],
     fill_matrix: Vec4,
     pigment: Vec3,
-    surface_color: f32,
+    object_color: f32,
     smudge_color: Vec3,
     smudge: f32,
     turn: Vec2,
     stroke_width: f32,
     strokes: f32,
-    density: f32,
+    opacity: f32,
     pressure: f32,
     grain: f32,
     soft: f32,
@@ -149,20 +149,20 @@ impl SketchUniform {
             color: pass.color.unwrap_or_default().to_linear(),
             has_color: u32::from(pass.color.is_some()),
             width: width(pass),
-            density: pass.opacity,
+            opacity: pass.opacity,
         };
         let ink = sketch.pass[0].color.unwrap_or(fill.color);
         Self {
             passes: std::array::from_fn(|number| pass(&sketch.pass[number])),
             fill_matrix: rows(sketch, fill.matrix, scale),
             pigment: fill.color.to_linear(),
-            surface_color: fill.object_color,
+            object_color: fill.object_color,
             smudge_color: ink.to_linear(),
             smudge: grain.smudge,
             turn: Vec2::from_angle(fill.angle.to_radians()),
             stroke_width: fill.stroke_width * scale,
             strokes: fill.strokes,
-            density: fill.opacity,
+            opacity: fill.opacity,
             pressure: wander.pressure,
             grain: grain.amount,
             soft: grain.soft,
