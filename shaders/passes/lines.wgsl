@@ -83,7 +83,7 @@ struct Line {
 
 // A line's color with that of its own object's surface beside the spine: inwards, or where that is another's, as at corners and
 // on thin forms, all around, most inwards first; without any where the object is not seen there.
-fn with_surface_color(own: vec3<f32>, object: u32, spine: vec2<f32>, inwards: vec2<f32>) -> vec3<f32> {
+fn with_object_color(own: vec3<f32>, object: u32, spine: vec2<f32>, inwards: vec2<f32>) -> vec3<f32> {
     let last = vec2<i32>(frame.size) - 1;
     for (var i = 0; i < 17; i++) {
         let eighth = max(i - 1, 0) % 8;
@@ -93,7 +93,7 @@ fn with_surface_color(own: vec3<f32>, object: u32, spine: vec2<f32>, inwards: ve
         let px = clamp(vec2<i32>(floor(spine + far * towards)), vec2(0), last);
         if (geometry_at(px).w & ~ENHANCED) == object {
             let base = textureLoad(base_color_tex, px, 0).rgb;
-            return mix(own, base * (1.0 - edge_styles[object].darken), edge_styles[object].surface_color);
+            return mix(own, base * (1.0 - edge_styles[object].darken), edge_styles[object].object_color);
         }
     }
     return own;
@@ -164,7 +164,7 @@ fn line_at(at: vec2<f32>, g: Surfel, found: u32) -> Line {
     }
     var color = edge_styles[edge.object].lines[index].color;
     if WITH_OBJECT_COLOR {
-        color = with_surface_color(color, edge.object, spine + to_source, -left * edge.outside);
+        color = with_object_color(color, edge.object, spine + to_source, -left * edge.outside);
     }
     return Line(vec4(color, 1.0) * coverage, edge.depth, false, strength, d, to_source);
 }
