@@ -95,16 +95,20 @@ fn is_stroke(texel: vec4<u32>) -> bool {
     return (texel.w & STROKE) != 0u;
 }
 
+// Whether it is of an exact line that is drawn.
+fn has_line(texel: vec4<u32>) -> bool {
+    return class_of(texel) != NO_EDGE && class_of(texel) != PAPER && (texel.w >> 26u) != 0u;
+}
+
 // What finding the line of each pixel needs of a texel: the offset as above, and over it a radius as f16; 0 where no
 // line with ink is. The radius is half the width or all of it (`halves` 1 or 2, see `halves_of`), and up to a pixel more
 // for lines that are to win where others run close beside them, so that wide lines are not torn: profile edges before
 // inner ones (`rank` 1 or 0), near ones before far ones (`nearness`, 0 to 1). Thin ones have less of it: they would
 // swallow others two pixels beside them.
 fn spine_of(texel: vec4<u32>, halves: f32, rank: f32, nearness: f32) -> u32 {
-    let is_line = texel.x != 0u && class_of(texel) != PAPER && (texel.w >> 26u) != 0u;
     let own = halves * half_width_of(texel);
     let radius = own + clamp(own - 0.75, 0.0, 1.0) * (0.5 * rank + 0.5 * clamp(nearness, 0.0, 1.0));
-    return select(0u, (pack2x16float(vec2(radius, 0.0)) << 16u) | (texel.x & 0xffffu), is_line);
+    return select(0u, (pack2x16float(vec2(radius, 0.0)) << 16u) | (texel.x & 0xffffu), has_line(texel));
 }
 
 fn unpack_edge(texel: vec4<u32>) -> Edge {

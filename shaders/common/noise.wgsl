@@ -52,12 +52,16 @@ fn lattice_shift(seed: u32) -> vec3<f32> {
     return vec3(f32(h & 1023u), f32((h >> 10u) & 1023u), f32((h >> 20u) & 1023u)) / 1024.0;
 }
 
-// Waves that are `wave` long wherever it is measured, from octaves a factor of 4 apart, each of which is 0 where it comes and
+// Logarithm to base 2 of how much larger each octave is than the one before: a factor of 8. Waves are replaced all the time as the
+// camera comes nearer, and change the less the longer each of them stays.
+const OCTAVE: f32 = 3.0;
+
+// Waves that are `wave` long wherever it is measured, from octaves a factor of 8 apart, each of which is 0 where it comes and
 // goes. `at` and `wave`: in one unit.
 fn waves(at: vec3<f32>, wave: f32, seed: u32, turbulent: bool) -> vec2<f32> {
-    let s = 0.5 * log2(max(wave, 1e-30));
+    let s = (log2(max(wave, 1e-30)) + 0.5) / OCTAVE;
     // Below so many cells numbers have no digits left.
-    let least = 0.5 * log2(max(max(abs(at.x), max(abs(at.y), abs(at.z))), 1e-30)) - 10.0;
+    let least = (log2(max(max(abs(at.x), max(abs(at.y), abs(at.z))), 1e-30)) - 20.0) / OCTAVE;
     var sum = vec2(0.0);
     var power = 0.0;
     let first = ceil(s - 2.0);
@@ -67,7 +71,7 @@ fn waves(at: vec3<f32>, wave: f32, seed: u32, turbulent: bool) -> vec2<f32> {
         let weight = cos(0.785398 * x) * exp2(0.3 * x);
         let level = max(k, least);
         let own = seed + u32(i32(k) * 17);
-        sum += weight * octave(at * exp2(-2.0 * level) + lattice_shift(own), own, turbulent);
+        sum += weight * octave(at * exp2(-OCTAVE * level) + lattice_shift(own), own, turbulent);
         power += weight * weight;
     }
     return sum * inverseSqrt(max(power, 1e-12));
@@ -75,8 +79,8 @@ fn waves(at: vec3<f32>, wave: f32, seed: u32, turbulent: bool) -> vec2<f32> {
 
 // The same with two octaves only: for details.
 fn fine_waves(at: vec3<f32>, wave: f32, seed: u32, turbulent: bool) -> vec2<f32> {
-    let s = 0.5 * log2(max(wave, 1e-30));
-    let least = 0.5 * log2(max(max(abs(at.x), max(abs(at.y), abs(at.z))), 1e-30)) - 10.0;
+    let s = log2(max(wave, 1e-30)) / OCTAVE;
+    let least = (log2(max(max(abs(at.x), max(abs(at.y), abs(at.z))), 1e-30)) - 20.0) / OCTAVE;
     var sum = vec2(0.0);
     var power = 0.0;
     let first = ceil(s - 1.0);
@@ -86,7 +90,7 @@ fn fine_waves(at: vec3<f32>, wave: f32, seed: u32, turbulent: bool) -> vec2<f32>
         let weight = cos(1.570796 * x);
         let level = max(k, least);
         let own = seed + u32(i32(k) * 17) + 8191u;
-        sum += weight * octave(at * exp2(-2.0 * level) + lattice_shift(own), own, turbulent);
+        sum += weight * octave(at * exp2(-OCTAVE * level) + lattice_shift(own), own, turbulent);
         power += weight * weight;
     }
     return sum * inverseSqrt(max(power, 1e-12));

@@ -4,6 +4,7 @@
 #import common/plane.wgsl
 #import common/edge_map.wgsl
 #import common/list_head.wgsl
+#import common/next_on_line.wgsl
 
 // Pixels per workgroup, as in src/render/passes/moved_edges.rs.
 const GROUP: u32 = 64u;
@@ -25,7 +26,7 @@ struct Movement {
 }
 
 var<uniform> movement: Movement;
-var edge_map_tex: texture_storage_2d<rgba32uint, read>;
+// Not 0 where lines run.
 var spine_tex: texture_2d<u32>;
 // See passes/offset_field.wgsl, which also lists the pixels of lines.
 var line_field_tex: texture_storage_2d<rgba32uint, read>;
@@ -49,32 +50,10 @@ fn applied(noise: vec2<f32>) -> vec2<f32> {
 
 // How the offset changes per pixel along a line.
 fn offset_along(px: vec2<i32>, edge: Edge, spine: vec2<f32>, tangent: vec2<f32>) -> vec2<f32> {
-    let last = vec2<i32>(frame.size) - 1;
-    var from_noise = noise_at(px);
-    var from_along = 0.0;
-    var to_noise = from_noise;
-    var to_along = 0.0;
-    for (var side = -1; side <= 1; side += 2) {
-        let q = clamp(vec2<i32>(floor(spine + f32(2 * side) * tangent)), vec2(0), last);
-        let texel = textureLoad(edge_map_tex, q);
-        if textureLoad(spine_tex, q, 0).x == 0u || texel.y != edge.object {
-            continue;
-        }
-        let d = vec2<f32>(q) + 0.5 + offset_of(texel) - spine;
-        let along = dot(d, tangent);
-        // What lies more to the side is another line.
-        if along * f32(side) < 0.5 || abs(dot(d, vec2(tangent.y, -tangent.x))) > 1.5 {
-            continue;
-        }
-        if side < 0 {
-            from_noise = noise_at(q);
-            from_along = along;
-        } else {
-            to_noise = noise_at(q);
-            to_along = along;
-        }
-    }
-    return applied(to_noise - from_noise) / max(to_along - from_along, 0.5);
+    let before = next_on_line(px, edge, spine, tangent, -1);
+    let after = next_on_line(px, edge, spine, tangent, 1);
+    let along = dot(after.away - before.away, tangent);
+    return applied(noise_at(after.px) - noise_at(before.px)) / max(along, 0.5);
 }
 
 // How densely a hand presses where the noise is this.

@@ -4,8 +4,10 @@
 // each block.
 #import common/frame.wgsl
 #import common/gbuffer.wgsl
+#import common/plane.wgsl
 #import common/edge_map.wgsl
 #import common/list_head.wgsl
+#import common/next_on_line.wgsl
 #import common/noise.wgsl
 #import common/noise_tile.wgsl
 
@@ -56,7 +58,6 @@ override STEP_1: bool = false;
 
 var<uniform> field: Field;
 var<storage, read> field_objects: array<FieldObject>;
-var edge_map_tex: texture_storage_2d<rgba32uint, read>;
 // Not 0 where lines run.
 var spine_tex: texture_2d<u32>;
 // The pixels in which they do, while they are listed, and afterwards.
@@ -127,24 +128,24 @@ fn noise_at(at: vec3<f32>, normal: vec3<f32>, depth: f32, stretch: f32, wave: f3
 fn stretch_at(px: vec2<i32>, edge: Edge, spine: vec2<f32>) -> f32 {
     let tangent = unpack_tangent(edge.tangent);
     let here = pos_view_at(spine, edge.depth);
-    var stretch = 1.0;
+    var on_paper = 0.0;
+    var in_space = 0.0;
     for (var side = -1; side <= 1; side += 2) {
-        let q = vec2<i32>(floor(spine + f32(2 * side) * tangent));
-        let texel = textureLoad(edge_map_tex, clamp(q, vec2(0), vec2<i32>(frame.size) - 1));
-        if class_of(texel) == NO_EDGE || class_of(texel) == PAPER || texel.y != edge.object {
+        let line = next_on_line(px, edge, spine, tangent, side);
+        if !line.is_there {
             continue;
         }
-        let other = unpack_edge(texel);
-        let there = vec2<f32>(q) + 0.5 + other.offset;
+        let other = unpack_edge(textureLoad(edge_map_tex, line.px));
+        let there = vec2<f32>(line.px) + 0.5 + other.offset;
         let apart = distance(there, spine);
         let along = distance(pos_view_at(there, other.depth), here);
         // What is farther off than this is another line.
-        let ratio = along / max(apart * pixel_at(edge.depth), 1e-20);
-        if apart > 0.5 && ratio < 12.0 {
-            stretch = max(stretch, ratio);
+        if apart > 0.5 && along < 12.0 * apart * pixel_at(edge.depth) {
+            on_paper += apart * pixel_at(edge.depth);
+            in_space += along;
         }
     }
-    return min(stretch, 4.0);
+    return clamp(in_space / max(on_paper, 1e-20), 1.0, 4.0);
 }
 
 // Lists the pixels in which lines run: software devices run both sides of a branch.
@@ -181,6 +182,45 @@ fn store(px: vec2<i32>, noise: array<vec2<f32>, 8>) {
     }
 }
 
+// The surface of another object that a line runs along.
+struct Neighbor {
+    object: u32,
+    normal: vec3<f32>,
+    // How much of the line's noise is that of the other object, 0 to 1: as much as of its own where they touch.
+    share: f32,
+}
+
+// Surfaces so far apart, reference pixels, do not touch.
+const APART: f32 = 8.0;
+// Share of the distance to where a surface was found that counts as apart from it, though in its plane.
+const IN_PLANE: f32 = 0.1;
+
+// Where two objects touch it hangs on little which of them draws the line between them: if each had its own noise there, lines were
+// torn to pieces that jump. So it is that of both, and less and less of the other one where they part.
+fn neighbor_of(px: vec2<i32>, edge: Edge, spine: vec2<f32>) -> Neighbor {
+    let pixel = pixel_at(edge.depth) * field.pixels_per_reference;
+    let at = pos_view_at(spine, edge.depth);
+    // The depth of a line may be that of the pixel's center, which on steep surfaces is another one.
+    let own = unpack_surfel(geometry_at(px));
+    let depth = depth_of(nearness_at(plane_of(px, own.depth, own.face_normal), edge.offset));
+    let on_surface = pos_view_at(spine, select(edge.depth, depth, own.object == edge.object));
+    var least = APART;
+    var found = Neighbor(0u, vec3(0.0), 0.0);
+    for (var i = 0; i < 9; i++) {
+        let q = px + vec2(i % 3, i / 3) - 1;
+        let s = unpack_surfel(geometry_at(q));
+        let there = pos_view_of(q, s.depth);
+        let off_plane = min(abs(dot(at - there, s.face_normal)), abs(dot(on_surface - there, s.face_normal)));
+        let gap = (off_plane + IN_PLANE * distance(at, there)) / pixel;
+        if s.object != 0u && s.object != edge.object && gap < least {
+            least = gap;
+            found = Neighbor(s.object, s.normal, 0.0);
+        }
+    }
+    found.share = 1.0 - smoothstep(0.0, APART, least);
+    return found;
+}
+
 @compute @workgroup_size(GROUP)
 fn cs_lines(@builtin(global_invocation_id) id: vec3<u32>) {
     if id.x >= list.count {
@@ -195,10 +235,19 @@ fn cs_lines(@builtin(global_invocation_id) id: vec3<u32>) {
     let factor = control_factor(inwards, s);
     let stretch = stretch_at(px, edge, spine);
     let at = pos_view_at(spine, edge.depth);
+    var neighbor = Neighbor(0u, vec3(0.0), 0.0);
+    if is_of_profile(edge.class_of) || edge.class_of == INTERSECTION {
+        neighbor = neighbor_of(px, edge, spine);
+    }
     var noise = array<vec2<f32>, 8>();
     for (var i = 0u; i < field.passes; i++) {
         let seed = field.seeds[i / 4u][i % 4u];
-        noise[i] = factor * noise_at(at, s.normal, edge.depth, stretch, field.line_wave, edge.object, seed);
+        var both = noise_at(at, s.normal, edge.depth, stretch, field.line_wave, edge.object, seed);
+        if neighbor.share > 0.0 {
+            let other = noise_at(at, neighbor.normal, edge.depth, stretch, field.line_wave, neighbor.object, seed);
+            both = (both + neighbor.share * other) * inverseSqrt(1.0 + neighbor.share * neighbor.share);
+        }
+        noise[i] = factor * both;
     }
     store(px, noise);
 }

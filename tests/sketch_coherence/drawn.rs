@@ -2,6 +2,7 @@
 
 use glam::{DVec2, Vec2};
 use hachure::export::Session;
+use hachure::render::base::ids::ENHANCED;
 use hachure::render::passes::offset_field::FieldUniform;
 use half::f16;
 
@@ -14,12 +15,16 @@ pub(crate) const NOISE: &str = "noise of lines";
 const NEAR: f64 = 1.0;
 /// Classes of lines that have a point: see `shaders/common/edge_map.wgsl`.
 const CLASSES: std::ops::RangeInclusive<u32> = 1..=11;
+/// Those of them that run along where objects end or meet.
+const BETWEEN_OBJECTS: [u32; 5] = [1, 2, 3, 7, 11];
 
 /// What the device found in a picture.
 pub(crate) struct Drawn {
     pub(crate) eye: Eye,
     edges: Vec<[u32; 4]>,
     noise: Vec<[u32; 4]>,
+    /// The object of each pixel, 0: none.
+    objects: Vec<u32>,
 }
 
 impl Drawn {
@@ -28,23 +33,47 @@ impl Drawn {
     pub(crate) fn new(plain: &mut Session, sketched: &mut Session, eye: Eye) -> Self {
         let edges = captured(plain, "edge map").unwrap();
         let noise = captured(sketched, NOISE).unwrap();
-        Self { eye, edges: texels(plain, &edges), noise: texels(sketched, &noise) }
+        let geometry = captured(plain, "geometry").unwrap();
+        let objects = texels::<[u32; 4]>(plain, &geometry).iter().map(|texel| texel[3] & !ENHANCED).collect();
+        Self { eye, edges: texels(plain, &edges), noise: texels(sketched, &noise), objects }
     }
 
-    /// The number of the pixel that holds the line of a place.
+    /// The number of the pixel that holds the line of a place, whichever of the objects that meet there draws it.
     fn pixel_of(&self, anchor: &Anchor) -> Option<usize> {
         let spot = self.eye.spot(anchor.world, anchor.along)?;
         let cell = spot.pixel.floor();
         let index = (cell.y * f64::from(self.eye.side) + cell.x) as usize;
-        let [class, object, depth, _] = self.edges[index];
-        let offset = [class >> 8, class].map(|bits| f64::from(bits & 255) / 127.0 - 1.0);
-        let spine = cell + 0.5 + DVec2::from(offset);
-        let pixels_off = (f32::from_bits(depth) + spot.place.at.z) / spot.place.pixel;
-        let is_held = CLASSES.contains(&(class >> 28))
-            && object == anchor.object
-            && spine.distance(spot.pixel) < NEAR
+        let pixels_off = (f32::from_bits(self.edges[index][2]) + spot.place.at.z) / spot.place.pixel;
+        let is_held = self.spine(index).is_some_and(|spine| spine.distance(spot.pixel) < NEAR)
             && pixels_off.abs() < 4.0 * spot.place.stretch;
         is_held.then_some(index)
+    }
+
+    /// Where a line runs in a pixel.
+    fn spine(&self, index: usize) -> Option<DVec2> {
+        let [class, ..] = self.edges[index];
+        let side = self.eye.side as usize;
+        let cell = DVec2::new((index % side) as f64, (index / side) as f64);
+        let offset = [class >> 8, class].map(|bits| f64::from(bits & 255) / 127.0 - 1.0);
+        CLASSES.contains(&(class >> 28)).then_some(cell + 0.5 + DVec2::from(offset))
+    }
+
+    /// How far the noise of one pixel of a line is from that of the next one, where that is of another object at the same place.
+    pub(crate) fn torn(&self) -> Vec<f64> {
+        let side = self.eye.side as usize;
+        let between = |[a, b]: [usize; 2]| {
+            let [one, other] = [self.spine(a)?, self.spine(b)?];
+            let [depth, beyond] = [a, b].map(|index| f32::from_bits(self.edges[index][2]));
+            let pixel = self.eye.place(one, depth, 1.0).pixel;
+            let is_one_line =
+                [a, b].iter().all(|index| BETWEEN_OBJECTS.contains(&(self.edges[*index][0] >> 28)))
+                    && self.edges[a][1] != self.edges[b][1]
+                    && one.distance(other) < 1.75
+                    && (depth - beyond).abs() < 2.0 * pixel;
+            is_one_line.then(|| f64::from(self.noise_at(a).distance(self.noise_at(b))))
+        };
+        let next = |index: usize| [1, side - 1, side, side + 1].map(|step| [index, index + step]);
+        (0..self.edges.len() - side - 1).flat_map(next).filter_map(between).collect()
     }
 
     fn noise_at(&self, index: usize) -> Vec2 {
@@ -52,12 +81,25 @@ impl Drawn {
         Vec2::from([bits as u16, (bits >> 16) as u16].map(|half| f16::from_bits(half).to_f32()))
     }
 
-    /// How far what the device found is from what its twin makes of the same places, of those that have a pixel.
+    /// Whether no other object is seen beside a pixel of a line: where one touches it they share their noise.
+    fn is_alone(&self, index: usize) -> bool {
+        let side = self.eye.side as i32;
+        let [x, y] = [index as i32 % side, index as i32 / side];
+        let around = (-1..=1).flat_map(|v| (-1..=1).map(move |u| (x + u, y + v)));
+        let mut inside = around.filter(|(u, v)| (0..side).contains(u) && (0..side).contains(v));
+        inside.all(|(u, v)| [0, self.edges[index][1]].contains(&self.objects[(v * side + u) as usize]))
+    }
+
+    /// How far what the device found is from what its twin makes of the same places, of those that have a pixel of their object alone.
     pub(crate) fn unlike_twin(&self, anchors: &[Anchor], field: &FieldUniform) -> Vec<f64> {
         let unlike = |anchor: &Anchor| {
             let spot = self.eye.spot(anchor.world, anchor.along)?;
+            let index = self.pixel_of(anchor)?;
+            if self.edges[index][1] != anchor.object || !self.is_alone(index) {
+                return None;
+            }
             let twin = field.line_noise(self.eye.object(anchor.object), &spot.place, 0);
-            Some(f64::from(self.noise(anchor)?.distance(twin)))
+            Some(f64::from(self.noise_at(index).distance(twin)))
         };
         anchors.iter().filter_map(unlike).collect()
     }

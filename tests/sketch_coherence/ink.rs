@@ -226,8 +226,8 @@ impl Frame {
                     let spot = by.eye.seen_or_not(anchor.world, anchor.along)?;
                     Some(field.line_noise(by.eye.object(anchor.object), &spot.place, 0))
                 };
-                // Where either of them has no pixel for it, the twin speaks for both.
-                let found = by.noise(anchor).filter(|_| other.noise(anchor).is_some());
+                // Where it has no pixel for it, the other one speaks for both, or the twin.
+                let found = by.noise(anchor).or_else(|| other.noise(anchor));
                 let noise = found.or_else(twin).unwrap_or_default();
                 let row = |row: [f32; 2]| f64::from(Vec2::from(row).dot(noise));
                 DVec2::new(row(MATRIX[0]), row(MATRIX[1]))

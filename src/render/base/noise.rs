@@ -59,17 +59,23 @@ fn lattice_shift(seed: u32) -> Vec3 {
     Vec3::from_array([0, 10, 20].map(|shift| ((h >> shift) & 1023) as f32)) / 1024.0
 }
 
-/// Octaves of [`waves`]: how many, how fast they come and go, how much larger ones count for, and what tells their seed apart.
+/// Logarithm to base 2 of how much larger each octave is than the one before: a factor of 8. Waves are replaced all the time as the
+/// camera comes nearer, and change the less the longer each of them stays.
+const OCTAVE: f32 = 3.0;
+
+/// Octaves of [`waves`]: how many, how fast they come and go, how much larger ones count for, how much larger than asked for they are
+/// in the middle (a logarithm to base 2), and what tells their seed apart.
 struct Octaves {
     count: i32,
     period: f32,
     tilt: f32,
+    larger: f32,
     seed: u32,
 }
 
 fn sum_of(octaves: &Octaves, at: Vec3, wave: f32, seed: u32, turbulent: bool) -> Vec2 {
-    let s = 0.5 * wave.max(1e-30).log2();
-    let least = 0.5 * at.abs().max_element().max(1e-30).log2() - 10.0;
+    let s = (wave.max(1e-30).log2() + octaves.larger) / OCTAVE;
+    let least = (at.abs().max_element().max(1e-30).log2() - 20.0) / OCTAVE;
     let first = (s - 0.5 * octaves.count as f32).ceil();
     let (mut sum, mut power) = (Vec2::ZERO, 0.0);
     for i in 0..octaves.count {
@@ -78,22 +84,23 @@ fn sum_of(octaves: &Octaves, at: Vec3, wave: f32, seed: u32, turbulent: bool) ->
         let weight = (octaves.period * x).cos() * (octaves.tilt * x).exp2();
         let level = k.max(least);
         let seed = seed.wrapping_add((k as i32).wrapping_mul(17) as u32).wrapping_add(octaves.seed);
-        let place = at * (-2.0 * level).exp2() + lattice_shift(seed);
+        let place = at * (-OCTAVE * level).exp2() + lattice_shift(seed);
         sum += weight * shaped(noise3x2(place, seed), turbulent);
         power += weight * weight;
     }
     sum / power.max(1e-12).sqrt()
 }
 
-/// Waves that are `wave` long wherever it is measured, from octaves a factor of 4 apart. `at` and `wave`: in one unit.
+/// Waves that are `wave` long wherever it is measured, from octaves a factor of 8 apart. `at` and `wave`: in one unit.
 pub fn waves(at: Vec3, wave: f32, seed: u32, turbulent: bool) -> Vec2 {
-    let octaves = Octaves { count: 4, period: std::f32::consts::FRAC_PI_4, tilt: 0.3, seed: 0 };
+    let octaves = Octaves { count: 4, period: std::f32::consts::FRAC_PI_4, tilt: 0.3, larger: 0.5, seed: 0 };
     sum_of(&octaves, at, wave, seed, turbulent)
 }
 
 /// The same with two octaves only: for details.
 pub fn fine_waves(at: Vec3, wave: f32, seed: u32, turbulent: bool) -> Vec2 {
-    let octaves = Octaves { count: 2, period: std::f32::consts::FRAC_PI_2, tilt: 0.0, seed: 8191 };
+    let octaves =
+        Octaves { count: 2, period: std::f32::consts::FRAC_PI_2, tilt: 0.0, larger: 0.0, seed: 8191 };
     sum_of(&octaves, at, wave, seed, turbulent)
 }
 
@@ -231,7 +238,9 @@ mod tests {
     #[test]
     fn octaves_come_and_go_unseen() {
         // Where the logarithm of the wave is whole, one octave is replaced by another.
-        for base in [0.25_f32, 1.0, 4.0, 16.0, 64.0] {
+        for base in
+            [0.015625_f32, 0.125, 1.0, 8.0, 64.0].iter().flat_map(|wave| [*wave, wave / 2.0_f32.sqrt()])
+        {
             for p in places().take(50) {
                 for made in [waves, fine_waves] {
                     let [before, after] = [0.99999, 1.00001].map(|share| made(p, base * share, 3, false));

@@ -69,7 +69,8 @@ pub struct NoisePlace {
 }
 
 impl FieldUniform {
-    /// The noise of a pass of lines at a place on an object, where nothing but the place controls it: twin of `noise_at`.
+    /// The noise of a pass of lines at a place on an object that no other one touches there, where nothing but the place controls it:
+    /// twin of `noise_at`.
     pub fn line_noise(&self, object: &GpuFieldObject, place: &NoisePlace, pass: usize) -> Vec2 {
         let seed = self.seeds.iter().flat_map(|four| four.to_array()).nth(pass).unwrap_or_default();
         let (own, turbulent) = (mixed_bits(seed ^ object.seed), self.turbulent == 1);
