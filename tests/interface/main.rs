@@ -249,12 +249,12 @@ fn a_slider_changes_the_style_and_a_double_click_on_its_name_resets_it_to_the_pr
     assert_ne!(of_preset.gooch.alpha, of_nothing.gooch.alpha);
     for style in [of_preset, of_nothing] {
         let mut window = window_of_style(style.clone());
-        window.get_by_role_and_label(Role::Slider, "Cool base color").set_value_accesskit(0.9);
+        window.get_by_role_and_label(Role::Slider, "Cool tint").set_value_accesskit(0.9);
         settle(&mut window);
         assert_eq!(window.state().document().style.gooch.alpha, 0.9);
-        double_click_label(&mut window, "Cool base color");
+        double_click_label(&mut window, "Cool tint");
         assert_eq!(window.state().document().style.gooch.alpha, style.gooch.alpha);
-        assert!(window.query_by_role_and_label(Role::Button, "Reset Cool base color").is_none());
+        assert!(window.query_by_role_and_label(Role::Button, "Reset Cool tint").is_none());
     }
 }
 
@@ -343,7 +343,7 @@ fn the_style_of_a_selected_object_is_its_own_until_it_inherits_again() {
     let mut window = window();
     click(&mut window, Role::TreeItem, "rod");
     assert_eq!(selected(&window), ["rod"]);
-    window.get_by_role_and_label(Role::Slider, "Cool base color").set_value_accesskit(0.8);
+    window.get_by_role_and_label(Role::Slider, "Cool tint").set_value_accesskit(0.8);
     settle(&mut window);
     let alpha = |window: &Window| {
         let state = window.state();
@@ -825,7 +825,7 @@ fn two_thousand_objects_cost_only_the_rows_that_are_seen() {
     assert!((10..100).contains(&rows), "{rows} rows");
     ask(&mut window, Command::SelectAll);
     let began = Instant::now();
-    window.get_by_role_and_label(Role::Slider, "Cool base color").set_value_accesskit(0.7);
+    window.get_by_role_and_label(Role::Slider, "Cool tint").set_value_accesskit(0.7);
     settle(&mut window);
     assert!(began.elapsed() < Duration::from_secs(2), "{:?}", began.elapsed());
     assert!(window.root().children().count() > 0);
