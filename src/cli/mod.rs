@@ -110,7 +110,7 @@ fn print_json(value: &serde_json::Value) -> Result<(), CliError> {
 }
 
 /// Prints a warning where errors go too.
-fn warn(warning: impl std::fmt::Display) {
+fn warn(warning: &impl std::fmt::Display) {
     eprintln!("hachure: warning: {warning}");
 }
 

@@ -75,7 +75,7 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
         }))
     } else {
         for warning in warnings {
-            warn(warning);
+            warn(&warning);
         }
         Ok(())
     }
@@ -121,7 +121,7 @@ fn apply_look(opened: &mut Opened, look: &LookArgs) -> Result<Vec<Warning>, CliE
     let mut warnings = Vec::new();
     let mut loaded = |name: &str| -> Result<Style, CliError> {
         let preset = preset::load(name)?;
-        warnings.extend(preset.renamed.iter().map(|renamed| Warning::new(name, renamed)));
+        warnings.extend(preset.renamed.iter().map(|renamed| Warning::new(name, renamed.to_string())));
         Ok(preset.style)
     };
     let Opened { document, scene } = opened;
@@ -147,7 +147,7 @@ fn apply_look(opened: &mut Opened, look: &LookArgs) -> Result<Vec<Warning>, CliE
                 document.set_for(scene, &matching(scene, pattern)?, &setting.key, &setting.value)?
             }
         };
-        warnings.extend(renamed.map(|renamed| Warning::new("--set", renamed)));
+        warnings.extend(renamed.map(|renamed| Warning::new("--set", renamed.to_string())));
     }
     for pattern in &look.hide {
         for id in matching(scene, pattern)? {

@@ -154,7 +154,7 @@ impl Document {
                     },
                 })?;
             let place = format!("{}, {place}", path.display());
-            warnings.borrow_mut().extend(renamed.iter().map(|r| Warning::new(&place, r)));
+            warnings.borrow_mut().extend(renamed.iter().map(|r| Warning::new(&place, r.to_string())));
             Ok(())
         };
         let style = |mut table: toml::Table, place: &str| {

@@ -92,8 +92,8 @@ pub struct Warning {
 
 impl Warning {
     /// A warning about something in `place`.
-    pub fn new(place: impl Into<String>, message: impl ToString) -> Self {
-        Self { place: place.into(), message: message.to_string() }
+    pub fn new(place: impl Into<String>, message: impl Into<String>) -> Self {
+        Self { place: place.into(), message: message.into() }
     }
 }
 
