@@ -79,39 +79,53 @@ fn key_of(depth: f32) -> u32 {
     return max(select(bits | 0x80000000u, ~bits, (bits & 0x80000000u) != 0u), 1u);
 }
 
-fn moved(source: u32, number: u32) -> Moved {
-    let px = vec2<i32>(vec2(source & 0xffffu, source >> 16u));
+// A pixel of a line before it is moved.
+struct Source {
+    px: vec2<i32>,
+    number: u32,
+    edge: Edge,
+    spine: vec2<f32>,
+    noise: vec2<f32>,
+    // Its tangent, stretched as the line is where it has been moved to.
+    turned: vec2<f32>,
+}
+
+fn source_at(number: u32) -> Source {
+    let px = vec2<i32>(vec2(number & 0xffffu, number >> 16u));
     let edge = unpack_edge(textureLoad(edge_map_tex, px));
     let spine = vec2<f32>(px) + 0.5 + edge.offset;
     let tangent = unpack_tangent(edge.tangent);
-    let noise = noise_at(px);
     // What is drawn at x comes from x and its offset.
-    let turned = tangent - offset_along(px, edge, spine, tangent);
-    let stretch = length(turned);
+    return Source(px, number, edge, spine, noise_at(px), tangent - offset_along(px, edge, spine, tangent));
+}
+
+fn moved(source: Source, number: u32) -> Moved {
+    let stretch = length(source.turned);
     // What is hardly stretched stays as it is.
     let is_stretched = stretch > 1.2;
     let share = select(0.0, (f32(number) + 0.5) / f32(POINTS) - 0.5, is_stretched);
-    let away = share * turned - applied(noise);
+    let away = share * source.turned - applied(source.noise);
     // The pixel that its spine was found for moves with it, unless it would come to lie too far from it.
-    let at = spine + away;
-    let with_px = floor(vec2<f32>(px) + 0.5 + away);
+    let at = source.spine + away;
+    let with_px = floor(vec2<f32>(source.px) + 0.5 + away);
     let to = select(floor(at), with_px, all(abs(at - with_px - 0.5) <= vec2(1.0)));
-    var e = edge;
+    var e = source.edge;
     e.offset = at - to - 0.5;
-    e.extent = select(edge.extent, max(edge.extent, min(0.25 * stretch, 0.75)), is_stretched);
-    e.half_width = edge.half_width * movement.width;
-    e.weight = edge.weight * pressed(noise);
+    e.extent = select(e.extent, max(e.extent, min(0.25 * stretch, 0.75)), is_stretched);
+    e.half_width = e.half_width * movement.width;
+    e.weight = e.weight * pressed(source.noise);
     if stretch > 0.05 {
-        e.tangent = pack_tangent(turned / stretch);
+        e.tangent = pack_tangent(source.turned / stretch);
     }
     var texel = pack_edge(e);
     // As a stroke of a hand it stays one.
-    texel.w |= textureLoad(edge_map_tex, px).w & STROKE;
-    let own = textureLoad(spine_tex, px, 0).x;
+    texel.w |= textureLoad(edge_map_tex, source.px).w & STROKE;
+    let own = textureLoad(spine_tex, source.px, 0).x;
     let radius = unpack2x16float(own >> 16u).x * movement.width + movement.margin;
     let found = (pack2x16float(vec2(radius, 0.0)) << 16u) | (texel.x & 0xffffu);
     let is_there = all(to >= vec2(0.0)) && all(to < frame.size) && (is_stretched || number == 0u);
-    return Moved(texel, found, vec2<i32>(to), key_of(edge.depth), (source << 1u) | number, source, is_there);
+    let rank = (source.number << 1u) | number;
+    return Moved(texel, found, vec2<i32>(to), key_of(e.depth), rank, source.number, is_there);
 }
 
 fn index_of(px: vec2<i32>) -> u32 {
@@ -123,8 +137,9 @@ fn cs_move(@builtin(global_invocation_id) id: vec3<u32>) {
     if id.x >= list.count {
         return;
     }
+    let source = source_at(listed_pixels[id.x]);
     for (var i = 0u; i < POINTS; i++) {
-        let point = moved(listed_pixels[id.x], i);
+        let point = moved(source, i);
         if point.is_there {
             atomicMax(&keys[index_of(point.px)], point.key);
         }
@@ -136,8 +151,9 @@ fn cs_compare(@builtin(global_invocation_id) id: vec3<u32>) {
     if id.x >= list.count {
         return;
     }
+    let source = source_at(listed_pixels[id.x]);
     for (var i = 0u; i < POINTS; i++) {
-        let point = moved(listed_pixels[id.x], i);
+        let point = moved(source, i);
         if point.is_there && atomicLoad(&keys[index_of(point.px)]) == point.key {
             atomicMax(&winners[index_of(point.px)], point.rank + 1u);
         }
@@ -149,8 +165,9 @@ fn cs_put(@builtin(global_invocation_id) id: vec3<u32>) {
     if id.x >= list.count {
         return;
     }
+    let source = source_at(listed_pixels[id.x]);
     for (var i = 0u; i < POINTS; i++) {
-        let point = moved(listed_pixels[id.x], i);
+        let point = moved(source, i);
         if point.is_there && atomicLoad(&winners[index_of(point.px)]) == point.rank + 1u {
             // Nobody else asks any more: only one has this rank.
             atomicStore(&keys[index_of(point.px)], 0u);
