@@ -137,7 +137,7 @@ fn images_are_sought_beside_the_file_that_names_them() {
     place.write("styles/ramps/a.png", &ramp(4, 1));
     place.write(
         "styles/my.toml",
-        b"technique = \"toon\"\n[toon]\nramp = \"image\"\nimage = \"ramps/a.png\"\ntint = 0\n",
+        b"technique = \"toon\"\n[toon]\nramp = \"image\"\nimage = \"ramps/a.png\"\nobject_color = 0\n",
     );
     let (by_style, said) = place.drawn(&["model.obj", "--style", "styles/my.toml"]);
     assert_eq!(said, "");
@@ -148,7 +148,7 @@ fn images_are_sought_beside_the_file_that_names_them() {
     assert!(by_style == by_hand);
     place.write(
         "styles/a.hachure",
-        b"models = ['../model.obj']\n[style]\ntechnique = 'toon'\ntoon = { ramp = 'image', image = 'ramps/a.png', tint = 0 }\n",
+        b"models = ['../model.obj']\n[style]\ntechnique = 'toon'\ntoon = { ramp = 'image', image = 'ramps/a.png', object_color = 0 }\n",
     );
     let (by_document, said) = place.drawn(&["styles/a.hachure"]);
     assert_eq!((by_document == by_hand, said.as_str()), (true, ""));
