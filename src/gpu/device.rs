@@ -4,6 +4,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
+use super::clears::Zeros;
 use super::faults::{Fault, Faults};
 use super::integer_textures::IntegerTextures;
 
@@ -89,6 +90,7 @@ pub struct Gpu {
     pub most_listed: u64,
     /// How shaders read textures of whole numbers.
     pub integer_textures: IntegerTextures,
+    pub(super) zeros: Option<Zeros>,
     faults: Faults,
 }
 
@@ -119,6 +121,7 @@ impl Gpu {
         }
         let faults = Faults::of(&device);
         let integer_textures = IntegerTextures::of(info.device_type, &device.limits());
+        let zeros = Zeros::of(info.device_type, &device);
         Self {
             device,
             queue,
@@ -126,6 +129,7 @@ impl Gpu {
             writes_in_fragments,
             most_listed: MOST_LISTED,
             integer_textures,
+            zeros,
             faults,
         }
     }

@@ -3,6 +3,8 @@
 
 pub mod bindings;
 pub mod buffer;
+mod clears;
+pub mod depth_rules;
 pub mod device;
 mod faults;
 pub mod geometry;
@@ -25,13 +27,14 @@ mod specialize;
 pub mod timer;
 
 pub use buffer::{ArrayBuffer, DynamicBuffer, RecordBuffer, UniformBuffer};
+pub use depth_rules::{DepthRule, STENCIL};
 pub use device::{Gpu, GpuError};
 pub use geometry::GeometryBuffers;
 pub use image_array::ImageArray;
 pub use inputs::{Inputs, inputs};
 pub use integer_textures::IntegerTextures;
 pub use material::MaterialBindings;
-pub use pipelines::{DepthRule, Pipelines, Program, STENCIL};
+pub use pipelines::{Pipelines, Program};
 pub use pool::{Target, TargetPool};
 pub use predicate::Predicate;
 pub use record_list::RecordList;

@@ -5,7 +5,9 @@
 use std::collections::BTreeMap;
 
 use super::bindings::INPUTS;
-use super::pipelines::{DepthRule, Pipelines, Program, RasterKey};
+use super::clears::cleared;
+use super::depth_rules::DepthRule;
+use super::pipelines::{Pipelines, Program, RasterKey};
 use super::{Gpu, GpuError, Inputs, Predicate, ShaderError, Target, TargetPool, Timers};
 
 /// What a pass does with what its outputs hold.
@@ -24,15 +26,6 @@ pub enum Onto {
 }
 
 impl Onto {
-    /// Targets as outputs of a pass.
-    pub fn attachments<'t>(self, outputs: &[&'t Target]) -> Vec<Option<wgpu::RenderPassColorAttachment<'t>>> {
-        let load = match self {
-            Self::Clear => wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
-            Self::Load | Self::Over | Self::Under | Self::Max => wgpu::LoadOp::Load,
-        };
-        outputs.iter().map(|output| Some(color_attachment(output, load))).collect()
-    }
-
     fn blend(self) -> Option<wgpu::BlendState> {
         let under = wgpu::BlendComponent {
             src_factor: wgpu::BlendFactor::OneMinusDstAlpha,
@@ -202,6 +195,20 @@ impl<'a> Recorder<'a> {
         self.pool.get(self.gpu, label, size, format)
     }
 
+    /// Targets as outputs of the pass that is recorded next.
+    pub fn attachments<'t>(
+        &mut self,
+        onto: Onto,
+        outputs: &[&'t Target],
+    ) -> Vec<Option<wgpu::RenderPassColorAttachment<'t>>> {
+        match onto {
+            Onto::Clear => cleared(self.gpu, &mut self.encoder, outputs),
+            Onto::Load | Onto::Over | Onto::Under | Onto::Max => {
+                outputs.iter().map(|output| Some(color_attachment(output, wgpu::LoadOp::Load))).collect()
+            }
+        }
+    }
+
     /// Begins a render pass that is timed under its label.
     pub fn pass<'e>(
         &'e mut self,
@@ -277,7 +284,7 @@ impl<'a> Recorder<'a> {
             });
             draws.push((bound, viewport));
         }
-        let color = draw.onto.attachments(draw.outputs);
+        let color = self.attachments(draw.onto, draw.outputs);
         let depth = draw.depth.map(|(target, rule)| rule.attachment(target));
         let predicated = self.predicated(&[[3, 1, 0, 0, 0]]);
         let mut pass = self.pass(draw.label, &color, depth);
@@ -304,7 +311,8 @@ impl<'a> Recorder<'a> {
 
     /// Clears targets.
     pub fn clear(&mut self, label: &'static str, targets: &[&Target]) {
-        self.pass(label, &Onto::Clear.attachments(targets), None);
+        let color = self.attachments(Onto::Clear, targets);
+        self.pass(label, &color, None);
     }
 
     /// Copies a target into another one of the same size and format.
@@ -366,7 +374,10 @@ fn encoder(gpu: &Gpu) -> wgpu::CommandEncoder {
     gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("frame") })
 }
 
-fn color_attachment(target: &Target, load: wgpu::LoadOp<wgpu::Color>) -> wgpu::RenderPassColorAttachment<'_> {
+pub(super) fn color_attachment(
+    target: &Target,
+    load: wgpu::LoadOp<wgpu::Color>,
+) -> wgpu::RenderPassColorAttachment<'_> {
     wgpu::RenderPassColorAttachment {
         view: target.view(),
         depth_slice: None,

@@ -88,7 +88,7 @@ impl CoordinatesPass {
             }
         }
         let batches = batches(rec, calls);
-        let color = onto.attachments(&[&target]);
+        let color = rec.attachments(onto, &[&target]);
         let depth = wgpu::RenderPassDepthStencilAttachment {
             view: gbuffer.depth.view(),
             depth_ops: None,

@@ -262,7 +262,7 @@ impl GBufferPass {
         instance_buffer.write(gpu, instances, calls)?;
         let materials = instance_buffer.material_group(gpu, &self.instance_layout);
         let batches = batches(rec, calls);
-        let color: Vec<_> = Onto::Clear.attachments(color);
+        let color = rec.attachments(Onto::Clear, color);
         let depth = wgpu::RenderPassDepthStencilAttachment {
             view: depth.view(),
             depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Store }),
