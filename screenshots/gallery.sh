@@ -167,7 +167,7 @@ echo screenshots/mirror.png
 # Borders of a toon's bands, nearest beside the cartoon map, enlarged (Fig. 9).
 for border in nearest cartoon_map; do
 	target/release/hachure render "$ogre" --output "$work/$border.png" --resolution 640,640 --style comic \
-		--set "toon.border=$border"
+		--set "toon.smoothing=$border"
 	convert "$work/$border.png" -crop 125x125+225+150 +repage -scale 400% "$work/$border.png"
 done
 convert "$work/nearest.png" "$work/cartoon_map.png" +append screenshots/toon_borders.png

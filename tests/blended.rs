@@ -154,7 +154,7 @@ fn lit(technique: &str, opacity: f32) -> Opened {
     for (key, value) in [
         ("technique", technique),
         ("light.shadows", "true"),
-        ("toon.border", "cartoon_map"),
+        ("toon.smoothing", "cartoon_map"),
         ("halftone.mapping", "uv"),
         ("gooch.highlight", "0.5"),
     ] {

@@ -517,7 +517,7 @@ fn a_click_on_layers_that_have_ended_means_nothing() {
         blueprint(opened(&scene(vec![object("cube", primitives::cube(0.6), at(0.0))]), DVec3::Z));
     session.set_scene(&opened).unwrap();
     for by in ["auto", "peeling"] {
-        set(&mut opened, "view.layers", by);
+        set(&mut opened, "view.layer_method", by);
         // A cube has two; what is drawn before leaves something in the memory that the next picture uses.
         for (from, expected) in [("1", Some(0)), ("2", Some(0)), ("3", None), ("1", Some(0)), ("3", None)] {
             set(&mut opened, "blueprint.from", from);
@@ -637,7 +637,7 @@ fn lines_of_all_layers_take_the_color_of_their_surfaces() {
     set(&mut opened, "edges.object_color", "1");
     set(&mut opened, "edges.darken", "0");
     for by in ["lists", "peeling"] {
-        set(&mut opened, "view.layers", by);
+        set(&mut opened, "view.layer_method", by);
         let image = common::image(&mut session, &opened, 96);
         let count = |of: usize| {
             let others = move |p: &image::Rgba<u8>| (0..3).filter(|c| *c != of).all(|c| p.0[c] < 60);

@@ -53,12 +53,12 @@ const PICTURES: [(&str, &str, &[(&str, &str)]); 16] = [
     ("crank", "lines", &[("edges.profile.width", "16"), ("edges.inner.width", "12")]),
     ("crank", "lines", &[("edges.shadow.show", "on"), ("light.shadows", "on")]),
     ("ogre", "newspaper", &[("halftone.space", "surface")]),
-    ("ogre", "comic", &[("toon.border", "cartoon_map")]),
+    ("ogre", "comic", &[("toon.smoothing", "cartoon_map")]),
     ("still_life", "matcap", &[("light.shadows", "on")]),
     ("crank", "blueprint", &[]),
-    ("crank", "blueprint", &[("view.layers", "peeling")]),
+    ("crank", "blueprint", &[("view.layer_method", "peeling")]),
     ("crank", "hidden-lines", &[]),
-    ("crank", "x-ray", &[("view.layers", "peeling")]),
+    ("crank", "x-ray", &[("view.layer_method", "peeling")]),
     ("cloister", "loose-ink", &[]),
     ("ogre", "charcoal", &[]),
     (
@@ -90,7 +90,7 @@ fn the_least_device_draws_what_the_best_one_here_draws() {
 fn what_is_translucent_is_the_same_too() {
     let (mut best, mut least) = (session(), least());
     for by in ["auto", "peeling"] {
-        let mut opened = drawing("still_life", "plain", &[("view.layers", by)]);
+        let mut opened = drawing("still_life", "plain", &[("view.layer_method", by)]);
         let mut scene = (*opened.scene).clone();
         for material in &mut scene.materials {
             material.alpha = hachure::scene::AlphaMode::Blend;

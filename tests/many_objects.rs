@@ -17,7 +17,7 @@ use hachure::export::session::Opened;
 use hachure::geometry::primitives;
 use hachure::render::Request;
 use hachure::scene::{Camera, Scene};
-use hachure::style::toon::Border;
+use hachure::style::toon::Smoothing;
 use hachure::style::{Color, Style, Technique, Value, param};
 use strum::VariantNames as _;
 
@@ -52,7 +52,7 @@ fn styles(lines: bool) -> Vec<Style> {
         style.plain.ambient = 0.1 + 0.02 * i as f32;
         (style.gooch.cool, style.gooch.alpha) = (shade(1), 0.2 + 0.02 * i as f32);
         (style.toon.light, style.toon.bands) = (shade(5), 2 + i as u32 / 5);
-        style.toon.border = [Border::Nearest, Border::CartoonMap, Border::Analytic][i / 5 % 3];
+        style.toon.smoothing = [Smoothing::Nearest, Smoothing::CartoonMap, Smoothing::Analytic][i / 5 % 3];
         if lines {
             (style.edges.profile.color, style.edges.profile.width) = (shade(3), 1.0 + 0.2 * i as f32);
             (style.edges.inner.color, style.edges.inner.width) = (shade(2), 0.5 + 0.1 * i as f32);

@@ -18,7 +18,7 @@ use hachure::render::Request;
 use hachure::render::View;
 use hachure::scene::{Camera, Light, LightKind, Scene};
 
-/// As in `shaders/passes/shadow.wgsl`: light that grazes a surface at less than this cosine lights nothing.
+/// As in `shaders/passes/shadow_mask.wgsl`: light that grazes a surface at less than this cosine lights nothing.
 const GRAZING: f64 = 1e-3;
 
 /// A square that faces up.

@@ -25,7 +25,7 @@ fn toon(scene: &Arc<Scene>, towards_viewer: DVec3, border: &str) -> Opened {
     let mut opened = opened(scene, towards_viewer);
     for (key, value) in [
         ("technique", "toon"),
-        ("toon.border", border),
+        ("toon.smoothing", border),
         ("edges.profile.show", "false"),
         ("edges.inner.show", "false"),
     ] {
@@ -273,7 +273,7 @@ fn one_toons_parameters_change_no_pixel_of_another() {
             ("toon.object_color", "0"),
             ("toon.highlight", "1"),
             ("toon.rim", "1"),
-            ("toon.border", if border == "nearest" { "cartoon_map" } else { "nearest" }),
+            ("toon.smoothing", if border == "nearest" { "cartoon_map" } else { "nearest" }),
             ("technique", "gooch"),
         ] {
             let mut after = before.clone();

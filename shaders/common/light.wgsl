@@ -4,7 +4,7 @@
 // Whether any light throws shadows.
 override WITH_SHADOWS: bool = true;
 
-// Of passes/shadow.wgsl.
+// Of passes/shadow_mask.wgsl.
 var shadow_mask_tex: texture_2d<f32>;
 
 // 1: lit, 0: nothing of the light is left.

@@ -36,7 +36,7 @@ struct ToonStyle {
     start: f32,
     bands_per_unit: f32,
     // 0: not a toon.
-    border: u32,
+    smoothing: u32,
 }
 
 var<storage, read> toon_styles: array<ToonStyle>;
@@ -101,7 +101,7 @@ fn fs_cartoon_map(@builtin(position) position: vec4<f32>) -> @location(0) u32 {
     let px = vec2<i32>(position.xy);
     let s = unpack_surfel(geometry_at(px));
     var code = 0u;
-    if toon_styles[s.object].border == CARTOON_MAP {
+    if toon_styles[s.object].smoothing == CARTOON_MAP {
         code = toon_code(s.object, toon_fields(px, s.object, s.normal, pos_view_of(px, s.depth)));
     }
     return code;
@@ -191,15 +191,15 @@ fn analytic(px: vec2<i32>, s: Surfel, base: vec3<f32>) -> vec3<f32> {
 }
 
 fn toon(px: vec2<i32>, s: Surfel, base: vec3<f32>) -> vec3<f32> {
-    let border = toon_styles[s.object].border;
+    let smoothing = toon_styles[s.object].smoothing;
     var color = base;
-    if WITH_CARTOON_MAP && border == CARTOON_MAP {
+    if WITH_CARTOON_MAP && smoothing == CARTOON_MAP {
         color = smoothed(px, s, base);
     }
-    if WITH_ANALYTIC && border == ANALYTIC {
+    if WITH_ANALYTIC && smoothing == ANALYTIC {
         color = analytic(px, s, base);
     }
-    if WITH_NEAREST && border == NEAREST {
+    if WITH_NEAREST && smoothing == NEAREST {
         let fields = toon_fields(px, s.object, s.normal, pos_view_of(px, s.depth));
         color = toon_color(s.object, base, toon_code(s.object, fields));
     }

@@ -17,7 +17,7 @@ var surface_id_tex: texture_2d<u32>;
 // What segments have; see common/segment_point.wgsl.
 var mark_tex: texture_2d<u32>;
 var base_color_tex: texture_2d<f32>;
-// Of passes/shadow.wgsl.
+// Of passes/shadow_mask.wgsl.
 var shadow_mask_tex: texture_2d<f32>;
 // Without repeated lines: the spines of all nearer layers.
 var nearer_lines_tex: texture_storage_2d<r32uint, read>;

@@ -22,7 +22,7 @@ use crate::style::halftone::{Mapping, Space};
 use crate::style::hidden::HiddenLayers;
 use crate::style::indication::DetailBy;
 use crate::style::sketch::Anchor;
-use crate::style::toon::Border;
+use crate::style::toon::Smoothing;
 use crate::style::{DepthOperator, EdgeMode, HiddenMode, Style, StyleError, Technique, hatching, preset};
 
 /// What is measured: a style in some light, and what stands behind the model.
@@ -227,7 +227,7 @@ impl Bench {
         let mut document = self.opened.document.clone();
         document.style = look.style.clone();
         document.lighting = look.lighting.clone();
-        document.view.layers = look.layers_by;
+        document.view.layer_method = look.layers_by;
         document.nodes.clear();
         let wall = document.node_mut(WALL);
         wall.visible = Some(look.behind != Behind::Nothing);
@@ -284,10 +284,10 @@ fn styles(has_uvs: bool) -> Result<Vec<(&'static str, Style)>, CliError> {
     no_edges.edges.inner.show = false;
     let mut metal = no_edges.clone();
     metal.gooch.metal = 1.0;
-    let toon = |border| {
+    let toon = |smoothing| {
         let mut style = no_edges.clone();
         style.technique = Technique::Toon;
-        style.toon.border = border;
+        style.toon.smoothing = smoothing;
         style
     };
     let halftone = |space, mapping| {
@@ -311,15 +311,15 @@ fn styles(has_uvs: bool) -> Result<Vec<(&'static str, Style)>, CliError> {
     let hatching = |mapping, directions| {
         let mut style = lines.clone();
         style.technique = Technique::Hatching;
-        (style.hatching.mapping, style.hatching.layers.count) = (mapping, directions);
+        (style.hatching.mapping, style.hatching.cross_hatching.directions) = (mapping, directions);
         style.hatching.indication.amount = if mapping == hatching::Mapping::Paper { 0.5 } else { 0.0 };
         style
     };
     let mut styles = vec![
         ("plain", preset::load("plain")?.style),
-        ("toon, nearest", toon(Border::Nearest)),
-        ("toon, cartoon map", toon(Border::CartoonMap)),
-        ("toon, analytic", toon(Border::Analytic)),
+        ("toon, nearest", toon(Smoothing::Nearest)),
+        ("toon, cartoon map", toon(Smoothing::CartoonMap)),
+        ("toon, analytic", toon(Smoothing::Analytic)),
         ("halftone, screen", halftone(Space::Screen, Mapping::Triplanar)),
         ("halftone, triplanar", halftone(Space::Surface, Mapping::Triplanar)),
         ("gooch, no edges", no_edges.clone()),
@@ -371,7 +371,7 @@ fn looks(has_uvs: bool, pixels: &[u32], size: [u32; 2]) -> Result<Vec<BenchLook>
     let mut hatching_paper = exact(2.0)?;
     hatching_paper.technique = Technique::Hatching;
     hatching_paper.hatching.mapping = hatching::Mapping::Paper;
-    (hatching_paper.hatching.layers.count, hatching_paper.hatching.indication.amount) = (3, 0.5);
+    (hatching_paper.hatching.cross_hatching.directions, hatching_paper.hatching.indication.amount) = (3, 0.5);
     (hatching_paper.edges.mode, hatching_paper.edges.operator) = (EdgeMode::Paper, DepthOperator::Sobel);
     hatching_paper.hatching.indication.by = DetailBy::Fields;
     looks.push(look("hatching, all of its paper", hatching_paper, &hard));

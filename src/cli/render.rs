@@ -62,7 +62,7 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
     let files = scene.warnings.iter().cloned().chain(renamed);
     let warnings = images.warnings(&uses).into_iter().chain(strokes).chain(files).chain(faults);
     let warnings =
-        warnings.map(|w| w.to_string()).chain(layers::warnings(&reports, opened.document.view.layers));
+        warnings.map(|w| w.to_string()).chain(layers::warnings(&reports, opened.document.view.layer_method));
     if args.json {
         print_json(&json!({
             "output": args.output.to_string_lossy(),

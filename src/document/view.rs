@@ -28,7 +28,7 @@ pub struct ViewSettings {
     /// How many mirrors in a row a line of sight follows; the nearest whole number counts.
     pub reflections: f32,
     /// How depth layers are made; the picture is the same.
-    pub layers: LayersBy,
+    pub layer_method: LayersBy,
 }
 
 choice! {
@@ -126,7 +126,7 @@ impl Default for ViewSettings {
             seam_gap: 1.0,
             scale_bar: false,
             reflections: 2.0,
-            layers: LayersBy::Auto,
+            layer_method: LayersBy::Auto,
         }
     }
 }
@@ -228,11 +228,12 @@ impl ViewSettings {
                 &mut self.reflections,
             );
             list.choice(
-                "layers",
+                "layer_method",
                 "Depth layers",
                 "How depth layers are made, of blueprints, hidden lines and glass: from lists of fragments, which is faster but takes memory, or by peeling.",
-                &mut self.layers,
+                &mut self.layer_method,
             );
+            list.formerly("layers");
             list.switch(
                 "scale_bar",
                 "Scale bar",

@@ -184,7 +184,7 @@ fn connected(adjacency: &Adjacency, surfaces: &Surfaces) -> (Vec<u32>, usize) {
     for same in adjacency.non_manifold.chunk_by(|a, b| a.0 == b.0) {
         same.windows(2).for_each(|pair| unite([pair[0].1, pair[1].1]));
     }
-    adjacency.seams.iter().for_each(|seam| unite(seam.faces));
+    adjacency.overlaps.iter().for_each(|overlap| unite(overlap.faces));
     sets.numbered()
 }
 
@@ -200,7 +200,7 @@ struct OpenSide {
 fn open_sides(mesh: &Mesh, adjacency: &Adjacency) -> Vec<OpenSide> {
     let Adjacency { edges, weld, .. } = adjacency;
     let is_balanced =
-        adjacency.border_count == 0 && adjacency.flipped_count == 0 && adjacency.seams.is_empty();
+        adjacency.border_count == 0 && adjacency.flipped_count == 0 && adjacency.overlaps.is_empty();
     if is_balanced && adjacency.non_manifold.is_empty() {
         return Vec::new();
     }

@@ -101,7 +101,7 @@ impl FeatureEdges {
         };
         let point = |v: u32| adjacency.weld.representative.get(v as usize).copied().unwrap_or(v);
         let materials = Materials::new(mesh);
-        let seams = stretches::seams_by_edge(adjacency);
+        let seams = stretches::overlaps_by_edge(adjacency);
         let mut seams = seams.as_slice();
         let mut non_manifold = adjacency.non_manifold.as_slice();
         let shortest = 4.0 * TOLERANCE * all.bounds.diagonal();

@@ -10,10 +10,10 @@ mod clip;
 mod contours;
 mod facing;
 mod fan;
+mod hand_strokes;
 mod outlines;
 mod scale;
 mod segment;
-mod strokes;
 
 use glam::DMat4;
 use rayon::prelude::*;
@@ -23,8 +23,8 @@ use self::clip::PictureMap;
 pub use self::contours::{PlacedContours, contour_segments};
 use self::facing::Facings;
 use self::fan::Fans;
+pub use self::hand_strokes::{SegmentSet, Tested, draw_strokes};
 pub use self::segment::{Dashes, LineSegment, LineSelection, LineView, NO_SURFACE, PlacedEdges};
-pub use self::strokes::{SegmentSet, Tested, draw_strokes};
 use super::feature_edges::Traits;
 use super::{ClassSet, EdgeClass};
 
@@ -303,9 +303,9 @@ impl<'a> Finder<'a> {
 #[cfg(test)]
 mod arc_tests;
 #[cfg(test)]
-mod speed;
+mod hand_strokes_tests;
 #[cfg(test)]
-mod stroke_tests;
+mod speed;
 #[cfg(test)]
 mod tests;
 #[cfg(test)]

@@ -95,7 +95,7 @@ impl Mended {
 /// Makes the seams of a clean mesh common edges; see the [module](self). `None` if there is nothing to join. Skinned
 /// meshes stay as they are. `adjacency` must be that of the mesh.
 pub fn mend(mesh: &Mesh, adjacency: &Adjacency, tolerance: SeamTolerance) -> Option<(Mesh, Mended)> {
-    let has_borders = adjacency.border_count > 0 || !adjacency.seams.is_empty();
+    let has_borders = adjacency.border_count > 0 || !adjacency.overlaps.is_empty();
     if !has_borders || mesh.rig.is_some() {
         return None;
     }

@@ -44,20 +44,20 @@ fn pass(mesh: &Mesh, normals: &[Vec3], adjacency: &mut Adjacency) {
         })
         .collect();
     let seams: Vec<(usize, f32)> = adjacency
-        .seams
+        .overlaps
         .par_iter()
         .enumerate()
-        .filter_map(|(number, seam)| {
-            let edge = seam.edges[0] as usize;
+        .filter_map(|(number, overlap)| {
+            let edge = overlap.edges[0] as usize;
             let vertices = adjacency.edges.get(edge)?.vertices;
-            Some((number, sides.angle(seam.faces, seam.dihedral, vertices, edge)?))
+            Some((number, sides.angle(overlap.faces, overlap.dihedral, vertices, edge)?))
         })
         .collect();
     for (number, angle) in edges {
         adjacency.edges[number].dihedral = angle;
     }
     for (number, angle) in seams {
-        adjacency.seams[number].dihedral = angle;
+        adjacency.overlaps[number].dihedral = angle;
     }
 }
 

@@ -7,7 +7,7 @@
 use glam::{DVec3, Vec3};
 
 use super::edge::FOLDED;
-use super::{Edge, EdgeKind, Mesh, Seam};
+use super::{Edge, EdgeKind, EdgeOverlap, Mesh};
 
 /// Cosine of the angle between two normals up to which they agree: 5°.
 const AGREE: f32 = 0.996_195;
@@ -67,7 +67,7 @@ fn is_alike(one: Vec3, other: Vec3, turned: bool) -> bool {
 }
 
 /// Makes soft edges above 60° hard unless the mesh parts its normals along most of those.
-pub(super) fn judge_steep(mesh: &Mesh, edges: &mut [Edge], seams: &mut [Seam]) {
+pub(super) fn judge_steep(mesh: &Mesh, edges: &mut [Edge], overlaps: &mut [EdgeOverlap]) {
     let point = |v: u32| mesh.positions.get(v as usize).map_or(DVec3::ZERO, |p| p.as_dvec3());
     let (mut parted, mut all) = (0.0, 0.0);
     let mut count = |length: f64, is_soft: bool| {
@@ -80,8 +80,8 @@ pub(super) fn judge_steep(mesh: &Mesh, edges: &mut [Edge], seams: &mut [Seam]) {
         let [a, b] = edge.vertices.map(point);
         count(a.distance(b), edge.is_soft);
     }
-    for seam in seams.iter().filter(|seam| is_steep(seam.dihedral)) {
-        count(seam.length, seam.is_soft);
+    for overlap in overlaps.iter().filter(|overlap| is_steep(overlap.dihedral)) {
+        count(overlap.length, overlap.is_soft);
     }
     if parted >= LEAST_PARTED * all {
         return;
@@ -89,8 +89,8 @@ pub(super) fn judge_steep(mesh: &Mesh, edges: &mut [Edge], seams: &mut [Seam]) {
     for edge in edges {
         edge.is_soft &= edge.dihedral.abs() <= STEEP;
     }
-    for seam in seams {
-        seam.is_soft &= seam.dihedral.abs() <= STEEP;
+    for overlap in overlaps {
+        overlap.is_soft &= overlap.dihedral.abs() <= STEEP;
     }
 }
 

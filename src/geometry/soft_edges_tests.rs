@@ -136,7 +136,10 @@ fn normals_are_compared_along_t_junctions() {
         Mesh { normals, ..from_triangles(places.to_vec(), vec![0, 1, 2, 3, 5, 4, 3, 6, 5]) }
     };
     let smooth = Adjacency::new(&mesh(at(0.6)));
-    assert!(smooth.seams.len() == 2 && smooth.seams.iter().all(|seam| seam.is_soft && seam.dihedral > 0.6));
+    assert!(
+        smooth.overlaps.len() == 2
+            && smooth.overlaps.iter().all(|overlap| overlap.is_soft && overlap.dihedral > 0.6)
+    );
     assert_eq!(smooth.surfaces(CREASE).count, 1);
     let sharp = Adjacency::new(&mesh(Vec3::X));
     assert_eq!(sharp.surfaces(CREASE).count, 2);

@@ -34,9 +34,9 @@ impl Adjacency {
                 sets.unite(edge.faces[0], edge.faces[1]);
             }
         });
-        for seam in &self.seams {
-            if !seam.is_crease(crease_angle) {
-                sets.unite(seam.faces[0], seam.faces[1]);
+        for overlap in &self.overlaps {
+            if !overlap.is_crease(crease_angle) {
+                sets.unite(overlap.faces[0], overlap.faces[1]);
             }
         }
         // A triangle that welding made a line belongs to whatever it borders on.

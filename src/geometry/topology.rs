@@ -9,9 +9,9 @@ use rayon::prelude::*;
 
 use self::half_edges::{HalfEdges, next_in_triangle};
 use super::edge::{Edge, EdgeKind, FOLDED, NO_FACE, signed_angle};
+use super::edge_overlaps::{EdgeOverlap, find_overlaps};
 use super::needles::judge_needles;
 use super::normals::face_normals;
-use super::seams::{Seam, find_seams};
 use super::soft_edges::{SoftNormals, judge_steep};
 use super::{BorderLink, CreaseRule, Mesh, Weld};
 
@@ -26,7 +26,7 @@ pub struct Adjacency {
     /// ([`Weld::representative`]). One entry more than there are vertices.
     pub first_edge: Vec<u32>,
     /// Where border edges lie on each other without sharing both ends.
-    pub seams: Vec<Seam>,
+    pub overlaps: Vec<EdgeOverlap>,
     /// Every (edge, triangle) of the non-manifold edges, in order.
     pub non_manifold: Vec<(u32, u32)>,
     /// The border edges at which other meshes go on, each with an index into [`Mesh::border_links`], in order.
@@ -90,7 +90,7 @@ impl Adjacency {
             weld,
             edges,
             first_edge,
-            seams: Vec::new(),
+            overlaps: Vec::new(),
             non_manifold: Vec::new(),
             border_links: Vec::new(),
             collapsed: Vec::new(),
@@ -106,7 +106,7 @@ impl Adjacency {
             all.non_manifold.extend(tally.faces);
         }
         if all.border_count > 0 {
-            all.seams = find_seams(mesh, &all.weld, &normals, &mut all.edges);
+            all.overlaps = find_overlaps(mesh, &all.weld, &normals, &mut all.edges);
             let stitched = all.edges.iter().filter(|e| e.kind == EdgeKind::Stitched).count();
             all.border_count -= stitched;
         }
@@ -119,7 +119,7 @@ impl Adjacency {
             .collect();
         all.border_links.sort_unstable();
         judge_needles(mesh, &normals, &mut all);
-        judge_steep(mesh, &mut all.edges, &mut all.seams);
+        judge_steep(mesh, &mut all.edges, &mut all.overlaps);
         all.collapsed = half_edges
             .collapsed
             .iter()
@@ -133,7 +133,7 @@ impl Adjacency {
     pub fn with_rule(mut self, rule: CreaseRule) -> Self {
         if rule == CreaseRule::Angle {
             self.edges.iter_mut().for_each(|edge| edge.is_soft = false);
-            self.seams.iter_mut().for_each(|seam| seam.is_soft = false);
+            self.overlaps.iter_mut().for_each(|overlap| overlap.is_soft = false);
         }
         self
     }

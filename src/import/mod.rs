@@ -8,10 +8,10 @@ mod format;
 mod gltf;
 mod image;
 mod image_cache;
+mod link_nodes;
 mod names;
 mod obj;
 mod ply;
-mod seams;
 mod source;
 mod stl;
 mod text;
@@ -24,7 +24,7 @@ use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 pub use self::format::{Format, IMAGE_ENDINGS};
 pub use self::image::load_image;
 pub use self::image_cache::ImageCache;
-pub use self::seams::link_nodes;
+pub use self::link_nodes::link_nodes;
 
 use self::names::SiblingNames;
 use crate::geometry::mend::SeamTolerance;
@@ -175,7 +175,7 @@ pub fn load(path: &Path, options: &ImportOptions, progress: &Progress) -> Result
     // The importers check what they read; should one of them or a library panic all the same, only this file is lost.
     let guarded = AssertUnwindSafe(|| {
         let mut scene = load_bytes(path, &data, options, progress)?;
-        seams::link_nodes(&mut scene, options.seams);
+        link_nodes::link_nodes(&mut scene, options.seams);
         Ok(scene)
     });
     let mut scene = std::panic::catch_unwind(guarded).unwrap_or_else(|payload| {

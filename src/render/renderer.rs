@@ -371,7 +371,7 @@ impl Renderer {
                     background,
                     scale,
                     crease_angle: request.document.view.crease_angle.to_radians(),
-                    layers_by: request.document.view.layers,
+                    layers_by: request.document.view.layer_method,
                 },
                 objects: &objects,
                 shadow_maps: &[],

@@ -122,6 +122,13 @@ impl<'a> Params<'a> {
         }
     }
 
+    /// The same where it was in another section: the whole key.
+    pub fn moved_from(&mut self, key: &str) {
+        if let Some(param) = self.list.last_mut() {
+            param.former = Some(key.to_owned());
+        }
+    }
+
     /// A switch.
     pub fn switch(
         &mut self,

@@ -27,7 +27,7 @@ pub struct Hatching {
     /// What single strokes are like.
     pub stroke: Stroke,
     /// How strokes make tones.
-    pub layers: Layers,
+    pub cross_hatching: CrossHatching,
     /// From light to darkness.
     pub tone: Tone,
     /// Strokes that are left out away from edges.
@@ -73,9 +73,9 @@ pub struct Stroke {
 
 /// How strokes make tones.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Layers {
+pub struct CrossHatching {
     /// How many directions cross at most.
-    pub count: u32,
+    pub directions: u32,
     /// Darkness from which on strokes of a second direction cross those of the first.
     pub second: f32,
     /// The same for a third direction.
@@ -192,7 +192,7 @@ impl Default for Hatching {
                 late_insertion: 0.45,
                 variation: 0.3,
             },
-            layers: Layers { count: 3, second: 0.42, third: 0.7, shadows_cross: true },
+            cross_hatching: CrossHatching { directions: 3, second: 0.42, third: 0.7, shadows_cross: true },
             tone: Tone {
                 curve: paper_in_the_light(),
                 ambient: 0.06,
@@ -260,7 +260,7 @@ impl Hatching {
             });
             list.section("shadows", |list| self.shadows.params(list));
         });
-        list.section("layers", |list| self.layers.params(list));
+        list.section("cross_hatching", |list| self.cross_hatching.params(list));
         list.section("tone", |list| self.tone.params(list));
         list.section("indication", |list| self.indication.params(list));
     }
@@ -309,30 +309,41 @@ impl Stroke {
     }
 }
 
-impl Layers {
+impl CrossHatching {
     fn params<'a>(&'a mut self, list: &mut Params<'a>) {
-        list.integer("count", "Directions", "", 1..=3, "How many directions cross at most.", &mut self.count);
-        list.when_any("hatching.layers.count", ["2", "3"], |list| {
+        list.integer(
+            "directions",
+            "Directions",
+            "",
+            1..=3,
+            "How many directions cross at most.",
+            &mut self.directions,
+        );
+        list.moved_from("hatching.layers.count");
+        list.when_any("hatching.cross_hatching.directions", ["2", "3"], |list| {
             list.share(
                 "second",
                 "Second above",
                 "Darkness from which on a second direction crosses the first.",
                 &mut self.second,
             );
+            list.moved_from("hatching.layers.second");
             list.switch(
                 "shadows_cross",
                 "Cross shadows",
                 "Strokes of the form run on through cast shadows, which others make.",
                 &mut self.shadows_cross,
             );
+            list.moved_from("hatching.layers.shadows_cross");
         });
-        list.when_any("hatching.layers.count", ["3"], |list| {
+        list.when_any("hatching.cross_hatching.directions", ["3"], |list| {
             list.share(
                 "third",
                 "Third above",
                 "Darkness from which on a third direction crosses both.",
                 &mut self.third,
             );
+            list.moved_from("hatching.layers.third");
         });
     }
 }

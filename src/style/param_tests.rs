@@ -60,9 +60,10 @@ fn keys_are_unique_and_defaults_lie_in_their_ranges() {
 }
 
 /// Keys of version 0.1 as they stood in its files, and what they are called now.
-const FORMER_KEYS: [(&str, &str); 27] = [
+const FORMER_KEYS: [(&str, &str); 32] = [
     ("gooch.own_hue", "gooch.object_hue"),
     ("gooch.aside", "gooch.side_light"),
+    ("toon.border", "toon.smoothing"),
     ("toon.tint", "toon.object_color"),
     ("halftone.own_tone", "halftone.object_tone"),
     ("matcap.own_color", "matcap.object_color"),
@@ -74,6 +75,10 @@ const FORMER_KEYS: [(&str, &str); 27] = [
     ("hatching.stroke.inserted", "hatching.stroke.late_insertion"),
     ("hatching.own.begin", "hatching.own.taper_in"),
     ("hatching.own.end", "hatching.own.taper_out"),
+    ("hatching.layers.count", "hatching.cross_hatching.directions"),
+    ("hatching.layers.second", "hatching.cross_hatching.second"),
+    ("hatching.layers.third", "hatching.cross_hatching.third"),
+    ("hatching.layers.shadows_cross", "hatching.cross_hatching.shadows_cross"),
     ("hatching.tone.own_color", "hatching.tone.object_tone"),
     ("hatching.tone.white", "hatching.tone.lightest"),
     ("blueprint.opacity", "blueprint.fill_opacity"),
@@ -110,7 +115,9 @@ fn keys_of_earlier_versions_set_what_they_are_called_now_and_say_so() {
         assert_eq!(old, new, "{former}");
 
         let mut read = Style::default();
-        let renamed = set_from_toml(&mut read.params(), &format!("{former} = {value}"), "old.toml").unwrap();
+        let written = if let Value::Text(text) = value { format!("{text:?}") } else { value.to_string() };
+        let renamed =
+            set_from_toml(&mut read.params(), &format!("{former} = {written}"), "old.toml").unwrap();
         assert_eq!((read, renamed.len()), (new.clone(), 1), "{former}");
         assert!(to_toml(&new).contains(key.rsplit('.').next().unwrap()) && !to_toml(&new).contains(former));
     }

@@ -28,7 +28,7 @@ pub struct Toon {
     /// Number of bands.
     pub bands: u32,
     /// How borders between bands are drawn.
-    pub border: Border,
+    pub smoothing: Smoothing,
     /// Color of the darkest band.
     pub shadow: Color,
     /// Color halfway; with two bands it has no place.
@@ -55,7 +55,7 @@ pub struct Toon {
 
 choice! {
     /// How borders between bands are drawn (paper, Fig. 9).
-    pub enum Border {
+    pub enum Smoothing {
         /// Each pixel has the shade of one band: edged, and jagged.
         Nearest,
         /// The bands are kept as a texture, the cartoon map, and a pixel's shade is a mean of its neighbors' there.
@@ -72,7 +72,7 @@ impl Default for Toon {
             ramp: Ramp::default(),
             image: None,
             bands: 3,
-            border: Border::default(),
+            smoothing: Smoothing::default(),
             shadow: Color([110, 106, 140]),
             mid: Color([196, 194, 208]),
             light: Color::WHITE,
@@ -131,7 +131,8 @@ impl Toon {
                 &mut self.image,
             );
         });
-        list.choice("border", "Borders", "How borders between bands are smoothed.", &mut self.border);
+        list.choice("smoothing", "Smoothing", "How borders between bands are smoothed.", &mut self.smoothing);
+        list.formerly("border");
         list.share(
             "object_color",
             "Object color",

@@ -17,7 +17,7 @@ fn nothing_visible_and_an_empty_group_are_paper_by_lists_and_by_peeling() {
     let empty = blueprint(opened(&scene(objects), glam::DVec3::Z));
     for (mut opened, groups) in [(hidden, 0), (empty, 1)] {
         for by in ["lists", "peeling"] {
-            set(&mut opened, "view.layers", by);
+            set(&mut opened, "view.layer_method", by);
             let image = common::image(&mut session, &opened, 32);
             assert!(image.pixels().all(|p| p == image.get_pixel(0, 0)), "{by}");
             let counted = session.renderer().layer_reports().unwrap();
@@ -51,7 +51,7 @@ fn a_resize_while_reports_are_outstanding_disturbs_no_picture() {
 fn more_layers_than_can_be_recorded_end_with_the_last_of_them() {
     for by in ["lists", "peeling"] {
         let mut many = stack(70, 1.0);
-        set(&mut many, "view.layers", by);
+        set(&mut many, "view.layer_method", by);
         let mut session = session();
         session.set_scene(&many).unwrap();
         session.draw(&many, [48; 2], false).unwrap();

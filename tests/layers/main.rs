@@ -45,7 +45,7 @@ type Texels = (Vec<[u32; 4]>, Vec<u32>, Vec<u32>, Vec<u32>);
 /// All layers of the only group, and how they were made.
 fn layers(session: &mut Session, opened: &Opened, side: u32, by: &str) -> (Vec<Texels>, LayerMethod) {
     let mut opened = opened.clone();
-    set(&mut opened, "view.layers", by);
+    set(&mut opened, "view.layer_method", by);
     common::capture_layers(session);
     session.draw(&opened, [side; 2], false).unwrap();
     assert_eq!(session.renderer().last_layer_reports().len(), 1, "one group");

@@ -110,7 +110,7 @@ fn a_device_whose_fragments_cannot_write_peels_whatever_is_asked() {
     let mut three = stack(3, 1.0);
     let expected = common::image(&mut common::session(), &three, 64);
     for by in ["auto", "lists"] {
-        set(&mut three, "view.layers", by);
+        set(&mut three, "view.layer_method", by);
         assert!(common::image(&mut session, &three, 64) == expected);
         assert_eq!(way(&mut session), LayerMethod::Peeling(Reason::Device), "{by}");
     }

@@ -197,7 +197,7 @@ fn a_mirror_cuts_off_the_same() {
     opened.document.set_role(&scene, &[0], Role::Mirror, true);
     let mut session = session();
     let images = ["peeling", "lists"].map(|by| {
-        set(&mut opened, "view.layers", by);
+        set(&mut opened, "view.layer_method", by);
         common::image(&mut session, &opened, 96)
     });
     assert!(images[0] == images[1]);

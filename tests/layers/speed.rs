@@ -45,7 +45,7 @@ fn ten_layers_of_half_a_million_triangles_cost_far_less_from_lists() {
     let mut times = [Vec::new(), Vec::new()];
     for frame in 0..9 {
         for (times, by) in times.iter_mut().zip(["peeling", "lists"]) {
-            set(&mut opened, "view.layers", by);
+            set(&mut opened, "view.layer_method", by);
             let camera = camera.orbited(glam::DVec3::Y, f64::from(frame), 0.0);
             let request = Request {
                 document: &opened.document,

@@ -4,7 +4,7 @@ use std::str::FromStr as _;
 
 use hachure::style::halftone::Space;
 use hachure::style::hatching::Mapping;
-use hachure::style::toon::Border;
+use hachure::style::toon::Smoothing;
 use hachure::style::{Color, Matrix, Style, Technique};
 use strum::VariantNames as _;
 
@@ -66,7 +66,7 @@ impl Look {
     pub fn glass(technique: &str) -> Self {
         let mut look = Self::new(&format!("glass {technique}"), Kind::Glass, technique);
         // Smoothed borders are means of what lies around in the picture, which is another surface in each.
-        look.style.toon.border = Border::Nearest;
+        look.style.toon.smoothing = Smoothing::Nearest;
         look
     }
 

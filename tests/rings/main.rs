@@ -126,7 +126,7 @@ fn two_blueprints_glass_and_a_surface_that_all_go_through_each_other_are_right()
     let (mut session, mut report) = (session(), Report::default());
     let mut stage = one_each(places::knot(4), &looks);
     for layers in ["lists", "peeling"] {
-        stage.set("view.layers", layers);
+        stage.set("view.layer_method", layers);
         check_all(&mut session, &mut report, &format!("knot by {layers}"), &stage);
     }
     report.finish();

@@ -28,7 +28,7 @@ use hachure::export::Session;
 use hachure::export::session::Opened;
 use hachure::scene::{Camera, NodeId};
 use hachure::style::halftone::Space;
-use hachure::style::toon::Border;
+use hachure::style::toon::Smoothing;
 use hachure::style::{Matrix, Style, Technique};
 use image::{Rgba, RgbaImage};
 use strum::VariantNames as _;
@@ -42,7 +42,7 @@ fn surface_techniques() -> Vec<&'static str> {
 fn style(technique: &str) -> Style {
     let mut style = Style { technique: technique.parse().unwrap(), ..Style::default() };
     style.halftone.space = Space::Screen;
-    style.toon.border = Border::Nearest;
+    style.toon.smoothing = Smoothing::Nearest;
     style.edges.profile.width = 8.0;
     style.edges.inner.width = 6.0;
     style

@@ -8,7 +8,7 @@ override WITH_STROKES: bool = false;
 
 // `LineSegment` of src/geometry/line_segments.rs, four texels each.
 var segment_tex: texture_storage_2d<rgba32uint, read>;
-// With strokes: `Tested` of src/geometry/line_segments/strokes.rs, two texels each.
+// With strokes: `Tested` of src/geometry/line_segments/hand_strokes.rs, two texels each.
 var tested_tex: texture_storage_2d<rgba32uint, read>;
 
 // Set in the class of a segment that nobody asked for: it is not drawn, but explains why two surfaces meet here.

@@ -10,8 +10,8 @@ use super::FeatureEdges;
 use super::crease_angles::CreaseAngles;
 use super::pieces::Piece;
 use crate::geometry::Mesh;
+use crate::geometry::hand::mix;
 use crate::geometry::line_chains::{ChainLink, Chains, Link, LinkEnd, NO_END, for_each_meeting};
-use crate::geometry::strokes::mix;
 
 /// Cosine of the angle by which a straight line may turn at a point, 1°: finely tessellated arcs turn by more.
 const STRAIGHT: f32 = 0.999_85;

@@ -26,23 +26,23 @@ struct OverlappingEdge {
     span: [f64; 2],
 }
 
-/// (edge, number of a seam that it takes part in), sorted.
-pub(super) fn seams_by_edge(adjacency: &Adjacency) -> Vec<(u32, u32)> {
-    let mut seams: Vec<(u32, u32)> = (0..)
-        .zip(&adjacency.seams)
-        .flat_map(|(number, seam)| seam.edges.map(|edge| (edge, number)))
+/// (edge, number of an overlap that it takes part in), sorted.
+pub(super) fn overlaps_by_edge(adjacency: &Adjacency) -> Vec<(u32, u32)> {
+    let mut overlaps: Vec<(u32, u32)> = (0..)
+        .zip(&adjacency.overlaps)
+        .flat_map(|(number, overlap)| overlap.edges.map(|edge| (edge, number)))
         .collect();
-    seams.sort_unstable();
-    seams
+    overlaps.sort_unstable();
+    overlaps
 }
 
-/// The stretches of edge `number`, whose seams are given, without those shorter than `shortest` (units of the mesh). A
+/// The stretches of edge `number`, whose overlaps are given, without those shorter than `shortest` (units of the mesh). A
 /// stretch is listed for the first edge that it belongs to.
 pub(super) fn split(
     mesh: &Mesh,
     adjacency: &Adjacency,
     number: u32,
-    seams: &[(u32, u32)],
+    overlaps: &[(u32, u32)],
     shortest: f64,
     out: &mut Vec<Stretch>,
 ) {
@@ -52,17 +52,17 @@ pub(super) fn split(
     let along = |v: u32| ((position(v) - a).dot(b - a) / a.distance_squared(b)).clamp(0.0, 1.0);
     // Where stretches may begin and end, and the vertex that is there.
     let mut splits: Vec<(f64, u32)> = vec![(1.0, own.vertices[1])];
-    let mut others = Vec::with_capacity(seams.len());
-    for seam in seams.iter().filter_map(|&(_, seam)| adjacency.seams.get(seam as usize)) {
-        let which = usize::from(seam.edges[0] == number);
-        let edge = seam.edges[which];
+    let mut others = Vec::with_capacity(overlaps.len());
+    for overlap in overlaps.iter().filter_map(|&(_, overlap)| adjacency.overlaps.get(overlap as usize)) {
+        let which = usize::from(overlap.edges[0] == number);
+        let edge = overlap.edges[which];
         let Some(vertices) = adjacency.edges.get(edge as usize).map(|e| e.vertices) else { continue };
         let [from, to] = vertices.map(along);
         others.push(OverlappingEdge {
             edge,
-            face: seam.faces[which],
-            dihedral: seam.dihedral,
-            is_soft: seam.is_soft,
+            face: overlap.faces[which],
+            dihedral: overlap.dihedral,
+            is_soft: overlap.is_soft,
             span: [from.min(to), from.max(to)],
         });
         splits.extend(vertices.map(|v| (along(v), v)).into_iter().filter(|&(t, _)| t > 0.0 && t < 1.0));

@@ -124,7 +124,7 @@ fn solids_in_patches_are_closed_again() {
                 assert!(adjacency.is_closed() || crack > 2e-4, "{what}: {report:?}");
                 assert!(report.farthest_move <= report.tolerance * 1.001, "{what}: {report:?}");
                 assert!((area(&after) - area(&solid)).abs() < 2e-3 * area(&solid), "{what}");
-                assert!(before.border_count > 0 || !before.seams.is_empty());
+                assert!(before.border_count > 0 || !before.overlaps.is_empty());
             }
         }
     }

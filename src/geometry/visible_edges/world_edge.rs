@@ -103,19 +103,19 @@ impl WorldEdge {
 pub(super) fn edges_of(placed: &PlacedMesh<'_>, triangles: &[[DVec3; 3]], first: usize) -> Vec<WorldEdge> {
     let gatherer = Gatherer { placed, triangles, first };
     let adjacency = placed.adjacency;
-    let mut seams: Vec<(u32, u32)> = (0..)
-        .zip(&adjacency.seams)
-        .flat_map(|(number, seam)| seam.edges.map(|edge| (edge, number)))
+    let mut overlaps: Vec<(u32, u32)> = (0..)
+        .zip(&adjacency.overlaps)
+        .flat_map(|(number, overlap)| overlap.edges.map(|edge| (edge, number)))
         .collect();
-    seams.sort_unstable();
-    let mut seams = seams.as_slice();
+    overlaps.sort_unstable();
+    let mut overlaps = overlaps.as_slice();
     let mut non_manifold = adjacency.non_manifold.as_slice();
     let mut edges = Vec::with_capacity(adjacency.edges.len());
     for (number, edge) in (0..).zip(&adjacency.edges) {
-        let own_seams = split_front(&mut seams, |&(e, _)| e <= number);
+        let own_overlaps = split_front(&mut overlaps, |&(e, _)| e <= number);
         let own_faces = split_front(&mut non_manifold, |&(e, _)| e <= number);
-        if !own_seams.is_empty() {
-            gatherer.stretches(number, own_seams, &mut edges);
+        if !own_overlaps.is_empty() {
+            gatherer.stretches(number, own_overlaps, &mut edges);
             continue;
         }
         let faces: Vec<(u32, u32)> = match edge.kind {
@@ -159,21 +159,21 @@ impl Gatherer<'_> {
 
     /// A border edge that others lie on (T-junctions), cut where one of them begins or ends. Each stretch is added
     /// by the first edge that it belongs to.
-    fn stretches(&self, number: u32, seams: &[(u32, u32)], edges: &mut Vec<WorldEdge>) {
+    fn stretches(&self, number: u32, overlaps: &[(u32, u32)], edges: &mut Vec<WorldEdge>) {
         let Some([a, b]) = self.ends(number) else { return };
         let adjacency = self.placed.adjacency;
         let on_edge = |p: DVec3| ((p - a).dot(b - a) / a.distance_squared(b)).clamp(0.0, 1.0);
         // Others, and from where to where they lie on this one.
-        let others: Vec<OverlappingEdge> = seams
+        let others: Vec<OverlappingEdge> = overlaps
             .iter()
-            .filter_map(|&(_, seam)| {
-                let seam = adjacency.seams.get(seam as usize)?;
-                let other = usize::from(seam.edges[0] == number);
-                let [from, to] = self.ends(seam.edges[other])?.map(on_edge);
+            .filter_map(|&(_, overlap)| {
+                let overlap = adjacency.overlaps.get(overlap as usize)?;
+                let other = usize::from(overlap.edges[0] == number);
+                let [from, to] = self.ends(overlap.edges[other])?.map(on_edge);
                 Some(OverlappingEdge {
-                    edge: seam.edges[other],
-                    face: seam.faces[other],
-                    is_soft: seam.is_soft,
+                    edge: overlap.edges[other],
+                    face: overlap.faces[other],
+                    is_soft: overlap.is_soft,
                     span: [from.min(to), from.max(to)],
                 })
             })

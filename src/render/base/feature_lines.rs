@@ -4,7 +4,7 @@ use super::edge_style::GpuEdgeStyle;
 use super::gpu_scene::GpuScene;
 use super::group::Group;
 use super::ids::{object_id, surface_id};
-use super::strokes::StrokeStyle;
+use super::stroke_style::StrokeStyle;
 use super::view::View;
 use crate::geometry::line_segments::{
     Dashes, LineSelection, LineView, PlacedContours, PlacedEdges, SegmentSet, contour_segments, draw_strokes,

@@ -6,7 +6,7 @@ use super::edge_style::GpuEdgeStyle;
 use super::gpu_scene::{GpuScene, Origin};
 use super::ids::{ENHANCED, object_id};
 use super::instances::{Detail, DrawCall, Instance};
-use super::strokes::StrokeStyle;
+use super::stroke_style::StrokeStyle;
 use super::view::View;
 use crate::geometry::Bounds;
 use crate::gpu::material::MaterialUniform;

@@ -19,6 +19,6 @@ pub mod section;
 pub mod stage;
 pub mod stripes;
 pub mod stroke_maps;
-pub mod strokes;
+pub mod stroke_style;
 pub mod style_images;
 pub mod view;

@@ -188,8 +188,8 @@ fn uniform(
     scale: f32,
     place: Option<StripePlace>,
 ) -> GpuHatchingStyle {
-    let (layers, tone) = (&style.layers, &style.tone);
-    let second = layers.second;
+    let (crossing, tone) = (&style.cross_hatching, &style.tone);
+    let second = crossing.second;
     GpuHatchingStyle {
         // Depends on the camera: see `placed`.
         local_from_view: Mat4::IDENTITY,
@@ -199,10 +199,10 @@ fn uniform(
         paper_tint: style.paper_tint,
         stroke,
         second,
-        third: layers.third.max(second),
+        third: crossing.third.max(second),
         greatest: if mapping == STRIPES { greatest } else { GREATEST_OF_TILES },
-        directions: layers.count,
-        shadows_cross: u32::from(layers.shadows_cross),
+        directions: crossing.directions,
+        shadows_cross: u32::from(crossing.shadows_cross),
         ambient: tone.ambient,
         object_tone: tone.object_tone,
         white: tone.lightest,

@@ -17,7 +17,7 @@ use crate::render::base::group::Group;
 use crate::render::base::instances::{DrawCall, Instance, InstanceBuffer};
 use crate::render::base::scene_view::SceneView;
 use crate::render::base::stage::{Output, Stage};
-use crate::render::base::strokes::StrokeStyle;
+use crate::render::base::stroke_style::StrokeStyle;
 use crate::render::base::view::View;
 use crate::render::effects::technique::Shaded;
 use crate::render::passes::composition::ink;

@@ -15,7 +15,7 @@ use crate::render::base::stage::Stage;
 use crate::render::base::style_images::StyleImages;
 use crate::render::passes::gbuffer::GBuffer;
 use crate::scene::Texture;
-use crate::style::toon::{Border, MAX_RAMP};
+use crate::style::toon::{MAX_RAMP, Smoothing};
 use crate::style::{Technique, Toon};
 
 /// 1 + band, 512: highlight, 1024: rim; 0 where no object asks for it.
@@ -34,7 +34,7 @@ pub struct GpuToonStyle {
     bands: u32,
     start: f32,
     bands_per_unit: f32,
-    border: u32,
+    smoothing: u32,
 }
 
 // As in `shaders/effects/toon.wgsl`.
@@ -62,17 +62,17 @@ impl GpuToonStyle {
             bands,
             start,
             bands_per_unit: bands as f32 / range,
-            border: match toon.border {
-                Border::Nearest => NEAREST,
-                Border::CartoonMap => CARTOON_MAP,
-                Border::Analytic => ANALYTIC,
+            smoothing: match toon.smoothing {
+                Smoothing::Nearest => NEAREST,
+                Smoothing::CartoonMap => CARTOON_MAP,
+                Smoothing::Analytic => ANALYTIC,
             },
         }
     }
 
     /// Whether the borders of its bands are smoothed by the cartoon map.
     pub fn has_cartoon_map(&self) -> bool {
-        self.border == CARTOON_MAP
+        self.smoothing == CARTOON_MAP
     }
 }
 
@@ -173,9 +173,9 @@ impl SurfaceTechnique for ToonShading {
     }
 
     fn switches(toons: &Toons) -> Vec<(&'static str, bool)> {
-        let any = |border| toons.styles.iter().any(|s| s.border == border);
+        let any = |smoothing| toons.styles.iter().any(|s| s.smoothing == smoothing);
         vec![
-            ("WITH_TOON", toons.styles.iter().any(|s| s.border != 0)),
+            ("WITH_TOON", toons.styles.iter().any(|s| s.smoothing != 0)),
             ("WITH_NEAREST", any(NEAREST)),
             ("WITH_CARTOON_MAP", any(CARTOON_MAP)),
             ("WITH_ANALYTIC", any(ANALYTIC)),

@@ -26,8 +26,8 @@ pub mod repeated;
 pub mod resolve;
 pub mod segments;
 pub mod selection;
-pub mod shadow;
 pub mod shadow_map;
+pub mod shadow_mask;
 pub mod shadows;
 pub mod show;
 

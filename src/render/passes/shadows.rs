@@ -4,8 +4,8 @@
 use glam::{DMat4, Vec2, Vec4};
 
 use super::gbuffer::GBuffer;
-use super::shadow::ShadowPass;
 use super::shadow_map::{ShadowCall, ShadowDraw, ShadowMapPass, ShadowScene};
+use super::shadow_mask::ShadowPass;
 use crate::gpu::{Gpu, Recorder, Target};
 use crate::render::base::error::RenderError;
 use crate::render::base::gpu_scene::{GpuScene, Origin};

@@ -8,7 +8,7 @@ use crate::render::base::group::Group;
 use crate::render::base::ids::object_id;
 use crate::render::base::object_axes::ObjectAxes;
 use crate::render::base::scene_view::SceneView;
-use crate::render::base::strokes::StrokeStyle;
+use crate::render::base::stroke_style::StrokeStyle;
 use crate::render::base::style_images::StyleImages;
 use crate::render::effects::hidden::Hidden;
 use crate::render::passes::line_distance::Widths;

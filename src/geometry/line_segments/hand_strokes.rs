@@ -7,7 +7,7 @@ use super::segment::{LineSegment, LineSelection, LineView, PlacedEdges};
 use super::{Finder, find_segments};
 use crate::geometry::feature_edges::crease_angles::CreaseAngles;
 use crate::geometry::feature_edges::straights::Straight;
-use crate::geometry::strokes::{Hand, HandStroke, mix};
+use crate::geometry::hand::{Hand, HandStroke, mix};
 use crate::geometry::{EdgeClass, Lens};
 
 /// Length of the pieces of a stroke, reference pixels: short enough that it is bowed smoothly.

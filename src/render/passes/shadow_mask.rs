@@ -12,7 +12,7 @@ use crate::render::base::lights::MAX_SHADOWS;
 /// A light per channel, 1: all of it reaches the pixel.
 const MASK: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 
-/// One picture that a light sees; twin of `LightView` in `shaders/passes/shadow.wgsl`.
+/// One picture that a light sees; twin of `LightView` in `shaders/passes/shadow_mask.wgsl`.
 #[derive(Debug, Clone, Copy, PartialEq, ShaderType)]
 pub struct GpuLightView {
     light_from_view: Mat4,
@@ -25,7 +25,7 @@ pub struct GpuLightView {
     is_central: u32,
 }
 
-/// Which pictures are of one light; twin of `ShadowLight` in `shaders/passes/shadow.wgsl`.
+/// Which pictures are of one light; twin of `ShadowLight` in `shaders/passes/shadow_mask.wgsl`.
 #[derive(Debug, Clone, Copy, PartialEq, ShaderType, Default)]
 pub struct GpuShadowLight {
     first: u32,
@@ -92,7 +92,7 @@ impl ShadowPass {
         rec.fullscreen(
             "shadow",
             Program {
-                file: "passes/shadow.wgsl",
+                file: "passes/shadow_mask.wgsl",
                 entry_point: "fs_main",
                 switches: vec![
                     ("WITH_SECOND", maps.len() > 1),

@@ -14,7 +14,7 @@ use super::{Edge, Mesh, Weld};
 
 /// A stretch where two border edges lie on each other.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Seam {
+pub struct EdgeOverlap {
     /// Indices of the two edges, the smaller one first.
     pub edges: [u32; 2],
     /// The triangle of each edge.
@@ -27,18 +27,23 @@ pub struct Seam {
     pub length: f64,
 }
 
-impl Seam {
+impl EdgeOverlap {
     /// As [`Edge::is_crease`].
     pub fn is_crease(&self, crease_angle: f32) -> bool {
         !self.is_soft && self.dihedral.abs() > crease_angle
     }
 }
 
-/// Finds all seams between border edges and marks the edges that are covered by seams from end to end as
+/// Finds all overlaps between border edges and marks the edges that are covered by overlaps from end to end as
 /// [`EdgeKind::Stitched`].
-pub(super) fn find_seams(mesh: &Mesh, weld: &Weld, normals: &[Vec3], edges: &mut [Edge]) -> Vec<Seam> {
+pub(super) fn find_overlaps(
+    mesh: &Mesh,
+    weld: &Weld,
+    normals: &[Vec3],
+    edges: &mut [Edge],
+) -> Vec<EdgeOverlap> {
     let borders = Borders::new(mesh, weld, normals, edges);
-    let mut seams = Vec::new();
+    let mut overlaps = Vec::new();
     // Chains are short in meshes that people make; hostile ones must not cost quadratic time.
     let mut steps_left = 64 * borders.starts.len();
     let mut ends = borders.ends.as_slice();
@@ -48,19 +53,19 @@ pub(super) fn find_seams(mesh: &Mesh, weld: &Weld, normals: &[Vec3], edges: &mut
         let ends_here = &ends[..ends.iter().take_while(|end| end.0 == point).count()];
         for &(_, outgoing) in starts {
             for &(_, incoming) in &ends_here[..ends_here.len().min(Borders::MOST_AT_A_POINT)] {
-                borders.zip(outgoing, incoming, &mut steps_left, &mut seams);
+                borders.zip(outgoing, incoming, &mut steps_left, &mut overlaps);
             }
         }
     }
-    // A seam between two common points is found from both of them.
-    seams.sort_unstable_by_key(|seam| seam.edges);
-    seams.dedup_by_key(|seam| seam.edges);
+    // An overlap between two common points is found from both of them.
+    overlaps.sort_unstable_by_key(|overlap| overlap.edges);
+    overlaps.dedup_by_key(|overlap| overlap.edges);
 
     let tolerance = borders.tolerance;
-    let mut covered = vec![0.0; if seams.is_empty() { 0 } else { edges.len() }];
-    for seam in &seams {
-        for edge in seam.edges {
-            covered[edge as usize] += seam.length;
+    let mut covered = vec![0.0; if overlaps.is_empty() { 0 } else { edges.len() }];
+    for overlap in &overlaps {
+        for edge in overlap.edges {
+            covered[edge as usize] += overlap.length;
         }
     }
     for (edge, covered) in edges.iter_mut().zip(covered) {
@@ -69,7 +74,7 @@ pub(super) fn find_seams(mesh: &Mesh, weld: &Weld, normals: &[Vec3], edges: &mut
             edge.kind = EdgeKind::Stitched;
         }
     }
-    seams
+    overlaps
 }
 
 /// The border edges by their ends. Each runs in the direction of its triangle.
@@ -128,7 +133,7 @@ impl<'a> Borders<'a> {
 
     /// Walks along two chains of border edges from a common point, `left` in its direction and `right` against its
     /// own, as long as they stay on one line and until they meet again; notes where they lie on each other.
-    fn zip(&self, mut left: u32, mut right: u32, steps_left: &mut usize, seams: &mut Vec<Seam>) {
+    fn zip(&self, mut left: u32, mut right: u32, steps_left: &mut usize, overlaps: &mut Vec<EdgeOverlap>) {
         let origin = self.position(left, 0);
         let (to_left, to_right) = (self.position(left, 1) - origin, self.position(right, 0) - origin);
         let along = if to_left.length_squared() > to_right.length_squared() { to_left } else { to_right };
@@ -152,7 +157,12 @@ impl<'a> Borders<'a> {
             if end <= begin + self.tolerance {
                 return;
             }
-            seams.push(self.seam(left, right, direction, [begin, end].map(|at| origin + direction * at)));
+            overlaps.push(self.overlap(
+                left,
+                right,
+                direction,
+                [begin, end].map(|at| origin + direction * at),
+            ));
             begin = end;
             if (left_end - right_end).abs() <= self.tolerance {
                 return;
@@ -173,7 +183,7 @@ impl<'a> Borders<'a> {
         }
     }
 
-    fn seam(&self, left: u32, right: u32, direction: DVec3, ends: [DVec3; 2]) -> Seam {
+    fn overlap(&self, left: u32, right: u32, direction: DVec3, ends: [DVec3; 2]) -> EdgeOverlap {
         let face = |edge: u32| self.edges[edge as usize].faces[0];
         let [n0, n1] = [left, right].map(|edge| self.normals[face(edge) as usize]);
         let [first, second] = [left.min(right), left.max(right)];
@@ -185,7 +195,7 @@ impl<'a> Borders<'a> {
         let dihedral = signed_angle(n0, n1, direction.as_vec3());
         let is_soft = dihedral.abs() <= FOLDED
             && ends.iter().all(|&p| self.soft.agree_between([place(left, p), place(right, p)]));
-        Seam {
+        EdgeOverlap {
             edges: [first, second],
             faces: [face(first), face(second)],
             dihedral,
@@ -232,8 +242,8 @@ mod tests {
             assert_eq!(adjacency.border_count, 4, "{left:?} {right:?}");
             assert_eq!(adjacency.surfaces(0.5).count, 1);
             assert_eq!(adjacency.surfaces(0.01).count, 2);
-            for seam in &adjacency.seams {
-                assert!(seam.dihedral < -0.05 && seam.length > 0.4, "{seam:?}");
+            for overlap in &adjacency.overlaps {
+                assert!(overlap.dihedral < -0.05 && overlap.length > 0.4, "{overlap:?}");
             }
         }
     }
@@ -241,11 +251,11 @@ mod tests {
     #[test]
     fn sides_that_only_partly_touch_stay_borders() {
         let adjacency = Adjacency::new(&two_sides(&[0.0, 3.0], &[0.0, 1.0], 0.0));
-        assert_eq!(adjacency.seams.len(), 1);
+        assert_eq!(adjacency.overlaps.len(), 1);
         // The short edge is covered; the long one is not.
         assert_eq!(adjacency.border_count, 5);
         let apart = Adjacency::new(&two_sides(&[0.0, 3.0], &[1.0, 2.0], 0.0));
-        assert_eq!((apart.seams.len(), apart.border_count), (0, 6));
+        assert_eq!((apart.overlaps.len(), apart.border_count), (0, 6));
     }
 
     #[test]

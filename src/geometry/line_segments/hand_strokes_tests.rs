@@ -6,7 +6,7 @@ use super::tests::{EYE, LENSES, Subject, everything, look_from};
 use super::*;
 use crate::geometry::feature_edges::crease_angles::CreaseAngles;
 use crate::geometry::feature_edges::straights::Straights;
-use crate::geometry::strokes::Hand;
+use crate::geometry::hand::Hand;
 use crate::geometry::{Lens, Mesh, primitives};
 
 const ANGLE: f32 = 0.5;

@@ -14,7 +14,7 @@ override WITH_CENTRAL: bool = true;
 override WITH_SOFT: bool = true;
 
 // One picture that a light sees. Light space: it looks along −Z. Twin: `GpuLightView` in
-// src/render/passes/shadow.rs.
+// src/render/passes/shadow_mask.rs.
 struct LightView {
     light_from_view: mat4x4<f32>,
     // From x and y, for central rays at distance 1, to texels.
@@ -30,7 +30,7 @@ struct LightView {
     is_central: u32,
 }
 
-// Twin: `GpuShadowLight` in src/render/passes/shadow.rs.
+// Twin: `GpuShadowLight` in src/render/passes/shadow_mask.rs.
 struct ShadowLight {
     // Its pictures.
     first: u32,

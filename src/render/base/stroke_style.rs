@@ -1,6 +1,6 @@
 //! The hand that draws the strokes of a group.
 
-use crate::geometry::strokes::Hand;
+use crate::geometry::hand::Hand;
 use crate::style::sketch::Strokes;
 
 /// How the straight lines of a group are drawn.
