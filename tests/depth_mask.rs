@@ -234,7 +234,7 @@ fn a_designated_object_is_in_no_layer_and_stands_in_the_picture_in_its_own_style
         ("edges.inner.show", "false"),
         ("blueprint.fill_opacity", "0"),
         ("blueprint.fraction", "1"),
-        ("blueprint.highlight", "#ff0000"),
+        ("blueprint.designated_color", "#ff0000"),
     ] {
         set(&mut scene, key, value);
     }
@@ -423,7 +423,7 @@ fn mirrors_show_layers_of_their_own_view() {
         scene.document.set_for(&nodes, &[2], key, &hachure::style::Value::parse(value)).unwrap();
     }
     set(&mut scene, "blueprint.fill_opacity", "0.1");
-    set(&mut scene, "blueprint.highlight", "#ff0000");
+    set(&mut scene, "blueprint.designated_color", "#ff0000");
     let mut pictures = ["0", "1"].map(|fraction| {
         set(&mut scene, "blueprint.fraction", fraction);
         session.set_scene(&scene).unwrap();

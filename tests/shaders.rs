@@ -161,14 +161,29 @@ fn no_uniform_is_without_a_twin_and_no_element_larger_than_an_empty_array() {
     }
 }
 
+/// The value of a whole number that a shader calls so.
+fn constant(module: &Module, name: &str) -> Option<u32> {
+    let (_, found) = module.constants.iter().find(|(_, c)| c.name.as_deref() == Some(name))?;
+    match module.global_expressions[found.init] {
+        Expression::Literal(Literal::U32(number)) => Some(number),
+        _ => None,
+    }
+}
+
 #[test]
 fn shaders_number_techniques_as_styles_do() {
     let module = Shaders::default().validate("effects/surface.wgsl").unwrap();
     for name in Technique::VARIANTS {
         let number = name.parse::<Technique>().unwrap() as u32;
-        let upper = name.to_uppercase();
-        let (_, found) = module.constants.iter().find(|(_, c)| c.name.as_deref() == Some(&upper)).unwrap();
-        let value = &module.global_expressions[found.init];
-        assert!(matches!(value, Expression::Literal(Literal::U32(n)) if *n == number), "{upper}: {value:?}");
+        assert_eq!(constant(&module, &name.to_uppercase()), Some(number), "{name}");
+    }
+}
+
+#[test]
+fn shaders_number_classes_of_edges_from_1() {
+    let module = Shaders::default().validate("passes/show.wgsl").unwrap();
+    for (number, class) in (1..).zip(EdgeClass::ALL) {
+        let name = <&str>::from(class);
+        assert_eq!(constant(&module, &name.to_uppercase()), Some(number), "{name}");
     }
 }

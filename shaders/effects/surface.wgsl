@@ -16,8 +16,8 @@ const UNLIT: u32 = 2u;
 // Only what is designated among blueprints is a surface.
 const BLUEPRINT: u32 = 8u;
 
-// A surface seen edge on has this share of its highlight color: it is lit from the eye.
-const HIGHLIGHT_RIM: f32 = 0.55;
+// A surface seen edge on has this share of its color as a designated object: it is lit from the eye.
+const DESIGNATED_EDGE_ON: f32 = 0.55;
 
 // Whether any object is drawn so.
 override WITH_PLAIN: bool = true;
@@ -27,7 +27,7 @@ override WITH_OPACITY: bool = false;
 // Twin: `GpuSurfaceStyle` in src/render/effects/surface.rs.
 struct SurfaceStyle {
     // Linear color of what stands out among blueprints.
-    highlight: vec3<f32>,
+    designated_color: vec3<f32>,
     ambient: f32,
     technique: u32,
 }
@@ -72,7 +72,7 @@ fn fs_main(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
             } else if WITH_HATCHING && technique == HATCHING {
                 shade = hatching(px, s, base, pos_view);
             } else if technique == BLUEPRINT {
-                shade = surface_styles[s.object].highlight * mix(HIGHLIGHT_RIM, 1.0, max(dot(s.normal, towards_eye(pos_view)), 0.0));
+                shade = surface_styles[s.object].designated_color * mix(DESIGNATED_EDGE_ON, 1.0, max(dot(s.normal, towards_eye(pos_view)), 0.0));
             }
             color = vec4(shade, 1.0) * select(1.0, base_color.a, WITH_OPACITY);
         }

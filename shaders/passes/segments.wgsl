@@ -105,11 +105,11 @@ fn point_at(v: Segment, number: u32, px: vec2<f32>) -> SegmentPoint {
     let order = select(precedence.x, precedence.y, is_suppressed);
     var texel = pack_edge(edge);
     texel.w |= select(0u, STROKE, hand.is_stroke);
-    let is_rim = class_of <= OBJECT;
+    let is_outline = class_of <= OBJECT;
     // Strokes cross each other: there is no room around any line.
     let nearness = select(1.0 - range_share(depth), 0.0, WITH_STROKES);
     let packed = spine_of(texel, halves_of(own, class_of), select(0.0, 1.0, is_profile && !WITH_STROKES), nearness);
-    let mark = select(0u, 1u, is_rim || !is_suppressed || (is_drawn && (v.ids.x & ELSEWHERE) != 0u));
+    let mark = select(0u, 1u, is_outline || !is_suppressed || (is_drawn && (v.ids.x & ELSEWHERE) != 0u));
     // Positive numbers have the order of their bits, and those below 1 leave two of them.
     return SegmentPoint(texel, packed, (bitcast<u32>(order) << 1u) | mark, u32(px.x) | (u32(px.y) << 16u), number);
 }

@@ -1,4 +1,4 @@
-//! Work that runs beside the window.
+//! Work that runs in the background.
 //!
 //! Every kind of work is a [`Job`] over the type of its result; the viewer keeps one field per kind and asks it once
 //! per frame. A job that panics becomes an error like any other, a job that is dropped is asked to stop.

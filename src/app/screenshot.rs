@@ -1,4 +1,4 @@
-//! Pictures of the viewport as PNG files, drawn and written beside the window.
+//! Pictures of the viewport as PNG files, drawn and written in the background.
 
 use std::path::{Path, PathBuf};
 

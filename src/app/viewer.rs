@@ -80,7 +80,7 @@ enum DialogFor {
     Image(Choosing),
 }
 
-/// Work that runs beside the window; see [`super::jobs`]. A new kind of work is a new field, started where it is asked
+/// Work that runs in the background; see [`super::jobs`]. A new kind of work is a new field, started where it is asked
 /// for and answered in `viewer/background.rs`.
 #[derive(Default)]
 struct Jobs {

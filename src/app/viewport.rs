@@ -334,7 +334,7 @@ impl Viewport {
         &self.refining
     }
 
-    /// The picture as it is in the window, without outline, or without paper, to be taken beside the window.
+    /// The picture as it is in the window, without outline, or without paper, to be taken in the background.
     pub fn shot(&self, document: &Document, transparent: bool, samples: u32) -> Shot {
         let (renderer, size) = (self.renderer.fork(), self.size);
         Shot { renderer, document: document.clone(), size, transparent, samples }

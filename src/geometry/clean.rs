@@ -8,7 +8,7 @@ use super::{Mesh, Submesh};
 
 /// What [`clean`] dropped or repaired.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub struct Report {
+pub struct CleanReport {
     /// Triangles dropped because an index points behind the last vertex.
     pub out_of_range: usize,
     /// Triangles dropped because a corner is NaN or infinite.
@@ -23,7 +23,7 @@ pub struct Report {
     pub bad_attributes: usize,
 }
 
-impl Report {
+impl CleanReport {
     /// Whether nothing was wrong.
     pub fn is_clean(&self) -> bool {
         *self == Self::default()
@@ -67,8 +67,8 @@ const DUPLICATE: Verdict = 3;
 /// Drops what cannot be drawn; afterwards indices are in range, positions finite, triangles have an area and differ,
 /// normals are unit vectors, and `parts` cover all indices. A mesh without faults is returned as it is; else vertices
 /// that no triangle uses are dropped too. Empty parts go.
-pub fn clean(mut mesh: Mesh) -> (Mesh, Report) {
-    let mut report = Report { bad_attributes: drop_misfits(&mut mesh), ..Report::default() };
+pub fn clean(mut mesh: Mesh) -> (Mesh, CleanReport) {
+    let mut report = CleanReport { bad_attributes: drop_misfits(&mut mesh), ..CleanReport::default() };
     let whole = mesh.indices.len() / 3 * 3;
     if whole < mesh.indices.len() {
         mesh.indices.truncate(whole);

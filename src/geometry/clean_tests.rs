@@ -42,7 +42,7 @@ fn every_fault_is_counted_and_dropped() {
     let (after, report) = clean(mesh);
     assert_eq!(
         report,
-        Report { out_of_range: 1, not_finite: 2, degenerate: 3, duplicate: 2, ..Report::default() }
+        CleanReport { out_of_range: 1, not_finite: 2, degenerate: 3, duplicate: 2, ..CleanReport::default() }
     );
     assert_eq!(report.dropped(), 8);
     assert_eq!(after, cube(2.0), "the second part is empty and gone, unused vertices too");

@@ -101,18 +101,18 @@ impl FeatureEdges {
         };
         let point = |v: u32| adjacency.weld.representative.get(v as usize).copied().unwrap_or(v);
         let materials = Materials::new(mesh);
-        let seams = stretches::overlaps_by_edge(adjacency);
-        let mut seams = seams.as_slice();
+        let overlaps = stretches::overlaps_by_edge(adjacency);
+        let mut overlaps = overlaps.as_slice();
         let mut non_manifold = adjacency.non_manifold.as_slice();
         let shortest = 4.0 * TOLERANCE * all.bounds.diagonal();
         let mut own_stretches = Vec::new();
         for (number, edge) in (0..).zip(&adjacency.edges) {
-            let own_seams = split_front(&mut seams, |&(e, _)| e <= number);
+            let own_overlaps = split_front(&mut overlaps, |&(e, _)| e <= number);
             let own_faces = split_front(&mut non_manifold, |&(e, _)| e <= number);
             let ends = edge.vertices.map(point);
             match edge.kind {
-                EdgeKind::Border | EdgeKind::Stitched if !own_seams.is_empty() => {
-                    stretches::split(mesh, adjacency, number, own_seams, shortest, &mut own_stretches);
+                EdgeKind::Border | EdgeKind::Stitched if !own_overlaps.is_empty() => {
+                    stretches::split(mesh, adjacency, number, own_overlaps, shortest, &mut own_stretches);
                     for stretch in own_stretches.drain(..) {
                         all.add_stretch(&stretch, point, &materials);
                     }

@@ -144,9 +144,9 @@ impl<'a> Finder<'a> {
         let least_angle = asked(EdgeClass::Ridge, wanted.ridge_angle)
             .min(asked(EdgeClass::Valley, wanted.valley_angle))
             .min(wanted.suppress_angle);
-        let rims = ClassSet::of(&[EdgeClass::Border, EdgeClass::Object]);
+        let outlines = ClassSet::of(&[EdgeClass::Border, EdgeClass::Object]);
         let mut special = Traits::FAN;
-        if EdgeClass::ALL.iter().any(|&class| rims.contains(class) && wanted.classes.contains(class)) {
+        if EdgeClass::ALL.iter().any(|&class| outlines.contains(class) && wanted.classes.contains(class)) {
             special = special.and(Traits::BORDER);
         }
         if wanted.classes.contains(EdgeClass::Material) {
@@ -208,8 +208,8 @@ impl<'a> Finder<'a> {
     fn line(&self, edge: u32, faces: [u32; 2], dihedral: f32, traits: Traits) -> Option<Line> {
         if traits.any(Traits::FAN) {
             let seen = self.fans.look(edge)?;
-            return match seen.rim {
-                Some(rim) => self.rim(rim, seen.angle, seen.faces),
+            return match seen.outline {
+                Some(outline) => self.outline(outline, seen.angle, seen.faces),
                 None => {
                     let soft = Traits::SOFT.when(traits.any(Traits::SOFT));
                     let traits = soft.and(Traits::MATERIAL.when(seen.materials_differ));
@@ -218,7 +218,7 @@ impl<'a> Finder<'a> {
             };
         }
         if traits.any(Traits::BORDER) {
-            return self.rim(EdgeClass::Border, 0.0, faces);
+            return self.outline(EdgeClass::Border, 0.0, faces);
         }
         let is_away = self.facings.of(faces[0]) == 0;
         let is_silhouette = self.facings.differ(faces) != traits.flip();
@@ -231,14 +231,14 @@ impl<'a> Finder<'a> {
             if self.hides_its_back && angle < -1e-3 {
                 return None;
             }
-            return self.rim(EdgeClass::Silhouette, angle, faces);
+            return self.outline(EdgeClass::Silhouette, angle, faces);
         }
         // From behind, what is convex looks concave.
         self.crease(if is_away { -angle } else { angle }, faces, traits)
     }
 
     /// A line with all surfaces on one side of it.
-    fn rim(&self, class: EdgeClass, angle: f32, faces: [u32; 2]) -> Option<Line> {
+    fn outline(&self, class: EdgeClass, angle: f32, faces: [u32; 2]) -> Option<Line> {
         let is_wanted =
             self.wanted.classes.contains(class) || self.wanted.classes.contains(EdgeClass::Object);
         let class = if is_wanted { class as u32 } else { self.suppressed(class, angle, faces)? };

@@ -46,7 +46,7 @@ pub use border_links::BorderLink;
 pub use bounds::Bounds;
 pub use box_frame::box_frame;
 pub use bvh::Bvh;
-pub use clean::{Report, clean};
+pub use clean::{CleanReport, clean};
 pub use direction_field::{DirectionField, DirectionSource, FieldOptions};
 pub use edge::{Edge, EdgeKind};
 pub use edge_class::{ClassSet, EdgeClass};

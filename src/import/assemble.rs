@@ -8,7 +8,7 @@ use glam::DMat4;
 use super::names::{SiblingNames, file_stem};
 use super::{ImportError, ImportOptions, Progress};
 use crate::geometry::mend::mended;
-use crate::geometry::{Mesh, Report, clean, normals};
+use crate::geometry::{CleanReport, Mesh, clean, normals};
 use crate::scene::{Node, Scene, Warning};
 
 /// A node to be, with what hangs below it.
@@ -59,7 +59,7 @@ impl<'a> Assembly<'a> {
 
     /// Warns that triangles are lost because their corners are at vertices that do not exist.
     pub(super) fn lost(&mut self, place: &str, out_of_range: usize) {
-        let report = Report { out_of_range, ..Report::default() };
+        let report = CleanReport { out_of_range, ..CleanReport::default() };
         for message in report.messages() {
             self.warn(place, message);
         }

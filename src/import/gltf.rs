@@ -6,6 +6,7 @@
 mod accessor;
 mod block;
 mod buffers;
+mod cameras_and_lights;
 mod container;
 mod fault;
 mod materials;
@@ -16,7 +17,6 @@ mod skin;
 mod tangents;
 #[cfg(test)]
 mod tests;
-mod views;
 
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
@@ -123,7 +123,7 @@ fn import(path: &Path, data: &[u8], options: &ImportOptions, progress: &Progress
         meters_per_unit: Some(1.0),
         ..Scene::default()
     };
-    views::add(root, &hierarchy.sources, &hierarchy.worlds, &mut scene);
+    cameras_and_lights::add(root, &hierarchy.sources, &hierarchy.worlds, &mut scene);
     progress.report(1.0);
     Ok(scene)
 }

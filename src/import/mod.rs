@@ -96,7 +96,7 @@ impl Default for ImportOptions {
     }
 }
 
-/// Progress of a job that runs beside the window, and the way to stop it. Clones share their state.
+/// Progress of a job that runs in the background, and the way to stop it. Clones share their state.
 #[derive(Debug, Clone)]
 pub struct Progress {
     state: Arc<ProgressState>,

@@ -34,7 +34,7 @@ pub struct Scene {
     pub lights: Vec<Light>,
     /// What could not be loaded or was repaired, for a person to read.
     pub warnings: Vec<Warning>,
-    /// The axis that the first file's format declares to be up: 1 for +Y (glTF, OBJ, PLY), 2 for +Z (STL).
+    /// The axis that the first file's format declares to be up.
     pub up: Up,
     /// Meters per unit where the format states it (glTF: 1).
     pub meters_per_unit: Option<f64>,

@@ -41,7 +41,7 @@ pub struct Blueprint {
     /// Whether what lies farther than the depth mask is drawn.
     pub beyond: bool,
     /// Color of designated objects of this style, which are no blueprints.
-    pub highlight: Color,
+    pub designated_color: Color,
 }
 
 impl Default for Blueprint {
@@ -61,7 +61,7 @@ impl Default for Blueprint {
             min_coverage: 0.1,
             fraction: 0.9,
             beyond: true,
-            highlight: Color([226, 110, 44]),
+            designated_color: Color([226, 110, 44]),
         }
     }
 }
@@ -153,11 +153,12 @@ impl Blueprint {
                 &mut self.beyond,
             );
             list.color(
-                "highlight",
-                "Highlight",
+                "designated_color",
+                "Designated",
                 "Color of designated objects of this style, which are drawn as surfaces.",
-                &mut self.highlight,
+                &mut self.designated_color,
             );
+            list.formerly("highlight");
         });
     }
 }

@@ -60,7 +60,7 @@ fn keys_are_unique_and_defaults_lie_in_their_ranges() {
 }
 
 /// Keys of version 0.1 as they stood in its files, and what they are called now.
-const FORMER_KEYS: [(&str, &str); 32] = [
+const FORMER_KEYS: [(&str, &str); 33] = [
     ("gooch.own_hue", "gooch.object_hue"),
     ("gooch.aside", "gooch.side_light"),
     ("toon.border", "toon.smoothing"),
@@ -82,6 +82,7 @@ const FORMER_KEYS: [(&str, &str); 32] = [
     ("hatching.tone.own_color", "hatching.tone.object_tone"),
     ("hatching.tone.white", "hatching.tone.lightest"),
     ("blueprint.opacity", "blueprint.fill_opacity"),
+    ("blueprint.highlight", "blueprint.designated_color"),
     ("blueprint.layers", "blueprint.max_layers"),
     ("blueprint.least", "blueprint.min_coverage"),
     ("sketch.fill.density", "sketch.fill.opacity"),

@@ -281,7 +281,7 @@ fn stripe_ink(px: vec2<i32>, s: Stripes, number: u32, stroke: Stroke, ink: f32) 
     let code = select(min(bits, rows.period - bits), rows.period, bits == 0u);
     let born = countTrailingZeros(code);
     let id = hash_of(code >> born, u32(level.k + 1 - i32(born)) ^ (number * 7919u));
-    var tap = 1.0;
+    var tapered = 1.0;
     var chance = unit_of(id);
     var variation = 0.0;
     var length_place = 0.0;
@@ -310,8 +310,8 @@ fn stripe_ink(px: vec2<i32>, s: Stripes, number: u32, stroke: Stroke, ink: f32) 
         // Where strokes are nearly twice as long as wanted they come apart in the middle.
         let apart = smoothstep(0.35, 1.0, octave);
         let middle = abs(share - 0.5) * along.spacing - stroke.gap;
-        tap = clamp(end / stroke.taper, 0.0, 1.0);
-        tap = min(tap, mix(1.0, clamp(middle / stroke.taper, 0.0, 1.0), apart));
+        tapered = clamp(end / stroke.taper, 0.0, 1.0);
+        tapered = min(tapered, mix(1.0, clamp(middle / stroke.taper, 0.0, 1.0), apart));
         let half = select(0u, 1u, share > 0.5);
         let whole = hash_of(id, stroke_number);
         let halves = hash_of(id, (2u * stroke_number + half) & halves_mask);
@@ -319,11 +319,11 @@ fn stripe_ink(px: vec2<i32>, s: Stripes, number: u32, stroke: Stroke, ink: f32) 
         variation = mix(unit_of(mixed(whole)), unit_of(mixed(halves)), apart) - 0.5;
     }
     let late = select((1.0 - level.place) * stroke.inserted, 0.0, even);
-    let threshold = stroke.spread * (stroke.chance * chance + (1.0 - tap) * stroke.pointed) + late;
+    let threshold = stroke.spread * (stroke.chance * chance + (1.0 - tapered) * stroke.pointed) + late;
     let tone = tone_for(stroke.table, level.place, length_place, ink);
     let beyond = clamp((tone - threshold) / max(1.0 - threshold, 1e-3), 0.0, 1.0);
     let share = mix(stroke.thin, stroke.thick, beyond);
-    let pressed = sqrt(tap) * (1.0 - stroke.variation * variation) * smoothstep(0.0, SOFT, tone - threshold);
+    let pressed = sqrt(tapered) * (1.0 - stroke.variation * variation) * smoothstep(0.0, SOFT, tone - threshold);
     var width = stroke.spacing * share * pressed;
     // No hair lines: a stroke ends, it does not fade.
     width = select(width, 0.0, width < LEAST_WIDTH);

@@ -1,4 +1,4 @@
-//! What happens when work beside the window is asked for, and when it is done.
+//! What happens when work in the background is asked for, and when it is done.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -190,7 +190,7 @@ impl Viewer {
         }
     }
 
-    /// Examines the meshes of a new scene beside the window, and again when something else decides about creases.
+    /// Examines the meshes of a new scene in the background, and again when something else decides about creases.
     fn answer_topology(&mut self, context: &egui::Context) {
         if let Some(result) = Job::take(&mut self.jobs.topology) {
             let shown = match result {
@@ -331,7 +331,7 @@ impl Viewer {
         }
     }
 
-    /// Opens a file dialog beside the window.
+    /// Opens a file dialog in the background.
     pub(super) fn ask_for_file(&mut self, context: &egui::Context, purpose: DialogFor) {
         if self.jobs.dialog.is_some() {
             self.notices.warning("A dialog is open already; answer that one first");
@@ -412,7 +412,7 @@ impl Viewer {
         }
     }
 
-    /// Writes the document beside the window.
+    /// Writes the document in the background.
     pub(super) fn save_document(&mut self, context: &egui::Context, path: PathBuf) {
         let document = self.document.clone();
         let work = move |_: &_| document.save(&path).map(|()| (path, document));

@@ -1,4 +1,4 @@
-//! The images that styles name are read beside the window, and again when their files have changed.
+//! The images that styles name are read in the background, and again when their files have changed.
 
 use std::path::Path;
 

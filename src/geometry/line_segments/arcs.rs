@@ -178,11 +178,11 @@ impl Finder<'_> {
 impl Dashes {
     /// Whether a segment is to have arcs.
     fn wants(&self, segment: &LineSegment) -> bool {
-        let rims = ClassSet::of(&[EdgeClass::Silhouette, EdgeClass::Border]);
+        let outlines = ClassSet::of(&[EdgeClass::Silhouette, EdgeClass::Border]);
         segment.edge_class().is_some_and(|class| {
             !segment.is_suppressed()
                 && (self.classes.contains(class)
-                    || self.classes.contains(EdgeClass::Object) && rims.contains(class))
+                    || self.classes.contains(EdgeClass::Object) && outlines.contains(class))
         })
     }
 }

@@ -15,7 +15,7 @@ const EDGE_ON: f64 = 1e-9;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct FanView {
     /// The class, if all surfaces are on one side.
-    pub rim: Option<EdgeClass>,
+    pub outline: Option<EdgeClass>,
     /// Angle between the two surfaces that are seen, positive convex; 0 at a border.
     pub angle: f32,
     /// The triangles that are seen on either side, or twice the same one.
@@ -71,10 +71,10 @@ impl<'a> Fans<'a> {
                 *side = Some((angle, face));
             }
         }
-        let rim = if is_fold { EdgeClass::Silhouette } else { EdgeClass::Border };
+        let outline = if is_fold { EdgeClass::Silhouette } else { EdgeClass::Border };
         match (left, right) {
             (Some((left, one)), Some((right, two))) => Some(FanView {
-                rim: None,
+                outline: None,
                 angle: (left + right - std::f64::consts::PI) as f32,
                 faces: [one, two],
                 materials_differ: match self.border_link(one).or(self.border_link(two)) {
@@ -84,13 +84,21 @@ impl<'a> Fans<'a> {
             }),
             // The other mesh draws it.
             (Some((_, face)), None) | (None, Some((_, face))) if self.border_link(face).is_some() => None,
-            (Some((_, face)), None) | (None, Some((_, face))) => {
-                Some(FanView { rim: Some(rim), angle: 0.0, faces: [face; 2], materials_differ: false })
-            }
+            (Some((_, face)), None) | (None, Some((_, face))) => Some(FanView {
+                outline: Some(outline),
+                angle: 0.0,
+                faces: [face; 2],
+                materials_differ: false,
+            }),
             (None, None) if is_fold => None,
             (None, None) => {
                 let (_, face) = first?;
-                Some(FanView { rim: Some(rim), angle: 0.0, faces: [face; 2], materials_differ: false })
+                Some(FanView {
+                    outline: Some(outline),
+                    angle: 0.0,
+                    faces: [face; 2],
+                    materials_differ: false,
+                })
             }
         }
     }

@@ -75,8 +75,8 @@ impl WorldEdge {
                 *side = Some((angle, wing.material));
             }
         }
-        let rim = if self.is_fold() { EdgeClass::Silhouette } else { EdgeClass::Border };
-        let is_rim = wanted(&rim) || wanted(&EdgeClass::Object);
+        let outline = if self.is_fold() { EdgeClass::Silhouette } else { EdgeClass::Border };
+        let is_outline = wanted(&outline) || wanted(&EdgeClass::Object);
         let off_surface = match (left, right) {
             (Some((left, left_material)), Some((right, right_material))) => {
                 let bend = left + right - std::f64::consts::PI;
@@ -95,7 +95,7 @@ impl WorldEdge {
             (None, None) if !self.is_fold() => None,
             (None, None) => return None,
         };
-        is_rim.then(|| Line { class: first(&[rim]), off_surface })
+        is_outline.then(|| Line { class: first(&[outline]), off_surface })
     }
 }
 

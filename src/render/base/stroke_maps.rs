@@ -1,4 +1,4 @@
-//! The tonal art maps of strokes that styles describe: drawn beside the window, once.
+//! The tonal art maps of strokes that styles describe: drawn in the background, once.
 
 use std::sync::Arc;
 

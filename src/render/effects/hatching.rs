@@ -1,7 +1,7 @@
 //! Hatching: tones by strokes of a pen that follow the form (Bu et al., "Image-based Real-time Hatching of Scene Traveling", 2006).
 //!
 //! ```text
-//! mesh ─► directions ─► stripes (once, beside the window) ──┐
+//! mesh ─► directions ─► stripes (once, in the background) ──┐
 //! layer ─► triangle of each pixel ──────────────────────────┼─► strokes of up to three directions ─► color
 //! layer, lights, shadows ─► tone ─► share of each direction ┘
 //! ```

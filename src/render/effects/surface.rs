@@ -24,7 +24,7 @@ use crate::style::{Style, Technique};
 /// Twin of `SurfaceStyle` in `shaders/effects/surface.wgsl`; by default paper only.
 #[derive(Debug, Clone, Copy, PartialEq, ShaderType, Default)]
 pub struct GpuSurfaceStyle {
-    highlight: Vec3,
+    designated_color: Vec3,
     ambient: f32,
     technique: u32,
 }
@@ -32,7 +32,7 @@ pub struct GpuSurfaceStyle {
 impl GpuSurfaceStyle {
     fn new(style: &Style) -> Self {
         Self {
-            highlight: style.blueprint.highlight.to_linear(),
+            designated_color: style.blueprint.designated_color.to_linear(),
             ambient: style.plain.ambient,
             // The shader's constants have the same order.
             technique: style.technique as u32,

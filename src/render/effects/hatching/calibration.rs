@@ -101,7 +101,7 @@ fn ink(stroke: &GpuStroke, tone: f32, Octave { place, length: octave }: Octave, 
     let code = if bits == 0 { period } else { bits.min(period - bits) };
     let born = code.trailing_zeros();
     let id = hash(code >> born, 1_u32.wrapping_sub(born));
-    let (mut tap, mut chance, mut variation) = (1.0_f32, unit(id), 0.0);
+    let (mut tapered, mut chance, mut variation) = (1.0_f32, unit(id), 0.0);
     if stroke.taper > 0.0 {
         let length = stroke.length * octave.exp2();
         let u = x + unit(mixed(id));
@@ -111,7 +111,7 @@ fn ink(stroke: &GpuStroke, tone: f32, Octave { place, length: octave }: Octave, 
         let apart = smoothstep(0.35, 1.0, octave);
         let middle = (share - 0.5).abs() * length - stroke.gap;
         let [end, middle] = [end, middle].map(|left| (left / stroke.taper).clamp(0.0, 1.0));
-        tap = end.min(1.0 + (middle - 1.0) * apart);
+        tapered = end.min(1.0 + (middle - 1.0) * apart);
         let half = u32::from(share > 0.5);
         let [whole, halves] = [number, (2 * number + half) & 15].map(|n| hash(id, n));
         let mix = |from: f32, to: f32| from + (to - from) * apart;
@@ -119,10 +119,11 @@ fn ink(stroke: &GpuStroke, tone: f32, Octave { place, length: octave }: Octave, 
         variation = mix(unit(mixed(whole)), unit(mixed(halves))) - 0.5;
     }
     let late = if even { 0.0 } else { (1.0 - place) * stroke.inserted };
-    let threshold = stroke.spread * (stroke.chance * chance + (1.0 - tap) * stroke.pointed) + late;
+    let threshold = stroke.spread * (stroke.chance * chance + (1.0 - tapered) * stroke.pointed) + late;
     let beyond = ((tone - threshold) / (1.0 - threshold).max(1e-3)).clamp(0.0, 1.0);
     let share = stroke.thin + (stroke.thick - stroke.thin) * beyond;
-    let pressed = tap.sqrt() * (1.0 - stroke.variation * variation) * smoothstep(0.0, SOFT, tone - threshold);
+    let pressed =
+        tapered.sqrt() * (1.0 - stroke.variation * variation) * smoothstep(0.0, SOFT, tone - threshold);
     let width = stroke.spacing * share * pressed;
     // No hair lines: a stroke ends, it does not fade.
     let width = if width < LEAST_WIDTH { 0.0 } else { width };
