@@ -242,6 +242,8 @@ fn fs_main(@builtin(position) position: vec4<f32>) -> Out {
     if spine.class_of == NO_EDGE || (marks & DRAWN) != 0u || is_explained {
         discard;
     }
+    // Where two surfaces meet, both have this depth; elsewhere a line is only as near as its surface is found.
+    let depth = select(x.depth, depth_of(nearness_at(plane, spine.offset)), spine.class_of == INTERSECTION);
     let pos_view = pos_view_of(px, x.depth);
     let normal = vec2(spine.tangent.y, -spine.tangent.x);
     // Without a neighbor along the line nobody knows how long it is: dashes count along its direction.
@@ -253,7 +255,7 @@ fn fs_main(@builtin(position) position: vec4<f32>) -> Out {
         pack_tangent(spine.tangent),
         select(-1.0, 1.0, dot(normal, spine.offset) >= 0.0),
         0.5,
-        x.depth,
+        depth,
         half_width(x.object, spine.class_of, pos_view, x.normal),
         arc / edge_styles[x.object].dash_period,
         select(0.0, 1.0, edge_styles[x.object].lines[spine.class_of - 1u].opacity > 0.0),
