@@ -124,28 +124,22 @@ fn noise_at(at: vec3<f32>, normal: vec3<f32>, depth: f32, stretch: f32, wave: f3
     return noise;
 }
 
-// How much longer than on paper a line is along itself: of walls seen from the side waves would be too short.
+// How much longer than on paper a line is along itself: of walls seen from the side waves would be too short. The side on which it is
+// less says so, as on the other one the line may go on as one that is farther off.
 fn stretch_at(px: vec2<i32>, edge: Edge, spine: vec2<f32>) -> f32 {
     let tangent = unpack_tangent(edge.tangent);
     let here = pos_view_at(spine, edge.depth);
-    var on_paper = 0.0;
-    var in_space = 0.0;
+    var least = 1e9;
     for (var side = -1; side <= 1; side += 2) {
         let line = next_on_line(px, edge, spine, tangent, side);
-        if !line.is_there {
-            continue;
-        }
         let other = unpack_edge(textureLoad(edge_map_tex, line.px));
         let there = vec2<f32>(line.px) + 0.5 + other.offset;
-        let apart = distance(there, spine);
-        let along = distance(pos_view_at(there, other.depth), here);
-        // What is farther off than this is another line.
-        if apart > 0.5 && along < 12.0 * apart * pixel_at(edge.depth) {
-            on_paper += apart * pixel_at(edge.depth);
-            in_space += along;
-        }
+        let on_paper = distance(there, spine) * pixel_at(edge.depth);
+        let stretch = distance(pos_view_at(there, other.depth), here) / max(on_paper, 1e-20);
+        least = select(least, min(stretch, least), line.is_there);
     }
-    return clamp(in_space / max(on_paper, 1e-20), 1.0, 4.0);
+    // What is farther off than this is another line.
+    return select(clamp(least, 1.0, 4.0), 1.0, least > 12.0);
 }
 
 // Lists the pixels in which lines run: software devices run both sides of a branch.
