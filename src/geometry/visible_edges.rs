@@ -97,8 +97,15 @@ pub struct VisibleSegment {
     pub edge: Option<u32>,
     /// Where its ends appear, in pixels as [`EdgeSample::position`].
     pub ends: [DVec2; 2],
+    /// Where they lie, in world space.
+    pub places: [DVec3; 2],
+}
+
+impl VisibleSegment {
     /// Length in world units.
-    pub world_length: f64,
+    pub fn world_length(&self) -> f64 {
+        self.places[0].distance(self.places[1])
+    }
 }
 
 /// What is seen of the edges.
@@ -182,6 +189,7 @@ fn visible_part(
     let pixels = ends.map(|p| projector.pixel(p));
     let length = pixels[0].distance(pixels[1]);
     let count = (length / SAMPLE_STEP).ceil().clamp(1.0, MOST_SAMPLES) as u32;
+    let world_from_view = projector.view_from_world.inverse();
     let at = |along: f64| ends[0].lerp(ends[1], projector.along_segment(ends, along));
     let step = 1.0 / f64::from(count);
     let outwards = sight.outwards(&line, pixels, ends[0]);
@@ -211,7 +219,7 @@ fn visible_part(
                 object: edge.object,
                 edge: edge.edge,
                 ends: [from, here].map(|along| pixels[0].lerp(pixels[1], along)),
-                world_length: at(from).distance(at(here)),
+                places: [from, here].map(|along| world_from_view.transform_point3(at(along))),
             });
         }
         current = class.map(|class| (class, here));

@@ -13,7 +13,7 @@ fn lengths(visible: &VisibleEdges) -> [f64; EdgeClass::ALL.len()] {
 
 /// Length in world units.
 fn world_length(visible: &VisibleEdges, class: EdgeClass) -> f64 {
-    visible.segments.iter().filter(|s| s.class == class).map(|s| s.world_length).sum()
+    visible.segments.iter().filter(|s| s.class == class).map(|s| s.world_length()).sum()
 }
 
 fn at(x: f64, y: f64, z: f64) -> DMat4 {
@@ -125,7 +125,7 @@ fn at_t_junctions_the_surface_goes_on() {
             EdgeClass::ALL.map(|class| {
                 let stretches =
                     visible.segments.iter().filter(|s| s.class == class).filter(on_it).filter(middle);
-                stretches.map(|s| s.world_length).sum::<f64>()
+                stretches.map(|s| s.world_length()).sum::<f64>()
             })
         };
         assert_eq!(inner(0.0), [0.0; EdgeClass::ALL.len()], "flat");

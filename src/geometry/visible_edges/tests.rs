@@ -66,14 +66,14 @@ fn a_cube_shows_nine_edges_of_their_full_length() {
                 let drawn: std::collections::BTreeSet<u32> = visible
                     .segments
                     .iter()
-                    .filter(|s| s.world_length > 0.01)
+                    .filter(|s| s.world_length() > 0.01)
                     .filter_map(|s| s.edge)
                     .collect();
                 assert_eq!(drawn.len(), 9, "{:?}", visible.segments);
                 assert!((length(&visible, EdgeClass::Silhouette) - outline).abs() < 1.0);
                 assert!((length(&visible, EdgeClass::Ridge) - inner).abs() < 1.0);
                 assert_eq!(length(&visible, EdgeClass::Border) + length(&visible, EdgeClass::Valley), 0.0);
-                let world: f64 = visible.segments.iter().map(|s| s.world_length).sum();
+                let world: f64 = visible.segments.iter().map(|s| s.world_length()).sum();
                 assert!((world - 9.0).abs() < 0.01, "{world}");
             }
         }
