@@ -38,24 +38,29 @@ impl Drawn {
         Self { eye, edges: texels(plain, &edges), noise: texels(sketched, &noise), objects }
     }
 
-    /// The number of the pixel that holds the line of a place, whichever of the objects that meet there draws it.
+    /// The number of the pixel that holds the line of a place, whichever of the objects that meet there draws it: the one whose
+    /// spine is nearest, as not every pixel of a line has one.
     fn pixel_of(&self, anchor: &Anchor) -> Option<usize> {
+        let side = self.eye.side as i32;
         let spot = self.eye.spot(anchor.world, anchor.along)?;
-        let cell = spot.pixel.floor();
-        let index = (cell.y * f64::from(self.eye.side) + cell.x) as usize;
-        let pixels_off = (f32::from_bits(self.edges[index][2]) + spot.place.at.z) / spot.place.pixel;
-        let is_held = self.spine(index).is_some_and(|spine| spine.distance(spot.pixel) < NEAR)
-            && pixels_off.abs() < 4.0 * spot.place.stretch;
-        is_held.then_some(index)
+        let [x, y] = [spot.pixel.x, spot.pixel.y].map(|c| c.floor() as i32);
+        let away = |index: usize| {
+            let pixels_off = (f32::from_bits(self.edges[index][2]) + spot.place.at.z) / spot.place.pixel;
+            let away = self.spine(index)?.distance(spot.pixel);
+            (away < NEAR && pixels_off.abs() < 4.0 * spot.place.stretch).then_some((away, index))
+        };
+        let found = around(x, y, side).filter_map(away).min_by(|a, b| a.0.total_cmp(&b.0));
+        found.map(|(_, index)| index)
     }
 
-    /// Where a line runs in a pixel.
+    /// Where a line that is drawn runs in a pixel.
     fn spine(&self, index: usize) -> Option<DVec2> {
-        let [class, ..] = self.edges[index];
+        let [class, .., look] = self.edges[index];
+        let is_drawn = CLASSES.contains(&(class >> 28)) && look >> 26 != 0;
         let side = self.eye.side as usize;
         let cell = DVec2::new((index % side) as f64, (index / side) as f64);
         let offset = [class >> 8, class].map(|bits| f64::from(bits & 255) / 127.0 - 1.0);
-        CLASSES.contains(&(class >> 28)).then_some(cell + 0.5 + DVec2::from(offset))
+        is_drawn.then_some(cell + 0.5 + DVec2::from(offset))
     }
 
     /// How far the noise of one pixel of a line is from that of the next one, where that is of another object at the same place.
@@ -85,9 +90,7 @@ impl Drawn {
     fn is_alone(&self, index: usize) -> bool {
         let side = self.eye.side as i32;
         let [x, y] = [index as i32 % side, index as i32 / side];
-        let around = (-1..=1).flat_map(|v| (-1..=1).map(move |u| (x + u, y + v)));
-        let mut inside = around.filter(|(u, v)| (0..side).contains(u) && (0..side).contains(v));
-        inside.all(|(u, v)| [0, self.edges[index][1]].contains(&self.objects[(v * side + u) as usize]))
+        around(x, y, side).all(|beside| [0, self.edges[index][1]].contains(&self.objects[beside]))
     }
 
     /// How far what the device found is from what its twin makes of the same places, of those that have a pixel of their object alone.
@@ -108,4 +111,10 @@ impl Drawn {
     pub(crate) fn noise(&self, anchor: &Anchor) -> Option<Vec2> {
         self.pixel_of(anchor).map(|index| self.noise_at(index))
     }
+}
+
+/// The numbers of a pixel and of those around it.
+fn around(x: i32, y: i32, side: i32) -> impl Iterator<Item = usize> {
+    let all = (-1..=1).flat_map(move |v| (-1..=1).map(move |u| [x + u, y + v]));
+    all.filter(move |at| at.iter().all(|c| (0..side).contains(c))).map(move |[u, v]| (v * side + u) as usize)
 }

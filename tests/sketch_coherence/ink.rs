@@ -5,7 +5,7 @@
 //! never change does change there. How much is said by a locked run: undisturbed ink of both pictures, moved by the offsets that the
 //! device gave the lines in the first one. It is moved here as the shader does it, y = x + F(y) with F of the nearest line. Moved in
 //! the same way by the offsets of each picture itself, ink says how much of the rest is offsets; what is left then is how evenly the
-//! device draws what it fetches from between its pixels.
+//! device draws what it fetches from between its pixels. Where surfaces run through each other is counted apart.
 
 use glam::{DVec2, Vec2};
 use hachure::export::Session;
@@ -89,7 +89,7 @@ impl Changes {
         self.pops[run] += f64::from(u8::from(change > POP));
     }
 
-    pub(crate) fn plus(mut self, other: &Self) -> Self {
+    fn plus(mut self, other: &Self) -> Self {
         for run in 0..RUNS {
             self.change[run] += other.change[run];
             self.pops[run] += other.pops[run];
@@ -245,8 +245,8 @@ impl Frame {
     }
 }
 
-/// What changes between two pictures.
-pub(crate) fn compare(before: &Frame, after: &Frame, field: &FieldUniform) -> Changes {
+/// What changes between two pictures, apart from where surfaces run through each other, and there.
+pub(crate) fn compare(before: &Frame, after: &Frame, field: &FieldUniform) -> [Changes; 2] {
     let locked = [before, after].map(|frame| blurred(&frame.moved(&before.drawn, &after.drawn, field)));
     let moved = [locked[0].clone(), blurred(&after.moved(&after.drawn, &before.drawn, field))];
     let drawn = [1, 2].map(|run| [before, after].map(|frame| blurred(&frame.ink[run])));
@@ -255,7 +255,7 @@ pub(crate) fn compare(before: &Frame, after: &Frame, field: &FieldUniform) -> Ch
     let is_known: Vec<bool> = self::motions(after, before).iter().map(Option::is_some).collect();
     let inside = f64::from(BAND)..f64::from(SIDE) - f64::from(BAND);
     let changes = (0..SIDE * SIDE).into_par_iter().map(|i| {
-        let mut changes = Changes::default();
+        let mut changes = [Changes::default(); 2];
         let x = DVec2::new(f64::from(i % SIDE), f64::from(i / SIDE)) + 0.5;
         let Some(number) = before.nearest[i as usize] else { return changes };
         let Some(motion) = motions[number as usize] else { return changes };
@@ -265,9 +265,7 @@ pub(crate) fn compare(before: &Frame, after: &Frame, field: &FieldUniform) -> Ch
             return changes;
         }
         // Only where all lines around move alike and are in both pictures is there one motion.
-        let is_one = (0..16).all(|turn| {
-            let radius = f64::from(BAND) * if turn < 8 { 0.5 } else { 1.0 };
-            let aside = radius * DVec2::from_angle(f64::from(turn) * std::f64::consts::FRAC_PI_4);
+        let is_one = around().all(|aside| {
             let is_alike = before.line_near(x + aside).is_none_or(|other| {
                 let apart = before.anchors[other].pixel - before.anchors[number as usize].pixel;
                 let expected = motion.by + (motion.zoom - 1.0) * apart;
@@ -278,13 +276,29 @@ pub(crate) fn compare(before: &Frame, after: &Frame, field: &FieldUniform) -> Ch
         if !is_one {
             return changes;
         }
+        let is_at_crossing = around()
+            .any(|aside| before.line_near(x + aside).is_some_and(|line| before.anchors[line].is_crossing));
+        let changes_here = &mut changes[usize::from(is_at_crossing)];
         for (run, [from, to]) in [surface, screen, &locked, &moved].into_iter().enumerate() {
-            changes.add(run, from.values[i as usize] as f32, to.sampled(there) as f32);
+            changes_here.add(run, from.values[i as usize] as f32, to.sampled(there) as f32);
         }
-        changes.count = 1.0;
+        changes_here.count = 1.0;
         changes
     });
-    changes.reduce(Changes::default, |a, b| a.plus(&b))
+    changes.reduce(Default::default, plus)
+}
+
+/// Of each part the sum.
+pub(crate) fn plus(one: [Changes; 2], other: [Changes; 2]) -> [Changes; 2] {
+    [0, 1].map(|part| one[part].plus(&other[part]))
+}
+
+/// Steps from a pixel in all directions, as far as ink of a line reaches.
+fn around() -> impl Iterator<Item = DVec2> {
+    (0..16).map(|turn| {
+        let radius = f64::from(BAND) * if turn < 8 { 0.5 } else { 1.0 };
+        radius * DVec2::from_angle(f64::from(turn) * std::f64::consts::FRAC_PI_4)
+    })
 }
 
 /// How a place on a line moves between two pictures.

@@ -25,7 +25,7 @@ use hachure::render::base::view::REFERENCE_HEIGHT;
 use hachure::render::effects::sketch::field as field_of;
 use hachure::render::passes::offset_field::FieldUniform;
 use hachure::style::{Sketch, preset};
-use ink::{Changes, Draftsman, compare, drawn_small, frame};
+use ink::{Changes, Draftsman, compare, drawn_small, frame, plus};
 use model::{Eye, Model, SIDE};
 use paths::{Length, PATHS, Path, dolly, runs, target};
 
@@ -38,11 +38,13 @@ const LEAST: f64 = 0.9;
 const LEAST_OF_PRESETS: f64 = 0.88;
 const LEAST_LOCKED: f64 = 0.98;
 const LEAST_OF_INK: f64 = 0.9;
-/// Greatest share of the pixels with ink that pop beyond those of a locked run: of what is moved as the device says, and of what it
-/// draws, which is sharper than what is moved here. Not where a dolly leaps by a third: offsets have changed then, for waves are to keep
-/// their length on paper.
+/// Where surfaces run through each other: there the device finds lines pixel by pixel, now as the end of one surface before another,
+/// now as a crossing.
+const LEAST_OF_CROSSINGS: f64 = 0.8;
+/// Greatest share of the pixels with ink that pop beyond those of a locked run, apart from crossings and there. Not where a dolly leaps
+/// by a third: offsets have changed then, for waves are to keep their length on paper.
 const MOST_POPS: f64 = 0.001;
-const MOST_POPS_DRAWN: f64 = 0.002;
+const MOST_POPS_OF_CROSSINGS: f64 = 0.015;
 /// Greatest deviation of the root of the mean square on a dolly.
 const MOST_DEVIATION: f64 = 0.15;
 /// Most steps of a path that ink is compared at, all along it.
@@ -107,7 +109,7 @@ fn plain_rms() -> f64 {
     f64::from(measured().wander.detail).hypot(1.0)
 }
 
-/// Prints a row of ink.
+/// Prints two rows of ink: apart from where surfaces run through each other, and there.
 fn measure_ink(
     session: &mut Session,
     model: &Model,
@@ -118,34 +120,32 @@ fn measure_ink(
 ) {
     let field = seeds(&measured(), SIDE, 1)[0];
     let length = Length { starts, fresh: 1, stride };
-    let mut all = Changes::default();
+    let mut all = [Changes::default(); 2];
     let runs = runs(model, path, dolly, length);
     let count = runs.len().min(MOST_STEPS);
     for run in (0..count).map(|i| runs[i * runs.len() / count].clone()) {
         let mut frames =
             run.into_iter().map(|camera| frame(draftsmen, model, Eye::new(session, camera, SIDE)));
         let [before, after] = [frames.next().unwrap(), frames.next().unwrap()];
-        all = all.plus(&compare(&before, &after, &field));
+        all = plus(all, compare(&before, &after, &field));
     }
-    let (drawn, offsets) = (all.coherence(), all.coherence_of_offsets());
-    let [surface, screen, locked, moved] = all.errors();
-    let pops = all.pops().map(|share| 100.0 * share);
-    let (name, way) = (model.name, path.name());
-    println!(
-        "{name:<8}{way:<6}×{stride:<3}{drawn:7.3}{offsets:9.3}   {surface:.4} {moved:.4} {locked:.4} {screen:.4}   {:6.2} {:6.2} {:6.2} {:6.2}   {:7.0}",
-        pops[0],
-        pops[3],
-        pops[2],
-        pops[1],
-        all.count()
-    );
     let is_leap = path == Path::Dolly && stride >= 10;
-    let checked = [("ink", drawn, pops[0], MOST_POPS_DRAWN), ("offsets of ink", offsets, pops[3], MOST_POPS)];
-    for (what, coherence, popped, most) in checked {
-        let row = format!("{name}, {way} × {stride}: {what}");
-        failures.check(coherence >= LEAST_OF_INK, format!("{row}: {coherence:.3}"));
-        let beyond = 0.01 * (popped - pops[2]);
-        failures.check(is_leap || beyond <= most, format!("{row}: {beyond:.5} pop"));
+    let parts = [("", LEAST_OF_INK, MOST_POPS), (" crossings", LEAST_OF_CROSSINGS, MOST_POPS_OF_CROSSINGS)];
+    for ((part, least, most), changes) in parts.into_iter().zip(all) {
+        let [surface, screen, locked, moved] = changes.errors();
+        let pops = changes.pops();
+        let [of_surface, of_screen, of_locked, of_moved] = pops.map(|share| 100.0 * share);
+        let (drawn, offsets) = (changes.coherence(), changes.coherence_of_offsets());
+        let row = format!("{} {} ×{stride}{part}", model.name, path.name());
+        println!(
+            "{row:<28}{drawn:7.3}{offsets:9.3}   {surface:.4} {moved:.4} {locked:.4} {screen:.4}   {of_surface:6.2} {of_moved:6.2} {of_locked:6.2} {of_screen:6.2}   {:7.0}",
+            changes.count()
+        );
+        for (what, coherence, popped) in [("ink", drawn, pops[0]), ("offsets of ink", offsets, pops[3])] {
+            failures.check(coherence >= least, format!("{row}: {what}: {coherence:.3}"));
+            let beyond = popped - pops[2];
+            failures.check(is_leap || beyond <= most, format!("{row}: {what}: {beyond:.5} pop"));
+        }
     }
 }
 
@@ -161,7 +161,7 @@ fn ink_head() {
         "ink, wave {WAVE} px, so many steps at once: coherence; mean change; pixels with ink that pop, %"
     );
     println!(
-        "model   path  steps   drawn  offsets    drawn offsets locked screen    drawn offsets locked screen    pixels"
+        "model, path, steps            drawn  offsets    drawn offsets locked screen    drawn offsets locked screen    pixels"
     );
 }
 

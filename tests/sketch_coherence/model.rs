@@ -7,7 +7,7 @@ use glam::{DVec2, DVec3, UVec2, Vec2};
 use hachure::document::Document;
 use hachure::export::Session;
 use hachure::export::session::{Opened, initial_camera};
-use hachure::geometry::visible_edges::{EdgeScene, LineRules, PlacedMesh};
+use hachure::geometry::visible_edges::{EdgeScene, LineRules, PlacedMesh, VisibleSegment};
 use hachure::geometry::{Adjacency, Projector};
 use hachure::import::{ImportOptions, Progress, load};
 use hachure::render::View;
@@ -34,6 +34,8 @@ pub(crate) struct Anchor {
     /// Direction of the edge.
     pub(crate) along: DVec3,
     pub(crate) object: u32,
+    /// Whether surfaces run through each other there.
+    pub(crate) is_crossing: bool,
     /// Where it was seen.
     pub(crate) pixel: DVec2,
     /// Where it lies on a map of the surface that is as large as the surface was seen: what a texture would follow.
@@ -81,44 +83,38 @@ impl Model {
         // So far along all of them is the next one.
         let mut ahead = 0.5 * step;
         for segment in &visible.segments {
-            let Some(edge) = segment.edge else { continue };
-            let node = &self.opened.scene.nodes[segment.object as usize];
-            let mesh = node.mesh.unwrap();
-            let (geometry, edge) =
-                (&self.opened.scene.meshes[mesh], &self.adjacencies[mesh].edges[edge as usize]);
-            let vertices = edge.vertices.map(|v| v as usize);
-            let ends =
-                vertices.map(|v| node.world_from_local.transform_point3(geometry.positions[v].as_dvec3()));
-            let in_view = ends.map(|p| eye.view.view_from_world.transform_point3(p));
-            let Some(clipped) = eye.projector.clip(in_view) else { continue };
-            let [from, to] = clipped.map(|p| eye.projector.pixel(p));
-            let (along, length) = (to - from, from.distance_squared(to));
+            let [from, to] = segment.places.map(|p| eye.view.view_from_world.transform_point3(p));
             let seen = segment.ends[0].distance(segment.ends[1]);
-            if length < 1e-6 {
-                continue;
-            }
             while ahead < seen {
-                let pixel = segment.ends[0].lerp(segment.ends[1], ahead / seen);
+                let share = ahead / seen;
                 ahead += step;
-                let share = ((pixel - from).dot(along) / length).clamp(0.0, 1.0);
-                let point = clipped[0].lerp(clipped[1], eye.projector.along_segment(clipped, share));
+                let point = from.lerp(to, eye.projector.along_segment([from, to], share));
                 let world = world_from_view.transform_point3(point);
-                let [a, b] = vertices.map(|v| geometry.uvs.get(v));
-                let on_map = a.zip(b).map(|(a, b)| {
-                    let on_edge = world.distance(ends[0]) / ends[0].distance(ends[1]);
-                    a.lerp(*b, on_edge as f32).as_dvec2()
-                });
                 anchors.push(Anchor {
                     world,
-                    along: (ends[1] - ends[0]).normalize_or_zero(),
+                    along: (segment.places[1] - segment.places[0]).normalize_or_zero(),
                     object: object_id(segment.object as usize),
-                    pixel,
-                    on_map,
+                    is_crossing: segment.edge.is_none(),
+                    pixel: segment.ends[0].lerp(segment.ends[1], share),
+                    on_map: self.on_map(segment, world),
                 });
             }
             ahead -= seen;
         }
         anchors
+    }
+
+    /// Where a place on an edge lies on the texture map of its mesh.
+    fn on_map(&self, segment: &VisibleSegment, world: DVec3) -> Option<DVec2> {
+        let node = &self.opened.scene.nodes[segment.object as usize];
+        let mesh = node.mesh?;
+        let geometry = &self.opened.scene.meshes[mesh];
+        let vertices = self.adjacencies[mesh].edges[segment.edge? as usize].vertices.map(|v| v as usize);
+        let [from, to] =
+            vertices.map(|v| node.world_from_local.transform_point3(geometry.positions[v].as_dvec3()));
+        let [a, b] = vertices.map(|v| geometry.uvs.get(v));
+        let on_edge = world.distance(from) / from.distance(to);
+        Some(a?.lerp(*b?, on_edge as f32).as_dvec2())
     }
 
     /// Pixels per unit of an object's texture map, where it is seen: the median over its edges.
