@@ -242,8 +242,11 @@ fn fs_main(@builtin(position) position: vec4<f32>) -> Out {
     if spine.class_of == NO_EDGE || (marks & DRAWN) != 0u || is_explained {
         discard;
     }
-    // Where two surfaces meet, both have this depth; elsewhere a line is only as near as its surface is found.
-    let depth = select(x.depth, depth_of(nearness_at(plane, spine.offset)), spine.class_of == INTERSECTION);
+    // Where two surfaces meet, both have this depth; elsewhere a line is only as near as its surface is found. A plane that is seen
+    // edge on may be anywhere beside its pixel.
+    let meeting = depth_of(nearness_at(plane, spine.offset));
+    let meets = spine.class_of == INTERSECTION && abs(meeting - x.depth) < 0.5 * x.depth;
+    let depth = select(x.depth, meeting, meets);
     let pos_view = pos_view_of(px, x.depth);
     let normal = vec2(spine.tangent.y, -spine.tangent.x);
     // Without a neighbor along the line nobody knows how long it is: dashes count along its direction.
