@@ -121,7 +121,7 @@ fn layers(session: &mut Session, opened: &Opened, side: u32) -> Vec<Vec<Hit>> {
     of_pixel
 }
 
-fn check_layers(name: &str, opened: &Opened, side: u32, least_depth: usize) {
+fn check_layers(name: &str, opened: &Opened, side: u32, min_depth: usize) {
     let mut session = session();
     let opened = blueprint(opened.clone());
     let world = World::new(&opened.scene);
@@ -156,7 +156,7 @@ fn check_layers(name: &str, opened: &Opened, side: u32, least_depth: usize) {
             }
         }
         assert!(compared > side * side / 12, "{name}: only {compared} pixels");
-        assert!(deepest >= least_depth, "{name}: at most {deepest} layers");
+        assert!(deepest >= min_depth, "{name}: at most {deepest} layers");
         let share = wrong.len() as f64 / f64::from(compared);
         println!(
             "{name}, {}: {:.4} % of {compared} pixels have the layers that rays meet, up to {deepest}",

@@ -307,7 +307,7 @@ fn the_limit_of_layers_is_lifted_until_enough_is_uncovered() {
             DMat4::from_translation(DVec3::new(90.0, 0.0, -1.0));
         for _ in 0..2 {
             let outside = draw(&mut session, &all);
-            assert_eq!((outside.masked, outside.layers, outside.ended), (0, 2, LayersEnd::MostLayers));
+            assert_eq!((outside.masked, outside.layers, outside.ended), (0, 2, LayersEnd::MaxLayers));
         }
     }
 }
@@ -319,7 +319,7 @@ fn what_cannot_be_uncovered_is_told() {
     set(&mut scene, "blueprint.fraction", "1");
     set(&mut scene, "blueprint.to", "2");
     let report = draw(&mut session, &scene);
-    assert_eq!((report.layers, report.ended), (2, LayersEnd::MostLayers));
+    assert_eq!((report.layers, report.ended), (2, LayersEnd::MaxLayers));
     let told = report.shortfall().unwrap();
     assert!(told.contains("after 2 layers, not 100 %") && told.contains("blueprint.to"), "{told}");
     assert!(report.share_uncovered() > 0.0 && report.share_uncovered() < 0.9);

@@ -82,7 +82,7 @@ fn with_room_for_a_few_layers_only_a_picture_is_drawn_in_bands_and_is_the_same()
     let expected = drawn(&mut roomy, &rings);
     for room in [4_000, 900] {
         let mut gpu = Gpu::headless().unwrap();
-        gpu.most_listed = room;
+        gpu.max_listed = room;
         let mut session = Session::new(gpu);
         // That there is too little room is known after the first frame.
         let frames = bands_of_frames(&mut session, &rings);

@@ -16,7 +16,7 @@ const SIMILARITY: f64 = 0.985;
 const CHANGED: u8 = 32;
 /// So many pixels of a block of [`BLOCK`] × [`BLOCK`] may have changed: a device rounds single ones otherwise, but a line that
 /// runs elsewhere changes all along it.
-const MOST_CHANGED: usize = 6;
+const MAX_CHANGED: usize = 6;
 const BLOCK: u32 = 16;
 
 // Widths as people set them; a picture of 256 pixels has about a quarter of a pixel for each.
@@ -226,7 +226,7 @@ fn difference(a: &RgbaImage, b: &RgbaImage) -> RgbaImage {
 }
 
 /// The most pixels that have changed in any block.
-fn most_changed(a: &RgbaImage, b: &RgbaImage) -> usize {
+fn max_changed(a: &RgbaImage, b: &RgbaImage) -> usize {
     let mut blocks = HashMap::<[u32; 2], usize>::new();
     for (x, y, image::Rgba([r, g, b, _])) in difference(a, b).enumerate_pixels() {
         if *r.max(g).max(b) > CHANGED {
@@ -246,8 +246,8 @@ fn fault(known: &RgbaImage, drawn: &RgbaImage) -> Option<String> {
     if similarity < SIMILARITY {
         return Some(format!("similarity {similarity:.4}"));
     }
-    let changed = most_changed(known, drawn);
-    (changed > MOST_CHANGED).then(|| format!("{changed} pixels beside each other"))
+    let changed = max_changed(known, drawn);
+    (changed > MAX_CHANGED).then(|| format!("{changed} pixels beside each other"))
 }
 
 #[test]

@@ -28,7 +28,7 @@ const SIDE: u32 = 500;
 const CRACKS: [(f32, f64); 5] = [(0.0, 0.99), (1e-5, 0.99), (1e-4, 0.99), (2e-4, 0.99), (1e-3, 0.97)];
 
 /// Share of the picture in which a depth layer may be another one.
-const MOST_OTHER_LAYERS: f64 = 1e-3;
+const MAX_OTHER_LAYERS: f64 = 1e-3;
 
 /// The same scene with each mesh in patches, and mended again.
 fn repatched(scene: &Scene, crack: f32, seed: u64) -> Scene {
@@ -151,7 +151,7 @@ fn what_is_in_patches_is_drawn_as_if_it_were_not() {
             let layers = if crack == 1e-4 { worst_layer(&mut session, &scene, crack) } else { 0.0 };
             println!("{name}, cracks of {crack:e}: {f1:.4}, layers {layers:.5}");
             assert!(f1 >= least, "{name}, cracks of {crack:e}: {f1}");
-            assert!(layers <= MOST_OTHER_LAYERS, "{name}, cracks of {crack:e}: {layers}");
+            assert!(layers <= MAX_OTHER_LAYERS, "{name}, cracks of {crack:e}: {layers}");
         }
     }
 }
@@ -172,7 +172,7 @@ fn models_in_patches_are_drawn_as_if_they_were_not() {
             let f1 = worst_f1(&mut session, &scene, crack);
             let layers = worst_layer(&mut session, &scene, crack);
             println!("{name}, cracks of {crack:e}: {f1:.4} (asked {least}), layers {layers:.5}");
-            misses += u32::from(f1 < least || crack < 1e-3 && layers > MOST_OTHER_LAYERS);
+            misses += u32::from(f1 < least || crack < 1e-3 && layers > MAX_OTHER_LAYERS);
         }
         if misses == 0 {
             whole.push(name);

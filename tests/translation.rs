@@ -6,7 +6,7 @@
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use hachure::gpu::Shaders;
-use hachure::gpu::integer_textures::{IntegerTextures, MOST_STORAGE_TEXTURES};
+use hachure::gpu::integer_textures::{IntegerTextures, MAX_STORAGE_TEXTURES};
 use naga::back::{PipelineConstants, hlsl, msl, pipeline_constants::process_overrides, spv};
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use naga::{AddressSpace, ImageClass, Module, ShaderStage, TypeInner};
@@ -149,7 +149,7 @@ fn every_shader_reads_and_writes_no_more_than_every_device_binds() {
         let limits = match textures {
             IntegerTextures::Sampled => wgpu::Limits::default(),
             IntegerTextures::Storage => wgpu::Limits {
-                max_storage_textures_per_shader_stage: MOST_STORAGE_TEXTURES,
+                max_storage_textures_per_shader_stage: MAX_STORAGE_TEXTURES,
                 ..wgpu::Limits::default()
             },
         };

@@ -99,7 +99,7 @@ fn cs_links(@builtin(global_invocation_id) id: vec3<u32>) {
     var classes = 0u;
     var ahead = Link(OWN, false, 0.0);
     var behind = ahead;
-    var least_cost = vec2(1e9);
+    var min_cost = vec2(1e9);
     for (var place = 0u; place < AROUND; place++) {
         let point = point_at(px + away_of(place));
         let seen = seen_from(own, towards, point);
@@ -108,12 +108,12 @@ fn cs_links(@builtin(global_invocation_id) id: vec3<u32>) {
             classes |= select(0u, bit_of(point.class_of), distance <= ABREAST);
             let cost = distance + 2.0 * seen.y;
             let link = Link(place, abs(turn(own, point)) > 128, distance);
-            if seen.x > 0.3 && seen.x < 2.5 && cost < least_cost.x {
-                least_cost.x = cost;
+            if seen.x > 0.3 && seen.x < 2.5 && cost < min_cost.x {
+                min_cost.x = cost;
                 ahead = link;
             }
-            if seen.x < -0.3 && seen.x > -2.5 && cost < least_cost.y {
-                least_cost.y = cost;
+            if seen.x < -0.3 && seen.x > -2.5 && cost < min_cost.y {
+                min_cost.y = cost;
                 behind = link;
             }
         }

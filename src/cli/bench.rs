@@ -15,7 +15,7 @@ use crate::geometry::primitives;
 use crate::gpu::Gpu;
 use crate::hatching::cache::Cache;
 use crate::import::Progress;
-use crate::render::MOST_LAYERS;
+use crate::render::MAX_LAYERS;
 use crate::render::Request;
 use crate::scene::{Camera, Material, Node, Scene};
 use crate::style::halftone::{Mapping, Space};
@@ -203,7 +203,7 @@ impl Bench {
     fn layers(&mut self) -> Result<Vec<u32>, CliError> {
         let look = BenchLook {
             name: "all layers",
-            style: blueprint(MOST_LAYERS)?,
+            style: blueprint(MAX_LAYERS)?,
             lighting: Lighting::default(),
             behind: Behind::Nothing,
             layers_by: LayersBy::Auto,
@@ -259,7 +259,7 @@ fn blueprint(layers: u32) -> Result<Style, StyleError> {
 /// number would not do: in solids, layers come in pairs of the same pixels.
 fn ending(pixels: &[u32], [width, height]: [u32; 2]) -> Result<Option<Style>, StyleError> {
     let [.., last, next] = pixels.get(..7).unwrap_or(&[]) else { return Ok(None) };
-    let mut style = blueprint(MOST_LAYERS)?;
+    let mut style = blueprint(MAX_LAYERS)?;
     style.blueprint.min_coverage = 50.0 * (*last as f32 + *next as f32) / (width as f32 * height as f32);
     Ok(Some(style))
 }
@@ -385,7 +385,7 @@ fn looks(has_uvs: bool, pixels: &[u32], size: [u32; 2]) -> Result<Vec<BenchLook>
         looks.extend([one, five, six].into_iter().chain(ends).map(|look| BenchLook { layers_by, ..look }));
     }
     looks.push(look("blueprint, 5, paper mode", as_in_paper, &unshadowed));
-    looks.push(look("blueprint, all layers", blueprint(MOST_LAYERS)?, &unshadowed));
+    looks.push(look("blueprint, all layers", blueprint(MAX_LAYERS)?, &unshadowed));
     looks.push(look("plain, shadow", plain.clone(), &hard));
     looks.push(look("plain, soft shadow", plain, &soft));
     for (name, behind) in [("before a wall", Behind::Wall), (MIRROR, Behind::Mirror)] {

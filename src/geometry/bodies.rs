@@ -19,11 +19,11 @@ use super::{Adjacency, Bounds, EdgeKind, Mesh, Surfaces};
 /// Width of the widest gap in a closed body, as a share of the diagonal of the mesh.
 const WIDEST_GAP: f64 = 2e-3;
 /// Of very many sides that begin at one point, not all are tried out.
-const MOST_AT_A_POINT: usize = 64;
+const MAX_AT_A_POINT: usize = 64;
 /// Stands for "no point".
 const NO_POINT: u32 = u32::MAX;
 /// Pairs of bodies that are compared to find cavities; of those beyond nothing is believed.
-const MOST_PAIRS: usize = 1 << 22;
+const MAX_PAIRS: usize = 1 << 22;
 /// Triangles that one thread takes at a time.
 const TRIANGLES_PER_TASK: usize = 1 << 15;
 
@@ -152,7 +152,7 @@ impl Bodies {
             .filter(|(kind, _)| **kind == BodyKind::Solid)
             .map(|(_, bounds)| *bounds)
             .collect();
-        let mut pairs_left = MOST_PAIRS;
+        let mut pairs_left = MAX_PAIRS;
         for (kind, bounds) in self.kinds.iter_mut().zip(&boxes) {
             if *kind != BodyKind::Cavity {
                 continue;
@@ -283,7 +283,7 @@ fn closed(mesh: &Mesh, adjacency: &Adjacency, bodies: &Bodies, count: usize) -> 
             let along = direction(side);
             let turned = |&start: &usize| along.dot(direction(side_of(start)));
             next = (first_at[end as usize]..first_at[end as usize + 1])
-                .take(MOST_AT_A_POINT)
+                .take(MAX_AT_A_POINT)
                 .filter(|&start| !is_taken[start] && body_of(start) == body)
                 .min_by(|a, b| turned(a).total_cmp(&turned(b)));
         }

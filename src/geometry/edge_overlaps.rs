@@ -52,7 +52,7 @@ pub(super) fn find_overlaps(
         ends = &ends[ends.iter().take_while(|end| end.0 < point).count()..];
         let ends_here = &ends[..ends.iter().take_while(|end| end.0 == point).count()];
         for &(_, outgoing) in starts {
-            for &(_, incoming) in &ends_here[..ends_here.len().min(Borders::MOST_AT_A_POINT)] {
+            for &(_, incoming) in &ends_here[..ends_here.len().min(Borders::MAX_AT_A_POINT)] {
                 borders.zip(outgoing, incoming, &mut steps_left, &mut overlaps);
             }
         }
@@ -94,7 +94,7 @@ struct Borders<'a> {
 
 impl<'a> Borders<'a> {
     /// Of very many edges at one point, not all pairs are tried out.
-    const MOST_AT_A_POINT: usize = 16;
+    const MAX_AT_A_POINT: usize = 16;
 
     fn new(mesh: &'a Mesh, weld: &'a Weld, normals: &'a [Vec3], edges: &'a [Edge]) -> Self {
         let by_end = |end: usize| {
@@ -120,7 +120,7 @@ impl<'a> Borders<'a> {
     fn at(list: &[(u32, u32)], point: u32) -> &[(u32, u32)] {
         let first = list.partition_point(|&(p, _)| p < point);
         let count = list[first..].partition_point(|&(p, _)| p == point);
-        &list[first..first + count.min(Self::MOST_AT_A_POINT)]
+        &list[first..first + count.min(Self::MAX_AT_A_POINT)]
     }
 
     fn point(&self, edge: u32, end: usize) -> u32 {

@@ -46,13 +46,13 @@ impl Plane {
                 largest = area;
             }
         }
-        let least_area = 1e-12 * diagonal * diagonal;
+        let min_area = 1e-12 * diagonal * diagonal;
         // NaN fails here too.
-        if !(largest.length() > least_area && largest.is_finite()) {
+        if !(largest.length() > min_area && largest.is_finite()) {
             return Err(NotFlat::NoArea);
         }
         let normal = largest.normalize();
-        let normal = if sum.dot(normal) < -least_area { -normal } else { normal };
+        let normal = if sum.dot(normal) < -min_area { -normal } else { normal };
         let mut used = mesh.indices.iter().filter_map(|&v| mesh.positions.get(v as usize));
         let point = used.next().map_or(bounds.center(), |p| p.as_dvec3());
         let is_flat = used.all(|p| normal.dot(p.as_dvec3() - point).abs() <= TOLERANCE * diagonal);

@@ -7,16 +7,16 @@
 use glam::DVec2;
 
 /// Most times that a line is drawn.
-const MOST_TIMES: u32 = 4;
+const MAX_TIMES: u32 = 4;
 
 /// Opacity of a line each time that it is drawn.
-const DENSITIES: [f64; MOST_TIMES as usize] = [1.0, 0.85, 0.5, 0.5];
+const DENSITIES: [f64; MAX_TIMES as usize] = [1.0, 0.85, 0.5, 0.5];
 
 /// No random number with mean square 1 is greater.
-const MOST_SPREAD: f64 = 3.47;
+const MAX_SPREAD: f64 = 3.47;
 
 /// Greatest bow, reference pixels.
-const MOST_BOW: f64 = 3.5;
+const MAX_BOW: f64 = 3.5;
 
 /// Length of a wave of the tremor, reference pixels.
 const WAVE: f64 = 110.0;
@@ -48,19 +48,19 @@ impl Hand {
     pub fn reach(&self) -> f64 {
         let of = |number: f32| f64::from(number.max(0.0));
         // The shift is greater the second time, and has two directions.
-        let spread = MOST_SPREAD * (1.15 * std::f64::consts::SQRT_2 * of(self.shift) + of(self.tremor));
-        let bow = if self.bow > 0.0 { MOST_BOW } else { 0.0 };
+        let spread = MAX_SPREAD * (1.15 * std::f64::consts::SQRT_2 * of(self.shift) + of(self.tremor));
+        let bow = if self.bow > 0.0 { MAX_BOW } else { 0.0 };
         // What is bowed and shifted is overshot aslant.
         of(self.scale) * (spread + bow + 1.5 * of(self.overshoot))
     }
 
     /// How often each line is drawn.
     pub fn times(&self) -> u32 {
-        self.times.clamp(1, MOST_TIMES)
+        self.times.clamp(1, MAX_TIMES)
     }
 
     /// Length from which a line is a stroke, px.
-    pub fn least_length(&self) -> f64 {
+    pub fn min_length(&self) -> f64 {
         FADE[0] * f64::from(self.scale)
     }
 }
@@ -100,7 +100,7 @@ impl HandStroke {
             let spread = DVec2::new(normal(hash, 2 * end), normal(hash, 2 * end + 1));
             spread * at_end(end as usize, shift)
         };
-        let bow = (normal(hash, 4) * f64::from(hand.bow) * l).clamp(-MOST_BOW, MOST_BOW) * scale * fade;
+        let bow = (normal(hash, 4) * f64::from(hand.bow) * l).clamp(-MAX_BOW, MAX_BOW) * scale * fade;
         Self {
             length,
             shifts: [shift_of(0), shift_of(1)],
@@ -112,7 +112,7 @@ impl HandStroke {
                 let share = 0.25 + 0.75 * uniform(hash, 5 + end);
                 at_end(end as usize, overshoot * share)
             }),
-            density: DENSITIES[time.min(MOST_TIMES - 1) as usize],
+            density: DENSITIES[time.min(MAX_TIMES - 1) as usize],
             fade,
         }
     }
@@ -157,7 +157,7 @@ fn uniform(hash: u32, number: u32) -> f64 {
     f64::from(mix(hash ^ mix(number.wrapping_add(0x9e37)))) / f64::from(u32::MAX)
 }
 
-/// Nearly normally distributed, with mean 0 and mean square 1, and never beyond [`MOST_SPREAD`].
+/// Nearly normally distributed, with mean 0 and mean square 1, and never beyond [`MAX_SPREAD`].
 fn normal(hash: u32, number: u32) -> f64 {
     let sum: f64 = (0..4).map(|part| uniform(hash, 64 + 4 * number + part)).sum();
     (sum - 2.0) * 3_f64.sqrt()
@@ -167,7 +167,7 @@ fn smooth(t: f64) -> f64 {
     t * t * (3.0 - 2.0 * t)
 }
 
-/// Smooth noise along a line with a mean square of about 1, never beyond [`MOST_SPREAD`].
+/// Smooth noise along a line with a mean square of about 1, never beyond [`MAX_SPREAD`].
 fn noise(hash: u32, at: f64) -> f64 {
     let cell = at.floor();
     let value = |cell: f64| 12_f64.sqrt() * (uniform(hash, 1024_u32.wrapping_add_signed(cell as i32)) - 0.5);
@@ -175,7 +175,7 @@ fn noise(hash: u32, at: f64) -> f64 {
     // Between two values the mean square would be less.
     let least = (t * t + (1.0 - t) * (1.0 - t)).sqrt();
     let mean = value(cell) * (1.0 - t) + value(cell + 1.0) * t;
-    (mean / least).clamp(-MOST_SPREAD, MOST_SPREAD)
+    (mean / least).clamp(-MAX_SPREAD, MAX_SPREAD)
 }
 
 #[cfg(test)]

@@ -120,7 +120,7 @@ struct Finder<'a> {
     /// Edges with these traits are looked at closely, whatever their angle.
     special: Traits,
     /// No edge that bends less than this (radians, local space) can be a crease.
-    least_angle: f32,
+    min_angle: f32,
     /// Whether creases that face away are hidden by their own object.
     hides_its_back: bool,
     /// Whether it is kept where segments come from.
@@ -141,7 +141,7 @@ impl<'a> Finder<'a> {
         let asked = |class: EdgeClass, angle: f32| {
             if wanted.classes.contains(class) { angle } else { f32::INFINITY }
         };
-        let least_angle = asked(EdgeClass::Ridge, wanted.ridge_angle)
+        let min_angle = asked(EdgeClass::Ridge, wanted.ridge_angle)
             .min(asked(EdgeClass::Valley, wanted.valley_angle))
             .min(wanted.suppress_angle);
         let outlines = ClassSet::of(&[EdgeClass::Border, EdgeClass::Object]);
@@ -158,7 +158,7 @@ impl<'a> Finder<'a> {
             picture,
             facings: Facings::new(mesh, &edges.bounds, view_from_local, lens),
             fans: Fans::new(placed, *view_from_local, lens),
-            least_angle: angles.least_local(least_angle),
+            min_angle: angles.min_local(min_angle),
             angles,
             special,
             is_traced: wanted.dashes.is_some(),
@@ -184,7 +184,7 @@ impl<'a> Finder<'a> {
                 *mark = self.facings.differ(faces);
             }
             for ((mark, dihedral), traits) in marks.iter_mut().zip(dihedral).zip(traits) {
-                let is_sharp = dihedral.abs() >= self.least_angle;
+                let is_sharp = dihedral.abs() >= self.min_angle;
                 *mark = *mark ^ traits.flip() | u8::from(is_sharp) | u8::from(traits.any(self.special));
             }
             let words: [u64; BLOCK / 8] = bytemuck::cast(marks);

@@ -133,13 +133,11 @@ pub fn mended(mesh: Mesh, tolerance: SeamTolerance) -> Mesh {
         return mesh;
     }
     // Where all lies exactly on each other, seams are found without mending.
-    let least_move = TOLERANCE * mesh.bounds().diagonal();
+    let min_move = TOLERANCE * mesh.bounds().diagonal();
     // The adjacency is not handed on to `Topology`: meshes are plain data, linked and altered before that is made, and made again
     // for other creases.
     match mend(&mesh, &Adjacency::new(&mesh), tolerance) {
-        Some((mended, report)) if report.farthest_move > least_move => {
-            Mesh { mended: Some(report), ..mended }
-        }
+        Some((mended, report)) if report.farthest_move > min_move => Mesh { mended: Some(report), ..mended },
         _ => mesh,
     }
 }

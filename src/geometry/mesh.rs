@@ -62,8 +62,8 @@ impl Mesh {
     /// framing finds.
     pub fn extremes(&self) -> Vec<Vec3> {
         const DIRECTIONS: usize = 96;
-        const MOST_VERTICES: usize = 20_000;
-        let step = (self.positions.len() / MOST_VERTICES).max(1);
+        const MAX_VERTICES: usize = 20_000;
+        let step = (self.positions.len() / MAX_VERTICES).max(1);
         let mut outermost: Vec<usize> = (0..DIRECTIONS)
             .filter_map(|i| {
                 // Spherical Fibonacci points.

@@ -19,7 +19,7 @@ const ERRORS: f32 = 2.0;
 /// A triangle that errors turn by less than this (radians) is believed.
 const BELIEVED: f32 = 0.3;
 /// Of so many triangles the normals are averaged if none of them is believed. More would lead around creases.
-const MOST_TRIANGLES: usize = 8;
+const MAX_TRIANGLES: usize = 8;
 /// What one pass has made smaller shows the next one the way.
 const PASSES: usize = 2;
 
@@ -116,7 +116,7 @@ impl Sides<'_> {
     fn side_normal(&self, face: u32, edge: usize) -> Vec3 {
         let mut reached = vec![Reached { face, turning: 0.0, is_visited: false }];
         let mut sum = DVec3::ZERO;
-        for _ in 0..MOST_TRIANGLES {
+        for _ in 0..MAX_TRIANGLES {
             let open = reached.iter_mut().filter(|r| !r.is_visited);
             let Some(next) = open.min_by(|a, b| a.turning.total_cmp(&b.turning)) else { break };
             next.is_visited = true;

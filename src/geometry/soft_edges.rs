@@ -14,7 +14,7 @@ const AGREE: f32 = 0.996_195;
 /// Angle between triangles (radians) above which agreeing normals alone do not make an edge soft: 60°.
 const STEEP: f32 = std::f32::consts::FRAC_PI_3;
 /// Share of the length of steep edges at which the normals must differ for those that agree to be believed.
-const LEAST_PARTED: f64 = 0.5;
+const MIN_PARTED: f64 = 0.5;
 
 /// Which of the edges above the crease angle are creases.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -83,7 +83,7 @@ pub(super) fn judge_steep(mesh: &Mesh, edges: &mut [Edge], overlaps: &mut [EdgeO
     for overlap in overlaps.iter().filter(|overlap| is_steep(overlap.dihedral)) {
         count(overlap.length, overlap.is_soft);
     }
-    if parted >= LEAST_PARTED * all {
+    if parted >= MIN_PARTED * all {
         return;
     }
     for edge in edges {

@@ -24,7 +24,7 @@ const TOLERANCE: f32 = 0.000_25;
 const LEADING: f32 = 1.25;
 
 /// Letters after these are left out: nobody reads them.
-pub const MOST_LETTERS: usize = 1000;
+pub const MAX_LETTERS: usize = 1000;
 
 /// Laid out text. Lengths are in em, the size of the letters; x runs right, y up, the first line stands on y = 0.
 #[derive(Debug, Clone, PartialEq)]
@@ -37,7 +37,7 @@ pub struct Text {
     pub max: Vec2,
     /// What the font has no letters for, each once; boxes stand in their place.
     pub missing: Vec<char>,
-    /// Whether letters beyond [`MOST_LETTERS`] were left out.
+    /// Whether letters beyond [`MAX_LETTERS`] were left out.
     pub is_truncated: bool,
 }
 
@@ -49,7 +49,7 @@ impl Text {
             min: Vec2::ZERO,
             max: Vec2::ZERO,
             missing: Vec::new(),
-            is_truncated: text.chars().nth(MOST_LETTERS).is_some(),
+            is_truncated: text.chars().nth(MAX_LETTERS).is_some(),
         };
         // The font is part of the program.
         let Ok(font) = FontRef::new(FONT) else { return laid };
@@ -59,7 +59,7 @@ impl Text {
         let (letters, advances) = (font.outline_glyphs(), font.glyph_metrics(unscaled, location));
         laid.max.y = metrics.cap_height.unwrap_or(metrics.ascent) * em;
         let mut pen = Pen { path: Path::builder(), at: Vec2::ZERO, em, is_open: false };
-        for letter in text.chars().take(MOST_LETTERS) {
+        for letter in text.chars().take(MAX_LETTERS) {
             if letter == '\n' {
                 pen.at = Vec2::new(0.0, pen.at.y - LEADING);
                 continue;
@@ -93,7 +93,7 @@ impl Text {
         if self.is_truncated {
             let and = if fault.is_empty() { "" } else { "; " };
             // Writing into a string cannot fail.
-            let _ = write!(fault, "{and}only its first {MOST_LETTERS} letters are drawn");
+            let _ = write!(fault, "{and}only its first {MAX_LETTERS} letters are drawn");
         }
         (!fault.is_empty()).then_some(fault)
     }

@@ -24,7 +24,7 @@ use super::{Adjacency, Bvh, EdgeClass, Mesh, Projector};
 /// Distance between samples along an edge, in pixels.
 const SAMPLE_STEP: f64 = 0.25;
 /// Most samples on one edge, against absurd picture sizes.
-const MOST_SAMPLES: f64 = 1e6;
+const MAX_SAMPLES: f64 = 1e6;
 
 /// A mesh somewhere in the world.
 #[derive(Debug, Clone, Copy)]
@@ -188,7 +188,7 @@ fn visible_part(
     let ends = projector.clip(edge.ends.map(|p| projector.view_from_world.transform_point3(p)))?;
     let pixels = ends.map(|p| projector.pixel(p));
     let length = pixels[0].distance(pixels[1]);
-    let count = (length / SAMPLE_STEP).ceil().clamp(1.0, MOST_SAMPLES) as u32;
+    let count = (length / SAMPLE_STEP).ceil().clamp(1.0, MAX_SAMPLES) as u32;
     let world_from_view = projector.view_from_world.inverse();
     let at = |along: f64| ends[0].lerp(ends[1], projector.along_segment(ends, along));
     let step = 1.0 / f64::from(count);

@@ -233,7 +233,7 @@ impl RecordBuffer {
     pub fn reserve(&mut self, gpu: &Gpu, bytes: u64) -> Result<(), GpuError> {
         gpu.check_storage_size(self.label, bytes)?;
         if self.buffer.size() < bytes {
-            let roomy = bytes.next_power_of_two().min(gpu.most_storage());
+            let roomy = bytes.next_power_of_two().min(gpu.max_storage());
             self.buffer = gpu.create_buffer(self.label, &Self::descriptor(self.label, roomy))?;
         }
         Ok(())

@@ -17,7 +17,7 @@ pub enum DepthRule {
     Where(&'static str),
     /// Draws only where something has been drawn and an entry point of the same program, which is run before it, does not
     /// discard. The marks of that take the place of the depths there, as a device that has depth of 32 bits and a stencil in
-    /// one texture is optional. A buffer can be marked so up to [`MOST_ROUNDS`] times; the number is that of the times before.
+    /// one texture is optional. A buffer can be marked so up to [`MAX_ROUNDS`] times; the number is that of the times before.
     CoveredWhere(&'static str, u32),
     /// Draws only where something has been drawn and an entry point of the same program, which is run before it, discards.
     /// Where it does not, nothing has been drawn from then on: the depths there become 0.
@@ -28,7 +28,7 @@ pub enum DepthRule {
 pub const STENCIL: wgpu::TextureFormat = wgpu::TextureFormat::Stencil8;
 
 /// How often what is covered can be marked in one buffer.
-pub const MOST_ROUNDS: u32 = 4096;
+pub const MAX_ROUNDS: u32 = 4096;
 
 /// What one draw does with a depth buffer; a [`DepthRule`] has a draw of its own, and may have one before it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -75,7 +75,7 @@ impl DepthRule {
         match (self, test) {
             (Self::CoveredWhere(_, rounds), _) => {
                 // Before what covers the picture, behind all that is drawn, and a hair behind the last marks.
-                let depth = (1.0 - (rounds % MOST_ROUNDS) as f32 / (2 * MOST_ROUNDS) as f32) * 1e-9;
+                let depth = (1.0 - (rounds % MAX_ROUNDS) as f32 / (2 * MAX_ROUNDS) as f32) * 1e-9;
                 [depth, depth]
             }
             (Self::Equal(depth), _) => [depth, depth],

@@ -72,8 +72,8 @@ pub enum GpuError {
     Lost(String),
 }
 
-/// See [`Gpu::most_listed`]: 64 MiB.
-const MOST_LISTED: u64 = 1 << 22;
+/// See [`Gpu::max_listed`]: 64 MiB.
+const MAX_LISTED: u64 = 1 << 22;
 
 /// An open device with its queue. Clones share both.
 #[derive(Debug, Clone)]
@@ -87,7 +87,7 @@ pub struct Gpu {
     /// Whether fragment shaders can write into buffers.
     pub writes_in_fragments: bool,
     /// Most layers of groups, ink and fill of each pixel counted by itself, that are put in order at a time: 16 bytes each.
-    pub most_listed: u64,
+    pub max_listed: u64,
     /// How shaders read textures of whole numbers.
     pub integer_textures: IntegerTextures,
     pub(super) zeros: Option<Zeros>,
@@ -127,7 +127,7 @@ impl Gpu {
             queue,
             adapter_name: info.name,
             writes_in_fragments,
-            most_listed: MOST_LISTED,
+            max_listed: MAX_LISTED,
             integer_textures,
             zeros,
             faults,
@@ -164,7 +164,7 @@ impl Gpu {
     /// # Errors
     /// [`GpuError::TooLarge`].
     pub fn check_storage_size(&self, what: &str, bytes: u64) -> Result<(), GpuError> {
-        let allowed = self.most_storage();
+        let allowed = self.max_storage();
         if bytes > allowed {
             return Err(self.too_large(what, bytes, allowed));
         }
@@ -182,7 +182,7 @@ impl Gpu {
         size: [u32; 2],
         bytes: u64,
     ) -> Result<(), GpuError> {
-        let pixels = self.most_storage() / bytes.max(1);
+        let pixels = self.max_storage() / bytes.max(1);
         match largest_of_shape(size, pixels) {
             Some(largest) => Err(GpuError::PictureTooLarge {
                 what,
@@ -207,7 +207,7 @@ impl Gpu {
     }
 
     /// The most bytes that shaders can be given in one buffer.
-    pub fn most_storage(&self) -> u64 {
+    pub fn max_storage(&self) -> u64 {
         let limits = self.device.limits();
         limits.max_buffer_size.min(limits.max_storage_buffer_binding_size)
     }
@@ -324,7 +324,7 @@ fn megapixels(pixels: u64) -> f64 {
 
 /// How much of a device's memory is used before what is asked for is refused, in percent. A software device would take it
 /// until the system ends the program.
-const MOST_MEMORY: u8 = 95;
+const MAX_MEMORY: u8 = 95;
 
 /// How instances are made: native backends only, no validation layers unless `WGPU_*` variables ask for them.
 pub fn instance_descriptor() -> wgpu::InstanceDescriptor {
@@ -332,7 +332,7 @@ pub fn instance_descriptor() -> wgpu::InstanceDescriptor {
     descriptor.backends = wgpu::Backends::from_env()
         .unwrap_or(wgpu::Backends::VULKAN | wgpu::Backends::METAL | wgpu::Backends::DX12);
     descriptor.flags = wgpu::InstanceFlags::empty().with_env();
-    descriptor.memory_budget_thresholds.for_resource_creation = Some(MOST_MEMORY);
+    descriptor.memory_budget_thresholds.for_resource_creation = Some(MAX_MEMORY);
     descriptor
 }
 

@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 use wgpu::naga::{Expression, Function, Handle, ImageClass, Module, StorageAccess, Type, TypeInner};
 
 /// Storage textures that the shader that takes most of them reads and writes.
-pub const MOST_STORAGE_TEXTURES: u32 = 9;
+pub const MAX_STORAGE_TEXTURES: u32 = 9;
 
 /// Formats that shaders read whole numbers of.
 const FORMATS: [&str; 3] = ["r32uint", "rg32uint", "rgba32uint"];
@@ -25,7 +25,7 @@ pub enum IntegerTextures {
 impl IntegerTextures {
     /// What suits a device.
     pub fn of(device_type: wgpu::DeviceType, limits: &wgpu::Limits) -> Self {
-        let has_enough = limits.max_storage_textures_per_shader_stage >= MOST_STORAGE_TEXTURES;
+        let has_enough = limits.max_storage_textures_per_shader_stage >= MAX_STORAGE_TEXTURES;
         if has_enough && device_type == wgpu::DeviceType::Cpu { Self::Storage } else { Self::Sampled }
     }
 

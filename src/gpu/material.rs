@@ -22,7 +22,7 @@ pub struct MaterialUniform {
 }
 
 /// Less alpha than this is none in a picture of 8 bits.
-const LEAST_ALPHA: f32 = 0.5 / 255.0;
+const MIN_ALPHA: f32 = 0.5 / 255.0;
 
 impl MaterialUniform {
     /// The same for shadows, which have no shades: what blends throws one where it is more opaque than not.
@@ -43,7 +43,7 @@ impl From<&Material> for MaterialUniform {
             alpha_cutoff: match m.alpha {
                 AlphaMode::Opaque => -1.0,
                 AlphaMode::Mask(cutoff) => cutoff,
-                AlphaMode::Blend => LEAST_ALPHA,
+                AlphaMode::Blend => MIN_ALPHA,
             },
             has_normal_texture: u32::from(m.normal_texture.is_some()),
             blends: u32::from(m.alpha == AlphaMode::Blend),

@@ -76,7 +76,7 @@ impl RecordTexture {
     }
 
     /// The most texels that a device can keep.
-    pub fn most_texels(gpu: &Gpu) -> u64 {
+    pub fn max_texels(gpu: &Gpu) -> u64 {
         u64::from(COLUMNS) * u64::from(gpu.device.limits().max_texture_dimension_2d)
     }
 

@@ -3,7 +3,7 @@
 use super::{Gpu, GpuError};
 
 /// More passes in a frame than this are not timed.
-const MAX_PASSES: u32 = 1024;
+const MAX_TIMED: u32 = 1024;
 
 /// Timestamps around the passes of a frame.
 pub struct Timers {
@@ -33,11 +33,11 @@ impl Timers {
             queries: gpu.device.create_query_set(&wgpu::QuerySetDescriptor {
                 label: Some("timers"),
                 ty: wgpu::QueryType::Timestamp,
-                count: MAX_PASSES * 2,
+                count: MAX_TIMED * 2,
             }),
             resolved: gpu.device.create_buffer(&wgpu::BufferDescriptor {
                 label: Some("timers"),
-                size: u64::from(MAX_PASSES) * 16,
+                size: u64::from(MAX_TIMED) * 16,
                 usage: wgpu::BufferUsages::QUERY_RESOLVE | wgpu::BufferUsages::COPY_SRC,
                 mapped_at_creation: false,
             }),
@@ -49,7 +49,7 @@ impl Timers {
     /// What a pass of this name has to write.
     pub fn pass(&mut self, label: &'static str) -> Option<Timestamps<'_>> {
         let index = self.labels.len() as u32;
-        if index >= MAX_PASSES {
+        if index >= MAX_TIMED {
             return None;
         }
         self.labels.push(label);

@@ -8,7 +8,7 @@ use crate::geometry::{DirectionSource, FieldOptions, Mesh, StripeField};
 const VERSION: u32 = 1;
 
 /// Smaller meshes are not kept: they take no longer than reading a file.
-const LEAST_TRIANGLES: usize = 2000;
+const MIN_TRIANGLES: usize = 2000;
 
 /// The stripes of a mesh, from the cache or found anew; `None` when `progress` said not to go on, see [`StripeField::solve`].
 pub fn stripes_of(
@@ -17,7 +17,7 @@ pub fn stripes_of(
     options: &FieldOptions,
     progress: &(dyn Fn(f32) -> bool + Sync),
 ) -> Option<StripeField> {
-    if mesh.triangle_count() < LEAST_TRIANGLES {
+    if mesh.triangle_count() < MIN_TRIANGLES {
         return StripeField::solve(mesh, options, progress);
     }
     let key = key_of(mesh, options);

@@ -19,7 +19,7 @@ pub use base::view::View;
 pub use effects::blueprint::LAYERS;
 pub use effects::{image_faults, prepare_images};
 pub use frame::Picture;
-pub use passes::count::MOST_LAYERS;
+pub use passes::count::MAX_LAYERS;
 pub use passes::layer_report::{LayerReport, LayersEnd};
 pub use passes::layers::{LayerMethod, Reason, Reported};
 pub use renderer::{Pick, Renderer, Request};

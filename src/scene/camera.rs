@@ -39,7 +39,7 @@ pub enum Projection {
 const MARGIN: f64 = 1.06;
 
 /// The same at least, where it was framed by some of its points.
-const LEAST_MARGIN: f64 = 1.02;
+const MIN_MARGIN: f64 = 1.02;
 
 /// The vertical view angle of a new camera, in degrees (as in F3D).
 pub const DEFAULT_VIEW_ANGLE: f64 = 30.0;
@@ -226,7 +226,7 @@ impl Camera {
             Projection::Perspective { view_angle } => -p.z * (view_angle.to_radians() * 0.5).tan(),
             Projection::Orthographic { view_height } => 0.5 * view_height,
         };
-        let half = half_height / LEAST_MARGIN;
+        let half = half_height / MIN_MARGIN;
         p.z < 0.0 && p.x.abs() <= half * aspect.max(1e-3) && p.y.abs() <= half
     }
 

@@ -22,8 +22,8 @@ impl From<[f32; 2]> for Point {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Curve {
     /// In order of x; those beyond `count` are zero, so that equal curves are equal.
-    points: [Point; Self::MOST_POINTS],
-    /// At least [`Self::LEAST_POINTS`].
+    points: [Point; Self::MAX_POINTS],
+    /// At least [`Self::MIN_POINTS`].
     count: usize,
 }
 
@@ -31,7 +31,7 @@ pub struct Curve {
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum CurveError {
     /// Too few or too many.
-    #[error("a curve has {} to {} points, not {count}", Curve::LEAST_POINTS, Curve::MOST_POINTS)]
+    #[error("a curve has {} to {} points, not {count}", Curve::MIN_POINTS, Curve::MAX_POINTS)]
     Count {
         /// How many there are.
         count: usize,
@@ -57,7 +57,7 @@ pub enum CurveError {
     /// A point is not far enough to the right of the one before it.
     #[error(
         "point {point} has x = {found} after x = {before}; x grows from point to point, by {} at least",
-        Curve::LEAST_GAP
+        Curve::MIN_GAP
     )]
     Order {
         /// Which point.
@@ -80,17 +80,17 @@ impl Default for Curve {
 
 impl Curve {
     /// Fewest points.
-    pub const LEAST_POINTS: usize = 2;
+    pub const MIN_POINTS: usize = 2;
 
     /// Most points.
-    pub const MOST_POINTS: usize = 8;
+    pub const MAX_POINTS: usize = 8;
 
     /// How far apart in x points are at least.
-    pub const LEAST_GAP: f32 = 0.01;
+    pub const MIN_GAP: f32 = 0.01;
 
     /// What goes in comes out.
     pub const LINEAR: Self = {
-        let mut points = [Point { x: 0.0, y: 0.0 }; Self::MOST_POINTS];
+        let mut points = [Point { x: 0.0, y: 0.0 }; Self::MAX_POINTS];
         points[1] = Point { x: 1.0, y: 1.0 };
         Self { points, count: 2 }
     };
@@ -101,10 +101,10 @@ impl Curve {
     /// The first thing that is wrong with them.
     pub fn of_points(points: &[Point]) -> Result<Self, CurveError> {
         let count = points.len();
-        if !(Self::LEAST_POINTS..=Self::MOST_POINTS).contains(&count) {
+        if !(Self::MIN_POINTS..=Self::MAX_POINTS).contains(&count) {
             return Err(CurveError::Count { count });
         }
-        let mut curve = Self { points: [Point::default(); Self::MOST_POINTS], count };
+        let mut curve = Self { points: [Point::default(); Self::MAX_POINTS], count };
         let mut before = None;
         for ((point, place), to) in (1..).zip(points).zip(&mut curve.points) {
             for (axis, found) in [('x', place.x), ('y', place.y)] {
@@ -116,7 +116,7 @@ impl Curve {
             if point == 1 && found != 0.0 {
                 return Err(CurveError::End { point, found });
             }
-            if let Some(before) = before.filter(|before| found - before < Self::LEAST_GAP - ROUNDING) {
+            if let Some(before) = before.filter(|before| found - before < Self::MIN_GAP - ROUNDING) {
                 return Err(CurveError::Order { point, found, before });
             }
             if point == count && found != 1.0 {
@@ -152,9 +152,9 @@ impl Curve {
 
     /// The slope at each point: the mean of those of the lines beside it, 0 at a crest or a dip, at an end that of the one
     /// line; less steep where the cubic would leave the heights of its ends.
-    fn tangents(&self) -> [f32; Self::MOST_POINTS] {
+    fn tangents(&self) -> [f32; Self::MAX_POINTS] {
         let secants: Vec<f32> = self.segments().map(|(a, b)| (b.y - a.y) / (b.x - a.x)).collect();
-        let mut tangents = [0.0; Self::MOST_POINTS];
+        let mut tangents = [0.0; Self::MAX_POINTS];
         let before = secants.first().into_iter().chain(&secants);
         let after = secants.iter().chain(secants.last());
         for (tangent, (before, after)) in tangents.iter_mut().zip(before.zip(after)) {
@@ -171,7 +171,7 @@ impl Curve {
         tangents
     }
 
-    fn cubic(&self, tangents: &[f32; Self::MOST_POINTS], x: f32) -> f32 {
+    fn cubic(&self, tangents: &[f32; Self::MAX_POINTS], x: f32) -> f32 {
         let x = if x.is_nan() { 0.0 } else { x.clamp(0.0, 1.0) };
         let slopes = tangents.iter().zip(tangents.iter().skip(1));
         let segment = self.segments().zip(slopes).find(|((_, b), _)| x <= b.x);

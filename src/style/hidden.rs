@@ -13,7 +13,7 @@ pub struct Hidden {
     pub mode: HiddenMode,
     /// Of which layers they are.
     pub layers: HiddenLayers,
-    /// With [`HiddenLayers::All`]: most layers behind the visible one.
+    /// With [`HiddenLayers::All`]: the greatest number of layers behind the visible one.
     pub max_layers: u32,
     /// They end before a layer with fewer pixels; percent of the picture's.
     pub min_coverage: f32,

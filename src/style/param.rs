@@ -102,8 +102,8 @@ impl Param<'_> {
             Slot::Curve(_) => format!(
                 "a curve of {} to {} points from x = 0 to x = 1, y from 0 to 1, [[x, y], …] in a file and x,y,… behind \
                  --set",
-                Curve::LEAST_POINTS,
-                Curve::MOST_POINTS
+                Curve::MIN_POINTS,
+                Curve::MAX_POINTS
             ),
             Slot::Choice(c) => format!("one of {}", c.names().join(", ")),
         };

@@ -148,7 +148,7 @@ fn conditions_and_sources_are_parameters_of_the_list() {
         }
     }
     let inheriting = params.iter().filter(|p| p.slot.inherits().is_some()).count();
-    assert_eq!(inheriting, 5 * EdgeClass::ALL.len() + sketch::MOST_PASSES);
+    assert_eq!(inheriting, 5 * EdgeClass::ALL.len() + sketch::MAX_PASSES);
 }
 
 #[test]

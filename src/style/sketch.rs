@@ -9,7 +9,7 @@ mod wander;
 
 pub use fill::{Fill, Tone};
 pub use grain::{Grain, Tooth};
-pub use pass::{MOST_OFFSET, Pass};
+pub use pass::{MAX_OFFSET, Pass};
 pub use strokes::Strokes;
 pub use wander::{Anchor, Exterior, Noise, SketchDepth, Wander};
 
@@ -17,7 +17,7 @@ use super::Color;
 use super::param::Params;
 
 /// Most times that lines are drawn over each other.
-pub const MOST_PASSES: usize = 8;
+pub const MAX_PASSES: usize = 8;
 
 /// How surfaces and lines are moved and rubbed on as by hand.
 ///
@@ -31,7 +31,7 @@ pub struct Sketch {
     /// How often lines are drawn.
     pub passes: u32,
     /// How lines are drawn each time.
-    pub pass: [Pass; MOST_PASSES],
+    pub pass: [Pass; MAX_PASSES],
     /// How surfaces are filled.
     pub fill: Fill,
     /// What rough paper makes of it.
@@ -58,7 +58,7 @@ impl Default for Sketch {
 const ENABLED: &str = "sketch.enabled";
 
 /// Whole numbers as they are written, from 1 on.
-const COUNTS: [&str; MOST_PASSES] = ["1", "2", "3", "4", "5", "6", "7", "8"];
+const COUNTS: [&str; MAX_PASSES] = ["1", "2", "3", "4", "5", "6", "7", "8"];
 
 impl Sketch {
     /// The image of the paper, if it is one.
@@ -77,7 +77,7 @@ impl Sketch {
                 "passes",
                 "Passes",
                 "",
-                1..=MOST_PASSES as u32,
+                1..=MAX_PASSES as u32,
                 "How often lines are drawn over each other.",
                 passes,
             );

@@ -28,7 +28,7 @@ pub(crate) struct Repatch {
     /// Number of planes at random places that separate patches besides.
     pub(crate) planes: usize,
     /// An edge between patches gets up to so many vertices on each side, at different places.
-    pub(crate) most_cuts: u32,
+    pub(crate) max_cuts: u32,
     /// How far a vertex of a border lies from the original edge at most, as a share of the diagonal of its body: of all
     /// that has points in common.
     pub(crate) crack: f32,
@@ -38,7 +38,7 @@ pub(crate) struct Repatch {
 
 impl Default for Repatch {
     fn default() -> Self {
-        Self { crease_angle: 0.5, planes: 3, most_cuts: 1, crack: 0.0, common: Common::Vertices, seed: 1 }
+        Self { crease_angle: 0.5, planes: 3, max_cuts: 1, crack: 0.0, common: Common::Vertices, seed: 1 }
     }
 }
 
@@ -109,7 +109,7 @@ impl Repatch {
                     return Vec::new();
                 }
                 let mut shares: Vec<f32> =
-                    (0..random.below(self.most_cuts + 1)).map(|_| 0.1 + 0.8 * random.unit()).collect();
+                    (0..random.below(self.max_cuts + 1)).map(|_| 0.1 + 0.8 * random.unit()).collect();
                 shares.sort_by(f32::total_cmp);
                 shares.dedup_by(|a, b| *a - *b < 0.05);
                 let moved = |v: usize| new.positions[corners[v] as usize];

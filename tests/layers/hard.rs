@@ -56,7 +56,7 @@ fn more_layers_than_can_be_recorded_end_with_the_last_of_them() {
         session.set_scene(&many).unwrap();
         session.draw(&many, [48; 2], false).unwrap();
         let counted = session.renderer().layer_reports().unwrap().remove(0);
-        assert_eq!((counted.layers, counted.ended), (64, LayersEnd::MostLayers), "{by}");
+        assert_eq!((counted.layers, counted.ended), (64, LayersEnd::MaxLayers), "{by}");
         assert!(counted.pixels.iter().all(|p| *p > 0), "{by}");
     }
 }

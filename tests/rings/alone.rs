@@ -13,7 +13,7 @@ use super::rays::{Cast, Hit, pixels};
 use super::stage::Stage;
 
 /// Least share of what rays meet of a ring, away from its edges, that its own picture shows.
-const LEAST_SEEN: f64 = 0.99;
+const MIN_SEEN: f64 = 0.99;
 
 /// What a ring, or the rings of one blueprint, are alone.
 enum Alone {
@@ -150,7 +150,7 @@ impl<'a> Shot<'a> {
             assert!(is_seen, "{} has no lines", look.name);
         } else {
             let share = seen as f64 / met as f64;
-            assert!(share > LEAST_SEEN, "{} is seen in {share:.4} of its {met} places", look.name);
+            assert!(share > MIN_SEEN, "{} is seen in {share:.4} of its {met} places", look.name);
         }
     }
 

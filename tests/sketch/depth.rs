@@ -7,7 +7,7 @@ use hachure::export::Session;
 use hachure::export::session::Opened;
 use hachure::geometry::{Mesh, primitives};
 use hachure::scene::{AlphaMode, NodeId};
-use hachure::style::sketch::{Anchor, MOST_PASSES, Noise, SketchDepth};
+use hachure::style::sketch::{Anchor, MAX_PASSES, Noise, SketchDepth};
 use hachure::style::{Color, Matrix, Style};
 
 use super::common;
@@ -77,7 +77,7 @@ fn random_sketch(random: &mut Random) -> (Style, f64) {
         sketch.grain.roughness = 2.0;
         sketch.grain.amount = 0.5;
     }
-    let count = (sketch.passes as usize).min(MOST_PASSES);
+    let count = (sketch.passes as usize).min(MAX_PASSES);
     let matrices = sketch.pass[..count].iter().map(|pass| pass.matrix).chain([sketch.fill.matrix]);
     let rms = f64::from(matrices.map(Matrix::rms).fold(0.0, f32::max) * sketch.wander.amount);
     let widest = 0.5 * 1.6 * f64::from(style.edges.profile.width);

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use glam::{DMat4, DVec3, Vec3};
 use hachure::export::session::Opened;
 use hachure::geometry::{Mesh, primitives};
-use hachure::style::sketch::{Anchor, MOST_OFFSET, MOST_PASSES, Tooth};
+use hachure::style::sketch::{Anchor, MAX_OFFSET, MAX_PASSES, Tooth};
 use hachure::style::{Matrix, Style};
 
 use super::common::{self, set};
@@ -36,7 +36,7 @@ fn numbers_that_are_none_or_too_great_are_held_back() {
         session.set_scene(&opened).unwrap();
         drawn(&mut session, &opened, SIDE, |_| true)
     };
-    const MOST: f32 = MOST_OFFSET;
+    const MOST: f32 = MAX_OFFSET;
     let rows = [
         ([f32::NAN; 4], [0.0; 4]),
         ([f32::INFINITY, 0.0, 0.0, f32::NEG_INFINITY], [MOST, 0.0, 0.0, -MOST]),
@@ -113,7 +113,7 @@ fn a_paper_that_is_missing_is_said_and_the_generated_one_is_used() {
 fn pictures_and_objects_of_any_size_are_drawn() {
     let mut session = common::session();
     let mut rich = sketched(style("gooch"), 20.0, 30.0);
-    rich.sketch.passes = MOST_PASSES as u32;
+    rich.sketch.passes = MAX_PASSES as u32;
     (rich.sketch.grain.amount, rich.sketch.grain.roughness, rich.sketch.grain.smudge) = (0.5, 2.0, 0.5);
     (rich.sketch.fill.strokes, rich.sketch.wander.pressure) = (0.5, 0.4);
     let mut bare = rich.clone();

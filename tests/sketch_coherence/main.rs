@@ -35,20 +35,20 @@ const MODELS: [&str; 3] = ["ogre", "crank", "temple"];
 const WAVE: f32 = 120.0;
 /// Least coherence of its offsets, of those of presets, of a field that is locked to the surface, and of ink.
 const LEAST: f64 = 0.9;
-const LEAST_OF_PRESETS: f64 = 0.88;
-const LEAST_LOCKED: f64 = 0.98;
-const LEAST_OF_INK: f64 = 0.9;
+const MIN_OF_PRESETS: f64 = 0.88;
+const MIN_LOCKED: f64 = 0.98;
+const MIN_OF_INK: f64 = 0.9;
 /// Where surfaces run through each other: there the device finds lines pixel by pixel, now as the end of one surface before another,
 /// now as a crossing.
-const LEAST_OF_CROSSINGS: f64 = 0.8;
+const MIN_OF_CROSSINGS: f64 = 0.8;
 /// Greatest share of the pixels with ink that pop beyond those of a locked run, apart from crossings and there. Not where a dolly leaps
 /// by a third: offsets have changed then, for waves are to keep their length on paper.
-const MOST_POPS: f64 = 0.001;
-const MOST_POPS_OF_CROSSINGS: f64 = 0.015;
+const MAX_POPS: f64 = 0.001;
+const MAX_POPS_OF_CROSSINGS: f64 = 0.015;
 /// Greatest deviation of the root of the mean square on a dolly.
-const MOST_DEVIATION: f64 = 0.15;
+const MAX_DEVIATION: f64 = 0.15;
 /// Most steps of a path that ink is compared at, all along it.
-const MOST_STEPS: usize = 8;
+const MAX_STEPS: usize = 8;
 /// So many seeds.
 const SEEDS: u32 = 4;
 
@@ -97,10 +97,10 @@ fn measure_field(
         "{name:<8}{way:<7}{surface:7.3}{:8.3}{map:>8} ×{growth:<6}{locked:7.3}   {low:.2} to {high:.2}   {least:.3} {preset}",
         0.0
     );
-    failures.check(locked >= LEAST_LOCKED, format!("{name}, {way}: what is locked has {locked:.3}"));
+    failures.check(locked >= MIN_LOCKED, format!("{name}, {way}: what is locked has {locked:.3}"));
     failures.check(surface >= LEAST, format!("{name}, {way}: offsets have {surface:.3}"));
-    failures.check(least >= LEAST_OF_PRESETS, format!("{name}, {way}: offsets of {preset} have {least:.3}"));
-    let is_even = path != Path::Dolly || low >= 1.0 - MOST_DEVIATION && high <= 1.0 + MOST_DEVIATION;
+    failures.check(least >= MIN_OF_PRESETS, format!("{name}, {way}: offsets of {preset} have {least:.3}"));
+    let is_even = path != Path::Dolly || low >= 1.0 - MAX_DEVIATION && high <= 1.0 + MAX_DEVIATION;
     failures.check(is_even, format!("{name}, {way}: rms from {low:.2} to {high:.2}"));
 }
 
@@ -122,7 +122,7 @@ fn measure_ink(
     let length = Length { starts, fresh: 1, stride };
     let mut all = [Changes::default(); 2];
     let runs = runs(model, path, dolly, length);
-    let count = runs.len().min(MOST_STEPS);
+    let count = runs.len().min(MAX_STEPS);
     for run in (0..count).map(|i| runs[i * runs.len() / count].clone()) {
         let mut frames =
             run.into_iter().map(|camera| frame(draftsmen, model, Eye::new(session, camera, SIDE)));
@@ -130,7 +130,7 @@ fn measure_ink(
         all = plus(all, compare(&before, &after, &field));
     }
     let is_leap = path == Path::Dolly && stride >= 10;
-    let parts = [("", LEAST_OF_INK, MOST_POPS), (" crossings", LEAST_OF_CROSSINGS, MOST_POPS_OF_CROSSINGS)];
+    let parts = [("", MIN_OF_INK, MAX_POPS), (" crossings", MIN_OF_CROSSINGS, MAX_POPS_OF_CROSSINGS)];
     for ((part, least, most), changes) in parts.into_iter().zip(all) {
         let [surface, screen, locked, moved] = changes.errors();
         let pops = changes.pops();
@@ -203,9 +203,9 @@ fn sketches_move_with_the_model() {
 const SMALL: u32 = 360;
 /// Greatest difference of their noise, of which the mean square is about 1, at half of the places and at four of five. The device
 /// tells how a line is shortened from the pixels beside it, the twin knows.
-const MOST_UNLIKE: [f64; 2] = [0.08, 0.2];
+const MAX_UNLIKE: [f64; 2] = [0.08, 0.2];
 /// The same of what one object gives to a line and another one to the next pixel of it, where they touch.
-const MOST_TORN: [f64; 2] = [0.6, 1.2];
+const MAX_TORN: [f64; 2] = [0.6, 1.2];
 
 fn half_and_four_fifths(values: &mut [f64]) -> [f64; 2] {
     values.sort_by(f64::total_cmp);
@@ -226,12 +226,12 @@ fn the_device_gives_the_lines_of_a_crank_the_noise_that_its_twin_says() {
         let mut unlike = drawn.unlike_twin(&anchors, &field);
         assert!(3 * unlike.len() > anchors.len(), "{} of {} places are drawn", unlike.len(), anchors.len());
         let found = half_and_four_fifths(&mut unlike);
-        assert!(found[0] < MOST_UNLIKE[0] && found[1] < MOST_UNLIKE[1], "camera {i}: {found:?}");
+        assert!(found[0] < MAX_UNLIKE[0] && found[1] < MAX_UNLIKE[1], "camera {i}: {found:?}");
         torn.extend(drawn.torn());
     }
     assert!(torn.len() > 100, "{} times a line goes on as that of another object", torn.len());
     let found = half_and_four_fifths(&mut torn);
-    assert!(found[0] < MOST_TORN[0] && found[1] < MOST_TORN[1], "torn: {found:?}");
+    assert!(found[0] < MAX_TORN[0] && found[1] < MAX_TORN[1], "torn: {found:?}");
 }
 
 #[test]

@@ -36,15 +36,15 @@ const MODELS: [&str; 3] = ["ogre", "crank", "temple"];
 const DARKNESS: f32 = 0.35;
 /// Greatest shares of the pixels that change by more than 0.6: of strokes that go on and on, and of others. (Of a pen's 0.015 are
 /// asked; a pencil's, less than two pixels wide, change more.)
-const MOST_POPS: [f64; 2] = [0.008, 0.016];
+const MAX_POPS: [f64; 2] = [0.008, 0.016];
 /// Of what is painted on the surface.
-const MOST_LOCKED: f64 = 0.002;
+const MAX_LOCKED: f64 = 0.002;
 /// Greatest share of the ink that lies in marks shorter than 6 px.
-const MOST_CRUMBS: f64 = 0.02;
+const MAX_CRUMBS: f64 = 0.02;
 /// Greatest coefficients of variation of spacing and width on a model, and on a plane that faces the eye: there lines are inserted
 /// everywhere at once.
-const MOST_UNEVEN: f64 = 0.09;
-const MOST_UNEVEN_ON_PLANE: f64 = 0.15;
+const MAX_UNEVEN: f64 = 0.09;
+const MAX_UNEVEN_ON_PLANE: f64 = 0.15;
 /// Steps in an octave of coming closer.
 const STEPS: u32 = 4;
 
@@ -69,7 +69,7 @@ fn measure_pops(session: &mut Session, models: &[&str], failures: &mut Failures)
                 (pops(&before, &after), [before, after])
             };
             for (preset, hatching) in presets() {
-                let most = MOST_POPS[usize::from(hatching.stroke.taper > 0.0)];
+                let most = MAX_POPS[usize::from(hatching.stroke.taper > 0.0)];
                 let (found, _) = popped(hatching);
                 let Pops { of_all, of_ink } = found;
                 println!(
@@ -88,8 +88,8 @@ fn measure_pops(session: &mut Session, models: &[&str], failures: &mut Failures)
                 100.0 * paper,
                 100.0 * locked
             );
-            failures.check(paper > MOST_POPS[1], format!("{name}, {way}: paper: {paper:.4}"));
-            failures.check(locked <= MOST_LOCKED, format!("{name}, {way}: surface: {locked:.4}"));
+            failures.check(paper > MAX_POPS[1], format!("{name}, {way}: paper: {paper:.4}"));
+            failures.check(locked <= MAX_LOCKED, format!("{name}, {way}: surface: {locked:.4}"));
         }
     }
 }
@@ -131,7 +131,7 @@ fn measure_crumbs(session: &mut Session, models: &[&str], failures: &mut Failure
                 100.0 * all,
                 100.0 * free
             );
-            failures.check(all <= MOST_CRUMBS, format!("{name}: {} has {all:.4} in crumbs", preset.name));
+            failures.check(all <= MAX_CRUMBS, format!("{name}: {} has {all:.4} in crumbs", preset.name));
         }
     }
 }
@@ -187,7 +187,7 @@ fn strokes_keep_their_width_and_spacing() {
         &mut session,
         ("plane", common::opened(&scene, DVec3::Z)),
         far,
-        MOST_UNEVEN_ON_PLANE,
+        MAX_UNEVEN_ON_PLANE,
         &mut failures,
     );
     let mut ogre = sample("ogre");
@@ -196,6 +196,6 @@ fn strokes_keep_their_width_and_spacing() {
     let middle = SIDE as usize / 2;
     let focal_point = Frame::drawn(&mut session, &mut ogre, start, SIDE).point(middle, middle).unwrap();
     let far = Camera { position: focal_point + 2.0 * (start.position - focal_point), focal_point, ..start };
-    measure_evenness(&mut session, ("ogre", ogre), far, MOST_UNEVEN, &mut failures);
+    measure_evenness(&mut session, ("ogre", ogre), far, MAX_UNEVEN, &mut failures);
     failures.report();
 }

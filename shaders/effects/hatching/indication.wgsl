@@ -38,11 +38,11 @@ var flat_parts: texture_storage_2d<rgba32uint, read>;
 // Pixels around that are compared.
 const PIXELS_AROUND: u32 = 16u;
 // Nothing is divided by less.
-const LEAST_DIVISOR: f32 = 1e-3;
+const MIN_DIVISOR: f32 = 1e-3;
 
 // (a + b · x)^−c.
 fn weight_at(x: f32, offset: f32, slope: f32, power: f32) -> f32 {
-    return pow(max(offset + slope * x, LEAST_DIVISOR), -power);
+    return pow(max(offset + slope * x, MIN_DIVISOR), -power);
 }
 
 // w1 at a place in local space: by the distance to the border of the square that a flat part is mapped to. `part`: counted from 1.
@@ -59,7 +59,7 @@ fn patch_field(part: u32, place: vec3<f32>, i: Indication) -> f32 {
 
 // field(n) = α / (n^β + λ), also where nothing is apart and λ is 0.
 fn silhouette_term(count: u32, i: Indication) -> f32 {
-    return i.alpha / max(pow(f32(count), i.beta) + i.lambda, LEAST_DIVISOR);
+    return i.alpha / max(pow(f32(count), i.beta) + i.lambda, MIN_DIVISOR);
 }
 
 // Whether a silhouette separates two pixels: the other one lies off the plane of the first by a step, or is turned away from it.
@@ -87,5 +87,5 @@ fn silhouette_field(px: vec2<i32>, s: Surfel, i: Indication) -> f32 {
 // (1 + distance / d)^−c, by the distance to the nearest line; more where that is of something that attracts.
 fn line_field(i: Indication, attraction: f32, away: f32) -> f32 {
     let distance = i.distance * attraction;
-    return select(0.0, pow(1.0 + away / max(distance, LEAST_DIVISOR), -i.falloff), distance > 0.0);
+    return select(0.0, pow(1.0 + away / max(distance, MIN_DIVISOR), -i.falloff), distance > 0.0);
 }

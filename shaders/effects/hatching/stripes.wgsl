@@ -32,7 +32,7 @@ const FINER_BY: i32 = 4;
 
 // As in src/render/effects/hatching/calibration.rs.
 const SOFT: f32 = 0.04;
-const LEAST_WIDTH: f32 = 0.35;
+const MIN_WIDTH: f32 = 0.35;
 const OCTAVE_PLACES: u32 = 16u;
 const OCTAVE_LENGTHS: u32 = 10u;
 const INK_STEPS: u32 = 64u;
@@ -326,17 +326,17 @@ fn stripe_ink(px: vec2<i32>, s: Stripes, number: u32, stroke: Stroke, ink: f32) 
     let pressed = sqrt(tapered) * (1.0 - stroke.variation * variation) * smoothstep(0.0, SOFT, tone - threshold);
     var width = stroke.spacing * share * pressed;
     // No hair lines: a stroke ends, it does not fade.
-    width = select(width, 0.0, width < LEAST_WIDTH);
+    width = select(width, 0.0, width < MIN_WIDTH);
     // Nor hair lines of paper: strokes that nearly touch do.
     let next = 0.5 * level.spacing;
-    width += smoothstep(next - 2.0 * LEAST_WIDTH, next, width);
-    if max(width, 2.0 * LEAST_WIDTH) * 0.5 + 0.5 <= abs(away) || width <= 0.0 {
+    width += smoothstep(next - 2.0 * MIN_WIDTH, next, width);
+    if max(width, 2.0 * MIN_WIDTH) * 0.5 + 0.5 <= abs(away) || width <= 0.0 {
         return 0.0;
     }
     // What crosses a narrow facet would be a tooth of a comb.
     let along = vec2(-family.screen.y, family.screen.x) / family.per_px;
     let enough = min(2.0 * stroke.spacing, FOLLOWED);
     width *= smoothstep(0.4, 1.0, length_left(px, along, enough) / enough);
-    let covered = clamp(max(width, 2.0 * LEAST_WIDTH) * 0.5 - abs(away) + 0.5, 0.0, 1.0);
-    return covered * min(width / (2.0 * LEAST_WIDTH), 1.0);
+    let covered = clamp(max(width, 2.0 * MIN_WIDTH) * 0.5 - abs(away) + 0.5, 0.0, 1.0);
+    return covered * min(width / (2.0 * MIN_WIDTH), 1.0);
 }

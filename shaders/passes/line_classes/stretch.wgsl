@@ -8,9 +8,9 @@ var<storage, read> least: array<f32>;
 var link_tex: texture_2d<u32>;
 
 // Most steps of a stretch that are told apart: twice as many have to fit into the bits of a number.
-const MOST_STEPS: f32 = 15.0;
+const MAX_STEPS: f32 = 15.0;
 // More than the links of two stretches in the largest pictures.
-const MOST_LINKS: i32 = 64;
+const MAX_LINKS: i32 = 64;
 // Longer than any.
 const ENDLESS: i32 = 1000;
 
@@ -60,7 +60,7 @@ struct Stretch {
 }
 
 fn steps_per_px() -> f32 {
-    return min(1.0, MOST_STEPS / least[0]);
+    return min(1.0, MAX_STEPS / least[0]);
 }
 
 fn step_at(distance: f32) -> u32 {
@@ -68,7 +68,7 @@ fn step_at(distance: f32) -> u32 {
 }
 
 fn follow(px: vec2<i32>, links: u32, first_side: u32) -> Stretch {
-    let farthest = 2.0 * min(least[0], MOST_STEPS / steps_per_px());
+    let farthest = 2.0 * min(least[0], MAX_STEPS / steps_per_px());
     var stretch = Stretch(Steps(vec4(0u), vec4(0u), vec4(0u)), 0u, ENDLESS, px, f32(ENDLESS));
     var walk = Walk(px, links, first_side);
     var distance = 0.0;
@@ -104,7 +104,7 @@ fn steps_of(ahead: Stretch, behind: Stretch, class_of: u32) -> vec2<u32> {
 
 // Steps without a class that are no gap in it.
 fn longest_gap() -> i32 {
-    return i32(min(ceil(least[0]), MOST_STEPS));
+    return i32(min(ceil(least[0]), MAX_STEPS));
 }
 
 // The last of these steps that is reached from one of them without a gap as long as a stretch.
@@ -133,20 +133,20 @@ struct Nearest {
 
 fn nearest_of(class_of: u32, px: vec2<i32>, links: u32, first_side: u32) -> Nearest {
     var walk = Walk(px, links, first_side);
-    for (var i = 0; i < MOST_LINKS && (classes_in(walk.texel) & bit_of(class_of)) == 0u; i++) {
+    for (var i = 0; i < MAX_LINKS && (classes_in(walk.texel) & bit_of(class_of)) == 0u; i++) {
         walk = advanced(walk, unpack_link(walk.texel, walk.side));
     }
     let line = point_at(walk.px);
     let towards = unpack_tangent(u32(line.tangent));
     let left = vec2(towards.y, -towards.x) * select(-1.0, 1.0, walk.side == first_side);
     var nearest = Nearest(line.texel, 0.0);
-    var least_distance = 1e9;
+    var min_distance = 1e9;
     for (var place = 0u; place < AROUND; place++) {
         let point = point_at(walk.px + away_of(place));
         let seen = seen_from(line, towards, point);
         let distance = abs(seen.x) + seen.y;
-        if point.class_of == class_of && seen.y < BESIDE && abs(seen.x) <= ABREAST && distance < least_distance {
-            least_distance = distance;
+        if point.class_of == class_of && seen.y < BESIDE && abs(seen.x) <= ABREAST && distance < min_distance {
+            min_distance = distance;
             nearest = Nearest(point.texel, dot(point.at - line.at, left));
         }
     }

@@ -104,7 +104,7 @@ impl Field<'_> {
             }
             let text = match shown {
                 Some(point) => numbers(point),
-                None => format!("{} of {} points", curve.points().len(), Curve::MOST_POINTS),
+                None => format!("{} of {} points", curve.points().len(), Curve::MAX_POINTS),
             };
             ui.add(egui::Label::new(RichText::new(text).weak().small()).truncate());
             picture.on_hover_text(format!("{}\n\n{ADDING}", self.help));
@@ -221,8 +221,8 @@ fn moved(curve: Curve, index: usize, to: Point) -> Curve {
         && to.x != point.x
     {
         // Rounded inwards, but for errors of rounding.
-        let least = ((before + Curve::LEAST_GAP) * PER_UNIT - 1e-3).ceil() / PER_UNIT;
-        let most = ((after - Curve::LEAST_GAP) * PER_UNIT + 1e-3).floor() / PER_UNIT;
+        let least = ((before + Curve::MIN_GAP) * PER_UNIT - 1e-3).ceil() / PER_UNIT;
+        let most = ((after - Curve::MIN_GAP) * PER_UNIT + 1e-3).floor() / PER_UNIT;
         if least <= most {
             point.x = rounded(to.x).max(least).min(most);
         }

@@ -14,13 +14,13 @@ use crate::scene::{Addition, Material, Scene, Warning};
 use crate::style::{Color, nearest};
 
 /// Points after these are left out.
-const MOST_POINTS: usize = 2000;
+const MAX_POINTS: usize = 2000;
 
 /// From the middle of the model, in its diagonals.
 const FARTHEST: f64 = 1e4;
 
 /// Boxes around more vertices are made of those around meshes.
-const MOST_VERTICES: usize = 300_000;
+const MAX_VERTICES: usize = 300_000;
 
 /// Glyphs as objects, one each, in their order; and what could not be drawn as it was meant.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -132,7 +132,7 @@ impl Measures<'_> {
             let nodes = self.scene.nodes.get(nodes.clone()).unwrap_or_default();
             nodes.iter().filter_map(|n| Some((n.world_from_local, self.scene.meshes.get(n.mesh?)?)))
         };
-        if meshes().map(|(_, mesh)| mesh.positions.len()).sum::<usize>() > MOST_VERTICES {
+        if meshes().map(|(_, mesh)| mesh.positions.len()).sum::<usize>() > MAX_VERTICES {
             return self.bounds_of(nodes);
         }
         meshes().fold(Bounds::EMPTY, |all, (place, mesh)| {
@@ -188,10 +188,10 @@ impl Measures<'_> {
             return Err(format!("its point {} is too far from the model", number + 1));
         }
         let count = shape.points.len();
-        if count > MOST_POINTS {
-            notes.push(format!("has {count} points; only the first {MOST_POINTS} are drawn"));
+        if count > MAX_POINTS {
+            notes.push(format!("has {count} points; only the first {MAX_POINTS} are drawn"));
         }
-        let points = shape.points.get(..MOST_POINTS.min(count)).unwrap_or_default();
+        let points = shape.points.get(..MAX_POINTS.min(count)).unwrap_or_default();
         let origin = points.iter().fold(DVec3::ZERO, |sum, p| sum + p / points.len() as f64);
         let local: Vec<DVec3> = points.iter().map(|p| p - origin).collect();
         let mesh = arrow(&local, 0.5 * self.absolute(shape.thickness), shape.heads.into());

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use super::cut::{CutMesh, Faces};
 
 /// Shading normals that differ more than the angle with this cosine from the triangles' are not believed.
-const LEAST_COSINE: f32 = 0.7;
+const MIN_COSINE: f32 = 0.7;
 
 /// What is known of the curvature in a triangle.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -55,7 +55,7 @@ fn smooth_normals(faces: &Faces<'_>, cut: &CutMesh) -> Vec<Vec3> {
     }
     let believed = |(sum, &normal): (Vec3, &Vec3)| {
         let mean = sum.normalize_or(normal);
-        if mean.dot(normal) > LEAST_COSINE { mean } else { normal }
+        if mean.dot(normal) > MIN_COSINE { mean } else { normal }
     };
     sums.into_iter().zip(&cut.normals).map(believed).collect()
 }

@@ -36,13 +36,13 @@ pub(crate) struct Graph {
 /// Stands for "part of no coarser patch".
 pub(crate) const NO_PARENT: u32 = u32::MAX;
 /// All graphs of a hierarchy together have at most this many times the patches of the finest.
-const MOST_PATCHES: usize = 4;
+const MAX_PATCHES: usize = 4;
 /// Cotangents belong to angles of at least this many radians, so that slivers do not dominate.
-const LEAST_ANGLE: f32 = 0.05;
+const MIN_ANGLE: f32 = 0.05;
 /// Least weight of an edge.
-const LEAST_WEIGHT: f32 = 0.02;
+const MIN_WEIGHT: f32 = 0.02;
 /// Patches whose normals differ by more than the angle with this cosine stay apart.
-const LEAST_COSINE: f32 = 0.7;
+const MIN_COSINE: f32 = 0.7;
 
 impl Graph {
     /// The graph of a cut mesh.
@@ -57,7 +57,7 @@ impl Graph {
             for k in 0..3 {
                 let (p, q, apex) = (corners[(k + 1) % 3], corners[(k + 2) % 3], corners[k]);
                 let (u, v) = (p - apex, q - apex);
-                let largest = 1.0 / LEAST_ANGLE.tan();
+                let largest = 1.0 / MIN_ANGLE.tan();
                 let cotangent = (u.dot(v) / u.cross(v).length()).clamp(-largest, largest);
                 let weight = if cotangent.is_finite() { 0.5 * cotangent } else { 0.0 };
                 let (i, j) = (triangle[(k + 1) % 3], triangle[(k + 2) % 3]);
@@ -67,7 +67,7 @@ impl Graph {
         }
         let (first_link, mut links) = gather_links(cut.len(), &pairs);
         for link in &mut links {
-            link.weight = link.weight.max(LEAST_WEIGHT);
+            link.weight = link.weight.max(MIN_WEIGHT);
         }
         Self {
             positions: cut.positions.clone(),
@@ -125,7 +125,7 @@ impl Graph {
     /// This graph and coarser ones, each with a third to a quarter of the patches, down to about `least` patches or
     /// until nothing more can be joined.
     pub(crate) fn hierarchy(self, least: usize) -> Vec<Self> {
-        let mut patches_left = self.len() * (MOST_PATCHES - 1);
+        let mut patches_left = self.len() * (MAX_PATCHES - 1);
         let mut graphs = vec![self];
         while let Some(fine) = graphs.last_mut() {
             if fine.len() <= least {
@@ -145,7 +145,7 @@ impl Graph {
 
     /// Joins each patch that is still free with its free neighbors to which it is coupled most, in order.
     fn patches(&self) -> (Vec<u32>, usize) {
-        const MOST_MEMBERS: usize = 4;
+        const MAX_MEMBERS: usize = 4;
         let mut parents = vec![NO_PARENT; self.len()];
         let mut count = 0_u32;
         let mut nearest: Vec<(f32, u32)> = Vec::new();
@@ -160,7 +160,7 @@ impl Graph {
             let strongest = links.iter().fold(0.0_f32, |s, link| s.max(link.weight));
             let fits = |link: &&Link| {
                 link.weight >= 0.25 * strongest
-                    && self.normals[v].dot(self.normals[link.to as usize]) > LEAST_COSINE
+                    && self.normals[v].dot(self.normals[link.to as usize]) > MIN_COSINE
             };
             nearest.clear();
             nearest.extend(
@@ -179,7 +179,7 @@ impl Graph {
                 continue;
             }
             parents[v] = count;
-            for &(_, neighbor) in nearest.iter().take(MOST_MEMBERS - 1) {
+            for &(_, neighbor) in nearest.iter().take(MAX_MEMBERS - 1) {
                 parents[neighbor as usize] = count;
             }
             count += 1;

@@ -136,7 +136,7 @@ impl<'a> System<'a> {
     }
 
     /// Conjugate gradients with the diagonal as preconditioner, from a guess.
-    fn solve(&self, u: &mut [Vec2], most_steps: usize) {
+    fn solve(&self, u: &mut [Vec2], max_steps: usize) {
         let count = u.len();
         let mut image = vec![Vec2::ZERO; count];
         self.apply(u, &mut image);
@@ -144,7 +144,7 @@ impl<'a> System<'a> {
         let mut step: Vec<Vec2> = residual.iter().zip(&self.diagonal).map(|(r, d)| r / d).collect();
         let mut energy = dot(&residual, |v| residual[v] / self.diagonal[v]);
         let enough = 1e-8 * dot(&self.data.sums, |v| self.data.sums[v] / self.diagonal[v]);
-        for _ in 0..most_steps {
+        for _ in 0..max_steps {
             if energy.is_nan() || energy <= enough {
                 return;
             }

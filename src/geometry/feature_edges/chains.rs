@@ -11,7 +11,7 @@ use crate::geometry::Mesh;
 use crate::geometry::line_chains::{Chains, Link};
 
 /// Cosine of the angle by which a chain may turn at a point: 60°.
-const MOST_TURN: f32 = 0.5;
+const MAX_TURN: f32 = 0.5;
 
 /// An edge that is in a chain.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -76,7 +76,7 @@ impl FeatureChains {
         let links: Vec<Link> = pieces.iter().map(Piece::link).collect();
         let leave =
             |half: u32| pieces.get(half as usize >> 1).map_or(Vec3::ZERO, |piece| piece.leave(half & 1));
-        let chains = Chains::new(&links, |a, b| leave(a).dot(leave(b)) <= -MOST_TURN);
+        let chains = Chains::new(&links, |a, b| leave(a).dot(leave(b)) <= -MAX_TURN);
         let mut by_edge = Vec::with_capacity(edges.len());
         let mut anchors = Vec::with_capacity(chains.starts.len());
         let mut link = 0;

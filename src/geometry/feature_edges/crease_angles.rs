@@ -10,7 +10,7 @@ pub(in crate::geometry) struct CreaseAngles {
 }
 
 /// How many choices of angles are kept.
-const MOST_CACHED: usize = 8;
+const MAX_CACHED: usize = 8;
 
 /// What was asked for before. No part of what makes edges equal.
 #[derive(Debug)]
@@ -24,7 +24,7 @@ impl<T> Cached<T> {
             return Arc::clone(found);
         }
         let made = Arc::new(make());
-        if kept.len() >= MOST_CACHED {
+        if kept.len() >= MAX_CACHED {
             kept.remove(0);
         }
         kept.push((angles, Arc::clone(&made)));

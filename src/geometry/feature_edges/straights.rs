@@ -18,13 +18,13 @@ const STRAIGHT: f32 = 0.999_85;
 /// Cosine of the angle by which a curve may turn at a point, 25°: polygons up to 14 corners are made of straight lines.
 const SMOOTH: f32 = 0.906_3;
 /// How far from the line between its ends a straight line may be, as a share of its length.
-const MOST_MISS: f32 = 0.004;
+const MAX_MISS: f32 = 0.004;
 /// So many lines of similar length, each smoothly after the other, are a curve.
 const CURVE: u32 = 4;
 /// How often the longer of two neighbors in a curve has the length of the shorter one.
 const SIMILAR: f32 = 3.0;
 /// Edges that meet in one point, beyond which nobody looks for those that go on.
-const MOST_HERE: usize = 64;
+const MAX_HERE: usize = 64;
 
 /// A straight line of one or more edges.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -121,7 +121,7 @@ impl Joints {
             |half: u32| pieces.get(half as usize >> 1).map_or(Vec3::ZERO, |piece| piece.leave(half & 1));
         let mut pairs: Vec<(f32, u32, u32)> = Vec::new();
         for_each_meeting(&links, |here| {
-            if !(2..=MOST_HERE).contains(&here.len()) {
+            if !(2..=MAX_HERE).contains(&here.len()) {
                 return;
             }
             pairs.clear();
@@ -162,7 +162,7 @@ fn line_of(pieces: &[Piece], links: &[ChainLink], is_closed: bool) -> Option<[Ve
     let (from, to) = (from?, to?);
     let length = from.distance(to);
     let direction = (to - from) / length;
-    let is_near = |p: Vec3| (p - from).reject_from_normalized(direction).length() <= MOST_MISS * length;
+    let is_near = |p: Vec3| (p - from).reject_from_normalized(direction).length() <= MAX_MISS * length;
     let is_straight = links.iter().all(|link| at(2 * link.link).is_some_and(is_near));
     (!is_closed && length > 0.0 && is_straight).then_some([from, to])
 }

@@ -33,7 +33,7 @@ impl<'a> Angles<'a> {
     }
 
     /// The least angle in local space that can appear as this one (radians).
-    pub(super) fn least_local(&self, angle: f32) -> f32 {
+    pub(super) fn min_local(&self, angle: f32) -> f32 {
         if self.placement.is_none() || angle > std::f32::consts::PI {
             return angle;
         }

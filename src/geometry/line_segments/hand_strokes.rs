@@ -13,7 +13,7 @@ use crate::geometry::{EdgeClass, Lens};
 /// Length of the pieces of a stroke, reference pixels: short enough that it is bowed smoothly.
 const PIECE: f64 = 6.0;
 /// No segment has more pieces.
-const MOST_PIECES: f64 = 4096.0;
+const MAX_PIECES: f64 = 4096.0;
 /// So far from its end an overshot line is tested, px.
 const INSIDE: [f64; 2] = [2.0, 1.0];
 /// So far (px) may the end of a segment be from that of its line and still be the same.
@@ -120,7 +120,7 @@ impl DrawnLine {
     fn new(finder: &Finder<'_>, line: &Straight, hand: &Hand) -> Option<Self> {
         let [(from, is_first), (to, is_last)] = finder.picture.before(line.ends)?;
         let length = from.distance(to);
-        if !(length > hand.least_length() && length.is_finite()) {
+        if !(length > hand.min_length() && length.is_finite()) {
             return None;
         }
         let number = mix(line.hash ^ mix(finder.placed.object));
@@ -149,7 +149,7 @@ impl DrawnLine {
         let spot = Spots::new(segment, lens);
         let length = spot.ends[0].distance(spot.ends[1]);
         let piece = PIECE * f64::from(hand.scale.max(1e-3));
-        let pieces = (length / piece).ceil().clamp(1.0, MOST_PIECES);
+        let pieces = (length / piece).ceil().clamp(1.0, MAX_PIECES);
         for (time, stroke) in (0_u8..).zip(&self.strokes) {
             let precedence = 1.0 - f32::from(time) / 4.0;
             let mut before = self.drawn(stroke, &spot, 0.0);

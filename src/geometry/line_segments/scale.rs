@@ -1,7 +1,7 @@
 //! How arcs are counted along one chain or loop.
 
 /// How much a loop may be stretched, so that a whole number of periods fits.
-const MOST_STRETCH: f64 = 0.1;
+const MAX_STRETCH: f64 = 0.1;
 
 /// Lengths along one chain.
 pub(super) struct Scale {
@@ -26,6 +26,6 @@ impl Scale {
 
     fn factor(&self, around: f64) -> f64 {
         let factor = (around / self.period).round() * self.period / around;
-        if (factor - 1.0).abs() <= MOST_STRETCH { factor } else { 1.0 }
+        if (factor - 1.0).abs() <= MAX_STRETCH { factor } else { 1.0 }
     }
 }

@@ -3,14 +3,14 @@
 use rayon::prelude::*;
 
 use super::border_points::Tie;
-use super::borders::{Borders, MOST_AT_A_POINT};
+use super::borders::{Borders, MAX_AT_A_POINT};
 use super::limits::{COS_ANCHORED_FOLD, Limits};
 use super::open::Open;
 use super::side::Side;
 use super::zip::Fit;
 
 /// Longer chains are left to the other steps.
-const MOST_EDGES: usize = 4096;
+const MAX_EDGES: usize = 4096;
 
 /// What is joined: the border edges of both sides, and the places that become one.
 pub(super) struct Joined {
@@ -46,7 +46,7 @@ pub(super) fn anchored(borders: &Borders, open: &Open, limits: &Limits) -> Vec<J
     rivals
         .into_par_iter()
         .flat_map_iter(|rivals| {
-            let rivals = &rivals[..rivals.len().min(MOST_AT_A_POINT)];
+            let rivals = &rivals[..rivals.len().min(MAX_AT_A_POINT)];
             let mut candidates = Vec::new();
             for (k, &(_, a)) in rivals.iter().enumerate() {
                 for &(_, b) in &rivals[k + 1..] {
@@ -98,12 +98,12 @@ fn chains(open: &Open) -> Vec<Chain> {
         }
         let mut edges = vec![first];
         let mut end = open.ends(first)[1];
-        while !open.is_anchor(end) && edges.len() <= MOST_EDGES {
+        while !open.is_anchor(end) && edges.len() <= MAX_EDGES {
             let &[(_, next)] = open.starting_at(end) else { break };
             edges.push(next);
             end = open.ends(next)[1];
         }
-        if edges.len() <= MOST_EDGES {
+        if edges.len() <= MAX_EDGES {
             chains.push(Chain { ends: [start, end], edges });
         }
     }

@@ -6,7 +6,7 @@ use super::borders::Borders;
 use super::limits::Limits;
 
 /// Of more cuts, an edge gets no further ones.
-const MOST_INSERTIONS: usize = 4096;
+const MAX_INSERTIONS: usize = 4096;
 
 /// A place on a border.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -235,7 +235,7 @@ impl PointGroups {
             return Some(place);
         }
         let BorderPoint::On { border, share } = place else { return None };
-        if self.insertions_on(border).len() >= MOST_INSERTIONS {
+        if self.insertions_on(border).len() >= MAX_INSERTIONS {
             return None;
         }
         let number = self.parent.len() as u32;

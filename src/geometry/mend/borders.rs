@@ -12,10 +12,10 @@ use super::super::{Adjacency, Bounds, EdgeKind, Mesh};
 pub(super) const NO_BORDER: u32 = u32::MAX;
 
 /// Of more border edges at one point, not all are tried out.
-pub(super) const MOST_AT_A_POINT: usize = 16;
+pub(super) const MAX_AT_A_POINT: usize = 16;
 
 /// Of more triangles around a point, the border edge on their other side is not looked for.
-const MOST_TURNS: usize = 256;
+const MAX_TURNS: usize = 256;
 
 /// An edge of one triangle only.
 #[derive(Debug, Clone, Copy)]
@@ -171,7 +171,7 @@ impl Borders {
         }
         let weld = &adjacency.weld.representative;
         let (mut face, mut rim) = (self.list[border].face, from);
-        for _ in 0..MOST_TURNS {
+        for _ in 0..MAX_TURNS {
             let corners = mesh.triangles()[face as usize].map(|v| weld[v as usize]);
             let Some(other_rim) = corners.into_iter().find(|&v| v != pivot && v != rim) else { break };
             let Some(number) = adjacency.edge_between(pivot, other_rim) else { break };

@@ -13,7 +13,7 @@ const FALL: f64 = 0.25;
 /// Unmatched pieces up to this many times the gap are stepped over.
 const STEP: f64 = 3.0;
 /// Of a longer walk along a border, the end is not looked for.
-const MOST_STEPS: usize = 600;
+const MAX_STEPS: usize = 600;
 /// Cosine of the sharpest turn of a border that is walked along.
 const COS_TURN: f64 = -0.5;
 /// Length share of overlapping stretches, among those that do not close, from which on they are cracks too.
@@ -100,7 +100,7 @@ fn falls(
     let mut border = stretches.list[number].border;
     let mut number = number;
     let mut unmatched = 0.0;
-    for _ in 0..MOST_STEPS {
+    for _ in 0..MAX_STEPS {
         let range = stretches.of(border);
         let at_end = if forward { number + 1 == range.end } else { number == range.start };
         if at_end {

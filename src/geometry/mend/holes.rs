@@ -12,7 +12,7 @@ use super::side::Side;
 use super::zip::Fit;
 
 /// Holes with more edges are left to the next step.
-const MOST_EDGES: usize = 512;
+const MAX_EDGES: usize = 512;
 /// Cosine of the widest angle at the ends of a thin hole, 80°: a slot has 90° there.
 const COS_END: f64 = 0.173_648_177_667;
 
@@ -43,7 +43,7 @@ fn loops(borders: &Borders, open: &Open) -> Vec<Vec<u32>> {
             hole.push(edge);
             edge = next.get(&edge).copied().unwrap_or(NO_BORDER);
         }
-        if edge == first && (3..=MOST_EDGES).contains(&hole.len()) {
+        if edge == first && (3..=MAX_EDGES).contains(&hole.len()) {
             loops.push(hole);
         }
     }

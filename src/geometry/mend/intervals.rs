@@ -9,9 +9,9 @@ use super::side::{Side, Step};
 use super::zip::Fit;
 
 /// Longer rows are taken in pieces.
-const MOST_EDGES: usize = 128;
+const MAX_EDGES: usize = 128;
 /// So many edges of the other border may be passed by at once.
-const MOST_PASSED: usize = 8;
+const MAX_PASSED: usize = 8;
 /// Rows that are shorter than this many times their width are chance: other borders end near a corner.
 const SHORTEST: f64 = 4.0;
 /// A row that ends within four times this share of the tolerance from a vertex ends at the vertex: near the corner of
@@ -58,7 +58,7 @@ impl<'a> Intervals<'a> {
         let is_reversed = self.direction(first, &first_partner) < 0.0;
         while let Some((number, passed)) = self.next(last.0, &last.1, is_reversed)
             && let Some(partner) = self.joined(number)
-            && edges.len() + opposite.len() < MOST_EDGES
+            && edges.len() + opposite.len() < MAX_EDGES
         {
             self.is_done[number] = true;
             let border = self.stretches.list[number].border;
@@ -131,7 +131,7 @@ impl<'a> Intervals<'a> {
         let mut at = from;
         while at != to {
             at = links[at as usize];
-            if at == NO_BORDER || passed.len() == MOST_PASSED || self.stretches.of(at).is_empty() {
+            if at == NO_BORDER || passed.len() == MAX_PASSED || self.stretches.of(at).is_empty() {
                 return None;
             }
             passed.push(at);

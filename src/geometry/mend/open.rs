@@ -1,7 +1,7 @@
 //! The border edges that are not joined yet, by the points at their ends as joined so far.
 
 use super::border_points::PointGroups;
-use super::borders::{Borders, MOST_AT_A_POINT};
+use super::borders::{Borders, MAX_AT_A_POINT};
 
 /// A snapshot of what is still open.
 pub(super) struct Open {
@@ -51,6 +51,6 @@ impl Open {
 
     fn at(list: &[(u32, u32)], group: u32) -> &[(u32, u32)] {
         let list = &list[list.partition_point(|&(g, _)| g < group)..];
-        &list[..list.iter().take(MOST_AT_A_POINT).take_while(|&&(g, _)| g == group).count()]
+        &list[..list.iter().take(MAX_AT_A_POINT).take_while(|&&(g, _)| g == group).count()]
     }
 }

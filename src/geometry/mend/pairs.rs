@@ -10,7 +10,7 @@ use super::limits::{COS_FOLD, Limits};
 /// Width of the cells in which middles are sorted, in widest gaps: few places are near a wall.
 const CELL: f64 = 8.0;
 /// Of more edges in one cell, not all are tried out.
-const MOST_IN_A_CELL: usize = 64;
+const MAX_IN_A_CELL: usize = 64;
 
 /// The border edge that each is paired with, or [`NO_BORDER`].
 pub(super) fn pairs(borders: &Borders, limits: &Limits) -> Vec<u32> {
@@ -98,7 +98,7 @@ impl<'a> Cells<'a> {
         let slot = (key >> self.shift) as usize;
         let entries = &self.entries[self.first[slot] as usize..self.first[slot + 1] as usize];
         let entries = &entries[entries.iter().take_while(|&&(k, _)| k < key).count()..];
-        let count = entries.iter().take(MOST_IN_A_CELL).take_while(|&&(k, _)| k == key).count();
+        let count = entries.iter().take(MAX_IN_A_CELL).take_while(|&&(k, _)| k == key).count();
         &entries[..count]
     }
 }

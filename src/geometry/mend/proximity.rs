@@ -9,7 +9,7 @@ use super::limits::{COS_FOLD, Limits};
 use super::open::Open;
 
 /// Of more edges near one, only the nearest are looked at.
-const MOST_CANDIDATES: usize = 48;
+const MAX_CANDIDATES: usize = 48;
 /// Cosine of the largest angle between the directions of two edges that lie along each other.
 const COS_ALONG: f64 = 0.5;
 /// How deep in the material a gap may be, as a share of the height of the triangles.
@@ -160,9 +160,9 @@ fn near(
             candidates.push(Candidate { border: other, gap, shares: [s.min(t), s.max(t)], closest, reach });
         }
     });
-    if candidates.len() > MOST_CANDIDATES {
+    if candidates.len() > MAX_CANDIDATES {
         candidates.sort_by(|a, b| a.gap.total_cmp(&b.gap).then(a.border.cmp(&b.border)));
-        candidates.truncate(MOST_CANDIDATES);
+        candidates.truncate(MAX_CANDIDATES);
     }
     candidates.sort_by_key(|c| c.border);
 }

@@ -113,8 +113,8 @@ fn a_patch_that_is_turned_over_is_joined_as_well() {
 fn solids_in_patches_are_closed_again() {
     for (name, solid) in solids() {
         for crack in [0.0, 1e-5, 1e-4, 2e-4, 1e-3] {
-            for (seed, most_cuts) in [(1, 1), (2, 2), (3, 3)] {
-                let patched = Repatch { crack, seed, most_cuts, ..Repatch::default() }.apply(&solid).mesh;
+            for (seed, max_cuts) in [(1, 1), (2, 2), (3, 3)] {
+                let patched = Repatch { crack, seed, max_cuts, ..Repatch::default() }.apply(&solid).mesh;
                 let what = format!("{name}, crack {crack}, seed {seed}");
                 let before = Adjacency::new(&patched);
                 let (after, report) = mended(&patched).unwrap();
@@ -155,7 +155,7 @@ fn solids_whose_patches_have_no_vertex_in_common_are_closed_too() {
 fn only_patches_that_met_are_joined() {
     for (name, solid) in solids() {
         for crack in [1e-4, 1e-3] {
-            let mut patched = Repatch { crack, most_cuts: 2, planes: 6, ..Repatch::default() }.apply(&solid);
+            let mut patched = Repatch { crack, max_cuts: 2, planes: 6, ..Repatch::default() }.apply(&solid);
             // The patch of a triangle, where new vertices inherit it.
             patched.mesh.colors = vec![[0; 4]; patched.mesh.positions.len()];
             for (triangle, patch) in patched.mesh.triangles().to_vec().iter().zip(&patched.patch_of_triangle)
@@ -182,7 +182,7 @@ fn only_patches_that_met_are_joined() {
 fn no_triangle_is_turned_over() {
     let solid = primitives::sphere(1.0, 12, 24);
     for crack in [1e-4, 1e-3] {
-        let patched = Repatch { crack, most_cuts: 2, ..Repatch::default() }.apply(&solid).mesh;
+        let patched = Repatch { crack, max_cuts: 2, ..Repatch::default() }.apply(&solid).mesh;
         let (after, _) = mended(&patched).unwrap();
         for (triangle, normal) in after.triangles().iter().zip(face_normals(&after)) {
             let middle = after.corners(*triangle).iter().sum::<Vec3>();
@@ -247,7 +247,7 @@ fn triangles_keep_their_materials() {
 #[test]
 fn place_size_and_order_do_not_matter() {
     let solid = cut_cylinder();
-    let mesh = Repatch { crack: 1e-4, most_cuts: 2, ..Repatch::default() }.apply(&solid).mesh;
+    let mesh = Repatch { crack: 1e-4, max_cuts: 2, ..Repatch::default() }.apply(&solid).mesh;
     let share = |mesh: &Mesh| {
         let (_, report) = mended(mesh).unwrap();
         report.joined_length / report.border_length

@@ -9,7 +9,7 @@ use super::limits::Limits;
 use super::side::{Nearest, Side};
 
 /// Sides with a larger product of their numbers of edges are not compared.
-const MOST_COMPARISONS: usize = 65_536;
+const MAX_COMPARISONS: usize = 65_536;
 /// Most width of a seam, as a share of the distance of its ends.
 const WIDTH_TO_CHORD: f64 = 0.75;
 /// A seam is straight if no vertex leaves the line between its ends by more than this many times its width.
@@ -28,7 +28,7 @@ pub(super) struct Fit {
 impl Fit {
     /// Compares two sides with common ends; `None` when they are no seam.
     pub(super) fn new(a: &Side<'_>, b: &Side<'_>, cos_fold: f64, limits: &Limits) -> Option<Self> {
-        if a.len() * b.len() > MOST_COMPARISONS || have_common_triangle(a, b) {
+        if a.len() * b.len() > MAX_COMPARISONS || have_common_triangle(a, b) {
             return None;
         }
         let widest = widest(a, b, limits).min(WIDTH_TO_CHORD * extent(a).min(extent(b)));
@@ -50,7 +50,7 @@ impl Fit {
 
     /// Two sides that are known to be a seam.
     pub(super) fn of_seam(a: &Side<'_>, b: &Side<'_>) -> Option<Self> {
-        if a.len() == 0 || b.len() == 0 || a.len() * b.len() > MOST_COMPARISONS {
+        if a.len() == 0 || b.len() == 0 || a.len() * b.len() > MAX_COMPARISONS {
             return None;
         }
         let of = |from: &Side<'_>, to: &Side<'_>| -> Vec<Nearest> {

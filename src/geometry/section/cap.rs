@@ -14,7 +14,7 @@ use super::Contour;
 use crate::geometry::bodies::{Bodies, BodyKind};
 
 /// Of very many ends at one place, not all are tried out.
-const MOST_AT_A_PLACE: usize = 32;
+const MAX_AT_A_PLACE: usize = 32;
 
 /// The inside of contours as triangles, in the plane's coordinates.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -99,7 +99,7 @@ fn followers(open: &[&Contour], reach: f64) -> Option<Vec<usize>> {
         let first = starts.partition_point(|(start, _)| start.x < end.x - reach);
         let near = starts.iter().skip(first).take_while(|(start, _)| start.x <= end.x + reach);
         let near = near.map(|&(start, j)| (start.distance(end), i, j)).filter(|pair| pair.0 <= reach);
-        pairs.extend(near.take(MOST_AT_A_PLACE));
+        pairs.extend(near.take(MAX_AT_A_PLACE));
     }
     pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
     let mut next = vec![None; open.len()];

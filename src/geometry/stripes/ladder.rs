@@ -23,7 +23,7 @@ const INERTIA: f32 = 0.3;
 /// How strongly a level is held to the doubled phases of the one before, per cycle and extent.
 const PULL: f32 = 1.0;
 /// At most this much of the weight of all neighbors: large triangles must be free to end lines.
-const MOST_PULL: f32 = 0.3;
+const MAX_PULL: f32 = 0.3;
 
 /// The phases of a surface, level by level.
 pub(super) struct Ladder<'a> {
@@ -155,7 +155,7 @@ fn swept(track: &Track<'_>, waves: &[Wave], targets: Option<&[Wave]>, pull: f32)
             total += link.weight;
         }
         if let Some(targets) = targets {
-            sum.add_scaled(&targets[v], (pull * graph.areas[v]).min(MOST_PULL * total.max(1e-30)));
+            sum.add_scaled(&targets[v], (pull * graph.areas[v]).min(MAX_PULL * total.max(1e-30)));
         }
         sum.add_scaled(&waves[v], INERTIA * total);
         sum.normalized_or(&waves[v])

@@ -96,7 +96,7 @@ pub enum RecipeError {
 /// Each tone is reached in so many steps.
 pub const STEPS: usize = 4;
 /// After so many strokes without any ink there will be no more.
-const MOST_IDLE: usize = 100;
+const MAX_IDLE: usize = 100;
 
 /// Strokes of a map with the place that they have in it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -210,7 +210,7 @@ impl Work<'_> {
                 best(&self.sheets[..=level], shape, *seed, self.strokes.len() as u64, *candidates);
             let gain = sheet.gain(&stroke);
             idle = if gain > 0.0 { 0 } else { idle + 1 };
-            if idle > MOST_IDLE {
+            if idle > MAX_IDLE {
                 return Err(RecipeError::TooFaint { reached: sheet.ink(), wanted: target });
             }
             // A stub shows: better a little too much or too little ink.

@@ -53,12 +53,12 @@ impl Geometry for Corners<'_> {
 }
 
 /// The library recurses from triangle to triangle around a vertex; more would endanger the stack.
-const MOST_TRIANGLES_AT_A_VERTEX: u32 = 2000;
+const MAX_TRIANGLES_AT_A_VERTEX: u32 = 2000;
 
 /// Whether so many triangles meet at a vertex that the library must not be asked. As in the library, vertices with
 /// equal position, normal and texture coordinates are one.
 fn is_crowded(block: &Block, indices: &[u32]) -> bool {
-    if indices.len() / 3 <= MOST_TRIANGLES_AT_A_VERTEX as usize {
+    if indices.len() / 3 <= MAX_TRIANGLES_AT_A_VERTEX as usize {
         return false;
     }
     let mut counts = HashMap::with_capacity(block.positions.len());
@@ -74,7 +74,7 @@ fn is_crowded(block: &Block, indices: &[u32]) -> bool {
         );
         let count = counts.entry(key).or_insert(0);
         *count += 1;
-        *count > MOST_TRIANGLES_AT_A_VERTEX
+        *count > MAX_TRIANGLES_AT_A_VERTEX
     })
 }
 

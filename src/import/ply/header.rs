@@ -101,7 +101,7 @@ impl Element {
 /// # Errors
 /// A sentence that names the line.
 pub(super) fn parse(data: &[u8]) -> Result<(Header, &[u8]), String> {
-    const MOST_LINES: usize = 100_000;
+    const MAX_LINES: usize = 100_000;
     let mut lines = TextLines::new(data);
     if lines.next().is_none_or(|(_, line)| line.trim_ascii() != b"ply") {
         return Err("this is no PLY file: its first line is not `ply`".into());
@@ -144,7 +144,7 @@ pub(super) fn parse(data: &[u8]) -> Result<(Header, &[u8]), String> {
             }
             _ => return fault(format!("cannot understand {}", quoted(&line))),
         }
-        if number > MOST_LINES {
+        if number > MAX_LINES {
             break;
         }
     }

@@ -10,7 +10,7 @@ const MARGIN: f64 = 3.0;
 /// A light that sees the scene at a wider angle than this tangent looks to all six sides.
 const WIDEST: f64 = 1.5;
 /// A picture that shows less of the scene than this many halvings leave shows nothing of it.
-const MOST_HALVINGS: f64 = 16.0;
+const MAX_HALVINGS: f64 = 16.0;
 /// The nearest that something may be to a light, as a share of the scene's diagonal.
 const NEAREST: f64 = 1e-4;
 
@@ -194,7 +194,7 @@ fn narrowed([min, max]: [DVec2; 2], hull: [DVec2; 2]) -> [DVec2; 2] {
     let axis = |i: usize| {
         let (size, low, high) = (max[i] - min[i], hull[0][i].max(min[i]), hull[1][i].min(max[i]));
         let halvings = (size / (high - low)).log2().floor();
-        if !(1.0..=MOST_HALVINGS).contains(&halvings) {
+        if !(1.0..=MAX_HALVINGS).contains(&halvings) {
             return (min[i], max[i]);
         }
         let cell = size / halvings.exp2();

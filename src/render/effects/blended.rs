@@ -14,7 +14,7 @@ use crate::render::passes::shadows::{ShadowMap, ShadowMask};
 use crate::render::passes::traversal::GBufferPass;
 
 /// Most layers that are composited: beneath so many nothing can be told apart.
-const MOST_BLENDED: u32 = 16;
+const MAX_BLENDED: u32 = 16;
 
 /// What blended layers are shaded with, which surfaces are shaded with too.
 pub struct BlendedShading<'a> {
@@ -45,7 +45,7 @@ pub fn place_blended(
     place: &mut Place<'_>,
 ) -> Result<Option<Target>, RenderError> {
     let request = LayerRequest {
-        max_layers: MOST_BLENDED,
+        max_layers: MAX_BLENDED,
         min_pixels: 1,
         uncover: None,
         by: None,

@@ -7,7 +7,7 @@
 use encase::ShaderType;
 use glam::Vec3;
 
-use super::layered::{LayerRequest, Layered, LayeredGroup, LineRequest, Visit, least_pixels};
+use super::layered::{LayerRequest, Layered, LayeredGroup, LineRequest, Visit, min_pixels};
 use super::section::GpuCap;
 use crate::gpu::{ArrayBuffer, Gpu, Inputs, Recorder, Target, UniformBuffer, inputs};
 use crate::render::base::edge_style::GpuEdgeStyle;
@@ -15,7 +15,7 @@ use crate::render::base::error::RenderError;
 use crate::render::base::group::Group;
 use crate::render::base::scene_view::SceneView;
 use crate::render::passes::composition::Composition;
-use crate::render::passes::count::{LayerCount, MOST_LAYERS};
+use crate::render::passes::count::{LayerCount, MAX_LAYERS};
 use crate::render::passes::designated::{DepthMask, Uncover};
 use crate::render::passes::place::{LayerShader, Pending, Place};
 use crate::render::passes::traversal::GBufferPass;
@@ -76,7 +76,7 @@ impl BlueprintGroup {
 
     /// Most layers that are drawn.
     fn last(&self) -> u32 {
-        self.style.to.min(MOST_LAYERS)
+        self.style.to.min(MAX_LAYERS)
     }
 
     /// Most layers where nothing is to be uncovered.
@@ -208,11 +208,11 @@ fn request_of<'a>(
     let any = |has: fn(&GpuEdgeStyle) -> bool| blueprint.group.edge_styles.iter().any(has);
     LayerRequest {
         max_layers: if mask.is_some() { blueprint.last() } else { blueprint.layers() },
-        min_pixels: least_pixels(params.min_coverage, size),
+        min_pixels: min_pixels(params.min_coverage, size),
         uncover: mask.map(|mask| Uncover {
             mask,
             fraction: params.fraction,
-            most_without: blueprint.layers(),
+            max_without: blueprint.layers(),
         }),
         by: None,
         with_color: is_captured || any(GpuEdgeStyle::reads_color),

@@ -92,7 +92,7 @@ struct Table {
 
 /// Tables that have been made, so that a frame only makes those of strokes that are new.
 static TABLES: Mutex<Vec<Table>> = Mutex::new(Vec::new());
-const MOST_TABLES: usize = 32;
+const MAX_TABLES: usize = 32;
 
 fn table_of(stroke: &GpuStroke) -> Table {
     let mut tables = TABLES.lock().unwrap_or_else(PoisonError::into_inner);
@@ -100,7 +100,7 @@ fn table_of(stroke: &GpuStroke) -> Table {
         return known.clone();
     }
     let table = Table { stroke: *stroke, tones: calibration(stroke), greatest: greatest_ink(stroke) };
-    if tables.len() >= MOST_TABLES {
+    if tables.len() >= MAX_TABLES {
         tables.clear();
     }
     tables.push(table.clone());

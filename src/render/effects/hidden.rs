@@ -7,7 +7,7 @@
 //! visible edge map ──────────┘ no line twice
 //! ```
 
-use super::layered::{LayerRequest, Layered, LayeredGroup, LineRequest, Visit, least_pixels};
+use super::layered::{LayerRequest, Layered, LayeredGroup, LineRequest, Visit, min_pixels};
 use crate::gpu::recorder::Onto;
 use crate::gpu::{Gpu, Recorder, Target, inputs};
 use crate::render::base::edge_style::GpuEdgeStyle;
@@ -146,7 +146,7 @@ impl HiddenLines {
             let line_styles: Vec<_> = bands.iter().map(|band| &band.styles).collect();
             let request = LayerRequest {
                 max_layers: bands.last().map_or(0, |band| band.last) + 1,
-                min_pixels: least_pixels(hidden.least, rec.size()),
+                min_pixels: min_pixels(hidden.least, rec.size()),
                 uncover: None,
                 by: None,
                 with_color: any(GpuEdgeStyle::reads_color),

@@ -228,7 +228,7 @@ impl Layered {
 }
 
 /// So many pixels are this share of a picture, percent: a layer of fewer ends layers, an empty one at the latest.
-pub fn least_pixels(percent: f32, [width, height]: [u32; 2]) -> u32 {
+pub fn min_pixels(percent: f32, [width, height]: [u32; 2]) -> u32 {
     let share = f64::from(percent) / 100.0;
     ((share * f64::from(width) * f64::from(height)).ceil() as u32).max(1)
 }

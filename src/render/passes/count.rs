@@ -9,7 +9,7 @@ use crate::gpu::{Gpu, Inputs, Program, Recorder, inputs, parted_counter, readbac
 use crate::render::base::error::RenderError;
 
 /// No object has more layers than this that are drawn.
-pub const MOST_LAYERS: u32 = 64;
+pub const MAX_LAYERS: u32 = 64;
 
 /// Pixels per side that a workgroup counts, as in `passes/count.wgsl`.
 const GROUP: u32 = 64;
@@ -50,15 +50,15 @@ pub struct GpuCounted {
     /// Fragments of the lists of each part of the picture, those for which there was no room included; 0 without lists.
     pub fragments: [u32; parted_counter::COUNTER_WORDS],
     /// Pixels of each layer, that which ended it included.
-    pub pixels: [u32; MOST_LAYERS as usize],
+    pub pixels: [u32; MAX_LAYERS as usize],
     /// Pixels of the mask that pass the depth test against each layer, the paper's R.
-    pub passed: [u32; MOST_LAYERS as usize],
+    pub passed: [u32; MAX_LAYERS as usize],
 }
 
 impl GpuCounted {
     /// Before the first layer.
     fn initial(min_pixels: u32, uncover: Option<Uncover<'_>>) -> Self {
-        let none = [0; MOST_LAYERS as usize];
+        let none = [0; MAX_LAYERS as usize];
         Self {
             min_pixels,
             has_ended: 0,
@@ -66,7 +66,7 @@ impl GpuCounted {
             covered: 0,
             uncovered: 0,
             fraction: uncover.map_or(1.0, |uncover| uncover.fraction.clamp(0.0, 1.0)),
-            max_layers: uncover.map_or(MOST_LAYERS, |uncover| uncover.most_without),
+            max_layers: uncover.map_or(MAX_LAYERS, |uncover| uncover.max_without),
             ended_by: 0,
             masked: 0,
             hidden: 0,
@@ -104,7 +104,7 @@ impl GpuCounted {
             ended: match (self.has_ended, self.ended_by) {
                 (1, 0) => LayersEnd::TooFewPixels,
                 (1, 1) => LayersEnd::MaskUncovered,
-                _ => LayersEnd::MostLayers,
+                _ => LayersEnd::MaxLayers,
             },
             fraction: self.fraction,
             masked: self.masked,

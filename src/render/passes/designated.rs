@@ -23,7 +23,7 @@ pub struct Uncover<'a> {
     /// The first layer that leaves this share of them uncovered, 0 to 1, is the last.
     pub fraction: f32,
     /// So many layers there are where nothing of them is in the picture.
-    pub most_without: u32,
+    pub max_without: u32,
 }
 
 /// The depth texture of the designated objects, hidden by nothing but themselves.

@@ -20,7 +20,7 @@ const SORTED: u32 = 8;
 const NUMBERS: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;
 
 /// More fragments are never kept: they take 288 MiB.
-const MOST_FRAGMENTS: u64 = 1 << 23;
+const MAX_FRAGMENTS: u64 = 1 << 23;
 
 /// Memory for the fragments of one group after the other.
 pub struct FragmentLists {
@@ -75,7 +75,7 @@ impl FragmentLists {
             return 0;
         }
         let bytes = limits.max_buffer_size.min(limits.max_storage_buffer_binding_size);
-        MOST_FRAGMENTS.min(bytes / COLOR_BYTES).min(RecordTexture::most_texels(gpu))
+        MAX_FRAGMENTS.min(bytes / COLOR_BYTES).min(RecordTexture::max_texels(gpu))
     }
 
     /// Layout of the bind group that fragments are written through.

@@ -95,7 +95,7 @@ impl LayerLists {
             (self.known, self.size) = (Vec::new(), size);
         }
         let [width, height] = size.map(u64::from);
-        let most = gpu.most_listed.min(RecordTexture::most_texels(gpu));
+        let most = gpu.max_listed.min(RecordTexture::max_texels(gpu));
         let total: u64 = self.known.iter().map(|&row| u64::from(row)).sum();
         // A quarter more than there were, as there may be more by now.
         let wanted = if self.known.is_empty() { FIRST_GUESS * width * height } else { total + total / 4 + 1 };

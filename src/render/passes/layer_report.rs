@@ -6,7 +6,7 @@ use std::fmt;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LayersEnd {
     /// Nothing did: as many layers were drawn as were asked for.
-    MostLayers,
+    MaxLayers,
     /// The next layer has too few pixels, or none.
     TooFewPixels,
     /// So much of the depth mask is uncovered as was asked for.
@@ -16,7 +16,7 @@ pub enum LayersEnd {
 impl fmt::Display for LayersEnd {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
-            Self::MostLayers => "most layers",
+            Self::MaxLayers => "layer limit",
             Self::TooFewPixels => "too few pixels",
             Self::MaskUncovered => "mask uncovered",
         })
@@ -70,8 +70,8 @@ impl LayerReport {
         let reached = percent(self.share_uncovered());
         let hidden = f64::from(self.hidden) / f64::from(self.masked);
         let remedy = match self.ended {
-            LayersEnd::MostLayers if layers as usize >= self.passed.len() => "no picture has more layers",
-            LayersEnd::MostLayers => "allow more layers (blueprint.to)",
+            LayersEnd::MaxLayers if layers as usize >= self.passed.len() => "no picture has more layers",
+            LayersEnd::MaxLayers => "allow more layers (blueprint.to)",
             LayersEnd::TooFewPixels if self.share_uncovered() < asked => {
                 "allow smaller layers (blueprint.min_coverage)"
             }

@@ -21,7 +21,7 @@ use crate::gpu::{ArrayBuffer, Gpu, Predicate, Recorder, Reports, Target};
 use crate::render::base::edge_style::GpuEdgeStyle;
 use crate::render::base::error::RenderError;
 use crate::render::base::instances::{DrawCall, InstanceBuffer};
-use crate::render::passes::count::{Layer, LayerCount, MOST_LAYERS, report_from_bytes};
+use crate::render::passes::count::{Layer, LayerCount, MAX_LAYERS, report_from_bytes};
 use crate::render::passes::designated::Uncover;
 use crate::render::passes::edge_map::{EdgeInputs, EdgeMap, edge_map};
 use crate::render::passes::fragment_lists::LayerOutputs;
@@ -41,7 +41,7 @@ const PASSES: usize = 32;
 pub struct LayerInputs<'a> {
     /// What is drawn.
     pub draw_list: DrawList<'a>,
-    /// Most layers, up to [`MOST_LAYERS`].
+    /// Most layers, up to [`MAX_LAYERS`].
     pub max_layers: u32,
     /// It ends before a layer of fewer pixels, at the latest before an empty one.
     pub min_pixels: u32,
@@ -138,7 +138,7 @@ impl Layers {
         }
         self.count.begin(rec.gpu, inputs.min_pixels.max(1), inputs.uncover);
         let mut recorded =
-            self.budget.plan(rec.gpu, rec.size(), inputs.max_layers.min(MOST_LAYERS), inputs.by);
+            self.budget.plan(rec.gpu, rec.size(), inputs.max_layers.min(MAX_LAYERS), inputs.by);
         let mut predicate = self.predicate.take().unwrap_or_else(|| Predicate::new(rec.gpu));
         // Objects may be drawn once more, for their coordinates.
         predicate.clear(rec.gpu, 2 * inputs.draw_list.calls.len() + PASSES)?;

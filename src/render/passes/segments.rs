@@ -17,7 +17,7 @@ use crate::gpu::{
 use crate::render::base::error::RenderError;
 
 /// Pixels of segments that are tested in one go; each takes 52 bytes while it is.
-const MOST_STEPS: usize = 1 << 20;
+const MAX_STEPS: usize = 1 << 20;
 /// Bytes of `SegmentPoint` in `shaders/common/segment_point.wgsl`.
 const POINT_BYTES: u64 = 32;
 /// What decides which steps are looked at closely.
@@ -51,7 +51,7 @@ pub struct Segments {
 /// Pixels of segments.
 struct Steps {
     steps: RecordTexture,
-    /// At most [`MOST_STEPS`].
+    /// At most [`MAX_STEPS`].
     count: u32,
     /// Whether all of them are of strokes, which explain nothing where they are drawn.
     of_strokes: bool,
@@ -128,7 +128,7 @@ impl Segments {
             steps
         });
         let chunks =
-            || steps.iter().zip([false, true]).flat_map(|(s, is)| s.chunks(MOST_STEPS).map(move |c| (c, is)));
+            || steps.iter().zip([false, true]).flat_map(|(s, is)| s.chunks(MAX_STEPS).map(move |c| (c, is)));
         self.steps.resize_with(chunks().count(), || Steps::new(gpu));
         for (part, (chunk, of_strokes)) in self.steps.iter_mut().zip(chunks()) {
             part.count = chunk.len() as u32;

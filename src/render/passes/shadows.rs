@@ -70,7 +70,7 @@ impl ShadowMaps {
         let SceneView { scene, scene_revision, lights, view, .. } = *scene_view;
         let shaders = rec.pipelines.generation();
         let [width, height] = rec.size();
-        let limit = rec.gpu.device.limits().max_texture_dimension_2d.min(MOST_TEXELS);
+        let limit = rec.gpu.device.limits().max_texture_dimension_2d.min(MAX_TEXELS);
         let points = match fitted_to {
             Some(groups) => {
                 let boxes = groups.iter().flat_map(|group| group.boxes(scene));
@@ -80,7 +80,7 @@ impl ShadowMaps {
             None => Vec::new(),
         };
         let looked_at = ShadowReceivers { points, spread: f64::from(lights.spread) };
-        let side = (lights.detail * width.max(height) as f32).round().max(LEAST_TEXELS as f32) as u32;
+        let side = (lights.detail * width.max(height) as f32).round().max(MIN_TEXELS as f32) as u32;
         let mut casting = lights.casting();
         let mut made = Vec::new();
         for (pass, stage) in &mut self.maps {
@@ -100,8 +100,8 @@ impl ShadowMaps {
 }
 
 /// Greatest and least width of a shadow map, texels.
-const MOST_TEXELS: u32 = 8192;
-const LEAST_TEXELS: u32 = 256;
+const MAX_TEXELS: u32 = 8192;
+const MIN_TEXELS: u32 = 256;
 
 /// All visible objects as a light sees them.
 fn seen_by(

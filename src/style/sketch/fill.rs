@@ -1,6 +1,6 @@
 //! How the surfaces of a sketch are filled.
 
-use super::pass::MOST_OFFSET;
+use super::pass::MAX_OFFSET;
 use super::wander::wave_param;
 use crate::style::param::Params;
 use crate::style::slot::choice;
@@ -67,7 +67,7 @@ impl Fill {
                 "matrix",
                 "Offsets",
                 "px",
-                MOST_OFFSET,
+                MAX_OFFSET,
                 "How far color goes: each row times two noises, whose mean square is 1, is an offset, to the right and down.",
                 &mut self.matrix,
             );

@@ -4,7 +4,7 @@ use crate::style::param::{Params, StyleField};
 use crate::style::{Color, Matrix};
 
 /// Greatest number of a matrix, reference pixels.
-pub const MOST_OFFSET: f32 = 32.0;
+pub const MAX_OFFSET: f32 = 32.0;
 
 /// How lines are drawn one time.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -43,7 +43,7 @@ impl Pass {
             "matrix",
             "Offsets",
             "px",
-            MOST_OFFSET,
+            MAX_OFFSET,
             "How far lines go: each row times two noises, whose mean square is 1, is an offset, to the right and down.",
             &mut self.matrix,
         );

@@ -126,17 +126,17 @@ fn ink(stroke: &GpuStroke, tone: f32, Octave { place, length: octave }: Octave, 
         tapered.sqrt() * (1.0 - stroke.variation * variation) * smoothstep(0.0, SOFT, tone - threshold);
     let width = stroke.spacing * share * pressed;
     // No hair lines: a stroke ends, it does not fade.
-    let width = if width < LEAST_WIDTH { 0.0 } else { width };
+    let width = if width < MIN_WIDTH { 0.0 } else { width };
     // Nor hair lines of paper.
     let next = 0.5 * spacing;
-    let width = width + smoothstep(next - 2.0 * LEAST_WIDTH, next, width);
-    (width.max(2.0 * LEAST_WIDTH) * 0.5 - away.abs() + 0.5).clamp(0.0, 1.0)
-        * (width / (2.0 * LEAST_WIDTH)).min(1.0)
+    let width = width + smoothstep(next - 2.0 * MIN_WIDTH, next, width);
+    (width.max(2.0 * MIN_WIDTH) * 0.5 - away.abs() + 0.5).clamp(0.0, 1.0)
+        * (width / (2.0 * MIN_WIDTH)).min(1.0)
 }
 
 // As in `shaders/effects/hatching/stripes.wgsl`.
 const SOFT: f32 = 0.04;
-const LEAST_WIDTH: f32 = 0.35;
+const MIN_WIDTH: f32 = 0.35;
 
 fn smoothstep(from: f32, to: f32, x: f32) -> f32 {
     let t = ((x - from) / (to - from)).clamp(0.0, 1.0);

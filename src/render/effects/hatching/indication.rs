@@ -28,7 +28,7 @@ pub struct GpuIndication {
 }
 
 /// Farthest that edges are looked for, px.
-const MOST_REACH: f32 = 512.0;
+const MAX_REACH: f32 = 512.0;
 
 impl GpuIndication {
     /// Of a style; `scale`: pixels per reference pixel.
@@ -59,6 +59,6 @@ impl GpuIndication {
     /// How far from lines strokes become fewer, px; 0: lines do not matter.
     pub(super) fn reach(&self) -> f32 {
         let is_by_lines = self.amount > 0.0 && self.by_fields == 0;
-        if is_by_lines { (8.0 * self.distance).min(MOST_REACH) } else { 0.0 }
+        if is_by_lines { (8.0 * self.distance).min(MAX_REACH) } else { 0.0 }
     }
 }

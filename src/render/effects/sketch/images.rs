@@ -12,7 +12,7 @@ use crate::style;
 use crate::style::sketch::{Noise, Wander};
 
 /// Most tiles that are kept while they are not used.
-const MOST_KEPT: usize = 8;
+const MAX_KEPT: usize = 8;
 
 /// What a sketch is drawn on.
 #[derive(Clone, Default)]
@@ -132,7 +132,7 @@ impl SketchImages {
             turbulent: wander.noise == Noise::Turbulence,
         });
         if let Some(key) = key.filter(|key| !self.tiles.contains_key(key)) {
-            if self.tiles.len() >= MOST_KEPT {
+            if self.tiles.len() >= MAX_KEPT {
                 self.tiles.clear();
             }
             let texels = turbulence_tile(key.octaves, key.seed, key.turbulent);
@@ -146,7 +146,7 @@ impl SketchImages {
         let known =
             |papers: &[(SketchPaper, Tile)]| papers.iter().position(|(known, _)| Some(known) == paper);
         if let Some(paper) = paper.filter(|_| known(&self.papers).is_none()) {
-            if self.papers.len() >= MOST_KEPT {
+            if self.papers.len() >= MAX_KEPT {
                 self.papers.clear();
             }
             let image = tile(gpu, wgpu::TextureFormat::Rgba8Unorm, &texels_of(paper));

@@ -7,10 +7,10 @@ use crate::render::base::noise::TILE_CELLS;
 use crate::render::passes::moved_edges::MovementUniform;
 use crate::render::passes::offset_field::FieldUniform;
 use crate::style;
-use crate::style::sketch::{MOST_OFFSET, MOST_PASSES, Noise};
+use crate::style::sketch::{MAX_OFFSET, MAX_PASSES, Noise};
 
 /// Farthest that anything is fetched from, px.
-const MOST_BAND: f32 = 128.0;
+const MAX_BAND: f32 = 128.0;
 
 /// How far lines are smudged, reference pixels.
 const SMUDGED: f32 = 20.0;
@@ -28,7 +28,7 @@ pub(super) struct PassUniform {
 /// Twin of `Sketch` in `shaders/effects/sketch.wgsl`.
 #[derive(Debug, Clone, Copy, PartialEq, ShaderType)]
 pub(super) struct SketchUniform {
-    passes: [PassUniform; MOST_PASSES],
+    passes: [PassUniform; MAX_PASSES],
     fill_matrix: Vec4,
     pigment: Vec3,
     object_color: f32,
@@ -59,7 +59,7 @@ pub(super) struct SketchObject {
 
 /// From noise to offsets in reference pixels, as a style asks for them.
 fn offsets(sketch: &style::Sketch, matrix: style::Matrix) -> style::Matrix {
-    matrix.scaled(sketch.wander.amount, MOST_OFFSET)
+    matrix.scaled(sketch.wander.amount, MAX_OFFSET)
 }
 
 /// How far lines and colors are off at most, px: three times what they are off on average, in whole steps, so that a
@@ -70,7 +70,7 @@ pub(super) fn bands(sketch: &style::Sketch, scale: f32) -> [f32; 2] {
     let lines = passes.map(|pass| rms(pass.matrix)).fold(0.0, f32::max);
     let fill = if sketch.fill.show { rms(sketch.fill.matrix) } else { 0.0 };
     let rough = rough(sketch, scale);
-    let whole = |far: f32| ((far / 2.0).ceil() * 2.0).clamp(4.0, MOST_BAND);
+    let whole = |far: f32| ((far / 2.0).ceil() * 2.0).clamp(4.0, MAX_BAND);
     [whole(3.0 * lines + rough), whole(3.0 * fill + rough)]
 }
 
@@ -91,7 +91,7 @@ pub(super) fn width(pass: &style::sketch::Pass) -> f32 {
 
 /// How a pass moves lines; `component`: which noise of a texel it has.
 pub(super) fn movement(sketch: &style::Sketch, number: usize, scale: f32, component: u32) -> MovementUniform {
-    let pass = &sketch.pass[number.min(MOST_PASSES - 1)];
+    let pass = &sketch.pass[number.min(MAX_PASSES - 1)];
     MovementUniform {
         matrix: rows(sketch, pass.matrix, scale),
         width: width(pass),
@@ -124,7 +124,7 @@ pub fn field(sketch: &style::Sketch, scale: f32) -> FieldUniform {
             ^ own.wrapping_mul(0x85eb_ca6b)
             ^ purpose.wrapping_mul(0xc2b2_ae35)
     };
-    let seeds: [u32; MOST_PASSES] = std::array::from_fn(|i| seed(1, sketch.pass[i].seed));
+    let seeds: [u32; MAX_PASSES] = std::array::from_fn(|i| seed(1, sketch.pass[i].seed));
     let [a, b, c, d, e, f, g, h] = seeds;
     FieldUniform {
         line_wave: wander.wave * scale,
@@ -201,9 +201,9 @@ mod tests {
             let sketch = style.clamped().sketch;
             let uniform = SketchUniform::new(&sketch, 1.0);
             let [lines, fill] = bands(&sketch, 1.0);
-            assert!(uniform.passes[0].matrix.abs().max_element() <= MOST_OFFSET, "{wrong}");
+            assert!(uniform.passes[0].matrix.abs().max_element() <= MAX_OFFSET, "{wrong}");
             assert!(uniform.line_scale > 0.0 && uniform.line_scale.is_finite(), "{wrong}");
-            assert!((4.0..=MOST_BAND).contains(&lines) && (4.0..=MOST_BAND).contains(&fill), "{wrong}");
+            assert!((4.0..=MAX_BAND).contains(&lines) && (4.0..=MAX_BAND).contains(&fill), "{wrong}");
             assert!(field(&sketch, 1.0).line_wave >= 8.0);
         }
     }

@@ -12,7 +12,7 @@ const FIRST_GUESS: u64 = 4;
 const CALM: u32 = 2 * crate::render::base::sample::MAX_SAMPLES;
 
 /// Wrong guesses after which the budget does not grow any more: then all layers are recorded.
-const MOST_MISTAKES: u32 = 6;
+const MAX_MISTAKES: u32 = 6;
 
 /// What is known of pictures that were drawn, from reports that come back some time after them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -144,7 +144,7 @@ impl Budget {
         let fragments = report.capacity;
         let overflowed = recorded.fragments.is_ok_and(|budget| fragments > budget);
         // Each layer that is recorded counts unless the device has ended them before it.
-        let has_ended = report.ended != LayersEnd::MostLayers || report.layers < recorded.layers;
+        let has_ended = report.ended != LayersEnd::MaxLayers || report.layers < recorded.layers;
         let is_complete = !overflowed && (has_ended || recorded.layers >= recorded.most);
         if is_complete {
             self.calm += 1;
@@ -152,7 +152,7 @@ impl Budget {
                 (self.mistakes, self.calm) = (0, 0);
             }
         } else {
-            (self.mistakes, self.calm) = ((self.mistakes + 1).min(MOST_MISTAKES), 0);
+            (self.mistakes, self.calm) = ((self.mistakes + 1).min(MAX_MISTAKES), 0);
         }
         self.layers = match (is_complete, overflowed) {
             (true, _) if has_ended => Some(report.layers + 1),
@@ -189,7 +189,7 @@ mod tests {
     fn report(layers: u32, has_ended: bool, chunks: u32) -> LayerReport {
         let mut pixels = vec![0; 64];
         pixels[..layers as usize].fill(100);
-        let ended = if has_ended { LayersEnd::TooFewPixels } else { LayersEnd::MostLayers };
+        let ended = if has_ended { LayersEnd::TooFewPixels } else { LayersEnd::MaxLayers };
         let (passed, capacity) = (vec![0; 64], CHUNK * u64::from(chunks));
         LayerReport {
             layers,
