@@ -9,6 +9,7 @@ mod gltf;
 mod image;
 mod image_cache;
 mod link_nodes;
+mod memory_budget;
 mod names;
 mod obj;
 mod ply;

@@ -6,7 +6,8 @@ use ::gltf::json::{Index, accessor};
 use bytemuck::Pod;
 
 use super::buffers::GltfDocument;
-use super::fault::{MemoryBudget, Result, malformed};
+use super::fault::{Result, malformed};
+use crate::import::memory_budget::MemoryBudget;
 
 /// An accessor whose every element is known to lie within its bytes.
 #[derive(Debug, Clone, Copy)]

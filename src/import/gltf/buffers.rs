@@ -5,9 +5,10 @@ use std::sync::Arc;
 use ::gltf::json::{self, Root};
 use rayon::prelude::*;
 
-use super::fault::{Fault, MemoryBudget, Result, malformed};
+use super::fault::{Fault, Result, malformed};
 use super::meshopt;
 use crate::import::Progress;
+use crate::import::memory_budget::MemoryBudget;
 use crate::import::source::{Folder, shorten};
 
 /// The content of one buffer.

@@ -1,9 +1,9 @@
 //! What can go wrong inside the glTF importer, before the file's path is added.
 
 use std::path::Path;
-use std::sync::atomic::{AtomicU64, Ordering};
 
 use crate::import::ImportError;
+use crate::import::memory_budget::OverBudget;
 use crate::import::source::SourceError;
 
 /// A failure that ends the import.
@@ -58,44 +58,13 @@ impl From<SourceError> for Fault {
     }
 }
 
+impl From<OverBudget> for Fault {
+    fn from(error: OverBudget) -> Self {
+        Self::Malformed(error.to_string())
+    }
+}
+
 /// Short for `Err(Fault::Malformed(…))`.
 pub(super) fn malformed<T>(message: impl Into<String>) -> Result<T> {
     Err(Fault::Malformed(message.into()))
-}
-
-/// How much memory the file may still make the program allocate, shared by all threads of an import.
-#[derive(Debug)]
-pub(super) struct MemoryBudget(AtomicU64);
-
-impl MemoryBudget {
-    /// A file of any size may expand to this many bytes …
-    const BASE: u64 = 192 << 20;
-    /// … and to this many more for each of its own bytes.
-    const PER_BYTE: u64 = 12;
-
-    /// The budget of a model whose files have so many bytes altogether.
-    pub(super) fn for_input(bytes: u64) -> Self {
-        Self(AtomicU64::new(bytes.saturating_mul(Self::PER_BYTE).saturating_add(Self::BASE)))
-    }
-
-    /// The number of bytes that are left.
-    pub(super) fn left(&self) -> u64 {
-        self.0.load(Ordering::Relaxed)
-    }
-
-    /// Takes bytes off, before they are allocated.
-    ///
-    /// # Errors
-    /// When fewer are left; `what` then begins the message.
-    pub(super) fn take(&self, bytes: u64, what: impl FnOnce() -> String) -> Result<()> {
-        let taken = self.0.fetch_update(Ordering::Relaxed, Ordering::Relaxed, |left| left.checked_sub(bytes));
-        if taken.is_err() {
-            return malformed(format!(
-                "{} would take {} MB, more than the file's size justifies",
-                what(),
-                bytes.div_ceil(1 << 20)
-            ));
-        }
-        Ok(())
-    }
 }

@@ -5,7 +5,8 @@ use std::ffi::c_int;
 use ::gltf::json::{Buffer, Value, buffer};
 use ::meshopt::ffi;
 
-use super::fault::{Fault, MemoryBudget, Result, malformed};
+use super::fault::{Fault, Result, malformed};
+use crate::import::memory_budget::MemoryBudget;
 
 /// What the elements of a packed view are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

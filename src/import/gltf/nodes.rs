@@ -5,7 +5,8 @@ use ::gltf::json::{Node as Declared, Root};
 use glam::{DMat4, DQuat, DVec3};
 
 use super::buffers::label;
-use super::fault::{MemoryBudget, Result, malformed};
+use super::fault::{Result, malformed};
+use crate::import::memory_budget::MemoryBudget;
 use crate::import::names::SiblingNames;
 use crate::scene::{Node, NodeId};
 
