@@ -27,14 +27,14 @@ draw statue "$ogre" --style statue
 # The papers' edge map and the buffers it comes from (Fig. 4 and 6).
 for sample in crank ogre; do
 	for buffer in normals depth normal_operator depth_operator edge_map; do
-		draw "${sample}_$buffer" "assets/models/$sample.glb" --set edges.mode=paper --set "view.show=$buffer"
+		draw "${sample}_$buffer" "assets/models/$sample.glb" --set edges.mode=image_space --set "view.show=$buffer"
 	done
 done
 
 # Exact lines beside those of the papers' operators, diagonal and C1 (Fig. 5).
 draw lines_exact "$crank" --style lines
-draw lines_diagonal "$crank" --style lines --set edges.mode=paper
-draw lines_c1 "$crank" --style lines --set edges.mode=paper --set edges.operator=c1
+draw lines_diagonal "$crank" --style lines --set edges.mode=image_space
+draw lines_c1 "$crank" --style lines --set edges.mode=image_space --set edges.operator=c1
 
 # Lines of any width.
 for width in 1 4 16; do
@@ -108,7 +108,7 @@ f 1 2 3 4
 OBJ
 for tone in 0.882 0.755 0.616 0.479 0.351 0.234; do
 	target/release/hachure render "$work/sheet.obj" --output "$work/tone_$tone.png" --resolution 200,200 --samples 16 \
-		--set technique=hatching --set hatching.mapping=paper --set "hatching.tone.curve=0,$tone,1,$tone" \
+		--set technique=hatching --set hatching.mapping=image_space --set "hatching.tone.curve=0,$tone,1,$tone" \
 		--set hatching.tone.lightest=0 --set hatching.tone.darkest=1 --set hatching.stroke.spacing=32 --set hatching.direction=y \
 		--camera-position 0,0,3 --camera-focal-point 0,0,0 --set edges.profile.show=false
 done
@@ -117,8 +117,8 @@ montage "$work"/tone_0.882.png "$work"/tone_0.755.png "$work"/tone_0.616.png "$w
 echo screenshots/hatching_tones.png
 # Where strokes run; on the paper smoothly and in steps (Fig. 4); near edges (Fig. 3).
 draw hatching_directions "$ogre" --style stroke-directions
-draw hatching_paper "$ogre" --style pen-and-ink --set hatching.mapping=paper --set hatching.turn_step=0
-draw hatching_paper_steps "$ogre" --style pen-and-ink --set hatching.mapping=paper
+draw hatching_image_space "$ogre" --style pen-and-ink --set hatching.mapping=image_space --set hatching.turn_step=0
+draw hatching_image_space_steps "$ogre" --style pen-and-ink --set hatching.mapping=image_space
 draw hatching_cross "$ogre" --style cross-hatch --set light.shadows=on
 size=1200,900
 temple() { # temple NAME ARGUMENTS...
@@ -135,8 +135,8 @@ temple hatching_field --style pen-and-ink --set hatching.indication.amount=1 --s
 	--set hatching.indication.patches.share=1 --set hatching.indication.silhouettes.share=0 --set view.show=detail
 temple hatching_fields --style pen-and-ink --set hatching.indication.amount=1 --set hatching.indication.by=fields \
 	--set view.show=detail
-temple hatching_as_in_paper --style pen-and-ink --set hatching.mapping=paper --set hatching.indication.amount=0.7 \
-	--set hatching.indication.by=fields --set edges.mode=paper --set edges.operator=sobel \
+temple hatching_as_in_paper --style pen-and-ink --set hatching.mapping=image_space --set hatching.indication.amount=0.7 \
+	--set hatching.indication.by=fields --set edges.mode=image_space --set edges.operator=sobel \
 	--set hatching.shadows.differ=true --set hatching.shadows.turn=50
 yard() { # yard NAME ARGUMENTS...
 	name=$1
@@ -182,7 +182,7 @@ draw blueprint_temple assets/models/temple.glb --style blueprint --object-style 
 for buffer in depth normals edge_map; do
 	for layer in 1 2 3 4 5; do
 		target/release/hachure render "$crank" --output "$work/$buffer.$layer.png" --resolution 800,800 \
-			--set edges.mode=paper --set "view.show=$buffer" --set "view.layer=$layer"
+			--set edges.mode=image_space --set "view.show=$buffer" --set "view.layer=$layer"
 	done
 	convert "$work/$buffer".[1-5].png +append -resize 50% "$work/$buffer.png"
 done

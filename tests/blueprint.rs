@@ -405,7 +405,7 @@ fn repeated_lines_are_drawn_only_on_demand() {
     ] {
         set(&mut opened, key, value);
     }
-    for mode in ["exact", "paper"] {
+    for mode in ["exact", "image_space"] {
         set(&mut opened, "edges.mode", mode);
         let mut ink = [true, false].map(|repeated| {
             set(&mut opened, "blueprint.repeated", &repeated.to_string());
@@ -559,7 +559,7 @@ fn a_threshold_leaves_faint_lines_out_and_makes_all_others_full() {
         }
         common::image(session, &opened, 96)
     };
-    for mode in ["exact", "paper"] {
+    for mode in ["exact", "image_space"] {
         let full = drawn(&mut session, &[("edges.mode", mode), ("blueprint.threshold", "0")]);
         let faint = drawn(&mut session, &[("edges.inner.opacity", "0.5")]);
         let some = drawn(&mut session, &[("blueprint.threshold", "0.3")]);

@@ -205,12 +205,12 @@ fn info_styles_and_bench_print_what_they_promise() {
     let parameter = |key: &str| parameters.iter().find(|p| p["key"] == key).unwrap();
     let threshold = parameter("edges.profile.threshold");
     assert!(threshold["range"]["hard"].is_array() && !threshold["help"].as_str().unwrap().is_empty());
-    assert_eq!(threshold["when"]["edges.mode"][0], "paper");
+    assert_eq!(threshold["when"]["edges.mode"][0], "image_space");
     let width = parameter("edges.silhouette.width");
     assert_eq!((&width["default"], &width["unit"]), (&"inherit".into(), &"px".into()));
     assert_eq!(width["inherits"], "edges.profile.width");
     let text = stdout(&hachure(&["styles"]));
-    assert!(text.contains("edges.profile.threshold") && text.contains("(edges.mode=paper"));
+    assert!(text.contains("edges.profile.threshold") && text.contains("(edges.mode=image_space"));
     assert!(text.contains("2.5 px, a number from 0.25 to 64\n"), "{text}");
     assert!(text.contains("as edges.profile.width, a number from 0.25 to 64, or inherit"), "{text}");
 

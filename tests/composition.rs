@@ -247,7 +247,7 @@ fn the_lines_of_one_object_change_no_pixel_beyond_their_reach() {
     let whole_a = pixels_of(&mut session, &alone, A);
     // Reference pixels: the widest lines lie wholly outside.
     let px = |width: f32| width * SIDE as f32 / 1080.0;
-    for (mode, width) in [("exact", 2.5_f32), ("exact", 32.0), ("paper", 2.5)] {
+    for (mode, width) in [("exact", 2.5_f32), ("exact", 32.0), ("image_space", 2.5)] {
         // Where a line of the object covers another one's spine, that one's width is missing beside it.
         let near = |pixels: &[bool]| widened(pixels, px(64.0) + px(width) * 0.5 + 1.5);
         let (near_a, near_whole_a) = (near(&of_a), near(&whole_a));

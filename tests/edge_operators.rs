@@ -66,7 +66,7 @@ fn compare(towards_viewer: DVec3, orthographic: bool) {
     let mut opened = opened(&scene, towards_viewer);
     opened.document.camera = opened.document.camera.map(|c| c.with_orthographic(orthographic));
     opened.document.node_mut("/shy").enhanced = Some(false);
-    set(&mut opened, "edges.mode", "paper");
+    set(&mut opened, "edges.mode", "image_space");
     set(&mut opened, "view.show", "depth_operator");
     let mut session = session();
     let picture = draw(&mut session, &opened, SIDE as u32);
@@ -131,7 +131,7 @@ fn a_step_of_a_tenth_of_the_depth_range_is_full_ink_with_either_operator() {
     for operator in ["diagonal", "c1"] {
         let mut opened = opened(&scene, DVec3::Z);
         opened.document.camera = opened.document.camera.map(|c| c.with_orthographic(true));
-        set(&mut opened, "edges.mode", "paper");
+        set(&mut opened, "edges.mode", "image_space");
         set(&mut opened, "edges.operator", operator);
         let mut session = session();
         let picture = draw(&mut session, &opened, SIDE as u32);
@@ -210,7 +210,7 @@ fn sobel_edges_equal_their_twins() {
     for sums in [false, true] {
         let mut opened = opened(&scene, vec3(0.4, 0.5, 1.0).as_dvec3());
         for (key, value) in [
-            ("edges.mode", "paper"),
+            ("edges.mode", "image_space"),
             ("edges.operator", "sobel"),
             ("edges.sobel.sum", if sums { "true" } else { "false" }),
             ("edges.sobel.depth_threshold", "0.3"),

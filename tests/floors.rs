@@ -411,7 +411,7 @@ fn height_of(module: &Module) -> Option<usize> {
 }
 
 #[test]
-fn rooms_import_only_from_rooms_below() {
+fn modules_import_only_from_modules_below() {
     let imports = crate_imports();
     assert!(imports.len() > 150, "the sources were not found");
     let homeless: Vec<_> =

@@ -150,7 +150,7 @@ fn strokes_stay_where_they_are_when_one_comes_closer() {
         assert!(stripes <= 0.015, "{name}: {stripes}");
     }
     // What stays on the paper is no match: the test can fail.
-    let paper = Hatching { mapping: Mapping::Paper, ..Hatching::default() };
+    let paper = Hatching { mapping: Mapping::ImageSpace, ..Hatching::default() };
     let popped = pops(&mut session, &paper);
     println!("on the paper: {:.2} % pop", 100.0 * popped);
     assert!(popped > 0.015, "{popped}");
@@ -183,7 +183,8 @@ fn strokes_on_the_paper_are_composed_and_turned_as_the_paper_says() {
         let mut plane = opened(primitives::plane(30.0), place, 4.0);
         session.set_scene(&plane).unwrap();
         for darkness in [0.1, 0.3, 0.6] {
-            let mut hatching = Hatching { mapping: Mapping::Paper, turn_step: step, ..Hatching::default() };
+            let mut hatching =
+                Hatching { mapping: Mapping::ImageSpace, turn_step: step, ..Hatching::default() };
             // An axis of the world would not turn with the plane.
             hatching.direction = Direction::Curvature;
             hatching.stroke.spacing = 6.0;
@@ -241,7 +242,7 @@ fn whatever_a_mesh_is_like_it_gets_strokes() {
     for (what, mesh) in meshes {
         let mut thing = opened(mesh, DMat4::from_rotation_x(0.4), 4.0);
         session.set_scene(&thing).unwrap();
-        for mapping in [Mapping::Stripes, Mapping::Paper, Mapping::Uv] {
+        for mapping in [Mapping::Stripes, Mapping::ImageSpace, Mapping::Uv] {
             for direction in [Direction::Curvature, Direction::TextureU, Direction::Y, Direction::Light] {
                 let hatching = Hatching { mapping, direction, ..Hatching::default() };
                 thing.document.style = even(hatching, 0.4, SIDE);
@@ -394,7 +395,7 @@ fn strokes_of_ones_own_are_as_dark_as_built_in_ones() {
     let images = [(path.clone(), std::sync::Arc::new(texture))].into();
     session.renderer().set_images(hachure::render::StyleImages::new(images));
     let mut plane = opened(primitives::plane(6.0), DMat4::IDENTITY, 3.0);
-    let mut hatching = Hatching { mapping: Mapping::Paper, ..Hatching::default() };
+    let mut hatching = Hatching { mapping: Mapping::ImageSpace, ..Hatching::default() };
     hatching.own.image = Some(path);
     let mut pictures = Vec::new();
     for set in [Set::Pen, Set::Own, Set::Painted] {

@@ -97,7 +97,7 @@ fn cube_edges(opened: &Opened, side: u32) -> Vec<(DVec2, usize)> {
 fn lines_are_drawn_where_edges_lie_behind_so_many_surfaces() {
     const SIDE: u32 = 192;
     let mut session = session();
-    for mode in ["exact", "paper"] {
+    for mode in ["exact", "image_space"] {
         for (layers, most, deepest) in [("next", "12", 1), ("all", "2", 2), ("all", "12", 12)] {
             let mut opened = red_hidden(&cubes(), DVec3::new(0.5, 0.4, 1.0));
             set(&mut opened, "edges.mode", mode);
@@ -168,7 +168,7 @@ fn off_runs_nothing_and_draws_nothing_else() {
 fn a_smooth_solid_has_none() {
     let mut session = session();
     for (mesh, modes) in [
-        (primitives::sphere(1.0, 48, 96), ["exact", "paper"].as_slice()),
+        (primitives::sphere(1.0, 48, 96), ["exact", "image_space"].as_slice()),
         // To the operators its facets are folds.
         (primitives::sphere(1.0, 9, 13), &["exact"]),
     ] {

@@ -49,7 +49,7 @@ const STROKES: (&str, &str) = ("hatching.direction", "light");
 const PICTURES: [(&str, &str, &[(&str, &str)]); 16] = [
     ("crank", "gooch", &[]),
     ("crank", "lines", &[]),
-    ("ogre", "lines", &[("edges.mode", "paper")]),
+    ("ogre", "lines", &[("edges.mode", "image_space")]),
     ("crank", "lines", &[("edges.profile.width", "16"), ("edges.inner.width", "12")]),
     ("crank", "lines", &[("edges.shadow.show", "on"), ("light.shadows", "on")]),
     ("ogre", "newspaper", &[("halftone.space", "surface")]),
@@ -64,7 +64,7 @@ const PICTURES: [(&str, &str, &[(&str, &str)]); 16] = [
     (
         "ogre",
         "pencil-hatching",
-        &[("hatching.mapping", "paper"), STROKES, ("hatching.indication.amount", "0.7")],
+        &[("hatching.mapping", "image_space"), STROKES, ("hatching.indication.amount", "0.7")],
     ),
     ("still_life", "cross-hatch", &[("hatching.mapping", "uv"), STROKES]),
 ];

@@ -13,7 +13,7 @@ use hachure::geometry::{Mesh, clean};
 
 const SIDE: u32 = 320;
 
-/// The bar of paper mode is what it reaches in views that suit it: faces seen at a grazing angle are full of its ink.
+/// The bar of image-space mode is what it reaches in views that suit it: faces seen at a grazing angle are full of its ink.
 #[test]
 fn simple_scenes_are_outlined_where_their_edges_are() {
     let mut session = session();
@@ -24,7 +24,7 @@ fn simple_scenes_are_outlined_where_their_edges_are() {
         for towards_viewer in [DVec3::new(0.6, 0.6, 0.7), DVec3::new(-0.8, 0.7, 0.6)] {
             for orthographic in [false, true] {
                 let look = Look { towards_viewer, orthographic };
-                let bars = [("paper", least), ("exact", 0.98_f64)];
+                let bars = [("image_space", least), ("exact", 0.98_f64)];
                 for (found, (mode, least)) in
                     stage.measure(&mut session, look, SIDE, &bars.map(|(mode, _)| mode)).iter().zip(bars)
                 {

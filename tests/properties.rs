@@ -22,7 +22,7 @@ fn directions(count: i32) -> impl Iterator<Item = DVec3> {
 }
 
 /// How edges are found. `exact_lines.rs` has more of exact mode.
-const MODES: [&str; 2] = ["paper", "exact"];
+const MODES: [&str; 2] = ["image_space", "exact"];
 
 #[test]
 fn a_tilted_plane_has_no_inner_edge() {
@@ -32,7 +32,7 @@ fn a_tilted_plane_has_no_inner_edge() {
             let turn = DMat4::from_quat(DQuat::from_rotation_x(tilt.to_radians()));
             let scene = scene(vec![("plane", primitives::plane(size), turn, [0.7; 3])]);
             let mut opened = opened(&scene, DVec3::Z);
-            set(&mut opened, "edges.mode", "paper");
+            set(&mut opened, "edges.mode", "image_space");
             let picture = draw(&mut session, &opened, 128);
             let buffer = surfels(&mut session, &picture);
             let ink = ink(&mut session, &picture);
@@ -61,7 +61,7 @@ fn the_outline_of_a_cube_is_closed_from_any_side() {
     let scene = scene(vec![("cube", primitives::cube(2.0), DMat4::IDENTITY, [0.7; 3])]);
     for direction in directions(32) {
         let mut opened = opened(&scene, direction);
-        set(&mut opened, "edges.mode", "paper");
+        set(&mut opened, "edges.mode", "image_space");
         let picture = draw(&mut session, &opened, 96);
         let buffer = surfels(&mut session, &picture);
         let ink = ink(&mut session, &picture);
@@ -173,7 +173,7 @@ fn only_what_changed_runs_again() {
     let mut session = session();
     let scene = scene(vec![("cube", primitives::cube(2.0), DMat4::IDENTITY, [0.7; 3])]);
     let mut opened = opened(&scene, DVec3::new(0.5, 0.6, 1.0));
-    set(&mut opened, "edges.mode", "paper");
+    set(&mut opened, "edges.mode", "image_space");
     session.set_scene(&opened).unwrap();
     let mut runs = |change: &dyn Fn(&mut Document)| {
         let mut document = opened.document.clone();

@@ -15,7 +15,7 @@ const RELIEF: u32 = 9u;
 const SHADOW: u32 = 10u;
 const SECTION: u32 = 11u;
 // Ink of the papers' operators at this very pixel.
-const PAPER: u32 = 15u;
+const OPERATOR_INK: u32 = 15u;
 
 // Whether a class is of the profile edges.
 fn is_of_profile(class_of: u32) -> bool {
@@ -97,7 +97,7 @@ fn is_stroke(texel: vec4<u32>) -> bool {
 
 // Whether it is of an exact line that is drawn.
 fn has_line(texel: vec4<u32>) -> bool {
-    return class_of(texel) != NO_EDGE && class_of(texel) != PAPER && (texel.w >> 26u) != 0u;
+    return class_of(texel) != NO_EDGE && class_of(texel) != OPERATOR_INK && (texel.w >> 26u) != 0u;
 }
 
 // What finding the line of each pixel needs of a texel: the offset as above, and over it a radius as f16; 0 where no
@@ -127,8 +127,8 @@ fn unpack_edge(texel: vec4<u32>) -> Edge {
 }
 
 // Inner and profile ink of the papers' operators: x, y, z as above, w: two 16-bit numbers from 0 to 1.
-fn pack_paper(ink: vec2<f32>, object: u32, depth: f32) -> vec4<u32> {
-    return vec4(PAPER << 28u, object, bitcast<u32>(depth), pack2x16unorm(ink));
+fn pack_operator_ink(ink: vec2<f32>, object: u32, depth: f32) -> vec4<u32> {
+    return vec4(OPERATOR_INK << 28u, object, bitcast<u32>(depth), pack2x16unorm(ink));
 }
 
 fn paper_ink(texel: vec4<u32>) -> vec2<f32> {

@@ -45,7 +45,7 @@ struct EdgeStyle {
     profile_opacity: f32,
     inner_color: vec3<f32>,
     inner_opacity: f32,
-    // What finds edges in paper mode.
+    // What finds edges in image-space mode.
     found_by: u32,
     // Of Sobel operators: 1 where the sign of normals makes silhouettes; gradients that make an edge (0: not looked at);
     // 1: the gradient is the sum of the changes across and down, 0: the length of both.
@@ -59,7 +59,7 @@ struct EdgeStyle {
 }
 
 const EXACT_MODE: u32 = 1u;
-const PAPER_MODE: u32 = 2u;
+const IMAGE_SPACE: u32 = 2u;
 
 const C1_OPERATOR: u32 = 1u;
 const SOBEL_OPERATOR: u32 = 2u;

@@ -4,7 +4,7 @@
 #import gpu/record_texture.wgsl
 
 // How fragments lie behind each other: what the order of their layers depends on.
-struct Link {
+struct FragmentNode {
     // The one that was drawn before it.
     next: u32,
     // Bits of the reversed depth: what is nearer is greater, as a number too.
@@ -24,16 +24,16 @@ struct Payload {
     surface_id: u32,
 }
 
-fn texel_of_link(link: Link) -> vec4<u32> {
-    return vec4(link.next, link.depth, link.order, link.normal);
+fn texel_of_node(node: FragmentNode) -> vec4<u32> {
+    return vec4(node.next, node.depth, node.order, node.normal);
 }
 
 fn texel_of_payload(payload: Payload) -> vec4<u32> {
     return vec4(payload.face, payload.depth, payload.object, payload.surface_id);
 }
 
-fn link_of(texel: vec4<u32>) -> Link {
-    return Link(texel.x, texel.y, texel.z, texel.w);
+fn node_of(texel: vec4<u32>) -> FragmentNode {
+    return FragmentNode(texel.x, texel.y, texel.z, texel.w);
 }
 
 fn payload_of(texel: vec4<u32>) -> Payload {

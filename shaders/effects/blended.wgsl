@@ -13,7 +13,7 @@ const ON: f32 = 0.05;
 // The ink of a pixel, with the depth of its edge.
 fn ink_at(px: vec2<i32>) -> Line {
     var line = lines_at(px, surface_at(px));
-    if WITH_PAPER && textureLoad(nearer_lines_tex, px, 0).x != 0u {
+    if WITH_OPERATORS && textureLoad(nearer_lines_tex, px, 0).x != 0u {
         line.ink = vec4(0.0);
     }
     line.ink = beneath_opaque_ink(px, line.depth, line.ink);

@@ -56,7 +56,7 @@ fn is_beyond(depth: f32) -> bool {
 
 // Lines reach over the interior of their layer and beyond it: their depth is that of their spine.
 fn ink_of(px: vec2<i32>, line: Line) -> vec4<f32> {
-    if WITH_PAPER && WITHOUT_REPEATED && textureLoad(nearer_lines_tex, px, 0).x != 0u {
+    if WITH_OPERATORS && WITHOUT_REPEATED && textureLoad(nearer_lines_tex, px, 0).x != 0u {
         return vec4(0.0);
     }
     if is_beyond(line.depth) {

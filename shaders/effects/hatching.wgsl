@@ -12,7 +12,7 @@ const HATCHING: u32 = 7u;
 // Whether any object is drawn in this way, and how strokes lie on any.
 override WITH_HATCHING: bool = true;
 override WITH_STRIPES: bool = true;
-override WITH_STROKES_ON_PAPER: bool = true;
+override WITH_IMAGE_SPACE_STROKES: bool = true;
 override WITH_STROKES_BY_UV: bool = true;
 override WITH_INDICATION: bool = false;
 override SHOWS_DETAIL: bool = false;
@@ -21,7 +21,7 @@ override WITH_THIRD: bool = true;
 
 // As in src/render/effects/hatching.rs; 0: no hatching.
 const STRIPES: u32 = 1u;
-const ON_PAPER: u32 = 2u;
+const IN_IMAGE_SPACE: u32 = 2u;
 const BY_UV: u32 = 3u;
 
 // Twin: `GpuHatchingStyle` in src/render/effects/hatching.rs.
@@ -209,7 +209,7 @@ fn laid_at(object: u32, dark: Dark) -> Laid {
 }
 
 // Strokes on the paper, turned as the surface says, in steps: sign(a) · ⌊|a| / T⌋ · T.
-fn strokes_on_paper(px: vec2<i32>, texel: vec4<u32>, s: Surfel, pos_view: vec3<f32>, ink: f32, laid: Laid) -> f32 {
+fn strokes_in_image_space(px: vec2<i32>, texel: vec4<u32>, s: Surfel, pos_view: vec3<f32>, ink: f32, laid: Laid) -> f32 {
     let object = s.object;
     let direction = direction_seen(texel, s, pos_view);
     // No direction has a front: angles from −90° to 90°.
@@ -311,8 +311,8 @@ fn hatching(px: vec2<i32>, s: Surfel, base: vec3<f32>, pos_view: vec3<f32>) -> v
         ink = stripes_ink(px, texel, s, pos_view, inks);
     } else if WITH_STROKES_BY_UV && mapping == BY_UV && any(texel != vec4(0u)) {
         ink = strokes_by_uv(texel, object, inks, laid_at(object, dark));
-    } else if WITH_STROKES_ON_PAPER {
-        ink = strokes_on_paper(px, texel, s, pos_view, dark.all, laid_at(object, dark));
+    } else if WITH_IMAGE_SPACE_STROKES {
+        ink = strokes_in_image_space(px, texel, s, pos_view, dark.all, laid_at(object, dark));
     }
     let paper = hatching_styles[object].paper * mix(vec3(1.0), base, hatching_styles[object].paper_tint);
     let stroke = mix(hatching_styles[object].ink, base, hatching_styles[object].ink_tint);

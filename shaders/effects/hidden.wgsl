@@ -6,7 +6,7 @@ var nearer_lines_tex: texture_2d<u32>;
 
 // Ink of the papers' operators has no spine of which the repeated ones could have been left out before.
 fn is_repeated(px: vec2<i32>) -> bool {
-    if class_of(textureLoad(edge_map_tex, px)) != PAPER {
+    if class_of(textureLoad(edge_map_tex, px)) != OPERATOR_INK {
         return false;
     }
     let last = vec2<i32>(frame.size) - 1;
@@ -20,7 +20,7 @@ fn is_repeated(px: vec2<i32>) -> bool {
 @fragment
 fn fs_lines(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     let px = vec2<i32>(position.xy);
-    if WITH_PAPER && is_repeated(px) {
+    if WITH_OPERATORS && is_repeated(px) {
         return vec4(0.0);
     }
     var nothing: Surfel;

@@ -80,7 +80,7 @@ var<storage, read> sketch_objects: array<SketchObject>;
 // That of the pass whose ink is drawn.
 var<uniform> pass_number: u32;
 // The edge map where lines come from, for the papers' operators.
-var paper_map_tex: texture_storage_2d<rgba32uint, read>;
+var operator_map_tex: texture_storage_2d<rgba32uint, read>;
 // Linear color times opacity, and opacity, of the surfaces.
 var shaded_tex: texture_2d<f32>;
 // The same of hidden lines.
@@ -365,7 +365,7 @@ fn fs_fill(@builtin(position) position: vec4<f32>) -> Filled {
 fn fs_inked(@builtin(position) position: vec4<f32>) {
     let px = vec2<i32>(position.xy);
     var any = covered_by_lines(px);
-    if WITH_PAPER {
+    if WITH_OPERATORS {
         let last = vec2<i32>(textureDimensions(fill_field_tex)) - 1;
         any |= textureLoad(fill_field_tex, clamp(px / i32(BLOCK), vec2(0), last)).y;
     }
@@ -394,11 +394,11 @@ fn drawn_ink(px: vec2<i32>, other: Surfel, rough: vec2<f32>) -> Line {
             line = no_line();
         }
     }
-    if WITH_PAPER {
+    if WITH_OPERATORS {
         let source = line_source(x, pass_number);
         let y = inside(source.at + rough);
         let from_px = vec2<i32>(floor(y));
-        var ink = with_paper_ink(no_line(), textureLoad(paper_map_tex, from_px), unpack_surfel(geometry_at(from_px)));
+        var ink = with_operator_ink(no_line(), textureLoad(operator_map_tex, from_px), unpack_surfel(geometry_at(from_px)));
         if WITH_PRESSURE {
             ink.ink *= pressed(source.noise);
         }

@@ -7,7 +7,7 @@
 
 // The fragment of each pixel that was drawn last.
 var<storage, read> heads: array<u32>;
-var link_tex: texture_storage_2d<rgba32uint, read>;
+var node_tex: texture_storage_2d<rgba32uint, read>;
 var payload_tex: texture_storage_2d<rgba32uint, read>;
 var<storage, read> colors: array<u32>;
 // The numbers of the fragments of a layer, plus 1; 0: none; undefined where nothing is listed. Sorting: that which was sorted
@@ -17,8 +17,8 @@ var number_tex: texture_storage_2d<r32uint, read>;
 // Whether anybody asks for shading normals.
 override WITH_NORMALS: bool = true;
 
-fn link_at(number: u32) -> Link {
-    return link_of(texel_at(link_tex, number - 1u));
+fn node_at(number: u32) -> FragmentNode {
+    return node_of(texel_at(node_tex, number - 1u));
 }
 
 fn number_at(position: vec4<f32>) -> u32 {
@@ -56,13 +56,13 @@ fn sorted(position: vec4<f32>, last: Sorted) -> Numbers {
     var first = EMPTY;
     var number = heads[list_of(vec2<u32>(position.xy))];
     while number != 0u {
-        let link = link_at(number);
-        var own = Sorted(~link.depth, link.order, number);
-        if !is_before(last, own) || link.depth == 0u {
+        let node = node_at(number);
+        var own = Sorted(~node.depth, node.order, number);
+        if !is_before(last, own) || node.depth == 0u {
             own = NONE;
         }
         first = with_another(first, own);
-        number = link.next;
+        number = node.next;
     }
     return Numbers(
         first.a.number,
@@ -85,9 +85,9 @@ fn fs_sort(@builtin(position) position: vec4<f32>) -> Numbers {
 @fragment
 fn fs_sort_behind(@builtin(position) position: vec4<f32>) -> Numbers {
     let number = number_at(position);
-    let link = link_at(max(number, 1u));
+    let node = node_at(max(number, 1u));
     // Behind none there are none.
-    return sorted(position, Sorted(select(~link.depth, NONE.depth, number == 0u), link.order, number));
+    return sorted(position, Sorted(select(~node.depth, NONE.depth, number == 0u), node.order, number));
 }
 
 @fragment
@@ -96,7 +96,7 @@ fn fs_depth(@builtin(position) position: vec4<f32>) -> Depth {
     if heads[list_of(vec2<u32>(position.xy))] == 0u || number == 0u {
         discard;
     }
-    return Depth(bitcast<f32>(link_at(number).depth));
+    return Depth(bitcast<f32>(node_at(number).depth));
 }
 
 struct Layer {
@@ -119,7 +119,7 @@ fn fs_layer(@builtin(position) position: vec4<f32>) -> Layer {
     let payload = payload_of(texel_at(payload_tex, number - 1u));
     var normal = payload.face;
     if WITH_NORMALS {
-        normal = link_at(number).normal;
+        normal = node_at(number).normal;
     }
     var color = 0u;
     if WITH_COLOR {

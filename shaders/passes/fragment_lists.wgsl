@@ -8,7 +8,7 @@
 @group(1) @binding(0) var<storage, read_write> counted: Counted;
 // The last fragment so far of each pixel.
 @group(1) @binding(1) var<storage, read_write> heads: array<atomic<u32>>;
-@group(1) @binding(2) var link_tex: texture_storage_2d<rgba32uint, write>;
+@group(1) @binding(2) var node_tex: texture_storage_2d<rgba32uint, write>;
 @group(1) @binding(3) var payload_tex: texture_storage_2d<rgba32uint, write>;
 @group(1) @binding(4) var<storage, read_write> colors: array<u32>;
 
@@ -19,12 +19,12 @@ fn next_index(px: vec2<u32>) -> u32 {
 
 fn append(position: vec4<f32>, ids: vec4<u32>, drawn: GBuffer) {
     let index = next_index(vec2<u32>(position.xy));
-    let capacity = textureDimensions(link_tex);
+    let capacity = textureDimensions(node_tex);
     if index < capacity.x * capacity.y {
         let next = atomicExchange(&heads[list_of(vec2<u32>(position.xy))], index + 1u);
-        let link = Link(next, bitcast<u32>(position.z), order_of(ids), drawn.geometry.x);
+        let node = FragmentNode(next, bitcast<u32>(position.z), order_of(ids), drawn.geometry.x);
         let payload = Payload(drawn.geometry.y, drawn.geometry.z, drawn.geometry.w, drawn.surface_id);
-        textureStore(link_tex, texel_of_record(index), texel_of_link(link));
+        textureStore(node_tex, texel_of_record(index), texel_of_node(node));
         textureStore(payload_tex, texel_of_record(index), texel_of_payload(payload));
         if WITH_COLOR {
             colors[index] = pack_color(drawn.base_color);

@@ -97,7 +97,7 @@ fn cs_links(@builtin(global_invocation_id) id: vec3<u32>) {
     let own = point_at(px);
     let towards = unpack_tangent(u32(own.tangent));
     var classes = 0u;
-    var ahead = Link(OWN, false, 0.0);
+    var ahead = PixelLink(OWN, false, 0.0);
     var behind = ahead;
     var min_cost = vec2(1e9);
     for (var place = 0u; place < AROUND; place++) {
@@ -107,7 +107,7 @@ fn cs_links(@builtin(global_invocation_id) id: vec3<u32>) {
             let distance = abs(seen.x);
             classes |= select(0u, bit_of(point.class_of), distance <= ABREAST);
             let cost = distance + 2.0 * seen.y;
-            let link = Link(place, abs(turn(own, point)) > 128, distance);
+            let link = PixelLink(place, abs(turn(own, point)) > 128, distance);
             if seen.x > 0.3 && seen.x < 2.5 && cost < min_cost.x {
                 min_cost.x = cost;
                 ahead = link;

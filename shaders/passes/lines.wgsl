@@ -9,17 +9,19 @@
 #import gpu/neighbors.wgsl
 #import common/placed.wgsl
 
-// Whether any object is drawn in paper or exact mode, whether widths differ, whether anything is dashed, and whether a
-// line takes its color from the surface.
-override WITH_PAPER: bool = true;
+// Whether the operators of image-space mode have found lines of any object.
+override WITH_OPERATORS: bool = true;
+// Whether any object is drawn in exact mode.
 override WITH_EXACT: bool = true;
+// Whether lines have different widths.
 override WITH_WIDTHS: bool = true;
-// Whether all lines are so thin that they reach no farther than to the next pixel: then nobody has looked for them yet,
-// and `farthest_tex` holds the spines, `nearest_tex` what passes/near_lines.wgsl finds.
+// Whether all lines are so thin that they reach no farther than the next pixel. There is no distance field then.
 override NARROW: bool = false;
 // Whether they reach one pixel farther.
 override NARROW_BY_TWO: bool = false;
+// Whether any line is dashed.
 override WITH_DASHES: bool = true;
+// Whether any line takes its color from the surface.
 override WITH_OBJECT_COLOR: bool = true;
 // Whether lines are tested against other surfaces than those that they were found among.
 override AMONG_OTHERS: bool = false;
@@ -30,8 +32,9 @@ override MOVED: bool = false;
 
 var edge_map_tex: texture_storage_2d<rgba32uint, read>;
 var base_color_tex: texture_2d<f32>;
-// As `found_tex` in passes/line_distance.wgsl: the line that reaches farthest, and the nearest one.
+// The line that reaches farthest beyond each pixel (passes/line_distance.wgsl); of narrow lines the same as `spine_tex`.
 var farthest_tex: texture_2d<u32>;
+// The line nearest to each pixel (passes/line_distance.wgsl); of narrow lines where there are any (passes/near_lines.wgsl).
 var nearest_tex: texture_storage_2d<r32uint, read>;
 // Where lines run.
 var spine_tex: texture_2d<u32>;
@@ -357,7 +360,7 @@ fn covered_by_lines(px: vec2<i32>) -> u32 {
 fn fs_covered(@builtin(position) position: vec4<f32>) {
     let px = vec2<i32>(position.xy);
     var covered = covered_by_lines(px);
-    if WITH_PAPER {
+    if WITH_OPERATORS {
         covered |= textureLoad(edge_map_tex, px).x;
     }
     if covered == 0u {
@@ -366,10 +369,10 @@ fn fs_covered(@builtin(position) position: vec4<f32>) {
 }
 
 // With ink of the papers' operators over it, as far as surface `g` does not hide that; `texel`: of the edge map.
-fn with_paper_ink(lines: Line, texel: vec4<u32>, g: Surfel) -> Line {
+fn with_operator_ink(lines: Line, texel: vec4<u32>, g: Surfel) -> Line {
     let depth = bitcast<f32>(texel.z);
     let is_occluded = g.object != 0u && step_px(nearness_of(g.depth) - nearness_of(depth), depth) > slack();
-    if class_of(texel) != PAPER || is_occluded {
+    if class_of(texel) != OPERATOR_INK || is_occluded {
         return lines;
     }
     // Edge-enhancement paper, section 5: inner edges first, then profile edges over them.
@@ -425,8 +428,8 @@ fn lines_at_place(at: vec2<f32>, g: Surfel) -> Line {
             lines = Line(both * min(most / max(both.a, 1e-6), 1.0), depth, false, strength, away, to_source);
         }
     }
-    if WITH_PAPER && !MOVED {
-        lines = with_paper_ink(lines, textureLoad(edge_map_tex, px), g);
+    if WITH_OPERATORS && !MOVED {
+        lines = with_operator_ink(lines, textureLoad(edge_map_tex, px), g);
     }
     return lines;
 }

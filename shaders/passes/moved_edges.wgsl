@@ -8,7 +8,7 @@
 
 // Pixels per workgroup, as in src/render/passes/moved_edges.rs.
 const GROUP: u32 = 64u;
-// A pixel of a line becomes so many, or it would break up where it is stretched.
+// A pixel of a line becomes so many, or it would break up where it is longer.
 const POINTS: u32 = 2u;
 
 // Twin: `MovementUniform` in src/render/passes/moved_edges.rs.
@@ -86,7 +86,7 @@ struct Source {
     edge: Edge,
     spine: vec2<f32>,
     noise: vec2<f32>,
-    // Its tangent, stretched as the line is where it has been moved to.
+    // Its tangent, as much longer as the line is where it has been moved to.
     turned: vec2<f32>,
 }
 
@@ -100,10 +100,10 @@ fn source_at(number: u32) -> Source {
 }
 
 fn moved(source: Source, number: u32) -> Moved {
-    let stretch = length(source.turned);
-    // What is hardly stretched stays as it is.
-    let is_stretched = stretch > 1.2;
-    let share = select(0.0, (f32(number) + 0.5) / f32(POINTS) - 0.5, is_stretched);
+    let elongation = length(source.turned);
+    // What is hardly longer stays as it is.
+    let is_longer = elongation > 1.2;
+    let share = select(0.0, (f32(number) + 0.5) / f32(POINTS) - 0.5, is_longer);
     let away = share * source.turned - applied(source.noise);
     // The pixel that its spine was found for moves with it, unless it would come to lie too far from it.
     let at = source.spine + away;
@@ -111,11 +111,11 @@ fn moved(source: Source, number: u32) -> Moved {
     let to = select(floor(at), with_px, all(abs(at - with_px - 0.5) <= vec2(1.0)));
     var e = source.edge;
     e.offset = at - to - 0.5;
-    e.extent = select(e.extent, max(e.extent, min(0.25 * stretch, 0.75)), is_stretched);
+    e.extent = select(e.extent, max(e.extent, min(0.25 * elongation, 0.75)), is_longer);
     e.half_width = e.half_width * movement.width;
     e.weight = e.weight * pressed(source.noise);
-    if stretch > 0.05 {
-        e.tangent = pack_tangent(source.turned / stretch);
+    if elongation > 0.05 {
+        e.tangent = pack_tangent(source.turned / elongation);
     }
     var texel = pack_edge(e);
     // As a stroke of a hand it stays one.
@@ -123,7 +123,7 @@ fn moved(source: Source, number: u32) -> Moved {
     let own = textureLoad(spine_tex, source.px, 0).x;
     let radius = unpack2x16float(own >> 16u).x * movement.width + movement.margin;
     let found = (pack2x16float(vec2(radius, 0.0)) << 16u) | (texel.x & 0xffffu);
-    let is_there = all(to >= vec2(0.0)) && all(to < frame.size) && (is_stretched || number == 0u);
+    let is_there = all(to >= vec2(0.0)) && all(to < frame.size) && (is_longer || number == 0u);
     let rank = (source.number << 1u) | number;
     return Moved(texel, found, vec2<i32>(to), key_of(e.depth), rank, source.number, is_there);
 }

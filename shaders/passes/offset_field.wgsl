@@ -106,8 +106,8 @@ fn control_factor(px: vec2<i32>, s: Surfel) -> f32 {
     return 0.2 + 1.1 * min(80.0 * curvature, 1.3);
 }
 
-// Noise at a place on an object; `stretch`: how much longer than on paper it is along itself.
-fn noise_at(at: vec3<f32>, normal: vec3<f32>, depth: f32, stretch: f32, wave: f32, object: u32, seed: u32) -> vec2<f32> {
+// Noise at a place on an object; `foreshortening`: how much longer than on paper it is along itself.
+fn noise_at(at: vec3<f32>, normal: vec3<f32>, depth: f32, foreshortening: f32, wave: f32, object: u32, seed: u32) -> vec2<f32> {
     let turbulent = field.turbulent == 1u;
     let own = mixed_bits(seed ^ field_objects[object].seed);
     let from_view = field_objects[object].from_view;
@@ -116,7 +116,7 @@ fn noise_at(at: vec3<f32>, normal: vec3<f32>, depth: f32, stretch: f32, wave: f3
         return octave(1.5 * turned + 7.5, own, turbulent);
     }
     let place = (from_view * vec4(at, 1.0)).xyz;
-    let length = wave * pixel_at(depth) * stretch;
+    let length = wave * pixel_at(depth) * foreshortening;
     var noise = waves(place, length, own, turbulent);
     if field.detail > 0.0 {
         noise += field.detail * fine_waves(place, 0.25 * length, own, turbulent);
@@ -126,7 +126,7 @@ fn noise_at(at: vec3<f32>, normal: vec3<f32>, depth: f32, stretch: f32, wave: f3
 
 // How much longer than on paper a line is along itself: of walls seen from the side waves would be too short. The side on which it is
 // less says so, as on the other one the line may go on as one that is farther off.
-fn stretch_at(px: vec2<i32>, edge: Edge, spine: vec2<f32>) -> f32 {
+fn foreshortening_at(px: vec2<i32>, edge: Edge, spine: vec2<f32>) -> f32 {
     let tangent = unpack_tangent(edge.tangent);
     let here = pos_view_at(spine, edge.depth);
     var least = 1e9;
@@ -135,8 +135,8 @@ fn stretch_at(px: vec2<i32>, edge: Edge, spine: vec2<f32>) -> f32 {
         let other = unpack_edge(textureLoad(edge_map_tex, line.px));
         let there = vec2<f32>(line.px) + 0.5 + other.offset;
         let on_paper = distance(there, spine) * pixel_at(edge.depth);
-        let stretch = distance(pos_view_at(there, other.depth), here) / max(on_paper, 1e-20);
-        least = select(least, min(stretch, least), line.is_there);
+        let foreshortening = distance(pos_view_at(there, other.depth), here) / max(on_paper, 1e-20);
+        least = select(least, min(foreshortening, least), line.is_there);
     }
     // What is farther off than this is another line.
     return select(clamp(least, 1.0, 4.0), 1.0, least > 12.0);
@@ -227,7 +227,7 @@ fn cs_lines(@builtin(global_invocation_id) id: vec3<u32>) {
     let inwards = vec2<i32>(floor(spine - 0.8 * vec2(tangent.y, -tangent.x) * edge.outside));
     let s = unpack_surfel(geometry_at(inwards));
     let factor = control_factor(inwards, s);
-    let stretch = stretch_at(px, edge, spine);
+    let foreshortening = foreshortening_at(px, edge, spine);
     let at = pos_view_at(spine, edge.depth);
     var neighbor = Neighbor(0u, vec3(0.0), 0.0);
     if is_of_profile(edge.class_of) || edge.class_of == INTERSECTION {
@@ -236,9 +236,9 @@ fn cs_lines(@builtin(global_invocation_id) id: vec3<u32>) {
     var noise = array<vec2<f32>, 8>();
     for (var i = 0u; i < field.passes; i++) {
         let seed = field.seeds[i / 4u][i % 4u];
-        var both = noise_at(at, s.normal, edge.depth, stretch, field.line_wave, edge.object, seed);
+        var both = noise_at(at, s.normal, edge.depth, foreshortening, field.line_wave, edge.object, seed);
         if neighbor.share > 0.0 {
-            let other = noise_at(at, neighbor.normal, edge.depth, stretch, field.line_wave, neighbor.object, seed);
+            let other = noise_at(at, neighbor.normal, edge.depth, foreshortening, field.line_wave, neighbor.object, seed);
             both = (both + neighbor.share * other) * inverseSqrt(1.0 + neighbor.share * neighbor.share);
         }
         noise[i] = factor * both;

@@ -166,7 +166,7 @@ fn fs_main(@builtin(position) position: vec4<f32>) -> @location(0) vec4<u32> {
     let px = vec2<i32>(position.xy);
     let x = unpack_surfel(geometry_at(px));
     // Single fields are read, never whole structs, which software devices would copy.
-    if !x.enhanced || edge_styles[x.object].mode != PAPER_MODE {
+    if !x.enhanced || edge_styles[x.object].mode != IMAGE_SPACE {
         discard;
     }
     let found_by = edge_styles[x.object].found_by;
@@ -176,7 +176,7 @@ fn fs_main(@builtin(position) position: vec4<f32>) -> @location(0) vec4<u32> {
         if all(ink <= vec2(0.0)) {
             discard;
         }
-        return pack_paper(ink, g.owner, x.depth);
+        return pack_operator_ink(ink, g.owner, x.depth);
     }
     let use_c1 = found_by == C1_OPERATOR;
     let o = operators(px, x, use_c1);
@@ -190,7 +190,7 @@ fn fs_main(@builtin(position) position: vec4<f32>) -> @location(0) vec4<u32> {
     if all(ink <= vec2(0.0)) {
         discard;
     }
-    return pack_paper(ink, owner, x.depth);
+    return pack_operator_ink(ink, owner, x.depth);
 }
 
 // I_N, I_Z and C1 themselves (no edge: 1, 1, 0), for a look at them and for tests.

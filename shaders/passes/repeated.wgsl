@@ -11,7 +11,7 @@ const INKED: u32 = 0x7f7fu;
 @fragment
 fn fs_ink(@builtin(position) position: vec4<f32>) -> @location(0) u32 {
     let px = vec2<i32>(position.xy);
-    if class_of(textureLoad(edge_map_tex, px)) != PAPER || textureLoad(spine_tex, px, 0).x != 0u {
+    if class_of(textureLoad(edge_map_tex, px)) != OPERATOR_INK || textureLoad(spine_tex, px, 0).x != 0u {
         discard;
     }
     return INKED;

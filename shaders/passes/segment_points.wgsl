@@ -21,7 +21,7 @@ var accumulated_lines_tex: texture_storage_2d<r32uint, write>;
 
 // Whether more points follow that have to be compared with these.
 override KEEP_KEYS: bool = false;
-// Whether they are of strokes, which explain nothing where they are drawn.
+// Whether they are of strokes of a hand. These lie beside their edges, so no pixel is marked as explained by an edge.
 override WITHOUT_MARKS: bool = false;
 
 fn pixel_of(point: SegmentPoint) -> vec2<i32> {

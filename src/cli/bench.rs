@@ -23,7 +23,7 @@ use crate::style::hidden::HiddenLayers;
 use crate::style::indication::DetailBy;
 use crate::style::sketch::Anchor;
 use crate::style::toon::Smoothing;
-use crate::style::{DepthOperator, EdgeMode, HiddenMode, Style, StyleError, Technique, hatching, preset};
+use crate::style::{EdgeMode, EdgeOperator, HiddenMode, Style, StyleError, Technique, hatching, preset};
 
 /// What is measured: a style in some light, and what stands behind the model.
 struct BenchLook {
@@ -276,9 +276,9 @@ const WAYS: [LayersBy; 2] = [LayersBy::Lists, LayersBy::Peeling];
 fn styles(has_uvs: bool) -> Result<Vec<(&'static str, Style)>, CliError> {
     let gooch = preset::load("gooch")?.style;
     let mut diagonal = gooch.clone();
-    diagonal.edges.mode = EdgeMode::Paper;
+    diagonal.edges.mode = EdgeMode::ImageSpace;
     let mut c1 = diagonal.clone();
-    c1.edges.operator = DepthOperator::C1;
+    c1.edges.operator = EdgeOperator::C1;
     let mut no_edges = gooch.clone();
     no_edges.edges.profile.show = false;
     no_edges.edges.inner.show = false;
@@ -312,7 +312,7 @@ fn styles(has_uvs: bool) -> Result<Vec<(&'static str, Style)>, CliError> {
         let mut style = lines.clone();
         style.technique = Technique::Hatching;
         (style.hatching.mapping, style.hatching.cross_hatching.directions) = (mapping, directions);
-        style.hatching.indication.amount = if mapping == hatching::Mapping::Paper { 0.5 } else { 0.0 };
+        style.hatching.indication.amount = if mapping == hatching::Mapping::ImageSpace { 0.5 } else { 0.0 };
         style
     };
     let mut styles = vec![
@@ -333,7 +333,7 @@ fn styles(has_uvs: bool) -> Result<Vec<(&'static str, Style)>, CliError> {
         ("hatching, one direction", hatching(hatching::Mapping::Stripes, 1)),
         ("hatching, two directions", hatching(hatching::Mapping::Stripes, 2)),
         ("hatching, three directions", hatching(hatching::Mapping::Stripes, 3)),
-        ("hatching, on the paper", hatching(hatching::Mapping::Paper, 3)),
+        ("hatching, on the paper", hatching(hatching::Mapping::ImageSpace, 3)),
         ("lines", preset::load("lines")?.style),
         ("sketch, screen", sketch(Anchor::Screen, 1)),
         ("sketch, surface", sketch(Anchor::Surface, 1)),
@@ -368,15 +368,19 @@ fn looks(has_uvs: bool, pixels: &[u32], size: [u32; 2]) -> Result<Vec<BenchLook>
     };
     let mut looks: Vec<BenchLook> =
         styles(has_uvs)?.into_iter().map(|(name, style)| look(name, style, &unshadowed)).collect();
-    let mut hatching_paper = exact(2.0)?;
-    hatching_paper.technique = Technique::Hatching;
-    hatching_paper.hatching.mapping = hatching::Mapping::Paper;
-    (hatching_paper.hatching.cross_hatching.directions, hatching_paper.hatching.indication.amount) = (3, 0.5);
-    (hatching_paper.edges.mode, hatching_paper.edges.operator) = (EdgeMode::Paper, DepthOperator::Sobel);
-    hatching_paper.hatching.indication.by = DetailBy::Fields;
-    looks.push(look("hatching, all of its paper", hatching_paper, &hard));
+    let mut hatching_image_space = exact(2.0)?;
+    hatching_image_space.technique = Technique::Hatching;
+    hatching_image_space.hatching.mapping = hatching::Mapping::ImageSpace;
+    (
+        hatching_image_space.hatching.cross_hatching.directions,
+        hatching_image_space.hatching.indication.amount,
+    ) = (3, 0.5);
+    (hatching_image_space.edges.mode, hatching_image_space.edges.operator) =
+        (EdgeMode::ImageSpace, EdgeOperator::Sobel);
+    hatching_image_space.hatching.indication.by = DetailBy::Fields;
+    looks.push(look("hatching, all of its paper", hatching_image_space, &hard));
     let mut as_in_paper = blueprint(5)?;
-    as_in_paper.edges.mode = EdgeMode::Paper;
+    as_in_paper.edges.mode = EdgeMode::ImageSpace;
     for (way, layers_by) in WAYS.into_iter().enumerate() {
         let one = look(ONE[way], blueprint(1)?, &unshadowed);
         let five = look(FIVE[way], blueprint(5)?, &unshadowed);
@@ -384,7 +388,7 @@ fn looks(has_uvs: bool, pixels: &[u32], size: [u32; 2]) -> Result<Vec<BenchLook>
         let ends = ending(pixels, size)?.map(|style| look(ENDING[way], style, &unshadowed));
         looks.extend([one, five, six].into_iter().chain(ends).map(|look| BenchLook { layers_by, ..look }));
     }
-    looks.push(look("blueprint, 5, paper mode", as_in_paper, &unshadowed));
+    looks.push(look("blueprint, 5, image-space mode", as_in_paper, &unshadowed));
     looks.push(look("blueprint, all layers", blueprint(MAX_LAYERS)?, &unshadowed));
     looks.push(look("plain, shadow", plain.clone(), &hard));
     looks.push(look("plain, soft shadow", plain, &soft));

@@ -39,6 +39,6 @@ fn instead(hatching: &Hatching) -> Option<&'static str> {
     match hatching.mapping {
         Mapping::Uv => Some("strokes lie in stripes instead"),
         _ if by_direction => Some("strokes follow its curvature instead"),
-        Mapping::Stripes | Mapping::Paper => None,
+        Mapping::Stripes | Mapping::ImageSpace => None,
     }
 }

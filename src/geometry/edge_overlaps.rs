@@ -12,7 +12,7 @@ use super::soft_edges::SoftNormals;
 use super::weld::TOLERANCE;
 use super::{Edge, Mesh, Weld};
 
-/// A stretch where two border edges lie on each other.
+/// Where two border edges lie on each other.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EdgeOverlap {
     /// Indices of the two edges, the smaller one first.
@@ -23,7 +23,7 @@ pub struct EdgeOverlap {
     pub dihedral: f32,
     /// As [`Edge::is_soft`].
     pub is_soft: bool,
-    /// Length of the stretch, in units of the mesh.
+    /// Length of what both have in common, in units of the mesh.
     pub length: f64,
 }
 

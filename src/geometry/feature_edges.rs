@@ -6,14 +6,14 @@ pub(super) mod chains;
 pub(super) mod crease_angles;
 mod pieces;
 pub(super) mod straights;
-mod stretches;
+mod sub_edges;
 
 use std::sync::Arc;
 
 use self::chains::FeatureChains;
 use self::crease_angles::Cached;
 use self::straights::Straights;
-use self::stretches::Stretch;
+use self::sub_edges::SubEdge;
 use super::edge::{FOLDED, NO_FACE};
 use super::weld::TOLERANCE;
 use super::{Adjacency, Bounds, EdgeKind, Mesh, Surfaces};
@@ -29,8 +29,8 @@ impl Traits {
     pub(super) const BORDER: Self = Self(2);
     /// The two triangles have different materials.
     pub(super) const MATERIAL: Self = Self(4);
-    /// Three triangles or more, or another mesh goes on; all of them are in [`FeatureEdges::fans`].
-    pub(super) const FAN: Self = Self(8);
+    /// Three triangles or more, or another mesh goes on; all of them are in [`FeatureEdges::faces_around`].
+    pub(super) const NON_MANIFOLD: Self = Self(8);
     /// [`super::Edge::is_soft`], [`super::BorderLink::is_soft`]: no crease, whatever the angle.
     pub(super) const SOFT: Self = Self(16);
 
@@ -56,21 +56,21 @@ impl Traits {
 
 /// All edges of a mesh at which a line can be, one entry each: about 21 bytes, and 4 per triangle.
 ///
-/// Where edges meet others only partly (T-junctions), each stretch with the same triangles on both sides is an edge of
+/// Where edges meet others only partly (T-junctions), each part with the same triangles on both sides is an edge of
 /// its own.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FeatureEdges {
     /// The two ends, as indices of welded vertices ([`super::Weld::representative`]): edges that meet share them. In the
     /// direction in which the first triangle runs.
     pub(super) ends: Vec<[u32; 2]>,
-    /// The two triangles. At a border twice the same one; of a fan the first two.
+    /// The two triangles. At a border twice the same one; where more meet the first two.
     pub(super) faces: Vec<[u32; 2]>,
     /// As [`super::Edge::dihedral`]; 0 at a border.
     pub(super) dihedral: Vec<f32>,
     pub(super) traits: Vec<Traits>,
     /// Every (edge, triangle) of the edges with more than two triangles, in order. Numbers from that of the mesh's
     /// triangles on are those of [`Mesh::border_links`].
-    pub(super) fans: Vec<(u32, u32)>,
+    pub(super) faces_around: Vec<(u32, u32)>,
     /// The surfaces of the mesh.
     pub(super) surfaces: Arc<Surfaces>,
     /// The box around the mesh, local space.
@@ -93,7 +93,7 @@ impl FeatureEdges {
             faces: Vec::with_capacity(count),
             dihedral: Vec::with_capacity(count),
             traits: Vec::with_capacity(count),
-            fans: Vec::new(),
+            faces_around: Vec::new(),
             surfaces: surfaces.into(),
             bounds: mesh.bounds(),
             cached_chains: Cached::default(),
@@ -101,26 +101,26 @@ impl FeatureEdges {
         };
         let point = |v: u32| adjacency.weld.representative.get(v as usize).copied().unwrap_or(v);
         let materials = Materials::new(mesh);
-        let overlaps = stretches::overlaps_by_edge(adjacency);
+        let overlaps = sub_edges::overlaps_by_edge(adjacency);
         let mut overlaps = overlaps.as_slice();
         let mut non_manifold = adjacency.non_manifold.as_slice();
         let shortest = 4.0 * TOLERANCE * all.bounds.diagonal();
-        let mut own_stretches = Vec::new();
+        let mut own_sub_edges = Vec::new();
         for (number, edge) in (0..).zip(&adjacency.edges) {
             let own_overlaps = split_front(&mut overlaps, |&(e, _)| e <= number);
             let own_faces = split_front(&mut non_manifold, |&(e, _)| e <= number);
             let ends = edge.vertices.map(point);
             match edge.kind {
                 EdgeKind::Border | EdgeKind::Stitched if !own_overlaps.is_empty() => {
-                    stretches::split(mesh, adjacency, number, own_overlaps, shortest, &mut own_stretches);
-                    for stretch in own_stretches.drain(..) {
-                        all.add_stretch(&stretch, point, &materials);
+                    sub_edges::split(mesh, adjacency, number, own_overlaps, shortest, &mut own_sub_edges);
+                    for sub_edge in own_sub_edges.drain(..) {
+                        all.add_sub_edge(&sub_edge, point, &materials);
                     }
                 }
                 EdgeKind::Border | EdgeKind::Stitched => match adjacency.border_link(number) {
                     Some(beyond) => {
                         let faces = [edge.faces[0], mesh.triangle_count() as u32 + beyond];
-                        all.add_fan(ends, [faces[0]; 2], 0.0, faces.into_iter());
+                        all.add_non_manifold(ends, [faces[0]; 2], 0.0, faces.into_iter());
                         let is_soft =
                             mesh.border_links.get(beyond as usize).is_some_and(|beyond| beyond.is_soft);
                         if let Some(traits) = all.traits.last_mut() {
@@ -136,7 +136,7 @@ impl FeatureEdges {
                 }
                 EdgeKind::NonManifold => {
                     let faces = own_faces.iter().map(|&(_, face)| face);
-                    all.add_fan(ends, edge.faces, edge.dihedral, faces);
+                    all.add_non_manifold(ends, edge.faces, edge.dihedral, faces);
                 }
             }
         }
@@ -159,14 +159,14 @@ impl FeatureEdges {
             + size_of_val(self.faces.as_slice())
             + size_of_val(self.dihedral.as_slice())
             + size_of_val(self.traits.as_slice())
-            + size_of_val(self.fans.as_slice())
+            + size_of_val(self.faces_around.as_slice())
             + size_of_val(self.surfaces.of_triangle.as_slice())
     }
 
-    /// The triangles of a fan, each with the number of the edge.
-    pub(super) fn fan(&self, edge: u32) -> &[(u32, u32)] {
-        let start = self.fans.partition_point(|&(e, _)| e < edge);
-        let rest = self.fans.get(start..).unwrap_or_default();
+    /// All triangles around a non-manifold edge, each with the number of the edge.
+    pub(super) fn faces_around(&self, edge: u32) -> &[(u32, u32)] {
+        let start = self.faces_around.partition_point(|&(e, _)| e < edge);
+        let rest = self.faces_around.get(start..).unwrap_or_default();
         rest.get(..rest.partition_point(|&(e, _)| e == edge)).unwrap_or_default()
     }
 
@@ -193,7 +193,7 @@ impl FeatureEdges {
         }
     }
 
-    fn add_fan(
+    fn add_non_manifold(
         &mut self,
         ends: [u32; 2],
         faces: [u32; 2],
@@ -201,21 +201,23 @@ impl FeatureEdges {
         all_faces: impl Iterator<Item = u32>,
     ) {
         let number = self.ends.len() as u32;
-        self.fans.extend(all_faces.map(|face| (number, face)));
-        self.add(ends, faces, dihedral, Traits::FAN);
+        self.faces_around.extend(all_faces.map(|face| (number, face)));
+        self.add(ends, faces, dihedral, Traits::NON_MANIFOLD);
     }
 
-    fn add_stretch(&mut self, stretch: &Stretch, point: impl Fn(u32) -> u32, materials: &Materials<'_>) {
-        let ends = stretch.ends.map(point);
-        match stretch.faces[..] {
+    fn add_sub_edge(&mut self, sub_edge: &SubEdge, point: impl Fn(u32) -> u32, materials: &Materials<'_>) {
+        let ends = sub_edge.ends.map(point);
+        match sub_edge.faces[..] {
             [] => {}
             [face] => self.add(ends, [face; 2], 0.0, Traits::BORDER),
             // Seams join only edges that run against each other: no pair is flipped.
             [a, b] => {
-                let soft = Traits::SOFT.when(stretch.is_soft);
-                self.add_pair(ends, [a, b], stretch.dihedral, soft, materials);
+                let soft = Traits::SOFT.when(sub_edge.is_soft);
+                self.add_pair(ends, [a, b], sub_edge.dihedral, soft, materials);
             }
-            [a, b, ..] => self.add_fan(ends, [a, b], stretch.dihedral, stretch.faces.iter().copied()),
+            [a, b, ..] => {
+                self.add_non_manifold(ends, [a, b], sub_edge.dihedral, sub_edge.faces.iter().copied());
+            }
         }
     }
 }

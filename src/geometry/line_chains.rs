@@ -5,7 +5,7 @@ pub(super) const NO_END: u32 = u32::MAX;
 
 /// An edge that takes part in chains.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Link {
+pub(super) struct ChainEdge {
     /// The points at both ends, as any numbers; `None` where it never goes on.
     pub ends: [Option<u32>; 2],
     /// Only links of one kind are joined.
@@ -31,7 +31,7 @@ pub(super) struct LinkEnd {
 }
 
 /// Visits the points at which links can be joined, with the halves of one kind that meet there.
-pub(super) fn for_each_meeting(links: &[Link], mut visit: impl FnMut(&[LinkEnd])) {
+pub(super) fn for_each_meeting(links: &[ChainEdge], mut visit: impl FnMut(&[LinkEnd])) {
     let mut halves: Vec<LinkEnd> = (0_u32..)
         .step_by(2)
         .zip(links)
@@ -58,7 +58,7 @@ pub(super) struct Chains {
 
 impl Chains {
     /// Joins links at points where exactly two of a kind meet and `goes_on` says of both halves there that the chain goes on.
-    pub(super) fn new(links: &[Link], goes_on: impl Fn(u32, u32) -> bool) -> Self {
+    pub(super) fn new(links: &[ChainEdge], goes_on: impl Fn(u32, u32) -> bool) -> Self {
         let mut partner = vec![NO_END; 2 * links.len()];
         for_each_meeting(links, |here| {
             if let &[LinkEnd { number: a, .. }, LinkEnd { number: b, .. }] = here
@@ -122,12 +122,12 @@ impl Chains {
 mod tests {
     use super::*;
 
-    fn link(a: u32, b: u32, kind: u8) -> Link {
-        Link { ends: [Some(a), Some(b)], kind }
+    fn link(a: u32, b: u32, kind: u8) -> ChainEdge {
+        ChainEdge { ends: [Some(a), Some(b)], kind }
     }
 
     /// (links, negative where reversed and counted from 1; closed) of each chain.
-    fn chains(links: &[Link], goes_on: impl Fn(u32, u32) -> bool) -> Vec<(Vec<i32>, bool)> {
+    fn chains(links: &[ChainEdge], goes_on: impl Fn(u32, u32) -> bool) -> Vec<(Vec<i32>, bool)> {
         let signed = |l: &ChainLink| if l.reversed { -(l.link as i32 + 1) } else { l.link as i32 + 1 };
         let chains = Chains::new(links, goes_on);
         chains.iter().map(|(own, closed)| (own.iter().map(signed).collect(), closed)).collect()

@@ -9,8 +9,8 @@ mod arcs;
 mod clip;
 mod contours;
 mod facing;
-mod fan;
 mod hand_strokes;
+mod non_manifold;
 mod outlines;
 mod scale;
 mod segment;
@@ -22,8 +22,8 @@ use self::angles::Angles;
 use self::clip::PictureMap;
 pub use self::contours::{PlacedContours, contour_segments};
 use self::facing::Facings;
-use self::fan::Fans;
 pub use self::hand_strokes::{SegmentSet, Tested, draw_strokes};
+use self::non_manifold::NonManifoldEdges;
 pub use self::segment::{Dashes, LineSegment, LineSelection, LineView, NO_SURFACE, PlacedEdges};
 use super::feature_edges::Traits;
 use super::{ClassSet, EdgeClass};
@@ -115,7 +115,7 @@ struct Finder<'a> {
     wanted: &'a LineSelection,
     picture: PictureMap,
     facings: Facings,
-    fans: Fans<'a>,
+    non_manifold: NonManifoldEdges<'a>,
     angles: Angles<'a>,
     /// Edges with these traits are looked at closely, whatever their angle.
     special: Traits,
@@ -145,7 +145,7 @@ impl<'a> Finder<'a> {
             .min(asked(EdgeClass::Valley, wanted.valley_angle))
             .min(wanted.suppress_angle);
         let outlines = ClassSet::of(&[EdgeClass::Border, EdgeClass::Object]);
-        let mut special = Traits::FAN;
+        let mut special = Traits::NON_MANIFOLD;
         if EdgeClass::ALL.iter().any(|&class| outlines.contains(class) && wanted.classes.contains(class)) {
             special = special.and(Traits::BORDER);
         }
@@ -157,7 +157,7 @@ impl<'a> Finder<'a> {
             wanted,
             picture,
             facings: Facings::new(mesh, &edges.bounds, view_from_local, lens),
-            fans: Fans::new(placed, *view_from_local, lens),
+            non_manifold: NonManifoldEdges::new(placed, *view_from_local, lens),
             min_angle: angles.min_local(min_angle),
             angles,
             special,
@@ -206,8 +206,8 @@ impl<'a> Finder<'a> {
 
     /// What an edge is; `None` if it is nothing.
     fn line(&self, edge: u32, faces: [u32; 2], dihedral: f32, traits: Traits) -> Option<Line> {
-        if traits.any(Traits::FAN) {
-            let seen = self.fans.look(edge)?;
+        if traits.any(Traits::NON_MANIFOLD) {
+            let seen = self.non_manifold.look(edge)?;
             return match seen.outline {
                 Some(outline) => self.outline(outline, seen.angle, seen.faces),
                 None => {

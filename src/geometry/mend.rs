@@ -47,7 +47,7 @@ use self::holes::thin_holes;
 use self::limits::Limits;
 pub use self::limits::SeamTolerance;
 use self::open::Open;
-use self::proximity::Stretches;
+use self::proximity::SubEdges;
 use super::weld::TOLERANCE;
 use super::{Adjacency, Mesh};
 
@@ -184,9 +184,9 @@ impl<'a> Matching<'a> {
 
     /// Joins edges by proximity; returns how many times wider than usual gaps were that needed no closure.
     fn take_near(&mut self) -> f64 {
-        let stretches = Stretches::new(self.borders, &self.open(), &self.limits);
-        let closed = closure::closed(self.borders, &stretches, &self.limits);
-        for tie in intervals::ties(self.borders, &stretches, &closed, &self.limits) {
+        let sub_edges = SubEdges::new(self.borders, &self.open(), &self.limits);
+        let closed = closure::closed(self.borders, &sub_edges, &self.limits);
+        for tie in intervals::ties(self.borders, &sub_edges, &closed, &self.limits) {
             self.has_ties |= self.places.tie(self.borders, tie);
         }
         closed.opening

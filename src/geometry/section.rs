@@ -24,15 +24,15 @@ const VERTICES_PER_TASK: usize = 1 << 14;
 pub struct Contour {
     /// Its corners. A closed one does not repeat the first.
     pub points: Vec<DVec2>,
-    /// The triangle that each stretch between two corners lies in.
+    /// The triangle that each segment between two corners lies in.
     pub triangles: Vec<u32>,
     /// Whether it ends where it begins.
     pub is_closed: bool,
 }
 
 impl Contour {
-    /// The ends of each stretch, and its triangle.
-    pub fn stretches(&self) -> impl Iterator<Item = ([DVec2; 2], u32)> + '_ {
+    /// The ends of each segment, and its triangle.
+    pub fn segments(&self) -> impl Iterator<Item = ([DVec2; 2], u32)> + '_ {
         let next = self.points.iter().skip(1).chain(self.points.first().filter(|_| self.is_closed));
         self.points.iter().zip(next).zip(&self.triangles).map(|((&a, &b), &t)| ([a, b], t))
     }
@@ -71,30 +71,27 @@ pub fn contours(mesh: &Mesh, weld: &Weld, plane_from_local: &DMat4) -> Vec<Conto
         .collect();
     // Turned inside out by its place, a mesh has its material on the other side of each contour.
     let is_mirrored = plane_from_local.determinant() < 0.0;
-    let stretches: Vec<CutTriangle> = mesh
+    let segments: Vec<CutTriangle> = mesh
         .triangles()
         .par_chunks(TRIANGLES_PER_TASK)
         .enumerate()
         .flat_map_iter(|(task, triangles)| {
             let (is_kept, weld) = (&is_kept, weld);
             (task * TRIANGLES_PER_TASK..).zip(triangles).filter_map(move |(number, &triangle)| {
-                let stretch = stretch(triangle, number as u32, is_kept, weld)?;
+                let segment = segment(triangle, number as u32, is_kept, weld)?;
                 Some(if is_mirrored {
-                    CutTriangle { from: stretch.to, to: stretch.from, ..stretch }
+                    CutTriangle { from: segment.to, to: segment.from, ..segment }
                 } else {
-                    stretch
+                    segment
                 })
             })
         })
         .collect();
-    chained(&stretches)
-        .iter()
-        .map(|(chain, is_closed)| plane.contour(&stretches, chain, *is_closed))
-        .collect()
+    chained(&segments).iter().map(|(chain, is_closed)| plane.contour(&segments, chain, *is_closed)).collect()
 }
 
 /// Where the plane runs through a triangle, if it does.
-fn stretch(triangle: [u32; 3], number: u32, is_kept: &[bool], weld: &Weld) -> Option<CutTriangle> {
+fn segment(triangle: [u32; 3], number: u32, is_kept: &[bool], weld: &Weld) -> Option<CutTriangle> {
     let mut kept = [false; 3];
     for (kept, v) in kept.iter_mut().zip(triangle) {
         *kept = *is_kept.get(v as usize)?;
@@ -117,37 +114,37 @@ fn stretch(triangle: [u32; 3], number: u32, is_kept: &[bool], weld: &Weld) -> Op
     Some(CutTriangle { from, to, triangle: number })
 }
 
-/// Stretches that follow each other, as indices, and whether the last one ends where the first begins.
-fn chained(stretches: &[CutTriangle]) -> Vec<(Vec<u32>, bool)> {
+/// Segments that follow each other, as indices, and whether the last one ends where the first begins.
+fn chained(segments: &[CutTriangle]) -> Vec<(Vec<u32>, bool)> {
     let sorted = |end: fn(&CutTriangle) -> Crossing| {
-        let mut order: Vec<(Crossing, u32)> = stretches.iter().map(end).zip(0..).collect();
+        let mut order: Vec<(Crossing, u32)> = segments.iter().map(end).zip(0..).collect();
         order.par_sort_unstable();
         order
     };
     let (starts, ends) = (sorted(|s| s.from), sorted(|s| s.to));
-    let mut is_taken = vec![false; stretches.len()];
+    let mut is_taken = vec![false; segments.len()];
     let mut chains = Vec::new();
     let has_before = |s: &CutTriangle| ends.binary_search_by_key(&s.from, |&(at, _)| at).is_ok();
     // Open lines from their beginnings first; what is left are loops.
     for only_beginnings in [true, false] {
-        for (first, stretch) in (0_u32..).zip(stretches) {
-            if is_taken[first as usize] || (only_beginnings && has_before(stretch)) {
+        for (first, segment) in (0_u32..).zip(segments) {
+            if is_taken[first as usize] || (only_beginnings && has_before(segment)) {
                 continue;
             }
             let mut chain = Vec::new();
-            let (mut next, mut end) = (Some(first), stretch.from);
+            let (mut next, mut end) = (Some(first), segment.from);
             while let Some(i) = next {
                 is_taken[i as usize] = true;
                 chain.push(i);
-                end = stretches[i as usize].to;
-                if end == stretch.from {
+                end = segments[i as usize].to;
+                if end == segment.from {
                     break;
                 }
                 let at = starts.partition_point(|&(from, _)| from < end);
                 let following = starts.iter().skip(at).take_while(|&&(from, _)| from == end);
                 next = following.map(|&(_, i)| i).find(|&i| !is_taken[i as usize]);
             }
-            chains.push((chain, end == stretch.from));
+            chains.push((chain, end == segment.from));
         }
     }
     chains
@@ -173,8 +170,8 @@ impl PlaneOf<'_> {
         a.truncate().truncate().lerp(b.truncate().truncate(), along)
     }
 
-    fn contour(&self, stretches: &[CutTriangle], chain: &[u32], is_closed: bool) -> Contour {
-        let of_chain = || chain.iter().filter_map(|&i| stretches.get(i as usize));
+    fn contour(&self, segments: &[CutTriangle], chain: &[u32], is_closed: bool) -> Contour {
+        let of_chain = || chain.iter().filter_map(|&i| segments.get(i as usize));
         let last = of_chain().next_back().filter(|_| !is_closed).map(|s| s.to);
         Contour {
             points: of_chain().map(|s| s.from).chain(last).map(|crossing| self.point(crossing)).collect(),

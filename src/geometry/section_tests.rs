@@ -28,7 +28,7 @@ fn area(mesh: &Mesh, point: DVec3, normal: DVec3) -> f64 {
 }
 
 fn length(contours: &[Contour]) -> f64 {
-    contours.iter().flat_map(Contour::stretches).map(|([a, b], _)| a.distance(b)).sum()
+    contours.iter().flat_map(Contour::segments).map(|([a, b], _)| a.distance(b)).sum()
 }
 
 fn inside_out(mut mesh: Mesh) -> Mesh {
@@ -267,7 +267,7 @@ fn contours_lie_on_the_mesh_and_know_their_triangles() {
     let mesh = primitives::torus(1.0, 0.3, 20, 10);
     let (found, world_from_plane) = cut(&mesh, DVec3::new(0.1, 0.2, 0.05), DVec3::new(0.5, 1.0, 0.3));
     assert!(!found.is_empty());
-    for ([a, b], triangle) in found.iter().flat_map(Contour::stretches) {
+    for ([a, b], triangle) in found.iter().flat_map(Contour::segments) {
         let corners = mesh.corners(mesh.triangles()[triangle as usize]).map(|p| p.as_dvec3());
         let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize();
         for end in [a, b] {

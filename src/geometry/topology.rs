@@ -56,7 +56,7 @@ impl Adjacency {
         let mut edges = vec![Edge::border([0; 2], NO_FACE); chunks.iter().map(|c| c.edge_count).sum()];
         let mut first_edge = vec![edges.len() as u32; mesh.positions.len() + 1];
 
-        // Each chunk fills its own stretch of both arrays.
+        // Each chunk fills its own range of both arrays.
         let mut jobs = Vec::with_capacity(chunks.len());
         let (mut edges_left, mut first_left) = (edges.as_mut_slice(), first_edge.as_mut_slice());
         let mut base = 0;

@@ -42,8 +42,9 @@ pub struct PlacedMesh<'a> {
 /// What counts as a line.
 #[derive(Clone, Copy)]
 pub struct LineRules<'a> {
-    /// Two surfaces that are seen to meet make a crease where they bend by more than this angle, in degrees.
-    pub crease_angle: f64,
+    /// Two surfaces that are seen to meet make a ridge or a valley where they bend by more than this angle, in degrees: twin of the
+    /// thresholds of a style.
+    pub ridge_valley_angle: f64,
     /// The classes that are looked for. Where several apply, the first one of these counts.
     pub classes: &'a [EdgeClass],
     /// Whether a surface has a hole at a point (alpha masks); `None`: nothing has. Holes hide nothing and have no
@@ -62,7 +63,7 @@ impl Default for LineRules<'_> {
             EdgeClass::Valley,
             EdgeClass::Intersection,
         ];
-        Self { crease_angle: 30.0, classes: &CLASSES, is_hole: None }
+        Self { ridge_valley_angle: 30.0, classes: &CLASSES, is_hole: None }
     }
 }
 
@@ -86,7 +87,7 @@ pub struct EdgeSample {
     pub length: f64,
 }
 
-/// A visible stretch of an edge.
+/// A visible part of an edge.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct VisibleSegment {
     /// What kind of line it is.
@@ -113,7 +114,7 @@ impl VisibleSegment {
 pub struct VisibleEdges {
     /// The samples of each class, in the order of [`EdgeClass::ALL`].
     pub samples: [Vec<EdgeSample>; EdgeClass::ALL.len()],
-    /// Visible stretches, edge by edge.
+    /// Visible parts, edge by edge.
     pub segments: Vec<VisibleSegment>,
 }
 
@@ -151,9 +152,9 @@ impl EdgeScene {
     /// The edges that a camera sees.
     pub fn visible(&self, projector: &Projector, rules: &LineRules<'_>) -> VisibleEdges {
         let sight = Sight::new(self, projector, rules);
-        let stretches: Vec<_> = self.edges.par_iter().filter_map(|edge| visible_part(edge, &sight)).collect();
+        let parts: Vec<_> = self.edges.par_iter().filter_map(|edge| visible_part(edge, &sight)).collect();
         let mut visible = VisibleEdges::default();
-        for (samples, segments) in stretches {
+        for (samples, segments) in parts {
             for (class, sample) in samples {
                 visible.samples[class as usize].push(sample);
             }
@@ -178,7 +179,7 @@ impl EdgeScene {
     }
 }
 
-/// Samples and stretches of one edge; `None` if it is no line for this eye or out of the picture.
+/// Samples and visible parts of one edge; `None` if it is no line for this eye or out of the picture.
 fn visible_part(
     edge: &WorldEdge,
     sight: &Sight<'_>,

@@ -97,6 +97,7 @@ impl<'a> Params<'a> {
             head: false,
             span: None,
             former: None,
+            former_value: None,
             slot,
         });
     }
@@ -126,6 +127,13 @@ impl<'a> Params<'a> {
     pub fn moved_from(&mut self, key: &str) {
         if let Some(param) = self.list.last_mut() {
             param.former = Some(key.to_owned());
+        }
+    }
+
+    /// Says how a value of the choice that was declared last was called in files of earlier versions.
+    pub fn former_value(&mut self, former: &'static str, value: impl Into<&'static str>) {
+        if let Some(param) = self.list.last_mut() {
+            param.former_value = Some((former, value.into()));
         }
     }
 

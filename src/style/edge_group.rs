@@ -2,7 +2,7 @@
 
 use super::Color;
 use super::edge_line::{LineFields, LineStyle};
-use super::edge_mode::{DepthOperator, EdgeMode};
+use super::edge_mode::{EdgeMode, EdgeOperator};
 use super::param::Params;
 
 /// One of the two groups of edges.
@@ -18,9 +18,9 @@ pub struct EdgeGroup<More> {
     pub width: f32,
     /// Whether the lines are drawn in dashes. Exact mode.
     pub dashed: bool,
-    /// Ink per unit of discontinuity (1 − I). Paper mode.
+    /// Ink per unit of discontinuity (1 − I). Image-space mode.
     pub gain: f32,
-    /// Ink at or below this share is dropped, the rest is stretched to 0..1. Paper mode.
+    /// Ink at or below this share is dropped, the rest is stretched to 0..1. Image-space mode.
     pub threshold: f32,
     /// What only this group has.
     pub more: More,
@@ -29,7 +29,7 @@ pub struct EdgeGroup<More> {
 /// What the profile group has beyond [`EdgeGroup`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct Profile {
-    /// Ink per unit of C1; takes the place of `gain` with that operator. Paper mode.
+    /// Ink per unit of C1; takes the place of `gain` with that operator. Image-space mode.
     pub gain_c1: f32,
 }
 
@@ -105,7 +105,7 @@ impl EdgeGroup<Profile> {
             dashed: (&mut self.dashed).into(),
         };
         places.declare("Profile edges", "Draw silhouettes, borders and the outlines of objects.", list);
-        list.when("edges.mode", EdgeMode::Paper, |list| {
+        list.when("edges.mode", EdgeMode::ImageSpace, |list| {
             list.when_any("edges.operator", ["diagonal", "c1"], |list| {
                 list.wide_number(
                     "threshold",
@@ -117,7 +117,7 @@ impl EdgeGroup<Profile> {
                     &mut self.threshold,
                 );
             });
-            list.when("edges.operator", DepthOperator::Diagonal, |list| {
+            list.when("edges.operator", EdgeOperator::Diagonal, |list| {
                 list.wide_number(
                     "gain",
                     "Gain",
@@ -128,7 +128,7 @@ impl EdgeGroup<Profile> {
                     &mut self.gain,
                 );
             });
-            list.when("edges.operator", DepthOperator::C1, |list| {
+            list.when("edges.operator", EdgeOperator::C1, |list| {
                 list.wide_number(
                     "gain_c1",
                     "Gain",
@@ -161,7 +161,7 @@ impl EdgeGroup<Inner> {
                 &mut self.more.by_angle,
             );
         });
-        list.when("edges.mode", EdgeMode::Paper, |list| {
+        list.when("edges.mode", EdgeMode::ImageSpace, |list| {
             list.when_any("edges.operator", ["diagonal", "c1"], |list| {
                 list.wide_number(
                     "threshold",

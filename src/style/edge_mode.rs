@@ -8,8 +8,8 @@ choice! {
         /// From the edges of the meshes and from what is in front of what.
         #[default]
         Exact,
-        /// With the operators of the edge-enhancement paper.
-        Paper,
+        /// By operators on the picture's normals, depths and colors, as the edge-enhancement paper does.
+        ImageSpace,
     }
 }
 
@@ -27,8 +27,8 @@ choice! {
 }
 
 choice! {
-    /// Operators of paper mode (edge-enhancement paper, section 4.1.2).
-    pub enum DepthOperator {
+    /// Operators of image-space mode (edge-enhancement paper, section 4.1.2).
+    pub enum EdgeOperator {
         /// Two diagonal pairs: finer edges, softer intensities.
         #[default]
         Diagonal,

@@ -2,7 +2,7 @@
 
 use super::edge_group::{EdgeGroup, Inner, Profile};
 use super::edge_line::{ClassStyle, LineStyle};
-use super::edge_mode::{Alignment, DepthOperator, EdgeMode};
+use super::edge_mode::{Alignment, EdgeMode, EdgeOperator};
 use super::hidden::Hidden;
 use super::param::Params;
 use crate::geometry::EdgeClass;
@@ -16,9 +16,9 @@ pub struct Edges {
     pub alignment: Alignment,
     /// Shorter pieces of lines that nothing continues are left out, in reference pixels; 0: none. Exact mode.
     pub min_length: f32,
-    /// The operator that finds depth discontinuities. Paper mode.
-    pub operator: DepthOperator,
-    /// What Sobel operators look at. Paper mode.
+    /// The operator that finds depth discontinuities. Image-space mode.
+    pub operator: EdgeOperator,
+    /// What Sobel operators look at. Image-space mode.
     pub sobel: Sobel,
     /// Profile edges: silhouettes, borders, the outlines of objects and of sections.
     pub profile: EdgeGroup<Profile>,
@@ -110,7 +110,7 @@ impl Default for Edges {
             mode: EdgeMode::default(),
             alignment: Alignment::default(),
             min_length: 4.0,
-            operator: DepthOperator::default(),
+            operator: EdgeOperator::default(),
             sobel: Sobel::default(),
             profile: EdgeGroup::default(),
             inner: EdgeGroup::default(),
@@ -150,17 +150,18 @@ impl Edges {
         list.choice(
             "mode",
             "Mode",
-            "How edges are found: exactly, or with the operators of the edge-enhancement paper.",
+            "How edges are found: exactly, from the model, or in image space, by operators on the picture.",
             &mut self.mode,
         );
-        list.when("edges.mode", EdgeMode::Paper, |list| {
+        list.former_value("paper", EdgeMode::ImageSpace);
+        list.when("edges.mode", EdgeMode::ImageSpace, |list| {
             list.choice(
                 "operator",
                 "Operator",
                 "How discontinuities are found: two diagonal pairs, eight neighbors (C1), or Sobel operators.",
                 &mut self.operator,
             );
-            list.when("edges.operator", DepthOperator::Sobel, |list| {
+            list.when("edges.operator", EdgeOperator::Sobel, |list| {
                 list.detail("sobel", |list| self.sobel.params(list));
             });
         });
@@ -242,7 +243,7 @@ impl Sobel {
         number(list, "color_threshold", "Color above", 2.0, help, &mut self.color_threshold);
         list.switch(
             "sum",
-            "Cheap gradient",
+            "L1 gradient",
             "Adds the changes in both directions instead of taking the length of both.",
             &mut self.sum,
         );

@@ -83,7 +83,7 @@ impl Gooch {
         list.share("beta", "Warm tint", "Share of the object's own color on the warm side.", &mut self.beta);
         list.share("object_hue", "Object hue", "How far blue and yellow are multiplied by the object's own color: dark and saturated ones keep their hue.", &mut self.object_hue);
         list.formerly("own_hue");
-        list.share("side_light", "Key from side", "How far the key is turned to the side: at 1 it shines across the line of sight and sets faces apart.", &mut self.side_light);
+        list.share("side_light", "Side light", "How far the key is turned to the side: at 1 it shines across the line of sight and sets faces apart.", &mut self.side_light);
         list.formerly("aside");
         list.share(
             "highlight",

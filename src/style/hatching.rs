@@ -116,8 +116,8 @@ choice! {
         /// On the surface: lines that follow the form, always about equally dense.
         #[default]
         Stripes,
-        /// On the paper, turned as the surface says.
-        Paper,
+        /// On the picture, turned as the surface says.
+        ImageSpace,
         /// On the surface, by texture coordinates.
         Uv,
     }
@@ -218,16 +218,17 @@ impl Hatching {
             "How strokes lie on the model or on the picture. Where a model has no texture coordinates there are stripes.",
             &mut self.mapping,
         );
+        list.former_value("paper", Mapping::ImageSpace);
         list.choice(
             "direction",
             "Direction",
             "Where strokes run; without texture coordinates they follow the curvature instead.",
             &mut self.direction,
         );
-        list.when_any("hatching.mapping", ["paper", "uv"], |list| {
+        list.when_any("hatching.mapping", ["image_space", "uv"], |list| {
             list.choice("set", "Strokes", "What the strokes look like.", &mut self.set);
         });
-        list.when("hatching.mapping", Mapping::Paper, |list| {
+        list.when("hatching.mapping", Mapping::ImageSpace, |list| {
             list.wide_number(
                 "turn_step",
                 "Turning step",
@@ -254,7 +255,7 @@ impl Hatching {
             &mut self.paper_tint,
         );
         list.section("stroke", |list| self.stroke.params(list));
-        list.when_any("hatching.mapping", ["paper", "uv"], |list| {
+        list.when_any("hatching.mapping", ["image_space", "uv"], |list| {
             list.when_any("hatching.set", ["own", "painted"], |list| {
                 list.section("own", |list| self.own.params(list));
             });
@@ -302,7 +303,7 @@ impl Stroke {
             list.formerly("chance");
             number(list, "pointedness", "Pointed ends", ("", 0.0..=2.0, 0.0..=2.0), "How far strokes thin out towards their ends; at 0 they are blunt. Ends need so much more darkness than the middle.", &mut self.pointedness);
             list.formerly("pointed");
-            number(list, "late_insertion", "Late insertion", unit.clone(), "How much darker it must be before lines are inserted between others.", &mut self.late_insertion);
+            number(list, "late_insertion", "Insert delay", unit.clone(), "How much darker it must be before lines are inserted between others.", &mut self.late_insertion);
             list.formerly("inserted");
             number(list, "variation", "Variation", unit, "How much widths vary from stroke to stroke.", &mut self.variation);
         });
@@ -330,7 +331,7 @@ impl CrossHatching {
             list.moved_from("hatching.layers.second");
             list.switch(
                 "shadows_cross",
-                "Cross shadows",
+                "Across shadows",
                 "Strokes of the form run on through cast shadows, which others make.",
                 &mut self.shadows_cross,
             );

@@ -41,7 +41,7 @@ choice! {
         Off,
         /// As the visible ones, but paler and narrower.
         Faint,
-        /// The same in dashes; in paper mode, whose edges have no direction, without.
+        /// The same in dashes; in image-space mode, whose edges have no direction, without.
         Dashed,
         /// In a color and width of their own.
         Own,

@@ -134,10 +134,10 @@ impl FieldWeight {
     /// `helps`: what share, offset, slope and power are.
     fn params<'a>(&'a mut self, helps: [&'static str; 4], list: &mut Params<'a>) {
         let [share, offset, slope, power] = helps;
-        list.wide_number("share", "Share", "", 0.0..=1.5, 0.0..=2.0, share, &mut self.share);
+        list.wide_number("share", "Strength", "", 0.0..=1.5, 0.0..=2.0, share, &mut self.share);
         list.wide_number("offset", "Offset", "", 0.5..=2.0, 0.1..=4.0, offset, &mut self.offset);
-        list.wide_number("slope", "Slope", "", 0.0..=20.0, 0.0..=50.0, slope, &mut self.slope);
-        list.wide_number("power", "Power", "", 0.0..=3.0, 0.0..=4.0, power, &mut self.power);
+        list.wide_number("slope", "Falloff rate", "", 0.0..=20.0, 0.0..=50.0, slope, &mut self.slope);
+        list.wide_number("power", "Falloff power", "", 0.0..=3.0, 0.0..=4.0, power, &mut self.power);
     }
 }
 
@@ -163,11 +163,19 @@ impl SilhouetteField {
         list.wide_number("radius", "Radius", "px", 2.0..=60.0, 1.0..=200.0, help, radius);
         let help = "Step off the plane of the surface that is a silhouette, in widths of a px at that depth.";
         list.wide_number("step", "Step", "px", 0.5..=20.0, 0.1..=100.0, help, step);
-        list.wide_number("alpha", "Numerator α", "", 0.0..=4.0, 0.0..=10.0, "α of x = α / (n^β + λ).", alpha);
-        list.wide_number("beta", "Exponent β", "", 0.1..=3.0, 0.1..=4.0, "β of x = α / (n^β + λ).", beta);
+        list.wide_number(
+            "alpha",
+            "Distance scale",
+            "",
+            0.0..=4.0,
+            0.0..=10.0,
+            "α of x = α / (n^β + λ).",
+            alpha,
+        );
+        list.wide_number("beta", "Count exponent", "", 0.1..=3.0, 0.1..=4.0, "β of x = α / (n^β + λ).", beta);
         list.wide_number(
             "lambda",
-            "Denominator λ",
+            "Softening",
             "",
             0.0..=2.0,
             0.0..=10.0,

@@ -41,7 +41,7 @@ pub use blueprint::Blueprint;
 pub use color::Color;
 pub use curve::{Curve, CurveError, Point};
 pub use edge_line::LineStyle;
-pub use edge_mode::{Alignment, DepthOperator, EdgeMode};
+pub use edge_mode::{Alignment, EdgeMode, EdgeOperator};
 pub use edges::Edges;
 pub use gooch::Gooch;
 pub use halftone::Halftone;

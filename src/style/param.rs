@@ -36,6 +36,8 @@ pub struct Param<'a> {
     pub span: Option<&'static str>,
     /// The key that it has in files of earlier versions, where that was another one.
     pub former: Option<String>,
+    /// A value of a choice as files of earlier versions have it, and what it is called now.
+    pub former_value: Option<(&'static str, &'static str)>,
     /// Where the value is.
     pub slot: Slot<'a>,
 }
@@ -183,38 +185,48 @@ pub fn map_paths(params: &mut [Param<'_>], map: impl Fn(&Path) -> PathBuf) {
     }
 }
 
-/// A key of earlier versions and what it is called now.
+/// A key of earlier versions, or with a value `key=value`, and what it is called now.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Renamed {
     /// As it was given.
     pub former: String,
     /// As it is now.
-    pub key: String,
+    pub now: String,
 }
 
 impl std::fmt::Display for Renamed {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "`{}` is now called `{}`; the old name was read as the new one", self.former, self.key)
+        write!(f, "`{}` is now called `{}`; the old name was read as the new one", self.former, self.now)
     }
 }
 
-/// Sets one parameter of a list by its key, or by that of an earlier version, and says so then. What inherits from it follows in
-/// the next list that is made.
+/// Sets one parameter of a list by its key, or by that of an earlier version, and says so then; also where the value is that of an
+/// earlier version. What inherits from it follows in the next list that is made.
 ///
 /// # Errors
 /// [`StyleError::UnknownKey`], or what [`Param::set`] says.
 pub fn set(params: &mut [Param<'_>], key: &str, value: &Value) -> Result<Option<Renamed>, StyleError> {
-    if let Some(param) = params.iter_mut().find(|p| p.key == key) {
-        return param.set(value).map(|()| None);
-    }
-    if let Some(param) = params.iter_mut().find(|p| p.former.as_deref() == Some(key)) {
-        let renamed = Renamed { former: key.to_owned(), key: param.key.clone() };
-        return param.set(value).map(|()| Some(renamed));
-    }
-    Err(StyleError::UnknownKey {
-        key: key.to_owned(),
-        nearest: nearest(key, params.iter().map(|p| p.key.as_str())),
-    })
+    let place = params
+        .iter()
+        .position(|p| p.key == key)
+        .or_else(|| params.iter().position(|p| p.former.as_deref() == Some(key)));
+    let Some(param) = place.and_then(|place| params.get_mut(place)) else {
+        return Err(StyleError::UnknownKey {
+            key: key.to_owned(),
+            nearest: nearest(key, params.iter().map(|p| p.key.as_str())),
+        });
+    };
+    let renamed = match (param.former_value, value) {
+        (Some((former, now)), Value::Text(given)) if given == former => {
+            param.set(&Value::from(now))?;
+            return Ok(Some(Renamed {
+                former: format!("{key}={former}"),
+                now: format!("{}={now}", param.key),
+            }));
+        }
+        _ => (param.key != key).then(|| Renamed { former: key.to_owned(), now: param.key.clone() }),
+    };
+    param.set(value).map(|()| renamed)
 }
 
 /// Leaves only the parameters that matter with the choices as they are.

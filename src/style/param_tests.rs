@@ -112,7 +112,7 @@ fn keys_of_earlier_versions_set_what_they_are_called_now_and_say_so() {
         let (mut old, mut new) = (Style::default(), Style::default());
         assert_eq!(param::set(&mut new.params(), key, value).unwrap(), None);
         let renamed = param::set(&mut old.params(), former, value).unwrap().unwrap();
-        assert_eq!((&renamed.former, &renamed.key), (former, key));
+        assert_eq!((&renamed.former, &renamed.now), (former, key));
         assert_eq!(old, new, "{former}");
 
         let mut read = Style::default();
@@ -125,6 +125,27 @@ fn keys_of_earlier_versions_set_what_they_are_called_now_and_say_so() {
     let mut style = Style::default();
     let declared = style.params().iter().filter(|p| p.former.is_some()).count();
     assert_eq!(declared, all.len(), "every former key is among them");
+}
+
+#[test]
+fn values_of_earlier_versions_are_what_they_are_called_now_and_say_so() {
+    let mut declared = 0;
+    for param in Style::default().params() {
+        let Some((former, now)) = param.former_value else { continue };
+        declared += 1;
+        let key = &param.key;
+        let Slot::Choice(choice) = &param.slot else { panic!("{key} is no choice") };
+        assert!(choice.names().contains(&now) && !choice.names().contains(&former), "{key}");
+        let (mut old, mut new) = (Style::default(), Style::default());
+        set(&mut new, key, now).unwrap();
+        let renamed = param::set(&mut old.params(), key, &Value::from(former)).unwrap().unwrap();
+        assert_eq!((renamed.former, renamed.now), (format!("{key}={former}"), format!("{key}={now}")));
+        assert_eq!(old, new, "{key}");
+        let mut read = Style::default();
+        let renamed = set_from_toml(&mut read.params(), &format!("{key} = {former:?}"), "old.toml").unwrap();
+        assert_eq!((read, renamed.len()), (new, 1), "{key}");
+    }
+    assert_eq!(declared, 2);
 }
 
 #[test]
@@ -238,7 +259,7 @@ fn mistakes_say_what_would_be_right() {
     );
     assert_eq!(
         message("edges.mode", "exakt"),
-        "`edges.mode` takes one of exact, paper, not the text `exakt`"
+        "`edges.mode` takes one of exact, image_space, not the text `exakt`"
     );
     assert_eq!(style, Style::default());
 }
@@ -253,7 +274,7 @@ fn only_what_matters_is_retained() {
     };
     let mut style = Style::default();
     let exact = keys(&style);
-    set(&mut style, "edges.mode", "paper").unwrap();
+    set(&mut style, "edges.mode", "image_space").unwrap();
     let paper = keys(&style);
     let has = |keys: &[String], key: &str| keys.iter().any(|k| k == key);
     for key in ["edges.profile.width", "edges.ridge.threshold", "edges.dash.gap", "edges.alignment"] {

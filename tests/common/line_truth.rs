@@ -15,7 +15,7 @@ use super::line_scenes::Subject;
 /// The ways of finding edges that the program has, of those that are worth measuring.
 pub fn modes() -> Vec<&'static str> {
     let has_modes = Style::default().params().iter().any(|param| param.key == "edges.mode");
-    if has_modes { vec!["paper", "exact"] } else { vec!["paper"] }
+    if has_modes { vec!["image_space", "exact"] } else { vec!["image_space"] }
 }
 
 /// A view of a scene.

@@ -39,7 +39,7 @@ impl Look {
         style.edges.profile.width = 2.0 * REFERENCE;
         // What is fixed to surfaces may depend on what else there is to fix it to.
         // Stripes of a part of a mesh are not those of all of it.
-        (style.hatching.mapping, style.hatching.turn_step) = (Mapping::Paper, 90.0);
+        (style.hatching.mapping, style.hatching.turn_step) = (Mapping::ImageSpace, 90.0);
         style.halftone.space = Space::Screen;
         style.halftone.scale = 4.0 * REFERENCE;
         Self { name: name.to_owned(), kind, style }

@@ -119,7 +119,7 @@ fn pictures_and_objects_of_any_size_are_drawn() {
     let mut bare = rich.clone();
     (bare.edges.profile.show, bare.edges.inner.show) = (false, false);
     let mut by_paper = rich.clone();
-    by_paper.edges.mode = "paper".parse().unwrap();
+    by_paper.edges.mode = "image_space".parse().unwrap();
     let triangle = primitives::from_triangles(vec![Vec3::ZERO, Vec3::X, Vec3::Y], vec![0, 1, 2]);
     let empty = primitives::from_triangles(vec![], vec![]);
     let point = primitives::from_triangles(vec![Vec3::ZERO; 3], vec![0, 1, 2]);

@@ -45,7 +45,7 @@ const WIDE: &[(&str, &str)] = &[("edges.profile.width", "16"), ("edges.inner.wid
 const LINES: [&[(&str, &str)]; 7] = [
     &[],
     &[("edges.profile.width", "24"), ("edges.inner.width", "5")],
-    &[("edges.mode", "paper")],
+    &[("edges.mode", "image_space")],
     THIN,
     &[("edges.dash.length", "30"), ("edges.silhouette.dashed", "true")],
     &[("edges.object_color", "0.6"), ("edges.variation.distance", "0.7"), ("edges.pressure.amount", "0.7")],

@@ -114,7 +114,7 @@ fn ink_of_the_papers_operators_is_fetched_from_beside_as_the_paper_says() {
     let mut opened = things();
     session.set_scene(&opened).unwrap();
     let mut style = on_screen(style("blank"), 24.0, 0.0);
-    style.edges.mode = EdgeMode::Paper;
+    style.edges.mode = EdgeMode::ImageSpace;
     style.sketch.fill.show = false;
     let twin = Twin::new(&style.sketch);
     opened.document.style = style.clone();

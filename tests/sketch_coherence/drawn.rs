@@ -47,7 +47,7 @@ impl Drawn {
         let away = |index: usize| {
             let pixels_off = (f32::from_bits(self.edges[index][2]) + spot.place.at.z) / spot.place.pixel;
             let away = self.spine(index)?.distance(spot.pixel);
-            (away < NEAR && pixels_off.abs() < 4.0 * spot.place.stretch).then_some((away, index))
+            (away < NEAR && pixels_off.abs() < 4.0 * spot.place.foreshortening).then_some((away, index))
         };
         let found = around(x, y, side).filter_map(away).min_by(|a, b| a.0.total_cmp(&b.0));
         found.map(|(_, index)| index)

@@ -134,7 +134,11 @@ impl Pair<'_> {
         sums.add(SURFACE, surface(&eye_before, &before), surface(&eye_after, &after));
         // The place as it is found now, the wave as it was.
         let locked = |object: &GpuFieldObject, spot: &Spot| {
-            let place = NoisePlace { pixel: first.place.pixel, stretch: first.place.stretch, ..spot.place };
+            let place = NoisePlace {
+                pixel: first.place.pixel,
+                foreshortening: first.place.foreshortening,
+                ..spot.place
+            };
             field.line_noise(object, &place, 0)
         };
         sums.add(LOCKED, locked(&eye_before, &before), locked(&eye_after, &after));
@@ -151,6 +155,6 @@ impl Pair<'_> {
 pub(crate) fn on_paper(field: &FieldUniform, object: u32, at: DVec2) -> Vec2 {
     let at = at.as_vec2();
     // A slice through the same noise.
-    let place = NoisePlace { at: Vec3::new(at.x, at.y, 333.3), pixel: 1.0, stretch: 1.0 };
+    let place = NoisePlace { at: Vec3::new(at.x, at.y, 333.3), pixel: 1.0, foreshortening: 1.0 };
     field.line_noise(&GpuFieldObject { from_view: Mat4::IDENTITY, seed: object }, &place, 0)
 }

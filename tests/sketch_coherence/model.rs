@@ -203,18 +203,18 @@ impl Eye {
         // Length on paper of what would be as long if it faced the eye.
         let along = self.view.view_from_world.transform_vector3(along);
         let shortened = (along.truncate() + view.truncate() / depth * along.z).length();
-        let stretch = shortened.recip().clamp(1.0, 4.0) as f32;
-        Some(Spot { place: self.place(pixel, depth as f32, stretch), pixel })
+        let foreshortening = shortened.recip().clamp(1.0, 4.0) as f32;
+        Some(Spot { place: self.place(pixel, depth as f32, foreshortening), pixel })
     }
 
     /// What a pixel of this depth shows, as the shader finds it.
-    pub(crate) fn place(&self, pixel: DVec2, depth: f32, stretch: f32) -> NoisePlace {
+    pub(crate) fn place(&self, pixel: DVec2, depth: f32, foreshortening: f32) -> NoisePlace {
         let ndc = pixel.as_vec2() / self.side as f32 * Vec2::new(2.0, -2.0) + Vec2::new(-1.0, 1.0);
         let at = ndc * self.view.half_extent * depth;
         NoisePlace {
             at: at.extend(-depth),
             pixel: 2.0 * self.view.half_extent.y / self.side as f32 * depth,
-            stretch,
+            foreshortening,
         }
     }
 }

@@ -80,7 +80,7 @@ fn measure_pops(session: &mut Session, models: &[&str], failures: &mut Failures)
                 failures.check(of_all <= most, format!("{name}, {way}: {preset} pops: {of_all:.4}"));
             }
             // What stays on the paper fails, and what is painted on the surface hardly changes.
-            let (paper, frames) = popped(Hatching { mapping: Mapping::Paper, ..Hatching::default() });
+            let (paper, frames) = popped(Hatching { mapping: Mapping::ImageSpace, ..Hatching::default() });
             let locked = frames.each_ref().map(|frame| twins::locked(frame, &frames[0]));
             let [paper, locked] = [paper, pops(&locked[0], &locked[1])].map(|pops| pops.of_all);
             println!(

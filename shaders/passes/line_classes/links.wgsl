@@ -60,7 +60,7 @@ fn opposite_of(place: u32) -> u32 {
 }
 
 // The next pixel of a line.
-struct Link {
+struct PixelLink {
     // Of those around; `OWN`: the line ends here.
     place: u32,
     // Whether the tangent there points backwards.
@@ -74,13 +74,13 @@ struct Link {
 const LINK_BITS: u32 = 10u;
 const CLASS_BITS: u32 = 11u;
 
-fn pack_link(link: Link) -> u32 {
+fn pack_link(link: PixelLink) -> u32 {
     return link.place | (select(0u, 1u, link.is_turned) << 5u) | (u32(round(6.0 * link.distance)) << 6u);
 }
 
-fn unpack_link(texel: u32, side: u32) -> Link {
+fn unpack_link(texel: u32, side: u32) -> PixelLink {
     let bits = texel >> (CLASS_BITS + side * LINK_BITS);
-    return Link(bits & 31u, ((bits >> 5u) & 1u) != 0u, f32((bits >> 6u) & 15u) / 6.0);
+    return PixelLink(bits & 31u, ((bits >> 5u) & 1u) != 0u, f32((bits >> 6u) & 15u) / 6.0);
 }
 
 fn classes_in(texel: u32) -> u32 {

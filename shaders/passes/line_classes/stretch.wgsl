@@ -41,7 +41,7 @@ struct Walk {
     side: u32,
 }
 
-fn advanced(walk: Walk, link: Link) -> Walk {
+fn advanced(walk: Walk, link: PixelLink) -> Walk {
     let px = walk.px + away_of(link.place);
     return Walk(px, textureLoad(link_tex, px, 0).x, walk.side ^ select(0u, 1u, link.is_turned));
 }

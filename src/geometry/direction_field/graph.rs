@@ -8,7 +8,7 @@ use super::cut::{CutMesh, transport};
 
 /// From a vertex to a neighbor.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Link {
+pub(crate) struct Neighbor {
     /// The neighbor.
     pub(crate) to: u32,
     /// How strongly both are coupled: the cotangent weight of Pinkall and Polthier 1993, or what takes its place in
@@ -24,10 +24,10 @@ pub(crate) struct Graph {
     pub(crate) normals: Vec<Vec3>,
     /// Area.
     pub(crate) areas: Vec<f32>,
-    /// `links[first_link[v]..first_link[v + 1]]` are those of `v`, by ascending neighbor.
-    pub(crate) first_link: Vec<u32>,
-    /// All links, each in both directions.
-    pub(crate) links: Vec<Link>,
+    /// `neighbors[first_neighbor[v]..first_neighbor[v + 1]]` are those of `v`, by ascending neighbor.
+    pub(crate) first_neighbor: Vec<u32>,
+    /// All of them: two patches are neighbors of each other, with one weight.
+    pub(crate) neighbors: Vec<Neighbor>,
     /// The patch of the next coarser graph that each is part of, [`NO_PARENT`] if it has no neighbors; empty if there
     /// is no coarser graph.
     pub(crate) parents: Vec<u32>,
@@ -61,20 +61,20 @@ impl Graph {
                 let cotangent = (u.dot(v) / u.cross(v).length()).clamp(-largest, largest);
                 let weight = if cotangent.is_finite() { 0.5 * cotangent } else { 0.0 };
                 let (i, j) = (triangle[(k + 1) % 3], triangle[(k + 2) % 3]);
-                pairs.push((i, Link { to: j, weight }));
-                pairs.push((j, Link { to: i, weight }));
+                pairs.push((i, Neighbor { to: j, weight }));
+                pairs.push((j, Neighbor { to: i, weight }));
             }
         }
-        let (first_link, mut links) = gather_links(cut.len(), &pairs);
-        for link in &mut links {
-            link.weight = link.weight.max(MIN_WEIGHT);
+        let (first_neighbor, mut neighbors) = gather_neighbors(cut.len(), &pairs);
+        for neighbor in &mut neighbors {
+            neighbor.weight = neighbor.weight.max(MIN_WEIGHT);
         }
         Self {
             positions: cut.positions.clone(),
             normals: cut.normals.clone(),
             areas: cut.areas.clone(),
-            first_link,
-            links,
+            first_neighbor,
+            neighbors,
             parents: Vec::new(),
         }
     }
@@ -84,9 +84,9 @@ impl Graph {
         self.positions.len()
     }
 
-    /// Where the links of a patch are.
+    /// Where the neighbors of a patch are.
     pub(crate) fn range(&self, v: usize) -> std::ops::Range<usize> {
-        self.first_link[v] as usize..self.first_link[v + 1] as usize
+        self.first_neighbor[v] as usize..self.first_neighbor[v + 1] as usize
     }
 
     /// The patches that have a parent, each with it.
@@ -95,7 +95,7 @@ impl Graph {
         pairs.filter(|(_, parent)| **parent != NO_PARENT).map(|(v, parent)| (v, *parent as usize))
     }
 
-    /// Turns directions around so that neighbors agree, wherever that is possible. Where it is not, the last links of
+    /// Turns directions around so that neighbors agree, wherever that is possible. Where it is not, the last pairs of
     /// the shortest ways from the first patch of each connected part have one of either kind.
     pub(crate) fn align(&self, directions: &mut [Vec3]) {
         let mut is_done = vec![false; self.len()];
@@ -107,8 +107,8 @@ impl Graph {
             is_done[seed] = true;
             queue.push_back(seed);
             while let Some(v) = queue.pop_front() {
-                for link in &self.links[self.range(v)] {
-                    let to = link.to as usize;
+                for neighbor in &self.neighbors[self.range(v)] {
+                    let to = neighbor.to as usize;
                     if !is_done[to] {
                         is_done[to] = true;
                         let here = transport(directions[to], self.normals[to], self.normals[v]);
@@ -153,29 +153,30 @@ impl Graph {
             if parents[v] != NO_PARENT {
                 continue;
             }
-            let links = &self.links[self.range(v)];
-            if links.is_empty() {
+            let neighbors = &self.neighbors[self.range(v)];
+            if neighbors.is_empty() {
                 continue;
             }
-            let strongest = links.iter().fold(0.0_f32, |s, link| s.max(link.weight));
-            let fits = |link: &&Link| {
-                link.weight >= 0.25 * strongest
-                    && self.normals[v].dot(self.normals[link.to as usize]) > MIN_COSINE
+            let strongest = neighbors.iter().fold(0.0_f32, |s, neighbor| s.max(neighbor.weight));
+            let fits = |neighbor: &&Neighbor| {
+                neighbor.weight >= 0.25 * strongest
+                    && self.normals[v].dot(self.normals[neighbor.to as usize]) > MIN_COSINE
             };
             nearest.clear();
             nearest.extend(
-                links
+                neighbors
                     .iter()
                     .filter(fits)
-                    .filter(|link| parents[link.to as usize] == NO_PARENT)
-                    .map(|link| (link.weight, link.to)),
+                    .filter(|neighbor| parents[neighbor.to as usize] == NO_PARENT)
+                    .map(|neighbor| (neighbor.weight, neighbor.to)),
             );
             nearest.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
             if nearest.is_empty()
-                && let Some(link) = links.iter().filter(fits).max_by(|a, b| a.weight.total_cmp(&b.weight))
+                && let Some(neighbor) =
+                    neighbors.iter().filter(fits).max_by(|a, b| a.weight.total_cmp(&b.weight))
             {
                 // What is left over between patches becomes part of one.
-                parents[v] = parents[link.to as usize];
+                parents[v] = parents[neighbor.to as usize];
                 continue;
             }
             parents[v] = count;
@@ -201,26 +202,27 @@ impl Graph {
             *position /= area;
             *normal = normal.normalize_or(Vec3::Z);
         }
-        // The weight of a link is the length of the border between two patches over the distance of their middles.
-        let mut pairs = Vec::with_capacity(self.links.len());
+        // The weight between neighbors is the length of the border between two patches over the distance of their middles.
+        let mut pairs = Vec::with_capacity(self.neighbors.len());
         for v in 0..self.len() {
-            for link in &self.links[self.range(v)] {
-                let (from, to) = (parents[v], parents[link.to as usize]);
+            for neighbor in &self.neighbors[self.range(v)] {
+                let (from, to) = (parents[v], parents[neighbor.to as usize]);
                 if from != to {
-                    let border = link.weight * self.positions[v].distance(self.positions[link.to as usize]);
+                    let border =
+                        neighbor.weight * self.positions[v].distance(self.positions[neighbor.to as usize]);
                     let distance = positions[from as usize].distance(positions[to as usize]);
-                    let weight = (border / distance.max(1e-30)).min(link.weight * 4.0);
-                    pairs.push((from, Link { to, weight }));
+                    let weight = (border / distance.max(1e-30)).min(neighbor.weight * 4.0);
+                    pairs.push((from, Neighbor { to, weight }));
                 }
             }
         }
-        let (first_link, links) = gather_links(count, &pairs);
-        Self { positions, normals, areas, first_link, links, parents: Vec::new() }
+        let (first_neighbor, neighbors) = gather_neighbors(count, &pairs);
+        Self { positions, normals, areas, first_neighbor, neighbors, parents: Vec::new() }
     }
 }
 
-/// Sorts links by the patch that they come from, and adds up those between the same two.
-fn gather_links(count: usize, pairs: &[(u32, Link)]) -> (Vec<u32>, Vec<Link>) {
+/// Sorts neighbors by the patch that they belong to, and adds up those between the same two.
+fn gather_neighbors(count: usize, pairs: &[(u32, Neighbor)]) -> (Vec<u32>, Vec<Neighbor>) {
     // A counting sort. Counts are kept two places ahead, so that filling leaves the offsets behind.
     let mut offsets = vec![0_u32; count + 2];
     for &(from, _) in pairs {
@@ -229,10 +231,10 @@ fn gather_links(count: usize, pairs: &[(u32, Link)]) -> (Vec<u32>, Vec<Link>) {
     for v in 2..offsets.len() {
         offsets[v] += offsets[v - 1];
     }
-    let mut links = vec![Link { to: 0, weight: 0.0 }; pairs.len()];
-    for &(from, link) in pairs {
+    let mut neighbors = vec![Neighbor { to: 0, weight: 0.0 }; pairs.len()];
+    for &(from, neighbor) in pairs {
         let slot = &mut offsets[from as usize + 1];
-        links[*slot as usize] = link;
+        neighbors[*slot as usize] = neighbor;
         *slot += 1;
     }
     offsets.pop();
@@ -241,13 +243,13 @@ fn gather_links(count: usize, pairs: &[(u32, Link)]) -> (Vec<u32>, Vec<Link>) {
     for v in 0..count {
         let end = offsets[v + 1] as usize;
         // Stable, so that sums do not depend on anything but the order of the triangles.
-        links[begin..end].sort_by_key(|link| link.to);
+        neighbors[begin..end].sort_by_key(|neighbor| neighbor.to);
         let first = kept;
         for k in begin..end {
-            if kept > first && links[kept - 1].to == links[k].to {
-                links[kept - 1].weight += links[k].weight;
+            if kept > first && neighbors[kept - 1].to == neighbors[k].to {
+                neighbors[kept - 1].weight += neighbors[k].weight;
             } else {
-                links[kept] = links[k];
+                neighbors[kept] = neighbors[k];
                 kept += 1;
             }
         }
@@ -257,6 +259,6 @@ fn gather_links(count: usize, pairs: &[(u32, Link)]) -> (Vec<u32>, Vec<Link>) {
     if let Some(last) = offsets.last_mut() {
         *last = kept as u32;
     }
-    links.truncate(kept);
-    (offsets, links)
+    neighbors.truncate(kept);
+    (offsets, neighbors)
 }

@@ -84,23 +84,23 @@ fn turn(from: Vec3, to: Vec3) -> Vec2 {
 struct System<'a> {
     graph: &'a Graph,
     data: &'a Data,
-    /// For each link the factor that takes its end's direction to its start's frame, times its weight.
+    /// For each neighbor the factor that takes its end's direction to its start's frame, times its weight.
     factors: Vec<Vec2>,
     diagonal: Vec<f32>,
 }
 
-/// Vectors are handled in stretches of this many numbers, one after the other where sums must not depend on threads.
+/// Vectors are handled in chunks of this many numbers, one after the other where sums must not depend on threads.
 const CHUNK: usize = 4096;
 
 impl<'a> System<'a> {
     fn new(graph: &'a Graph, data: &'a Data) -> Self {
         let rows: Vec<(usize, f32)> = (0..graph.len())
             .map(|v| {
-                let sum: f32 = graph.links[graph.range(v)].iter().map(|link| link.weight).sum();
+                let sum: f32 = graph.neighbors[graph.range(v)].iter().map(|neighbor| neighbor.weight).sum();
                 (v, sum + data.weights[v])
             })
             .collect();
-        let mut factors = vec![Vec2::ZERO; graph.links.len()];
+        let mut factors = vec![Vec2::ZERO; graph.neighbors.len()];
         let mut rest = factors.as_mut_slice();
         let mut jobs = Vec::new();
         for chunk in rows.chunks(CHUNK) {
@@ -112,8 +112,8 @@ impl<'a> System<'a> {
         jobs.into_par_iter().for_each(|(rows, factors)| {
             let mut factors = factors.iter_mut();
             for v in rows {
-                for (link, factor) in graph.links[graph.range(v)].iter().zip(&mut factors) {
-                    *factor = turn(graph.normals[link.to as usize], graph.normals[v]) * link.weight;
+                for (neighbor, factor) in graph.neighbors[graph.range(v)].iter().zip(&mut factors) {
+                    *factor = turn(graph.normals[neighbor.to as usize], graph.normals[v]) * neighbor.weight;
                 }
             }
         });
@@ -127,8 +127,9 @@ impl<'a> System<'a> {
                 let v = chunk * CHUNK + k;
                 let range = self.graph.range(v);
                 let mut sum = u[v] * self.diagonal[v];
-                for (link, factor) in self.graph.links[range.clone()].iter().zip(&self.factors[range]) {
-                    sum -= u[link.to as usize].rotate(*factor);
+                for (neighbor, factor) in self.graph.neighbors[range.clone()].iter().zip(&self.factors[range])
+                {
+                    sum -= u[neighbor.to as usize].rotate(*factor);
                 }
                 *out = sum;
             }

@@ -8,7 +8,7 @@ use super::crease_angles::CreaseAngles;
 use super::pieces::Piece;
 use super::{FeatureEdges, Traits};
 use crate::geometry::Mesh;
-use crate::geometry::line_chains::{Chains, Link};
+use crate::geometry::line_chains::{ChainEdge, Chains};
 
 /// Cosine of the angle by which a chain may turn at a point: 60°.
 const MAX_TURN: f32 = 0.5;
@@ -59,7 +59,7 @@ impl FeatureEdges {
         let (&traits, &dihedral) = (self.traits.get(edge)?, self.dihedral.get(edge)?);
         let is_hard = !traits.any(Traits::SOFT);
         let kinds = [
-            traits.any(Traits::FAN),
+            traits.any(Traits::NON_MANIFOLD),
             traits.any(Traits::BORDER),
             is_hard && dihedral >= angles.ridge,
             is_hard && dihedral <= -angles.valley,
@@ -73,7 +73,7 @@ impl FeatureChains {
     fn new(all: &FeatureEdges, mesh: &Mesh, angles: CreaseAngles) -> Self {
         let pieces = all.pieces(mesh, angles);
         let edges: Vec<u32> = pieces.iter().map(|piece| piece.edge).collect();
-        let links: Vec<Link> = pieces.iter().map(Piece::link).collect();
+        let links: Vec<ChainEdge> = pieces.iter().map(Piece::chain_edge).collect();
         let leave =
             |half: u32| pieces.get(half as usize >> 1).map_or(Vec3::ZERO, |piece| piece.leave(half & 1));
         let chains = Chains::new(&links, |a, b| leave(a).dot(leave(b)) <= -MAX_TURN);

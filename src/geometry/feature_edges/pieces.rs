@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use crate::geometry::line_chains::Link;
+use crate::geometry::line_chains::ChainEdge;
 
 /// An edge with its ends in space.
 #[derive(Clone, Copy)]
@@ -28,7 +28,7 @@ impl Piece {
         if end == 0 { along } else { -along }
     }
 
-    pub(super) fn link(&self) -> Link {
-        Link { ends: self.vertices.map(Some), kind: self.kind }
+    pub(super) fn chain_edge(&self) -> ChainEdge {
+        ChainEdge { ends: self.vertices.map(Some), kind: self.kind }
     }
 }

@@ -11,7 +11,7 @@ use super::crease_angles::CreaseAngles;
 use super::pieces::Piece;
 use crate::geometry::Mesh;
 use crate::geometry::hand::mix;
-use crate::geometry::line_chains::{ChainLink, Chains, Link, LinkEnd, NO_END, for_each_meeting};
+use crate::geometry::line_chains::{ChainEdge, ChainLink, Chains, LinkEnd, NO_END, for_each_meeting};
 
 /// Cosine of the angle by which a straight line may turn at a point, 1°: finely tessellated arcs turn by more.
 const STRAIGHT: f32 = 0.999_85;
@@ -114,7 +114,7 @@ struct Joints {
 
 impl Joints {
     fn new(pieces: &[Piece]) -> Self {
-        let links: Vec<Link> = pieces.iter().map(Piece::link).collect();
+        let links: Vec<ChainEdge> = pieces.iter().map(Piece::chain_edge).collect();
         let none = vec![NO_END; 2 * links.len()];
         let mut all = Self { straight: none.clone(), smooth: none };
         let leave =

@@ -5,7 +5,7 @@ use glam::DVec3;
 use crate::geometry::{Adjacency, Mesh};
 
 /// A part of an edge with the same triangles on both sides all along.
-pub(super) struct Stretch {
+pub(super) struct SubEdge {
     /// Vertices at its ends.
     pub ends: [u32; 2],
     /// All triangles that meet here.
@@ -36,21 +36,21 @@ pub(super) fn overlaps_by_edge(adjacency: &Adjacency) -> Vec<(u32, u32)> {
     overlaps
 }
 
-/// The stretches of edge `number`, whose overlaps are given, without those shorter than `shortest` (units of the mesh). A
-/// stretch is listed for the first edge that it belongs to.
+/// The sub-edges of edge `number`, whose overlaps are given, without those shorter than `shortest` (units of the mesh). A
+/// sub-edge is listed for the first edge that it belongs to.
 pub(super) fn split(
     mesh: &Mesh,
     adjacency: &Adjacency,
     number: u32,
     overlaps: &[(u32, u32)],
     shortest: f64,
-    out: &mut Vec<Stretch>,
+    out: &mut Vec<SubEdge>,
 ) {
     let position = |v: u32| mesh.positions.get(v as usize).map_or(DVec3::ZERO, |p| p.as_dvec3());
     let Some(own) = adjacency.edges.get(number as usize) else { return };
     let [a, b] = own.vertices.map(position);
     let along = |v: u32| ((position(v) - a).dot(b - a) / a.distance_squared(b)).clamp(0.0, 1.0);
-    // Where stretches may begin and end, and the vertex that is there.
+    // Where sub-edges may begin and end, and the vertex that is there.
     let mut splits: Vec<(f64, u32)> = vec![(1.0, own.vertices[1])];
     let mut others = Vec::with_capacity(overlaps.len());
     for overlap in overlaps.iter().filter_map(|&(_, overlap)| adjacency.overlaps.get(overlap as usize)) {
@@ -78,7 +78,7 @@ pub(super) fn split(
         let here: Vec<&OverlappingEdge> =
             others.iter().filter(|o| o.span[0] <= middle && middle < o.span[1]).collect();
         if here.iter().all(|other| other.edge >= number) {
-            out.push(Stretch {
+            out.push(SubEdge {
                 ends: [start, end],
                 faces: std::iter::once(own.faces[0]).chain(here.iter().map(|other| other.face)).collect(),
                 dihedral: here.first().map_or(0.0, |other| other.dihedral),

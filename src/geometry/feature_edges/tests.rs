@@ -65,17 +65,17 @@ fn walls_that_were_modeled_twice_still_end() {
 }
 
 #[test]
-fn three_walls_at_an_edge_are_a_fan() {
+fn an_edge_of_three_walls_is_not_manifold() {
     let mut positions = vec![Vec3::ZERO, Vec3::Z];
     positions.extend([Vec3::X, Vec3::Y, Vec3::NEG_X]);
     let mesh = primitives::from_triangles(positions, vec![0, 1, 2, 1, 0, 3, 0, 1, 4]);
     let edges = edges_of(&mesh);
-    let fans: Vec<u32> =
-        (0..edges.len() as u32).filter(|&e| edges.traits[e as usize].any(Traits::FAN)).collect();
-    assert_eq!(fans.len(), 1);
-    let faces: Vec<u32> = edges.fan(fans[0]).iter().map(|&(_, face)| face).collect();
+    let found: Vec<u32> =
+        (0..edges.len() as u32).filter(|&e| edges.traits[e as usize].any(Traits::NON_MANIFOLD)).collect();
+    assert_eq!(found.len(), 1);
+    let faces: Vec<u32> = edges.faces_around(found[0]).iter().map(|&(_, face)| face).collect();
     assert_eq!(faces, [0, 1, 2]);
-    assert!(edges.fan(fans[0] + 1).is_empty() && count(&edges, Traits::BORDER) == 6);
+    assert!(edges.faces_around(found[0] + 1).is_empty() && count(&edges, Traits::BORDER) == 6);
 }
 
 /// Two rectangles that meet along x = 0, divided differently there; the second one lies at `angle` to the first.

@@ -14,7 +14,7 @@ pub(super) struct Angles<'a> {
     /// What bends the angles; `None`: they are as they were made.
     placement: Option<DMat3>,
     /// Upper bound of the ratio of the placement's greatest to its least scale.
-    stretch: f64,
+    condition_number: f64,
 }
 
 impl<'a> Angles<'a> {
@@ -28,7 +28,7 @@ impl<'a> Angles<'a> {
         Self {
             mesh,
             placement: (!is_similarity).then_some(linear),
-            stretch: if is_similarity { 1.0 } else { norm(linear) * norm(linear.inverse()) },
+            condition_number: if is_similarity { 1.0 } else { norm(linear) * norm(linear.inverse()) },
         }
     }
 
@@ -37,8 +37,8 @@ impl<'a> Angles<'a> {
         if self.placement.is_none() || angle > std::f32::consts::PI {
             return angle;
         }
-        // A linear map changes the tangents of half-angles by its stretch at most.
-        let local = 2.0 * ((0.5 * f64::from(angle)).tan() / self.stretch).atan();
+        // A linear map changes the tangents of half-angles by its condition number at most.
+        let local = 2.0 * ((0.5 * f64::from(angle)).tan() / self.condition_number).atan();
         if local.is_finite() { 0.999 * local as f32 } else { 0.0 }
     }
 

@@ -12,7 +12,7 @@ use super::segment::{Dashes, LineSegment};
 use super::{Finder, Trace};
 use crate::geometry::feature_edges::chains::FeatureChains;
 use crate::geometry::feature_edges::crease_angles::CreaseAngles;
-use crate::geometry::line_chains::{ChainLink, Chains, Link};
+use crate::geometry::line_chains::{ChainEdge, ChainLink, Chains};
 use crate::geometry::{ClassSet, EdgeClass};
 
 impl Finder<'_> {
@@ -60,13 +60,13 @@ impl Finder<'_> {
     fn measure_outlines(&self, edges: &[(u32, Option<u32>)], period: f64, segments: &mut [LineSegment]) {
         let ends: Vec<Option<[(DVec2, bool); 2]>> =
             edges.iter().map(|&(edge, _)| self.before(edge)).collect();
-        let links: Vec<Link> = edges
+        let links: Vec<ChainEdge> = edges
             .iter()
             .zip(&ends)
             .map(|(&(edge, _), ends)| {
                 let vertices = self.placed.edges.ends.get(edge as usize).copied().unwrap_or_default();
                 let at = |end: usize| ends.is_some_and(|ends| ends[end].1).then_some(vertices[end]);
-                Link { ends: [at(0), at(1)], kind: 0 }
+                ChainEdge { ends: [at(0), at(1)], kind: 0 }
             })
             .collect();
         let chains = Chains::new(&links, |_, _| true);

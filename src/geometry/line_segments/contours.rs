@@ -41,7 +41,7 @@ pub fn contour_segments(
     let dashes = wanted.dashes.filter(|d| d.classes.contains(EdgeClass::Section));
     for contour in placed.contours {
         let scale = dashes.map(|dashes| Lengths::new(contour, &picture, &dashes));
-        for (number, (ends, triangle)) in contour.stretches().enumerate() {
+        for (number, (ends, triangle)) in contour.segments().enumerate() {
             let Some([from, to]) = picture.segment(ends.map(in_plane)) else { continue };
             let surface = placed.edges.surfaces.of_triangle.get(triangle as usize).copied();
             out.push(LineSegment {
@@ -64,7 +64,7 @@ fn in_plane(point: DVec2) -> Vec3 {
 
 /// How long a contour is in the picture up to each of its corners.
 struct Lengths {
-    /// Where each stretch begins in the picture, and the length up to there.
+    /// Where each segment begins in the picture, and the length up to there.
     starts: Vec<(DVec2, f64)>,
     scale: Scale,
 }
@@ -73,7 +73,7 @@ impl Lengths {
     fn new(contour: &Contour, picture: &PictureMap, dashes: &Dashes) -> Self {
         let mut starts = Vec::with_capacity(contour.triangles.len());
         let mut length = 0.0;
-        for (ends, _) in contour.stretches() {
+        for (ends, _) in contour.segments() {
             let [from, to] =
                 picture.before(ends.map(in_plane)).map_or([DVec2::ZERO; 2], |ends| ends.map(|e| e.0));
             starts.push((from, length));
@@ -83,8 +83,8 @@ impl Lengths {
         Self { starts, scale: Scale { anchor: 0.0, around, period: f64::from(dashes.period) } }
     }
 
-    fn arcs(&self, stretch: usize, ends: [DVec2; 2]) -> [f32; 2] {
-        let (start, length) = self.starts.get(stretch).copied().unwrap_or_default();
+    fn arcs(&self, segment: usize, ends: [DVec2; 2]) -> [f32; 2] {
+        let (start, length) = self.starts.get(segment).copied().unwrap_or_default();
         let [from, to] = ends.map(|end| length + start.distance(end));
         // A loop's first length is not its last one.
         self.scale.arcs([from.max(f64::MIN_POSITIVE), to.max(f64::MIN_POSITIVE)])

@@ -65,21 +65,21 @@ impl SegmentSet {
 }
 
 /// As [`super::line_segments()`], with straight creases, borders and material boundaries drawn by a hand. Each such segment
-/// is followed by its strokes; it is itself [`LineSegment::ELSEWHERE`]. `crease_angle` (radians): from it on an edge is
+/// is followed by its strokes; it is itself [`LineSegment::ELSEWHERE`]. `straight_angle` (radians): from it on an edge is
 /// straight or not, whether it is drawn as a crease or as an outline. The view's margin must be at least [`Hand::reach`].
 pub fn draw_strokes(
     placed: &PlacedEdges<'_>,
     view: &LineView,
     wanted: &LineSelection,
     hand: &Hand,
-    crease_angle: f32,
+    straight_angle: f32,
     out: &mut SegmentSet,
 ) {
     out.complete();
     let mut found = Vec::new();
     let Some((finder, trace)) = find_segments(placed, view, wanted, true, &mut found) else { return };
     let asked = |class: EdgeClass, angle: f32| {
-        if wanted.classes.contains(class) { angle.min(crease_angle) } else { crease_angle }
+        if wanted.classes.contains(class) { angle.min(straight_angle) } else { straight_angle }
     };
     let angles = CreaseAngles {
         ridge: asked(EdgeClass::Ridge, wanted.ridge_angle),

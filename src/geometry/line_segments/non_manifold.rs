@@ -11,9 +11,9 @@ const SAME_DIRECTION: f64 = 1e-3;
 /// Sine of the angle to the view up to which a surface counts as seen edge-on.
 const EDGE_ON: f64 = 1e-9;
 
-/// What is seen of a fan.
+/// What is seen of such an edge.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct FanView {
+pub(super) struct NonManifoldView {
     /// The class, if all surfaces are on one side.
     pub outline: Option<EdgeClass>,
     /// Angle between the two surfaces that are seen, positive convex; 0 at a border.
@@ -23,8 +23,8 @@ pub(super) struct FanView {
     pub materials_differ: bool,
 }
 
-/// The fans of one object before an eye.
-pub(super) struct Fans<'a> {
+/// Such edges of one object before an eye.
+pub(super) struct NonManifoldEdges<'a> {
     edges: &'a FeatureEdges,
     mesh: &'a Mesh,
     /// Which meshes are shown.
@@ -33,14 +33,14 @@ pub(super) struct Fans<'a> {
     lens: Lens,
 }
 
-impl<'a> Fans<'a> {
+impl<'a> NonManifoldEdges<'a> {
     pub(super) fn new(placed: &PlacedEdges<'a>, view_from_local: DMat4, lens: Lens) -> Self {
         let PlacedEdges { edges, mesh, shown, .. } = *placed;
         Self { edges, mesh, shown, view_from_local, lens }
     }
 
     /// What is seen of an edge; `None`: nothing, or it has no extent.
-    pub(super) fn look(&self, edge: u32) -> Option<FanView> {
+    pub(super) fn look(&self, edge: u32) -> Option<NonManifoldView> {
         let ends = self.edges.ends.get(edge as usize)?;
         let [a, b] = ends.map(|v| self.view_position(v));
         let (a, b) = (a?, b?);
@@ -56,7 +56,7 @@ impl<'a> Fans<'a> {
         let (mut left, mut right): (Option<(f64, u32)>, Option<(f64, u32)>) = (None, None);
         let mut first: Option<(DVec3, u32)> = None;
         let mut is_fold = false;
-        for &(_, face) in self.edges.fan(edge) {
+        for &(_, face) in self.edges.faces_around(edge) {
             let Some(away) = self.away(face, a, along) else { continue };
             let (other, _) = *first.get_or_insert((away, face));
             is_fold |= other.distance(away) > SAME_DIRECTION;
@@ -73,7 +73,7 @@ impl<'a> Fans<'a> {
         }
         let outline = if is_fold { EdgeClass::Silhouette } else { EdgeClass::Border };
         match (left, right) {
-            (Some((left, one)), Some((right, two))) => Some(FanView {
+            (Some((left, one)), Some((right, two))) => Some(NonManifoldView {
                 outline: None,
                 angle: (left + right - std::f64::consts::PI) as f32,
                 faces: [one, two],
@@ -84,7 +84,7 @@ impl<'a> Fans<'a> {
             }),
             // The other mesh draws it.
             (Some((_, face)), None) | (None, Some((_, face))) if self.border_link(face).is_some() => None,
-            (Some((_, face)), None) | (None, Some((_, face))) => Some(FanView {
+            (Some((_, face)), None) | (None, Some((_, face))) => Some(NonManifoldView {
                 outline: Some(outline),
                 angle: 0.0,
                 faces: [face; 2],
@@ -93,7 +93,7 @@ impl<'a> Fans<'a> {
             (None, None) if is_fold => None,
             (None, None) => {
                 let (_, face) = first?;
-                Some(FanView {
+                Some(NonManifoldView {
                     outline: Some(outline),
                     angle: 0.0,
                     faces: [face; 2],

@@ -169,7 +169,7 @@ fn fans_look_as_they_do() {
     let mesh = primitives::from_triangles(positions, vec![0, 1, 2, 1, 0, 3, 0, 1, 4, 0, 1, 5]);
     let subject = Subject::new(mesh);
     for eye in eyes() {
-        let [_, border, ..] = check("fan", &subject, DMat4::IDENTITY, eye);
+        let [_, border, ..] = check("three leaves", &subject, DMat4::IDENTITY, eye);
         assert!(border > 100);
     }
 }

@@ -1,10 +1,10 @@
-//! Where two borders run along each other: rows of joined stretches, with what lies opposite.
+//! Where two borders run along each other: rows of joined sub-edges, with what lies opposite.
 
 use super::border_points::Tie;
 use super::borders::{Borders, NO_BORDER};
 use super::closure::Closed;
 use super::limits::Limits;
-use super::proximity::{Partner, Stretches};
+use super::proximity::{Partner, SubEdges};
 use super::side::{Side, Step};
 use super::zip::Fit;
 
@@ -20,12 +20,12 @@ const CORNER: f64 = 0.0625;
 /// Unmatched pieces up to this many times the gap are stepped over.
 const STEP: f64 = 3.0;
 
-/// The places on both sides of joined stretches that become one.
-pub(super) fn ties(borders: &Borders, stretches: &Stretches, closed: &Closed, limits: &Limits) -> Vec<Tie> {
+/// The places on both sides of joined sub-edges that become one.
+pub(super) fn ties(borders: &Borders, sub_edges: &SubEdges, closed: &Closed, limits: &Limits) -> Vec<Tie> {
     let mut all =
-        Intervals { borders, stretches, closed, limits, is_done: vec![false; stretches.list.len()] };
+        Intervals { borders, sub_edges, closed, limits, is_done: vec![false; sub_edges.list.len()] };
     let mut ties = Vec::new();
-    for number in 0..stretches.list.len() {
+    for number in 0..sub_edges.list.len() {
         if let Some([side, other]) = all.from(number)
             && let Some(fit) = Fit::of_seam(&side, &other)
         {
@@ -39,20 +39,20 @@ pub(super) fn ties(borders: &Borders, stretches: &Stretches, closed: &Closed, li
 
 struct Intervals<'a> {
     borders: &'a Borders,
-    stretches: &'a Stretches,
+    sub_edges: &'a SubEdges,
     closed: &'a Closed,
     limits: &'a Limits,
     is_done: Vec<bool>,
 }
 
 impl<'a> Intervals<'a> {
-    /// The two sides of the row that begins with a stretch, unless that was seen from the other side.
+    /// The two sides of the row that begins with a sub-edge, unless that was seen from the other side.
     fn from(&mut self, first: usize) -> Option<[Side<'a>; 2]> {
         let first_partner = self.joined(first)?;
         let mut last = (first, first_partner);
         let mut width = first_partner.widest();
-        let mut length = self.stretches.list[first].length(self.borders);
-        let mut edges = vec![self.stretches.list[first].border];
+        let mut length = self.sub_edges.list[first].length(self.borders);
+        let mut edges = vec![self.sub_edges.list[first].border];
         let mut opposite = vec![first_partner.border];
         self.is_done[first] = true;
         let is_reversed = self.direction(first, &first_partner) < 0.0;
@@ -61,21 +61,21 @@ impl<'a> Intervals<'a> {
             && edges.len() + opposite.len() < MAX_EDGES
         {
             self.is_done[number] = true;
-            let border = self.stretches.list[number].border;
+            let border = self.sub_edges.list[number].border;
             if edges.last() != Some(&border) {
                 edges.push(border);
             }
             opposite.extend(passed);
             width = width.max(partner.widest());
-            length += self.stretches.list[number].length(self.borders);
+            length += self.sub_edges.list[number].length(self.borders);
             last = (number, partner);
         }
         let [start, end] = [(first, first_partner, 0), (last.0, last.1, 1)].map(|(number, partner, end)| {
-            let stretch = &self.stretches.list[number];
-            let edge = self.borders.get(stretch.border);
-            let share = stretch.shares[end];
+            let sub_edge = &self.sub_edges.list[number];
+            let edge = self.borders.get(sub_edge.border);
+            let share = sub_edge.shares[end];
             let opposite = self.borders.get(partner.border).nearest(edge.at(share));
-            [self.snap(stretch.border, share, width), self.snap(partner.border, opposite, width)]
+            [self.snap(sub_edge.border, share, width), self.snap(partner.border, opposite, width)]
         });
         if length < SHORTEST * width {
             return None;
@@ -87,37 +87,37 @@ impl<'a> Intervals<'a> {
         ])
     }
 
-    /// The partner of a stretch that is joined and not part of a row yet.
+    /// The partner of a sub-edge that is joined and not part of a row yet.
     fn joined(&self, number: usize) -> Option<Partner> {
         let is_wanted = self.closed.is_closed[number] && !self.is_done[number];
-        self.stretches.list[number].partner.filter(|_| is_wanted)
+        self.sub_edges.list[number].partner.filter(|_| is_wanted)
     }
 
-    /// Cosine of the angle between a stretch's edge and its partner.
+    /// Cosine of the angle between a sub-edge's edge and its partner.
     fn direction(&self, number: usize, partner: &Partner) -> f64 {
-        let edge = self.borders.get(self.stretches.list[number].border);
+        let edge = self.borders.get(self.sub_edges.list[number].border);
         edge.direction.dot(self.borders.get(partner.border).direction)
     }
 
-    /// The stretch with which the row goes on, and the edges on the other side that come with it.
+    /// The sub-edge with which the row goes on, and the edges on the other side that come with it.
     fn next(&self, number: usize, partner: &Partner, is_reversed: bool) -> Option<(usize, Vec<u32>)> {
         let mut number = number;
         let mut unmatched = 0.0;
         loop {
-            let border = self.stretches.list[number].border;
+            let border = self.sub_edges.list[number].border;
             number += 1;
-            if number == self.stretches.of(border).end {
+            if number == self.sub_edges.of(border).end {
                 let next = self.borders.next[border as usize];
-                if next == NO_BORDER || self.stretches.of(next).is_empty() {
+                if next == NO_BORDER || self.sub_edges.of(next).is_empty() {
                     return None;
                 }
-                number = self.stretches.of(next).start;
+                number = self.sub_edges.of(next).start;
             }
             if let Some(next) = self.joined(number) {
                 let passed = self.passed(partner.border, next.border, is_reversed)?;
                 return ((self.direction(number, &next) < 0.0) == is_reversed).then_some((number, passed));
             }
-            unmatched += self.stretches.list[number].length(self.borders);
+            unmatched += self.sub_edges.list[number].length(self.borders);
             if self.is_done[number] || unmatched > STEP * partner.gap.max(self.limits.spacing) {
                 return None;
             }
@@ -131,7 +131,7 @@ impl<'a> Intervals<'a> {
         let mut at = from;
         while at != to {
             at = links[at as usize];
-            if at == NO_BORDER || passed.len() == MAX_PASSED || self.stretches.of(at).is_empty() {
+            if at == NO_BORDER || passed.len() == MAX_PASSED || self.sub_edges.of(at).is_empty() {
                 return None;
             }
             passed.push(at);
@@ -147,7 +147,7 @@ impl<'a> Intervals<'a> {
         if self.limits.is_same_place((share - end).abs() * length, width, length) { end } else { share }
     }
 
-    /// Notes the stretches on the other side, so that no row begins there.
+    /// Notes the sub-edges on the other side, so that no row begins there.
     fn finish_opposite(&mut self, edges: &[u32], start: f64, end: f64, is_reversed: bool) {
         for (k, &edge) in edges.iter().enumerate() {
             let [mut low, mut high] = [0.0, 1.0];
@@ -157,8 +157,8 @@ impl<'a> Intervals<'a> {
             if k + 1 == edges.len() {
                 *(if is_reversed { &mut low } else { &mut high }) = end;
             }
-            for number in self.stretches.of(edge) {
-                let [from, to] = self.stretches.list[number].shares;
+            for number in self.sub_edges.of(edge) {
+                let [from, to] = self.sub_edges.list[number].shares;
                 let middle = from.midpoint(to);
                 self.is_done[number] |= low <= middle && middle <= high;
             }

@@ -17,7 +17,7 @@ const DEPTH: f64 = 0.5;
 
 /// A part of a border edge that has one nearest partner, or none.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Stretch {
+pub(super) struct SubEdge {
     pub(super) border: u32,
     /// Where it begins and ends, as shares of the edge.
     pub(super) shares: [f64; 2],
@@ -28,11 +28,11 @@ pub(super) struct Stretch {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Partner {
     pub(super) border: u32,
-    /// Distance to it from the middle of the stretch.
+    /// Distance to it from the middle of the sub-edge.
     pub(super) gap: f64,
-    /// Distances to it from both ends of the stretch.
+    /// Distances to it from both ends of the sub-edge.
     pub(super) end_gaps: [f64; 2],
-    /// By how much the two sides are apart along their conormals, from the middle of the stretch; negative where they
+    /// By how much the two sides are apart along their conormals, from the middle of the sub-edge; negative where they
     /// overlap.
     pub(super) opening: f64,
 }
@@ -44,7 +44,7 @@ impl Partner {
     }
 }
 
-impl Stretch {
+impl SubEdge {
     /// Length in units of the mesh.
     pub(super) fn length(&self, borders: &Borders) -> f64 {
         (self.shares[1] - self.shares[0]) * borders.get(self.border).length
@@ -55,30 +55,30 @@ impl Stretch {
     }
 }
 
-/// The stretches of all open border edges.
-pub(super) struct Stretches {
-    pub(super) list: Vec<Stretch>,
-    /// Stretches of border edge `b` are `list[first[b]..first[b + 1]]`; joined edges have none.
+/// The sub-edges of all open border edges.
+pub(super) struct SubEdges {
+    pub(super) list: Vec<SubEdge>,
+    /// Sub-edges of border edge `b` are `list[first[b]..first[b + 1]]`; joined edges have none.
     first: Vec<u32>,
 }
 
-impl Stretches {
+impl SubEdges {
     /// Finds the partners, with all tests but that for closure.
     pub(super) fn new(borders: &Borders, open: &Open, limits: &Limits) -> Self {
         let segments: Vec<[DVec3; 3]> =
             open.edges.iter().map(|&e| borders.get(e).positions).map(|[a, b]| [a, b, b]).collect();
         let tree = Bvh::new(&segments);
-        let found: Vec<Vec<Stretch>> = open
+        let found: Vec<Vec<SubEdge>> = open
             .edges
             .par_iter()
             .map_init(Vec::new, |candidates, &edge| {
                 near(borders, open, &tree, edge, limits, candidates);
-                stretches(borders, edge, candidates)
+                sub_edges(borders, edge, candidates)
             })
             .collect();
         let mut first = vec![0; borders.list.len() + 1];
-        for (&edge, stretches) in open.edges.iter().zip(&found) {
-            first[edge as usize + 1] = stretches.len() as u32;
+        for (&edge, sub_edges) in open.edges.iter().zip(&found) {
+            first[edge as usize + 1] = sub_edges.len() as u32;
         }
         for b in 1..first.len() {
             first[b] += first[b - 1];
@@ -88,7 +88,7 @@ impl Stretches {
         all
     }
 
-    /// Indices of the stretches of a border edge.
+    /// Indices of the sub-edges of a border edge.
     pub(super) fn of(&self, border: u32) -> std::ops::Range<usize> {
         self.first[border as usize] as usize..self.first[border as usize + 1] as usize
     }
@@ -98,15 +98,17 @@ impl Stretches {
         let is_mutual: Vec<bool> = self
             .list
             .par_iter()
-            .map(|stretch| stretch.partner.is_some_and(|partner| self.leads_back(borders, stretch, &partner)))
+            .map(|sub_edge| {
+                sub_edge.partner.is_some_and(|partner| self.leads_back(borders, sub_edge, &partner))
+            })
             .collect();
-        for (stretch, is_mutual) in self.list.iter_mut().zip(is_mutual) {
-            stretch.partner = stretch.partner.filter(|_| is_mutual);
+        for (sub_edge, is_mutual) in self.list.iter_mut().zip(is_mutual) {
+            sub_edge.partner = sub_edge.partner.filter(|_| is_mutual);
         }
     }
 
-    fn leads_back(&self, borders: &Borders, stretch: &Stretch, partner: &Partner) -> bool {
-        let middle = stretch.middle(borders);
+    fn leads_back(&self, borders: &Borders, sub_edge: &SubEdge, partner: &Partner) -> bool {
+        let middle = sub_edge.middle(borders);
         let other = borders.get(partner.border);
         let share = other.nearest(middle);
         let opposite = &self.list[self.of(partner.border)];
@@ -114,7 +116,7 @@ impl Stretches {
         let Some(back) = opposite.and_then(|s| s.partner) else { return false };
         let returned = borders.get(back.border);
         let place = returned.at(returned.nearest(other.at(share)));
-        back.border == stretch.border || place.distance(middle) <= 2.0 * (partner.gap + back.gap)
+        back.border == sub_edge.border || place.distance(middle) <= 2.0 * (partner.gap + back.gap)
     }
 }
 
@@ -182,7 +184,7 @@ fn closest(a: &Border, b: &Border) -> (f64, f64) {
     distances.into_iter().min_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((0.0, f64::INFINITY))
 }
 
-fn stretches(borders: &Borders, edge: u32, candidates: &[Candidate]) -> Vec<Stretch> {
+fn sub_edges(borders: &Borders, edge: u32, candidates: &[Candidate]) -> Vec<SubEdge> {
     let border = borders.get(edge);
     let mut cuts = vec![0.0, 1.0];
     cuts.extend(candidates.iter().flat_map(|c| [c.shares[0], c.shares[1], c.closest]));
@@ -190,19 +192,19 @@ fn stretches(borders: &Borders, edge: u32, candidates: &[Candidate]) -> Vec<Stre
     cuts.dedup_by(|a, b| *a - *b < 1e-9);
     let whole = [0.0, 1.0];
     if cuts.len() < 2 {
-        return vec![Stretch { border: edge, shares: whole, partner: None }];
+        return vec![SubEdge { border: edge, shares: whole, partner: None }];
     }
     let last = cuts.len() - 1;
     cuts[last] = 1.0;
     cuts.windows(2)
         .map(|ends| {
             let shares = [ends[0], ends[1]];
-            Stretch { border: edge, shares, partner: partner(borders, border, shares, candidates) }
+            SubEdge { border: edge, shares, partner: partner(borders, border, shares, candidates) }
         })
         .collect()
 }
 
-/// The nearest candidate at the middle of a stretch, if nothing but the triangles' own material is on the way.
+/// The nearest candidate at the middle of a sub-edge, if nothing but the triangles' own material is on the way.
 fn partner(
     borders: &Borders,
     border: &Border,

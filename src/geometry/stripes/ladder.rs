@@ -12,7 +12,7 @@ use crate::geometry::direction_field::graph::Graph;
 
 /// Levels that are solved on coarse graphs first.
 const COARSE_LEVELS: usize = 5;
-/// Links of the coarsest graph on which a level is solved are at most this many cycles long.
+/// Edges of the coarsest graph on which a level is solved are at most this many cycles long.
 const LONGEST_STEP: f32 = 0.4;
 /// Sweeps over the finest graph, over coarser ones, and over the one to begin with.
 const SWEEPS: usize = 20;
@@ -130,11 +130,11 @@ fn spread(track: &Track<'_>) -> Vec<Wave> {
         queue.push_back(seed);
         while let Some(v) = queue.pop_front() {
             let wave = waves[v].unwrap_or(Wave::ONE);
-            for (link, rail) in graph.links[graph.range(v)].iter().zip(&track.rails[graph.range(v)]) {
-                let neighbor = &mut waves[link.to as usize];
-                if neighbor.is_none() {
-                    *neighbor = Some(rail.on(&wave));
-                    queue.push_back(link.to as usize);
+            for (end, rail) in graph.neighbors[graph.range(v)].iter().zip(&track.rails[graph.range(v)]) {
+                let wave_there = &mut waves[end.to as usize];
+                if wave_there.is_none() {
+                    *wave_there = Some(rail.on(&wave));
+                    queue.push_back(end.to as usize);
                 }
             }
         }
@@ -150,9 +150,9 @@ fn swept(track: &Track<'_>, waves: &[Wave], targets: Option<&[Wave]>, pull: f32)
         let range = graph.range(v);
         let mut sum = Wave::ZERO;
         let mut total = 0.0;
-        for (link, rail) in graph.links[range.clone()].iter().zip(&track.rails[range]) {
-            sum.add_scaled(&rail.back(&waves[link.to as usize]), link.weight);
-            total += link.weight;
+        for (neighbor, rail) in graph.neighbors[range.clone()].iter().zip(&track.rails[range]) {
+            sum.add_scaled(&rail.back(&waves[neighbor.to as usize]), neighbor.weight);
+            total += neighbor.weight;
         }
         if let Some(targets) = targets {
             sum.add_scaled(&targets[v], (pull * graph.areas[v]).min(MAX_PULL * total.max(1e-30)));

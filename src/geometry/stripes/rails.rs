@@ -103,7 +103,7 @@ impl Rail {
     fn new(from: DirectedPoint, to: DirectedPoint, frequency: f32) -> Self {
         let DirectedPoint { position: p, normal: n, direction: d } = from;
         let DirectedPoint { position: to_p, normal: to_n, direction: to_d } = to;
-        // The same for both directions of a link, bit for bit.
+        // The same for both directions between neighbors, bit for bit.
         let sign = if (p.x, p.y, p.z) <= (to_p.x, to_p.y, to_p.z) {
             sign(d, n, to_d, to_n)
         } else {
@@ -127,14 +127,14 @@ impl Rail {
     }
 }
 
-/// A graph, and the rails of all its links at one frequency.
+/// A graph, and the rails between all neighbors at one frequency.
 pub(super) struct Track<'a> {
     pub(super) graph: &'a Graph,
-    /// One for each link.
+    /// One for each neighbor.
     pub(super) rails: Vec<Rail>,
     /// From each patch to the one of the coarser graph that it is part of.
     pub(super) to_parent: Vec<Rail>,
-    /// Mean length of the links.
+    /// Mean distance of neighbors.
     pub(super) step: f32,
 }
 
@@ -149,16 +149,18 @@ impl<'a> Track<'a> {
                 .into_par_iter()
                 .with_min_len(1024)
                 .flat_map_iter(|v| {
-                    let links = &graph.links[graph.range(v)];
-                    links.iter().map(move |link| Rail::new(at(v), at(link.to as usize), frequency))
+                    let neighbors = &graph.neighbors[graph.range(v)];
+                    neighbors
+                        .iter()
+                        .map(move |neighbor| Rail::new(at(v), at(neighbor.to as usize), frequency))
                 })
                 .collect();
             let lengths = (0..graph.len()).flat_map(|v| {
-                graph.links[graph.range(v)]
+                graph.neighbors[graph.range(v)]
                     .iter()
                     .map(move |l| graph.positions[v].distance(graph.positions[l.to as usize]))
             });
-            let step = lengths.sum::<f32>() / graph.links.len().max(1) as f32;
+            let step = lengths.sum::<f32>() / graph.neighbors.len().max(1) as f32;
             let mut coarser = Vec::new();
             let mut to_parent = Vec::new();
             if let Some(coarse) = graphs.get(level + 1) {

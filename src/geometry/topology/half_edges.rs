@@ -18,7 +18,7 @@ pub(super) struct HalfEdges {
     pub(super) collapsed: Vec<u32>,
 }
 
-/// A stretch of buckets that one thread works on.
+/// A range of buckets that one thread works on.
 pub(super) struct Chunk {
     pub(super) vertices: std::ops::Range<usize>,
     pub(super) edge_count: usize,
@@ -66,7 +66,7 @@ impl HalfEdges {
         &self.entries[self.offsets[v] as usize..self.offsets[v + 1] as usize]
     }
 
-    /// Sorts every bucket, and counts the edges of stretches of about equal work.
+    /// Sorts every bucket, and counts the edges of ranges of about equal work.
     pub(super) fn sorted_chunks(&mut self) -> Vec<Chunk> {
         let vertex_count = self.offsets.len() - 1;
         let wanted = rayon::current_num_threads() * 8;

@@ -123,9 +123,9 @@ fn at_t_junctions_the_surface_goes_on() {
                 (0.5 * (s.ends[0].x + s.ends[1].x) - x).abs() < 5.0
             };
             EdgeClass::ALL.map(|class| {
-                let stretches =
+                let visible =
                     visible.segments.iter().filter(|s| s.class == class).filter(on_it).filter(middle);
-                stretches.map(|s| s.world_length()).sum::<f64>()
+                visible.map(|s| s.world_length()).sum::<f64>()
             })
         };
         assert_eq!(inner(0.0), [0.0; EdgeClass::ALL.len()], "flat");

@@ -11,7 +11,7 @@ const SAME_DIRECTION: f64 = 1e-3;
 /// Sine of the angle to the view up to which a surface counts as seen edge-on.
 const EDGE_ON: f64 = 1e-9;
 
-/// An edge in world space, or a stretch of one.
+/// An edge in world space, or a sub-edge of one.
 #[derive(Debug, Clone)]
 pub(super) struct WorldEdge {
     pub ends: [DVec3; 2],
@@ -80,7 +80,7 @@ impl WorldEdge {
         let off_surface = match (left, right) {
             (Some((left, left_material)), Some((right, right_material))) => {
                 let bend = left + right - std::f64::consts::PI;
-                let crease = rules.crease_angle.to_radians();
+                let crease = rules.ridge_valley_angle.to_radians();
                 let candidates = [
                     (!self.is_soft && bend > crease, EdgeClass::Ridge),
                     (!self.is_soft && bend < -crease, EdgeClass::Valley),
@@ -115,7 +115,7 @@ pub(super) fn edges_of(placed: &PlacedMesh<'_>, triangles: &[[DVec3; 3]], first:
         let own_overlaps = split_front(&mut overlaps, |&(e, _)| e <= number);
         let own_faces = split_front(&mut non_manifold, |&(e, _)| e <= number);
         if !own_overlaps.is_empty() {
-            gatherer.stretches(number, own_overlaps, &mut edges);
+            gatherer.sub_edges(number, own_overlaps, &mut edges);
             continue;
         }
         let faces: Vec<(u32, u32)> = match edge.kind {
@@ -157,9 +157,9 @@ impl Gatherer<'_> {
         Some(edge.vertices.map(|v| self.placed.mesh.positions[v as usize].as_dvec3()))
     }
 
-    /// A border edge that others lie on (T-junctions), cut where one of them begins or ends. Each stretch is added
+    /// A border edge that others lie on (T-junctions), cut where one of them begins or ends. Each sub-edge is added
     /// by the first edge that it belongs to.
-    fn stretches(&self, number: u32, overlaps: &[(u32, u32)], edges: &mut Vec<WorldEdge>) {
+    fn sub_edges(&self, number: u32, overlaps: &[(u32, u32)], edges: &mut Vec<WorldEdge>) {
         let Some([a, b]) = self.ends(number) else { return };
         let adjacency = self.placed.adjacency;
         let on_edge = |p: DVec3| ((p - a).dot(b - a) / a.distance_squared(b)).clamp(0.0, 1.0);

@@ -80,7 +80,7 @@ pub(super) fn priorities(side: usize, touches: &[Touch]) -> Vec<Priority> {
 fn nearest_steps(touches: &[Touch]) -> [Step; 2] {
     let amount = |i: usize| touches.get(i).map_or(1.0, |touch| touch.amount);
     let all = touches.last().map_or(0.0, |touch| touch.ink);
-    // Ink of all touches up to one, over the amounts; differences of it let any stretch be asked for.
+    // Ink of all touches up to one, over the amounts; differences of it let any interval be asked for.
     let mut areas = vec![0.0f32];
     for (i, touch) in touches.iter().enumerate() {
         let before = areas.last().copied().unwrap_or_default();
@@ -88,7 +88,7 @@ fn nearest_steps(touches: &[Touch]) -> [Step; 2] {
     }
     let area =
         |from: usize, to: usize| areas.get(from).zip(areas.get(to)).map_or(0.0, |(from, to)| to - from);
-    // By how much an ink all over a stretch of amounts lessens the squared error.
+    // By how much an ink all over an interval of amounts lessens the squared error.
     let gain =
         |ink: f32, [from, to]: [usize; 2]| ink * (2.0 * area(from, to) - ink * (amount(to) - amount(from)));
     let count = touches.len();

@@ -4,7 +4,7 @@ use encase::ShaderType;
 use glam::Vec3;
 
 use crate::geometry::EdgeClass;
-use crate::style::{Color, DepthOperator, EdgeMode, Edges, HiddenMode};
+use crate::style::{Color, EdgeMode, EdgeOperator, Edges, HiddenMode};
 
 /// Twin of `LineStyle` in `shaders/common/edge_style.wgsl`.
 #[derive(Debug, Clone, Copy, PartialEq, ShaderType, Default)]
@@ -46,7 +46,7 @@ pub struct GpuEdgeStyle {
     /// Thinner by hand pressure.
     pub pressure: f32,
     pressure_scale: f32,
-    /// Paper mode: ink per unit of the depth discontinuity of the diagonal operator, `1 − I_Z`; 0: no profile edges.
+    /// Image-space mode: ink per unit of the depth discontinuity of the diagonal operator, `1 − I_Z`; 0: no profile edges.
     gain_z: f32,
     /// The same of the C1 operator, in place of `gain_z`: ink per unit of C1.
     gain_c1: f32,
@@ -75,9 +75,9 @@ pub struct GpuEdgeStyle {
 
 // As in `shaders/common/edge_style.wgsl`.
 const EXACT: u32 = 1;
-const PAPER: u32 = 2;
-const C1: u32 = DepthOperator::C1 as u32;
-const SOBEL: u32 = DepthOperator::Sobel as u32;
+const IMAGE_SPACE: u32 = 2;
+const C1: u32 = EdgeOperator::C1 as u32;
+const SOBEL: u32 = EdgeOperator::Sobel as u32;
 
 /// The width of a line, px of a picture with this many pixels per reference pixel. Where the picture is so small that lines
 /// would fade away they keep some ink, in proportion to each other.
@@ -110,7 +110,7 @@ impl GpuEdgeStyle {
             lines,
             mode: match edges.mode {
                 EdgeMode::Exact => EXACT,
-                EdgeMode::Paper => PAPER,
+                EdgeMode::ImageSpace => IMAGE_SPACE,
             },
             alignment: edges.alignment as u32,
             dash_period: (length + gap) * scale,
@@ -210,7 +210,7 @@ impl GpuEdgeStyle {
     /// Whether shading normals decide where its lines run or how wide they are.
     pub fn reads_normals(&self) -> bool {
         let classes = [EdgeClass::Intersection, EdgeClass::Relief];
-        self.is_paper() || self.by_light > 0.0 || classes.into_iter().any(|class| self.draws(class))
+        self.is_image_space() || self.by_light > 0.0 || classes.into_iter().any(|class| self.draws(class))
     }
 
     /// Whether its lines take the color of the surface beside them.
@@ -220,7 +220,7 @@ impl GpuEdgeStyle {
 
     /// Whether base colors decide where its lines run or what color they have.
     pub fn reads_color(&self) -> bool {
-        self.takes_object_color() || self.draws(EdgeClass::Texture) || self.is_paper_with_color()
+        self.takes_object_color() || self.draws(EdgeClass::Texture) || self.is_image_space_with_color()
     }
 
     /// Whether the width of its lines varies.
@@ -229,27 +229,27 @@ impl GpuEdgeStyle {
     }
 
     /// Whether the papers' operators draw.
-    pub fn is_paper(&self) -> bool {
+    pub fn is_image_space(&self) -> bool {
         let (profile, inner) = match self.found_by {
             C1 => (self.gain_c1, self.gain_n),
             SOBEL => (self.by_sign as f32 + self.depth_gradient, self.normal_gradient + self.color_gradient),
             _ => (self.gain_z, self.gain_n),
         };
-        self.mode == PAPER && (profile * self.profile_opacity > 0.0 || inner * self.inner_opacity > 0.0)
+        self.mode == IMAGE_SPACE && (profile * self.profile_opacity > 0.0 || inner * self.inner_opacity > 0.0)
     }
 
     /// Whether the papers' operators draw by the C1 operator.
     pub fn is_c1(&self) -> bool {
-        self.is_paper() && self.found_by == C1
+        self.is_image_space() && self.found_by == C1
     }
 
     /// Whether the papers' operators draw by Sobel operators.
     pub fn is_sobel(&self) -> bool {
-        self.is_paper() && self.found_by == SOBEL
+        self.is_image_space() && self.found_by == SOBEL
     }
 
     /// Whether the papers' operators compare base colors.
-    pub fn is_paper_with_color(&self) -> bool {
+    pub fn is_image_space_with_color(&self) -> bool {
         self.is_sobel() && self.color_gradient * self.inner_opacity > 0.0
     }
 

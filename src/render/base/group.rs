@@ -163,7 +163,7 @@ impl Group {
 
     /// Whether any of them has lines.
     pub fn have_lines(&self) -> bool {
-        self.edge_styles.iter().any(|s| s.is_exact() || s.is_paper())
+        self.edge_styles.iter().any(|s| s.is_exact() || s.is_image_space())
     }
 
     /// Greatest distance from its spine at which a line has ink, px.

@@ -73,7 +73,7 @@ pub struct GpuHatchingStyle {
 
 // As in `shaders/effects/hatching.wgsl`.
 const STRIPES: u32 = 1;
-const ON_PAPER: u32 = 2;
+const IN_IMAGE_SPACE: u32 = 2;
 const BY_UV: u32 = 3;
 /// Spacing at which a texel of a tonal art map is as large as a reference pixel, reference pixels.
 const SPACING_OF_TEXELS: f32 = 6.0;
@@ -136,7 +136,7 @@ impl Hatchings {
             Mapping::Uv if object.scene.has_uvs(object.node) => BY_UV,
             Mapping::Stripes | Mapping::Uv if place.is_some() => STRIPES,
             // Until stripes are found.
-            Mapping::Stripes | Mapping::Uv | Mapping::Paper => ON_PAPER,
+            Mapping::Stripes | Mapping::Uv | Mapping::ImageSpace => IN_IMAGE_SPACE,
         };
         let uniform = GpuHatchingStyle {
             strokes: self.number_of(style, style.set, object),
@@ -309,7 +309,7 @@ impl SurfaceTechnique for HatchingShading {
             ("WITH_HATCHING", !hatchings.styles.is_empty()),
             ("WITH_STRIPES", is_mapped(STRIPES)),
             // Caps of sections too.
-            ("WITH_STROKES_ON_PAPER", is_mapped(ON_PAPER) || hatchings.has_caps),
+            ("WITH_IMAGE_SPACE_STROKES", is_mapped(IN_IMAGE_SPACE) || hatchings.has_caps),
             ("WITH_STROKES_BY_UV", is_mapped(BY_UV)),
             ("SHOWS_DETAIL", hatchings.styles.iter().any(|s| s.shows_detail == 1)),
             ("WITH_INDICATION", hatchings.styles.iter().any(|s| s.indication.amount > 0.0)),

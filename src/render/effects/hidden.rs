@@ -44,7 +44,7 @@ struct Band {
 impl Hidden {
     /// Adds the hidden lines of an object, if it has any, in a scene with `count` object ids.
     pub fn add(&mut self, count: usize, id: usize, style: GpuEdgeStyle, hidden: &style::Hidden) {
-        if !style.is_exact() && !style.is_paper() {
+        if !style.is_exact() && !style.is_image_space() {
             return;
         }
         let least = hidden.min_coverage;

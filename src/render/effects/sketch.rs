@@ -290,7 +290,7 @@ impl SketchState {
             self.enlarged.clear();
             return Ok(None);
         }
-        let [lines, fill] = uniforms::bands(&sketch.style, sketch.scale);
+        let [lines, fill] = uniforms::reaches(&sketch.style, sketch.scale);
         // No less than the largest offset, or there were none for it.
         let px = uniforms::enlarged(&sketch.style, sketch.scale).max(lines).max(fill);
         let Self { layer, enlarged, instance_buffer, .. } = self;

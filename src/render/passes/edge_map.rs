@@ -2,7 +2,7 @@
 //!
 //! Exact mode is a hybrid. Silhouettes, borders, creases and material boundaries come from topology, as segments that
 //! are tested against the G-buffer; what topology does not know (intersections, outlines of holes) is found where
-//! neighboring pixels show different surfaces; details are found within surfaces. Paper mode is the papers' operators. See `common/edge_map.wgsl`.
+//! neighboring pixels show different surfaces; details are found within surfaces. Image-space mode is the papers' operators. See `common/edge_map.wgsl`.
 
 use super::gbuffer::GBuffer;
 use super::operators::paper_edges;
@@ -25,7 +25,7 @@ pub struct EdgeMap {
     /// Where spines of exact lines run and how wide they are; `None` without any.
     pub spines: Option<Target>,
     /// Whether ink of the papers' operators may be in it.
-    pub has_paper: bool,
+    pub has_operators: bool,
 }
 
 impl EdgeMap {
@@ -35,7 +35,7 @@ impl EdgeMap {
     /// [`RenderError`].
     pub fn all_lines(&self, rec: &mut Recorder<'_>) -> Result<Target, RenderError> {
         let nearer = NearerLines::behind(rec, self.spines.clone())?;
-        if self.has_paper {
+        if self.has_operators {
             add_ink(rec, &self.edges, &nearer.before, &nearer.now)?;
         }
         Ok(nearer.now)
@@ -80,16 +80,16 @@ pub fn edge_map(rec: &mut Recorder<'_>, inputs: &EdgeInputs<'_>) -> Result<EdgeM
         spines = Some(exact_edges(rec, inputs, &edge_map)?);
         onto = Onto::Load;
     }
-    let has_paper = inputs.styles.iter().any(GpuEdgeStyle::is_paper);
+    let has_operators = inputs.styles.iter().any(GpuEdgeStyle::is_image_space);
     // Without exact edges it is this that clears the map.
-    if onto == Onto::Clear || has_paper {
+    if onto == Onto::Clear || has_operators {
         paper_edges(rec, inputs.gbuffer, inputs.styles, inputs.edge_styles, &edge_map, onto)?;
-        if let Some(NearerLines { before, now }) = inputs.nearer.filter(|_| has_paper) {
+        if let Some(NearerLines { before, now }) = inputs.nearer.filter(|_| has_operators) {
             // Where it had been seen before that stays so.
             add_ink(rec, &edge_map, spines.as_ref().unwrap_or(before), now)?;
         }
     }
-    Ok(EdgeMap { edges: edge_map, spines, has_paper })
+    Ok(EdgeMap { edges: edge_map, spines, has_operators })
 }
 
 /// What lies within surfaces: borders of textures, of relief and of shadows.

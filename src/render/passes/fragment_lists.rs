@@ -26,7 +26,7 @@ const MAX_FRAGMENTS: u64 = 1 << 23;
 pub struct FragmentLists {
     layout: wgpu::BindGroupLayout,
     heads: wgpu::Buffer,
-    links: RecordTexture,
+    nodes: RecordTexture,
     payloads: RecordTexture,
     colors: wgpu::Buffer,
     /// The most memory that was asked for since the last [`Self::shrink`].
@@ -58,7 +58,7 @@ impl FragmentLists {
                 entries: &[(0, buffer), (1, buffer), (2, texture), (3, texture), (4, buffer)].map(written),
             }),
             heads: create(gpu, "heads of lists", 4),
-            links: RecordTexture::new(gpu, "links of fragments"),
+            nodes: RecordTexture::new(gpu, "nodes of fragments"),
             payloads: RecordTexture::new(gpu, "fragments"),
             colors: create(gpu, "colors of fragments", COLOR_BYTES),
             asked: 0,
@@ -90,7 +90,7 @@ impl FragmentLists {
         let resources = [
             count.buffer().as_entire_binding(),
             self.heads.as_entire_binding(),
-            texture(&self.links),
+            texture(&self.nodes),
             texture(&self.payloads),
             self.colors.as_entire_binding(),
         ];
@@ -119,13 +119,13 @@ impl FragmentLists {
         rec.encoder.clear_buffer(&self.heads, 0, None);
         self.asked = self.asked.max(fragments);
         self.reserve(gpu, fragments)?;
-        Ok(self.links.capacity())
+        Ok(self.nodes.capacity())
     }
 
     fn reserve(&mut self, gpu: &Gpu, fragments: u64) -> Result<(), GpuError> {
-        self.links.reserve(gpu, fragments as usize)?;
+        self.nodes.reserve(gpu, fragments as usize)?;
         self.payloads.reserve(gpu, fragments as usize)?;
-        let bytes = self.links.capacity() * COLOR_BYTES;
+        let bytes = self.nodes.capacity() * COLOR_BYTES;
         if self.colors.size() < bytes {
             self.colors = create(gpu, "colors of fragments", bytes);
         }
@@ -135,8 +135,8 @@ impl FragmentLists {
     /// Gives memory back of which the last frame that used any needed little.
     pub fn shrink(&mut self, gpu: &Gpu) {
         let asked = std::mem::take(&mut self.asked);
-        if asked > 0 && self.links.capacity() > 4 * asked.next_power_of_two() {
-            self.links.clear(gpu);
+        if asked > 0 && self.nodes.capacity() > 4 * asked.next_power_of_two() {
+            self.nodes.clear(gpu);
             self.payloads.clear(gpu);
             self.colors = create(gpu, "colors of fragments", COLOR_BYTES);
         }
@@ -149,7 +149,7 @@ impl FragmentLists {
     pub fn extract(&self, rec: &mut Recorder<'_>, layers: u32) -> Result<LayerExtraction, RenderError> {
         let lists = LayerExtraction {
             heads: self.heads.clone(),
-            fragments: [&self.links, &self.payloads].map(|texture| texture.target().clone()),
+            fragments: [&self.nodes, &self.payloads].map(|texture| texture.target().clone()),
             colors: self.colors.clone(),
             listed: rec.target("listed", DEPTH)?,
             numbers: Vec::new(),
@@ -281,10 +281,10 @@ impl LayerExtraction {
 
     /// What `passes/extract_layers.wgsl` reads.
     fn inputs<'a>(&'a self, numbers: Option<&'a Target>) -> Inputs<'a> {
-        let [links, payloads] = &self.fragments;
+        let [nodes, payloads] = &self.fragments;
         inputs! {
             heads: &self.heads,
-            link_tex: links,
+            node_tex: nodes,
             payload_tex: payloads,
             colors: &self.colors,
             number_tex: numbers,

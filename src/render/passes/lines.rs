@@ -76,7 +76,7 @@ impl<'a> Lines<'a> {
     pub fn switches(&self) -> Vec<(&'static str, bool)> {
         let any = |has: fn(&GpuEdgeStyle) -> bool| self.styles.iter().any(has);
         vec![
-            ("WITH_PAPER", any(GpuEdgeStyle::is_paper)),
+            ("WITH_OPERATORS", any(GpuEdgeStyle::is_image_space)),
             ("WITH_EXACT", self.line_distance.is_some()),
             ("WITH_WIDTHS", matches!(self.line_distance, Some(LineDistance::Wide { nearest: Some(_), .. }))),
             ("NARROW", matches!(self.line_distance, Some(LineDistance::Narrow { .. }))),

@@ -37,7 +37,7 @@ pub struct MovedEdges {
 impl MovedEdges {
     /// Their edge map.
     pub fn edge_map(&self) -> EdgeMap {
-        EdgeMap { edges: self.edges.clone(), spines: Some(self.spines.clone()), has_paper: false }
+        EdgeMap { edges: self.edges.clone(), spines: Some(self.spines.clone()), has_operators: false }
     }
 }
 

@@ -65,7 +65,7 @@ pub struct NoisePlace {
     /// Width of a pixel there, scene units.
     pub pixel: f32,
     /// How much longer than on paper a line is there along itself, 1 to 4.
-    pub stretch: f32,
+    pub foreshortening: f32,
 }
 
 impl FieldUniform {
@@ -75,7 +75,7 @@ impl FieldUniform {
         let seed = self.seeds.iter().flat_map(|four| four.to_array()).nth(pass).unwrap_or_default();
         let (own, turbulent) = (mixed_bits(seed ^ object.seed), self.turbulent == 1);
         let at = object.from_view.transform_point3(place.at);
-        let length = self.line_wave * place.pixel * place.stretch;
+        let length = self.line_wave * place.pixel * place.foreshortening;
         waves(at, length, own, turbulent) + self.detail * fine_waves(at, 0.25 * length, own, turbulent)
     }
 }

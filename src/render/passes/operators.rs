@@ -12,7 +12,7 @@ fn program(entry_point: &'static str, styles: &[GpuEdgeStyle]) -> Program {
     let switches = vec![
         ("WITH_C1", entry_point == VALUES || any(GpuEdgeStyle::is_c1)),
         ("WITH_SOBEL", any(GpuEdgeStyle::is_sobel)),
-        ("WITH_COLOR", any(GpuEdgeStyle::is_paper_with_color)),
+        ("WITH_COLOR", any(GpuEdgeStyle::is_image_space_with_color)),
     ];
     Program { file: "passes/operators.wgsl", entry_point, switches }
 }
@@ -20,7 +20,7 @@ fn program(entry_point: &'static str, styles: &[GpuEdgeStyle]) -> Program {
 /// The entry point that tells the operators' own values.
 const VALUES: &str = "fs_operators";
 
-/// Adds the ink of the objects that are drawn in paper mode to the edge map.
+/// Adds the ink of the objects that are drawn in image-space mode to the edge map.
 ///
 /// # Errors
 /// [`RenderError`].

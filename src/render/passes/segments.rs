@@ -138,7 +138,7 @@ impl Segments {
         let most = chunks().map(|(chunk, _)| chunk.len()).max().unwrap_or(0) as u64;
         self.listed_steps.reserve(gpu, most * 4)?;
         self.points.reserve(gpu, most * POINT_BYTES)?;
-        // Lines of images, as in paper mode, need none.
+        // Lines of images, as in image-space mode, need none.
         if most > 0 {
             gpu.check_bytes_of_pixels("with lines", rec.size(), 4)?;
             let [width, height] = rec.size().map(u64::from);

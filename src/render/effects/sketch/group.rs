@@ -88,7 +88,7 @@ impl SketchGroup {
 
     /// Greatest distance from where it belongs at which anything is drawn, px.
     pub fn greatest_reach(&self) -> f32 {
-        let [lines, fill] = uniforms::bands(&self.style, self.scale);
+        let [lines, fill] = uniforms::reaches(&self.style, self.scale);
         (self.group.greatest_reach() * self.widest() + lines).max(fill)
     }
 

@@ -117,12 +117,12 @@ impl SketchNoise {
     ) -> Result<Output<Target>, RenderError> {
         // Ink of the papers' operators follows surfaces too.
         let sketch = inputs.sketch;
-        let [lines, fill] = uniforms::bands(&sketch.style, sketch.scale);
-        let band = lines.max(fill);
+        let [lines, fill] = uniforms::reaches(&sketch.style, sketch.scale);
+        let reach = lines.max(fill);
         let geometry = &followed.value.geometry;
         let nearest = self
             .nearest_surfaces
-            .run((followed.revision, band as u32), |_| nearest_surfaces(rec, geometry, band))?;
+            .run((followed.revision, reach as u32), |_| nearest_surfaces(rec, geometry, reach))?;
         let buffers = FieldBuffers { field: &self.field, objects: &self.objects };
         self.fill_field.run(inputs.key([nearest.revision, followed.revision]), |_| {
             fill_field(rec, buffers, geometry, &nearest.value)

@@ -167,11 +167,11 @@ impl Placing<'_> {
             switches.extend(lines.switches());
         } else {
             // What is new hides ink that is there.
-            switches.extend([("WITH_PAPER", false), ("WITH_EXACT", false)]);
+            switches.extend([("WITH_OPERATORS", false), ("WITH_EXACT", false)]);
         }
         inputs.extend(&inputs! {
             pass_number: self.numbers[number],
-            paper_map_tex: fetched.edges.as_ref().map(|edges| &edges.value.edges),
+            operator_map_tex: fetched.edges.as_ref().map(|edges| &edges.value.edges),
             source_tex: moved.map(|moved| &moved.edges.sources),
             filled_tex: geometry,
             opaque_ink_tex: before,

@@ -10,7 +10,7 @@ use crate::style;
 use crate::style::sketch::{MAX_OFFSET, MAX_PASSES, Noise};
 
 /// Farthest that anything is fetched from, px.
-const MAX_BAND: f32 = 128.0;
+const MAX_REACH: f32 = 128.0;
 
 /// How far lines are smudged, reference pixels.
 const SMUDGED: f32 = 20.0;
@@ -64,13 +64,13 @@ fn offsets(sketch: &style::Sketch, matrix: style::Matrix) -> style::Matrix {
 
 /// How far lines and colors are off at most, px: three times what they are off on average, in whole steps, so that a
 /// little more or less does not change it.
-pub(super) fn bands(sketch: &style::Sketch, scale: f32) -> [f32; 2] {
+pub(super) fn reaches(sketch: &style::Sketch, scale: f32) -> [f32; 2] {
     let passes = sketch.pass.iter().take(sketch.passes as usize);
     let rms = |matrix: style::Matrix| offsets(sketch, matrix).rms() * scale;
     let lines = passes.map(|pass| rms(pass.matrix)).fold(0.0, f32::max);
     let fill = if sketch.fill.show { rms(sketch.fill.matrix) } else { 0.0 };
     let rough = rough(sketch, scale);
-    let whole = |far: f32| ((far / 2.0).ceil() * 2.0).clamp(4.0, MAX_BAND);
+    let whole = |far: f32| ((far / 2.0).ceil() * 2.0).clamp(4.0, MAX_REACH);
     [whole(3.0 * lines + rough), whole(3.0 * fill + rough)]
 }
 
@@ -200,10 +200,10 @@ mod tests {
             sketch.fill.wave = wrong;
             let sketch = style.clamped().sketch;
             let uniform = SketchUniform::new(&sketch, 1.0);
-            let [lines, fill] = bands(&sketch, 1.0);
+            let [lines, fill] = reaches(&sketch, 1.0);
             assert!(uniform.passes[0].matrix.abs().max_element() <= MAX_OFFSET, "{wrong}");
             assert!(uniform.line_scale > 0.0 && uniform.line_scale.is_finite(), "{wrong}");
-            assert!((4.0..=MAX_BAND).contains(&lines) && (4.0..=MAX_BAND).contains(&fill), "{wrong}");
+            assert!((4.0..=MAX_REACH).contains(&lines) && (4.0..=MAX_REACH).contains(&fill), "{wrong}");
             assert!(field(&sketch, 1.0).line_wave >= 8.0);
         }
     }
@@ -211,8 +211,8 @@ mod tests {
     #[test]
     fn lines_are_looked_for_as_far_as_offsets_go() {
         let [small, large] = [1.0, 2.0].map(|amount| sketch(Matrix([[3.0, 0.0], [0.0, 3.0]]), amount));
-        assert_eq!((bands(&small, 1.0), bands(&large, 1.0)), ([10.0, 4.0], [18.0, 4.0]));
-        assert_eq!(bands(&small, 2.0), bands(&large, 1.0));
+        assert_eq!((reaches(&small, 1.0), reaches(&large, 1.0)), ([10.0, 4.0], [18.0, 4.0]));
+        assert_eq!(reaches(&small, 2.0), reaches(&large, 1.0));
         assert_eq!(SketchUniform::new(&small, 2.0).passes[0].matrix, Vec4::new(6.0, 0.0, 0.0, 6.0));
     }
 }
