@@ -1,5 +1,6 @@
 // The edge map: one texel per pixel, before lines get their width. Each texel of an exact line holds the point of the
-// line's spine that is nearest to the pixel's center. Written by passes/{operators,segments,discontinuities,details}.wgsl.
+// line's spine that is nearest to the pixel's center. Written by
+// passes/{operators,segment_points,discontinuities,details}.wgsl, changed by passes/line_classes.wgsl, moved by passes/moved_edges.wgsl.
 
 const NO_EDGE: u32 = 0u;
 // Classes as in src/geometry/edge_class.rs, plus 1.
@@ -131,6 +132,6 @@ fn pack_operator_ink(ink: vec2<f32>, object: u32, depth: f32) -> vec4<u32> {
     return vec4(OPERATOR_INK << 28u, object, bitcast<u32>(depth), pack2x16unorm(ink));
 }
 
-fn paper_ink(texel: vec4<u32>) -> vec2<f32> {
+fn operator_ink(texel: vec4<u32>) -> vec2<f32> {
     return unpack2x16unorm(texel.w);
 }

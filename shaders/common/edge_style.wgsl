@@ -55,7 +55,7 @@ struct EdgeStyle {
     color_gradient: f32,
     sums_changes: u32,
     // Shorter pieces of lines that nothing continues are left out, px of this picture.
-    shortest: f32,
+    min_length: f32,
 }
 
 const EXACT_MODE: u32 = 1u;

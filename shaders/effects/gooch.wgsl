@@ -34,7 +34,7 @@ struct GoochStyle {
     // 1 where stripes lie around the axes of forms.
     is_of_form: u32,
     // How far the key is turned to the side, 0 to 1.
-    aside: f32,
+    side_light: f32,
     // How far cool and warm are multiplied by the object's own color, 0 to 1.
     object_hue: f32,
     // Where the styles of its forms are, and how many.
@@ -145,7 +145,7 @@ fn style_of_form(px: vec2<i32>, object: u32, style: GoochStyle) -> GoochStyle {
 // Where the key stands for Gooch shading: from where it is towards the side, across the line of sight, where the paper has it
 // (section 4.1), so that the faces that are seen have all tones.
 fn key_of(style: GoochStyle, l: vec3<f32>, eye: vec3<f32>) -> vec3<f32> {
-    let turned = l - style.aside * dot(l, eye) * eye;
+    let turned = l - style.side_light * dot(l, eye) * eye;
     return select(l, normalize(turned), dot(turned, turned) > 1e-4);
 }
 

@@ -220,14 +220,14 @@ fn strokes_in_image_space(px: vec2<i32>, texel: vec4<u32>, s: Surfel, pos_view: 
     let lod = max(log2(TILE / hatching_styles[object].tile), 0.0);
     let step = hatching_styles[object].turn_step;
     if step <= 0.0 {
-        return paper_ink_at(at, angle + laid.turn, strokes, ink, lod);
+        return image_space_ink_at(at, angle + laid.turn, strokes, ink, lod);
     }
     let steps = floor(abs(angle) / step);
-    let drawn = paper_ink_at(at, sign(angle) * steps * step + laid.turn, strokes, ink, lod);
+    let drawn = image_space_ink_at(at, sign(angle) * steps * step + laid.turn, strokes, ink, lod);
     if hatching_styles[object].blends_steps == 0u {
         return drawn;
     }
-    let next = paper_ink_at(at, sign(angle) * (steps + 1.0) * step + laid.turn, strokes, ink, lod);
+    let next = image_space_ink_at(at, sign(angle) * (steps + 1.0) * step + laid.turn, strokes, ink, lod);
     return mix(drawn, next, abs(angle) / step - steps);
 }
 

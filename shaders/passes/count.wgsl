@@ -63,7 +63,7 @@ fn cs_count(
     }
 }
 
-fn clear_predicate(index: u32) {
+fn disable_predicate(index: u32) {
     for (var i = index; i < arrayLength(&predicate); i += 64u) {
         predicate[i] = 0u;
     }
@@ -79,7 +79,7 @@ fn cs_decide(@builtin(local_invocation_index) index: u32) {
     // All have read before one of them writes.
     storageBarrier();
     if ends {
-        clear_predicate(index);
+        disable_predicate(index);
     }
     if index != 0u || had_ended {
         return;
@@ -103,7 +103,7 @@ fn cs_uncovered(@builtin(local_invocation_index) index: u32) {
     let ends = went_on && mask.pixels != 0u && passed >= layer_count.fraction * f32(mask.pixels);
     storageBarrier();
     if ends {
-        clear_predicate(index);
+        disable_predicate(index);
     }
     if index == 0u {
         layer_count.masked = mask.pixels;

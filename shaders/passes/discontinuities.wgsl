@@ -132,7 +132,7 @@ fn between(px: vec2<i32>, x: Surfel, own: u32, plane: Plane, towards: vec2<i32>,
     let half = 0.5 * vec2<f32>(towards);
     let across = vec2(half.y, -half.x) * 2.0;
     let n = unpack_surfel(geometry_at(q));
-    // There the geometry of a layer is undefined.
+    // There a layer has nothing.
     if surface_id == 0u {
         if WITH_LAYERS_BEFORE && goes_on_nearer(q, own) {
             return none;

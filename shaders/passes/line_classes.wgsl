@@ -135,7 +135,7 @@ fn change(px: vec2<i32>, edge: vec4<u32>, spine: u32) {
 
 // Whether what is followed from a pixel is too short, and nothing else continues it.
 fn is_dot(px: vec2<i32>, object: u32, ahead: Stretch, behind: Stretch) -> bool {
-    let shortest = min(edge_styles[object].shortest, f32(FARTHEST));
+    let shortest = min(edge_styles[object].min_length, f32(FARTHEST));
     let extent = abs(ahead.last - behind.last);
     return f32(max(extent.x, extent.y)) < shortest && is_short(px, object, shortest);
 }

@@ -377,7 +377,7 @@ fn with_operator_ink(lines: Line, texel: vec4<u32>, g: Surfel) -> Line {
     }
     // Edge-enhancement paper, section 5: inner edges first, then profile edges over them.
     let object = texel.y;
-    let ink = paper_ink(texel) * vec2(edge_styles[object].inner_opacity, edge_styles[object].profile_opacity);
+    let ink = operator_ink(texel) * vec2(edge_styles[object].inner_opacity, edge_styles[object].profile_opacity);
     let inner = vec4(edge_styles[object].inner_color, 1.0) * ink.x;
     let profile = vec4(edge_styles[object].profile_color, 1.0) * ink.y;
     let both = over(over(profile, inner), lines.ink);

@@ -93,7 +93,7 @@ fn fs_c1_operator(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f
 fn fs_edge_map(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     let texel = textureLoad(edge_map_tex, vec2<i32>(position.xy));
     if class_of(texel) == OPERATOR_INK {
-        let ink = paper_ink(texel);
+        let ink = operator_ink(texel);
         return vec4(vec3(1.0 - max(ink.x, ink.y)), 1.0);
     }
     // A color for each class.

@@ -35,7 +35,7 @@ impl Traits {
     pub(super) const SOFT: Self = Self(16);
 
     /// All traits of both.
-    pub(super) const fn and(self, other: Self) -> Self {
+    pub(super) const fn union(self, other: Self) -> Self {
         Self(self.0 | other.0)
     }
 
@@ -68,7 +68,7 @@ pub struct FeatureEdges {
     /// As [`super::Edge::dihedral`]; 0 at a border.
     pub(super) dihedral: Vec<f32>,
     pub(super) traits: Vec<Traits>,
-    /// Every (edge, triangle) of the edges with more than two triangles, in order. Numbers from that of the mesh's
+    /// Every (edge, triangle) of the edges at which three triangles or more meet, or another mesh goes on, in order. Numbers from that of the mesh's
     /// triangles on are those of [`Mesh::border_links`].
     pub(super) faces_around: Vec<(u32, u32)>,
     /// The surfaces of the mesh.
@@ -124,14 +124,14 @@ impl FeatureEdges {
                         let is_soft =
                             mesh.border_links.get(beyond as usize).is_some_and(|beyond| beyond.is_soft);
                         if let Some(traits) = all.traits.last_mut() {
-                            *traits = traits.and(Traits::SOFT.when(is_soft));
+                            *traits = traits.union(Traits::SOFT.when(is_soft));
                         }
                     }
                     None => all.add(ends, [edge.faces[0]; 2], 0.0, Traits::BORDER),
                 },
                 EdgeKind::Manifold | EdgeKind::Flipped => {
                     let flipped = Traits::FLIPPED.when(edge.kind == EdgeKind::Flipped);
-                    let traits = flipped.and(Traits::SOFT.when(edge.is_soft));
+                    let traits = flipped.union(Traits::SOFT.when(edge.is_soft));
                     all.add_pair(ends, edge.faces, edge.dihedral, traits, &materials);
                 }
                 EdgeKind::NonManifold => {
@@ -189,7 +189,7 @@ impl FeatureEdges {
             self.add(ends, [faces[0]; 2], 0.0, Traits::BORDER);
         } else {
             let differ = Traits::MATERIAL.when(materials.differ(faces));
-            self.add(ends, faces, dihedral, traits.and(differ));
+            self.add(ends, faces, dihedral, traits.union(differ));
         }
     }
 

@@ -147,10 +147,10 @@ impl<'a> Finder<'a> {
         let outlines = ClassSet::of(&[EdgeClass::Border, EdgeClass::Object]);
         let mut special = Traits::NON_MANIFOLD;
         if EdgeClass::ALL.iter().any(|&class| outlines.contains(class) && wanted.classes.contains(class)) {
-            special = special.and(Traits::BORDER);
+            special = special.union(Traits::BORDER);
         }
         if wanted.classes.contains(EdgeClass::Material) {
-            special = special.and(Traits::MATERIAL);
+            special = special.union(Traits::MATERIAL);
         }
         Self {
             placed,
@@ -212,7 +212,7 @@ impl<'a> Finder<'a> {
                 Some(outline) => self.outline(outline, seen.angle, seen.faces),
                 None => {
                     let soft = Traits::SOFT.when(traits.any(Traits::SOFT));
-                    let traits = soft.and(Traits::MATERIAL.when(seen.materials_differ));
+                    let traits = soft.union(Traits::MATERIAL.when(seen.materials_differ));
                     self.crease(seen.angle, seen.faces, traits)
                 }
             };

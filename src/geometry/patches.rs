@@ -44,7 +44,7 @@ impl Patches {
     /// Finds them; the edges must be those of the mesh. Takes about 50 ms per million triangles.
     pub fn new(mesh: &Mesh, edges: &FeatureEdges) -> Self {
         let sets = DisjointSets::new(mesh.triangle_count());
-        let is_pair = |e: usize| !edges.traits[e].any(Traits::BORDER.and(Traits::NON_MANIFOLD));
+        let is_pair = |e: usize| !edges.traits[e].any(Traits::BORDER.union(Traits::NON_MANIFOLD));
         for e in 0..edges.len() {
             if is_pair(e) && edges.dihedral[e].abs() < SAME_PLANE {
                 let [a, b] = edges.faces[e];

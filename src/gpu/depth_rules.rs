@@ -3,7 +3,7 @@
 use super::Target;
 
 /// How a pass uses its depth buffer (reversed, 0 where nothing is). What covers the picture lies at 1e-30: behind
-/// everything that is drawn, but before nothing.
+/// everything that is drawn, and in front of texels where nothing is.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum DepthRule {
     /// Draws only where something has been drawn.

@@ -25,7 +25,7 @@ impl Predicate {
     ///
     /// # Errors
     /// [`GpuError::TooLarge`].
-    pub fn clear(&mut self, gpu: &Gpu, room: usize) -> Result<(), GpuError> {
+    pub fn reset(&mut self, gpu: &Gpu, room: usize) -> Result<(), GpuError> {
         let bytes = (room * WORDS * 4) as u64;
         gpu.check_buffer_size("arguments of draws", bytes)?;
         if self.buffer.size() < bytes {

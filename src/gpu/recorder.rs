@@ -67,8 +67,8 @@ pub struct Draw<'a> {
 pub enum Workgroups<'a> {
     /// Columns and rows of them.
     Counted([u32; 2]),
-    /// As many as a compute shader has written here, whether the predicate is set or cleared: there had better be none if what
-    /// writes them stands behind it.
+    /// As many as a compute shader has written here. The predicate does not stop these: a shader that it does stop must have left
+    /// none.
     Written(&'a wgpu::Buffer),
 }
 
@@ -97,7 +97,7 @@ pub struct Recorder<'a> {
     /// The part of the picture into which render passes draw from here on, though all of it is cleared: left, top, right and
     /// bottom edge; `None`: all of it.
     pub scissor_rect: Option<[u32; 4]>,
-    /// Passes from here on draw and compute only while it is open.
+    /// Passes from here on draw and compute only while it is enabled.
     pub predicate: Option<Predicate>,
     pool: &'a mut TargetPool,
     timers: Option<&'a mut Timers>,

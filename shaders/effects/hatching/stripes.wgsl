@@ -9,15 +9,15 @@
 // Twin: `GpuStroke` in src/render/effects/hatching/strokes.rs. Lengths in px, widths as shares of the spacing.
 struct Stroke {
     spacing: f32,
-    thin: f32,
-    thick: f32,
+    min_width: f32,
+    max_width: f32,
     length: f32,
     taper: f32,
     gap: f32,
-    spread: f32,
-    chance: f32,
-    pointed: f32,
-    inserted: f32,
+    tone_by_count: f32,
+    randomness: f32,
+    pointedness: f32,
+    late_insertion: f32,
     variation: f32,
     // Which of the tables says what tone to ask for.
     table: u32,
@@ -192,7 +192,7 @@ fn phase_at(s: Stripes, family: Family, k: i32) -> f32 {
     return phase * exp2(f32(k + BASE_LEVEL) - f32(level));
 }
 
-// Which level has lines of a spacing (px), and the place in the octave up to the next coarser one, 0 to 1.
+// Which level has lines of a spacing (px), and the place in the octave up to the next denser one, 0 to 1.
 struct Level {
     k: i32,
     place: f32,
@@ -318,11 +318,11 @@ fn stripe_ink(px: vec2<i32>, s: Stripes, number: u32, stroke: Stroke, ink: f32) 
         chance = mix(unit_of(whole), unit_of(halves), apart);
         variation = mix(unit_of(mixed(whole)), unit_of(mixed(halves)), apart) - 0.5;
     }
-    let late = select((1.0 - level.place) * stroke.inserted, 0.0, even);
-    let threshold = stroke.spread * (stroke.chance * chance + (1.0 - tapered) * stroke.pointed) + late;
+    let late = select((1.0 - level.place) * stroke.late_insertion, 0.0, even);
+    let threshold = stroke.tone_by_count * (stroke.randomness * chance + (1.0 - tapered) * stroke.pointedness) + late;
     let tone = tone_for(stroke.table, level.place, length_place, ink);
     let beyond = clamp((tone - threshold) / max(1.0 - threshold, 1e-3), 0.0, 1.0);
-    let share = mix(stroke.thin, stroke.thick, beyond);
+    let share = mix(stroke.min_width, stroke.max_width, beyond);
     let pressed = sqrt(tapered) * (1.0 - stroke.variation * variation) * smoothstep(0.0, SOFT, tone - threshold);
     var width = stroke.spacing * share * pressed;
     // No hair lines: a stroke ends, it does not fade.

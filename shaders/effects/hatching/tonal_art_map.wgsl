@@ -59,7 +59,7 @@ fn tone_of_ink(ink: f32) -> f32 {
 }
 
 // Ink at a point of the paper (in tiles), where strokes run at an angle; each pixel blends two neighboring tones.
-fn paper_ink_at(at: vec2<f32>, angle: f32, strokes: u32, ink: f32, lod: f32) -> f32 {
+fn image_space_ink_at(at: vec2<f32>, angle: f32, strokes: u32, ink: f32, lod: f32) -> f32 {
     var samples = array<vec3<f32>, 3>();
     for (var i = 0u; i < DIRECTIONS; i++) {
         let place = place_in_tile(at, angle, laid_direction(i));

@@ -44,7 +44,7 @@ fn beside(spine: Spine, along: f32, surface_ids: vec2<u32>) -> Beside {
     var texel = textureLoad(geometry_tex, px);
     if IN_LAYER {
         surface_id = textureLoad(surface_id_tex, px).x;
-        // Where a layer has nothing its geometry is undefined.
+        // Where a layer has nothing its geometry is 0.
         texel = select(texel, vec4(0u), surface_id == 0u);
     }
     let s = unpack_surfel(texel);

@@ -22,7 +22,7 @@ fn goes_on_under(spine: Spine, own: u32, edge_length: f32) -> bool {
     let surface_id = textureLoad(surface_id_tex, one_px).x;
     let one = unpack_surfel(textureLoad(geometry_tex, one_px));
     let other = unpack_surfel(textureLoad(geometry_tex, other_px));
-    // Where a layer has nothing, surface id 0, its geometry is undefined.
+    // Where a layer has nothing, its surface id and its geometry are 0.
     let alike = dot(one.normal, other.normal);
     let is_same = surface_id != 0u && surface_id == textureLoad(surface_id_tex, other_px).x
         && one.object == own && other.object == own && alike > FOLDED;

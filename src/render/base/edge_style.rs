@@ -70,7 +70,7 @@ pub struct GpuEdgeStyle {
     /// How a Sobel operator makes one gradient of the changes across and down: 1: their sum |x| + |y|, 0: the length of (x, y).
     sums_changes: u32,
     /// Shorter pieces of lines that nothing continues are left out, px of the picture.
-    pub shortest: f32,
+    pub min_length: f32,
 }
 
 // As in `shaders/common/edge_style.wgsl`.
@@ -137,7 +137,7 @@ impl GpuEdgeStyle {
             depth_gradient: threshold(edges.sobel.depth && profile.show, edges.sobel.depth_threshold),
             color_gradient: threshold(edges.sobel.color && inner.show, edges.sobel.color_threshold),
             sums_changes: u32::from(edges.sobel.sum),
-            shortest: edges.min_length * scale,
+            min_length: edges.min_length * scale,
         }
     }
 

@@ -86,7 +86,7 @@ pub struct LayerRequest<'a> {
 pub struct LineRequest<'a> {
     /// Index of [`LayerRequest::line_styles`].
     pub style: usize,
-    /// Regions of the last layer and of that before it, if what goes on there has no outline.
+    /// Surface ids of the last layer and of that before it, if what goes on there has no outline.
     pub before: Option<[&'a Target; 2]>,
     /// Whether a line is drawn again where a nearer layer has one.
     pub repeated: bool,

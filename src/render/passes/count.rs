@@ -168,7 +168,7 @@ impl LayerCount {
         Ok(report_from_bytes(&readback::read_buffer(gpu, &self.buffer)?))
     }
 
-    /// Counts the pixels of a layer, and those of the depth mask that it leaves uncovered, and clears the recorder's predicate if
+    /// Counts the pixels of a layer, and those of the depth mask that it leaves uncovered, and disables the recorder's predicate if
     /// the layer has too few.
     ///
     /// # Errors
@@ -195,7 +195,7 @@ impl LayerCount {
         self.decide(rec, &program, layer, mask)
     }
 
-    /// After a layer has been drawn: clears the recorder's predicate if it left so much of the mask uncovered as is asked for.
+    /// After a layer has been drawn: disables the recorder's predicate if it left so much of the mask uncovered as is asked for.
     ///
     /// # Errors
     /// [`RenderError`].
@@ -225,7 +225,7 @@ impl LayerCount {
         layer: &Layer,
         mask: Option<&DepthMask>,
     ) -> Result<(), RenderError> {
-        // What clears the predicate cannot stand behind it.
+        // What disables the predicate cannot stand behind it.
         let Some(predicate) = rec.predicate.take() else { return Ok(()) };
         let predicated = inputs! { predicate: predicate.buffer(), mask: mask.map(|mask| &mask.count) };
         let inputs = self.counted(layer, mask).and(&predicated);

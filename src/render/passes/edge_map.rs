@@ -5,7 +5,7 @@
 //! neighboring pixels show different surfaces; details are found within surfaces. Image-space mode is the papers' operators. See `common/edge_map.wgsl`.
 
 use super::gbuffer::GBuffer;
-use super::operators::paper_edges;
+use super::operators::operator_edges;
 use super::repeated::{NearerLines, SPINES, add_ink};
 use super::segments::{MARKS, SegmentInputs, Segments};
 use crate::geometry::EdgeClass;
@@ -83,7 +83,7 @@ pub fn edge_map(rec: &mut Recorder<'_>, inputs: &EdgeInputs<'_>) -> Result<EdgeM
     let has_operators = inputs.styles.iter().any(GpuEdgeStyle::is_image_space);
     // Without exact edges it is this that clears the map.
     if onto == Onto::Clear || has_operators {
-        paper_edges(rec, inputs.gbuffer, inputs.styles, inputs.edge_styles, &edge_map, onto)?;
+        operator_edges(rec, inputs.gbuffer, inputs.styles, inputs.edge_styles, &edge_map, onto)?;
         if let Some(NearerLines { before, now }) = inputs.nearer.filter(|_| has_operators) {
             // Where it had been seen before that stays so.
             add_ink(rec, &edge_map, spines.as_ref().unwrap_or(before), now)?;

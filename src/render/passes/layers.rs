@@ -5,7 +5,7 @@
 //!            │┌──────────────────────────────────────────────┐
 //!            ▼▼                                              │
 //! (draws ─►) layer i ─► count ─► what the caller makes of it ─┘
-//!                       └─► predicate: too few pixels clear it, or enough of the depth mask, and nothing after that runs
+//!                       └─► predicate: too few pixels disable it, or enough of the depth mask, and nothing after that runs
 //! ```
 //!
 //! How many layers are recorded, and how many fragments there is memory for, is guessed from reports about earlier pictures;
@@ -141,7 +141,7 @@ impl Layers {
             self.budget.plan(rec.gpu, rec.size(), inputs.max_layers.min(MAX_LAYERS), inputs.by);
         let mut predicate = self.predicate.take().unwrap_or_else(|| Predicate::new(rec.gpu));
         // Objects may be drawn once more, for their coordinates.
-        predicate.clear(rec.gpu, 2 * inputs.draw_list.calls.len() + PASSES)?;
+        predicate.reset(rec.gpu, 2 * inputs.draw_list.calls.len() + PASSES)?;
         rec.predicate = Some(predicate);
         let drawn = self.draw_each(rec, gbuffer_pass, &inputs, &mut recorded, draw);
         self.predicate = rec.predicate.take();

@@ -143,7 +143,7 @@ impl Decisions {
     pub fn of(styles: &[GpuEdgeStyle], crossing: bool) -> Self {
         let mut classes = styles.iter().flat_map(|style| style.drawn().map(|(class, _)| class));
         let first = classes.next();
-        let dots = styles.iter().any(|s| s.is_exact() && s.shortest > 0.0);
+        let dots = styles.iter().any(|s| s.is_exact() && s.min_length > 0.0);
         Self {
             classes: !crossing && classes.any(|class| Some(class) != first),
             dots,

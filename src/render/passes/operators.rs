@@ -24,7 +24,7 @@ const VALUES: &str = "fs_operators";
 ///
 /// # Errors
 /// [`RenderError`].
-pub fn paper_edges(
+pub fn operator_edges(
     rec: &mut Recorder<'_>,
     gbuffer: &GBuffer,
     styles: &[GpuEdgeStyle],

@@ -98,8 +98,7 @@ impl Segments {
     }
 
     /// Uploads those of a view, in place of the last ones; `for_layers`: they are put into the edge maps of depth layers,
-    /// which may lie behind a segment that belongs to a nearer one, and
-    /// has no strokes.
+    /// which may lie behind a segment that belongs to a nearer one; layers have no strokes of a hand.
     ///
     /// # Errors
     /// [`RenderError`].
@@ -230,7 +229,7 @@ impl Segments {
             tested_tex: self.has_strokes.then(|| self.tested.target()),
             step_tex: part.steps.target(),
         };
-        // Where the recorder's predicate is cleared nobody counts any.
+        // Where the recorder's predicate is disabled nobody counts any.
         self.listed_steps.empty(rec);
         self.points.empty(rec);
         let culling = inputs! {

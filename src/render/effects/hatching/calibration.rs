@@ -118,10 +118,11 @@ fn ink(stroke: &GpuStroke, tone: f32, Octave { place, length: octave }: Octave, 
         chance = mix(unit(whole), unit(halves));
         variation = mix(unit(mixed(whole)), unit(mixed(halves))) - 0.5;
     }
-    let late = if even { 0.0 } else { (1.0 - place) * stroke.inserted };
-    let threshold = stroke.spread * (stroke.chance * chance + (1.0 - tapered) * stroke.pointed) + late;
+    let late = if even { 0.0 } else { (1.0 - place) * stroke.late_insertion };
+    let threshold =
+        stroke.tone_by_count * (stroke.randomness * chance + (1.0 - tapered) * stroke.pointedness) + late;
     let beyond = ((tone - threshold) / (1.0 - threshold).max(1e-3)).clamp(0.0, 1.0);
-    let share = stroke.thin + (stroke.thick - stroke.thin) * beyond;
+    let share = stroke.min_width + (stroke.max_width - stroke.min_width) * beyond;
     let pressed =
         tapered.sqrt() * (1.0 - stroke.variation * variation) * smoothstep(0.0, SOFT, tone - threshold);
     let width = stroke.spacing * share * pressed;

@@ -8,15 +8,15 @@ use crate::style::hatching::Stroke;
 #[derive(Debug, Clone, Copy, PartialEq, ShaderType, Default)]
 pub struct GpuStroke {
     pub(super) spacing: f32,
-    pub(super) thin: f32,
-    pub(super) thick: f32,
+    pub(super) min_width: f32,
+    pub(super) max_width: f32,
     pub(super) length: f32,
     pub(super) taper: f32,
     pub(super) gap: f32,
-    pub(super) spread: f32,
-    pub(super) chance: f32,
-    pub(super) pointed: f32,
-    pub(super) inserted: f32,
+    pub(super) tone_by_count: f32,
+    pub(super) randomness: f32,
+    pub(super) pointedness: f32,
+    pub(super) late_insertion: f32,
     pub(super) variation: f32,
     pub(super) table: u32,
 }
@@ -24,19 +24,19 @@ pub struct GpuStroke {
 impl GpuStroke {
     /// Of a style; `scale`: pixels per reference pixel.
     pub(super) fn new(stroke: &Stroke, scale: f32) -> Self {
-        let thin = stroke.min_width;
+        let min_width = stroke.min_width;
         Self {
             // Closer than two pixels there are no lines.
             spacing: (stroke.spacing * scale).max(2.0),
-            thin,
-            thick: stroke.max_width.max(thin),
+            min_width,
+            max_width: stroke.max_width.max(min_width),
             length: stroke.length * scale,
             taper: stroke.taper * scale,
             gap: stroke.gap * scale,
-            spread: stroke.tone_by_count,
-            chance: stroke.randomness,
-            pointed: stroke.pointedness,
-            inserted: stroke.late_insertion,
+            tone_by_count: stroke.tone_by_count,
+            randomness: stroke.randomness,
+            pointedness: stroke.pointedness,
+            late_insertion: stroke.late_insertion,
             variation: stroke.variation,
             table: 0,
         }
