@@ -283,7 +283,7 @@ fn the_mode_of_edges_says_which_of_their_parameters_are_shown() {
         .map(|(role, label)| shows(window, role, label))
     };
     assert_eq!(counts(&window), [1, 2, 1, 0], "the groups' widths, classes folded");
-    choose(&mut window, "Mode", "Paper");
+    choose(&mut window, "Mode", "Image space");
     assert_eq!(window.state().document().style.edges.mode, EdgeMode::ImageSpace);
     assert_eq!(counts(&window), [0, 0, 0, 2], "one gain of each group, that of the operator in use");
     assert_eq!(shows(&window, Role::CheckBox, "Profile edges"), 1, "of both modes");
