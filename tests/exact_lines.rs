@@ -15,7 +15,7 @@ use common::{at, scene, session, surfels};
 use glam::{DMat4, DQuat, DVec2, DVec3, Mat3, Vec2, Vec3};
 use hachure::export::Session;
 use hachure::export::session::Opened;
-use hachure::geometry::primitives::{cube, from_triangles, plane};
+use hachure::geometry::primitives::{cube, from_triangles, plane, sphere};
 use hachure::geometry::{EdgeClass, Mesh};
 use hachure::scene::material::{AlphaMode, TextureRef, UvTransform};
 use hachure::scene::{Camera, Projection, Texture, Wrap};
@@ -427,5 +427,30 @@ fn where_alpha_fails_on_both_sides_of_an_edge_there_is_no_line() {
         let ink = Ink::of(&mut session, &opened, [SIDE; 2]);
         let length = ink.values.iter().filter(|value| **value > 0.0).count();
         assert!(if is_drawn { length > 60 } else { length == 0 }, "{holes} texels of holes: {length} px");
+    }
+}
+
+#[test]
+fn surfaces_that_bend_alike_have_a_whole_line_where_they_meet() {
+    let mut session = session();
+    for angle in [4.0, 8.0, 16.0_f64] {
+        let apart = 2.0 * (0.5 * angle.to_radians()).sin();
+        let balls = [0.0, apart].map(|y| ("ball", sphere(1.0, 96, 192), at(0.0, y, 0.0), [0.7; 3]));
+        let scene = scene(balls.to_vec());
+        let camera = Camera::looking_from(DVec3::new(0.1, 0.4, 1.0), DVec3::Y, &scene.extent(), 1.0);
+        let mut opened = line_drawing(&scene, camera);
+        only(&mut opened, &[EdgeClass::Intersection]);
+        set_width(&mut opened, 2.0, 120);
+        session.set_scene(&opened).unwrap();
+        let ink = Ink::of(&mut session, &opened, [120; 2]);
+        let radius = (0.5 * angle.to_radians()).cos();
+        // The half that is seen, without the ends, where balls hide each other.
+        let front = (-60..=60).map(|degrees| f64::from(degrees).to_radians());
+        let circle: Vec<DVec3> =
+            front.map(|a| DVec3::new(radius * a.sin(), 0.5 * apart, radius * a.cos())).collect();
+        let places = projected(&opened, [120; 2], &circle);
+        let found = places.iter().filter(|place| ink.near(**place) >= 0.5).count();
+        println!("{angle} degrees: {found} of {}", places.len());
+        assert_eq!(found, places.len(), "{angle}");
     }
 }

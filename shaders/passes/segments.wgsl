@@ -1,4 +1,4 @@
-// The lines that topology knows (silhouettes, borders, creases, material boundaries), where something of them is visible:
+// The lines that meshes know (silhouettes, borders, creases, material boundaries, intersections), where something of them is visible:
 // the pixels of each segment, one per step along it. Software devices run both sides of a branch, so steps are culled first
 // (passes/segments/cull.wgsl), and only those that are left are looked at closely, here. passes/segment_points.wgsl puts what is
 // found into the edge map.
@@ -70,7 +70,7 @@ fn point_at(v: Segment, number: u32, px: vec2<f32>) -> SegmentPoint {
             return NO_POINT;
         }
         weight = 1.0;
-    } else if class_of == MATERIAL || class_of == SECTION {
+    } else if class_of == MATERIAL || class_of == SECTION || class_of == INTERSECTION {
         weight = 1.0;
     }
     let is_drawn = edge_styles[own].lines[index].opacity > 0.0 && weight > 0.0;

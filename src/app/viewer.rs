@@ -32,7 +32,7 @@ use crate::geometry::SeamTolerance;
 use crate::gpu::GpuError;
 use crate::hatching::tonal_art_map::generator::Recipe;
 use crate::import::{self, ImageCache, ImportError};
-use crate::render::{GpuStripes, StripeRequest, StrokeMap, UploadedTopology};
+use crate::render::{GpuStripes, Intersections, StripeRequest, StrokeMap, UploadedTopology};
 use crate::style::Style;
 use crate::style::preset::{self, Preset};
 
@@ -90,6 +90,7 @@ struct Jobs {
     /// `None` comes of it when it was canceled.
     stripes: Option<Job<Option<Result<GpuStripes, GpuError>>>>,
     strokes: Option<Job<Option<StrokeMap>>>,
+    intersections: Option<Job<Option<Intersections>>>,
     save: Option<Job<Result<(PathBuf, Document), DocumentError>>>,
     images: Option<Job<Result<(ImageCache, crate::render::StyleImages), ImportError>>>,
     picture: Option<Job<Result<PathBuf, ScreenshotError>>>,
@@ -123,6 +124,8 @@ pub struct Viewer {
     stripes_refused: Vec<StripeRequest>,
     /// Strokes that styles describe and that the person did not want to wait for.
     strokes_refused: Vec<Recipe>,
+    /// Whether the person did not want to wait for intersections.
+    intersections_refused: bool,
     /// The images that the styles name.
     images: ImageFiles,
     loader: Loader,
@@ -175,6 +178,7 @@ impl Viewer {
             mended_for: SeamTolerance::default(),
             stripes_refused: Vec::new(),
             strokes_refused: Vec::new(),
+            intersections_refused: false,
             images: ImageFiles::default(),
             loader: launch.loader,
             dialogs: launch.dialogs,
@@ -240,6 +244,11 @@ impl Viewer {
             && self.jobs.strokes.is_none()
             && self.viewport.missing_stripes(&self.document).is_empty()
             && self.viewport.missing_strokes(&self.document).is_empty()
+    }
+
+    /// Whether all intersections that are asked for have been found.
+    pub fn has_intersections(&self) -> bool {
+        self.jobs.intersections.is_none() && !self.viewport.lacks_intersections(&self.document)
     }
 
     /// What the person is to do next, while a glyph is being placed.

@@ -19,8 +19,8 @@ use crate::gpu::Gpu;
 use crate::hatching::tonal_art_map::generator::Recipe;
 use crate::render::LayerReport;
 use crate::render::{
-    GpuScene, GpuStripes, LayerMethod, RenderError, Renderer, Reported, Request, SolvedStripes,
-    StripeRequest, StrokeMap, StyleImages, UploadedTopology, Uploader,
+    GpuScene, GpuStripes, Intersections, LayerMethod, RenderError, Renderer, Reported, Request,
+    SolvedStripes, StripeRequest, StrokeMap, StyleImages, UploadedTopology, Uploader,
 };
 use crate::scene::NodeId;
 use crate::style::Style;
@@ -222,6 +222,17 @@ impl Viewport {
     /// The stripes of hatching that a document asks for and that nobody has given yet.
     pub fn missing_stripes(&self, document: &Document) -> Vec<StripeRequest> {
         self.renderer.missing_stripes(document)
+    }
+
+    /// Whether a document asks for intersections that nobody has found yet.
+    pub fn lacks_intersections(&self, document: &Document) -> bool {
+        self.renderer.lacks_intersections(document)
+    }
+
+    /// Takes over the intersections of the scene.
+    pub fn show_intersections(&mut self, intersections: Intersections) {
+        self.renderer.show_intersections(intersections);
+        self.draw_again();
     }
 
     /// The strokes that a document describes and that nobody has drawn yet.

@@ -10,7 +10,9 @@ use crate::geometry::Topology;
 use crate::gpu::{Gpu, GpuError, readback};
 use crate::hatching::cache::Cache;
 use crate::import::{ImportError, ImportOptions, Progress, load_all};
-use crate::render::{Picture, RenderError, Renderer, Reported, Request, SolvedStripes, StrokeMap};
+use crate::render::{
+    Intersections, Picture, RenderError, Renderer, Reported, Request, SolvedStripes, StrokeMap,
+};
 use crate::scene::{Camera, Scene};
 
 /// Files that were opened: a document and its scene.
@@ -135,6 +137,16 @@ impl Session {
         self.renderer.set_scene(&opened.scene, &topology)
     }
 
+    /// Finds where the objects of the scene that was set run through each other, if a document asks for that and nobody has
+    /// found it yet. Takes about a second per million triangles.
+    pub fn find_intersections(&mut self, document: &Document, scene: &Scene) {
+        if self.renderer.lacks_intersections(document)
+            && let Some(found) = Intersections::find(scene, &|_| true)
+        {
+            self.renderer.show_intersections(found);
+        }
+    }
+
     /// Finds the stripes and draws the strokes of hatching that a document asks for, for the scene that was set, and that are not
     /// there yet. Takes seconds where a model is large.
     ///
@@ -182,6 +194,7 @@ impl Session {
             selected: &[],
             samples: self.samples,
         };
+        self.find_intersections(&opened.document, &opened.scene);
         self.find_stripes(&opened.document, &opened.scene)?;
         loop {
             let picture = self.renderer.render(&request)?;

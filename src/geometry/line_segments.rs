@@ -10,8 +10,10 @@ mod clip;
 mod contours;
 mod facing;
 mod hand_strokes;
+mod intersections;
 mod non_manifold;
 mod outlines;
+mod polyline_arcs;
 mod scale;
 mod segment;
 
@@ -23,6 +25,7 @@ use self::clip::PictureMap;
 pub use self::contours::{PlacedContours, contour_segments};
 use self::facing::Facings;
 pub use self::hand_strokes::{SegmentSet, Tested, draw_strokes};
+pub use self::intersections::{PlacedIntersections, intersection_segments};
 use self::non_manifold::NonManifoldEdges;
 pub use self::segment::{Dashes, LineSegment, LineSelection, LineView, NO_SURFACE, PlacedEdges};
 use super::feature_edges::Traits;

@@ -7,6 +7,7 @@ use glam::{DVec3, UVec2, Vec2};
 use super::base::error::RenderError;
 use super::base::gpu_scene::{GpuScene, UploadedTopology, Uploader};
 use super::base::ids::node_of;
+use super::base::intersections::{Intersections, draws_intersections};
 use super::base::lights::Lights;
 use super::base::scale_bar::ScaleBar;
 use super::base::scene_view::SceneView;
@@ -179,6 +180,23 @@ impl Renderer {
         match &self.scene {
             Some(scene) if Coordinates::Triangles.are_supported(&self.gpu) => missing(document, scene),
             _ => Vec::new(),
+        }
+    }
+
+    /// Whether a document asks for intersections, and nobody has given those of the scene that is shown; until then they are
+    /// found pixel by pixel.
+    pub fn lacks_intersections(&self, document: &Document) -> bool {
+        let lacks = |scene: &GpuScene| {
+            scene.intersections().is_none() && draws_intersections(document, scene.model())
+        };
+        self.scene.as_ref().is_some_and(lacks)
+    }
+
+    /// Takes over the intersections of the scene that is shown.
+    pub fn show_intersections(&mut self, intersections: Intersections) {
+        if let Some(scene) = &mut self.scene {
+            scene.set_intersections(intersections);
+            self.scene_revision += 1;
         }
     }
 

@@ -498,10 +498,30 @@ fn first_samples(window: &Window) -> u64 {
     viewport.pictures() - u64::from(added)
 }
 
+/// Whether all is known of the meshes that lines come from.
+fn is_examined(viewer: &Viewer) -> bool {
+    viewer.has_topology() && viewer.has_intersections()
+}
+
+#[test]
+fn where_parts_run_through_each_other_is_found_beside_the_window() {
+    let lacks = |window: &Window| {
+        let viewer = window.state();
+        viewer.viewport().lacks_intersections(viewer.document())
+    };
+    let mut window = window();
+    assert!(lacks(&window));
+    until(&mut window, "intersections are found", Viewer::has_intersections);
+    assert!(!lacks(&window));
+    // Another style does not ask again.
+    choose(&mut window, "Technique", "Toon");
+    assert!(!lacks(&window));
+}
+
 #[test]
 fn a_picture_at_rest_gets_smooth_and_then_nothing_is_drawn_until_something_changes() {
     let mut window = window();
-    until(&mut window, "the meshes are examined", Viewer::has_topology);
+    until(&mut window, "the meshes are examined", is_examined);
     ask(&mut window, Command::Front);
     assert!(!window.state().viewport().refining().is_complete());
     let moved = first_samples(&window);
@@ -585,7 +605,7 @@ fn the_wheel_zooms_to_the_pointer_in_one_step() {
 #[test]
 fn surfaces_are_found_beside_the_window_and_shown() {
     let mut window = window();
-    until(&mut window, "the meshes are examined", Viewer::has_topology);
+    until(&mut window, "the meshes are examined", is_examined);
     click(&mut window, Role::Tab, "View");
     let pictures = window.state().viewport().pictures();
     choose(&mut window, "Show", "Surfaces");
@@ -1133,7 +1153,7 @@ fn escape_leaves_nothing_of_what_was_being_placed() {
 #[test]
 fn strokes_of_hatching_are_found_beside_the_window() {
     let mut window = window();
-    until(&mut window, "the meshes are examined", Viewer::has_topology);
+    until(&mut window, "the meshes are examined", is_examined);
     assert!(window.state().viewport().solved_stripes().is_empty());
     choose(&mut window, "Technique", "Hatching");
     until(&mut window, "strokes are found", Viewer::has_stripes);

@@ -28,6 +28,8 @@ pub struct Status<'a> {
     pub refining: Option<(u32, u32)>,
     /// Share of a screenshot that is done, while one is made.
     pub saving: Option<f32>,
+    /// Share of the intersections that are found, while they are looked for.
+    pub intersections: Option<f32>,
     /// Share of the strokes of hatching that are found, while they are looked for.
     pub hatching: Option<f32>,
     /// Share of the strokes that styles describe that are drawn, while they are drawn.
@@ -39,6 +41,8 @@ pub struct Status<'a> {
 pub enum Canceled {
     /// A screenshot.
     Saving,
+    /// Intersections.
+    Intersections,
     /// Strokes of hatching.
     Hatching,
     /// Strokes that styles describe.
@@ -108,6 +112,13 @@ pub fn status_ui(ui: &mut Ui, status: &Status<'_>, commands: &mut Vec<Command>) 
                     canceled = Some(Canceled::Saving);
                 }
                 ui.label(format!("Saving a picture, {:.0} %", share * 100.0));
+            }
+            if let Some(share) = status.intersections {
+                ui.separator();
+                if ui.link("Cancel").on_hover_text("Leave intersections as pixels show them").clicked() {
+                    canceled = Some(Canceled::Intersections);
+                }
+                ui.label(format!("Finding where surfaces run through each other, {:.0} %", share * 100.0));
             }
             if let Some(share) = status.hatching {
                 ui.separator();

@@ -18,7 +18,7 @@ use crate::document::{DOCUMENT_ENDING, Document};
 use crate::export::session::{self, is_document};
 use crate::hatching::cache::Cache;
 use crate::import::{Format, IMAGE_ENDINGS, ImportError, Progress};
-use crate::render::{Pick, SolvedStripes, StrokeMap};
+use crate::render::{Intersections, Pick, SolvedStripes, StrokeMap};
 use crate::scene::Standard;
 
 /// How often the progress of a load is shown anew.
@@ -59,6 +59,7 @@ impl Viewer {
         self.answer_dialog(context);
         self.read_again_for_seams(context);
         self.answer_topology(context);
+        self.answer_intersections(context);
         self.answer_stripes(context);
         self.answer_strokes(context);
         self.answer_images(context);
@@ -132,6 +133,8 @@ impl Viewer {
         self.topology_for = None;
         self.jobs.stripes = None;
         self.stripes_refused.clear();
+        self.jobs.intersections = None;
+        self.intersections_refused = false;
         self.outliner.restart(&self.model.scene);
         self.selection = if intent == Intent::Open { Default::default() } else { selection };
         match intent {
@@ -213,6 +216,31 @@ impl Viewer {
             let uploader = self.viewport.uploader();
             let work = move |_: &Progress| uploader.topology(&scene, &session::topology(&scene, creases));
             self.jobs.topology = Some(Job::start("examining the meshes", context, work));
+        }
+    }
+
+    /// Finds where objects run through each other, if styles ask for that, once the meshes have been examined.
+    fn answer_intersections(&mut self, context: &egui::Context) {
+        if let Some(result) = Job::take(&mut self.jobs.intersections) {
+            match result {
+                Ok(Some(found)) => self.viewport.show_intersections(found),
+                Ok(None) => {}
+                Err(error) => {
+                    self.intersections_refused = true;
+                    self.notices.error(error.to_string());
+                }
+            }
+        }
+        if self.jobs.intersections.is_some() {
+            context.request_repaint_after(PROGRESS);
+            return;
+        }
+        let is_idle = self.has_topology() && !context.input(|i| i.pointer.any_down());
+        if is_idle && !self.intersections_refused && self.viewport.lacks_intersections(&self.document) {
+            let scene = Arc::clone(&self.model.files);
+            let work =
+                move |progress: &Progress| Intersections::find(&scene, &|share| progress.goes_on(share));
+            self.jobs.intersections = Some(Job::start("intersecting the meshes", context, work));
         }
     }
 

@@ -49,6 +49,7 @@ impl Viewer {
                 adapter: &adapter,
                 refining: self.viewport.refining().progress(),
                 saving: self.jobs.picture.as_ref().map(|job| job.progress().share()),
+                intersections: self.jobs.intersections.as_ref().map(|job| job.progress().share()),
                 hatching: self.jobs.stripes.as_ref().map(|job| job.progress().share()),
                 strokes: self.jobs.strokes.as_ref().map(|job| job.progress().share()),
             };
@@ -56,6 +57,10 @@ impl Viewer {
                 Some(status::Canceled::Saving) => {
                     self.jobs.picture = None;
                     self.jobs.waiting.clear();
+                }
+                Some(status::Canceled::Intersections) => {
+                    self.jobs.intersections = None;
+                    self.intersections_refused = true;
                 }
                 Some(status::Canceled::Hatching) => {
                     self.jobs.stripes = None;

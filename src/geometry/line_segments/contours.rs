@@ -5,8 +5,8 @@ use std::f32::consts::FRAC_PI_2;
 use glam::{DMat4, DVec2, Vec3};
 
 use super::clip::PictureMap;
-use super::scale::Scale;
-use super::segment::{Dashes, LineSegment, LineSelection, LineView, NO_SURFACE};
+use super::polyline_arcs::PolylineArcs;
+use super::segment::{LineSegment, LineSelection, LineView, NO_SURFACE};
 use crate::geometry::section::Contour;
 use crate::geometry::{EdgeClass, FeatureEdges};
 
@@ -40,7 +40,8 @@ pub fn contour_segments(
     let class = EdgeClass::Section as u32 | if is_wanted { 0 } else { LineSegment::SUPPRESSED };
     let dashes = wanted.dashes.filter(|d| d.classes.contains(EdgeClass::Section));
     for contour in placed.contours {
-        let scale = dashes.map(|dashes| Lengths::new(contour, &picture, &dashes));
+        let ends = || contour.segments().map(|(ends, _)| ends.map(in_plane));
+        let scale = dashes.map(|dashes| PolylineArcs::new(ends(), contour.is_closed, &picture, &dashes));
         for (number, (ends, triangle)) in contour.segments().enumerate() {
             let Some([from, to]) = picture.segment(ends.map(in_plane)) else { continue };
             let surface = placed.edges.surfaces.of_triangle.get(triangle as usize).copied();
@@ -60,33 +61,4 @@ pub fn contour_segments(
 /// Of a contour's point, as the device has those of caps.
 fn in_plane(point: DVec2) -> Vec3 {
     point.as_vec2().extend(0.0)
-}
-
-/// How long a contour is in the picture up to each of its corners.
-struct Lengths {
-    /// Where each segment begins in the picture, and the length up to there.
-    starts: Vec<(DVec2, f64)>,
-    scale: Scale,
-}
-
-impl Lengths {
-    fn new(contour: &Contour, picture: &PictureMap, dashes: &Dashes) -> Self {
-        let mut starts = Vec::with_capacity(contour.triangles.len());
-        let mut length = 0.0;
-        for (ends, _) in contour.segments() {
-            let [from, to] =
-                picture.before(ends.map(in_plane)).map_or([DVec2::ZERO; 2], |ends| ends.map(|e| e.0));
-            starts.push((from, length));
-            length += from.distance(to);
-        }
-        let around = contour.is_closed.then_some(length).filter(|length| *length > 0.0);
-        Self { starts, scale: Scale { anchor: 0.0, around, period: f64::from(dashes.period) } }
-    }
-
-    fn arcs(&self, segment: usize, ends: [DVec2; 2]) -> [f32; 2] {
-        let (start, length) = self.starts.get(segment).copied().unwrap_or_default();
-        let [from, to] = ends.map(|end| length + start.distance(end));
-        // A loop's first length is not its last one.
-        self.scale.arcs([from.max(f64::MIN_POSITIVE), to.max(f64::MIN_POSITIVE)])
-    }
 }

@@ -21,10 +21,9 @@ pub struct LineSegment {
     /// after whole periods have a meaning; along a line it goes on from segment to segment.
     pub arcs: [f32; 2],
     /// Angle between the two surfaces as they are placed, in radians, −π to π: positive if they are convex as seen from
-    /// the eye's side (at a silhouette, from the first triangle's front), 0 at a border.
+    /// the eye's side (at a silhouette, from the first triangle's front), 0 at a border, without a sign at an intersection.
     pub angle: f32,
-    /// [`EdgeClass`] as a number; plus [`LineSegment::SUPPRESSED`], [`LineSegment::ELSEWHERE`]. Never [`EdgeClass::Object`] nor
-    /// [`EdgeClass::Intersection`].
+    /// [`EdgeClass`] as a number; plus [`LineSegment::SUPPRESSED`], [`LineSegment::ELSEWHERE`]. Never [`EdgeClass::Object`].
     pub class: u32,
     /// [`PlacedEdges::object`].
     pub object: u32,
@@ -67,13 +66,14 @@ pub struct LineView {
 /// Which lines are looked for.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LineSelection {
-    /// The classes. With [`EdgeClass::Object`], silhouettes and borders are found too. Intersections are not found
-    /// here.
+    /// The classes. With [`EdgeClass::Object`], silhouettes and borders are found too.
     pub classes: ClassSet,
     /// Creases of at least this angle that are convex as seen from the eye are ridges; radians.
     pub ridge_angle: f32,
     /// Concave ones of at least this angle are valleys; radians.
     pub valley_angle: f32,
+    /// Surfaces that run through each other at this angle at least make intersections; radians.
+    pub intersection_angle: f32,
     /// Creases of at least this angle (radians), and all edges between different surfaces, are found as
     /// [`LineSegment::SUPPRESSED`] if they are nothing that is wanted. Infinite: none.
     pub suppress_angle: f32,

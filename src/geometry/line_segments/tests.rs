@@ -35,6 +35,7 @@ pub(super) fn everything() -> LineSelection {
     LineSelection {
         classes: ClassSet::ALL,
         ridge_angle: angle,
+        intersection_angle: 0.0,
         valley_angle: angle,
         suppress_angle: f32::INFINITY,
         dashes: None,

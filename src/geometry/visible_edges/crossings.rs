@@ -1,4 +1,5 @@
-//! Where triangles run through each other.
+//! Where triangles run through each other. Pictures have lines there from [`crate::geometry::intersections`], of which this knows
+//! nothing: a measure that shared its mistakes could not see them.
 
 use glam::DVec3;
 use rayon::prelude::*;

@@ -4,15 +4,18 @@ use super::edge_style::GpuEdgeStyle;
 use super::gpu_scene::GpuScene;
 use super::group::Group;
 use super::ids::{object_id, surface_id};
+use super::intersections::Meeting;
 use super::stroke_style::StrokeStyle;
 use super::view::View;
 use crate::geometry::line_segments::{
-    Dashes, LineSelection, LineView, PlacedContours, PlacedEdges, SegmentSet, contour_segments, draw_strokes,
+    Dashes, LineSelection, LineView, PlacedContours, PlacedEdges, PlacedIntersections, SegmentSet,
+    contour_segments, draw_strokes, intersection_segments,
 };
-use crate::geometry::{ClassSet, EdgeClass, line_segments};
+use crate::geometry::{ClassSet, EdgeClass, LineSegment, line_segments};
+use crate::scene::NodeId;
 
-/// Silhouettes, borders, creases and material boundaries of all objects of a group with exact lines, hidden ones included; straight
-/// ones as strokes if the group has any. Empty while topology is not known. `crease_angle` (radians): above it edges separate
+/// Silhouettes, borders, creases, material boundaries and intersections of all objects of a group with exact lines, hidden ones
+/// included; straight ones as strokes if the group has any. Empty while topology is not known. `crease_angle` (radians): above it edges separate
 /// surfaces.
 pub fn feature_lines(scene: &GpuScene, group: &Group, view: &View, crease_angle: f32) -> SegmentSet {
     find(scene, group, view, crease_angle, group.strokes)
@@ -86,10 +89,54 @@ fn find(
             segment.surfaces = segment.surfaces.map(|surface| surface_id(id, surface));
         }
     }
+    add_intersections(scene, group, &view, crease_angle, &mut all.segments);
     if strokes.is_some() {
         all.complete();
     }
     all
+}
+
+/// Where objects of a group run through each other. The first of both draws the line, if it has intersections at all.
+fn add_intersections(
+    scene: &GpuScene,
+    group: &Group,
+    view: &LineView,
+    crease_angle: f32,
+    out: &mut Vec<LineSegment>,
+) {
+    let Some(intersections) = scene.intersections() else { return };
+    let mut in_group = vec![None; scene.model().nodes.len()];
+    for object in group.visible() {
+        if let Some(place) = in_group.get_mut(object.node) {
+            *place = Some(object.enhanced);
+        }
+    }
+    for Meeting { nodes, curves } in intersections.iter(scene.model()) {
+        let is_drawn_by = |node: NodeId, enhanced: bool| {
+            let style =
+                group.edge_styles.get(object_id(node) as usize).filter(|s| enhanced && s.is_exact())?;
+            let wanted = wanted(style, crease_angle);
+            wanted.classes.contains(EdgeClass::Intersection).then_some((object_id(node), wanted))
+        };
+        let [Some(Some(one)), Some(Some(other))] = nodes.map(|node| in_group.get(node).copied()) else {
+            continue;
+        };
+        let owner = is_drawn_by(nodes[0], one).or_else(|| is_drawn_by(nodes[1], other));
+        let found = nodes.map(|node| scene.scene.nodes.get(node)?.mesh.and_then(|mesh| scene.edges(mesh)));
+        let (Some((object, wanted)), [Some(one), Some(other)]) = (owner, found) else { continue };
+        let placed = PlacedIntersections {
+            curves,
+            world_from_local: scene.scene.nodes[nodes[0]].world_from_local,
+            edges: [one, other],
+            object,
+        };
+        let first = out.len();
+        intersection_segments(&placed, view, &wanted, out);
+        for segment in out.iter_mut().skip(first) {
+            let [one, other] = segment.surfaces;
+            segment.surfaces = [surface_id(object_id(nodes[0]), one), surface_id(object_id(nodes[1]), other)];
+        }
+    }
 }
 
 /// What an object's style asks for. Creases that separate surfaces are found even where they are not drawn: they tell
@@ -107,6 +154,7 @@ fn wanted(style: &GpuEdgeStyle, crease_angle: f32) -> LineSelection {
         classes,
         ridge_angle: of(EdgeClass::Ridge).threshold,
         valley_angle: of(EdgeClass::Valley).threshold,
+        intersection_angle: of(EdgeClass::Intersection).threshold,
         suppress_angle: if with_discontinuities { crease_angle } else { f32::INFINITY },
     }
 }

@@ -5,6 +5,7 @@ use std::sync::{Arc, OnceLock};
 use glam::{DMat4, DVec3};
 use rayon::prelude::*;
 
+use super::intersections::Intersections;
 use super::section::{Section, SectionResult};
 use super::stripes::{GpuStripes, SolvedStripes, StripePlace, StripeRequest};
 use super::view::View;
@@ -40,6 +41,8 @@ pub struct GpuScene {
     stripes: Option<GpuStripes>,
     /// All that have been found.
     solved: Vec<SolvedStripes>,
+    /// Where the objects of the model run through each other; `None` while nobody knows.
+    intersections: Option<Intersections>,
 }
 
 /// Which buffers hold a mesh.
@@ -109,6 +112,7 @@ impl GpuScene {
             diagonal: diagonal_of(scene),
             stripes: None,
             solved: Vec::new(),
+            intersections: None,
             scene: Arc::clone(scene),
         })
     }
@@ -130,6 +134,16 @@ impl GpuScene {
     pub fn set_stripes(&mut self, stripes: GpuStripes) {
         self.solved = stripes.solved().to_vec();
         self.stripes = Some(stripes);
+    }
+
+    /// Takes over where the objects of the model run through each other.
+    pub fn set_intersections(&mut self, intersections: Intersections) {
+        self.intersections = Some(intersections);
+    }
+
+    /// Where the objects of the model run through each other, once that is known.
+    pub fn intersections(&self) -> Option<&Intersections> {
+        self.intersections.as_ref()
     }
 
     /// Stripes of the model on the device.

@@ -8,6 +8,7 @@ pub mod gpu_scene;
 pub mod group;
 pub mod ids;
 pub mod instances;
+pub mod intersections;
 pub mod light_view;
 pub mod lights;
 pub mod noise;
