@@ -504,21 +504,6 @@ fn is_examined(viewer: &Viewer) -> bool {
 }
 
 #[test]
-fn where_parts_run_through_each_other_is_found_beside_the_window() {
-    let lacks = |window: &Window| {
-        let viewer = window.state();
-        viewer.viewport().lacks_intersections(viewer.document())
-    };
-    let mut window = window();
-    assert!(lacks(&window));
-    until(&mut window, "intersections are found", Viewer::has_intersections);
-    assert!(!lacks(&window));
-    // Another style does not ask again.
-    choose(&mut window, "Technique", "Toon");
-    assert!(!lacks(&window));
-}
-
-#[test]
 fn a_picture_at_rest_gets_smooth_and_then_nothing_is_drawn_until_something_changes() {
     let mut window = window();
     until(&mut window, "the meshes are examined", is_examined);
