@@ -3,6 +3,7 @@
 mod pointer;
 mod shown_texture;
 
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use eframe::egui::{self, Rect, Ui};
@@ -15,6 +16,7 @@ use super::jobs::Job;
 use super::refining::Refining;
 use super::screenshot::Shot;
 use crate::document::Document;
+use crate::geometry::Weld;
 use crate::gpu::Gpu;
 use crate::hatching::tonal_art_map::generator::Recipe;
 use crate::render::LayerReport;
@@ -227,6 +229,11 @@ impl Viewport {
     /// Whether a document asks for intersections that nobody has found yet.
     pub fn lacks_intersections(&self, document: &Document) -> bool {
         self.renderer.lacks_intersections(document)
+    }
+
+    /// Of each mesh of the scene, which vertices are one point; empty until topology is known.
+    pub fn model_welds(&self) -> Vec<Arc<Weld>> {
+        self.renderer.model_welds().to_vec()
     }
 
     /// Takes over the intersections of the scene.

@@ -21,6 +21,9 @@ const IN_PLANE: f64 = 1e-6;
 /// Below this angle, in radians, surfaces lie on each other, and where they meet is a matter of rounding.
 const LEAST_ANGLE: f32 = 0.01;
 
+/// Triangles that one thread takes at a time.
+const TRIANGLES_PER_TASK: usize = 1 << 14;
+
 /// A mesh that is searched for intersections.
 pub struct SearchedMesh<'a> {
     mesh: &'a Mesh,
@@ -93,12 +96,22 @@ impl<'a> SearchedMesh<'a> {
     }
 
     /// The curves in which triangles of this mesh run through others of it that have no corner in common with them. Looks for
-    /// the neighbors of each triangle: about a second per million triangles on two cores.
-    pub fn own_intersections(&self) -> Vec<IntersectionCurve> {
+    /// the neighbors of each triangle: about half a second per million triangles on two cores. `goes_on` is told of each number of
+    /// triangles that are done, and says whether to go on: `None` when it did not.
+    pub fn own_intersections(
+        &self,
+        goes_on: &(dyn Fn(usize) -> bool + Sync),
+    ) -> Option<Vec<IntersectionCurve>> {
         let placed = Placed { mesh: self, world_from_local: DMat4::IDENTITY };
         let pair = Pair::new(placed, placed, true);
-        let all = (0..self.mesh.triangle_count()).into_par_iter();
-        curves(&all.flat_map_iter(|one| pair.segments_of(one)).collect::<Vec<_>>())
+        let count = self.mesh.triangle_count();
+        let tasks = (0..count.div_ceil(TRIANGLES_PER_TASK)).into_par_iter().with_max_len(1).map(|task| {
+            let first = task * TRIANGLES_PER_TASK;
+            let own = first..(first + TRIANGLES_PER_TASK).min(count);
+            goes_on(own.len()).then(|| own.flat_map(|triangle| pair.segments_of(triangle)).collect())
+        });
+        let found = tasks.collect::<Option<Vec<Vec<Segment>>>>()?;
+        Some(curves(&found.into_iter().flatten().collect::<Vec<_>>()))
     }
 }
 

@@ -27,7 +27,7 @@ use super::passes::layers::{LayerMethod, Reported};
 use super::passes::line_distance::BLOCK;
 use super::views;
 use crate::document::{Document, Glyph};
-use crate::geometry::Topology;
+use crate::geometry::{Topology, Weld};
 use crate::gpu::readback::Readback;
 use crate::gpu::recorder::Intermediates;
 use crate::gpu::{Gpu, GpuError, Pipelines, Recorder, ShaderError, Shaders, Target, TargetPool, Timers};
@@ -183,13 +183,20 @@ impl Renderer {
         }
     }
 
-    /// Whether a document asks for intersections, and nobody has given those of the scene that is shown; until then they are
-    /// found pixel by pixel.
+    /// Whether a document asks for intersections, and nobody has given those of the scene that is shown, though its topology is
+    /// known; until then they are found pixel by pixel.
     pub fn lacks_intersections(&self, document: &Document) -> bool {
         let lacks = |scene: &GpuScene| {
-            scene.intersections().is_none() && draws_intersections(document, scene.model())
+            scene.intersections().is_none()
+                && !scene.model_welds().is_empty()
+                && draws_intersections(document, scene.model())
         };
         self.scene.as_ref().is_some_and(lacks)
+    }
+
+    /// See [`GpuScene::model_welds`].
+    pub fn model_welds(&self) -> &[Arc<Weld>] {
+        self.scene.as_ref().map_or(&[], GpuScene::model_welds)
     }
 
     /// Takes over the intersections of the scene that is shown.

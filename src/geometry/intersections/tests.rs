@@ -1,4 +1,5 @@
 use std::f64::consts::TAU;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::*;
 use crate::geometry::primitives;
@@ -17,7 +18,7 @@ fn both_ways(one: (&Mesh, DMat4), other: (&Mesh, DMat4)) -> [Vec<IntersectionCur
 }
 
 fn own(mesh: &Mesh) -> Vec<IntersectionCurve> {
-    SearchedMesh::new(mesh, &Weld::near(&mesh.positions)).own_intersections()
+    SearchedMesh::new(mesh, &Weld::near(&mesh.positions)).own_intersections(&|_| true).unwrap()
 }
 
 fn together(meshes: &[(&Mesh, DVec3)]) -> Mesh {
@@ -88,6 +89,18 @@ fn a_mesh_that_runs_through_itself_has_the_curves_of_its_parts() {
 }
 
 #[test]
+fn a_search_says_how_far_it_is_and_can_be_stopped() {
+    let tube = primitives::torus(1.0, 0.3, 200, 100);
+    let weld = Weld::near(&tube.positions);
+    let searched = SearchedMesh::new(&tube, &weld);
+    let done = AtomicUsize::new(0);
+    let count = |triangles: usize| done.fetch_add(triangles, Ordering::Relaxed) < usize::MAX;
+    assert!(searched.own_intersections(&count).is_some());
+    assert_eq!(done.into_inner(), tube.triangle_count());
+    assert_eq!(searched.own_intersections(&|_| false), None);
+}
+
+#[test]
 fn what_touches_along_its_own_edges_has_no_curve() {
     let cube = primitives::cube(1.0);
     let [beside, _] = both_ways((&cube, DMat4::IDENTITY), (&cube, at(1.0, 0.0, 0.0)));
@@ -139,7 +152,7 @@ fn speed() {
     let built = start.elapsed();
     let ball = SearchedMesh::new(&ball, &welds[1]);
     let start = std::time::Instant::now();
-    let own = tube.own_intersections().len();
+    let own = tube.own_intersections(&|_| true).unwrap().len();
     println!("{own} curves of 1.1 million triangles: tree {built:.0?}, search {:.0?}", start.elapsed());
     let placed = |mesh| Placed { mesh, world_from_local: DMat4::IDENTITY };
     let start = std::time::Instant::now();

@@ -12,7 +12,6 @@ use crate::geometry::line_segments::{
     contour_segments, draw_strokes, intersection_segments,
 };
 use crate::geometry::{ClassSet, EdgeClass, LineSegment, line_segments};
-use crate::scene::NodeId;
 
 /// Silhouettes, borders, creases, material boundaries and intersections of all objects of a group with exact lines, hidden ones
 /// included; straight ones as strokes if the group has any. Empty while topology is not known. `crease_angle` (radians): above it edges separate
@@ -96,6 +95,14 @@ fn find(
     all
 }
 
+/// An object of a group.
+#[derive(Clone, Copy)]
+struct Member {
+    object: u32,
+    /// What its style asks for, if that has intersections.
+    drawn: Option<LineSelection>,
+}
+
 /// Where objects of a group run through each other. The first of both draws the line, if it has intersections at all.
 fn add_intersections(
     scene: &GpuScene,
@@ -105,36 +112,32 @@ fn add_intersections(
     out: &mut Vec<LineSegment>,
 ) {
     let Some(intersections) = scene.intersections() else { return };
-    let mut in_group = vec![None; scene.model().nodes.len()];
+    let mut members = vec![None; scene.model().nodes.len()];
     for object in group.visible() {
-        if let Some(place) = in_group.get_mut(object.node) {
-            *place = Some(object.enhanced);
+        let style = group.edge_styles.get(object_id(object.node) as usize);
+        let wanted = style.filter(|s| object.enhanced && s.is_exact()).map(|s| wanted(s, crease_angle));
+        if let Some(member) = members.get_mut(object.node) {
+            let drawn = wanted.filter(|wanted| wanted.classes.contains(EdgeClass::Intersection));
+            *member = Some(Member { object: object_id(object.node), drawn });
         }
     }
     for Meeting { nodes, curves } in intersections.iter(scene.model()) {
-        let is_drawn_by = |node: NodeId, enhanced: bool| {
-            let style =
-                group.edge_styles.get(object_id(node) as usize).filter(|s| enhanced && s.is_exact())?;
-            let wanted = wanted(style, crease_angle);
-            wanted.classes.contains(EdgeClass::Intersection).then_some((object_id(node), wanted))
-        };
-        let [Some(Some(one)), Some(Some(other))] = nodes.map(|node| in_group.get(node).copied()) else {
-            continue;
-        };
-        let owner = is_drawn_by(nodes[0], one).or_else(|| is_drawn_by(nodes[1], other));
+        let [Some(Some(one)), Some(Some(other))] = nodes.map(|node| members.get(node)) else { continue };
+        let drawn_by = |member: &Member| member.drawn.map(|wanted| (member.object, wanted));
+        let owner = drawn_by(one).or_else(|| drawn_by(other));
         let found = nodes.map(|node| scene.scene.nodes.get(node)?.mesh.and_then(|mesh| scene.edges(mesh)));
-        let (Some((object, wanted)), [Some(one), Some(other)]) = (owner, found) else { continue };
+        let (Some((object, wanted)), [Some(edges), Some(other_edges)]) = (owner, found) else { continue };
         let placed = PlacedIntersections {
             curves,
             world_from_local: scene.scene.nodes[nodes[0]].world_from_local,
-            edges: [one, other],
+            edges: [edges, other_edges],
             object,
         };
         let first = out.len();
         intersection_segments(&placed, view, &wanted, out);
         for segment in out.iter_mut().skip(first) {
-            let [one, other] = segment.surfaces;
-            segment.surfaces = [surface_id(object_id(nodes[0]), one), surface_id(object_id(nodes[1]), other)];
+            let [surface, other_surface] = segment.surfaces;
+            segment.surfaces = [surface_id(one.object, surface), surface_id(other.object, other_surface)];
         }
     }
 }

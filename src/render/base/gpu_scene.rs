@@ -259,6 +259,11 @@ impl GpuScene {
         set.welds.get(number).map(Arc::as_ref)
     }
 
+    /// Of each mesh of the model, which vertices are one point; empty until topology is known.
+    pub fn model_welds(&self) -> &[Arc<Weld>] {
+        &self.meshes[Origin::Model as usize].welds
+    }
+
     /// Whether a mesh is known to enclose a volume: all of its bodies do.
     pub fn is_solid(&self, mesh: usize) -> bool {
         let (set, number) = self.set(mesh);
