@@ -3,7 +3,6 @@
 mod pointer;
 mod shown_texture;
 
-use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use eframe::egui::{self, Rect, Ui};
@@ -16,12 +15,11 @@ use super::jobs::Job;
 use super::refining::Refining;
 use super::screenshot::Shot;
 use crate::document::Document;
-use crate::geometry::Weld;
 use crate::gpu::Gpu;
 use crate::hatching::tonal_art_map::generator::Recipe;
 use crate::render::LayerReport;
 use crate::render::{
-    GpuScene, GpuStripes, Intersections, LayerMethod, RenderError, Renderer, Reported, Request,
+    ExaminedMesh, GpuScene, GpuStripes, Intersections, LayerMethod, RenderError, Renderer, Reported, Request,
     SolvedStripes, StripeRequest, StrokeMap, StyleImages, UploadedTopology, Uploader,
 };
 use crate::scene::NodeId;
@@ -231,9 +229,9 @@ impl Viewport {
         self.renderer.lacks_intersections(document)
     }
 
-    /// Of each mesh of the scene, which vertices are one point; empty until topology is known.
-    pub fn model_welds(&self) -> Vec<Arc<Weld>> {
-        self.renderer.model_welds().to_vec()
+    /// What topology found of each mesh of the scene; empty until that is known.
+    pub fn examined_meshes(&self) -> Vec<ExaminedMesh> {
+        self.renderer.examined_meshes()
     }
 
     /// Takes over the intersections of the scene.

@@ -141,7 +141,7 @@ impl Session {
     /// found it yet. Takes about a second per million triangles.
     pub fn find_intersections(&mut self, document: &Document, scene: &Scene) {
         if self.renderer.lacks_intersections(document)
-            && let Some(found) = Intersections::find(scene, self.renderer.model_welds(), &|_| true)
+            && let Some(found) = Intersections::find(scene, &self.renderer.examined_meshes(), &|_| true)
         {
             self.renderer.show_intersections(found);
         }

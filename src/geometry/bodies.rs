@@ -14,7 +14,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::disjoint_sets::DisjointSets;
-use super::{Adjacency, Bounds, EdgeKind, Mesh, Surfaces};
+use super::{Adjacency, Bounds, EdgeKind, Mesh, Surfaces, touching};
 
 /// Width of the widest gap in a closed body, as a share of the diagonal of the mesh.
 const WIDEST_GAP: f64 = 2e-3;
@@ -24,6 +24,8 @@ const MAX_AT_A_POINT: usize = 64;
 const NO_POINT: u32 = u32::MAX;
 /// Pairs of bodies that are compared to find cavities; of those beyond nothing is believed.
 const MAX_PAIRS: usize = 1 << 22;
+/// Bodies of which each is compared with those around it.
+const MAX_BODIES: usize = 4096;
 /// Triangles that one thread takes at a time.
 const TRIANGLES_PER_TASK: usize = 1 << 15;
 
@@ -136,15 +138,35 @@ impl Bodies {
     }
 
     /// Of the bodies that are inside out, leaves only those to be cavities that lie in the box around a solid one.
-    fn open_what_no_solid_surrounds(&mut self, mesh: &Mesh) {
-        if !self.kinds.contains(&BodyKind::Cavity) {
-            return;
-        }
+    /// The box around each body.
+    fn boxes(&self, mesh: &Mesh) -> Vec<Bounds> {
         let mut boxes = vec![Bounds::EMPTY; self.kinds.len()];
         for (&triangle, number) in mesh.triangles().iter().zip(0..) {
             let bounds = &mut boxes[self.of_triangle(number)];
             *bounds = bounds.union(&Bounds::of_points(&mesh.corners(triangle)));
         }
+        boxes
+    }
+
+    /// The box around all places where boxes of different bodies overlap, local space: only there may one run through another. Of
+    /// very many bodies the box around the mesh. They must be those of this mesh.
+    pub fn shared_region(&self, mesh: &Mesh) -> Bounds {
+        if self.kinds.len() <= 1 {
+            return Bounds::EMPTY;
+        }
+        if self.kinds.len() > MAX_BODIES {
+            return mesh.bounds();
+        }
+        let boxes = self.boxes(mesh);
+        let shared = touching(&boxes, 0.0).into_iter().map(|[a, b]| boxes[a].intersection(&boxes[b]));
+        shared.fold(Bounds::EMPTY, |all, bounds| all.union(&bounds))
+    }
+
+    fn open_what_no_solid_surrounds(&mut self, mesh: &Mesh) {
+        if !self.kinds.contains(&BodyKind::Cavity) {
+            return;
+        }
+        let boxes = self.boxes(mesh);
         let solids: Vec<Bounds> = self
             .kinds
             .iter()

@@ -44,6 +44,13 @@ impl Bounds {
         Self { min: self.min.min(other.min), max: self.max.max(other.max) }
     }
 
+    /// What both have in common, which may be empty.
+    #[must_use]
+    pub fn intersection(&self, other: &Self) -> Self {
+        let common = Self { min: self.min.max(other.min), max: self.max.min(other.max) };
+        if common.is_empty() { Self::EMPTY } else { common }
+    }
+
     /// The middle of the box; the origin when it is empty.
     pub fn center(&self) -> DVec3 {
         if self.is_empty() { DVec3::ZERO } else { (self.min + self.max) * 0.5 }

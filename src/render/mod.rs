@@ -11,7 +11,7 @@ pub mod views;
 
 pub use base::error::RenderError;
 pub use base::gpu_scene::{GpuScene, Origin, UploadedTopology, Uploader};
-pub use base::intersections::Intersections;
+pub use base::intersections::{ExaminedMesh, Intersections};
 pub use base::sample::{MAX_SAMPLES, Sample};
 pub use base::stripes::{GpuStripes, SolvedStripes, StripeRequest};
 pub use base::stroke_maps::StrokeMap;

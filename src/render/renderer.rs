@@ -7,7 +7,7 @@ use glam::{DVec3, UVec2, Vec2};
 use super::base::error::RenderError;
 use super::base::gpu_scene::{GpuScene, UploadedTopology, Uploader};
 use super::base::ids::node_of;
-use super::base::intersections::{Intersections, draws_intersections};
+use super::base::intersections::{ExaminedMesh, Intersections, draws_intersections};
 use super::base::lights::Lights;
 use super::base::scale_bar::ScaleBar;
 use super::base::scene_view::SceneView;
@@ -27,7 +27,7 @@ use super::passes::layers::{LayerMethod, Reported};
 use super::passes::line_distance::BLOCK;
 use super::views;
 use crate::document::{Document, Glyph};
-use crate::geometry::{Topology, Weld};
+use crate::geometry::Topology;
 use crate::gpu::readback::Readback;
 use crate::gpu::recorder::Intermediates;
 use crate::gpu::{Gpu, GpuError, Pipelines, Recorder, ShaderError, Shaders, Target, TargetPool, Timers};
@@ -188,15 +188,15 @@ impl Renderer {
     pub fn lacks_intersections(&self, document: &Document) -> bool {
         let lacks = |scene: &GpuScene| {
             scene.intersections().is_none()
-                && !scene.model_welds().is_empty()
+                && scene.is_examined()
                 && draws_intersections(document, scene.model())
         };
         self.scene.as_ref().is_some_and(lacks)
     }
 
-    /// See [`GpuScene::model_welds`].
-    pub fn model_welds(&self) -> &[Arc<Weld>] {
-        self.scene.as_ref().map_or(&[], GpuScene::model_welds)
+    /// What topology found of each mesh of the scene that is shown; empty until that is known.
+    pub fn examined_meshes(&self) -> Vec<ExaminedMesh> {
+        self.scene.as_ref().map_or(Vec::new(), GpuScene::examined_meshes)
     }
 
     /// Takes over the intersections of the scene that is shown.

@@ -38,13 +38,12 @@ const LEAST: f64 = 0.9;
 const MIN_OF_PRESETS: f64 = 0.88;
 const MIN_LOCKED: f64 = 0.98;
 const MIN_OF_INK: f64 = 0.9;
-/// Where surfaces run through each other: there the device finds lines pixel by pixel, now as the end of one surface before another,
-/// now as a crossing.
+/// Where surfaces run through each other: a line there is now the end of one surface before another, now an intersection.
 const MIN_OF_CROSSINGS: f64 = 0.8;
 /// Greatest share of the pixels with ink that pop beyond those of a locked run, apart from crossings and there. Not where a dolly leaps
 /// by a third: offsets have changed then, for waves are to keep their length on paper.
 const MAX_POPS: f64 = 0.001;
-const MAX_POPS_OF_CROSSINGS: f64 = 0.015;
+const MAX_POPS_OF_CROSSINGS: f64 = 0.009;
 /// Greatest deviation of the root of the mean square on a dolly.
 const MAX_DEVIATION: f64 = 0.15;
 /// Most steps of a path that ink is compared at, all along it.

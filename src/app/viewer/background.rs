@@ -237,9 +237,9 @@ impl Viewer {
         }
         let is_idle = self.has_topology() && !context.input(|i| i.pointer.any_down());
         if is_idle && !self.intersections_refused && self.viewport.lacks_intersections(&self.document) {
-            let (scene, welds) = (Arc::clone(&self.model.files), self.viewport.model_welds());
+            let (scene, examined) = (Arc::clone(&self.model.files), self.viewport.examined_meshes());
             let work = move |progress: &Progress| {
-                Intersections::find(&scene, &welds, &|share| progress.goes_on(share))
+                Intersections::find(&scene, &examined, &|share| progress.goes_on(share))
             };
             self.jobs.intersections = Some(Job::start("intersecting the meshes", context, work));
         }

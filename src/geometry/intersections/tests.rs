@@ -2,23 +2,27 @@ use std::f64::consts::TAU;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::*;
-use crate::geometry::primitives;
+use crate::geometry::{CreaseRule, Topology, primitives};
 
 fn at(x: f64, y: f64, z: f64) -> DMat4 {
     DMat4::from_translation(DVec3::new(x, y, z))
 }
 
+fn whole<'a>(mesh: &'a Mesh, weld: &'a Weld) -> SearchedMesh<'a> {
+    SearchedMesh::new(mesh, weld, &mesh.bounds())
+}
+
 /// The curves between two placed meshes, and those in the other order.
 fn both_ways(one: (&Mesh, DMat4), other: (&Mesh, DMat4)) -> [Vec<IntersectionCurve>; 2] {
     let welds = [one, other].map(|(mesh, _)| Weld::near(&mesh.positions));
-    let searched = [SearchedMesh::new(one.0, &welds[0]), SearchedMesh::new(other.0, &welds[1])];
+    let searched = [whole(one.0, &welds[0]), whole(other.0, &welds[1])];
     let placed = [(0, one.1), (1, other.1)]
         .map(|(mesh, world_from_local)| Placed { mesh: &searched[mesh], world_from_local });
     [intersections(placed[0], placed[1]), intersections(placed[1], placed[0])]
 }
 
 fn own(mesh: &Mesh) -> Vec<IntersectionCurve> {
-    SearchedMesh::new(mesh, &Weld::near(&mesh.positions)).own_intersections(&|_| true).unwrap()
+    whole(mesh, &Weld::near(&mesh.positions)).own_intersections(&|_| true).unwrap()
 }
 
 fn together(meshes: &[(&Mesh, DVec3)]) -> Mesh {
@@ -92,12 +96,30 @@ fn a_mesh_that_runs_through_itself_has_the_curves_of_its_parts() {
 fn a_search_says_how_far_it_is_and_can_be_stopped() {
     let tube = primitives::torus(1.0, 0.3, 200, 100);
     let weld = Weld::near(&tube.positions);
-    let searched = SearchedMesh::new(&tube, &weld);
+    let searched = whole(&tube, &weld);
     let done = AtomicUsize::new(0);
     let count = |triangles: usize| done.fetch_add(triangles, Ordering::Relaxed) < usize::MAX;
     assert!(searched.own_intersections(&count).is_some());
     assert_eq!(done.into_inner(), tube.triangle_count());
     assert_eq!(searched.own_intersections(&|_| false), None);
+}
+
+#[test]
+fn a_region_that_holds_the_curves_is_enough() {
+    let (ball, cube) = (primitives::sphere(1.0, 24, 48), primitives::cube(1.0));
+    let by = DVec3::new(0.9, 0.1, 0.2);
+    let both = together(&[(&ball, DVec3::ZERO), (&cube, by)]);
+    let bodies = Topology::new(&both, 0.5, CreaseRule::default()).bodies;
+    let region = bodies.shared_region(&both);
+    let expected = ball.bounds().intersection(&cube.bounds().transformed(&at(by.x, by.y, by.z)));
+    assert!(region.min.distance(expected.min).max(region.max.distance(expected.max)) < 1e-6, "{region:?}");
+    let weld = Weld::near(&both.positions);
+    let part = SearchedMesh::new(&both, &weld, &region);
+    assert!(part.triangle_count() < both.triangle_count() / 2);
+    let curves = part.own_intersections(&|_| true).unwrap();
+    assert!((length(&curves, 0.0) - length(&own(&both), 0.0)).abs() < 1e-6);
+    let alone = Topology::new(&ball, 0.5, CreaseRule::default()).bodies;
+    assert!(alone.shared_region(&ball).is_empty());
 }
 
 #[test]
@@ -148,9 +170,9 @@ fn speed() {
     let ball = primitives::sphere(1.0, 256, 512);
     let welds = [&tube, &ball].map(|mesh| Weld::near(&mesh.positions));
     let start = std::time::Instant::now();
-    let tube = SearchedMesh::new(&tube, &welds[0]);
+    let tube = whole(&tube, &welds[0]);
     let built = start.elapsed();
-    let ball = SearchedMesh::new(&ball, &welds[1]);
+    let ball = whole(&ball, &welds[1]);
     let start = std::time::Instant::now();
     let own = tube.own_intersections(&|_| true).unwrap().len();
     println!("{own} curves of 1.1 million triangles: tree {built:.0?}, search {:.0?}", start.elapsed());

@@ -5,7 +5,7 @@ use std::sync::{Arc, OnceLock};
 use glam::{DMat4, DVec3};
 use rayon::prelude::*;
 
-use super::intersections::Intersections;
+use super::intersections::{ExaminedMesh, Intersections};
 use super::section::{Section, SectionResult};
 use super::stripes::{GpuStripes, SolvedStripes, StripePlace, StripeRequest};
 use super::view::View;
@@ -259,9 +259,17 @@ impl GpuScene {
         set.welds.get(number).map(Arc::as_ref)
     }
 
-    /// Of each mesh of the model, which vertices are one point; empty until topology is known.
-    pub fn model_welds(&self) -> &[Arc<Weld>] {
-        &self.meshes[Origin::Model as usize].welds
+    /// Whether topology of the model is known.
+    pub fn is_examined(&self) -> bool {
+        !self.meshes[Origin::Model as usize].welds.is_empty()
+    }
+
+    /// What topology found of each mesh of the model; empty until that is known.
+    pub fn examined_meshes(&self) -> Vec<ExaminedMesh> {
+        let MeshSet { welds, bodies, .. } = &self.meshes[Origin::Model as usize];
+        let both = welds.iter().zip(bodies);
+        both.map(|(weld, bodies)| ExaminedMesh { weld: Arc::clone(weld), bodies: Arc::clone(bodies) })
+            .collect()
     }
 
     /// Whether a mesh is known to enclose a volume: all of its bodies do.

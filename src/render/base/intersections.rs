@@ -7,8 +7,8 @@ use rayon::prelude::*;
 
 use crate::document::Document;
 use crate::geometry::intersections::{Placed, SearchedMesh, intersections};
-use crate::geometry::{Bounds, EdgeClass, IntersectionCurve, Weld};
-use crate::scene::{NodeId, Scene};
+use crate::geometry::{Bodies, Bounds, EdgeClass, IntersectionCurve, Weld, touching};
+use crate::scene::{Node, NodeId, Scene};
 use crate::style::{EdgeMode, Edges};
 
 /// All intersections of a model. Clones share them.
@@ -17,6 +17,15 @@ pub struct Intersections {
     /// By mesh, where it runs through itself.
     within: Arc<Vec<Vec<IntersectionCurve>>>,
     between: Arc<Vec<Between>>,
+}
+
+/// What topology found of a mesh.
+#[derive(Debug, Clone)]
+pub struct ExaminedMesh {
+    /// Which of its vertices are one point.
+    pub weld: Arc<Weld>,
+    /// Its bodies.
+    pub bodies: Arc<Bodies>,
 }
 
 /// Where two objects run through each other.
@@ -36,24 +45,31 @@ pub struct Meeting<'a> {
 }
 
 impl Intersections {
-    /// Finds all intersections of a scene, whose meshes are welded as `welds` say: about a second per million triangles on two cores, and more where many objects
-    /// share the same place. `progress` is given the share that is done, 0 to 1, and says whether to go on: `None` when it did not.
-    pub fn find(scene: &Scene, welds: &[Arc<Weld>], progress: &(dyn Fn(f32) -> bool + Sync)) -> Option<Self> {
-        // Trees take as long as what is done with them.
-        let all = 2 * scene.meshes.iter().map(|mesh| mesh.triangle_count()).sum::<usize>().max(1);
+    /// Finds the intersections of a scene, of whose meshes topology found `examined`: about a second per million triangles on two
+    /// cores, as far as they lie where boxes of objects, or of bodies of one mesh, overlap. Elsewhere nothing is looked for: one
+    /// body alone seldom runs through itself. `progress` is given the share that is done, 0 to 1, and says whether to go on: `None`
+    /// when it did not.
+    pub fn find(
+        scene: &Scene,
+        examined: &[ExaminedMesh],
+        progress: &(dyn Fn(f32) -> bool + Sync),
+    ) -> Option<Self> {
+        let boxes = Boxes::new(scene);
+        let pairs = touching(&boxes.of_nodes, 0.0);
+        let regions = boxes.regions(scene, examined, &pairs);
+        let searched = scene.meshes.par_iter().zip(examined).zip(&regions).with_max_len(1);
+        let searched: Vec<SearchedMesh<'_>> = searched
+            .map(|((mesh, examined), region)| SearchedMesh::new(mesh, &examined.weld, region))
+            .collect();
+        let all = searched.iter().map(SearchedMesh::triangle_count).sum::<usize>().max(1);
         let done = AtomicUsize::new(0);
         let goes_on = |triangles: usize| {
             let before = done.fetch_add(triangles, Ordering::Relaxed);
             progress((before + triangles) as f32 / all as f32)
         };
-        let searched = scene.meshes.par_iter().zip(welds).with_max_len(1).map(|(mesh, weld)| {
-            let searched = SearchedMesh::new(mesh, weld);
-            goes_on(mesh.triangle_count()).then_some(searched)
-        });
-        let searched = searched.collect::<Option<Vec<_>>>()?;
         let within = searched.par_iter().with_max_len(1).map(|mesh| mesh.own_intersections(&goes_on));
         let within = within.collect::<Option<Vec<_>>>()?;
-        let between = overlapping_pairs(scene).into_par_iter().with_max_len(1).map(|nodes| {
+        let between = pairs.into_par_iter().with_max_len(1).map(|nodes| {
             let placed = nodes.map(|node| {
                 let node = scene.nodes.get(node)?;
                 Some(Placed { mesh: searched.get(node.mesh?)?, world_from_local: node.world_from_local })
@@ -80,28 +96,42 @@ impl Intersections {
     }
 }
 
-/// The pairs of objects whose boxes overlap. The order of the pairs, and that within them, depends on the boxes alone: the order in
-/// which a file lists its objects changes no picture.
-fn overlapping_pairs(scene: &Scene) -> Vec<[NodeId; 2]> {
-    let meshes: Vec<Bounds> = scene.meshes.par_iter().map(|mesh| mesh.bounds()).collect();
-    let boxes = scene.nodes.iter().enumerate().filter_map(|(number, node)| {
-        let bounds = meshes.get(node.mesh?).filter(|bounds| !bounds.is_empty())?;
-        Some((number, bounds.transformed(&node.world_from_local)))
-    });
-    let mut boxes: Vec<(NodeId, Bounds)> = boxes.collect();
-    let corners = |b: &Bounds| [b.min.to_array(), b.max.to_array()];
-    boxes.sort_by(|(_, one), (_, other)| {
-        corners(one).partial_cmp(&corners(other)).unwrap_or(std::cmp::Ordering::Equal)
-    });
-    let mut pairs: Vec<[NodeId; 2]> = Vec::new();
-    for (i, (one, own)) in boxes.iter().enumerate() {
-        for (other, bounds) in boxes.iter().skip(i + 1).take_while(|(_, b)| b.min.x <= own.max.x) {
-            if own.min.cmple(bounds.max).all() && bounds.min.cmple(own.max).all() {
-                pairs.push([*one, *other]);
+/// The boxes of a scene.
+struct Boxes {
+    /// Local space.
+    of_meshes: Vec<Bounds>,
+    /// World space; empty where there is no mesh.
+    of_nodes: Vec<Bounds>,
+}
+
+impl Boxes {
+    fn new(scene: &Scene) -> Self {
+        let of_meshes: Vec<Bounds> = scene.meshes.par_iter().map(|mesh| mesh.bounds()).collect();
+        let of_node = |node: &Node| {
+            let bounds = node.mesh.and_then(|mesh| of_meshes.get(mesh));
+            bounds.map_or(Bounds::EMPTY, |bounds| bounds.transformed(&node.world_from_local))
+        };
+        let of_nodes = scene.nodes.iter().map(of_node).collect();
+        Self { of_meshes, of_nodes }
+    }
+
+    /// Where in each mesh boxes of other objects, or of other bodies of its own, overlap; local space.
+    fn regions(&self, scene: &Scene, examined: &[ExaminedMesh], pairs: &[[NodeId; 2]]) -> Vec<Bounds> {
+        let own = scene.meshes.par_iter().zip(examined).map(|(mesh, own)| own.bodies.shared_region(mesh));
+        let mut regions: Vec<Bounds> = own.collect();
+        for &[one, other] in pairs {
+            for (node, neighbor) in [(one, other), (other, one)] {
+                let Some(node) = scene.nodes.get(node) else { continue };
+                let neighbor = self.of_nodes[neighbor].transformed(&node.world_from_local.inverse());
+                let mesh =
+                    node.mesh.and_then(|mesh| Some((regions.get_mut(mesh)?, self.of_meshes.get(mesh)?)));
+                if let Some((region, bounds)) = mesh {
+                    *region = region.union(&neighbor.intersection(bounds));
+                }
             }
         }
+        regions
     }
-    pairs
 }
 
 /// Whether a document draws lines where objects of a scene run through each other.

@@ -1,9 +1,7 @@
 //! Numbers that tell objects apart where their boxes meet: caps of neighbors are hatched differently, and where solids reach
 //! into each other one cap lies over the other.
 
-use glam::DVec3;
-
-use crate::geometry::Bounds;
+use crate::geometry::{Bounds, touching};
 use crate::render::base::gpu_scene::GpuScene;
 use crate::scene::NodeId;
 
@@ -28,12 +26,12 @@ pub(super) fn numbers(scene: &GpuScene, visible: &[NodeId], margin: f64) -> Vec<
 }
 
 fn numbers_of(boxes: &[Bounds], margin: f64) -> Vec<CapNumber> {
-    let touching = touching(boxes, margin);
+    let neighbors = neighbors(boxes, margin);
     let mut by_size: Vec<usize> = (0..boxes.len()).collect();
     by_size.sort_by(|&a, &b| boxes[a].diagonal().total_cmp(&boxes[b].diagonal()));
     let mut numbers: Vec<Option<CapNumber>> = vec![None; boxes.len()];
     for i in by_size {
-        let smaller: Vec<CapNumber> = touching[i].iter().filter_map(|&other| numbers[other]).collect();
+        let smaller: Vec<CapNumber> = neighbors[i].iter().filter_map(|&other| numbers[other]).collect();
         let is_free = |pattern: &u32| smaller.iter().all(|other| other.pattern != *pattern);
         numbers[i] = Some(CapNumber {
             pattern: (0..).find(is_free).unwrap_or(0),
@@ -44,29 +42,19 @@ fn numbers_of(boxes: &[Bounds], margin: f64) -> Vec<CapNumber> {
 }
 
 /// For each box those that it touches.
-fn touching(boxes: &[Bounds], margin: f64) -> Vec<Vec<usize>> {
-    let reach = DVec3::splat(margin);
-    let mut order: Vec<usize> = (0..boxes.len()).filter(|&i| !boxes[i].is_empty()).collect();
-    order.sort_by(|&a, &b| boxes[a].min.x.total_cmp(&boxes[b].min.x));
-    let mut touching = vec![Vec::new(); boxes.len()];
-    let mut before: Vec<usize> = Vec::new();
-    for i in order {
-        let own = &boxes[i];
-        before.retain(|&other| boxes[other].max.x + margin >= own.min.x);
-        for &other in &before {
-            let Bounds { min, max } = boxes[other];
-            if min.cmple(own.max + reach).all() && max.cmpge(own.min - reach).all() {
-                touching[i].push(other);
-                touching[other].push(i);
-            }
-        }
-        before.push(i);
+fn neighbors(boxes: &[Bounds], margin: f64) -> Vec<Vec<usize>> {
+    let mut neighbors = vec![Vec::new(); boxes.len()];
+    for [one, other] in touching(boxes, margin) {
+        neighbors[one].push(other);
+        neighbors[other].push(one);
     }
-    touching
+    neighbors
 }
 
 #[cfg(test)]
 mod tests {
+    use glam::DVec3;
+
     use super::*;
 
     fn cube(at: [f64; 3], size: f64) -> Bounds {
