@@ -55,6 +55,7 @@ fn point_at(v: Segment, number: u32, px: vec2<f32>) -> SegmentPoint {
     let left_is_own = left.surfel.object == own;
     let left_is_outside = select(left.lead < right.lead, !left_is_own, left_is_own != (right.surfel.object == own));
     let behind = select(right.surfel.object, left.surfel.object, left_is_outside);
+    let is_outside_covered = select(is_covered(right, own), is_covered(left, own), left_is_outside);
     let step_behind = -select(right.lead, left.lead, left_is_outside);
 
     var class_of = (v.ids.x & 15u) + 1u;
@@ -67,6 +68,10 @@ fn point_at(v: Segment, number: u32, px: vec2<f32>) -> SegmentPoint {
         // Without a threshold, what stands on a surface (or slightly in it) has a line at its foot.
         let threshold = edge_styles[own].lines[index].threshold;
         if threshold > 0.0 && step_behind < threshold || goes_on_under(tested, own, length_of(v)) {
+            return NO_POINT;
+        }
+        // What another object covers on its outside lies inside of that object: what is seen there is their intersection.
+        if is_outside_covered {
             return NO_POINT;
         }
         weight = 1.0;

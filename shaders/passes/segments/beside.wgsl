@@ -13,6 +13,8 @@ var surface_id_tex: texture_storage_2d<r32uint, read>;
 
 // So far, in pixels, may a surface lie before a line that is drawn on it.
 const SLACK: f32 = 0.4;
+// So far, in pixels, lies a surface of another object before a line whose ink it hides.
+const COVERS: f32 = 2.0;
 // How far beside the spine is looked, px: just far enough that the pixel lies wholly on that side.
 const BESIDE: f32 = 0.8;
 
@@ -32,6 +34,8 @@ struct Beside {
     surfel: Surfel,
     // How far its surface, continued to the spine, lies before it, px.
     lead: f32,
+    // Whether it does so by so much that it hides ink: by more the steeper it is, as it may bend on the way.
+    covers: bool,
     // Whether a layer's surface is one of the segment's and runs through the spine, as exactly as its slope allows: curved
     // surfaces bend away from their plane the more, the steeper it is.
     carries: bool,
@@ -55,7 +59,8 @@ fn beside(spine: Spine, along: f32, surface_ids: vec2<u32>) -> Beside {
         let miss = abs(lead) - length(plane.slope);
         carries = any(surface_ids == vec2(surface_id)) && step_px(miss, spine.depth) <= 2.0;
     }
-    return Beside(s, select(step_px(lead, spine.depth), -1e9, s.object == 0u), carries && s.object != 0u);
+    let covers = s.object != 0u && step_px(lead - 0.5 * length(plane.slope), spine.depth) > COVERS;
+    return Beside(s, select(step_px(lead, spine.depth), -1e9, s.object == 0u), covers, carries && s.object != 0u);
 }
 
 // Whether one of these surfaces is seen on either side of a spine, or on it.
@@ -67,9 +72,9 @@ fn is_carried_beside(spine: Spine, surface_ids: vec2<u32>) -> bool {
     return found;
 }
 
-// Whether another object lies so far before a line there that it hides its ink.
+// Whether another object hides the ink of a line there.
 fn is_covered(there: Beside, own: u32) -> bool {
-    return there.surfel.object != own && there.lead > 2.0;
+    return there.surfel.object != own && there.covers;
 }
 
 // Whether one of the line's own surfaces is seen there.
