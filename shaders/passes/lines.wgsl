@@ -42,9 +42,10 @@ var spine_tex: texture_2d<u32>;
 var source_tex: texture_storage_2d<r32uint, read>;
 var<storage, read> edge_styles: array<EdgeStyle>;
 
-// A surface so far before a line, in pixels, hides it.
+// A surface so far before a line, in pixels, hides it: farther than `COVERS` in passes/segments/beside.wgsl, so that no line which
+// was found there is drawn in pieces.
 fn slack() -> f32 {
-    return select(2.0, 0.25, AMONG_OTHERS);
+    return select(3.0, 0.25, AMONG_OTHERS);
 }
 
 // Whether surface `g` of a pixel lies so much, px, before a line of this depth whose spine is so far from the pixel's center.

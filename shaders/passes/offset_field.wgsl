@@ -211,7 +211,9 @@ fn neighbor_of(px: vec2<i32>, edge: Edge, spine: vec2<f32>) -> Neighbor {
             found = Neighbor(s.object, s.normal, 0.0);
         }
     }
-    found.share = 1.0 - smoothstep(0.0, APART, least);
+    // Where they run through each other they touch, however steep their planes are beside it.
+    let meets = edge.class_of == INTERSECTION && found.object != 0u;
+    found.share = select(1.0 - smoothstep(0.0, APART, least), 1.0, meets);
     return found;
 }
 

@@ -89,7 +89,7 @@ impl Changes {
         self.pops[run] += f64::from(u8::from(change > POP));
     }
 
-    fn plus(mut self, other: &Self) -> Self {
+    pub(crate) fn plus(mut self, other: &Self) -> Self {
         for run in 0..RUNS {
             self.change[run] += other.change[run];
             self.pops[run] += other.pops[run];

@@ -96,7 +96,7 @@ impl Default for Wander {
             enlarge: 16.0,
             noise: Noise::default(),
             wave: 140.0,
-            detail: 0.2,
+            detail: 0.1,
             octaves: 4,
             seed: 1,
             by_object: true,
