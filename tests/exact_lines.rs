@@ -454,3 +454,28 @@ fn surfaces_that_bend_alike_have_a_whole_line_where_they_meet() {
         assert_eq!(found, places.len(), "{angle}");
     }
 }
+
+#[test]
+fn a_coarse_ball_that_is_sunk_in_a_wall_has_no_outline_within_it() {
+    let mut session = session();
+    let corners = [[-2.0, -2.0], [2.0, -2.0], [2.0, 2.0], [-2.0, 2.0]].map(|[x, y]| Vec3::new(x, y, 0.0));
+    let wall = from_triangles(corners.to_vec(), vec![0, 1, 2, 0, 2, 3]);
+    for sunk in [0.08, 0.1, 0.15, 0.2] {
+        let scene = scene(vec![
+            ("ball", sphere(1.0, 12, 24), at(0.0, 0.0, 0.0), [0.7; 3]),
+            ("wall", wall.clone(), at(0.0, 0.0, sunk), [0.7; 3]),
+        ]);
+        let mut camera = Camera::looking_from(DVec3::new(0.02, 0.03, 1.0), DVec3::Y, &scene.extent(), 1.0);
+        camera.projection = Projection::Orthographic { view_height: 3.0 };
+        let mut opened = line_drawing(&scene, camera);
+        set_width(&mut opened, 2.0, 120);
+        session.set_scene(&opened).unwrap();
+        let picture = session.draw(&opened, [120; 2], false).unwrap();
+        let classes = edge_classes(&mut session, &picture);
+        let count = |class| classes.iter().flatten().filter(|(found, _)| *found == class).count();
+        // The outline lies a little behind the wall, beside the line that is seen by hardly a pixel.
+        let [within, seen] = [EdgeClass::Object, EdgeClass::Intersection].map(count);
+        println!("sunk by {sunk}: {within} px of outline, {seen} of intersection");
+        assert!(seen > 200 && within == 0, "{sunk}");
+    }
+}
