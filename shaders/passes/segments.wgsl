@@ -70,7 +70,7 @@ fn point_at(v: Segment, number: u32, px: vec2<f32>) -> SegmentPoint {
         if threshold > 0.0 && step_behind < threshold || goes_on_under(tested, own, length_of(v)) {
             return NO_POINT;
         }
-        // What another object covers on its outside lies inside of that object: what is seen there is their intersection.
+        // An outline beyond which another object is nearer lies inside that object: their intersection is seen there instead.
         if is_outside_covered {
             return NO_POINT;
         }

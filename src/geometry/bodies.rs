@@ -137,7 +137,6 @@ impl Bodies {
         volumes
     }
 
-    /// Of the bodies that are inside out, leaves only those to be cavities that lie in the box around a solid one.
     /// The box around each body.
     fn boxes(&self, mesh: &Mesh) -> Vec<Bounds> {
         let mut boxes = vec![Bounds::EMPTY; self.kinds.len()];
@@ -162,6 +161,7 @@ impl Bodies {
         shared.fold(Bounds::EMPTY, |all, bounds| all.union(&bounds))
     }
 
+    /// Of the bodies that are inside out, leaves only those to be cavities that lie in the box around a solid one.
     fn open_what_no_solid_surrounds(&mut self, mesh: &Mesh) {
         if !self.kinds.contains(&BodyKind::Cavity) {
             return;

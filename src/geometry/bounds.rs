@@ -88,6 +88,13 @@ impl Bounds {
     }
 }
 
+/// A cube with its lowest corner at a place.
+#[cfg(test)]
+pub(crate) fn cube(at: [f64; 3], size: f64) -> Bounds {
+    let at = DVec3::from_array(at);
+    Bounds { min: at, max: at + size }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

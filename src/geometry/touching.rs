@@ -10,9 +10,13 @@ use super::Bounds;
 /// them, depends on the boxes alone and not on the order in which they are given, unless two are the same.
 pub fn touching(boxes: &[Bounds], margin: f64) -> Vec<[usize; 2]> {
     let reach = DVec3::splat(margin);
-    let corners = |i: usize| [boxes[i].min.to_array(), boxes[i].max.to_array()];
+    let by_corners = |&a: &usize, &b: &usize| {
+        let corners = |i: usize| boxes[i].min.to_array().into_iter().chain(boxes[i].max.to_array());
+        let orders = corners(a).zip(corners(b)).map(|(one, other)| one.total_cmp(&other));
+        orders.fold(Ordering::Equal, Ordering::then)
+    };
     let mut order: Vec<usize> = (0..boxes.len()).filter(|&i| !boxes[i].is_empty()).collect();
-    order.sort_by(|&a, &b| corners(a).partial_cmp(&corners(b)).unwrap_or(Ordering::Equal));
+    order.sort_by(by_corners);
     let mut pairs = Vec::new();
     let mut before: Vec<usize> = Vec::new();
     for i in order {
@@ -32,10 +36,14 @@ pub fn touching(boxes: &[Bounds], margin: f64) -> Vec<[usize; 2]> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::bounds::cube;
 
-    fn cube(at: [f64; 3], size: f64) -> Bounds {
-        let at = DVec3::from_array(at);
-        Bounds { min: at, max: at + size }
+    #[test]
+    fn numbers_that_are_none_touch_nothing() {
+        let none = Bounds { min: DVec3::NAN, max: DVec3::NAN };
+        let boxes: Vec<Bounds> =
+            (0..64).map(|i| if i % 3 == 0 { none } else { cube([f64::from(i * 7 % 64); 3], 0.5) }).collect();
+        assert!(touching(&boxes, 0.0).is_empty());
     }
 
     #[test]

@@ -53,14 +53,8 @@ fn neighbors(boxes: &[Bounds], margin: f64) -> Vec<Vec<usize>> {
 
 #[cfg(test)]
 mod tests {
-    use glam::DVec3;
-
     use super::*;
-
-    fn cube(at: [f64; 3], size: f64) -> Bounds {
-        let at = DVec3::from_array(at);
-        Bounds { min: at, max: at + size }
-    }
+    use crate::geometry::bounds::cube;
 
     #[test]
     fn what_touches_differs_and_the_larger_lies_lower() {
