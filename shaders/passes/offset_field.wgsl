@@ -185,7 +185,7 @@ struct Neighbor {
 }
 
 // Surfaces so far apart, reference pixels, do not touch.
-const APART: f32 = 8.0;
+const APART: f32 = 6.0;
 // Share of the distance to where a surface was found that counts as apart from it, though in its plane.
 const IN_PLANE: f32 = 0.1;
 
@@ -232,7 +232,8 @@ fn cs_lines(@builtin(global_invocation_id) id: vec3<u32>) {
     let foreshortening = foreshortening_at(px, edge, spine);
     let at = pos_view_at(spine, edge.depth);
     var neighbor = Neighbor(0u, vec3(0.0), 0.0);
-    if is_of_profile(edge.class_of) || edge.class_of == INTERSECTION {
+    // A valley at the foot of a bulge becomes an intersection where the bulge sinks into what it lies on.
+    if is_of_profile(edge.class_of) || edge.class_of == INTERSECTION || edge.class_of == VALLEY {
         neighbor = neighbor_of(px, edge, spine);
     }
     var noise = array<vec2<f32>, 8>();
