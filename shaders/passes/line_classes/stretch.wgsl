@@ -9,6 +9,8 @@ var link_tex: texture_2d<u32>;
 
 // Most steps of a stretch that are told apart: twice as many have to fit into the bits of a number.
 const MAX_STEPS: f32 = 15.0;
+// Of so many steps a class has to have one: what is found now and then is none that chance leaves out.
+const DENSE: i32 = 3;
 // More than the links of two stretches in the largest pictures.
 const MAX_LINKS: i32 = 64;
 // Longer than any.
@@ -118,6 +120,14 @@ fn last_step(steps: u32, first: i32, longest: i32) -> i32 {
     return last;
 }
 
+// How many of the steps up to these, in both directions, a class has.
+fn count_up_to(steps: vec2<u32>, last: vec2<i32>) -> i32 {
+    let up_to = steps & ((vec2(2u) << vec2<u32>(last)) - 1u);
+    let counts = countOneBits(up_to);
+    // The first step is that of the pixel itself.
+    return i32(counts.x + counts.y - (up_to.x & up_to.y & 1u));
+}
+
 // The first step of a class in both directions.
 fn first_of(steps: vec2<u32>) -> vec2<i32> {
     return vec2<i32>(select(countTrailingZeros(steps), vec2<u32>(u32(ENDLESS)), steps == vec2(0u)));
@@ -191,7 +201,8 @@ fn settled(px: vec2<i32>, own: u32, links: u32, ahead: Stretch, behind: Stretch)
         let first = first_of(steps);
         if first.x + first.y <= longest {
             let last = vec2(last_step(steps.x, first.x, longest), last_step(steps.y, first.y, longest));
-            if last.x + last.y + 1 >= longest || any(last + 1 >= ends) {
+            let is_dense = DENSE * count_up_to(steps, last) >= last.x + last.y + 1;
+            if is_dense && (last.x + last.y + 1 >= longest || any(last + 1 >= ends)) {
                 running |= bit_of(class_of);
             }
         }
