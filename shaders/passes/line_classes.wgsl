@@ -2,7 +2,8 @@
 //
 // The class: where two lines run within a pixel of each other (a part that touches another, or dips into it), chance decides in
 // every pixel which of them is found there. Such lines become one: of the widest class that has no gap as long as a stretch
-// there, bridged between its points. No other class shows in between on less than a stretch.
+// there and is found at one step of three or more, bridged between its points. No other class shows in between on less than a
+// stretch.
 //
 // Dots: pieces of lines that are too short to tell anything, and that nothing continues but a line beside them, are left out.
 //
