@@ -9,8 +9,8 @@ var link_tex: texture_2d<u32>;
 
 // Most steps of a stretch that are told apart: twice as many have to fit into the bits of a number.
 const MAX_STEPS: f32 = 15.0;
-// Of so many steps a class has to have one: what is found now and then is none that chance leaves out.
-const DENSE: i32 = 3;
+// A class is found at one of so many steps at least; what is found less often is a line behind that peeps through.
+const MAX_STEPS_APART: i32 = 3;
 // More than the links of two stretches in the largest pictures.
 const MAX_LINKS: i32 = 64;
 // Longer than any.
@@ -201,7 +201,7 @@ fn settled(px: vec2<i32>, own: u32, links: u32, ahead: Stretch, behind: Stretch)
         let first = first_of(steps);
         if first.x + first.y <= longest {
             let last = vec2(last_step(steps.x, first.x, longest), last_step(steps.y, first.y, longest));
-            let is_dense = DENSE * count_up_to(steps, last) >= last.x + last.y + 1;
+            let is_dense = MAX_STEPS_APART * count_up_to(steps, last) >= last.x + last.y + 1;
             if is_dense && (last.x + last.y + 1 >= longest || any(last + 1 >= ends)) {
                 running |= bit_of(class_of);
             }
