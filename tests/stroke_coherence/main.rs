@@ -43,7 +43,7 @@ const MAX_LOCKED: f64 = 0.002;
 const MAX_CRUMBS: f64 = 0.02;
 /// Greatest coefficients of variation of spacing and width on a model, and on a plane that faces the eye: there lines are inserted
 /// everywhere at once.
-const MAX_UNEVEN: f64 = 0.09;
+const MAX_UNEVEN: f64 = 0.08;
 const MAX_UNEVEN_ON_PLANE: f64 = 0.15;
 /// Steps in an octave of coming closer.
 const STEPS: u32 = 4;

@@ -25,6 +25,7 @@ struct Stroke {
 
 // As in src/geometry/stripes/levels.rs.
 const FAMILIES: u32 = 3u;
+const THIRD_DENSITY: f32 = 0.89;
 const BASE_LEVEL: i32 = 5;
 const LAST_LEVEL: i32 = 6;
 // Levels below the own one by which lines are told apart, so that a line keeps its number while one comes closer.
@@ -33,7 +34,9 @@ const FINER_BY: i32 = 4;
 // As in src/render/effects/hatching/calibration.rs.
 const SOFT: f32 = 0.04;
 const MIN_WIDTH: f32 = 0.35;
-const OCTAVE_PLACES: u32 = 16u;
+// From so much more tone on than they need inserted lines count as neighbors.
+const INSERTED: f32 = 0.2;
+const OCTAVE_PLACES: u32 = 32u;
 const OCTAVE_LENGTHS: u32 = 10u;
 const INK_STEPS: u32 = 64u;
 
@@ -55,6 +58,19 @@ fn hash_of(a: u32, b: u32) -> u32 {
 
 fn unit_of(hash: u32) -> f32 {
     return f32(hash >> 8u) / 16777216.0;
+}
+
+// Ranks among 16 that chance follows: those of lines beside each other lie far apart, so that the tone is even, and so do those of
+// strokes beside each other along a line, of which each has another. `odd`: of the line's number; `birth`: a hash of the level at
+// which it was born.
+fn rank_of_line(odd: u32) -> u32 {
+    return 2u * (reverseBits(odd >> 1u) >> 29u);
+}
+
+fn rank_of_stroke(odd: u32, birth: u32, number: u32) -> u32 {
+    let line = odd >> 1u;
+    let along = (reverseBits(number) >> 28u) ^ (birth & 15u);
+    return (along + rank_of_line(odd) + ((line ^ (line >> 1u)) & 1u)) & 15u;
 }
 
 // Value noise, 0 to 1.
@@ -160,15 +176,16 @@ struct Family {
 fn family_of(s: Stripes, number: u32) -> Family {
     let angle = 1.5707963 + 1.0471976 * f32(number);
     let turn = vec2(cos(angle), sin(angle));
+    let frequency = s.frequency * select(1.0, THIRD_DENSITY, number == 2u);
     var gradient = vec3(0.0);
     var cycles = vec3(0.0);
     let first = s.direction[0] * turn.x + cross(s.normal[0], s.direction[0]) * turn.y;
     for (var i = 0u; i < 3u; i++) {
         let own = (s.direction[i] * turn.x + cross(s.normal[i], s.direction[i]) * turn.y) * s.signs[i];
         gradient += s.shares[i] * own;
-        cycles[i] = 0.5 * s.frequency * dot(first + own, s.away[i]);
+        cycles[i] = 0.5 * frequency * dot(first + own, s.away[i]);
     }
-    gradient = normalize(gradient + vec3(1e-20)) * s.frequency;
+    gradient = normalize(gradient + vec3(1e-20)) * frequency;
     let screen = vec2(dot(gradient, s.dx), dot(gradient, s.dy));
     return Family(cycles, max(length(screen), 1e-12), screen, dot(gradient, vec3(0.31, 0.89, 0.33)), number);
 }
@@ -263,64 +280,89 @@ fn length_left(px: vec2<i32>, along: vec2<f32>, length: f32) -> f32 {
     return left;
 }
 
-// Ink of a family where `ink` of all is to be inked.
-fn stripe_ink(px: vec2<i32>, s: Stripes, number: u32, stroke: Stroke, ink: f32) -> f32 {
-    let family = family_of(s, number);
+// Where a pixel lies along the strokes of a family.
+struct Along {
+    // In strokes, each line's own counted from an offset of its own.
+    at: f32,
+    // Level of lengths, the place in its octave, and the length of a stroke, px.
+    k: i32,
+    place: f32,
+    length: f32,
+    // So many numbers of strokes there are before they begin again, less one; and of their halves.
+    mask: u32,
+    halves_mask: u32,
+}
+
+fn along_at(s: Stripes, family: Family, stroke: Stroke) -> Along {
+    let across = family_of(s, (family.number + 1u) % FAMILIES);
+    // Along the stroke itself: where a surface is seen at a slant the steepest way is another.
+    let slope = abs(family.screen.x * across.screen.y - family.screen.y * across.screen.x) / family.per_px;
+    let level = level_of(max(slope, 1e-12), stroke.length);
+    // In one sense, whichever that of the triangle is.
     let sense = select(1.0, -1.0, family.up < 0.0);
-    let level = level_of(family.per_px, stroke.spacing);
-    let rows = rows_at(s, family, level.k);
-    let row = round(rows.finer);
-    let even = (i32(row) & 1) == 0;
+    let rows = rows_at(s, across, level.k);
+    let finer = 0.5 * wrapped(rows.finer - 2.0 * rows.own);
+    let at = (rows.own + finer * smoothstep(0.0, 1.0, level.place)) * sense;
+    // So that the ends of neighbors do not line up.
+    let frequency = s.frequency * exp2(f32(level.k)) * 1.7;
+    let noise = mix(value_noise(s.place * frequency), value_noise(s.place * frequency * 2.0), level.place);
+    let mask = (rows.period >> 1u) - 1u;
+    let halves_mask = min(2u * mask + 1u, (1u << u32(FINER_BY)) - 1u);
+    return Along(at + mix(0.5, 0.25, level.place) * (noise - 0.5), level.k, level.place, level.spacing, mask, halves_mask);
+}
+
+// A line near a pixel: how wide it is there, and how far from its middle the pixel lies, px.
+struct Line {
+    width: f32,
+    away: f32,
+}
+
+// How much later a line comes that is inserted between two others: never where an octave begins, as those that were inserted
+// before it are old lines there.
+fn lateness(stroke: Stroke, place: f32) -> f32 {
+    let rest = 1.0 - place;
+    return mix(pow(rest, 8.0), rest, stroke.late_insertion);
+}
+
+// The line of a number: those that the level itself has are even.
+fn line_at(number: f32, family: u32, rows: Rows, level: Level, along: Along, stroke: Stroke, tone: f32) -> Line {
+    let even = (i32(number) & 1) == 0;
     let coarse = 2.0 * wrapped(rows.own);
-    let fine = rows.finer - row;
+    let fine = rows.finer - number;
     let blended = select(fine, mix(coarse, fine, smoothstep(0.0, 1.0, level.place)), even && abs(coarse - fine) < 0.5);
-    let away = blended * level.spacing * 0.5;
     // The odd part of its number, and the level at which it was born: a line keeps both while one comes closer.
-    let bits = u32(i32(row)) & (rows.period - 1u);
+    let bits = u32(i32(number)) & (rows.period - 1u);
     // The same for a line and for the same line counted from the other side.
     let code = select(min(bits, rows.period - bits), rows.period, bits == 0u);
     let born = countTrailingZeros(code);
-    let id = hash_of(code >> born, u32(level.k + 1 - i32(born)) ^ (number * 7919u));
+    let odd = code >> born;
+    let birth = mixed(u32(level.k + 1 - i32(born)) ^ (family * 7919u));
+    let id = mixed(odd + birth);
     var tapered = 1.0;
-    var chance = unit_of(id);
+    var chance = (f32(rank_of_line(odd)) + 2.0 * unit_of(id)) / 16.0;
     var variation = 0.0;
-    var length_place = 0.0;
     if stroke.taper > 0.0 {
-        let across = family_of(s, (number + 1u) % FAMILIES);
-        // Along the stroke itself: where a surface is seen at a slant the steepest way is another.
-        let slope = abs(family.screen.x * across.screen.y - family.screen.y * across.screen.x) / family.per_px;
-        let along = level_of(max(slope, 1e-12), stroke.length);
-        let octave = along.place;
-        length_place = octave;
-        // Along the stroke in one sense, whichever that of the triangle is.
-        let across_rows = rows_at(s, across, along.k);
-        let finer = 0.5 * wrapped(across_rows.finer - 2.0 * across_rows.own);
-        let at = (across_rows.own + finer * smoothstep(0.0, 1.0, octave)) * sense;
-        // So that the ends of neighbors do not line up.
-        let frequency = s.frequency * exp2(f32(along.k)) * 1.7;
-        let noise = mix(value_noise(s.place * frequency), value_noise(s.place * frequency * 2.0), octave);
         // Twice as much where there are twice as many, so that what is an end stays one.
-        let offset = fract(unit_of(mixed(id)) * exp2(f32(along.k + BASE_LEVEL)));
-        let u = at + offset + mix(0.5, 0.25, octave) * (noise - 0.5);
-        let number_mask = (across_rows.period >> 1u) - 1u;
-        let halves_mask = min(2u * number_mask + 1u, (1u << u32(FINER_BY)) - 1u);
-        let stroke_number = u32(i32(floor(u))) & number_mask;
+        let u = along.at + fract(unit_of(mixed(id)) * exp2(f32(along.k + BASE_LEVEL)));
+        let stroke_number = u32(i32(floor(u))) & along.mask;
         let share = fract(u);
-        let end = min(share, 1.0 - share) * along.spacing - stroke.gap;
+        let end = min(share, 1.0 - share) * along.length - stroke.gap;
         // Where strokes are nearly twice as long as wanted they come apart in the middle.
-        let apart = smoothstep(0.35, 1.0, octave);
-        let middle = abs(share - 0.5) * along.spacing - stroke.gap;
+        let apart = smoothstep(0.35, 1.0, along.place);
+        let middle = abs(share - 0.5) * along.length - stroke.gap;
         tapered = clamp(end / stroke.taper, 0.0, 1.0);
         tapered = min(tapered, mix(1.0, clamp(middle / stroke.taper, 0.0, 1.0), apart));
         let half = select(0u, 1u, share > 0.5);
         let whole = hash_of(id, stroke_number);
-        let halves = hash_of(id, (2u * stroke_number + half) & halves_mask);
-        chance = mix(unit_of(whole), unit_of(halves), apart);
-        variation = mix(unit_of(mixed(whole)), unit_of(mixed(halves)), apart) - 0.5;
+        let half_number = (2u * stroke_number + half) & along.halves_mask;
+        let halves = hash_of(id, half_number);
+        let ranks = vec2(f32(rank_of_stroke(odd, birth, stroke_number)), f32(rank_of_stroke(odd, birth, half_number)));
+        chance = mix(ranks.x + unit_of(whole), ranks.y + unit_of(halves), apart) / 16.0;
+        let others = (5.0 * ranks + 3.0) % 16.0 + vec2(unit_of(mixed(whole)), unit_of(mixed(halves)));
+        variation = mix(others.x, others.y, apart) / 16.0 - 0.5;
     }
-    let late = select((1.0 - level.place) * stroke.late_insertion, 0.0, even);
-    let threshold = stroke.tone_by_count * (stroke.randomness * chance + (1.0 - tapered) * stroke.pointedness) + late;
-    let tone = tone_for(stroke.table, level.place, length_place, ink);
+    let late = lateness(stroke, level.place);
+    let threshold = stroke.tone_by_count * (stroke.randomness * chance + (1.0 - tapered) * stroke.pointedness) + select(late, 0.0, even);
     let beyond = clamp((tone - threshold) / max(1.0 - threshold, 1e-3), 0.0, 1.0);
     let share = mix(stroke.min_width, stroke.max_width, beyond);
     let pressed = sqrt(tapered) * (1.0 - stroke.variation * variation) * smoothstep(0.0, SOFT, tone - threshold);
@@ -328,15 +370,47 @@ fn stripe_ink(px: vec2<i32>, s: Stripes, number: u32, stroke: Stroke, ink: f32) 
     // No hair lines: a stroke ends, it does not fade.
     width = select(width, 0.0, width < MIN_WIDTH);
     // Nor hair lines of paper: strokes that nearly touch do.
-    let next = 0.5 * level.spacing;
+    let next = level.spacing * mix(1.0, 0.5, smoothstep(0.0, INSERTED, tone - late));
     width += smoothstep(next - 2.0 * MIN_WIDTH, next, width);
-    if max(width, 2.0 * MIN_WIDTH) * 0.5 + 0.5 <= abs(away) || width <= 0.0 {
+    return Line(width, abs(blended) * level.spacing * 0.5);
+}
+
+fn reaches(line: Line) -> bool {
+    return line.width > 0.0 && line.away < max(line.width, 2.0 * MIN_WIDTH) * 0.5 + 0.5;
+}
+
+fn line_ink(line: Line) -> f32 {
+    let covered = clamp(max(line.width, 2.0 * MIN_WIDTH) * 0.5 - line.away + 0.5, 0.0, 1.0);
+    return covered * min(line.width / (2.0 * MIN_WIDTH), 1.0);
+}
+
+// Ink of a family where `ink` of all is to be inked.
+fn stripe_ink(px: vec2<i32>, s: Stripes, number: u32, stroke: Stroke, ink: f32) -> f32 {
+    let family = family_of(s, number);
+    let level = level_of(family.per_px, stroke.spacing);
+    let rows = rows_at(s, family, level.k);
+    var along: Along;
+    if stroke.taper > 0.0 {
+        along = along_at(s, family, stroke);
+    }
+    let tone = tone_for(stroke.table, level.place, along.place, ink);
+    let nearest = round(rows.finer);
+    var line = line_at(nearest, number, rows, level, along, stroke, tone);
+    // An old line may be so wide that it reaches beyond an inserted one.
+    var wide = Line(0.0, 0.0);
+    let widest = stroke.spacing * stroke.max_width * (1.0 + 0.5 * stroke.variation) + 2.0;
+    if (i32(nearest) & 1) == 1 && widest > 0.5 * level.spacing {
+        let even = nearest + select(-1.0, 1.0, rows.finer > nearest);
+        wide = line_at(even, number, rows, level, along, stroke, tone);
+    }
+    if !reaches(line) && !reaches(wide) {
         return 0.0;
     }
     // What crosses a narrow facet would be a tooth of a comb.
-    let along = vec2(-family.screen.y, family.screen.x) / family.per_px;
+    let run = vec2(-family.screen.y, family.screen.x) / family.per_px;
     let enough = min(2.0 * stroke.spacing, FOLLOWED);
-    width *= smoothstep(0.4, 1.0, length_left(px, along, enough) / enough);
-    let covered = clamp(max(width, 2.0 * MIN_WIDTH) * 0.5 - abs(away) + 0.5, 0.0, 1.0);
-    return covered * min(width / (2.0 * MIN_WIDTH), 1.0);
+    let left = smoothstep(0.4, 1.0, length_left(px, run, enough) / enough);
+    line.width *= left;
+    wide.width *= left;
+    return max(line_ink(line), line_ink(wide));
 }

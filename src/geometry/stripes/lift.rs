@@ -4,7 +4,7 @@ use std::f32::consts::{FRAC_PI_2, FRAC_PI_3};
 
 use glam::Vec3;
 
-use super::levels::{BASE_LEVEL, FAMILIES, LEVELS, Phases};
+use super::levels::{BASE_LEVEL, DENSITIES, FAMILIES, LEVELS, Phases};
 use crate::geometry::direction_field::cut::transport;
 
 /// A corner of a triangle.
@@ -30,10 +30,11 @@ pub struct TrianglePhases {
     pub phases: [[[f32; 3]; LEVELS]; FAMILIES],
 }
 
-/// Unit vector in the tangent plane in which the phase of a family grows: `90 + 60 family` degrees from the direction.
+/// Vector in the tangent plane along which the phase of a family grows, as long as its lines are dense (`DENSITIES`):
+/// `90 + 60 family` degrees from the direction.
 pub fn gradient(direction: Vec3, normal: Vec3, family: usize) -> Vec3 {
     let (sin, cos) = (FRAC_PI_2 + FRAC_PI_3 * family as f32).sin_cos();
-    direction * cos + normal.cross(direction) * sin
+    (direction * cos + normal.cross(direction) * sin) * DENSITIES[family]
 }
 
 /// 1 if two directions are turned against each other by less than 90° when the surface is rolled from the plane of one

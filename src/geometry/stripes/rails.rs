@@ -5,7 +5,7 @@ use std::f32::consts::{FRAC_PI_2, FRAC_PI_3, PI};
 use glam::{Vec2, Vec3};
 use rayon::prelude::*;
 
-use super::levels::FAMILIES;
+use super::levels::{DENSITIES, FAMILIES};
 use super::lift::sign;
 use crate::geometry::direction_field::cut::transport;
 use crate::geometry::direction_field::graph::Graph;
@@ -113,9 +113,9 @@ impl Rail {
         let along = (d + to_d * sign).dot(way);
         let across = (n.cross(d) + to_n.cross(to_d) * sign).dot(way);
         let mut turn = Wave::ZERO;
-        for f in 0..FAMILIES {
+        for (f, density) in DENSITIES.iter().enumerate() {
             let (sin, cos) = (FRAC_PI_2 + FRAC_PI_3 * f as f32).sin_cos();
-            let angle = PI * frequency * (cos * along + sin * across);
+            let angle = PI * frequency * density * (cos * along + sin * across);
             (turn.im[f], turn.re[f]) = angle.sin_cos();
         }
         Self { sign, turn }

@@ -1,65 +1,62 @@
 //! How dark stripes have to be asked for so that they are as dark as they should be: measured on an even plane, with the same
 //! arithmetic as `shaders/effects/hatching/stripes.wgsl`.
 
-use glam::Vec2;
 use rayon::prelude::*;
 
 use super::strokes::GpuStroke;
 
 /// Places in the octave between two densities, and in that between two lengths of strokes. What comes after the last is the first.
-pub(super) const PLACES: usize = 16;
+pub(super) const PLACES: usize = 32;
 pub(super) const LENGTHS: usize = 10;
 /// Shares of ink.
 pub(super) const INKS: usize = 64;
-/// Tones that are measured: more of lines that all get wider at once.
-const TONES: [usize; 2] = [24, 64];
-/// Points that are looked at for each tone: rows times places along them.
-const ROWS: usize = PERIOD * 4;
+/// Tones that are measured: more of lines that go on and on, which cost little.
+const TONES: [usize; 2] = [32, 128];
 /// After so many lines of the finer level, and half as many strokes, numbers begin again.
 const PERIOD: usize = 32;
-const ALONG: usize = 8;
+/// Places along the lines that are measured: all strokes of the period, four of each.
+const ALONG: usize = 4 * PERIOD / 2;
 
 /// For each of [`PLACES`], each of [`LENGTHS`] and each of [`INKS`] the tone to ask for, 0 to 1.
 pub(super) fn calibration(stroke: &GpuStroke) -> Vec<f32> {
-    let tables: Vec<Vec<f32>> =
-        octaves(stroke).into_par_iter().map(|octave| tones_of(stroke, octave)).collect();
-    let is_pointed = stroke.taper > 0.0;
     // Strokes without ends have no lengths.
-    let times = if is_pointed { 1 } else { LENGTHS };
+    let is_pointed = stroke.taper > 0.0;
+    let lengths = if is_pointed { LENGTHS } else { 1 };
+    let strokes = strokes_by_length(stroke);
+    let tables: Vec<Vec<f32>> = (0..PLACES * lengths)
+        .into_par_iter()
+        .map(|i| tones_of(stroke, middle(i / lengths, PLACES), &strokes[i % lengths]))
+        .collect();
+    let times = LENGTHS / lengths;
     tables.iter().flat_map(|table| std::iter::repeat_n(table, times)).flatten().copied().collect()
-}
-
-/// Where in both octaves points lie.
-#[derive(Clone, Copy)]
-struct Octave {
-    /// Between two densities, 0 to 1.
-    place: f32,
-    /// Between two lengths.
-    length: f32,
-}
-
-fn octaves(stroke: &GpuStroke) -> Vec<Octave> {
-    let middle = |i: usize, of: usize| (i as f32 + 0.5) / of as f32;
-    let lengths = if stroke.taper > 0.0 { LENGTHS } else { 1 };
-    let at = |place| {
-        (0..lengths).map(move |l| Octave { place: middle(place, PLACES), length: middle(l, lengths) })
-    };
-    (0..PLACES).flat_map(at).collect()
 }
 
 /// The greatest share of ink that is reached everywhere.
 pub(super) fn greatest_ink(stroke: &GpuStroke) -> f32 {
-    octaves(stroke).into_iter().map(|octave| mean_ink(stroke, 1.0, octave)).fold(1.0, f32::min)
+    let strokes = strokes_by_length(stroke);
+    let inks = (0..PLACES).flat_map(|place| {
+        strokes.iter().map(move |strokes| mean_ink(stroke, 1.0, middle(place, PLACES), strokes))
+    });
+    inks.fold(1.0, f32::min)
 }
 
-fn tones_of(stroke: &GpuStroke, octave: Octave) -> Vec<f32> {
+fn middle(i: usize, of: usize) -> f32 {
+    (i as f32 + 0.5) / of as f32
+}
+
+fn strokes_by_length(stroke: &GpuStroke) -> Vec<Vec<Place>> {
+    let lengths = if stroke.taper > 0.0 { LENGTHS } else { 1 };
+    (0..lengths).into_par_iter().map(|length| places(stroke, middle(length, lengths))).collect()
+}
+
+fn tones_of(stroke: &GpuStroke, place: f32, strokes: &[Place]) -> Vec<f32> {
     let count = TONES[usize::from(stroke.taper <= 0.0)];
     let tone = |i: usize| i as f32 / (count - 1) as f32;
     let mut least = 0.0_f32;
     let measured: Vec<f32> = (0..count)
         .map(|i| {
             // More tone is never less ink.
-            least = least.max(mean_ink(stroke, tone(i), octave));
+            least = least.max(mean_ink(stroke, tone(i), place, strokes));
             least
         })
         .collect();
@@ -75,52 +72,82 @@ fn tones_of(stroke: &GpuStroke, octave: Octave) -> Vec<f32> {
     (0..INKS).map(|i| inverted(i as f32 / (INKS - 1) as f32)).collect()
 }
 
-/// Share of ink of an even plane, at a tone and a place in the octaves.
-fn mean_ink(stroke: &GpuStroke, tone: f32, octave: Octave) -> f32 {
-    let mut sum = 0.0;
-    for row in 0..ROWS {
-        for along in 0..ALONG {
-            let jitter = |n: u32| unit(hash(row as u32 * 977 + n, along as u32));
-            let y = PERIOD as f32 * (row as f32 + jitter(1)) / ROWS as f32;
-            let x = 16.0 * (along as f32 + jitter(2)) / ALONG as f32;
-            sum += ink(stroke, tone, octave, Vec2::new(x, y));
-        }
-    }
-    sum / (ROWS * ALONG) as f32
+/// What a line is like at a place along it, whatever the tone.
+#[derive(Clone, Copy)]
+struct Place {
+    /// 0 where a stroke ends.
+    tapered: f32,
+    chance: f32,
+    variation: f32,
 }
 
-/// Ink of one family at a point of a plane: x in strokes, y in rows of the finer level.
-fn ink(stroke: &GpuStroke, tone: f32, Octave { place, length: octave }: Octave, at: Vec2) -> f32 {
-    let Vec2 { x, y } = at;
-    let spacing = stroke.spacing * place.exp2();
-    let row = y.round();
-    let even = (row as i32) & 1 == 0;
-    let away = (y - row) * spacing * 0.5;
-    let period = PERIOD as u32;
-    let bits = row as u32 % period;
-    let code = if bits == 0 { period } else { bits.min(period - bits) };
+/// Places along all lines of the period: for each of them all lines, one after the other. `octave`: place in that of lengths.
+fn places(stroke: &GpuStroke, octave: f32) -> Vec<Place> {
+    let along = if stroke.taper > 0.0 { ALONG } else { 1 };
+    let place = |i: usize| {
+        let x = (PERIOD / 2) as f32 * (i as f32 + unit(hash(i as u32, 7))) / along as f32;
+        (0..PERIOD as u32).map(move |row| place_at(stroke, octave, row, x))
+    };
+    (0..along).flat_map(place).collect()
+}
+
+/// `x`: along the line, in strokes.
+fn place_at(stroke: &GpuStroke, octave: f32, row: u32, x: f32) -> Place {
+    let code = if row == 0 { PERIOD as u32 } else { row.min(PERIOD as u32 - row) };
     let born = code.trailing_zeros();
-    let id = hash(code >> born, 1_u32.wrapping_sub(born));
-    let (mut tapered, mut chance, mut variation) = (1.0_f32, unit(id), 0.0);
-    if stroke.taper > 0.0 {
-        let length = stroke.length * octave.exp2();
-        let u = x + unit(mixed(id));
-        let number = (u.floor() as i32 & 15) as u32;
-        let share = u - u.floor();
-        let end = share.min(1.0 - share) * length - stroke.gap;
-        let apart = smoothstep(0.35, 1.0, octave);
-        let middle = (share - 0.5).abs() * length - stroke.gap;
-        let [end, middle] = [end, middle].map(|left| (left / stroke.taper).clamp(0.0, 1.0));
-        tapered = end.min(1.0 + (middle - 1.0) * apart);
-        let half = u32::from(share > 0.5);
-        let [whole, halves] = [number, (2 * number + half) & 15].map(|n| hash(id, n));
-        let mix = |from: f32, to: f32| from + (to - from) * apart;
-        chance = mix(unit(whole), unit(halves));
-        variation = mix(unit(mixed(whole)), unit(mixed(halves))) - 0.5;
+    let odd = code >> born;
+    let birth = mixed(1_u32.wrapping_sub(born));
+    let id = mixed(odd.wrapping_add(birth));
+    if stroke.taper <= 0.0 {
+        let chance = (rank_of_line(odd) as f32 + 2.0 * unit(id)) / 16.0;
+        return Place { tapered: 1.0, chance, variation: 0.0 };
     }
-    let late = if even { 0.0 } else { (1.0 - place) * stroke.late_insertion };
+    let length = stroke.length * octave.exp2();
+    let u = x + unit(mixed(id));
+    let number = (u.floor() as i32 & 15) as u32;
+    let share = u - u.floor();
+    let end = share.min(1.0 - share) * length - stroke.gap;
+    let apart = smoothstep(0.35, 1.0, octave);
+    let middle = (share - 0.5).abs() * length - stroke.gap;
+    let [end, middle] = [end, middle].map(|left| (left / stroke.taper).clamp(0.0, 1.0));
+    let half = u32::from(share > 0.5);
+    let numbers = [number, (2 * number + half) & 15];
+    let [whole, halves] = numbers.map(|n| hash(id, n));
+    let [rank, half_rank] = numbers.map(|n| rank_of_stroke(odd, birth, n) as f32);
+    let mix = |from: f32, to: f32| from + (to - from) * apart;
+    let other = |rank: f32| (5.0 * rank + 3.0) % 16.0;
+    Place {
+        tapered: end.min(1.0 + (middle - 1.0) * apart),
+        chance: mix(rank + unit(whole), half_rank + unit(halves)) / 16.0,
+        variation: mix(other(rank) + unit(mixed(whole)), other(half_rank) + unit(mixed(halves))) / 16.0 - 0.5,
+    }
+}
+
+/// Share of ink of an even plane, at a tone and a place in the octave of densities.
+fn mean_ink(stroke: &GpuStroke, tone: f32, place: f32, strokes: &[Place]) -> f32 {
+    let spacing = stroke.spacing * place.exp2();
+    let mut sum = 0.0;
+    for lines in strokes.chunks_exact(PERIOD) {
+        let mut widths = [0.0; PERIOD + 1];
+        for (row, line) in lines.iter().enumerate() {
+            widths[row] = width(stroke, tone, place, row % 2 == 1, *line);
+        }
+        widths[PERIOD] = widths[0];
+        sum += widths.windows(2).map(|pair| ink_between(pair[0], pair[1], 0.5 * spacing)).sum::<f32>();
+    }
+    sum / (0.5 * spacing * strokes.len() as f32)
+}
+
+/// Width of a line, px.
+fn width(stroke: &GpuStroke, tone: f32, octave: f32, is_inserted: bool, place: Place) -> f32 {
+    let Place { tapered, chance, variation } = place;
+    let late = lateness(stroke, octave);
+    let own_late = if is_inserted { late } else { 0.0 };
     let threshold =
-        stroke.tone_by_count * (stroke.randomness * chance + (1.0 - tapered) * stroke.pointedness) + late;
+        stroke.tone_by_count * (stroke.randomness * chance + (1.0 - tapered) * stroke.pointedness) + own_late;
+    if tone <= threshold {
+        return 0.0;
+    }
     let beyond = ((tone - threshold) / (1.0 - threshold).max(1e-3)).clamp(0.0, 1.0);
     let share = stroke.min_width + (stroke.max_width - stroke.min_width) * beyond;
     let pressed =
@@ -129,15 +156,42 @@ fn ink(stroke: &GpuStroke, tone: f32, Octave { place, length: octave }: Octave, 
     // No hair lines: a stroke ends, it does not fade.
     let width = if width < MIN_WIDTH { 0.0 } else { width };
     // Nor hair lines of paper.
-    let next = 0.5 * spacing;
-    let width = width + smoothstep(next - 2.0 * MIN_WIDTH, next, width);
-    (width.max(2.0 * MIN_WIDTH) * 0.5 - away.abs() + 0.5).clamp(0.0, 1.0)
-        * (width / (2.0 * MIN_WIDTH)).min(1.0)
+    let next = stroke.spacing * octave.exp2() * (1.0 - 0.5 * smoothstep(0.0, INSERTED, tone - late));
+    width + smoothstep(next - 2.0 * MIN_WIDTH, next, width)
+}
+
+fn lateness(stroke: &GpuStroke, octave: f32) -> f32 {
+    let rest = 1.0 - octave;
+    rest.powi(8) + (rest - rest.powi(8)) * stroke.late_insertion
+}
+
+/// Ink from the middle of one line to that of another, px; what both cover counts once.
+fn ink_between(one: f32, other: f32, apart: f32) -> f32 {
+    let half = |width: f32| 0.5 * width.max(2.0 * MIN_WIDTH);
+    let strength = |width: f32| (width / (2.0 * MIN_WIDTH)).min(1.0);
+    let border = match (one > 0.0, other > 0.0) {
+        (false, false) => return 0.0,
+        (true, false) => apart,
+        (false, true) => 0.0,
+        (true, true) => (0.5 * (half(one) + apart - half(other))).clamp(0.0, apart),
+    };
+    strength(one) * covered(half(one), border) + strength(other) * covered(half(other), apart - border)
+}
+
+/// From the middle of a line to a distance from it (px): how much of that it covers, with an edge of one pixel.
+fn covered(half: f32, distance: f32) -> f32 {
+    let (inner, outer) = (half - 0.5, half + 0.5);
+    if distance <= inner {
+        return distance;
+    }
+    let beyond = distance.min(outer) - inner;
+    inner + beyond - 0.5 * beyond * beyond
 }
 
 // As in `shaders/effects/hatching/stripes.wgsl`.
 const SOFT: f32 = 0.04;
 const MIN_WIDTH: f32 = 0.35;
+const INSERTED: f32 = 0.2;
 
 fn smoothstep(from: f32, to: f32, x: f32) -> f32 {
     let t = ((x - from) / (to - from)).clamp(0.0, 1.0);
@@ -158,15 +212,25 @@ fn unit(hash: u32) -> f32 {
     (hash >> 8) as f32 / 16_777_216.0
 }
 
+fn rank_of_line(odd: u32) -> u32 {
+    2 * ((odd >> 1).reverse_bits() >> 29)
+}
+
+fn rank_of_stroke(odd: u32, birth: u32, number: u32) -> u32 {
+    let line = odd >> 1;
+    let along = (number.reverse_bits() >> 28) ^ (birth & 15);
+    (along + rank_of_line(odd) + ((line ^ (line >> 1)) & 1)) & 15
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::style::{Hatching, Technique, preset};
 
-    /// The tone to ask for, as `tone_for` in the shader finds it.
-    fn tone_for(table: &[f32], octave: Octave, ink: f32) -> f32 {
-        let row = octave.place * PLACES as f32 - 0.5 + PLACES as f32;
-        let column = octave.length * LENGTHS as f32 - 0.5 + LENGTHS as f32;
+    /// The tone to ask for, as `tone_for` in the shader finds it; `octaves`: places in those of densities and of lengths.
+    fn tone_for(table: &[f32], octaves: [f32; 2], ink: f32) -> f32 {
+        let row = octaves[0] * PLACES as f32 - 0.5 + PLACES as f32;
+        let column = octaves[1] * LENGTHS as f32 - 0.5 + LENGTHS as f32;
         let at = ink * (INKS - 1) as f32;
         let first = (at as usize).min(INKS - 2);
         let mix = |a: f32, b: f32, t: f32| a + (b - a) * t;
@@ -189,14 +253,15 @@ mod tests {
             let (table, greatest) = (calibration(&stroke), greatest_ink(&stroke));
             assert!(greatest > 0.3, "{name}: {greatest}");
             let mut worst = 0.0_f32;
-            for i in 0..60 {
+            for i in 0..240 {
                 let at = |k: f32| (i as f32 * k).fract();
-                let octave = Octave { place: at(0.618), length: at(0.755) };
+                let [place, length] = [0.618, 0.755].map(at);
                 let asked = greatest * at(0.57);
-                let drawn = mean_ink(&stroke, tone_for(&table, octave, asked), octave);
+                let tone = tone_for(&table, [place, length], asked);
+                let drawn = mean_ink(&stroke, tone, place, &places(&stroke, length));
                 worst = worst.max((drawn - asked).abs());
             }
-            assert!(worst < 0.03, "{name}: {worst}");
+            assert!(worst < 0.02, "{name}: {worst}");
         }
     }
 }
