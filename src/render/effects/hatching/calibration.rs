@@ -1,6 +1,8 @@
 //! How dark stripes have to be asked for so that they are as dark as they should be: measured on an even plane, with the same
 //! arithmetic as `shaders/effects/hatching/stripes.wgsl`.
 
+use std::array;
+
 use rayon::prelude::*;
 
 use super::strokes::GpuStroke;
@@ -44,12 +46,12 @@ fn middle(i: usize, of: usize) -> f32 {
     (i as f32 + 0.5) / of as f32
 }
 
-fn strokes_by_length(stroke: &GpuStroke) -> Vec<Vec<Place>> {
+fn strokes_by_length(stroke: &GpuStroke) -> Vec<Vec<Lines>> {
     let lengths = if stroke.taper > 0.0 { LENGTHS } else { 1 };
     (0..lengths).into_par_iter().map(|length| places(stroke, middle(length, lengths))).collect()
 }
 
-fn tones_of(stroke: &GpuStroke, place: f32, strokes: &[Place]) -> Vec<f32> {
+fn tones_of(stroke: &GpuStroke, place: f32, strokes: &[Lines]) -> Vec<f32> {
     let count = TONES[usize::from(stroke.taper <= 0.0)];
     let tone = |i: usize| i as f32 / (count - 1) as f32;
     let mut least = 0.0_f32;
@@ -72,23 +74,35 @@ fn tones_of(stroke: &GpuStroke, place: f32, strokes: &[Place]) -> Vec<f32> {
     (0..INKS).map(|i| inverted(i as f32 / (INKS - 1) as f32)).collect()
 }
 
-/// What a line is like at a place along it, whatever the tone.
+/// What all lines of the period are like at a place along them, whatever the tone.
+struct Lines {
+    /// The tone from which on a line is drawn, if it is not inserted.
+    thresholds: [f32; PERIOD],
+    /// Share of its width: less near the ends of strokes.
+    pressed: [f32; PERIOD],
+}
+
+/// Places along the lines. `octave`: place in that of lengths.
+fn places(stroke: &GpuStroke, octave: f32) -> Vec<Lines> {
+    let along = if stroke.taper > 0.0 { ALONG } else { 1 };
+    let lines = |i: usize| {
+        let x = (PERIOD / 2) as f32 * (i as f32 + unit(hash(i as u32, 7))) / along as f32;
+        let places: [Place; PERIOD] = array::from_fn(|row| place_at(stroke, octave, row as u32, x));
+        let late = |p: Place| stroke.randomness * p.chance + (1.0 - p.tapered) * stroke.pointedness;
+        Lines {
+            thresholds: places.map(|p| stroke.tone_by_count * late(p)),
+            pressed: places.map(|p| p.tapered.sqrt() * (1.0 - stroke.variation * p.variation)),
+        }
+    };
+    (0..along).map(lines).collect()
+}
+
 #[derive(Clone, Copy)]
 struct Place {
     /// 0 where a stroke ends.
     tapered: f32,
     chance: f32,
     variation: f32,
-}
-
-/// Places along all lines of the period: for each of them all lines, one after the other. `octave`: place in that of lengths.
-fn places(stroke: &GpuStroke, octave: f32) -> Vec<Place> {
-    let along = if stroke.taper > 0.0 { ALONG } else { 1 };
-    let place = |i: usize| {
-        let x = (PERIOD / 2) as f32 * (i as f32 + unit(hash(i as u32, 7))) / along as f32;
-        (0..PERIOD as u32).map(move |row| place_at(stroke, octave, row, x))
-    };
-    (0..along).flat_map(place).collect()
 }
 
 /// `x`: along the line, in strokes.
@@ -116,48 +130,45 @@ fn place_at(stroke: &GpuStroke, octave: f32, row: u32, x: f32) -> Place {
     let [rank, half_rank] = numbers.map(|n| rank_of_stroke(odd, birth, n) as f32);
     let mix = |from: f32, to: f32| from + (to - from) * apart;
     let other = |rank: f32| (5.0 * rank + 3.0) % 16.0;
-    Place {
-        tapered: end.min(1.0 + (middle - 1.0) * apart),
-        chance: mix(rank + unit(whole), half_rank + unit(halves)) / 16.0,
-        variation: mix(other(rank) + unit(mixed(whole)), other(half_rank) + unit(mixed(halves))) / 16.0 - 0.5,
-    }
+    let tapered = end.min(1.0 + (middle - 1.0) * apart);
+    let chance = mix(rank + unit(whole), half_rank + unit(halves)) / 16.0;
+    let variation =
+        mix(other(rank) + unit(mixed(whole)), other(half_rank) + unit(mixed(halves))) / 16.0 - 0.5;
+    Place { tapered, chance, variation }
 }
 
-/// Share of ink of an even plane, at a tone and a place in the octave of densities.
-fn mean_ink(stroke: &GpuStroke, tone: f32, place: f32, strokes: &[Place]) -> f32 {
-    let spacing = stroke.spacing * place.exp2();
-    let mut sum = 0.0;
-    for lines in strokes.chunks_exact(PERIOD) {
-        let mut widths = [0.0; PERIOD + 1];
-        for (row, line) in lines.iter().enumerate() {
-            widths[row] = width(stroke, tone, place, row % 2 == 1, *line);
+/// Share of ink of an even plane, at a tone and a place in the octave of densities. Without branches, so that several lines are
+/// reckoned at once.
+fn mean_ink(stroke: &GpuStroke, tone: f32, place: f32, strokes: &[Lines]) -> f32 {
+    let late = lateness(stroke, place);
+    let lates: [f32; PERIOD] = array::from_fn(|row| if row % 2 == 1 { late } else { 0.0 });
+    let spacing = 0.5 * stroke.spacing * place.exp2();
+    let apart = spacing * (2.0 - smoothstep(0.0, INSERTED, tone - late));
+    let mut inks = [0.0; PERIOD];
+    for Lines { thresholds, pressed } in strokes {
+        let widths: [f32; PERIOD] = array::from_fn(|row| {
+            let threshold = thresholds[row] + lates[row];
+            width(stroke, tone - threshold, 1.0 - threshold, pressed[row], apart)
+        });
+        let mut next = widths;
+        next.rotate_left(1);
+        for (ink, (one, other)) in inks.iter_mut().zip(widths.iter().zip(next)) {
+            *ink += ink_between(*one, other, spacing);
         }
-        widths[PERIOD] = widths[0];
-        sum += widths.windows(2).map(|pair| ink_between(pair[0], pair[1], 0.5 * spacing)).sum::<f32>();
     }
-    sum / (0.5 * spacing * strokes.len() as f32)
+    inks.iter().sum::<f32>() / (spacing * (PERIOD * strokes.len()) as f32)
 }
 
-/// Width of a line, px.
-fn width(stroke: &GpuStroke, tone: f32, octave: f32, is_inserted: bool, place: Place) -> f32 {
-    let Place { tapered, chance, variation } = place;
-    let late = lateness(stroke, octave);
-    let own_late = if is_inserted { late } else { 0.0 };
-    let threshold =
-        stroke.tone_by_count * (stroke.randomness * chance + (1.0 - tapered) * stroke.pointedness) + own_late;
-    if tone <= threshold {
-        return 0.0;
-    }
-    let beyond = ((tone - threshold) / (1.0 - threshold).max(1e-3)).clamp(0.0, 1.0);
-    let share = stroke.min_width + (stroke.max_width - stroke.min_width) * beyond;
-    let pressed =
-        tapered.sqrt() * (1.0 - stroke.variation * variation) * smoothstep(0.0, SOFT, tone - threshold);
-    let width = stroke.spacing * share * pressed;
+/// Width of a line, px; `beyond`: by how much the tone is above the line's threshold, and `most`: by how much it can be; `apart`: to
+/// the next line, px.
+fn width(stroke: &GpuStroke, beyond: f32, most: f32, pressed: f32, apart: f32) -> f32 {
+    let share = (beyond / most.max(1e-3)).clamp(0.0, 1.0);
+    let share = stroke.min_width + (stroke.max_width - stroke.min_width) * share;
+    let width = stroke.spacing * share * pressed * smoothstep(0.0, SOFT, beyond);
     // No hair lines: a stroke ends, it does not fade.
     let width = if width < MIN_WIDTH { 0.0 } else { width };
     // Nor hair lines of paper.
-    let next = stroke.spacing * octave.exp2() * (1.0 - 0.5 * smoothstep(0.0, INSERTED, tone - late));
-    width + smoothstep(next - 2.0 * MIN_WIDTH, next, width)
+    width + smoothstep(apart - 2.0 * MIN_WIDTH, apart, width)
 }
 
 fn lateness(stroke: &GpuStroke, octave: f32) -> f32 {
@@ -167,25 +178,18 @@ fn lateness(stroke: &GpuStroke, octave: f32) -> f32 {
 
 /// Ink from the middle of one line to that of another, px; what both cover counts once.
 fn ink_between(one: f32, other: f32, apart: f32) -> f32 {
-    let half = |width: f32| 0.5 * width.max(2.0 * MIN_WIDTH);
+    // Without a line there is no strength.
+    let half = |width: f32| if width > 0.0 { 0.5 * width.max(2.0 * MIN_WIDTH) } else { -2.0 * apart };
     let strength = |width: f32| (width / (2.0 * MIN_WIDTH)).min(1.0);
-    let border = match (one > 0.0, other > 0.0) {
-        (false, false) => return 0.0,
-        (true, false) => apart,
-        (false, true) => 0.0,
-        (true, true) => (0.5 * (half(one) + apart - half(other))).clamp(0.0, apart),
-    };
+    let border = (0.5 * (half(one) + apart - half(other))).clamp(0.0, apart);
     strength(one) * covered(half(one), border) + strength(other) * covered(half(other), apart - border)
 }
 
 /// From the middle of a line to a distance from it (px): how much of that it covers, with an edge of one pixel.
 fn covered(half: f32, distance: f32) -> f32 {
-    let (inner, outer) = (half - 0.5, half + 0.5);
-    if distance <= inner {
-        return distance;
-    }
-    let beyond = distance.min(outer) - inner;
-    inner + beyond - 0.5 * beyond * beyond
+    let inner = half - 0.5;
+    let beyond = (distance - inner).clamp(0.0, 1.0);
+    distance.min(inner) + beyond - 0.5 * beyond * beyond
 }
 
 // As in `shaders/effects/hatching/stripes.wgsl`.
