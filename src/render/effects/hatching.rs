@@ -17,7 +17,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use encase::ShaderType;
 use glam::{DMat4, Mat4, Vec3, Vec4};
 
-use self::calibration::{calibration, greatest_ink};
+use self::calibration::Calibration;
 pub use self::indication::GpuIndication;
 pub use self::requests::{missing, missing_strokes, stroke_image_fault};
 use self::requests::{recipe_of, request_of};
@@ -82,12 +82,11 @@ const GREATEST_OF_TILES: f32 = 0.76;
 /// Samples of a tone curve.
 const CURVE: usize = 33;
 
-/// What strokes of one kind need to be as dark as asked.
+/// Strokes of one kind, with what they need to be as dark as asked.
 #[derive(Debug, Clone, PartialEq)]
 struct Table {
     stroke: GpuStroke,
-    tones: Vec<f32>,
-    greatest: f32,
+    calibration: Calibration,
 }
 
 /// Tables that have been made, so that a frame only makes those of strokes that are new.
@@ -99,7 +98,7 @@ fn table_of(stroke: &GpuStroke) -> Table {
     if let Some(known) = tables.iter().find(|table| table.stroke == *stroke) {
         return known.clone();
     }
-    let table = Table { stroke: *stroke, tones: calibration(stroke), greatest: greatest_ink(stroke) };
+    let table = Table { stroke: *stroke, calibration: Calibration::of(stroke) };
     if tables.len() >= MAX_TABLES {
         tables.clear();
     }
@@ -130,7 +129,7 @@ impl Hatchings {
             self.tables.push(table_of(&stroke));
             self.tables.len() - 1
         });
-        let greatest = self.tables.get(table).map_or(1.0, |table| table.greatest);
+        let greatest = self.tables.get(table).map_or(1.0, |table| table.calibration.greatest);
         let stroke = GpuStroke { table: table as u32, ..stroke };
         let mapping = match style.mapping {
             Mapping::Uv if object.scene.has_uvs(object.node) => BY_UV,
@@ -331,7 +330,8 @@ impl SurfaceTechnique for HatchingShading {
         if !hatchings.styles.is_empty() {
             shared.sets.prepare(gpu, &hatchings.own)?;
             self.styles.write(gpu, &hatchings.styles);
-            let tones: Vec<f32> = hatchings.tables.iter().flat_map(|table| &table.tones).copied().collect();
+            let tones: Vec<f32> =
+                hatchings.tables.iter().flat_map(|table| &table.calibration.tones).copied().collect();
             self.tones.write(gpu, &tones);
         }
         Ok(())
