@@ -272,7 +272,6 @@ mod tests {
                 let drawn = mean_ink(&stroke, tone, place, &places(&stroke, length, 8 * ALONG));
                 worst = worst.max((drawn - asked).abs());
             }
-            println!("{name}: off by {worst:.4} at most");
             assert!(worst < 0.02, "{name}: {worst}");
         }
     }
