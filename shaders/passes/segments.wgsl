@@ -74,6 +74,10 @@ fn point_at(v: Segment, number: u32, px: vec2<f32>) -> SegmentPoint {
         if is_outside_covered {
             return NO_POINT;
         }
+        let sinks = sinks_at(tested, PLACES[3], left, own, surface_ids) || sinks_at(tested, PLACES[1], right, own, surface_ids);
+        if class_of == BORDER && sinks {
+            return NO_POINT;
+        }
         weight = 1.0;
     } else if class_of == MATERIAL || class_of == SECTION || class_of == INTERSECTION {
         weight = 1.0;

@@ -17,6 +17,7 @@ mod common;
 mod lines;
 mod orbit;
 mod runs;
+mod sunk;
 
 use std::path::PathBuf;
 
@@ -84,6 +85,28 @@ fn where_parts_touch_lines_keep_their_class() {
             found.len(),
             lines.length()
         );
+    }
+}
+
+#[test]
+fn what_ends_just_behind_a_wall_draws_one_line() {
+    let mut session = session();
+    for depth in [0.002, 0.004, 0.008, 0.016, 0.03] {
+        let scene = sunk::frame_on_wall(depth);
+        let camera = Camera::looking_from(DVec3::new(1.0, 0.6, 0.5), DVec3::Y, &scene.extent(), 1.0);
+        let opened = line_drawing(&scene, camera);
+        session.set_scene(&opened).unwrap();
+        let lines = Lines::draw(&mut session, &opened, 400);
+        let eye = projector(&camera, 400);
+        let foot = |point: &&lines::Point| {
+            let at = eye.view_from_world.inverse().transform_point3(eye.unproject(point.at, point.depth));
+            at.x.abs().max(at.y.abs()) < 0.6 && at.z < 0.1
+        };
+        let count =
+            |class| lines.points().map(|(_, point)| point).filter(foot).filter(|p| p.class == class).count();
+        let [borders, intersections] = [EdgeClass::Border, EdgeClass::Intersection].map(count);
+        let strays = borders.min(intersections);
+        assert!(strays <= 8, "{depth} behind: {borders} px of border, {intersections} of intersection");
     }
 }
 

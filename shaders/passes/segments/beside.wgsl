@@ -15,6 +15,8 @@ var surface_id_tex: texture_storage_2d<r32uint, read>;
 const SLACK: f32 = 0.4;
 // So far, in pixels, lies a surface of another object before a line whose ink it hides.
 const COVERS: f32 = 2.0;
+// So far before a border, in pixels, lies another surface of its object into which it sinks.
+const SINKS: f32 = 0.2;
 // How far beside the spine is looked, px: just far enough that the pixel lies wholly on that side.
 const BESIDE: f32 = 0.8;
 
@@ -34,8 +36,8 @@ struct Beside {
     surfel: Surfel,
     // How far its surface, continued to the spine, lies before it, px.
     lead: f32,
-    // Whether it does so by so much that it hides ink: by more the steeper it is, as it may bend on the way.
-    covers: bool,
+    // The same at least: by less the steeper it is, as it may bend on the way.
+    sure_lead: f32,
     // Whether a layer's surface is one of the segment's and runs through the spine, as exactly as its slope allows: curved
     // surfaces bend away from their plane the more, the steeper it is.
     carries: bool,
@@ -59,8 +61,9 @@ fn beside(spine: Spine, along: f32, surface_ids: vec2<u32>) -> Beside {
         let miss = abs(lead) - length(plane.slope);
         carries = any(surface_ids == vec2(surface_id)) && step_px(miss, spine.depth) <= 2.0;
     }
-    let covers = s.object != 0u && step_px(lead - 0.5 * length(plane.slope), spine.depth) > COVERS;
-    return Beside(s, select(step_px(lead, spine.depth), -1e9, s.object == 0u), covers, carries && s.object != 0u);
+    let leads = vec2(step_px(lead, spine.depth), step_px(lead - 0.5 * length(plane.slope), spine.depth));
+    let there = select(leads, vec2(-1e9), s.object == 0u);
+    return Beside(s, there.x, there.y, carries && s.object != 0u);
 }
 
 // Whether one of these surfaces is seen on either side of a spine, or on it.
@@ -74,7 +77,13 @@ fn is_carried_beside(spine: Spine, surface_ids: vec2<u32>) -> bool {
 
 // Whether another object hides the ink of a line there.
 fn is_covered(there: Beside, own: u32) -> bool {
-    return there.surfel.object != own && there.covers;
+    return there.surfel.object != own && there.sure_lead > COVERS;
+}
+
+// Whether a border sinks into another surface of its object, so far along its normal: their intersection is seen instead.
+fn sinks_at(spine: Spine, along: f32, there: Beside, own: u32, surface_ids: vec2<u32>) -> bool {
+    let surface_id = textureLoad(surface_id_tex, texel_beside(spine, along)).x;
+    return there.sure_lead > SINKS && there.surfel.object == own && all(surface_ids != vec2(surface_id));
 }
 
 // Whether one of the line's own surfaces is seen there.
