@@ -74,8 +74,7 @@ fn point_at(v: Segment, number: u32, px: vec2<f32>) -> SegmentPoint {
         if is_outside_covered {
             return NO_POINT;
         }
-        let sinks = sinks_at(tested, PLACES[3], left, own, surface_ids) || sinks_at(tested, PLACES[1], right, own, surface_ids);
-        if class_of == BORDER && sinks {
+        if class_of == BORDER && sinks(tested, left, right, own, surface_ids) {
             return NO_POINT;
         }
         weight = 1.0;

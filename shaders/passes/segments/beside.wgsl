@@ -80,10 +80,17 @@ fn is_covered(there: Beside, own: u32) -> bool {
     return there.surfel.object != own && there.sure_lead > COVERS;
 }
 
-// Whether a border sinks into another surface of its object, so far along its normal: their intersection is seen instead.
-fn sinks_at(spine: Spine, along: f32, there: Beside, own: u32, surface_ids: vec2<u32>) -> bool {
-    let surface_id = textureLoad(surface_id_tex, texel_beside(spine, along)).x;
-    return there.sure_lead > SINKS && there.surfel.object == own && all(surface_ids != vec2(surface_id));
+// Whether a border sinks into another surface of its object, seen on one side while its own is seen on the other: their
+// intersection is seen instead.
+fn sinks(spine: Spine, left: Beside, right: Beside, own: u32, surface_ids: vec2<u32>) -> bool {
+    let left_id = textureLoad(surface_id_tex, texel_beside(spine, PLACES[3])).x;
+    let right_id = textureLoad(surface_id_tex, texel_beside(spine, PLACES[1])).x;
+    let left_is_own = any(surface_ids == vec2(left_id));
+    let right_is_own = any(surface_ids == vec2(right_id));
+    if left_is_own {
+        return !right_is_own && right.surfel.object == own && right.sure_lead > SINKS;
+    }
+    return right_is_own && left.surfel.object == own && left.sure_lead > SINKS;
 }
 
 // Whether one of the line's own surfaces is seen there.
