@@ -80,7 +80,7 @@ const BUFFERS: [Show; 10] = [
 choice! {
     /// Which edges above the crease angle are creases.
     pub enum CreasesBy {
-        /// Those where the file's own normals part; all of them where it has none.
+        /// Those where the file's own normals part; where it has none, all but short ones that are hardly sharp and meet no others.
         #[default]
         Normals,
         /// All of them.
@@ -198,7 +198,7 @@ impl ViewSettings {
             list.choice(
                 "creases",
                 "Creases from",
-                "Which folds are creases: those where the file's own normals part, or all that are sharp enough.",
+                "Which folds are creases: those where the file's own normals part, and without normals all but stray ones; or all that are sharp enough.",
                 &mut self.creases,
             );
             list.choice(

@@ -47,10 +47,7 @@ pub fn link_meshes(meshes: &[(usize, &Mesh)], tolerance: SeamTolerance) -> Vec<O
         if one.member == two.member {
             continue;
         }
-        let has_own_normals = |part: Member| {
-            let (_, mesh) = meshes[part.member];
-            !mesh.normals.is_empty() && !mesh.has_computed_normals
-        };
+        let has_own_normals = |part: Member| meshes[part.member].1.has_own_normals();
         for (own, other, own_face, face) in
             [(one, two, edge.faces[0], edge.faces[1]), (two, one, edge.faces[1], edge.faces[0])]
         {

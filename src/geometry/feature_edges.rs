@@ -4,6 +4,7 @@
 
 pub(super) mod chains;
 pub(super) mod crease_angles;
+pub(super) mod isolated;
 mod pieces;
 pub(super) mod straights;
 mod sub_edges;
@@ -12,6 +13,7 @@ use std::sync::Arc;
 
 use self::chains::FeatureChains;
 use self::crease_angles::Cached;
+use self::isolated::IsolatedCreases;
 use self::straights::Straights;
 use self::sub_edges::SubEdge;
 use super::edge::{FOLDED, NO_FACE};
@@ -75,8 +77,10 @@ pub struct FeatureEdges {
     pub(super) surfaces: Arc<Surfaces>,
     /// The box around the mesh, local space.
     pub(super) bounds: Bounds,
+    leaves_out_isolated: bool,
     cached_chains: Cached<FeatureChains>,
     cached_straights: Cached<Straights>,
+    cached_isolated: Cached<IsolatedCreases>,
 }
 
 impl FeatureEdges {
@@ -96,8 +100,10 @@ impl FeatureEdges {
             faces_around: Vec::new(),
             surfaces: surfaces.into(),
             bounds: mesh.bounds(),
+            leaves_out_isolated: adjacency.leaves_out_isolated,
             cached_chains: Cached::default(),
             cached_straights: Cached::default(),
+            cached_isolated: Cached::default(),
         };
         let point = |v: u32| adjacency.weld.representative.get(v as usize).copied().unwrap_or(v);
         let materials = Materials::new(mesh);

@@ -17,6 +17,8 @@ mod polyline_arcs;
 mod scale;
 mod segment;
 
+use std::sync::Arc;
+
 use glam::DMat4;
 use rayon::prelude::*;
 
@@ -29,6 +31,8 @@ pub use self::intersections::{PlacedIntersections, intersection_segments};
 use self::non_manifold::NonManifoldEdges;
 pub use self::segment::{Dashes, LineSegment, LineSelection, LineView, NO_SURFACE, PlacedEdges};
 use super::feature_edges::Traits;
+use super::feature_edges::crease_angles::CreaseAngles;
+use super::feature_edges::isolated::IsolatedCreases;
 use super::{ClassSet, EdgeClass};
 
 /// Edges that one thread takes at a time; fewer are not worth a thread.
@@ -120,6 +124,7 @@ struct Finder<'a> {
     facings: Facings,
     non_manifold: NonManifoldEdges<'a>,
     angles: Angles<'a>,
+    isolated: Arc<IsolatedCreases>,
     /// Edges with these traits are looked at closely, whatever their angle.
     special: Traits,
     /// No edge that bends less than this (radians, local space) can be a crease.
@@ -141,6 +146,7 @@ impl<'a> Finder<'a> {
         let PlacedEdges { edges, mesh, .. } = *placed;
         let lens = view.projector.lens;
         let angles = Angles::new(mesh, view_from_local);
+        let crease_angles = CreaseAngles { ridge: wanted.ridge_angle, valley: wanted.valley_angle };
         let asked = |class: EdgeClass, angle: f32| {
             if wanted.classes.contains(class) { angle } else { f32::INFINITY }
         };
@@ -163,6 +169,7 @@ impl<'a> Finder<'a> {
             non_manifold: NonManifoldEdges::new(placed, *view_from_local, lens),
             min_angle: angles.min_local(min_angle),
             angles,
+            isolated: edges.isolated(mesh, crease_angles),
             special,
             is_traced: wanted.dashes.is_some(),
             hides_its_back: placed.is_solid && clip::is_before_the_eye(&edges.bounds, view_from_local, lens),
@@ -236,6 +243,7 @@ impl<'a> Finder<'a> {
             }
             return self.outline(EdgeClass::Silhouette, angle, faces);
         }
+        let traits = traits.union(Traits::SOFT.when(self.isolated.contains(edge)));
         // From behind, what is convex looks concave.
         self.crease(if is_away { -angle } else { angle }, faces, traits)
     }

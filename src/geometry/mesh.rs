@@ -57,6 +57,11 @@ impl Mesh {
         self.indices.len() / 3
     }
 
+    /// Whether somebody chose its normals, so that they say more about the shape than the triangles do.
+    pub fn has_own_normals(&self) -> bool {
+        !self.normals.is_empty() && !self.has_computed_normals
+    }
+
     /// The outermost vertices in evenly spread directions, local space: together nearly the hull of the mesh. Of large
     /// meshes a part of the vertices is looked at, so that it takes a few milliseconds at most; what that misses,
     /// framing finds.

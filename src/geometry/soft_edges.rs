@@ -32,7 +32,7 @@ pub(super) struct SoftNormals<'a>(&'a [Vec3]);
 
 impl<'a> SoftNormals<'a> {
     pub(super) fn new(mesh: &'a Mesh) -> Self {
-        let is_usable = !mesh.has_computed_normals && mesh.normals.len() == mesh.positions.len();
+        let is_usable = mesh.has_own_normals() && mesh.normals.len() == mesh.positions.len();
         Self(if is_usable { &mesh.normals } else { &[] })
     }
 

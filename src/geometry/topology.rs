@@ -42,6 +42,9 @@ pub struct Adjacency {
     pub non_manifold_count: usize,
     /// Number of edges between triangles that disagree about inside and outside.
     pub flipped_count: usize,
+    /// Whether isolated creases (`feature_edges/isolated.rs`) are none: the mesh has no normals of its own, so that nothing but
+    /// the angle tells creases.
+    pub leaves_out_isolated: bool,
 }
 
 impl Adjacency {
@@ -98,6 +101,7 @@ impl Adjacency {
             border_count: 0,
             non_manifold_count: 0,
             flipped_count: 0,
+            leaves_out_isolated: !mesh.has_own_normals(),
         };
         for tally in tallies {
             all.border_count += tally.border;
@@ -128,12 +132,13 @@ impl Adjacency {
         all
     }
 
-    /// Makes no edge soft, if the rule says so: then normals are not asked.
+    /// Makes every edge above the crease angle a crease, if the rule says so.
     #[must_use]
     pub fn with_rule(mut self, rule: CreaseRule) -> Self {
         if rule == CreaseRule::Angle {
             self.edges.iter_mut().for_each(|edge| edge.is_soft = false);
             self.overlaps.iter_mut().for_each(|overlap| overlap.is_soft = false);
+            self.leaves_out_isolated = false;
         }
         self
     }

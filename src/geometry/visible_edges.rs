@@ -18,7 +18,8 @@ use glam::{DMat4, DVec2, DVec3};
 use rayon::prelude::*;
 
 use self::sight::{Hiders, Sight};
-use self::world_edge::WorldEdge;
+use self::world_edge::{WholeEdge, WorldEdge};
+use super::feature_edges::isolated::{IsolatedCreases, JoinedEdge};
 use super::{Adjacency, Bvh, EdgeClass, Mesh, Projector};
 
 /// Distance between samples along an edge, in pixels.
@@ -127,6 +128,8 @@ pub struct EdgeScene {
     /// For each mesh the number of its first triangle, and its object.
     meshes: Vec<(usize, u32)>,
     edges: Vec<WorldEdge>,
+    /// Number of vertices of all meshes.
+    point_count: usize,
 }
 
 impl EdgeScene {
@@ -134,7 +137,11 @@ impl EdgeScene {
     pub fn new(meshes: &[PlacedMesh<'_>]) -> Self {
         let mut triangles: Vec<[DVec3; 3]> = Vec::new();
         let mut firsts = Vec::new();
+        let mut first_points = Vec::new();
+        let mut point_count = 0;
         for placed in meshes {
+            first_points.push(point_count as u32);
+            point_count += placed.mesh.positions.len();
             firsts.push((triangles.len(), placed.object));
             let place = |p: glam::Vec3| placed.world_from_local.transform_point3(p.as_dvec3());
             triangles.extend(placed.mesh.triangles().iter().map(|&t| placed.mesh.corners(t).map(place)));
@@ -143,16 +150,21 @@ impl EdgeScene {
         let mut edges: Vec<WorldEdge> = meshes
             .par_iter()
             .zip(&firsts)
-            .flat_map_iter(|(placed, &(first, _))| world_edge::edges_of(placed, &triangles, first))
+            .zip(&first_points)
+            .flat_map_iter(|((placed, &(first, _)), &point)| {
+                world_edge::edges_of(placed, &triangles, first, point)
+            })
             .collect();
         edges.extend(crossings::find(meshes, &firsts, &tree, &triangles));
-        Self { tree, triangles, meshes: firsts, edges }
+        Self { tree, triangles, meshes: firsts, edges, point_count }
     }
 
     /// The edges that a camera sees.
     pub fn visible(&self, projector: &Projector, rules: &LineRules<'_>) -> VisibleEdges {
         let sight = Sight::new(self, projector, rules);
-        let parts: Vec<_> = self.edges.par_iter().filter_map(|edge| visible_part(edge, &sight)).collect();
+        let isolated = self.isolated(rules);
+        let part = |(i, edge): (usize, &WorldEdge)| visible_part(edge, isolated.contains(i as u32), &sight);
+        let parts: Vec<_> = self.edges.par_iter().enumerate().filter_map(part).collect();
         let mut visible = VisibleEdges::default();
         for (samples, segments) in parts {
             for (class, sample) in samples {
@@ -161,6 +173,17 @@ impl EdgeScene {
             visible.segments.extend(segments);
         }
         visible
+    }
+
+    /// The creases that are isolated, of meshes that leave those out.
+    fn isolated(&self, rules: &LineRules<'_>) -> IsolatedCreases {
+        let joined = |(edge, line): (u32, &WorldEdge)| {
+            let WholeEdge { points, angle, length } = line.whole?;
+            let sharpness =
+                angle.map_or(f32::INFINITY, |angle| angle.abs() / rules.ridge_valley_angle as f32);
+            (sharpness >= 1.0).then_some(JoinedEdge { edge, points, length, sharpness })
+        };
+        IsolatedCreases::new((0..).zip(&self.edges).filter_map(joined), self.point_count)
     }
 
     /// How many holes the center of each pixel is seen through, row by row from the top. Where that changes is the
@@ -182,10 +205,11 @@ impl EdgeScene {
 /// Samples and visible parts of one edge; `None` if it is no line for this eye or out of the picture.
 fn visible_part(
     edge: &WorldEdge,
+    is_isolated: bool,
     sight: &Sight<'_>,
 ) -> Option<(Vec<(EdgeClass, EdgeSample)>, Vec<VisibleSegment>)> {
     let (projector, rules) = (sight.projector, sight.rules);
-    let line = edge.line(sight.to_eye(edge.ends[0]), rules)?;
+    let line = edge.line(sight.to_eye(edge.ends[0]), is_isolated, rules)?;
     let ends = projector.clip(edge.ends.map(|p| projector.view_from_world.transform_point3(p)))?;
     let pixels = ends.map(|p| projector.pixel(p));
     let length = pixels[0].distance(pixels[1]);

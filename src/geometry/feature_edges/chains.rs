@@ -5,6 +5,7 @@ use std::sync::Arc;
 use glam::Vec3;
 
 use super::crease_angles::CreaseAngles;
+use super::isolated::{IsolatedCreases, JoinedEdge};
 use super::pieces::Piece;
 use super::{FeatureEdges, Traits};
 use crate::geometry::Mesh;
@@ -40,6 +41,33 @@ impl FeatureEdges {
     /// The chains for these angles; made when they are asked for first.
     pub(in crate::geometry) fn chains(&self, mesh: &Mesh, angles: CreaseAngles) -> Arc<FeatureChains> {
         self.cached_chains.get(angles, || FeatureChains::new(self, mesh, angles))
+    }
+
+    /// The isolated creases for these angles; made when they are asked for first. None where
+    /// [`crate::geometry::Adjacency::leaves_out_isolated`] says so.
+    pub(in crate::geometry) fn isolated(&self, mesh: &Mesh, angles: CreaseAngles) -> Arc<IsolatedCreases> {
+        self.cached_isolated.get(angles, || {
+            if !self.leaves_out_isolated {
+                return IsolatedCreases::default();
+            }
+            let diagonal = self.bounds.diagonal();
+            let joined = |edge: u32| {
+                let points = self.ends[edge as usize];
+                let [a, b] = points.map(|v| mesh.positions[v as usize].as_dvec3());
+                let length = a.distance(b) / diagonal;
+                JoinedEdge { edge, points, length, sharpness: self.sharpness(edge, angles) }
+            };
+            let is_line = |edge: &u32| self.kind(*edge as usize, angles).is_some();
+            IsolatedCreases::new((0..self.len() as u32).filter(is_line).map(joined), mesh.positions.len())
+        })
+    }
+
+    /// As [`JoinedEdge::sharpness`].
+    fn sharpness(&self, edge: u32, angles: CreaseAngles) -> f32 {
+        let more = Traits::BORDER.union(Traits::MATERIAL).union(Traits::NON_MANIFOLD);
+        let angle = self.dihedral[edge as usize];
+        let least = if angle < 0.0 { angles.valley } else { angles.ridge };
+        if self.traits[edge as usize].any(more) { f32::INFINITY } else { angle.abs() / least }
     }
 
     /// All edges that are lines from all sides, for these angles.

@@ -60,6 +60,7 @@ pub(super) fn find(
                     is_soft: false,
                     object: firsts[mesh].1,
                     edge: None,
+                    whole: None,
                 });
             });
             found

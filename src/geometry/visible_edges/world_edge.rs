@@ -24,6 +24,20 @@ pub(super) struct WorldEdge {
     pub object: u32,
     /// Index into the mesh's edges; `None` for an intersection.
     pub edge: Option<u32>,
+    /// Of the edge that it is a part of; `None` where there are no isolated creases
+    /// ([`crate::geometry::Adjacency::leaves_out_isolated`]).
+    pub whole: Option<WholeEdge>,
+}
+
+/// An edge of a mesh.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct WholeEdge {
+    /// The welded vertices at its ends, counted through all meshes.
+    pub points: [u32; 2],
+    /// The dihedral angle, degrees; `None` for what is more than a fold.
+    pub angle: Option<f32>,
+    /// As a share of its mesh's diagonal.
+    pub length: f64,
 }
 
 /// A surface at an edge.
@@ -49,8 +63,9 @@ impl WorldEdge {
         self.wings.len() > 1
     }
 
-    /// What it is for an eye in the direction `to_eye` of its first end; `None` if it can be no line.
-    pub(super) fn line(&self, to_eye: DVec3, rules: &LineRules<'_>) -> Option<Line> {
+    /// What it is for an eye in the direction `to_eye` of its first end; `None` if it can be no line. `is_isolated`: it is no
+    /// crease, whatever its angle.
+    pub(super) fn line(&self, to_eye: DVec3, is_isolated: bool, rules: &LineRules<'_>) -> Option<Line> {
         let wanted = |class: &EdgeClass| rules.classes.contains(class);
         let first = |candidates: &[EdgeClass]| candidates.iter().copied().find(wanted);
         let whole = |class: Option<EdgeClass>| class.map(|_| Line { class, off_surface: None });
@@ -81,9 +96,10 @@ impl WorldEdge {
             (Some((left, left_material)), Some((right, right_material))) => {
                 let bend = left + right - std::f64::consts::PI;
                 let crease = rules.ridge_valley_angle.to_radians();
+                let is_hard = !self.is_soft && !is_isolated;
                 let candidates = [
-                    (!self.is_soft && bend > crease, EdgeClass::Ridge),
-                    (!self.is_soft && bend < -crease, EdgeClass::Valley),
+                    (is_hard && bend > crease, EdgeClass::Ridge),
+                    (is_hard && bend < -crease, EdgeClass::Valley),
                     (left_material != right_material, EdgeClass::Material),
                 ];
                 let class = candidates.into_iter().find(|(is, class)| *is && wanted(class));
@@ -99,9 +115,16 @@ impl WorldEdge {
     }
 }
 
-/// The edges of a mesh whose first triangle is number `first` of all `triangles`, which are in world space.
-pub(super) fn edges_of(placed: &PlacedMesh<'_>, triangles: &[[DVec3; 3]], first: usize) -> Vec<WorldEdge> {
-    let gatherer = Gatherer { placed, triangles, first };
+/// The edges of a mesh whose first triangle is number `first` of all `triangles`, which are in world space, and whose first vertex
+/// is number `first_point` of all.
+pub(super) fn edges_of(
+    placed: &PlacedMesh<'_>,
+    triangles: &[[DVec3; 3]],
+    first: usize,
+    first_point: u32,
+) -> Vec<WorldEdge> {
+    let diagonal = placed.mesh.bounds().diagonal();
+    let gatherer = Gatherer { placed, triangles, first, first_point, diagonal };
     let adjacency = placed.adjacency;
     let mut overlaps: Vec<(u32, u32)> = (0..)
         .zip(&adjacency.overlaps)
@@ -148,6 +171,9 @@ struct Gatherer<'a> {
     placed: &'a PlacedMesh<'a>,
     triangles: &'a [[DVec3; 3]],
     first: usize,
+    first_point: u32,
+    /// Of the mesh, in its own space.
+    diagonal: f64,
 }
 
 impl Gatherer<'_> {
@@ -180,7 +206,7 @@ impl Gatherer<'_> {
             .collect();
         let mut cuts: Vec<f64> = others.iter().flat_map(|other| other.span).chain([0.0, 1.0]).collect();
         cuts.sort_by(f64::total_cmp);
-        let shortest = 4.0 * TOLERANCE * self.placed.mesh.bounds().diagonal() / a.distance(b);
+        let shortest = 4.0 * TOLERANCE * self.diagonal / a.distance(b);
         let own_face = adjacency.edges.get(number as usize).map(|edge| (number, edge.faces[0]));
         let mut from = 0.0;
         for to in cuts {
@@ -232,10 +258,25 @@ impl Gatherer<'_> {
         (!wings.is_empty()).then(|| WorldEdge {
             ends: [a.lerp(b, from), a.lerp(b, to)],
             faces: faces.iter().map(|&(_, face)| face + self.first as u32).collect(),
-            wings,
             is_soft,
             object: self.placed.object,
             edge: Some(number),
+            whole: self.whole(number, &wings),
+            wings,
+        })
+    }
+
+    /// What is known of an edge as a whole.
+    fn whole(&self, number: u32, wings: &[Wing]) -> Option<WholeEdge> {
+        let adjacency = self.placed.adjacency;
+        let edge = adjacency.edges.get(number as usize).filter(|_| adjacency.leaves_out_isolated)?;
+        let has_two_sides = matches!(edge.kind, EdgeKind::Manifold | EdgeKind::Flipped);
+        let is_boundary = wings.iter().any(|wing| wing.material != wings[0].material);
+        let [a, b] = self.ends(number)?;
+        Some(WholeEdge {
+            points: edge.vertices.map(|v| self.first_point + adjacency.weld.representative[v as usize]),
+            angle: (has_two_sides && !is_boundary).then(|| edge.dihedral.to_degrees()),
+            length: a.distance(b) / self.diagonal,
         })
     }
 
