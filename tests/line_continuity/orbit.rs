@@ -9,6 +9,8 @@ use crate::lines::{Lines, Point};
 
 /// A point is found again within this, px, in a line of about its direction; with another class if none there has its own.
 const NEAR: f64 = 1.5;
+/// Two lines of different classes that run so near beside each other, px, may merge into one of them.
+const MERGING: f64 = 2.5;
 /// A class that exact visible edges do not have within so many pixels is none that a line could have kept.
 const TRUE_NEAR: usize = 2;
 /// What crosses an inner line so near, px, may hide it in the next picture.
@@ -21,6 +23,8 @@ pub(crate) struct Changes {
     /// Found again, with another class, though exact visible edges still have its class there. (Where a face turns away a
     /// fold becomes an outline.)
     pub(crate) classes: usize,
+    /// Those of them where a line of the other class ran beside the point before: two lines have merged.
+    pub(crate) merges: usize,
     /// Of inner lines whose ink has changed by more than a quarter, where nothing is that could hide them.
     pub(crate) strengths: usize,
 }
@@ -43,8 +47,11 @@ impl Changes {
             }
             changes.points += 1;
             let found = Found::new(after.0, point, at);
-            let has_changed = found.has_any && !found.has_same;
-            changes.classes += usize::from(has_changed && truth.is_near(at, point.class));
+            let has_changed = found.classes != 0 && found.classes & bit(point.class) == 0;
+            if has_changed && truth.is_near(at, point.class) {
+                changes.classes += 1;
+                changes.merges += usize::from(found.ran_beside(before.0, point));
+            }
             let is_weaker = (found.weight - point.weight).abs() > 0.25;
             if !point.class.is_profile() && is_weaker && !may_hide(before.0, point, point.at) {
                 changes.strengths += usize::from(!may_hide(after.0, point, at));
@@ -59,6 +66,7 @@ impl Changes {
         Self {
             points: self.points + other.points,
             classes: self.classes + other.classes,
+            merges: self.merges + other.merges,
             strengths: self.strengths + other.strengths,
         }
     }
@@ -83,7 +91,7 @@ impl TrueClasses {
         for (class, samples) in edges.samples.iter().enumerate() {
             for at in samples.iter().map(|sample| sample.position) {
                 if at.min_element() >= 0.0 && at.max_element() < side as f64 {
-                    classes[at.y as usize * side + at.x as usize] |= 1 << class;
+                    classes[at.y as usize * side + at.x as usize] |= 1_u16 << class;
                 }
             }
         }
@@ -93,28 +101,39 @@ impl TrueClasses {
     fn is_near(&self, at: DVec2, class: EdgeClass) -> bool {
         let (x, y) = (at.x as usize, at.y as usize);
         let near = |v: usize| v.saturating_sub(TRUE_NEAR)..(v + TRUE_NEAR + 1).min(self.side);
-        near(y).any(|y| near(x).any(|x| self.classes[y * self.side + x] & (1 << class as usize) != 0))
+        near(y).any(|y| near(x).any(|x| self.classes[y * self.side + x] & bit(class) != 0))
     }
 }
 
-/// What lines there are near the place of a point: any, one of the same class, and how strong the strongest is.
+fn bit(class: EdgeClass) -> u16 {
+    1 << class as usize
+}
+
+/// What lines there are near the place of a point: of which classes, and how strong the strongest is.
 struct Found {
-    has_any: bool,
-    has_same: bool,
+    /// A bit per class.
+    classes: u16,
     weight: f64,
 }
 
 impl Found {
     fn new(lines: &Lines, point: &Point, at: DVec2) -> Self {
-        let mut found = Self { has_any: false, has_same: false, weight: 0.0 };
+        let mut found = Self { classes: 0, weight: 0.0 };
         for (_, other) in lines.around(at, 3) {
             if other.is_parallel(point) && other.at.distance(at) < NEAR {
-                found.has_any = true;
-                found.has_same |= other.class == point.class;
+                found.classes |= bit(other.class);
                 found.weight = found.weight.max(other.weight);
             }
         }
         found
+    }
+
+    /// Whether a line of one of these classes ran beside a point, with which it may have merged.
+    fn ran_beside(&self, before: &Lines, point: &Point) -> bool {
+        before.around(point.at, 3).any(|(_, other)| {
+            let is_beside = other.is_parallel(point) && other.at.distance(point.at) < MERGING;
+            is_beside && self.classes & bit(other.class) != 0
+        })
     }
 }
 
