@@ -18,8 +18,7 @@ const CHANGED: u8 = 32;
 /// So many pixels of a block of [`BLOCK`] × [`BLOCK`] may have changed: a device rounds single ones otherwise, but a line that
 /// runs elsewhere changes all along it.
 const MAX_CHANGED: usize = 6;
-/// The same on other devices than the software one that drew the pictures. On a graphics card up to 26 were measured: where a line
-/// is wider on one side of an edge, the card may find the other side there.
+/// The same on other devices than the software one that drew the pictures. On a graphics card up to 26 were measured.
 const MAX_CHANGED_ELSEWHERE: usize = 32;
 const BLOCK: u32 = 16;
 

@@ -77,6 +77,7 @@ pub struct FeatureEdges {
     pub(super) surfaces: Arc<Surfaces>,
     /// The box around the mesh, local space.
     pub(super) bounds: Bounds,
+    /// As [`Adjacency::leaves_out_isolated`].
     leaves_out_isolated: bool,
     cached_chains: Cached<FeatureChains>,
     cached_straights: Cached<Straights>,
