@@ -18,35 +18,36 @@ override ENLARGED: bool = false;
 @group(2) @binding(3) var normal_sampler: sampler;
 @group(3) @binding(0) var<uniform> material: Material;
 
+// Each location takes time for every triangle, so that none is left half empty.
+
 struct Lean {
     @builtin(position) @invariant position: vec4<f32>,
-    // View-oriented, but about the object's own origin, so that derivatives keep their digits far from the eye.
-    @location(0) pos_oriented: vec3<f32>,
-    // Linear depth, and how far in front of the planes of `WITH_CLIP_PLANE` it lies.
-    @location(1) depths: vec3<f32>,
+    // View-oriented, but about the object's own origin, so that derivatives keep their digits far from the eye; and linear depth.
+    @location(0) pos_oriented_depth: vec4<f32>,
     // Surface, object, order of its first surface, whether it is flat.
-    @location(2) @interpolate(flat, first) ids: vec4<u32>,
-    @location(3) @interpolate(flat, first) color: vec4<f32>,
+    @location(1) @interpolate(flat, first) ids: vec4<u32>,
+    @location(2) @interpolate(flat, first) color: vec4<f32>,
+    // How far it lies in front of the planes of `WITH_CLIP_PLANE`.
+    @location(3) before_planes: vec2<f32>,
 }
 
 struct Smooth {
     @builtin(position) @invariant position: vec4<f32>,
-    @location(0) pos_oriented: vec3<f32>,
-    @location(1) depths: vec3<f32>,
-    @location(2) @interpolate(flat, first) ids: vec4<u32>,
-    @location(3) color: vec3<f32>,
-    @location(4) normal: vec3<f32>,
+    @location(0) pos_oriented_depth: vec4<f32>,
+    @location(1) @interpolate(flat, first) ids: vec4<u32>,
+    // How far it lies in front of one plane, and of the other.
+    @location(2) color_before: vec4<f32>,
+    @location(3) normal_before: vec4<f32>,
 }
 
 struct Full {
     @builtin(position) @invariant position: vec4<f32>,
-    @location(0) pos_oriented: vec3<f32>,
-    @location(1) depths: vec3<f32>,
-    @location(2) @interpolate(flat, first) ids: vec4<u32>,
-    @location(3) color: vec4<f32>,
-    @location(4) normal: vec3<f32>,
-    @location(5) tangent: vec4<f32>,
-    @location(6) uv: vec2<f32>,
+    @location(0) pos_oriented_depth: vec4<f32>,
+    @location(1) @interpolate(flat, first) ids: vec4<u32>,
+    @location(2) color: vec4<f32>,
+    @location(3) normal: vec3<f32>,
+    @location(4) tangent: vec4<f32>,
+    @location(5) uv_before: vec4<f32>,
 }
 
 struct GBuffer {
@@ -55,9 +56,13 @@ struct GBuffer {
     @location(2) surface_id: u32,
 }
 
-fn depths(pos_view: vec4<f32>) -> vec3<f32> {
-    let planes = vec2(dot(frame.clip_plane, pos_view), dot(frame.section, pos_view));
-    return vec3(-pos_view.z, select(vec2(0.0), planes, WITH_CLIP_PLANE));
+fn before_planes(pos_view: vec4<f32>) -> vec2<f32> {
+    let before = vec2(dot(frame.clip_plane, pos_view), dot(frame.section, pos_view));
+    return select(vec2(0.0), before, WITH_CLIP_PLANE);
+}
+
+fn pos_oriented_depth(pos_view: vec4<f32>, local: mat4x4<f32>) -> vec4<f32> {
+    return vec4(pos_view.xyz - local[3].xyz, -pos_view.z);
 }
 
 fn ids(instance: Instance, surface: u32) -> vec4<u32> {
@@ -83,8 +88,8 @@ fn vs_lean(
     let local = view_from_local(instance);
     let pos_view = local * vec4(position, 1.0);
     return Lean(
-        frame.clip_from_view * pos_view, pos_view.xyz - local[3].xyz, depths(pos_view), ids(instance, surface),
-        instance.base_color,
+        frame.clip_from_view * pos_view, pos_oriented_depth(pos_view, local), ids(instance, surface),
+        instance.base_color, before_planes(pos_view),
     );
 }
 
@@ -99,9 +104,10 @@ fn vs_smooth(
     let local = view_from_local(instance);
     let normal_view = normal_from_local(instance) * octahedral_decode(normal);
     let pos_view = placed(instance, local * vec4(position, 1.0), normal_view);
+    let before = before_planes(pos_view);
     return Smooth(
-        frame.clip_from_view * pos_view, pos_view.xyz - local[3].xyz, depths(pos_view), ids(instance, surface),
-        instance.base_color.rgb * color.rgb, normal_view,
+        frame.clip_from_view * pos_view, pos_oriented_depth(pos_view, local), ids(instance, surface),
+        vec4(instance.base_color.rgb * color.rgb, before.x), vec4(normal_view, before.y),
     );
 }
 
@@ -120,9 +126,9 @@ fn vs_full(
     let pos_view = placed(instance, local * vec4(position, 1.0), normal_view);
     let tangent_view = (local * vec4(octahedral_decode(tangent.xy), 0.0)).xyz;
     return Full(
-        frame.clip_from_view * pos_view, pos_view.xyz - local[3].xyz, depths(pos_view), ids(instance, surface),
+        frame.clip_from_view * pos_view, pos_oriented_depth(pos_view, local), ids(instance, surface),
         color, normal_view,
-        vec4(tangent_view, sign(tangent.z)), uv,
+        vec4(tangent_view, sign(tangent.z)), vec4(uv, before_planes(pos_view)),
     );
 }
 
@@ -154,8 +160,8 @@ fn pack(normal: vec3<f32>, face: vec3<f32>, depth: f32, object: u32) -> vec4<u32
     );
 }
 
-fn is_clipped_off(depths: vec3<f32>) -> bool {
-    return WITH_CLIP_PLANE && min(depths.y, depths.z) < 0.0;
+fn is_clipped_off(before_planes: vec2<f32>) -> bool {
+    return WITH_CLIP_PLANE && min(before_planes.x, before_planes.y) < 0.0;
 }
 
 fn surface_id(ids: vec4<u32>) -> u32 {
@@ -169,11 +175,11 @@ fn order_of(ids: vec4<u32>) -> u32 {
 }
 
 fn lean(v: Lean) -> GBuffer {
-    let face = face_normal(v.pos_oriented);
-    if is_clipped_off(v.depths) {
+    let face = face_normal(v.pos_oriented_depth.xyz);
+    if is_clipped_off(v.before_planes) {
         discard;
     }
-    return GBuffer(pack(face, face, v.depths.x, v.ids.y), v.color, surface_id(v.ids));
+    return GBuffer(pack(face, face, v.pos_oriented_depth.w, v.ids.y), v.color, surface_id(v.ids));
 }
 
 // Seen from behind, a surface is shaded as if it were two-sided.
@@ -187,12 +193,13 @@ fn fs_lean(v: Lean) -> GBuffer {
 }
 
 fn smooth_surface(v: Smooth) -> GBuffer {
-    let face = face_normal(v.pos_oriented);
-    if is_clipped_off(v.depths) {
+    let face = face_normal(v.pos_oriented_depth.xyz);
+    if is_clipped_off(vec2(v.color_before.w, v.normal_before.w)) {
         discard;
     }
-    let normal = select(turned_to(face, normalize(v.normal)), face, v.ids.w == 1u);
-    return GBuffer(pack(normal, face, v.depths.x, v.ids.y), vec4(v.color, 1.0), surface_id(v.ids));
+    let normal = select(turned_to(face, normalize(v.normal_before.xyz)), face, v.ids.w == 1u);
+    let geometry = pack(normal, face, v.pos_oriented_depth.w, v.ids.y);
+    return GBuffer(geometry, vec4(v.color_before.rgb, 1.0), surface_id(v.ids));
 }
 
 @fragment
@@ -201,14 +208,14 @@ fn fs_smooth(v: Smooth) -> GBuffer {
 }
 
 fn full(v: Full) -> GBuffer {
-    let face = face_normal(v.pos_oriented);
+    let face = face_normal(v.pos_oriented_depth.xyz);
     // Derivatives of the varying itself: loads from buffers are undefined in the helper lanes of a pixel quad.
-    let uv = Footprint(v.uv, dpdx(v.uv), dpdy(v.uv));
+    let uv = Footprint(v.uv_before.xy, dpdx(v.uv_before.xy), dpdy(v.uv_before.xy));
     let base = transformed(uv, material.base_uv);
     let color = textureSampleGrad(base_tex, base_sampler, base.uv, base.dx, base.dy) * material.base_color * v.color;
     let fine = transformed(uv, material.normal_uv);
     let bump = textureSampleGrad(normal_tex, normal_sampler, fine.uv, fine.dx, fine.dy).xyz * 2.0 - 1.0;
-    if color.a < material.alpha_cutoff || is_clipped_off(v.depths) {
+    if color.a < material.alpha_cutoff || is_clipped_off(v.uv_before.zw) {
         discard;
     }
     var normal = face;
@@ -223,7 +230,7 @@ fn full(v: Full) -> GBuffer {
         normal = turned_to(face, normal);
     }
     let base_color = vec4(color.rgb, select(1.0, color.a, material.blends == 1u));
-    return GBuffer(pack(normal, face, v.depths.x, v.ids.y), base_color, surface_id(v.ids));
+    return GBuffer(pack(normal, face, v.pos_oriented_depth.w, v.ids.y), base_color, surface_id(v.ids));
 }
 
 @fragment
