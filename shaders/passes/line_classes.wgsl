@@ -7,15 +7,13 @@
 //
 // Dots: pieces of lines that are too short to tell anything, and that nothing continues but a line beside them, are left out.
 //
-// 1. `cs_lines` collects the pixels of lines, which are few.
-// 2. `cs_links` finds for each of them the next pixel of its line in both directions, and which classes run there.
-// 3. `cs_settle` follows these links, and decides.
-// 4. `cs_change` writes what changes. The last three run once more for the pixels where classes meet and those of short pieces.
+// 1. `cs_links` finds for each pixel of a line the next one in both directions, and which classes run there.
+// 2. `cs_settle` follows these links, and decides.
+// 3. `cs_change` writes what changes. All three run once more for the pixels where classes meet and those of short pieces.
 #import common/frame.wgsl
 #import common/edge_map.wgsl
 #import common/line_width.wgsl
-#import gpu/neighbors.wgsl
-#import common/list_head.wgsl
+#import common/pixel_list.wgsl
 #import passes/line_classes/links.wgsl
 #import passes/line_classes/stretch.wgsl
 #import passes/line_classes/dots.wgsl
@@ -27,13 +25,6 @@ override WITH_PIECES: bool = true;
 // Whether this is the last round of deciding: lines are as they will be.
 override LAST_ROUND: bool = true;
 
-// While pixels are collected (column in the lower 16 bits, row in the upper ones), in any order: those of lines, then those of
-// them that are decided once more.
-var<storage, read_write> keeping: Counting;
-var<storage, read_write> keeping_lines: array<u32>;
-// Afterwards the same.
-var<storage, read> list: ListHead;
-var<storage, read> listed_lines: array<u32>;
 // See `pack_link`.
 var linking_tex: texture_storage_2d<r32uint, write>;
 // What changes, in any order.
@@ -53,48 +44,13 @@ struct Change {
 // Beside a line, px.
 const NEARBY: f32 = 2.5;
 
-// Pixels per workgroup, as in src/render/passes/line_classes.rs.
-const GROUP: u32 = 256u;
-
-fn packed(px: vec2<i32>) -> u32 {
-    return u32(px.x) | (u32(px.y) << 16u);
-}
-
-fn unpacked(px: u32) -> vec2<i32> {
-    return vec2<i32>(vec2(px & 0xffffu, px >> 16u));
-}
-
-fn keep(px: vec2<i32>) {
-    let index = atomicAdd(&keeping.count, 1u);
-    keeping_lines[index] = packed(px);
-    if index % GROUP == 0u {
-        atomicAdd(&keeping.groups[0], 1u);
-    }
-}
-
-// Collects the pixels of lines, four at a time.
-@compute @workgroup_size(16, 16)
-fn cs_lines(@builtin(global_invocation_id) id: vec3<u32>) {
-    let first = 2 * vec2<i32>(id.xy);
-    let spines = four_at(spine_tex, first);
-    if any_of(spines) == 0u {
-        return;
-    }
-    for (var i = 0; i < 4; i++) {
-        let px = first + vec2(i & 1, i >> 1u);
-        if spines[i] != 0u && all(px < vec2<i32>(frame.size)) {
-            keep(px);
-        }
-    }
-}
-
 // Finds what continues a line in both directions (over a hole of a pixel too), and which classes run here.
 @compute @workgroup_size(GROUP)
 fn cs_links(@builtin(global_invocation_id) id: vec3<u32>) {
     if id.x >= list.count {
         return;
     }
-    let px = unpacked(listed_lines[id.x]);
+    let px = unpack_pixel(listed_pixels[id.x]);
     let own = point_at(px);
     let towards = unpack_tangent(u32(own.tangent));
     var classes = 0u;
@@ -131,7 +87,7 @@ fn change(px: vec2<i32>, edge: vec4<u32>, spine: u32) {
     if index % GROUP == 0u {
         atomicAdd(&changing.groups[0], 1u);
     }
-    changes[index] = Change(edge, spine, packed(px));
+    changes[index] = Change(edge, spine, pack_pixel(px));
 }
 
 // Whether what is followed from a pixel is too short, and nothing else continues it.
@@ -164,7 +120,7 @@ fn cs_settle(@builtin(global_invocation_id) id: vec3<u32>) {
     if id.x >= list.count {
         return;
     }
-    let px = unpacked(listed_lines[id.x]);
+    let px = unpack_pixel(listed_pixels[id.x]);
     let own = point_at(px);
     if own.class_of == NO_EDGE {
         // It was left out the first time.
@@ -225,7 +181,7 @@ fn cs_change(@builtin(global_invocation_id) id: vec3<u32>) {
     if id.x >= min(changed.count, arrayLength(&changes)) {
         return;
     }
-    let px = unpacked(changes[id.x].px);
+    let px = unpack_pixel(changes[id.x].px);
     textureStore(edge_tex, px, changes[id.x].edge);
     textureStore(changed_spine_tex, px, vec4(changes[id.x].spine, 0u, 0u, 0u));
 }

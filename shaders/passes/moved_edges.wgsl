@@ -3,11 +3,9 @@
 #import common/frame.wgsl
 #import common/plane.wgsl
 #import common/edge_map.wgsl
-#import common/list_head.wgsl
+#import common/pixel_list.wgsl
 #import common/next_on_line.wgsl
 
-// Pixels per workgroup, as in src/render/passes/moved_edges.rs.
-const GROUP: u32 = 64u;
 // A pixel of a line becomes so many, or it would break up where it is longer.
 const POINTS: u32 = 2u;
 
@@ -28,10 +26,8 @@ struct Movement {
 var<uniform> movement: Movement;
 // Not 0 where lines run.
 var spine_tex: texture_2d<u32>;
-// See passes/offset_field.wgsl, which also lists the pixels of lines.
+// See passes/offset_field.wgsl.
 var line_field_tex: texture_storage_2d<rgba32uint, read>;
-var<storage, read> list: ListHead;
-var<storage, read> listed_pixels: array<u32>;
 // The greatest key of each pixel, and the greatest source of those that have it; 0 again once it has been put.
 var<storage, read_write> keys: array<atomic<u32>>;
 var<storage, read_write> winners: array<atomic<u32>>;
@@ -90,8 +86,13 @@ struct Source {
     turned: vec2<f32>,
 }
 
+// Whether a line runs at one of the listed pixels; others had one that was left out.
+fn is_line(number: u32) -> bool {
+    return textureLoad(spine_tex, unpack_pixel(number), 0).x != 0u;
+}
+
 fn source_at(number: u32) -> Source {
-    let px = vec2<i32>(vec2(number & 0xffffu, number >> 16u));
+    let px = unpack_pixel(number);
     let edge = unpack_edge(textureLoad(edge_map_tex, px));
     let spine = vec2<f32>(px) + 0.5 + edge.offset;
     let tangent = unpack_tangent(edge.tangent);
@@ -134,7 +135,7 @@ fn index_of(px: vec2<i32>) -> u32 {
 
 @compute @workgroup_size(GROUP)
 fn cs_move(@builtin(global_invocation_id) id: vec3<u32>) {
-    if id.x >= list.count {
+    if id.x >= list.count || !is_line(listed_pixels[id.x]) {
         return;
     }
     let source = source_at(listed_pixels[id.x]);
@@ -148,7 +149,7 @@ fn cs_move(@builtin(global_invocation_id) id: vec3<u32>) {
 
 @compute @workgroup_size(GROUP)
 fn cs_compare(@builtin(global_invocation_id) id: vec3<u32>) {
-    if id.x >= list.count {
+    if id.x >= list.count || !is_line(listed_pixels[id.x]) {
         return;
     }
     let source = source_at(listed_pixels[id.x]);
@@ -162,7 +163,7 @@ fn cs_compare(@builtin(global_invocation_id) id: vec3<u32>) {
 
 @compute @workgroup_size(GROUP)
 fn cs_put(@builtin(global_invocation_id) id: vec3<u32>) {
-    if id.x >= list.count {
+    if id.x >= list.count || !is_line(listed_pixels[id.x]) {
         return;
     }
     let source = source_at(listed_pixels[id.x]);

@@ -6,13 +6,10 @@
 #import common/gbuffer.wgsl
 #import common/plane.wgsl
 #import common/edge_map.wgsl
-#import common/list_head.wgsl
+#import common/pixel_list.wgsl
 #import common/next_on_line.wgsl
 #import common/noise.wgsl
 #import common/noise_tile.wgsl
-
-// Pixels per workgroup, as in src/render/passes/offset_field.rs.
-const GROUP: u32 = 64u;
 
 // Twin: `FieldUniform` in src/render/passes/offset_field.rs.
 struct Field {
@@ -60,11 +57,6 @@ var<uniform> field: Field;
 var<storage, read> field_objects: array<FieldObject>;
 // Not 0 where lines run.
 var spine_tex: texture_2d<u32>;
-// The pixels in which they do, while they are listed, and afterwards.
-var<storage, read_write> keeping: Counting;
-var<storage, read_write> keeping_pixels: array<u32>;
-var<storage, read> list: ListHead;
-var<storage, read> listed_pixels: array<u32>;
 // A tile of noise of the picture: (turbulence(s, t), turbulence(1 − s, 1 − t)).
 var tiles: texture_2d_array<f32>;
 // Noise of the lines at the pixels in which they run, two halves for each pass.
@@ -142,26 +134,9 @@ fn foreshortening_at(px: vec2<i32>, edge: Edge, spine: vec2<f32>) -> f32 {
     return select(clamp(least, 1.0, 4.0), 1.0, least > 12.0);
 }
 
-// Lists the pixels in which lines run: software devices run both sides of a branch.
-@compute @workgroup_size(8, 8)
-fn cs_compact(@builtin(global_invocation_id) id: vec3<u32>) {
-    let px = vec2<i32>(id.xy);
-    if any(px >= vec2<i32>(frame.size)) {
-        return;
-    }
-    if textureLoad(spine_tex, px, 0).x == 0u {
-        return;
-    }
-    let index = atomicAdd(&keeping.count, 1u);
-    keeping_pixels[index] = (id.y << 16u) | id.x;
-    if index % GROUP == 0u {
-        atomicAdd(&keeping.groups[0], 1u);
-    }
-}
-
-fn listed_pixel(number: u32) -> vec2<i32> {
-    let px = listed_pixels[number];
-    return vec2<i32>(vec2(px & 0xffffu, px >> 16u));
+// Whether a line runs at one of the listed pixels; others had one that was left out.
+fn is_line(px: vec2<i32>) -> bool {
+    return textureLoad(spine_tex, px, 0).x != 0u;
 }
 
 // Keeps the noise of all passes at a pixel.
@@ -222,7 +197,10 @@ fn cs_lines(@builtin(global_invocation_id) id: vec3<u32>) {
     if id.x >= list.count {
         return;
     }
-    let px = listed_pixel(id.x);
+    let px = unpack_pixel(listed_pixels[id.x]);
+    if !is_line(px) {
+        return;
+    }
     let edge = unpack_edge(textureLoad(edge_map_tex, px));
     let spine = vec2<f32>(px) + 0.5 + edge.offset;
     let tangent = unpack_tangent(edge.tangent);
@@ -255,7 +233,10 @@ fn cs_enlarged(@builtin(global_invocation_id) id: vec3<u32>) {
     if id.x >= list.count {
         return;
     }
-    let px = listed_pixel(id.x);
+    let px = unpack_pixel(listed_pixels[id.x]);
+    if !is_line(px) {
+        return;
+    }
     let s = unpack_surfel(geometry_at(px));
     var noise = array<vec2<f32>, 8>();
     if s.object != 0u {
@@ -275,7 +256,10 @@ fn cs_screen(@builtin(global_invocation_id) id: vec3<u32>) {
     if id.x >= list.count {
         return;
     }
-    let px = listed_pixel(id.x);
+    let px = unpack_pixel(listed_pixels[id.x]);
+    if !is_line(px) {
+        return;
+    }
     let at = vec2<f32>(px) + 0.5 + offset_of(textureLoad(edge_map_tex, px));
     var noise = array<vec2<f32>, 8>();
     for (var i = 0u; i < field.passes; i++) {

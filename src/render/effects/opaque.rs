@@ -8,7 +8,7 @@ use glam::{UVec2, Vec2};
 use super::hidden::{Hidden, HiddenLines};
 use crate::geometry::EdgeClass;
 use crate::geometry::line_segments::SegmentSet;
-use crate::gpu::{ArrayBuffer, Gpu, Recorder, Target};
+use crate::gpu::{ArrayBuffer, Gpu, RecordList, Recorder, Target};
 use crate::render::base::edge_style::GpuEdgeStyle;
 use crate::render::base::error::RenderError;
 use crate::render::base::feature_lines::feature_lines;
@@ -26,6 +26,7 @@ use crate::render::passes::gbuffer::GBuffer;
 use crate::render::passes::layers::Reported;
 use crate::render::passes::line_classes::{Decisions, LineClasses};
 use crate::render::passes::line_distance::{LineDistance, Widths, line_distance};
+use crate::render::passes::line_pixels::LinePixels;
 use crate::render::passes::lines::Lines;
 use crate::render::passes::segments::Segments;
 use crate::render::passes::shadows::{ShadowMap, ShadowMask};
@@ -56,6 +57,7 @@ pub struct OpaqueSurfaces {
 pub struct OpaqueLayer {
     instances: InstanceBuffer,
     placed_segments: Segments,
+    line_pixels: LinePixels,
     line_classes: LineClasses,
     greatest_radius: ArrayBuffer,
     edge_styles: ArrayBuffer,
@@ -118,6 +120,7 @@ impl OpaqueLayer {
         Self {
             instances: InstanceBuffer::new(gpu),
             placed_segments: Segments::new(gpu),
+            line_pixels: LinePixels::new(gpu),
             line_classes: LineClasses::new(gpu),
             greatest_radius: ArrayBuffer::new(gpu, "greatest radius"),
             edge_styles: ArrayBuffer::new(gpu, "edge styles"),
@@ -269,9 +272,23 @@ impl OpaqueLayer {
             )?;
             let decisions = Decisions::of(styles, group.strokes.is_some());
             let gbuffer = &surfaces.gbuffer.value;
-            self.line_classes.settle(rec, &edges, gbuffer, &self.edge_styles, decisions)?;
+            let Self { line_classes, line_pixels, edge_styles, .. } = self;
+            line_pixels.forget();
+            line_classes.settle(rec, &edges, gbuffer, edge_styles, decisions, line_pixels)?;
             Ok(edges)
         })
+    }
+
+    /// The pixels of the lines of the last edges, of which these are the spines.
+    ///
+    /// # Errors
+    /// [`RenderError`].
+    pub fn line_pixels(
+        &mut self,
+        rec: &mut Recorder<'_>,
+        spines: &Target,
+    ) -> Result<&RecordList, RenderError> {
+        self.line_pixels.list(rec, spines)
     }
 
     /// Lets go of the edges.

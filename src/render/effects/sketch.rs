@@ -39,6 +39,7 @@ use crate::render::passes::edge_map::EdgeMap;
 use crate::render::passes::gbuffer::GBuffer;
 use crate::render::passes::layers::Reported;
 use crate::render::passes::line_distance::nearest_lines;
+use crate::render::passes::line_pixels::ListedLines;
 use crate::render::passes::offset_field::NoiseSource;
 use crate::render::passes::shadows::ShadowMap;
 use crate::render::passes::traversal::{DrawList, GBufferPass};
@@ -273,8 +274,11 @@ impl SketchState {
             self.passes.forget();
             return Ok(Vec::new());
         };
-        let field = self.noise.of_lines(rec, noise, edges, spines, source)?;
-        self.passes.run(rec, noise.sketch, edges, spines, &field, self.noise.line_pixels())
+        let pixels = self.layer.line_pixels(rec, spines)?;
+        let listed = ListedLines { edges: &edges.value.edges, spines, pixels };
+        let lines = Output { value: listed, revision: edges.revision };
+        let field = self.noise.of_lines(rec, noise, &lines, source)?;
+        self.passes.run(rec, noise.sketch, &lines, &field)
     }
 
     /// The surfaces enlarged along their normals, where the noise beyond outlines follows them.

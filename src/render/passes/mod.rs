@@ -15,6 +15,7 @@ pub mod layer_report;
 pub mod layers;
 pub mod line_classes;
 pub mod line_distance;
+pub mod line_pixels;
 pub mod lines;
 pub mod moved_edges;
 pub mod offset_field;

@@ -4,8 +4,9 @@ use encase::ShaderType;
 use glam::Vec4;
 
 use super::edge_map::{EDGE_MAP, EdgeMap};
+use super::line_pixels::ListedLines;
 use super::repeated::SPINES;
-use crate::gpu::{Gpu, Program, RecordBuffer, RecordList, Recorder, Target, UniformBuffer, inputs};
+use crate::gpu::{Gpu, Program, RecordBuffer, Recorder, Target, UniformBuffer, inputs};
 use crate::render::base::error::RenderError;
 
 /// Twin of `Movement` in `shaders/passes/moved_edges.wgsl`.
@@ -56,8 +57,7 @@ impl MovedEdgesPass {
         }
     }
 
-    /// Moves the exact lines of an edge map, of which these are the `spines`, by a `field` of noise: its texels hold that of four
-    /// passes each.
+    /// Moves lines by a `field` of noise: its texels hold that of four passes each.
     ///
     /// # Errors
     /// [`RenderError`].
@@ -65,10 +65,8 @@ impl MovedEdgesPass {
         &mut self,
         rec: &mut Recorder<'_>,
         movement: &UniformBuffer<MovementUniform>,
-        edges: &Target,
-        spines: &Target,
+        lines: ListedLines<'_>,
         field: &Target,
-        pixels: &RecordList,
     ) -> Result<MovedEdges, RenderError> {
         let [width, height] = rec.size().map(u64::from);
         self.keys.reserve(rec.gpu, width * height * 4)?;
@@ -79,11 +77,11 @@ impl MovedEdgesPass {
         rec.clear("no moved lines", &[&moved_spines]);
         let inputs = inputs! {
             movement: movement,
-            edge_map_tex: edges,
-            spine_tex: spines,
+            edge_map_tex: lines.edges,
+            spine_tex: lines.spines,
             line_field_tex: field,
-            list: pixels.count(),
-            listed_pixels: pixels.buffer(),
+            list: lines.pixels.count(),
+            listed_pixels: lines.pixels.buffer(),
             keys: self.keys.buffer(),
             winners: self.winners.buffer(),
             moved_edge_tex: &moved,
@@ -92,7 +90,7 @@ impl MovedEdgesPass {
         };
         for entry_point in ["cs_move", "cs_compare", "cs_put"] {
             let program = Program::new("passes/moved_edges.wgsl", entry_point);
-            rec.compute("moved edges", &program, &inputs, pixels.count())?;
+            rec.compute("moved edges", &program, &inputs, lines.pixels.count())?;
         }
         Ok(MovedEdges { edges: moved, spines: moved_spines, sources })
     }

@@ -9,7 +9,8 @@ use encase::ShaderType;
 use glam::{Mat4, UVec4, Vec2, Vec3};
 
 use super::gbuffer::GBuffer;
-use crate::gpu::{ArrayBuffer, Gpu, Program, RecordList, Recorder, Target, UniformBuffer, inputs};
+use super::line_pixels::ListedLines;
+use crate::gpu::{ArrayBuffer, Program, Recorder, Target, UniformBuffer, inputs};
 use crate::render::base::error::RenderError;
 use crate::render::base::noise::{fine_waves, mixed_bits, waves};
 
@@ -17,7 +18,7 @@ use crate::render::base::noise::{fine_waves, mixed_bits, waves};
 pub const BLOCK: u32 = 4;
 /// Most passes of one target, two halves each.
 const PASSES_PER_TEXEL: u32 = 4;
-/// Pixels or blocks per side of a workgroup.
+/// Blocks per side of a workgroup.
 const GROUP: u32 = 8;
 
 const HALVES: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Uint;
@@ -118,74 +119,39 @@ pub enum NoiseSource<'a> {
     Tile(&'a wgpu::TextureView),
 }
 
-/// What finding the noise of lines needs across frames.
-pub struct LineFieldPass {
-    /// The pixels in which lines run: columns in the lower 16 bits, rows in the upper ones; in any order, in workgroups of 64.
-    pixels: RecordList,
-}
-
-impl LineFieldPass {
-    /// Nothing found yet.
-    pub fn new(gpu: &Gpu) -> Self {
-        Self { pixels: RecordList::new(gpu, "pixels of lines") }
-    }
-
-    /// Lists the pixels in which lines run, as their `spines` say.
-    ///
-    /// # Errors
-    /// [`RenderError`].
-    pub fn compact(&mut self, rec: &mut Recorder<'_>, spines: &Target) -> Result<(), RenderError> {
-        rec.gpu.check_bytes_of_pixels("as a sketch", rec.size(), 4)?;
-        let [width, height] = rec.size();
-        self.pixels.reserve(rec.gpu, u64::from(width) * u64::from(height) * 4)?;
-        self.pixels.empty(rec);
-        let program = Program::new("passes/offset_field.wgsl", "cs_compact");
-        let inputs =
-            inputs! { spine_tex: spines, keeping: self.pixels.count(), keeping_pixels: self.pixels.buffer() };
-        let groups = [width, height].map(|side| side.div_ceil(GROUP));
-        rec.compute("compact pixels of lines", &program, &inputs, groups)?;
-        Ok(())
-    }
-
-    /// What has been listed.
-    pub fn pixels(&self) -> &RecordList {
-        &self.pixels
-    }
-
-    /// Finds the noise of the lines of an edge map that have been listed, for so many passes.
-    ///
-    /// # Errors
-    /// [`RenderError`].
-    pub fn run(
-        &self,
-        rec: &mut Recorder<'_>,
-        buffers: FieldBuffers<'_>,
-        edges: &Target,
-        source: NoiseSource<'_>,
-        passes: u32,
-    ) -> Result<LineField, RenderError> {
-        let first = rec.target("noise of lines", HALVES)?;
-        let more = if passes > PASSES_PER_TEXEL { Some(rec.target("noise of lines", HALVES)?) } else { None };
-        let (entry_point, geometry, tiles) = match source {
-            NoiseSource::Lines(gbuffer) => ("cs_lines", Some(&gbuffer.geometry), None),
-            NoiseSource::Enlarged(gbuffer) => ("cs_enlarged", Some(&gbuffer.geometry), None),
-            NoiseSource::Tile(tile) => ("cs_screen", None, Some(tile)),
-        };
-        let inputs = inputs! {
-            field: buffers.field,
-            field_objects: buffers.objects,
-            geometry_tex: geometry,
-            edge_map_tex: edges,
-            tiles: tiles,
-            list: self.pixels.count(),
-            listed_pixels: self.pixels.buffer(),
-            line_field_tex: &first,
-            more_line_field_tex: more.as_ref(),
-        };
-        let program = Program::new("passes/offset_field.wgsl", entry_point);
-        rec.compute("noise of lines", &program, &inputs, self.pixels.count())?;
-        Ok(LineField { first, more })
-    }
+/// Finds the noise of lines, for so many passes.
+///
+/// # Errors
+/// [`RenderError`].
+pub fn line_field(
+    rec: &mut Recorder<'_>,
+    buffers: FieldBuffers<'_>,
+    lines: ListedLines<'_>,
+    source: NoiseSource<'_>,
+    passes: u32,
+) -> Result<LineField, RenderError> {
+    let first = rec.target("noise of lines", HALVES)?;
+    let more = if passes > PASSES_PER_TEXEL { Some(rec.target("noise of lines", HALVES)?) } else { None };
+    let (entry_point, geometry, tiles) = match source {
+        NoiseSource::Lines(gbuffer) => ("cs_lines", Some(&gbuffer.geometry), None),
+        NoiseSource::Enlarged(gbuffer) => ("cs_enlarged", Some(&gbuffer.geometry), None),
+        NoiseSource::Tile(tile) => ("cs_screen", None, Some(tile)),
+    };
+    let inputs = inputs! {
+        field: buffers.field,
+        field_objects: buffers.objects,
+        geometry_tex: geometry,
+        edge_map_tex: lines.edges,
+        spine_tex: lines.spines,
+        tiles: tiles,
+        list: lines.pixels.count(),
+        listed_pixels: lines.pixels.buffer(),
+        line_field_tex: &first,
+        more_line_field_tex: more.as_ref(),
+    };
+    let program = Program::new("passes/offset_field.wgsl", entry_point);
+    rec.compute("noise of lines", &program, &inputs, lines.pixels.count())?;
+    Ok(LineField { first, more })
 }
 
 /// Finds for each block the nearest surface, as far as it is within `distance` (px).

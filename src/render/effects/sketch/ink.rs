@@ -1,18 +1,18 @@
 //! The lines of the passes of a sketch: where noise moves them, and which of them reach each pixel then.
 
 use super::group::SketchGroup;
-use crate::gpu::{ArrayBuffer, Gpu, RecordList, Recorder, Target, UniformBuffer};
+use crate::gpu::{ArrayBuffer, Gpu, Recorder, UniformBuffer};
 use crate::render::base::error::RenderError;
 use crate::render::base::stage::{Output, Stage};
-use crate::render::passes::edge_map::EdgeMap;
 use crate::render::passes::line_distance::{LineDistance, Widths, line_distance};
+use crate::render::passes::line_pixels::ListedLines;
 use crate::render::passes::moved_edges::{MovedEdges, MovedEdgesPass, MovementUniform};
 use crate::render::passes::offset_field::LineField;
 
 /// What moving lines depends on.
 #[derive(PartialEq)]
 struct MovedKey {
-    edges: u64,
+    lines: u64,
     field: u64,
     movement: MovementUniform,
 }
@@ -49,23 +49,20 @@ impl SketchPasses {
         }
     }
 
-    /// Moves the lines of an edge map, of which the `pixels` have been listed, for each pass.
+    /// Moves lines for each pass.
     pub(super) fn run(
         &mut self,
         rec: &mut Recorder<'_>,
         sketch: &SketchGroup,
-        edges: &Output<EdgeMap>,
-        spines: &Target,
+        lines: &Output<ListedLines<'_>>,
         field: &Output<LineField>,
-        pixels: &RecordList,
     ) -> Result<Vec<MovedLines>, RenderError> {
         let count = sketch.passes().len();
         self.passes.truncate(count);
         self.passes.resize_with(count, || SketchPass::new(rec.gpu));
         let Self { moved_edges, passes } = self;
         let all = passes.iter_mut().enumerate();
-        all.map(|(number, pass)| pass.run(rec, moved_edges, sketch, number, edges, spines, field, pixels))
-            .collect()
+        all.map(|(number, pass)| pass.run(rec, moved_edges, sketch, number, lines, field)).collect()
     }
 
     /// The numbers of so many passes, on the device.
@@ -102,25 +99,23 @@ impl SketchPass {
         &self.number
     }
 
-    /// Moves the lines of an edge map, of which the pixels have been listed; `number`: that of the pass.
+    /// Moves lines; `number`: that of the pass.
     fn run(
         &mut self,
         rec: &mut Recorder<'_>,
         pass: &mut MovedEdgesPass,
         sketch: &SketchGroup,
         number: usize,
-        edges: &Output<EdgeMap>,
-        spines: &Target,
+        lines: &Output<ListedLines<'_>>,
         field: &Output<LineField>,
-        pixels: &RecordList,
     ) -> Result<MovedLines, RenderError> {
         let (noise, component) = field.value.of_pass(number);
         let (movement, widths) = sketch.movement(number, component);
-        let key = MovedKey { edges: edges.revision, field: field.revision, movement };
+        let key = MovedKey { lines: lines.revision, field: field.revision, movement };
         let buffer = &mut self.movement;
         let moved = self.moved.run(key, |key| {
             buffer.write(rec.gpu, &key.movement);
-            pass.run(rec, buffer, &edges.value.edges, spines, noise, pixels)
+            pass.run(rec, buffer, lines.value, noise)
         })?;
         let radius = &mut self.greatest_radius;
         let line_distance = self

@@ -2,14 +2,14 @@
 
 use super::group::SketchGroup;
 use super::uniforms;
-use crate::gpu::{ArrayBuffer, Gpu, RecordList, Recorder, Target, UniformBuffer};
+use crate::gpu::{ArrayBuffer, Gpu, Recorder, Target, UniformBuffer};
 use crate::render::base::error::RenderError;
 use crate::render::base::frame_uniform::FrameUniform;
 use crate::render::base::stage::{Output, Stage};
-use crate::render::passes::edge_map::EdgeMap;
 use crate::render::passes::gbuffer::GBuffer;
+use crate::render::passes::line_pixels::ListedLines;
 use crate::render::passes::offset_field::{
-    FieldBuffers, FieldUniform, GpuFieldObject, LineField, LineFieldPass, NoiseSource, fill_field,
+    FieldBuffers, FieldUniform, GpuFieldObject, LineField, NoiseSource, fill_field, line_field,
     nearest_surfaces,
 };
 
@@ -47,7 +47,6 @@ impl NoiseInputs<'_> {
 pub(super) struct SketchNoise {
     field: UniformBuffer<FieldUniform>,
     objects: ArrayBuffer,
-    line_field_pass: LineFieldPass,
     line_field: Stage<FieldKey, LineField>,
     nearest_surfaces: Stage<(u64, u32), Target>,
     fill_field: Stage<FieldKey, Target>,
@@ -59,7 +58,6 @@ impl SketchNoise {
         Self {
             field: UniformBuffer::new(gpu, "offset field"),
             objects: ArrayBuffer::new(gpu, "objects of an offset field"),
-            line_field_pass: LineFieldPass::new(gpu),
             line_field: Stage::default(),
             nearest_surfaces: Stage::default(),
             fill_field: Stage::default(),
@@ -82,30 +80,22 @@ impl SketchNoise {
         self.line_field.clear();
     }
 
-    /// Noise along the exact lines of an edge map, of which these are the `spines`; `source`: what it follows, and the revision of
-    /// that.
+    /// Noise along lines; `source`: what it follows, and the revision of that.
     pub(super) fn of_lines(
         &mut self,
         rec: &mut Recorder<'_>,
         inputs: &NoiseInputs<'_>,
-        edges: &Output<EdgeMap>,
-        spines: &Target,
+        lines: &Output<ListedLines<'_>>,
         source: &Output<NoiseSource<'_>>,
     ) -> Result<Output<LineField>, RenderError> {
-        let Self { field, objects, line_field_pass: pass, .. } = self;
+        let Self { field, objects, .. } = self;
         let buffers = FieldBuffers { field, objects };
         let count = inputs.sketch.passes().len() as u32;
-        let found = self.line_field.run(inputs.key([edges.revision, source.revision]), |_| {
-            pass.compact(rec, spines)?;
-            pass.run(rec, buffers, &edges.value.edges, source.value, count)
-        })?;
+        let key = inputs.key([lines.revision, source.revision]);
+        let found =
+            self.line_field.run(key, |_| line_field(rec, buffers, lines.value, source.value, count))?;
         rec.note("noise of lines", Some(&found.value.first));
         Ok(found)
-    }
-
-    /// The pixels of those lines.
-    pub(super) fn line_pixels(&self) -> &RecordList {
-        self.line_field_pass.pixels()
     }
 
     /// Noise of the nearest surface around each block.
