@@ -6,6 +6,7 @@
 #import passes/lines.wgsl
 #import common/composition.wgsl
 #import common/noise_tile.wgsl
+#import gpu/neighbors.wgsl
 
 // Twin: `PassUniform` in src/render/effects/sketch/uniforms.rs.
 struct Pass {
@@ -81,8 +82,9 @@ var<storage, read> sketch_objects: array<SketchObject>;
 var<uniform> pass_number: u32;
 // The edge map where lines come from, for the papers' operators.
 var operator_map_tex: texture_storage_2d<rgba32uint, read>;
-// Linear color times opacity, and opacity, of the surfaces.
+// Linear color times opacity, and opacity, of the surfaces; and which of them each pixel shows, 0: none.
 var shaded_tex: texture_2d<f32>;
+var surface_id_tex: texture_2d<u32>;
 // The same of hidden lines.
 var hidden_tex: texture_2d<f32>;
 // The line next to each pixel, from as far as it is smudged; as `farthest_tex`.
@@ -268,9 +270,10 @@ fn fs_filled(@builtin(position) position: vec4<f32>) {
 }
 
 struct Filled {
-    @location(0) geometry: vec4<u32>,
     // Linear color times opacity, and opacity.
-    @location(1) color: vec4<f32>,
+    @location(0) color: vec4<f32>,
+    // Where anything is placed among it.
+    @location(1) geometry: vec4<u32>,
 }
 
 // Color between the middles of pixels, of which the nearest one shows a surface: where colors meet that wander there are no stairs,
@@ -278,19 +281,15 @@ struct Filled {
 fn shaded_at(y: vec2<f32>) -> vec4<f32> {
     let first = vec2<i32>(floor(y - 0.5));
     let f = y - 0.5 - vec2<f32>(first);
+    let is_surface = four_at(surface_id_tex, first) != vec4(0u);
+    let weights = select(vec4(0.0), vec4(1.0 - f.x, f.x, 1.0 - f.x, f.x) * vec4(1.0 - f.yy, f.yy), is_surface);
     let last = vec2<i32>(frame.size) - 1;
     var sum = vec4(0.0);
-    var surfaces = 0.0;
     for (var i = 0; i < 4; i++) {
-        let offset = vec2(i & 1, i >> 1u);
-        let weights = mix(1.0 - f, f, vec2<f32>(offset));
-        let px = clamp(first + offset, vec2(0), last);
-        if (geometry_at(px).w & ~ENHANCED) != 0u {
-            sum += weights.x * weights.y * textureLoad(shaded_tex, px, 0);
-            surfaces += weights.x * weights.y;
-        }
+        let px = clamp(first + vec2(i & 1, i >> 1u), vec2(0), last);
+        sum += weights[i] * textureLoad(shaded_tex, px, 0);
     }
-    return sum / max(surfaces, 1e-6);
+    return sum / max(dot(weights, vec4(1.0)), 1e-6);
 }
 
 @fragment
@@ -357,7 +356,7 @@ fn fs_fill(@builtin(position) position: vec4<f32>) -> Filled {
     if WITH_OPACITY {
         color += (1.0 - opacity) * textureLoad(before_tex, px, 0);
     }
-    return Filled(texel, color);
+    return Filled(color, texel);
 }
 
 // Marks where ink of this sketch or of what is placed already can be.

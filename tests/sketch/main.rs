@@ -13,6 +13,7 @@ mod depth;
 mod hostile;
 mod order;
 mod parameters;
+mod picking;
 mod plain;
 mod profiles;
 mod random;

@@ -69,8 +69,7 @@ impl Drawing {
             self.place_translucent(rec, shared, inputs, drawn, &look, &mut composition)?;
             if composition.is_laid() {
                 self.together.clear();
-                let revisions = vec![composition.surfaces.revision];
-                return Ok(Drawn { color, front: (composition.front(), revisions) });
+                return Ok(Drawn { color, front: composition.front() });
             }
             let key = TogetherKey {
                 shaders: rec.pipelines.generation(),
@@ -90,9 +89,7 @@ impl Drawing {
             self.place_translucent(rec, shared, inputs, drawn, &look, &mut composition)?;
             self.color_surfaces(rec, shared, inputs, drawn, &color_inputs, &composition)?
         };
-        let mut revisions = vec![composition.surfaces.revision];
-        revisions.extend(composition.translucent_revisions());
-        Ok(Drawn { color, front: (composition.front(), revisions) })
+        Ok(Drawn { color, front: composition.front() })
     }
 
     /// Shades the opaque surfaces that lie in their place; what is seen through of this composition goes over them.

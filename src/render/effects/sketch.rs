@@ -255,8 +255,10 @@ impl SketchState {
             drawing.place(rec, lays_ink)
         })?;
         let Output { value: Placed { geometry, color, ink }, revision } = placed;
-        let ink = ink.map(|value| Output { value, revision });
-        composition.place_opaque(Output { value: geometry, revision }, ink);
+        let of_this = |value| Output { value, revision };
+        let Output { value: GBuffer { geometry: own, .. }, revision: drawn } = surfaces.gbuffer.clone();
+        let own = Output { value: own, revision: drawn };
+        composition.place_sketch(own, geometry.map(of_this), ink.map(of_this));
         Ok(Output { value: color, revision })
     }
 

@@ -22,8 +22,12 @@ pub const PLACED: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Uint;
 
 /// What has been placed so far.
 pub struct Composition {
-    /// Geometry of the opaque surface at each pixel; see `shaders/common/gbuffer.wgsl`.
+    /// Geometry of the opaque surface that is drawn at each pixel; see `shaders/common/gbuffer.wgsl`.
     pub surfaces: Output<Target>,
+    /// The same without sketches.
+    base: Output<Target>,
+    /// The same of each sketch, where its surfaces lie.
+    sketches: Vec<Output<Target>>,
     /// Whether there is any.
     pub has_surfaces: bool,
     /// Their ink, which reaches beyond them; `None` where nobody asks for it, or nothing has lines.
@@ -44,7 +48,8 @@ pub struct Translucent {
 impl Composition {
     /// Begins with what is opaque.
     pub fn of_surfaces(surfaces: Output<Target>, has_surfaces: bool) -> Self {
-        Self { surfaces, has_surfaces, ink: None, translucent: Vec::new() }
+        let base = surfaces.clone();
+        Self { surfaces, base, sketches: Vec::new(), has_surfaces, ink: None, translucent: Vec::new() }
     }
 
     /// Places the ink of what is opaque.
@@ -80,10 +85,20 @@ impl Composition {
         }
     }
 
-    /// Takes over what is opaque with something placed among it.
-    pub fn place_opaque(&mut self, surfaces: Output<Target>, ink: Option<Output<Target>>) {
-        *self =
-            Self { surfaces, has_surfaces: true, ink, translucent: std::mem::take(&mut self.translucent) };
+    /// Takes over what is opaque with a sketch among it, whose `own` geometry this is; `surfaces`: `None` if nothing is placed after
+    /// it.
+    pub fn place_sketch(
+        &mut self,
+        own: Output<Target>,
+        surfaces: Option<Output<Target>>,
+        ink: Option<Output<Target>>,
+    ) {
+        self.sketches.push(own);
+        if let Some(surfaces) = surfaces {
+            self.surfaces = surfaces;
+        }
+        self.has_surfaces = true;
+        self.ink = ink;
     }
 
     /// Lays the ink of what is opaque over its color.
@@ -111,10 +126,15 @@ impl Composition {
         self.translucent.iter().try_for_each(|picture| overlay(rec, &picture.value.color, color))
     }
 
-    /// What is in front.
-    pub fn front(&self) -> Front {
-        let layers = self.translucent.iter().flat_map(|picture| picture.value.fronts.clone()).collect();
-        Front { surfaces: self.surfaces.value.clone(), layers }
+    /// What is in front, where it lies: a click on color that a sketch puts beside its surface means what lies there. And what
+    /// changes when it does.
+    pub fn front(&self) -> (Front, Vec<u64>) {
+        let sketches = self.sketches.iter().map(|sketch| sketch.value.clone());
+        let translucent = self.translucent.iter().flat_map(|picture| picture.value.fronts.clone());
+        let surfaces = self.base.value.clone();
+        let opaque = [&self.base].into_iter().chain(&self.sketches).map(|drawn| drawn.revision);
+        let revisions = opaque.chain(self.translucent_revisions()).collect();
+        (Front { surfaces, layers: sketches.chain(translucent).collect() }, revisions)
     }
 
     /// What the shaders of what is seen through test it against: `shaders/common/composition.wgsl`.

@@ -1,5 +1,5 @@
-//! What is in front of all: opaque surfaces, and the first layers of blueprints before them. It is what a click means and
-//! what an outline is drawn around.
+//! What is in front of all, where it lies: opaque surfaces, sketches, and the first layers of blueprints. It is what a click means
+//! and what an outline is drawn around.
 
 use crate::gpu::{Program, Recorder, Target, inputs};
 use crate::render::base::error::RenderError;
@@ -7,9 +7,9 @@ use crate::render::base::error::RenderError;
 /// Geometries (see `shaders/common/gbuffer.wgsl`) of which the nearest counts at each pixel.
 #[derive(Debug, Clone)]
 pub struct Front {
-    /// Of the opaque surfaces.
+    /// Of the opaque surfaces that are no sketches.
     pub surfaces: Target,
-    /// Of what may lie before them.
+    /// Of sketches, and of what may lie before all of them.
     pub layers: Vec<Target>,
 }
 

@@ -14,7 +14,8 @@ use crate::style::sketch::{SketchDepth, Tone};
 /// What has been placed: all that is opaque so far.
 #[derive(Debug, Clone)]
 pub(super) struct Placed {
-    pub(super) geometry: Target,
+    /// `None` where nothing is placed among it any more: large textures take their time.
+    pub(super) geometry: Option<Target>,
     pub(super) color: Target,
     pub(super) ink: Option<Target>,
 }
@@ -57,22 +58,22 @@ impl Placing<'_> {
     /// Places color, then ink: over the color if it `lays_ink`.
     pub(super) fn place(&self, rec: &mut Recorder<'_>, lays_ink: bool) -> Result<Placed, RenderError> {
         let Self { composition, before, .. } = *self;
-        let [geometry, color] = [&composition.surfaces.value, before].map(|target| target.format());
-        let geometry = rec.target("geometry with sketch", geometry)?;
-        let color = rec.target("color with sketch", color)?;
-        self.place_color(rec, &geometry, &color)?;
+        let format = composition.surfaces.value.format();
+        let geometry = if lays_ink { None } else { Some(rec.target("geometry with sketch", format)?) };
+        let color = rec.target("color with sketch", before.format())?;
+        self.place_color(rec, geometry.as_ref(), &color)?;
         let ink = if self.fetched.edges.is_none() && composition.ink.is_none() {
             None
         } else if lays_ink {
             for number in 0..self.numbers.len() {
-                self.draw_ink(rec, number, &geometry, None, InkTarget::Color(&color))?;
+                self.draw_ink(rec, number, None, None, InkTarget::Color(&color))?;
             }
             None
         } else {
             let mut before = composition.ink.as_ref().map(|ink| ink.value.clone());
             for number in 0..self.numbers.len() {
                 let ink = rec.target("ink with sketch", PLACED)?;
-                self.draw_ink(rec, number, &geometry, before.as_ref(), InkTarget::Ink(&ink))?;
+                self.draw_ink(rec, number, geometry.as_ref(), before.as_ref(), InkTarget::Ink(&ink))?;
                 before = Some(ink);
             }
             before
@@ -112,18 +113,21 @@ impl Placing<'_> {
     fn place_color(
         &self,
         rec: &mut Recorder<'_>,
-        geometry: &Target,
+        geometry: Option<&Target>,
         color: &Target,
     ) -> Result<(), RenderError> {
         let Self { fetched, composition, before, .. } = self;
         let inputs = self.inputs().and(&inputs! {
             shaded_tex: &fetched.color.value,
+            surface_id_tex: &fetched.surfaces.gbuffer.value.surface_id,
             hidden_tex: fetched.hidden.as_ref().map(|hidden| &hidden.value),
             near_line_tex: fetched.near_lines.as_ref().map(|near| &near.value),
             before_tex: *before,
         });
         let onto = if composition.has_surfaces {
-            rec.copy(&composition.surfaces.value, geometry);
+            if let Some(geometry) = geometry {
+                rec.copy(&composition.surfaces.value, geometry);
+            }
             rec.copy(before, color);
             Onto::Load
         } else {
@@ -138,7 +142,7 @@ impl Placing<'_> {
                 switches: self.switches(),
             },
             inputs: &inputs,
-            outputs: &[geometry, color],
+            outputs: &[color].into_iter().chain(geometry).collect::<Vec<_>>(),
             onto,
             depth: Some((&filled, DepthRule::Where("fs_filled"))),
         })?;
@@ -150,7 +154,7 @@ impl Placing<'_> {
         &self,
         rec: &mut Recorder<'_>,
         number: usize,
-        geometry: &Target,
+        geometry: Option<&Target>,
         before: Option<&Target>,
         onto: InkTarget<'_>,
     ) -> Result<(), RenderError> {
