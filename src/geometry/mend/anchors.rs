@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use super::border_points::Tie;
 use super::borders::{Borders, MAX_AT_A_POINT};
-use super::limits::{COS_ANCHORED_FOLD, Limits};
+use super::limits::{COS_ANCHORED_FOLD, COS_SMOOTH, Limits};
 use super::open::Open;
 use super::side::Side;
 use super::zip::Fit;
@@ -28,11 +28,13 @@ struct Chain {
 /// Two chains with the same ends.
 struct Candidate {
     chains: [usize; 2],
+    /// Whether the surface does not go on straight.
+    turns: bool,
     width: f64,
     ties: Vec<Tie>,
 }
 
-/// Pairs the chains that have common ends, the narrowest gaps first.
+/// Pairs the chains that have common ends: first those that one surface goes on through, then the narrowest gaps.
 pub(super) fn anchored(borders: &Borders, open: &Open, limits: &Limits) -> Vec<Joined> {
     let chains = chains(open);
     let mut by_ends: Vec<([u32; 2], usize)> = chains
@@ -53,7 +55,10 @@ pub(super) fn anchored(borders: &Borders, open: &Open, limits: &Limits) -> Vec<J
                     candidates.extend(candidate(borders, &chains, [a, b], limits));
                 }
             }
-            candidates.sort_by(|a, b| a.width.total_cmp(&b.width).then(a.chains.cmp(&b.chains)));
+            candidates.sort_by(|a, b| {
+                let by_width = a.width.total_cmp(&b.width).then(a.chains.cmp(&b.chains));
+                a.turns.cmp(&b.turns).then(by_width)
+            });
             let mut taken: Vec<usize> = Vec::new();
             candidates.retain(|candidate| {
                 let is_free = !candidate.chains.iter().any(|c| taken.contains(c));
@@ -78,8 +83,9 @@ fn candidate(borders: &Borders, chains: &[Chain], pair: [usize; 2], limits: &Lim
     let fit = |reversed: bool| {
         let other = Side::new(borders, &b.edges, reversed);
         let fit = Fit::new(&side, &other, COS_ANCHORED_FOLD, limits)?;
+        let turns = Fit::new(&side, &other, COS_SMOOTH, limits).is_none();
         let ties = fit.ties(&side, &other, limits);
-        Some(Candidate { chains: pair, width: fit.width, ties })
+        Some(Candidate { chains: pair, turns, width: fit.width, ties })
     };
     if a.ends[0] == a.ends[1] {
         return fit(true).or_else(|| fit(false));

@@ -25,6 +25,8 @@ const APART: f64 = 1e-2;
 
 /// Cosines of 180° minus the most by which a surface may turn at a seam: 150°, and 165° between common points.
 pub(super) const COS_FOLD: f64 = 0.866_025_403_784;
+/// The same of 8°: up to this one surface goes on through a seam.
+pub(super) const COS_SMOOTH: f64 = -0.990_268_068_741;
 /// See [`COS_FOLD`].
 pub(super) const COS_ANCHORED_FOLD: f64 = 0.965_925_826_289;
 

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 
 use super::border_points::{BorderPoint, Tie};
 use super::borders::{Border, Borders, NO_BORDER};
-use super::limits::{COS_FOLD, Limits};
+use super::limits::{COS_FOLD, COS_SMOOTH, Limits};
 
 /// Width of the cells in which middles are sorted, in widest gaps: few places are near a wall.
 const CELL: f64 = 8.0;
@@ -72,25 +72,27 @@ impl<'a> Cells<'a> {
         let middle = border.at(0.5);
         let low = cell(middle - self.reach, self.width);
         let high = cell(middle + self.reach, self.width);
-        let mut best = (self.reach, NO_BORDER);
+        // Where three sides meet, those that one surface goes on through belong together.
+        let mut best = (true, self.reach, NO_BORDER);
         for x in low.x..=high.x {
             for y in low.y..=high.y {
                 for z in low.z..=high.z {
                     for &(_, other) in self.at(I64Vec3::new(x, y, z)) {
                         let partner = borders.get(other);
                         let gap = widest_end(border, partner);
+                        let turns = !border.is_unfolded(partner, COS_SMOOTH);
                         if other != number
-                            && (gap, other) < best
+                            && (turns, gap, other) < best
                             && gap <= self.limits.open_gap(border, partner)
                             && is_seam(border, partner)
                         {
-                            best = (gap, other);
+                            best = (turns, gap, other);
                         }
                     }
                 }
             }
         }
-        best.1
+        best.2
     }
 
     fn at(&self, cell: I64Vec3) -> &[(u64, u32)] {

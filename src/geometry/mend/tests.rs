@@ -101,6 +101,25 @@ fn two_polylines_of_one_arc_become_one() {
 }
 
 #[test]
+fn of_three_sides_those_that_one_surface_goes_on_through_belong_together() {
+    // The wall's polyline lies nearer to that of the inner strip than the outer strip's does.
+    let inner = strip_along_arc(&evenly(8), -0.3, 0.0);
+    let outer = strip_along_arc(&evenly(3), 0.3, 0.0);
+    let wall = strip_along_arc(&evenly(7), 0.01, 0.3);
+    for order in [[0, 1, 2], [0, 2, 1], [2, 0, 1], [2, 1, 0], [1, 0, 2], [1, 2, 0]] {
+        let strips = [&inner, &outer, &wall];
+        let mesh = shapes::together(order.map(|k| strips[k].clone()));
+        let (mended, _) = mended(&mesh).unwrap();
+        let surfaces = Adjacency::new(&mended).surfaces(0.5);
+        let is_flat = |t: &[u32; 3]| mended.corners(*t).iter().all(|p| p.z.abs() < 1e-2);
+        let triangles = mended.triangles().iter().zip(&surfaces.of_triangle);
+        let flat: Vec<u32> = triangles.filter(|(t, _)| is_flat(t)).map(|(_, &surface)| surface).collect();
+        assert!(flat.len() >= 22 && flat.iter().all(|surface| *surface == flat[0]), "{order:?}: {flat:?}");
+        assert_eq!(surfaces.count, 2, "{order:?}");
+    }
+}
+
+#[test]
 fn a_patch_that_is_turned_over_is_joined_as_well() {
     let outer = shapes::turned_over(strip_along_arc(&evenly(5), 0.3, 0.0));
     let mesh = shapes::together([strip_along_arc(&evenly(4), -0.3, 0.0), outer]);
