@@ -106,6 +106,7 @@ impl Drawing {
         let ColorInputs { look, edges, reflected, hidden, lines: drawn_lines } = color_inputs;
         let spines = look.lines(*edges);
         let DrawnSurfaces { uniform, surfaces } = drawn;
+        let uniform = uniform.without_background();
         let key = ColorKey {
             gbuffer: surfaces.gbuffer.revision,
             shadows: surfaces.shadow_mask.as_ref().map(|mask| mask.revision),
@@ -115,7 +116,7 @@ impl Drawing {
             shaded_by_lines: spines.map(|(_, revision)| revision),
             look: (*look).clone(),
             edge_styles: objects.surfaces.edge_styles.clone(),
-            uniform: uniform.without_background(),
+            uniform: composition.has_surfaces.then(|| uniform.clone()),
             reflected: reflected.iter().map(|r| (r.color.revision, r.uniform)).collect(),
             paper_in_mirrors: (!reflected.is_empty()).then_some(scene_view.background),
             hidden: hidden.as_ref().map(|hidden| hidden.revision),
@@ -125,7 +126,7 @@ impl Drawing {
             if let Some(only) = composition.only_translucent() {
                 return Ok(only.clone());
             }
-            let layer = self.surfaces.shaded(surfaces, scene_view, &key.uniform, spines);
+            let layer = self.surfaces.shaded(surfaces, scene_view, &uniform, spines);
             let color = self.shading.shade(rec, &mut shared.techniques, &key.look, &layer, false)?;
             for mirrored in reflected {
                 let Some(reflection) = self.reflections.get_mut(mirrored.index) else { continue };

@@ -18,7 +18,8 @@ pub(super) struct ColorKey {
     pub(super) shaded_by_lines: Option<u64>,
     pub(super) look: Look,
     pub(super) edge_styles: Vec<GpuEdgeStyle>,
-    pub(super) uniform: FrameUniform,
+    /// `None` where there are no surfaces: that looks the same from everywhere.
+    pub(super) uniform: Option<FrameUniform>,
     /// Of each mirror, the revision of what is seen in it, and how that is laid over it.
     pub(super) reflected: Vec<(u64, MirrorUniform)>,
     /// Mirrors show the paper too.
