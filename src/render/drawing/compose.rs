@@ -116,7 +116,7 @@ impl Drawing {
             shaded_by_lines: spines.map(|(_, revision)| revision),
             look: (*look).clone(),
             edge_styles: objects.surfaces.edge_styles.clone(),
-            uniform: composition.has_surfaces.then(|| uniform.clone()),
+            uniform: composition.has_surfaces.then_some(uniform),
             reflected: reflected.iter().map(|r| (r.color.revision, r.uniform)).collect(),
             paper_in_mirrors: (!reflected.is_empty()).then_some(scene_view.background),
             hidden: hidden.as_ref().map(|hidden| hidden.revision),

@@ -24,9 +24,9 @@ pub const PLACED: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Uint;
 pub struct Composition {
     /// Geometry of the opaque surface that is drawn at each pixel; see `shaders/common/gbuffer.wgsl`.
     pub surfaces: Output<Target>,
-    /// The same without sketches.
-    base: Output<Target>,
-    /// The same of each sketch, where its surfaces lie.
+    /// The same without sketches; if nothing else is opaque, of the first of them, where its surfaces lie.
+    in_place: Output<Target>,
+    /// The same of each other sketch, where its surfaces lie.
     sketches: Vec<Output<Target>>,
     /// Whether there is any.
     pub has_surfaces: bool,
@@ -48,8 +48,8 @@ pub struct Translucent {
 impl Composition {
     /// Begins with what is opaque.
     pub fn of_surfaces(surfaces: Output<Target>, has_surfaces: bool) -> Self {
-        let base = surfaces.clone();
-        Self { surfaces, base, sketches: Vec::new(), has_surfaces, ink: None, translucent: Vec::new() }
+        let in_place = surfaces.clone();
+        Self { surfaces, in_place, sketches: Vec::new(), has_surfaces, ink: None, translucent: Vec::new() }
     }
 
     /// Places the ink of what is opaque.
@@ -93,7 +93,11 @@ impl Composition {
         surfaces: Option<Output<Target>>,
         ink: Option<Output<Target>>,
     ) {
-        self.sketches.push(own);
+        if self.has_surfaces {
+            self.sketches.push(own);
+        } else {
+            self.in_place = own;
+        }
         if let Some(surfaces) = surfaces {
             self.surfaces = surfaces;
         }
@@ -131,8 +135,8 @@ impl Composition {
     pub fn front(&self) -> (Front, Vec<u64>) {
         let sketches = self.sketches.iter().map(|sketch| sketch.value.clone());
         let translucent = self.translucent.iter().flat_map(|picture| picture.value.fronts.clone());
-        let surfaces = self.base.value.clone();
-        let opaque = [&self.base].into_iter().chain(&self.sketches).map(|drawn| drawn.revision);
+        let surfaces = self.in_place.value.clone();
+        let opaque = [&self.in_place].into_iter().chain(&self.sketches).map(|drawn| drawn.revision);
         let revisions = opaque.chain(self.translucent_revisions()).collect();
         (Front { surfaces, layers: sketches.chain(translucent).collect() }, revisions)
     }

@@ -7,9 +7,9 @@ use crate::render::base::error::RenderError;
 /// Geometries (see `shaders/common/gbuffer.wgsl`) of which the nearest counts at each pixel.
 #[derive(Debug, Clone)]
 pub struct Front {
-    /// Of the opaque surfaces that are no sketches.
+    /// Of opaque surfaces.
     pub surfaces: Target,
-    /// Of sketches, and of what may lie before all of them.
+    /// Of other opaque ones, sketches, and of what may lie before all of them.
     pub layers: Vec<Target>,
 }
 
