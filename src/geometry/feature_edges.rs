@@ -77,6 +77,8 @@ pub struct FeatureEdges {
     pub(super) surfaces: Arc<Surfaces>,
     /// The box around the mesh, local space.
     pub(super) bounds: Bounds,
+    /// As [`Adjacency::slivers`].
+    pub(super) slivers: Vec<[u32; 2]>,
     /// As [`Adjacency::leaves_out_isolated`].
     leaves_out_isolated: bool,
     cached_chains: Cached<FeatureChains>,
@@ -101,6 +103,7 @@ impl FeatureEdges {
             faces_around: Vec::new(),
             surfaces: surfaces.into(),
             bounds: mesh.bounds(),
+            slivers: adjacency.slivers.clone(),
             leaves_out_isolated: adjacency.leaves_out_isolated,
             cached_chains: Cached::default(),
             cached_straights: Cached::default(),

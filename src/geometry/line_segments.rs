@@ -165,7 +165,7 @@ impl<'a> Finder<'a> {
             placed,
             wanted,
             picture,
-            facings: Facings::new(mesh, &edges.bounds, view_from_local, lens),
+            facings: Facings::new(mesh, &edges.bounds, view_from_local, lens).with_slivers(&edges.slivers),
             non_manifold: NonManifoldEdges::new(placed, *view_from_local, lens),
             min_angle: angles.min_local(min_angle),
             angles,

@@ -6,6 +6,8 @@
 //! edge itself: so creases beside it are not crossed. Angles are only ever made smaller; errors make creases, and hardly
 //! ever hide one.
 
+use std::f32::consts::PI;
+
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
@@ -30,6 +32,17 @@ pub(super) fn judge_needles(mesh: &Mesh, normals: &[Vec3], adjacency: &mut Adjac
             pass(mesh, normals, adjacency);
         }
     }
+}
+
+/// Each triangle that errors of the positions may have turned over, with the nearest one that is believed: it faces as that does.
+pub(super) fn slivers(mesh: &Mesh, normals: &[Vec3], adjacency: &Adjacency) -> Vec<[u32; 2]> {
+    if mesh.position_errors.iter().all(|&error| error <= 0.0) {
+        return Vec::new();
+    }
+    let sides = Sides { mesh, normals, adjacency };
+    let believed = |face: u32| sides.nearest_believed(face).map(|believed| [face, believed]);
+    let narrow = (0..mesh.triangle_count() as u32).into_par_iter().filter(|&face| sides.tilt(face) >= PI);
+    narrow.filter_map(believed).collect()
 }
 
 fn pass(mesh: &Mesh, normals: &[Vec3], adjacency: &mut Adjacency) {
@@ -109,7 +122,7 @@ impl Sides<'_> {
         let triangle = self.mesh.triangles().get(face as usize).copied().unwrap_or_default();
         let errors = triangle.map(|v| self.mesh.position_errors.get(v as usize).copied().unwrap_or(0.0));
         let error = ERRORS * errors.into_iter().fold(0.0, f32::max);
-        if error < height { (error / height).asin() } else { std::f32::consts::PI }
+        if error < height { (error / height).asin() } else { PI }
     }
 
     /// The normal on a triangle's side of an edge.
@@ -130,6 +143,22 @@ impl Sides<'_> {
             self.reach(face, turning, edge, &mut reached);
         }
         sum.try_normalize().map_or(self.normals[face as usize], |normal| normal.as_vec3())
+    }
+
+    /// The nearest triangle that is believed.
+    fn nearest_believed(&self, face: u32) -> Option<u32> {
+        let mut reached = vec![Reached { face, turning: 0.0, is_visited: false }];
+        for _ in 0..MAX_TRIANGLES {
+            let open = reached.iter_mut().filter(|r| !r.is_visited);
+            let next = open.min_by(|a, b| a.turning.total_cmp(&b.turning))?;
+            next.is_visited = true;
+            let Reached { face, turning, .. } = *next;
+            if self.tilt(face) <= BELIEVED {
+                return Some(face);
+            }
+            self.reach(face, turning, usize::MAX, &mut reached);
+        }
+        None
     }
 
     /// Adds the neighbors of a triangle, except across `barrier`.
@@ -196,6 +225,23 @@ mod tests {
             .map(|edge| edge.vertices.map(|v| mesh.positions[v as usize]))
             .map(|[a, b]| a.distance(b))
             .sum()
+    }
+
+    #[test]
+    fn what_errors_can_turn_over_faces_as_what_is_wide_beside_it() {
+        let mesh = walls(0.5, 0.004);
+        let slivers = Adjacency::new(&mesh).slivers;
+        // Of the 96 in the two narrow rows.
+        assert!(slivers.len() > 48, "{}", slivers.len());
+        let middle = |face: u32| {
+            let [a, b, c] = mesh.corners(mesh.triangles()[face as usize]);
+            (a + b + c) / 3.0
+        };
+        for [sliver, other] in slivers {
+            let [sliver, other] = [sliver, other].map(middle);
+            assert!(sliver.y.abs() < 0.02 && other.y.abs() > 0.2, "{sliver} faces as {other}");
+        }
+        assert!(Adjacency::new(&with_error(mesh, 0.0)).slivers.is_empty());
     }
 
     #[test]

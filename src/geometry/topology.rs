@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use self::half_edges::{HalfEdges, next_in_triangle};
 use super::edge::{Edge, EdgeKind, FOLDED, NO_FACE, signed_angle};
 use super::edge_overlaps::{EdgeOverlap, find_overlaps};
-use super::needles::judge_needles;
+use super::needles::{judge_needles, slivers};
 use super::normals::face_normals;
 use super::soft_edges::{SoftNormals, judge_steep};
 use super::{BorderLink, CreaseRule, Mesh, Weld};
@@ -34,6 +34,8 @@ pub struct Adjacency {
     /// Triangles with two corners at one welded point, which take part in no edge, each with a triangle that it
     /// borders on ([`NO_FACE`] if there is none).
     pub collapsed: Vec<(u32, u32)>,
+    /// Triangles that errors of the positions may have turned over, each with one that faces the eye when it should.
+    pub slivers: Vec<[u32; 2]>,
     /// Number of triangles.
     pub face_count: usize,
     /// Number of border edges, without the stitched ones.
@@ -97,6 +99,7 @@ impl Adjacency {
             non_manifold: Vec::new(),
             border_links: Vec::new(),
             collapsed: Vec::new(),
+            slivers: Vec::new(),
             face_count: mesh.triangle_count(),
             border_count: 0,
             non_manifold_count: 0,
@@ -123,6 +126,7 @@ impl Adjacency {
             .collect();
         all.border_links.sort_unstable();
         judge_needles(mesh, &normals, &mut all);
+        all.slivers = slivers(mesh, &normals, &all);
         judge_steep(mesh, &mut all.edges, &mut all.overlaps);
         all.collapsed = half_edges
             .collapsed

@@ -66,6 +66,17 @@ impl Facings {
         Self(facings)
     }
 
+    /// The same where the first triangle of each of these pairs faces as the second one does.
+    pub(super) fn with_slivers(mut self, slivers: &[[u32; 2]]) -> Self {
+        for &[sliver, other] in slivers {
+            let facing = self.of(other);
+            if let Some(own) = self.0.get_mut(sliver as usize) {
+                *own = facing;
+            }
+        }
+        self
+    }
+
     /// 1 if one of two triangles faces the eye and the other one does not, else 0.
     pub(super) fn differ(&self, [one, two]: [u32; 2]) -> u8 {
         self.of(one) ^ self.of(two)
