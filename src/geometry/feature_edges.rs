@@ -4,6 +4,7 @@
 
 pub(super) mod chains;
 pub(super) mod crease_angles;
+pub(super) mod hysteresis;
 pub(super) mod isolated;
 mod pieces;
 pub(super) mod straights;
@@ -67,7 +68,7 @@ pub struct FeatureEdges {
     pub(super) ends: Vec<[u32; 2]>,
     /// The two triangles. At a border twice the same one; where more meet the first two.
     pub(super) faces: Vec<[u32; 2]>,
-    /// As [`super::Edge::dihedral`]; 0 at a border.
+    /// As [`super::Edge::dihedral`], or greater where a crease goes on (`hysteresis.rs`); 0 at a border.
     pub(super) dihedral: Vec<f32>,
     pub(super) traits: Vec<Traits>,
     /// Every (edge, triangle) of the edges at which three triangles or more meet, or another mesh goes on, in order. Numbers from that of the mesh's
@@ -150,6 +151,7 @@ impl FeatureEdges {
                 }
             }
         }
+        hysteresis::bridge_gaps(&mut all, mesh);
         all
     }
 

@@ -1,5 +1,7 @@
 //! Edges one after the other: what dashes run along.
 
+use rayon::prelude::*;
+
 /// Marks the end of a chain.
 pub(super) const NO_END: u32 = u32::MAX;
 
@@ -42,10 +44,54 @@ pub(super) fn for_each_meeting(links: &[ChainEdge], mut visit: impl FnMut(&[Link
             [half(0), half(1)].into_iter().flatten()
         })
         .collect();
-    halves.sort_unstable();
+    halves.par_sort_unstable();
     for here in halves.chunk_by(|a, b| (a.point, a.kind) == (b.point, b.kind)) {
         visit(here);
     }
+}
+
+/// Edges that meet in one point, beyond which nobody looks for those that go on.
+const MAX_HERE: usize = 64;
+
+/// Pairs up the halves of each kind that meet at a point and go on in each other, those first that do it best: `join` gets both and
+/// their rating. `rate`: how well one half goes on in the other, `None` where it does not at all.
+pub(super) fn for_each_best_pair(
+    links: &[ChainEdge],
+    rate: impl Fn([u32; 2]) -> Option<f32>,
+    mut join: impl FnMut([u32; 2], f32),
+) {
+    let mut is_joined = vec![false; 2 * links.len()];
+    let mut pairs: Vec<(f32, [u32; 2])> = Vec::new();
+    for_each_meeting(links, |here| {
+        if !(2..=MAX_HERE).contains(&here.len()) {
+            return;
+        }
+        pairs.clear();
+        for (i, &LinkEnd { number: a, .. }) in here.iter().enumerate() {
+            for &LinkEnd { number: b, .. } in &here[i + 1..] {
+                if let Some(rating) = rate([a, b]).filter(|_| a >> 1 != b >> 1) {
+                    pairs.push((rating, [a, b]));
+                }
+            }
+        }
+        pairs.sort_by(|a, b| b.0.total_cmp(&a.0));
+        for &(rating, pair) in &pairs {
+            if pair.iter().all(|&half| !is_joined[half as usize]) {
+                pair.iter().for_each(|&half| is_joined[half as usize] = true);
+                join(pair, rating);
+            }
+        }
+    });
+}
+
+/// For each half the one that goes on from it best, or [`NO_END`]; rated as for [`for_each_best_pair`].
+pub(super) fn best_partners(links: &[ChainEdge], rate: impl Fn([u32; 2]) -> Option<f32>) -> Vec<u32> {
+    let mut partner = vec![NO_END; 2 * links.len()];
+    for_each_best_pair(links, rate, |[a, b], _| {
+        partner[a as usize] = b;
+        partner[b as usize] = a;
+    });
+    partner
 }
 
 /// All links in the order of their chains.

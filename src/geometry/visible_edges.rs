@@ -10,6 +10,7 @@
 //! are seen, each as what it is. Where the near plane cuts a surface open, the cut is no edge. A border that lies
 //! beside another one without touching it is a border, however narrow the gap.
 
+mod bridges;
 mod crossings;
 mod sight;
 mod world_edge;
@@ -18,7 +19,7 @@ use glam::{DMat4, DVec2, DVec3};
 use rayon::prelude::*;
 
 use self::sight::{Hiders, Sight};
-use self::world_edge::{WholeEdge, WorldEdge};
+use self::world_edge::{Fold, WholeEdge, WorldEdge};
 use super::feature_edges::isolated::{IsolatedCreases, JoinedEdge};
 use super::{Adjacency, Bvh, EdgeClass, Mesh, Projector};
 
@@ -162,8 +163,14 @@ impl EdgeScene {
     /// The edges that a camera sees.
     pub fn visible(&self, projector: &Projector, rules: &LineRules<'_>) -> VisibleEdges {
         let sight = Sight::new(self, projector, rules);
-        let isolated = self.isolated(rules);
-        let part = |(i, edge): (usize, &WorldEdge)| visible_part(edge, isolated.contains(i as u32), &sight);
+        let bridges = bridges::find(&self.edges, rules);
+        let isolated = self.isolated(rules, &bridges);
+        let fold = |i: u32| match () {
+            () if isolated.contains(i) => Fold::Isolated,
+            () if bridges.binary_search(&i).is_ok() => Fold::Bridge,
+            () => Fold::ByAngle,
+        };
+        let part = |(i, edge): (usize, &WorldEdge)| visible_part(edge, fold(i as u32), &sight);
         let parts: Vec<_> = self.edges.par_iter().enumerate().filter_map(part).collect();
         let mut visible = VisibleEdges::default();
         for (samples, segments) in parts {
@@ -175,13 +182,14 @@ impl EdgeScene {
         visible
     }
 
-    /// The creases that are isolated, of meshes that leave those out.
-    fn isolated(&self, rules: &LineRules<'_>) -> IsolatedCreases {
+    /// The creases that are isolated, with their bridges, of meshes that leave those out.
+    fn isolated(&self, rules: &LineRules<'_>, bridges: &[u32]) -> IsolatedCreases {
         let joined = |(edge, line): (u32, &WorldEdge)| {
-            let WholeEdge { points, angle, length } = line.whole?;
+            let WholeEdge { points, angle, length, .. } = line.whole.filter(|whole| whole.can_be_isolated)?;
             let sharpness =
                 angle.map_or(f32::INFINITY, |angle| angle.abs() / rules.ridge_valley_angle as f32);
-            (sharpness >= 1.0).then_some(JoinedEdge { edge, points, length, sharpness })
+            let is_line = sharpness >= 1.0 || bridges.binary_search(&edge).is_ok();
+            is_line.then_some(JoinedEdge { edge, points, length, sharpness })
         };
         IsolatedCreases::new((0..).zip(&self.edges).filter_map(joined), self.point_count)
     }
@@ -205,11 +213,11 @@ impl EdgeScene {
 /// Samples and visible parts of one edge; `None` if it is no line for this eye or out of the picture.
 fn visible_part(
     edge: &WorldEdge,
-    is_isolated: bool,
+    fold: Fold,
     sight: &Sight<'_>,
 ) -> Option<(Vec<(EdgeClass, EdgeSample)>, Vec<VisibleSegment>)> {
     let (projector, rules) = (sight.projector, sight.rules);
-    let line = edge.line(sight.to_eye(edge.ends[0]), is_isolated, rules)?;
+    let line = edge.line(sight.to_eye(edge.ends[0]), fold, rules)?;
     let ends = projector.clip(edge.ends.map(|p| projector.view_from_world.transform_point3(p)))?;
     let pixels = ends.map(|p| projector.pixel(p));
     let length = pixels[0].distance(pixels[1]);

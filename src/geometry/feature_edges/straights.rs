@@ -11,7 +11,7 @@ use super::crease_angles::CreaseAngles;
 use super::pieces::Piece;
 use crate::geometry::Mesh;
 use crate::geometry::hand::mix;
-use crate::geometry::line_chains::{ChainEdge, ChainLink, Chains, LinkEnd, NO_END, for_each_meeting};
+use crate::geometry::line_chains::{ChainEdge, ChainLink, Chains, NO_END, for_each_best_pair};
 
 /// Cosine of the angle by which a straight line may turn at a point, 1°: finely tessellated arcs turn by more.
 const STRAIGHT: f32 = 0.999_85;
@@ -23,8 +23,6 @@ const MAX_MISS: f32 = 0.004;
 const CURVE: u32 = 4;
 /// How often the longer of two neighbors in a curve has the length of the shorter one.
 const SIMILAR: f32 = 3.0;
-/// Edges that meet in one point, beyond which nobody looks for those that go on.
-const MAX_HERE: usize = 64;
 
 /// A straight line of one or more edges.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -119,31 +117,12 @@ impl Joints {
         let mut all = Self { straight: none.clone(), smooth: none };
         let leave =
             |half: u32| pieces.get(half as usize >> 1).map_or(Vec3::ZERO, |piece| piece.leave(half & 1));
-        let mut pairs: Vec<(f32, u32, u32)> = Vec::new();
-        for_each_meeting(&links, |here| {
-            if !(2..=MAX_HERE).contains(&here.len()) {
-                return;
-            }
-            pairs.clear();
-            for (i, &LinkEnd { number: a, .. }) in here.iter().enumerate() {
-                for &LinkEnd { number: b, .. } in &here[i + 1..] {
-                    let cosine = -leave(a).dot(leave(b));
-                    if cosine >= SMOOTH && a >> 1 != b >> 1 {
-                        pairs.push((cosine, a, b));
-                    }
-                }
-            }
-            // What goes on most straightly first.
-            pairs.sort_by(|a, b| b.0.total_cmp(&a.0));
-            for &(cosine, a, b) in &pairs {
-                let [a, b] = [a, b].map(|half| half as usize);
-                if [a, b].iter().any(|&h| all.straight[h] != NO_END || all.smooth[h] != NO_END) {
-                    continue;
-                }
-                let joints = if cosine >= STRAIGHT { &mut all.straight } else { &mut all.smooth };
-                joints[a] = b as u32;
-                joints[b] = a as u32;
-            }
+        // What goes on most straightly first.
+        let cosine = |[a, b]: [u32; 2]| Some(-leave(a).dot(leave(b))).filter(|&cosine| cosine >= SMOOTH);
+        for_each_best_pair(&links, cosine, |[a, b], cosine| {
+            let joints = if cosine >= STRAIGHT { &mut all.straight } else { &mut all.smooth };
+            joints[a as usize] = b;
+            joints[b as usize] = a;
         });
         all
     }

@@ -1,5 +1,7 @@
 //! Angles between triangles as they are placed: placements that are no similarity change them.
 
+use std::f32::consts::PI;
+
 use glam::{DMat3, DMat4};
 
 use crate::geometry::Mesh;
@@ -34,7 +36,7 @@ impl<'a> Angles<'a> {
 
     /// The least angle in local space that can appear as this one (radians).
     pub(super) fn min_local(&self, angle: f32) -> f32 {
-        if self.placement.is_none() || angle > std::f32::consts::PI {
+        if self.placement.is_none() || angle > PI {
             return angle;
         }
         // A linear map changes the tangents of half-angles by its condition number at most.
@@ -47,12 +49,18 @@ impl<'a> Angles<'a> {
         let Some(placement) = self.placement else { return dihedral };
         let triangles = faces.map(|face| self.mesh.triangles().get(face as usize));
         let [Some(&one), Some(&two)] = triangles else { return dihedral };
-        let [n, m] = [one, two].map(|triangle| {
-            let [a, b, c] = self.mesh.corners(triangle).map(|p| p.as_dvec3());
-            (placement * (b - a)).cross(placement * (c - a)).normalize_or_zero()
-        });
-        let m = if traits.any(Traits::FLIPPED) { -m } else { m };
+        let angle = |linear: DMat3| {
+            let [n, m] = [one, two].map(|triangle| {
+                let [a, b, c] = self.mesh.corners(triangle).map(|p| p.as_dvec3());
+                (linear * (b - a)).cross(linear * (c - a)).normalize_or_zero()
+            });
+            let m = if traits.any(Traits::FLIPPED) { -m } else { m };
+            n.cross(m).length().atan2(n.dot(m)) as f32
+        };
+        // What the edge counts for may be another angle than the one of its triangles: then as many times that of these.
+        let own = angle(DMat3::IDENTITY);
+        let times = if own > 0.0 { dihedral.abs() / own } else { 1.0 };
         // Convex stays convex, mirrored or not.
-        (n.cross(m).length().atan2(n.dot(m)) as f32).copysign(dihedral)
+        (times * angle(placement)).min(PI).copysign(dihedral)
     }
 }

@@ -24,8 +24,7 @@ pub(super) struct WorldEdge {
     pub object: u32,
     /// Index into the mesh's edges; `None` for an intersection.
     pub edge: Option<u32>,
-    /// Of the edge that it is a part of; `None` where there are no isolated creases
-    /// ([`crate::geometry::Adjacency::leaves_out_isolated`]).
+    /// The edge that it is a part of; `None` for an intersection.
     pub whole: Option<WholeEdge>,
 }
 
@@ -38,6 +37,19 @@ pub(super) struct WholeEdge {
     pub angle: Option<f32>,
     /// As a share of its mesh's diagonal.
     pub length: f64,
+    /// [`crate::geometry::Adjacency::leaves_out_isolated`].
+    pub can_be_isolated: bool,
+}
+
+/// What makes a fold a crease.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Fold {
+    /// Its angle alone.
+    ByAngle,
+    /// It is isolated: nothing does.
+    Isolated,
+    /// It goes on in creases on both sides.
+    Bridge,
 }
 
 /// A surface at an edge.
@@ -63,9 +75,8 @@ impl WorldEdge {
         self.wings.len() > 1
     }
 
-    /// What it is for an eye in the direction `to_eye` of its first end; `None` if it can be no line. `is_isolated`: it is no
-    /// crease, whatever its angle.
-    pub(super) fn line(&self, to_eye: DVec3, is_isolated: bool, rules: &LineRules<'_>) -> Option<Line> {
+    /// What it is for an eye in the direction `to_eye` of its first end; `None` if it can be no line.
+    pub(super) fn line(&self, to_eye: DVec3, fold: Fold, rules: &LineRules<'_>) -> Option<Line> {
         let wanted = |class: &EdgeClass| rules.classes.contains(class);
         let first = |candidates: &[EdgeClass]| candidates.iter().copied().find(wanted);
         let whole = |class: Option<EdgeClass>| class.map(|_| Line { class, off_surface: None });
@@ -95,8 +106,12 @@ impl WorldEdge {
         let off_surface = match (left, right) {
             (Some((left, left_material)), Some((right, right_material))) => {
                 let bend = left + right - std::f64::consts::PI;
-                let crease = rules.ridge_valley_angle.to_radians();
-                let is_hard = !self.is_soft && !is_isolated;
+                let crease = match fold {
+                    Fold::ByAngle => rules.ridge_valley_angle.to_radians(),
+                    Fold::Isolated => f64::INFINITY,
+                    Fold::Bridge => 0.0,
+                };
+                let is_hard = !self.is_soft;
                 let candidates = [
                     (is_hard && bend > crease, EdgeClass::Ridge),
                     (is_hard && bend < -crease, EdgeClass::Valley),
@@ -269,7 +284,7 @@ impl Gatherer<'_> {
     /// What is known of an edge as a whole.
     fn whole(&self, number: u32, wings: &[Wing]) -> Option<WholeEdge> {
         let adjacency = self.placed.adjacency;
-        let edge = adjacency.edges.get(number as usize).filter(|_| adjacency.leaves_out_isolated)?;
+        let edge = adjacency.edges.get(number as usize)?;
         let has_two_sides = matches!(edge.kind, EdgeKind::Manifold | EdgeKind::Flipped);
         let is_boundary = wings.iter().any(|wing| wing.material != wings[0].material);
         let [a, b] = self.ends(number)?;
@@ -277,6 +292,7 @@ impl Gatherer<'_> {
             points: edge.vertices.map(|v| self.first_point + adjacency.weld.representative[v as usize]),
             angle: (has_two_sides && !is_boundary).then(|| edge.dihedral.to_degrees()),
             length: a.distance(b) / self.diagonal,
+            can_be_isolated: adjacency.leaves_out_isolated,
         })
     }
 

@@ -1,0 +1,59 @@
+use glam::Vec3;
+
+use super::bridged;
+use crate::geometry::feature_edges::FeatureEdges;
+use crate::geometry::feature_edges::crease_angles::CreaseAngles;
+use crate::geometry::primitives::from_triangles;
+use crate::geometry::{Adjacency, Mesh};
+
+#[test]
+fn what_is_between_sharper_edges_is_as_sharp_as_the_weaker_side() {
+    assert_eq!(bridged(&[40.0, 25.0, 24.0, 30.0], false), [40.0, 30.0, 30.0, 30.0]);
+    // Not where it is much weaker.
+    assert_eq!(bridged(&[40.0, 10.0, 40.0], false), [40.0, 10.0 / 0.75, 40.0]);
+    // Nor where it fades out.
+    assert_eq!(bridged(&[40.0, 30.0, 20.0], false), [40.0, 30.0, 20.0]);
+}
+
+#[test]
+fn a_loop_has_no_ends() {
+    assert_eq!(bridged(&[25.0, 30.0, 24.0, 23.0], true), [30.0; 4]);
+    assert_eq!(bridged(&[25.0, 30.0, 24.0, 23.0], false), [25.0, 30.0, 24.0, 23.0]);
+}
+
+/// A roof of squares with a ridge along x, which has at each of its points the angle that `degrees` gives.
+fn roof(degrees: &[f32]) -> Mesh {
+    let rows = degrees.iter().enumerate().map(|(x, degrees)| {
+        let eaves = -(0.5 * degrees).to_radians().tan();
+        [[-1.0, eaves], [0.0, 0.0], [1.0, eaves]].map(|[y, z]| Vec3::new(x as f32, y, z))
+    });
+    let squares = (0..degrees.len() as u32 - 1).flat_map(|row| [3 * row, 3 * row + 1]);
+    let triangles = squares.flat_map(|a| [a, a + 3, a + 1, a + 1, a + 3, a + 4]);
+    from_triangles(rows.flatten().collect(), triangles.collect())
+}
+
+/// How many edges of the ridge are creases from 30° on.
+fn creases(mesh: &Mesh) -> usize {
+    let adjacency = Adjacency::new(mesh);
+    let edges = FeatureEdges::new(mesh, &adjacency, adjacency.surfaces(0.5));
+    let angle = 30_f32.to_radians();
+    let pieces = edges.pieces(mesh, CreaseAngles { ridge: angle, valley: angle });
+    pieces.iter().filter(|piece| piece.ends.iter().all(|end| end.y == 0.0)).count()
+}
+
+#[test]
+fn a_fold_whose_angle_wavers_is_one_line() {
+    let wavering = roof(&[34.0, 34.0, 26.0, 24.0, 34.0, 34.0, 27.0, 25.0, 34.0, 34.0]);
+    assert_eq!(creases(&wavering), 9);
+    // The order of triangles and points is of no account.
+    let mut turned = wavering.clone();
+    turned.indices.reverse();
+    assert_eq!(creases(&turned), creases(&roof(&[34.0; 10])));
+    // What fades out ends, and what is weak all along is none.
+    let fading = creases(&roof(&[34.0, 34.0, 34.0, 34.0, 20.0, 20.0, 20.0, 20.0, 20.0, 20.0]));
+    assert!((3..5).contains(&fading), "{fading}");
+    assert_eq!(creases(&roof(&[25.0; 10])), 0);
+    // Nor does a line run through where there is no fold.
+    let parted = creases(&roof(&[34.0, 34.0, 34.0, 10.0, 10.0, 10.0, 10.0, 34.0, 34.0, 34.0]));
+    assert!((4..7).contains(&parted), "{parted}");
+}
