@@ -101,9 +101,10 @@ fn compare(towards_viewer: DVec3, orthographic: bool) {
         let past = |ink: f32| ((ink - 0.2) / 0.8).clamp(0.0, 1.0);
         let expected = (past(4.0 * (1.0 - value[0])), past(10.3 * (1.0 - value[1])));
         assert!((ink[i].0 - expected.0).abs() < 1e-3 && (ink[i].1 - expected.1).abs() < 1e-3, "{px:?}");
-        // Pixels without ink are nobody's.
+        // Pixels without ink are nobody's; where it only just begins, a device may round it to either.
+        let just_begins = expected.0.max(expected.1) < 1e-3;
         let owner = if ink[i].0 + ink[i].1 > 0.0 { owner } else { 0 };
-        assert_eq!(ink[i].2, owner, "{px:?}");
+        assert!(ink[i].2 == owner || just_begins, "{px:?}: {} against {owner}", ink[i].2);
         edges += i32::from(expected.1 > 0.5);
     }
     assert!(enhanced > 3000 && edges > 200, "{enhanced} {edges}: the scene shows nothing");

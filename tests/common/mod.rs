@@ -148,6 +148,11 @@ pub fn greatest_difference(a: &RgbaImage, b: &RgbaImage) -> u8 {
     a.as_raw().iter().zip(b.as_raw()).map(|(a, b)| a.abs_diff(*b)).max().unwrap()
 }
 
+/// Whether two pixels are the same but for the last step of a channel, which graphics cards round differently.
+pub fn is_rounded_alike(Rgba(a): &Rgba<u8>, Rgba(b): &Rgba<u8>) -> bool {
+    a.iter().zip(b).all(|(a, b)| a.abs_diff(*b) <= 1)
+}
+
 /// A channel of a picture from linear light.
 pub fn to_srgb(linear: f32) -> u8 {
     let c = linear.clamp(0.0, 1.0);
