@@ -133,7 +133,7 @@ impl ClassStyle {
                         "°",
                         0.0..=90.0,
                         0.0..=180.0,
-                        "Flatter folds draw nothing.",
+                        "Flatter folds draw nothing, but where they close a gap between sharper parts of the same fold.",
                         threshold,
                     ),
                     EdgeClass::Intersection => list.wide_number(
