@@ -2,7 +2,7 @@
 //!
 //! Along one fold of a coarse mesh the angle wavers, and a line that ends wherever it falls below the one that makes creases is a
 //! row of dashes. As with Canny's edge detector ("A Computational Approach to Edge Detection", 1986), a weaker edge counts where
-//! stronger ones go on from it; here on both sides, so that a fold that fades out ends where it is too weak. Nothing of this
+//! stronger ones go on from it; here on both sides and no longer than these, so that a fold that fades out ends where it is too weak. Nothing of this
 //! depends on which angle makes creases: each edge gets the greatest angle up to which it is one.
 
 use glam::Vec3;
@@ -15,9 +15,11 @@ use crate::geometry::edge::FOLDED;
 use crate::geometry::line_chains::{ChainLink, Chains, best_partners};
 
 /// So sharp is what is bridged at least, as a share of the sharpness on its sides.
-pub(in crate::geometry) const WEAKEST: f32 = 0.75;
+const WEAKEST: f32 = 0.75;
 /// Flatter edges (radians, 8°) are nothing that goes on: no crease angle below 13° is in use.
 const FLATTEST: f32 = 0.14;
+/// Up to this angle (radians, 60°) gaps are closed.
+const SHARPEST: f32 = std::f32::consts::FRAC_PI_3;
 /// Cosine of the angle by which a fold may turn at a point: 45°.
 const MAX_TURN: f32 = std::f32::consts::FRAC_1_SQRT_2;
 
@@ -35,8 +37,12 @@ pub(super) fn bridge_gaps(all: &mut FeatureEdges, mesh: &Mesh) {
     // Of two edges none is between others.
     for (links, is_closed) in Chains::joined(&partner).iter().filter(|(links, _)| links.len() > 2) {
         let edge = |link: &ChainLink| pieces[link.link as usize].edge as usize;
-        let angles: Vec<f32> = links.iter().map(|link| all.dihedral[edge(link)].abs()).collect();
-        for (link, angle) in links.iter().zip(bridged(&angles, is_closed)) {
+        let of = |link: &ChainLink| Link {
+            angle: all.dihedral[edge(link)].abs(),
+            length: pieces[link.link as usize].span().length(),
+        };
+        let own: Vec<Link> = links.iter().map(of).collect();
+        for (link, angle) in links.iter().zip(bridged(&own, is_closed)) {
             let dihedral = &mut all.dihedral[edge(link)];
             *dihedral = angle.copysign(*dihedral);
         }
@@ -63,27 +69,65 @@ fn piece(all: &FeatureEdges, mesh: &Mesh, edge: usize) -> Option<Piece> {
     Some(Piece { edge: edge as u32, kind: u8::from(angle < 0.0), vertices, ends })
 }
 
-/// Up to which angle each edge of a chain is a part of a crease, of their own angles.
-fn bridged(angles: &[f32], is_closed: bool) -> Vec<f32> {
-    let reach = |angles: &mut dyn DoubleEndedIterator<Item = &f32>, before: f32| {
-        angles
-            .scan(before, |before, &angle| {
-                *before = angle.max(before.min(angle / WEAKEST));
-                Some(*before)
-            })
-            .collect::<Vec<f32>>()
-    };
-    let both_ways = |before: [f32; 2]| {
-        let onwards = reach(&mut angles.iter(), before[0]);
-        let mut back = reach(&mut angles.iter().rev(), before[1]);
-        back.reverse();
-        [onwards, back]
-    };
-    let [mut onwards, mut back] = both_ways([0.0; 2]);
-    if let (true, Some(&last), Some(&first)) = (is_closed, onwards.last(), back.first()) {
-        [onwards, back] = both_ways([last, first]);
+/// An edge of a chain.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(in crate::geometry) struct Link {
+    pub angle: f32,
+    pub length: f32,
+}
+
+/// Up to which angle each edge of a chain is a part of a crease, by whole degrees; at least its own.
+fn bridged(links: &[Link], is_closed: bool) -> Vec<f32> {
+    let mut angles: Vec<f32> = links.iter().map(|link| link.angle).collect();
+    let sharpest = angles.iter().fold(0.0_f32, |a, b| a.max(*b)).min(SHARPEST);
+    let flattest = angles.iter().fold(SHARPEST, |a, b| a.min(*b));
+    for degrees in flattest.to_degrees().ceil() as u32..=sharpest.to_degrees() as u32 {
+        let crease = (degrees as f32).to_radians();
+        for gap in gaps(links, is_closed, crease) {
+            angles[gap] = angles[gap].max(crease);
+        }
     }
-    onwards.iter().zip(&back).map(|(a, b)| a.min(*b)).collect()
+    angles
+}
+
+/// Which edges of a chain are bridges for a crease angle: what is little weaker between creases of the chain that are, all together,
+/// at least as long. Single sharp edges of a soft fold, such as slivers, do not make a crease of all of it.
+pub(in crate::geometry) fn gaps(links: &[Link], is_closed: bool, crease: f32) -> Vec<usize> {
+    let mut found = Vec::new();
+    // Lengths of creases so far, and of the gap after them; where it begins.
+    let (mut before, mut gap, mut first) = (0.0, 0.0, None);
+    let mut after = 0.0;
+    let rounds = if is_closed { 2 } else { 1 };
+    for number in 0..rounds * links.len() {
+        let link = links[number % links.len()];
+        if link.angle >= crease {
+            match first {
+                None => before += link.length,
+                Some(start) => {
+                    after += link.length;
+                    if gap <= before + after {
+                        found.extend(
+                            (start..number).map(|i| i % links.len()).filter(|&i| links[i].angle < crease),
+                        );
+                        before += after;
+                        (gap, after, first) = (0.0, 0.0, None);
+                    }
+                }
+            }
+        } else if link.angle >= WEAKEST * crease && (before > 0.0 || first.is_some()) {
+            if first.is_some() && after > 0.0 {
+                // The gap was too long: what came after it is the next one's beginning.
+                (before, gap, after, first) = (after, 0.0, 0.0, None);
+            }
+            first = first.or(Some(number));
+            gap += link.length;
+        } else {
+            (before, gap, after, first) = (0.0, 0.0, 0.0, None);
+        }
+    }
+    found.sort_unstable();
+    found.dedup();
+    found
 }
 
 #[cfg(test)]

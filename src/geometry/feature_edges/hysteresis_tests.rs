@@ -1,24 +1,33 @@
 use glam::Vec3;
 
-use super::bridged;
+use super::{Link, bridged};
 use crate::geometry::feature_edges::FeatureEdges;
 use crate::geometry::feature_edges::crease_angles::CreaseAngles;
 use crate::geometry::primitives::from_triangles;
 use crate::geometry::{Adjacency, Mesh};
 
+/// Which of these edges, all of one length, are creases from 30 on.
+fn creases_of(angles: &[f32], is_closed: bool) -> Vec<bool> {
+    let links: Vec<Link> =
+        angles.iter().map(|angle| Link { angle: angle.to_radians(), length: 1.0 }).collect();
+    bridged(&links, is_closed).iter().map(|angle| *angle >= 30_f32.to_radians()).collect()
+}
+
 #[test]
-fn what_is_between_sharper_edges_is_as_sharp_as_the_weaker_side() {
-    assert_eq!(bridged(&[40.0, 25.0, 24.0, 30.0], false), [40.0, 30.0, 30.0, 30.0]);
-    // Not where it is much weaker.
-    assert_eq!(bridged(&[40.0, 10.0, 40.0], false), [40.0, 10.0 / 0.75, 40.0]);
-    // Nor where it fades out.
-    assert_eq!(bridged(&[40.0, 30.0, 20.0], false), [40.0, 30.0, 20.0]);
+fn what_is_between_sharper_edges_is_a_crease_with_them() {
+    assert_eq!(creases_of(&[40.0, 25.0, 24.0, 31.0], false), [true; 4]);
+    // Not where it is much weaker, nor where it fades out.
+    assert_eq!(creases_of(&[40.0, 10.0, 40.0], false), [true, false, true]);
+    assert_eq!(creases_of(&[40.0, 31.0, 25.0], false), [true, true, false]);
+    // Nor where the gap is longer than what is beside it.
+    assert_eq!(creases_of(&[31.0, 25.0, 25.0, 25.0, 31.0], false), [true, false, false, false, true]);
+    assert_eq!(creases_of(&[31.0, 31.0, 25.0, 25.0, 25.0, 31.0], false), [true; 6]);
 }
 
 #[test]
 fn a_loop_has_no_ends() {
-    assert_eq!(bridged(&[25.0, 30.0, 24.0, 23.0], true), [30.0; 4]);
-    assert_eq!(bridged(&[25.0, 30.0, 24.0, 23.0], false), [25.0, 30.0, 24.0, 23.0]);
+    assert_eq!(creases_of(&[25.0, 31.0, 31.0, 24.0], true), [true; 4]);
+    assert_eq!(creases_of(&[25.0, 31.0, 31.0, 24.0], false), [false, true, true, false]);
 }
 
 /// A roof of squares with a ridge along x, which has at each of its points the angle that `degrees` gives.

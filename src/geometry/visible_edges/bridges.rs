@@ -3,21 +3,22 @@
 //! A second way beside that of [`crate::geometry::feature_edges::hysteresis`], for one angle alone: from crease to crease along
 //! each fold.
 
-use std::ops::Range;
-
 use glam::Vec3;
 
 use super::LineRules;
 use super::world_edge::WorldEdge;
-use crate::geometry::feature_edges::hysteresis::{WEAKEST, rating};
+use crate::geometry::feature_edges::hysteresis::{Link, gaps, rating};
 use crate::geometry::line_chains::{ChainEdge, Chains, best_partners};
+
+/// What is flatter, as a share of the angle that makes creases, is no part of a fold.
+const LEAST: f32 = 0.5;
 
 /// A fold of which a crease may be made.
 struct Candidate {
     edge: u32,
     /// Degrees.
     angle: f32,
-    is_crease: bool,
+    length: f32,
     link: ChainEdge,
     along: Vec3,
 }
@@ -34,13 +35,10 @@ pub(super) fn find(edges: &[WorldEdge], rules: &LineRules<'_>) -> Vec<u32> {
     let mut bridges = Vec::new();
     for (links, is_closed) in Chains::joined(&partner).iter() {
         let row: Vec<&Candidate> = links.iter().map(|link| &candidates[link.link as usize]).collect();
-        let creases = row.iter().enumerate().filter(|(_, candidate)| candidate.is_crease).map(|(i, _)| i);
-        let between: Range<usize> = match (is_closed, creases.clone().min(), creases.max()) {
-            (_, None, _) | (_, _, None) => continue,
-            (true, ..) => 0..row.len(),
-            (false, Some(first), Some(last)) => first..last,
-        };
-        bridges.extend(row[between].iter().filter(|candidate| !candidate.is_crease).map(|c| c.edge));
+        let own: Vec<Link> =
+            row.iter().map(|candidate| Link { angle: candidate.angle, length: candidate.length }).collect();
+        bridges
+            .extend(gaps(&own, is_closed, rules.ridge_valley_angle as f32).into_iter().map(|i| row[i].edge));
     }
     bridges.sort_unstable();
     bridges
@@ -48,15 +46,15 @@ pub(super) fn find(edges: &[WorldEdge], rules: &LineRules<'_>) -> Vec<u32> {
 
 fn candidate(number: u32, edge: &WorldEdge, rules: &LineRules<'_>) -> Option<Candidate> {
     let whole = edge.whole.filter(|_| !edge.is_soft)?;
-    let (angle, crease) = (whole.angle?, rules.ridge_valley_angle as f32);
-    if angle.abs() < WEAKEST * crease {
+    let angle = whole.angle?;
+    if angle.abs() < LEAST * rules.ridge_valley_angle as f32 {
         return None;
     }
     let [a, b] = edge.ends;
     Some(Candidate {
         edge: number,
         angle: angle.abs(),
-        is_crease: angle.abs() >= crease,
+        length: a.distance(b) as f32,
         link: ChainEdge { ends: whole.points.map(Some), kind: u8::from(angle < 0.0) },
         along: (b - a).normalize_or_zero().as_vec3(),
     })
