@@ -1,7 +1,6 @@
 //! Folds that are too weak for creases, but lie between creases that go on in them: lines have no gaps there.
 //!
-//! A second way beside that of [`crate::geometry::feature_edges::hysteresis`], for one angle alone: from crease to crease along
-//! each fold.
+//! What a gap is says [`crate::geometry::feature_edges::hysteresis`]; chains are those of the edges here, for one angle alone.
 
 use glam::Vec3;
 
