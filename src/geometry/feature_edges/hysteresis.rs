@@ -2,8 +2,8 @@
 //!
 //! Along one fold of a coarse mesh the angle wavers, and a line that ends wherever it falls below the one that makes creases is a
 //! row of dashes. As with Canny's edge detector ("A Computational Approach to Edge Detection", 1986), a weaker edge counts where
-//! stronger ones go on from it; here on both sides and no longer than these, so that a fold that fades out ends where it is too weak. Nothing of this
-//! depends on which angle makes creases: each edge gets the greatest angle up to which it is one.
+//! stronger ones go on from it; here on both sides and no longer than these, so that a fold that fades out ends where it is too weak.
+//! Nothing of this depends on which angle makes creases: each edge gets the greatest angle up to which it is one.
 
 use glam::Vec3;
 use rayon::prelude::*;
@@ -37,11 +37,11 @@ pub(super) fn bridge_gaps(all: &mut FeatureEdges, mesh: &Mesh) {
     // Of two edges none is between others.
     for (links, is_closed) in Chains::joined(&partner).iter().filter(|(links, _)| links.len() > 2) {
         let edge = |link: &ChainLink| pieces[link.link as usize].edge as usize;
-        let of = |link: &ChainLink| Link {
+        let of = |link: &ChainLink| FoldEdge {
             angle: all.dihedral[edge(link)].abs(),
             length: pieces[link.link as usize].span().length(),
         };
-        let own: Vec<Link> = links.iter().map(of).collect();
+        let own: Vec<FoldEdge> = links.iter().map(of).collect();
         for (link, angle) in links.iter().zip(bridged(&own, is_closed)) {
             let dihedral = &mut all.dihedral[edge(link)];
             *dihedral = angle.copysign(*dihedral);
@@ -69,64 +69,53 @@ fn piece(all: &FeatureEdges, mesh: &Mesh, edge: usize) -> Option<Piece> {
     Some(Piece { edge: edge as u32, kind: u8::from(angle < 0.0), vertices, ends })
 }
 
-/// An edge of a chain.
+/// An edge of a chain: its angle, in the unit of the crease angle, and its length, in any unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(in crate::geometry) struct Link {
+pub(in crate::geometry) struct FoldEdge {
     pub angle: f32,
     pub length: f32,
 }
 
 /// Up to which angle each edge of a chain is a part of a crease, by whole degrees; at least its own.
-fn bridged(links: &[Link], is_closed: bool) -> Vec<f32> {
-    let mut angles: Vec<f32> = links.iter().map(|link| link.angle).collect();
+fn bridged(chain: &[FoldEdge], is_closed: bool) -> Vec<f32> {
+    let mut angles: Vec<f32> = chain.iter().map(|edge| edge.angle).collect();
     let sharpest = angles.iter().fold(0.0_f32, |a, b| a.max(*b)).min(SHARPEST);
     let flattest = angles.iter().fold(SHARPEST, |a, b| a.min(*b));
     for degrees in flattest.to_degrees().ceil() as u32..=sharpest.to_degrees() as u32 {
         let crease = (degrees as f32).to_radians();
-        for gap in gaps(links, is_closed, crease) {
+        for gap in gaps(chain, is_closed, crease) {
             angles[gap] = angles[gap].max(crease);
         }
     }
     angles
 }
 
-/// Which edges of a chain are bridges for a crease angle: what is little weaker between creases of the chain that are, all together,
-/// at least as long. Single sharp edges of a soft fold, such as slivers, do not make a crease of all of it.
-pub(in crate::geometry) fn gaps(links: &[Link], is_closed: bool, crease: f32) -> Vec<usize> {
+/// Which edges of a chain are bridges for a crease angle: what is little weaker between two rows of creases that are, together, at
+/// least as long. Single sharp edges of a soft fold, such as slivers, do not make a crease of all of it.
+pub(in crate::geometry) fn gaps(chain: &[FoldEdge], is_closed: bool, crease: f32) -> Vec<usize> {
+    let is_crease = |i: usize| chain[i].angle >= crease;
+    let kind = |i: usize| (is_crease(i), chain[i].angle >= WEAKEST * crease);
+    let length = |row: &[usize]| row.iter().map(|&i| chain[i].length).sum::<f32>();
+    let count = chain.len();
+    // A loop is cut where one row ends.
+    let cut = if is_closed { (1..count).find(|&i| kind(i) != kind(i - 1)).unwrap_or(0) } else { 0 };
+    let order: Vec<usize> = (0..count).map(|i| (cut + i) % count).collect();
+    let rows: Vec<&[usize]> = order.chunk_by(|&a, &b| kind(a) == kind(b)).collect();
+    let ends: [&[usize]; 2] = match (rows.first(), rows.last()) {
+        (Some(first), Some(last)) if is_closed => [last, first],
+        _ => [&[]; 2],
+    };
+    let rows: Vec<&[usize]> = [&ends[..1], &rows, &ends[1..]].concat();
     let mut found = Vec::new();
-    // Lengths of creases so far, and of the gap after them; where it begins.
-    let (mut before, mut gap, mut first) = (0.0, 0.0, None);
-    let mut after = 0.0;
-    let rounds = if is_closed { 2 } else { 1 };
-    for number in 0..rounds * links.len() {
-        let link = links[number % links.len()];
-        if link.angle >= crease {
-            match first {
-                None => before += link.length,
-                Some(start) => {
-                    after += link.length;
-                    if gap <= before + after {
-                        found.extend(
-                            (start..number).map(|i| i % links.len()).filter(|&i| links[i].angle < crease),
-                        );
-                        before += after;
-                        (gap, after, first) = (0.0, 0.0, None);
-                    }
-                }
-            }
-        } else if link.angle >= WEAKEST * crease && (before > 0.0 || first.is_some()) {
-            if first.is_some() && after > 0.0 {
-                // The gap was too long: what came after it is the next one's beginning.
-                (before, gap, after, first) = (after, 0.0, 0.0, None);
-            }
-            first = first.or(Some(number));
-            gap += link.length;
-        } else {
-            (before, gap, after, first) = (0.0, 0.0, 0.0, None);
+    for window in rows.windows(3) {
+        let [before, row, after] = [window[0], window[1], window[2]];
+        let is_between = [before, after].iter().all(|row| row.first().is_some_and(|&i| is_crease(i)));
+        // Of a loop it may be the same row.
+        let both = length(before) + if before == after { 0.0 } else { length(after) };
+        if is_between && kind(row[0]) == (false, true) && length(row) <= both {
+            found.extend_from_slice(row);
         }
     }
-    found.sort_unstable();
-    found.dedup();
     found
 }
 

@@ -1,6 +1,6 @@
 use glam::Vec3;
 
-use super::{Link, bridged};
+use super::{FoldEdge, bridged};
 use crate::geometry::feature_edges::FeatureEdges;
 use crate::geometry::feature_edges::crease_angles::CreaseAngles;
 use crate::geometry::primitives::from_triangles;
@@ -8,8 +8,8 @@ use crate::geometry::{Adjacency, Mesh};
 
 /// Which of these edges, all of one length, are creases from 30 on.
 fn creases_of(angles: &[f32], is_closed: bool) -> Vec<bool> {
-    let links: Vec<Link> =
-        angles.iter().map(|angle| Link { angle: angle.to_radians(), length: 1.0 }).collect();
+    let links: Vec<FoldEdge> =
+        angles.iter().map(|angle| FoldEdge { angle: angle.to_radians(), length: 1.0 }).collect();
     bridged(&links, is_closed).iter().map(|angle| *angle >= 30_f32.to_radians()).collect()
 }
 
@@ -22,6 +22,16 @@ fn what_is_between_sharper_edges_is_a_crease_with_them() {
     // Nor where the gap is longer than what is beside it.
     assert_eq!(creases_of(&[31.0, 25.0, 25.0, 25.0, 31.0], false), [true, false, false, false, true]);
     assert_eq!(creases_of(&[31.0, 31.0, 25.0, 25.0, 25.0, 31.0], false), [true; 6]);
+}
+
+#[test]
+fn chains_are_the_same_from_both_ends() {
+    let mut chain = [31.0, 25.0, 31.0, 25.0, 25.0, 25.0, 31.0];
+    let mut found = creases_of(&chain, false);
+    assert_eq!(found, [true, true, true, false, false, false, true]);
+    chain.reverse();
+    found.reverse();
+    assert_eq!(creases_of(&chain, false), found);
 }
 
 #[test]

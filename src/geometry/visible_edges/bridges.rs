@@ -6,7 +6,7 @@ use glam::Vec3;
 
 use super::LineRules;
 use super::world_edge::WorldEdge;
-use crate::geometry::feature_edges::hysteresis::{Link, gaps, rating};
+use crate::geometry::feature_edges::hysteresis::{FoldEdge, gaps, rating};
 use crate::geometry::line_chains::{ChainEdge, Chains, best_partners};
 
 /// What is flatter, as a share of the angle that makes creases, is no part of a fold.
@@ -34,8 +34,10 @@ pub(super) fn find(edges: &[WorldEdge], rules: &LineRules<'_>) -> Vec<u32> {
     let mut bridges = Vec::new();
     for (links, is_closed) in Chains::joined(&partner).iter() {
         let row: Vec<&Candidate> = links.iter().map(|link| &candidates[link.link as usize]).collect();
-        let own: Vec<Link> =
-            row.iter().map(|candidate| Link { angle: candidate.angle, length: candidate.length }).collect();
+        let own: Vec<FoldEdge> = row
+            .iter()
+            .map(|candidate| FoldEdge { angle: candidate.angle, length: candidate.length })
+            .collect();
         bridges
             .extend(gaps(&own, is_closed, rules.ridge_valley_angle as f32).into_iter().map(|i| row[i].edge));
     }
