@@ -2,6 +2,7 @@
 
 mod pointer;
 mod shown_texture;
+pub mod wave_easing;
 
 use std::time::{Duration, Instant};
 
@@ -10,6 +11,7 @@ use eframe::egui_wgpu;
 
 pub use self::pointer::{Moved, PickFor};
 use self::shown_texture::ShownTexture;
+use self::wave_easing::WaveEasing;
 use super::gesture::Gestures;
 use super::jobs::Job;
 use super::refining::Refining;
@@ -44,6 +46,7 @@ pub struct Viewport {
     drawn: Option<PictureInputs>,
     selected: Vec<NodeId>,
     refining: Refining,
+    wave_easing: WaveEasing,
     measures: bool,
     generation: u64,
     pick: Option<PickFor>,
@@ -73,6 +76,7 @@ impl Viewport {
             drawn: None,
             selected: Vec::new(),
             refining: Refining::default(),
+            wave_easing: WaveEasing::default(),
             measures: false,
             generation: 0,
             pick: None,
@@ -193,6 +197,7 @@ impl Viewport {
     /// Shows another scene.
     pub fn show(&mut self, scene: GpuScene) {
         self.pick = None;
+        self.wave_easing.forget();
         self.renderer.show(scene);
         self.draw_again();
     }
@@ -285,10 +290,16 @@ impl Viewport {
         samples_at_rest: u32,
     ) -> Result<(), RenderError> {
         self.heed_reports(ui.ctx());
-        let (document, lasts) = document.at(ui.input(|input| input.time));
+        let seconds = ui.input(|input| input.time);
+        let (document, lasts) = document.at(seconds);
         if let Some(lasts) = lasts {
             ui.ctx().request_repaint_after(lasts);
         }
+        let wave_scale = self.wave_scale(&document, seconds);
+        if wave_scale != 1.0 {
+            ui.ctx().request_repaint();
+        }
+        let document = document.with_wave_scale(wave_scale);
         let document = document.as_ref();
         let inputs = PictureInputs {
             document: document.clone(),
@@ -316,6 +327,16 @@ impl Viewport {
             ui.painter().image(id, self.rect, whole, egui::Color32::WHITE);
         }
         result
+    }
+
+    fn wave_scale(&mut self, document: &Document, seconds: f64) -> f32 {
+        match &document.camera {
+            Some(camera) if document.has_waves_on_surfaces() => self.wave_easing.scale(camera, seconds),
+            _ => {
+                self.wave_easing.forget();
+                1.0
+            }
+        }
     }
 
     fn render(&mut self, context: &egui::Context, document: &Document) -> Result<(), RenderError> {

@@ -13,6 +13,7 @@ pub mod roles;
 pub mod section;
 mod shown;
 pub mod view;
+mod wave_scale;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;

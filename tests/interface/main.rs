@@ -560,14 +560,8 @@ fn smoothness_at_rest_can_be_switched_off() {
     assert!(window.state().viewport().pictures() <= pictures + 1, "a buffer is shown as it is");
 }
 
-#[test]
-fn the_wheel_zooms_to_the_pointer_in_one_step() {
-    let mut window = window();
-    let before = window.state().document().camera.unwrap();
-    let at = window.get_by_label("Picture").rect().center() + Vec2::new(150.0, 40.0);
-    window.hover_at(at);
-    settle(&mut window);
-    for _ in 0..3 {
+fn turn_wheel(window: &mut Window, notches: u32) {
+    for _ in 0..notches {
         window.event(eframe::egui::Event::MouseWheel {
             unit: eframe::egui::MouseWheelUnit::Line,
             delta: Vec2::new(0.0, 1.0),
@@ -577,6 +571,51 @@ fn the_wheel_zooms_to_the_pointer_in_one_step() {
         });
         window.step();
     }
+}
+
+/// How many pictures are drawn when the wheel has brought the camera nearer and that has come to rest.
+fn pictures_after_the_wheel(preset: &str) -> u64 {
+    let mut window = window_of(Launch {
+        files: vec!["/models/engine.glb".into()],
+        loader: Arc::new(|paths, _, _| Ok(engine(paths))),
+        style: Some(preset::load(preset).unwrap().style),
+        ..Launch::default()
+    });
+    until(&mut window, "the meshes are examined", is_examined);
+    click(&mut window, Role::Tab, "View");
+    choose(&mut window, "Smooth at rest", "Off");
+    window.hover_at(window.get_by_label("Picture").rect().center());
+    settle(&mut window);
+    turn_wheel(&mut window, 4);
+    let camera = |window: &Window| window.state().document().camera;
+    let mut before = None;
+    while camera(&window) != before {
+        before = camera(&window);
+        settle(&mut window);
+    }
+    let pictures = |window: &Window| window.state().viewport().pictures();
+    let still = pictures(&window);
+    (0..60).for_each(|_| window.step());
+    let at_rest = pictures(&window);
+    (0..30).for_each(|_| window.step());
+    assert_eq!(pictures(&window), at_rest, "{preset}: nothing changes any more");
+    at_rest - still
+}
+
+#[test]
+fn waves_of_sketches_follow_a_leap_of_the_camera_and_come_to_rest() {
+    assert!((5..40).contains(&pictures_after_the_wheel("crayon")));
+    assert_eq!(pictures_after_the_wheel("gooch"), 0);
+}
+
+#[test]
+fn the_wheel_zooms_to_the_pointer_in_one_step() {
+    let mut window = window();
+    let before = window.state().document().camera.unwrap();
+    let at = window.get_by_label("Picture").rect().center() + Vec2::new(150.0, 40.0);
+    window.hover_at(at);
+    settle(&mut window);
+    turn_wheel(&mut window, 3);
     for _ in 0..60 {
         window.step();
     }

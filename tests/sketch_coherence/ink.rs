@@ -7,6 +7,8 @@
 //! the same way by the offsets of each picture itself, ink says how much of the rest is offsets; what is left then is how evenly the
 //! device draws what it fetches from between its pixels. Where surfaces run through each other is counted apart.
 
+use std::sync::Arc;
+
 use glam::{DVec2, Vec2};
 use hachure::export::Session;
 use hachure::export::session::Opened;
@@ -57,19 +59,19 @@ impl Changes {
         self.change[run] / self.count
     }
 
-    /// 1: changes as what is locked to the lines does, 0: as much as what stays on the paper.
-    pub(crate) fn coherence(&self) -> f64 {
+    /// 1: changes as what is locked to the lines does, 0: as much as what stays on the paper; `None`: nothing moves.
+    pub(crate) fn coherence(&self) -> Option<f64> {
         self.coherence_of(0)
     }
 
     /// The same of the offsets alone, whatever the device makes of them.
-    pub(crate) fn coherence_of_offsets(&self) -> f64 {
+    pub(crate) fn coherence_of_offsets(&self) -> Option<f64> {
         self.coherence_of(3)
     }
 
-    fn coherence_of(&self, run: usize) -> f64 {
+    fn coherence_of(&self, run: usize) -> Option<f64> {
         let [screen, locked] = [1, 2].map(|run| self.error(run));
-        1.0 - (self.error(run) - locked) / (screen - locked)
+        (screen - locked > 1e-6).then(|| 1.0 - (self.error(run) - locked) / (screen - locked))
     }
 
     /// Mean changes of surface, screen and locked run.
@@ -128,6 +130,8 @@ pub(crate) struct Frame {
     anchors: Vec<Anchor>,
     /// The nearest of them, by pixel.
     nearest: Vec<Option<u32>>,
+    /// The noise of its lines.
+    field: FieldUniform,
     /// Undisturbed, by the surface, by the screen.
     ink: [Ink; 3],
 }
@@ -152,9 +156,11 @@ impl Draftsman {
         Self { session, opened }
     }
 
-    fn draw(&mut self, eye: &Eye) -> Ink {
+    fn draw(&mut self, eye: &Eye, wave_scale: f32) -> Ink {
         self.opened.document.camera = Some(eye.camera);
-        Ink::of(&mut self.session, &self.opened, [eye.side; 2])
+        let document = self.opened.document.with_wave_scale(wave_scale).into_owned();
+        let opened = Opened { document, scene: Arc::clone(&self.opened.scene) };
+        Ink::of(&mut self.session, &opened, [eye.side; 2])
     }
 }
 
@@ -169,19 +175,25 @@ pub(crate) fn drawn_small(
         [Moved::Not, Moved::BySurface].map(|moved| Draftsman::new(model, moved, wave, side));
     let drawn = |camera: &Camera| {
         let eye = Eye::new(session, *camera, side);
-        let _ink = [&mut plain, &mut by_surface].map(|draftsman| draftsman.draw(&eye));
+        let _ink = [&mut plain, &mut by_surface].map(|draftsman| draftsman.draw(&eye, 1.0));
         Drawn::new(&mut plain.session, &mut by_surface.session, eye)
     };
     cameras.iter().map(drawn).collect()
 }
 
-/// Draws a picture in all ways.
-pub(crate) fn frame(draftsmen: &mut [Draftsman; 3], model: &Model, eye: Eye) -> Frame {
+/// Draws a picture in all ways, with waves longer by a factor than those of a field.
+pub(crate) fn frame(
+    draftsmen: &mut [Draftsman; 3],
+    model: &Model,
+    eye: Eye,
+    (field, wave_scale): (&FieldUniform, f32),
+) -> Frame {
     let anchors = model.anchors(&eye, 0.5);
-    let ink = draftsmen.each_mut().map(|draftsman| draftsman.draw(&eye));
+    let ink = draftsmen.each_mut().map(|draftsman| draftsman.draw(&eye, wave_scale));
     let [plain, by_surface, _] = draftsmen;
     let drawn = Drawn::new(&mut plain.session, &mut by_surface.session, eye);
-    Frame { nearest: nearest(&anchors), anchors, drawn, ink }
+    let field = FieldUniform { line_wave: wave_scale * field.line_wave, ..*field };
+    Frame { nearest: nearest(&anchors), anchors, field, drawn, ink }
 }
 
 fn nearest(anchors: &[Anchor]) -> Vec<Option<u32>> {
@@ -217,17 +229,17 @@ impl Frame {
     }
 
     /// Undisturbed ink moved by the offsets that its lines have in a picture, which are compared with those in another one.
-    fn moved(&self, by: &Drawn, other: &Drawn, field: &FieldUniform) -> Ink {
+    fn moved(&self, by: &Self, other: &Self) -> Ink {
         let offsets: Vec<DVec2> = self
             .anchors
             .par_iter()
             .map(|anchor| {
                 let twin = || {
-                    let spot = by.eye.seen_or_not(anchor.world, anchor.along)?;
-                    Some(field.line_noise(by.eye.object(anchor.object), &spot.place, 0))
+                    let spot = by.drawn.eye.seen_or_not(anchor.world, anchor.along)?;
+                    Some(by.field.line_noise(by.drawn.eye.object(anchor.object), &spot.place, 0))
                 };
                 // Where it has no pixel for it, the other one speaks for both, or the twin.
-                let found = by.noise(anchor).or_else(|| other.noise(anchor));
+                let found = by.drawn.noise(anchor).or_else(|| other.drawn.noise(anchor));
                 let noise = found.or_else(twin).unwrap_or_default();
                 let row = |row: [f32; 2]| f64::from(Vec2::from(row).dot(noise));
                 DVec2::new(row(MATRIX[0]), row(MATRIX[1]))
@@ -246,9 +258,9 @@ impl Frame {
 }
 
 /// What changes between two pictures, apart from where surfaces run through each other, and there.
-pub(crate) fn compare(before: &Frame, after: &Frame, field: &FieldUniform) -> [Changes; 2] {
-    let locked = [before, after].map(|frame| blurred(&frame.moved(&before.drawn, &after.drawn, field)));
-    let moved = [locked[0].clone(), blurred(&after.moved(&after.drawn, &before.drawn, field))];
+pub(crate) fn compare(before: &Frame, after: &Frame) -> [Changes; 2] {
+    let locked = [before, after].map(|frame| blurred(&frame.moved(before, after)));
+    let moved = [locked[0].clone(), blurred(&after.moved(after, before))];
     let drawn = [1, 2].map(|run| [before, after].map(|frame| blurred(&frame.ink[run])));
     let [surface, screen] = &drawn;
     let motions = motions(before, after);

@@ -1,6 +1,7 @@
 //! Ways of a camera about a model.
 
 use glam::DVec3;
+use hachure::app::viewport::wave_easing::WaveEasing;
 use hachure::scene::Camera;
 
 use super::model::{Eye, Model, SIDE};
@@ -90,4 +91,56 @@ pub(crate) fn runs(model: &Model, path: Path, target: DVec3, length: Length) -> 
             .map(|first| (0..=fresh).map(|i| dolly(&start, target, first + stride * i)).collect())
             .collect(),
     }
+}
+
+/// Two pictures, one after the other.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Step {
+    pub(crate) cameras: [Camera; 2],
+    /// How much longer than they are to be waves are in each of them.
+    pub(crate) wave_scales: [f32; 2],
+}
+
+impl Step {
+    pub(crate) fn new(run: &[Camera]) -> Self {
+        Self { cameras: [run[0], run[1]], wave_scales: [1.0; 2] }
+    }
+}
+
+/// Least pictures per second that are asked of a window.
+const PICTURES_PER_SECOND: f64 = 15.0;
+
+/// Steps that go on from each other, with waves as the window shows them.
+pub(crate) struct Eased {
+    pub(crate) moved: Vec<Step>,
+    /// The same, but with waves that stay on their surface from the first to the second picture of each step.
+    pub(crate) held: Vec<Step>,
+    /// The pictures that follow, until waves are as long as they are to be.
+    pub(crate) rest: Vec<Step>,
+}
+
+pub(crate) fn eased(steps: &[Step]) -> Eased {
+    let mut easing = WaveEasing::default();
+    let mut seconds = 0.0;
+    let mut scale = |camera: &Camera| {
+        seconds += 1.0 / PICTURES_PER_SECOND;
+        easing.scale(camera, seconds)
+    };
+    let mut before = scale(&steps[0].cameras[0]);
+    let mut next = |cameras: [Camera; 2]| {
+        let wave_scales = [before, scale(&cameras[1])];
+        before = wave_scales[1];
+        Step { cameras, wave_scales }
+    };
+    let moved: Vec<Step> = steps.iter().map(|step| next(step.cameras)).collect();
+    let last = steps[steps.len() - 1].cameras[1];
+    let mut rest: Vec<Step> = Vec::new();
+    while rest.last().is_none_or(|step| step.wave_scales[1] != 1.0) {
+        rest.push(next([last; 2]));
+    }
+    let held = moved.iter().map(|step| {
+        let nearer = step.cameras[0].view_height() / step.cameras[1].view_height();
+        Step { wave_scales: [step.wave_scales[0], step.wave_scales[0] * nearer as f32], ..*step }
+    });
+    Eased { held: held.collect(), moved, rest }
 }

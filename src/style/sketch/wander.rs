@@ -21,6 +21,9 @@ pub struct Wander {
     pub noise: Noise,
     /// Length of a wave of the lines, reference pixels.
     pub wave: f32,
+    /// How much longer waves on surfaces are for a moment, those of colors too; 1 but where a camera that comes nearer leaves them
+    /// behind. No parameter.
+    pub wave_scale: f32,
     /// Share of a finer wave, a quarter as long.
     pub detail: f32,
     /// How many waves, each half as long as the one before, are added where the noise follows the picture.
@@ -96,6 +99,7 @@ impl Default for Wander {
             enlarge: 16.0,
             noise: Noise::default(),
             wave: 140.0,
+            wave_scale: 1.0,
             detail: 0.1,
             octaves: 4,
             seed: 1,

@@ -127,8 +127,8 @@ pub fn field(sketch: &style::Sketch, scale: f32) -> FieldUniform {
     let seeds: [u32; MAX_PASSES] = std::array::from_fn(|i| seed(1, sketch.pass[i].seed));
     let [a, b, c, d, e, f, g, h] = seeds;
     FieldUniform {
-        line_wave: wander.wave * scale,
-        fill_wave: sketch.fill.wave * scale,
+        line_wave: wander.wave * wander.wave_scale * scale,
+        fill_wave: sketch.fill.wave * wander.wave_scale * scale,
         detail: wander.detail,
         control: wander.anchor as u32,
         turbulent: u32::from(wander.noise == Noise::Turbulence),

@@ -1,0 +1,50 @@
+//! Sketches whose waves are longer or shorter for a moment than their styles say: the document as it is then.
+
+use std::borrow::Cow;
+
+use super::Document;
+use crate::style::Style;
+use crate::style::sketch::Anchor;
+
+impl Document {
+    /// Whether anything is sketched with waves that lie on its surface, which other ones replace as the camera comes nearer.
+    pub fn has_waves_on_surfaces(&self) -> bool {
+        let own = self.nodes.values().filter_map(|own| own.style.as_ref());
+        std::iter::once(&self.style).chain(own).any(has_waves_on_surfaces)
+    }
+
+    /// The document with such waves longer by a factor, above 0.
+    pub fn with_wave_scale(&self, factor: f32) -> Cow<'_, Self> {
+        if factor == 1.0 || !self.has_waves_on_surfaces() {
+            return Cow::Borrowed(self);
+        }
+        let mut scaled = self.clone();
+        let own = scaled.nodes.values_mut().filter_map(|own| own.style.as_mut());
+        let styles = std::iter::once(&mut scaled.style).chain(own);
+        styles
+            .filter(|style| has_waves_on_surfaces(style))
+            .for_each(|style| style.sketch.wander.wave_scale = factor);
+        Cow::Owned(scaled)
+    }
+}
+
+fn has_waves_on_surfaces(style: &Style) -> bool {
+    let is_on_surface = !matches!(style.sketch.wander.anchor, Anchor::Screen | Anchor::Normal);
+    style.sketch.enabled && is_on_surface
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_waves_on_surfaces_are_scaled() {
+        let mut document = Document::default();
+        assert_eq!(document.with_wave_scale(2.0).as_ref(), &document);
+        document.style.sketch.enabled = true;
+        assert_eq!(document.with_wave_scale(2.0).style.sketch.wander.wave_scale, 2.0);
+        assert_eq!(document.with_wave_scale(1.0).as_ref(), &document);
+        document.style.sketch.wander.anchor = Anchor::Screen;
+        assert_eq!(document.with_wave_scale(2.0).as_ref(), &document);
+    }
+}
