@@ -48,6 +48,9 @@ struct HatchingStyle {
     // Of its stripes.
     frequency: f32,
     first_triangle: u32,
+    // The grid on which its vertices lie, local space.
+    grid_step: f32,
+    grid_origin: vec3<f32>,
     // Strokes of tonal art maps: side of a tile, px; which set; steps in which strokes turn, radians; whether two steps are blended;
     // whether strokes run towards the light.
     tile: f32,
@@ -153,7 +156,8 @@ fn stripes_seen(object: u32, texel: vec4<u32>, s: Surfel, pos_view: vec3<f32>) -
     let dx = linear * pos_change(pos_view, s.face_normal, vec3(per_px.x, 0.0, 0.0));
     let dy = linear * pos_change(pos_view, s.face_normal, vec3(0.0, -per_px.y, 0.0));
     let triangle = hatching_styles[object].first_triangle + texel.x - 1u;
-    return stripes_of(triangle, bitcast<vec3<f32>>(texel.yzw), dx, dy, hatching_styles[object].frequency);
+    let grid = Grid(hatching_styles[object].grid_origin, hatching_styles[object].grid_step);
+    return stripes_of(triangle, grid, bitcast<vec3<f32>>(texel.yzw), dx, dy, hatching_styles[object].frequency);
 }
 
 // Strokes on the surface.

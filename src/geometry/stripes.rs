@@ -8,69 +8,17 @@ mod ladder;
 mod levels;
 pub mod lift;
 mod rails;
+mod vertex;
 
-use glam::Vec3;
 use rayon::prelude::*;
 
 use self::ladder::Ladder;
 use super::direction_field::Solved;
-use super::octahedron::{from_octahedron, to_octahedron};
 use super::{FieldOptions, Mesh};
 
-pub use self::levels::{BASE_LEVEL, CYCLES_PER_EXTENT, FAMILIES, LEVELS, Phases, WORDS};
+pub use self::levels::{BASE_LEVEL, CYCLES_PER_EXTENT, FAMILIES, LEVELS, Phases};
 pub use self::lift::{Corner, TrianglePhases, lift};
-
-/// What stripes need to know of a vertex: 50 bytes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct StripeVertex {
-    direction: [i16; 2],
-    normal: [i16; 2],
-    /// The phases.
-    pub phases: Phases,
-}
-
-impl StripeVertex {
-    /// Direction of the strokes of family 0: a unit vector, nearly across [`StripeVertex::normal`].
-    pub fn direction(&self) -> Vec3 {
-        from_octahedron(self.direction)
-    }
-
-    /// Unit normal of the plane in which the families are turned against each other.
-    pub fn normal(&self) -> Vec3 {
-        from_octahedron(self.normal)
-    }
-
-    /// All of it in 13 words: direction and normal, each two octahedral coordinates as 16-bit snorm (x in the low
-    /// half), then the phases two by two, the first in the low half, family by family and level by level.
-    pub fn packed(&self) -> [u32; WORDS] {
-        let word = |low: u16, high: u16| u32::from(low) | u32::from(high) << 16;
-        let pair = |[x, y]: [i16; 2]| word(x.cast_unsigned(), y.cast_unsigned());
-        let phases = self.phases.as_flattened();
-        std::array::from_fn(|i| match i {
-            0 => pair(self.direction),
-            1 => pair(self.normal),
-            _ => {
-                let at = |k: usize| phases.get(k).copied().unwrap_or(0);
-                word(at(2 * i - 4), at(2 * i - 3))
-            }
-        })
-    }
-}
-
-impl StripeVertex {
-    /// The reverse of [`StripeVertex::packed`].
-    pub fn from_packed(words: &[u32; WORDS]) -> Self {
-        let halves = words.map(|word| [word as u16, (word >> 16) as u16]);
-        let pair = |halves: [u16; 2]| halves.map(u16::cast_signed);
-        let all = halves.as_flattened();
-        let phase = |family: usize, level: usize| all.get(4 + family * LEVELS + level).copied().unwrap_or(0);
-        Self {
-            direction: pair(halves[0]),
-            normal: pair(halves[1]),
-            phases: std::array::from_fn(|family| std::array::from_fn(|level| phase(family, level))),
-        }
-    }
-}
+pub use self::vertex::{StripeVertex, WORDS};
 
 /// Stripes on a mesh.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -95,10 +43,8 @@ impl StripeField {
         let solved = Solved::new(mesh, options, &|done| progress(SHARE_OF_FIELD * done))?;
         let ladder = Ladder::new(&solved.graphs, &solved.directions);
         let phases = ladder.solve(&|done| progress(SHARE_OF_FIELD + (1.0 - SHARE_OF_FIELD) * done))?;
-        let vertex = |(v, &phases): (usize, &Phases)| StripeVertex {
-            direction: to_octahedron(solved.directions[v]),
-            normal: to_octahedron(solved.cut.normals[v]),
-            phases,
+        let vertex = |(v, phases): (usize, &Phases)| {
+            StripeVertex::new(solved.directions[v], solved.cut.normals[v], phases)
         };
         Some(Self {
             vertices: phases.par_iter().with_min_len(4096).enumerate().map(vertex).collect(),
@@ -117,7 +63,7 @@ impl StripeField {
                 position: *mesh.positions.get(positions[k] as usize)?,
                 direction: vertex.direction(),
                 normal: vertex.normal(),
-                phases: vertex.phases,
+                phases: vertex.phases(),
             })
         };
         Some([corner(0)?, corner(1)?, corner(2)?])

@@ -5,7 +5,7 @@ use crate::geometry::stripes::{StripeVertex, WORDS};
 use crate::geometry::{DirectionSource, FieldOptions, Mesh, StripeField};
 
 /// Raised whenever the same mesh gets other stripes.
-const VERSION: u32 = 2;
+const VERSION: u32 = 3;
 
 /// Smaller meshes are not kept: they take no longer than reading a file.
 const MIN_TRIANGLES: usize = 2000;
@@ -54,7 +54,7 @@ fn key_of(mesh: &Mesh, options: &FieldOptions) -> Key {
 /// Words: lines per unit, number of vertices, the vertices, the vertex of each corner.
 fn to_bytes(field: &StripeField) -> Vec<u8> {
     let mut words = vec![field.cycles_per_unit.to_bits(), field.vertices.len() as u32];
-    words.extend(field.vertices.iter().flat_map(StripeVertex::packed));
+    words.extend(field.vertices.iter().flat_map(StripeVertex::words));
     words.extend(&field.corner_vertices);
     words.iter().flat_map(|word| word.to_le_bytes()).collect()
 }
@@ -67,7 +67,7 @@ fn from_bytes(bytes: &[u8]) -> Option<StripeField> {
     let (vertices, _) = vertices.as_chunks::<WORDS>();
     let is_sound = rest.is_empty() && corner_vertices.iter().all(|vertex| *vertex < count);
     is_sound.then(|| StripeField {
-        vertices: vertices.iter().map(StripeVertex::from_packed).collect(),
+        vertices: vertices.iter().map(|words| StripeVertex::from(*words)).collect(),
         corner_vertices: corner_vertices.to_vec(),
         cycles_per_unit: f32::from_bits(frequency),
     })

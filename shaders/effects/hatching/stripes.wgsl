@@ -25,6 +25,8 @@ struct Stroke {
 
 // As in src/geometry/stripes/levels.rs.
 const FAMILIES: u32 = 3u;
+// The number that stands for 0 in what a family has room for: src/geometry/stripes/vertex.rs.
+const MIDDLE: i32 = 16383;
 const THIRD_DENSITY: f32 = 0.89;
 const BASE_LEVEL: i32 = 5;
 const LAST_LEVEL: i32 = 6;
@@ -99,8 +101,9 @@ struct Stripes {
     direction: array<vec3<f32>, 3>,
     normal: array<vec3<f32>, 3>,
     away: array<vec3<f32>, 3>,
-    // Seven phases of each corner and family, two in a word.
-    phases: array<vec4<u32>, 9>,
+    // Of each family the two words of every corner.
+    first: array<vec3<u32>, 3>,
+    second: array<vec3<u32>, 3>,
     // 1 where a corner's direction agrees with that of the first one, or −1.
     signs: vec3<f32>,
     // Shares of the corners.
@@ -127,24 +130,52 @@ fn shares_at(place: vec3<f32>, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>) -> vec3
     return vec3(1.0 - s - t, s, t);
 }
 
-// `triangle`: its number among all.
-fn stripes_of(triangle: u32, place: vec3<f32>, dx: vec3<f32>, dy: vec3<f32>, frequency: f32) -> Stripes {
+// Vertices lie on it: `Grid` in src/render/base/stripes.rs.
+struct Grid {
+    origin: vec3<f32>,
+    step: f32,
+}
+
+fn on_grid(words: vec2<u32>) -> vec3<f32> {
+    return vec3<f32>(vec3(words.x & 0x1fffffu, (words.x >> 21u) | ((words.y & 0x3ffu) << 11u), (words.y >> 10u) & 0x1fffffu));
+}
+
+// The number that a family has room for beside its phases.
+fn extra(words: vec2<u32>) -> u32 {
+    return (words.x >> 28u) | ((words.y >> 21u) << 4u);
+}
+
+// A direction across a normal, by its angle (0 to 1) in a basis that hangs on nothing else (Duff et al., "Building an Orthonormal
+// Basis, Revisited", 2017).
+fn direction_about(n: vec3<f32>, turn: f32) -> vec3<f32> {
+    let side = select(-1.0, 1.0, n.z >= 0.0);
+    let a = -1.0 / (side + n.z);
+    let b = n.x * n.y * a;
+    let x = vec3(1.0 + side * n.x * n.x * a, side * b, -side * n.x);
+    let y = vec3(b, side + n.y * n.y * a, -n.y);
+    let angle = 6.2831853 * turn;
+    return x * cos(angle) + y * sin(angle);
+}
+
+// `triangle`: its number among all. Words of a vertex: `StripeVertex` in src/geometry/stripes/vertex.rs.
+fn stripes_of(triangle: u32, grid: Grid, place: vec3<f32>, dx: vec3<f32>, dy: vec3<f32>, frequency: f32) -> Stripes {
     var s: Stripes;
     let vertices = texel_at(stripe_triangles, triangle).xyz;
     var position = array<vec3<f32>, 3>();
     for (var i = 0u; i < 3u; i++) {
-        let first = 4u * vertices[i];
-        let texel = texel_at(stripe_vertices, first);
-        var last = vec3(0u);
-        for (var f = 0u; f < FAMILIES; f++) {
-            let phases = texel_at(stripe_vertices, first + 1u + f);
-            s.phases[3u * i + f] = phases;
-            last[f] = phases.w >> 16u;
-        }
-        position[i] = bitcast<vec3<f32>>(texel.xyz);
-        s.direction[i] = octahedral_decode(unpack2x16snorm(texel.w));
-        s.normal[i] = octahedral_decode(unpack2x16snorm(last.x | (last.y << 16u)));
-        s.away[i] = position[i] - position[0];
+        let one = texel_at(stripe_vertices, 2u * vertices[i]);
+        let other = texel_at(stripe_vertices, 2u * vertices[i] + 1u);
+        s.first[0][i] = one.z;
+        s.second[0][i] = one.w;
+        s.first[1][i] = other.x;
+        s.second[1][i] = other.y;
+        s.first[2][i] = other.z;
+        s.second[2][i] = other.w;
+        position[i] = on_grid(one.xy);
+        let shares = vec2<f32>(vec2<i32>(vec2(extra(one.zw), extra(other.xy))) - MIDDLE);
+        s.normal[i] = octahedral_decode(shares * (2.0 / 32767.0));
+        s.direction[i] = direction_about(s.normal[i], f32(extra(other.zw)) / 32768.0);
+        s.away[i] = (position[i] - position[0]) * grid.step;
         // Rolled from the plane of the first corner to that of this one.
         let n0 = s.normal[0];
         let d0 = s.direction[0];
@@ -152,7 +183,7 @@ fn stripes_of(triangle: u32, place: vec3<f32>, dx: vec3<f32>, dy: vec3<f32>, fre
         s.signs[i] = select(1.0, -1.0, dot(rolled, s.direction[i]) < 0.0);
     }
     s.signs[0] = 1.0;
-    s.shares = shares_at(place, position[0], position[1], position[2]);
+    s.shares = shares_at((place - grid.origin) / grid.step, position[0], position[1], position[2]);
     s.place = place;
     s.dx = dx;
     s.dy = dy;
@@ -190,23 +221,23 @@ fn family_of(s: Stripes, number: u32) -> Family {
     return Family(cycles, max(length(screen), 1e-12), screen, dot(gradient, vec3(0.31, 0.89, 0.33)), number);
 }
 
-fn phase_of(phases: vec4<u32>, level: u32) -> f32 {
-    return f32((phases[level >> 1u] >> (16u * (level & 1u))) & 0xffffu) / 65536.0;
+// Phases of the corners at a level, 1/65536 of a cycle, from those of the level before (0 before the first one).
+fn phases_after(before: vec3<u32>, s: Stripes, number: u32, level: u32) -> vec3<u32> {
+    let words = select(s.second[number], s.first[number], level < 4u);
+    let differences = (words >> vec3(7u * (level & 3u))) & vec3(127u);
+    return (2u * before + (differences << vec3(9u))) & vec3(0xffffu);
 }
 
 // The phase at a level, −5 and more: linear in the triangle, where each corner has what comes nearest to what the gradient foretells.
-fn phase_at(s: Stripes, family: Family, k: i32) -> f32 {
-    let level = u32(clamp(k + BASE_LEVEL, 0, LAST_LEVEL));
-    let scale = exp2(f32(level) - f32(BASE_LEVEL));
-    let first = phase_of(s.phases[family.number], level);
-    var phase = first;
-    for (var i = 1u; i < 3u; i++) {
-        let foretold = family.cycles[i] * scale;
-        let own = s.signs[i] * phase_of(s.phases[3u * i + family.number], level) - first;
-        phase += s.shares[i] * (foretold + wrapped(own - foretold));
-    }
+// `phases`: of the corners at that level, or at the last one.
+fn phase_at(s: Stripes, family: Family, phases: vec3<u32>, k: i32) -> f32 {
+    let level = clamp(k + BASE_LEVEL, 0, LAST_LEVEL);
+    let own = s.signs * vec3<f32>(phases) / 65536.0;
+    let foretold = family.cycles * exp2(f32(level - BASE_LEVEL));
+    let off = own - own.x - foretold;
+    let phase = own.x + dot(s.shares, foretold + off - round(off));
     // Beyond the last level twice as many lines each time.
-    return phase * exp2(f32(k + BASE_LEVEL) - f32(level));
+    return phase * exp2(f32(k + BASE_LEVEL - level));
 }
 
 // Which level has lines of a spacing (px), and the place in the octave up to the next denser one, 0 to 1.
@@ -233,10 +264,17 @@ struct Rows {
 
 fn rows_at(s: Stripes, family: Family, k: i32) -> Rows {
     let first = min(max(k - FINER_BY, -BASE_LEVEL), k);
-    var y = wrapped(phase_at(s, family, first));
+    var phases = vec3(0u);
+    for (var level = 0; level <= min(first + BASE_LEVEL, LAST_LEVEL); level++) {
+        phases = phases_after(phases, s, family.number, u32(level));
+    }
+    var y = wrapped(phase_at(s, family, phases, first));
     var own = y;
     for (var level = first + 1; level <= k + 1; level++) {
-        let phase = phase_at(s, family, level);
+        if level + BASE_LEVEL <= LAST_LEVEL {
+            phases = phases_after(phases, s, family.number, u32(level + BASE_LEVEL));
+        }
+        let phase = phase_at(s, family, phases, level);
         y = 2.0 * y + wrapped(phase - 2.0 * y);
         own = select(own, y, level == k);
     }

@@ -13,8 +13,5 @@ pub const BASE_LEVEL: usize = 5;
 /// Lines of the base level per extent.
 pub const CYCLES_PER_EXTENT: f32 = 70.0;
 
-/// Words that a vertex is packed in: direction, normal, phases.
-pub const WORDS: usize = 2 + (FAMILIES * LEVELS).div_ceil(2);
-
 /// Phases of one vertex: for each family and level the share of a cycle in 1/65536. Lines are where it is 0.
 pub type Phases = [[u16; LEVELS]; FAMILIES];

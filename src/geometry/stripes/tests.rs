@@ -1,8 +1,10 @@
 use std::sync::Mutex;
 
+use glam::Vec3;
+
 use super::lift::{gradient, sign_between, wrap};
 use super::*;
-use crate::geometry::primitives::{cube, from_triangles, plane, sphere, torus};
+use crate::geometry::primitives::{cube, from_triangles, plane, torus};
 use crate::geometry::{Adjacency, DirectionSource, EdgeKind};
 
 fn solve(mesh: &Mesh, options: &FieldOptions) -> StripeField {
@@ -58,10 +60,11 @@ fn on_a_plane_all_levels_are_straight_and_nest() {
                 for level in 0..LEVELS {
                     let phases = lifted.phases[family][level];
                     let error = slope(&corners, phases) / frequency(&field, level) - expected;
-                    assert!(error.length() < 2e-3, "{family} {level} {error}");
+                    // Phases are rounded to 1/128, of which a coarse level has few on the way.
+                    assert!(error.length() < 5e-3, "{family} {level} {error}");
                     if level > 0 {
                         let before = lifted.phases[family][level - 1];
-                        assert!((0..3).all(|k| wrap(phases[k] - 2.0 * before[k]).abs() < 2e-3));
+                        assert!((0..3).all(|k| wrap(phases[k] - 2.0 * before[k]).abs() < 1.5 / 128.0 + 1e-3));
                     }
                 }
             }
@@ -173,8 +176,8 @@ fn dense_levels_have_the_lines_of_the_level_before() {
             .vertices
             .iter()
             .map(|v| {
-                v.phases[0][level]
-                    .wrapping_sub(v.phases[0][level - 1].wrapping_mul(2))
+                v.phases()[0][level]
+                    .wrapping_sub(v.phases()[0][level - 1].wrapping_mul(2))
                     .cast_signed()
                     .saturating_abs()
             })
@@ -213,29 +216,6 @@ fn the_extent_sets_the_distance_of_lines() {
     let mesh = cube(2.0);
     let of = |extent| solve(&mesh, &FieldOptions { extent, ..FieldOptions::default() }).cycles_per_unit;
     assert!((of(7.0) - 10.0).abs() < 1e-4 && (of(70.0) - 1.0).abs() < 1e-5);
-}
-
-#[test]
-fn packing_keeps_directions_and_phases() {
-    assert!(size_of::<StripeVertex>() <= 64);
-    let mesh = sphere(1.0, 12, 20);
-    for normal in &mesh.normals {
-        let again = from_octahedron(to_octahedron(*normal));
-        assert!(again.distance(*normal) < 1e-4, "{normal} {again}");
-    }
-    let mut phases = [[0; LEVELS]; FAMILIES];
-    for (k, phase) in phases.as_flattened_mut().iter_mut().enumerate() {
-        *phase = 1000 * k as u16 + 7;
-    }
-    let vertex =
-        StripeVertex { direction: to_octahedron(Vec3::NEG_X), normal: to_octahedron(Vec3::NEG_Z), phases };
-    assert!(vertex.direction().distance(Vec3::NEG_X) < 1e-4 && vertex.normal().distance(Vec3::NEG_Z) < 1e-4);
-    let words = vertex.packed();
-    assert_eq!(words[0] & 0xffff, u32::from((-32767_i16).cast_unsigned()));
-    for (k, phase) in phases.as_flattened().iter().enumerate() {
-        assert_eq!(words[2 + k / 2] >> (16 * (k % 2)) & 0xffff, u32::from(*phase));
-    }
-    assert_eq!(words[12] >> 16, 0);
 }
 
 #[test]

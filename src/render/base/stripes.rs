@@ -6,7 +6,7 @@ use bytemuck::{Pod, Zeroable};
 use glam::{DVec3, Vec3};
 
 use crate::document::Document;
-use crate::geometry::stripes::{FAMILIES, LEVELS, StripeField, StripeVertex};
+use crate::geometry::stripes::{StripeField, StripeVertex};
 use crate::geometry::{CreaseRule, FieldOptions, Mesh, Patches, Topology};
 use crate::gpu::geometry::triangle_corners;
 use crate::gpu::{Gpu, GpuError, RecordTexture, Target};
@@ -82,30 +82,49 @@ pub struct StripePlace {
     pub first_triangle: u32,
     /// Lines of the base level per unit of the mesh.
     pub cycles_per_unit: f32,
+    /// The grid on which its vertices lie.
+    pub grid: Grid,
 }
 
-/// A vertex as shaders read it, four texels: read by `stripes_of` in `shaders/effects/hatching/stripes.wgsl`.
-#[repr(C)]
-#[derive(Debug, Clone, Copy, Pod, Zeroable, Default)]
-struct VertexRecord {
-    position: [f32; 3],
-    direction: u32,
-    /// By family: seven phases, and a coordinate of the normal.
-    families: [[u16; LEVELS + 1]; FAMILIES],
+/// A cube around a mesh, in so many steps from side to side that a place in it takes 63 bits.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Grid {
+    /// Its least corner, units of the mesh.
+    pub origin: Vec3,
+    /// Length of a step, units of the mesh, above 0.
+    pub step: f32,
 }
 
-impl VertexRecord {
-    fn new(position: Vec3, vertex: &StripeVertex) -> Self {
-        let [direction, normal, ..] = vertex.packed();
-        let normal = [normal as u16, (normal >> 16) as u16, 0];
-        let family = |f: usize| {
-            let mut halves = [0; LEVELS + 1];
-            halves[..LEVELS].copy_from_slice(&vertex.phases[f]);
-            halves[LEVELS] = normal[f];
-            halves
-        };
-        Self { position: position.to_array(), direction, families: std::array::from_fn(family) }
+/// Bits of a coordinate.
+const BITS: u32 = 21;
+
+impl Grid {
+    fn around(positions: &[Vec3]) -> Self {
+        let ends = positions.iter().fold(None, |ends: Option<[Vec3; 2]>, p| {
+            ends.map_or(Some([*p; 2]), |[low, high]| Some([low.min(*p), high.max(*p)]))
+        });
+        let [low, high] = ends.unwrap_or_default();
+        let step = (high - low).max_element() / ((1 << BITS) - 1) as f32;
+        Self { origin: low, step: if step.is_normal() { step } else { 1.0 } }
     }
+
+    /// A place on the grid: 21 bits for each coordinate, one after the other.
+    fn packed(&self, position: Vec3) -> [u32; 2] {
+        let at = ((position - self.origin) / self.step)
+            .round()
+            .clamp(Vec3::ZERO, Vec3::splat(((1 << BITS) - 1) as f32));
+        let [x, y, z] = at.to_array().map(|c| c as u64);
+        let bits = x | y << BITS | z << (2 * BITS);
+        [bits as u32, (bits >> 32) as u32]
+    }
+}
+
+/// A vertex as shaders read it, two texels: read by `stripes_of` in `shaders/effects/hatching/stripes.wgsl`.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+struct VertexRecord {
+    position: [u32; 2],
+    stripes: StripeVertex,
 }
 
 /// All stripes of a scene on the device. Clones share them.
@@ -134,14 +153,16 @@ impl GpuStripes {
         let mut patches: Vec<[[f32; 4]; 2]> = Vec::new();
         let mut places = Vec::with_capacity(solved.len());
         for SolvedStripes { request, field } in &solved {
-            let place = StripePlace {
+            let none = Mesh::default();
+            let mesh = scene.meshes.get(request.mesh).map_or(&none, |mesh| mesh);
+            let grid = Grid::around(&mesh.positions);
+            places.push(StripePlace {
                 first_triangle: triangles.len() as u32,
                 cycles_per_unit: field.cycles_per_unit,
-            };
-            places.push(place);
-            let Some(mesh) = scene.meshes.get(request.mesh) else { continue };
+                grid,
+            });
             let first_vertex = vertices.len() as u32;
-            vertices.extend(records(mesh, field));
+            vertices.extend(records(mesh, field, &grid));
             let corners = triangle_corners(mesh, topology.get(request.mesh).map(|t| &t.provoking));
             let vertex_of =
                 |corner: u32| field.corner_vertices.get(corner as usize).map_or(0, |v| first_vertex + v);
@@ -183,7 +204,7 @@ impl GpuStripes {
         &self.triangles
     }
 
-    /// The vertices, four texels each.
+    /// The vertices, two texels each.
     pub fn vertices(&self) -> &Target {
         &self.vertices
     }
@@ -194,7 +215,7 @@ impl GpuStripes {
     }
 }
 
-fn records(mesh: &Mesh, field: &StripeField) -> Vec<VertexRecord> {
+fn records(mesh: &Mesh, field: &StripeField, grid: &Grid) -> Vec<VertexRecord> {
     let mut positions = vec![Vec3::ZERO; field.vertices.len()];
     for (vertex, index) in field.corner_vertices.iter().zip(&mesh.indices) {
         if let (Some(slot), Some(position)) =
@@ -203,5 +224,42 @@ fn records(mesh: &Mesh, field: &StripeField) -> Vec<VertexRecord> {
             *slot = *position;
         }
     }
-    positions.iter().zip(&field.vertices).map(|(p, vertex)| VertexRecord::new(*p, vertex)).collect()
+    let record =
+        |(p, stripes): (&Vec3, &StripeVertex)| VertexRecord { position: grid.packed(*p), stripes: *stripes };
+    positions.iter().zip(&field.vertices).map(record).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_vertex_takes_two_texels_and_lies_within_half_a_step_of_its_place() {
+        assert_eq!(size_of::<VertexRecord>(), 32);
+        let positions = [[-3.0, 700.0, 0.25], [5.0, 702.0, 0.25], [1.3, 701.1, 1e3]].map(Vec3::from_array);
+        let grid = Grid::around(&positions);
+        for position in positions {
+            let [low, high] = grid.packed(position);
+            let bits = u64::from(low) | u64::from(high) << 32;
+            let at = [0, 1, 2].map(|axis| (bits >> (axis * BITS) & ((1 << BITS) - 1)) as f32);
+            let back = grid.origin + Vec3::from_array(at) * grid.step;
+            assert!((back - position).abs().max_element() < 0.6 * grid.step + 1e-4, "{position} {back}");
+        }
+    }
+
+    #[test]
+    fn hostile_meshes_have_a_grid() {
+        for positions in [
+            vec![],
+            vec![Vec3::ONE; 2],
+            vec![Vec3::NAN, Vec3::X],
+            vec![Vec3::splat(-3e38), Vec3::splat(3e38)],
+        ] {
+            let grid = Grid::around(&positions);
+            assert!(grid.step > 0.0 && grid.step.is_finite());
+            for position in positions {
+                grid.packed(position);
+            }
+        }
+    }
 }

@@ -58,6 +58,8 @@ pub struct GpuHatchingStyle {
     mapping: u32,
     frequency: f32,
     first_triangle: u32,
+    grid_step: f32,
+    grid_origin: Vec3,
     tile: f32,
     strokes: u32,
     strokes_in_shadow: u32,
@@ -209,6 +211,8 @@ fn uniform(
         mapping,
         frequency: place.map_or(0.0, |place| place.cycles_per_unit),
         first_triangle: place.map_or(0, |place| place.first_triangle),
+        grid_step: place.map_or(1.0, |place| place.grid.step),
+        grid_origin: place.map_or(Vec3::ZERO, |place| place.grid.origin),
         // Closer than this there would be nothing but gray.
         tile: (TILE as f32 * stroke.spacing / SPACING_OF_TEXELS).max(32.0),
         // Depend on what has been drawn.
