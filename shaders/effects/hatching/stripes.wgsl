@@ -35,7 +35,9 @@ const FINER_BY: i32 = 4;
 
 // As in src/render/effects/hatching/calibration.rs.
 const SOFT: f32 = 0.04;
-const MIN_WIDTH: f32 = 0.35;
+// A stroke ends where it would be narrower, px; one that is narrower than the other is drawn so wide, and paler.
+const MIN_WIDTH: f32 = 0.45;
+const FULL_WIDTH: f32 = 0.7;
 // From so much more tone on than they need inserted lines count as neighbors.
 const INSERTED: f32 = 0.2;
 const OCTAVE_PLACES: u32 = 32u;
@@ -409,17 +411,17 @@ fn line_at(number: f32, family: u32, rows: Rows, level: Level, along: Along, str
     width = select(width, 0.0, width < MIN_WIDTH);
     // Nor hair lines of paper: strokes that nearly touch do.
     let next = level.spacing * mix(1.0, 0.5, smoothstep(0.0, INSERTED, tone - late));
-    width += smoothstep(next - 2.0 * MIN_WIDTH, next, width);
+    width += smoothstep(next - FULL_WIDTH, next, width);
     return Line(width, abs(blended) * level.spacing * 0.5);
 }
 
 fn reaches(line: Line) -> bool {
-    return line.width > 0.0 && line.away < max(line.width, 2.0 * MIN_WIDTH) * 0.5 + 0.5;
+    return line.width > 0.0 && line.away < max(line.width, FULL_WIDTH) * 0.5 + 0.5;
 }
 
 fn line_ink(line: Line) -> f32 {
-    let covered = clamp(max(line.width, 2.0 * MIN_WIDTH) * 0.5 - line.away + 0.5, 0.0, 1.0);
-    return covered * min(line.width / (2.0 * MIN_WIDTH), 1.0);
+    let covered = clamp(max(line.width, FULL_WIDTH) * 0.5 - line.away + 0.5, 0.0, 1.0);
+    return covered * min(line.width / (FULL_WIDTH), 1.0);
 }
 
 // Ink of a family where `ink` of all is to be inked.

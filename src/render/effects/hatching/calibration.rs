@@ -175,7 +175,7 @@ fn width(stroke: &GpuStroke, beyond: f32, most: f32, pressed: f32, apart: f32) -
     // No hair lines: a stroke ends, it does not fade.
     let width = if width < MIN_WIDTH { 0.0 } else { width };
     // Nor hair lines of paper.
-    width + smoothstep(apart - 2.0 * MIN_WIDTH, apart, width)
+    width + smoothstep(apart - FULL_WIDTH, apart, width)
 }
 
 fn lateness(stroke: &GpuStroke, octave: f32) -> f32 {
@@ -186,8 +186,8 @@ fn lateness(stroke: &GpuStroke, octave: f32) -> f32 {
 /// Ink from the middle of one line to that of another, px; what both cover counts once.
 fn ink_between(one: f32, other: f32, apart: f32) -> f32 {
     // Without a line there is no strength.
-    let half = |width: f32| if width > 0.0 { 0.5 * width.max(2.0 * MIN_WIDTH) } else { -2.0 * apart };
-    let strength = |width: f32| (width / (2.0 * MIN_WIDTH)).min(1.0);
+    let half = |width: f32| if width > 0.0 { 0.5 * width.max(FULL_WIDTH) } else { -2.0 * apart };
+    let strength = |width: f32| (width / (FULL_WIDTH)).min(1.0);
     let border = (0.5 * (half(one) + apart - half(other))).clamp(0.0, apart);
     strength(one) * covered(half(one), border) + strength(other) * covered(half(other), apart - border)
 }
@@ -201,7 +201,9 @@ fn covered(half: f32, distance: f32) -> f32 {
 
 // As in `shaders/effects/hatching/stripes.wgsl`.
 const SOFT: f32 = 0.04;
-const MIN_WIDTH: f32 = 0.35;
+// A stroke ends where it would be narrower, px; one that is narrower than the other is drawn so wide, and paler.
+const MIN_WIDTH: f32 = 0.45;
+const FULL_WIDTH: f32 = 0.7;
 const INSERTED: f32 = 0.2;
 
 fn smoothstep(from: f32, to: f32, x: f32) -> f32 {
