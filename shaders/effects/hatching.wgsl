@@ -226,14 +226,13 @@ fn strokes_in_image_space(px: vec2<i32>, texel: vec4<u32>, s: Surfel, pos_view: 
     if step <= 0.0 {
         return image_space_ink_at(at, angle + laid.turn, strokes, ink, lod);
     }
-    // A hundredth of a step early: which way directions along an axis are rounded is not to decide.
-    let steps = floor(abs(angle) / step + 0.01);
+    let steps = floor(abs(angle) / step);
     let drawn = image_space_ink_at(at, sign(angle) * steps * step + laid.turn, strokes, ink, lod);
     if hatching_styles[object].blends_steps == 0u {
         return drawn;
     }
     let next = image_space_ink_at(at, sign(angle) * (steps + 1.0) * step + laid.turn, strokes, ink, lod);
-    return mix(drawn, next, max(abs(angle) / step - steps, 0.0));
+    return mix(drawn, next, abs(angle) / step - steps);
 }
 
 // Strokes by texture coordinates.

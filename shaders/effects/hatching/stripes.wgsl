@@ -155,8 +155,12 @@ fn direction_about(n: vec3<f32>, turn: f32) -> vec3<f32> {
     let b = n.x * n.y * a;
     let x = vec3(1.0 + side * n.x * n.x * a, side * b, -side * n.x);
     let y = vec3(b, side + n.y * n.y * a, -n.y);
-    let angle = 6.2831853 * turn;
-    return x * cos(angle) + y * sin(angle);
+    // In quarters, so that what runs along an axis does so exactly: a step of strokes may begin there.
+    let quarter = round(4.0 * turn);
+    let angle = 1.5707963 * (4.0 * turn - quarter);
+    let along = select(x, y, u32(quarter) % 2u == 1u);
+    let across = select(y, -x, u32(quarter) % 2u == 1u);
+    return select(1.0, -1.0, u32(quarter) % 4u >= 2u) * (along * cos(angle) + across * sin(angle));
 }
 
 // `triangle`: its number among all. Words of a vertex: `StripeVertex` in src/geometry/stripes/vertex.rs.
