@@ -13,17 +13,14 @@ impl Document {
     /// The document so many seconds after it was opened, and how long it stays so; `None`: for good. Nothing but the numbers of
     /// noise changes, and only of styles that ask for it.
     pub fn at(&self, seconds: f64) -> (Cow<'_, Self>, Option<Duration>) {
-        let styles =
-            std::iter::once(&self.style).chain(self.nodes.values().filter_map(|own| own.style.as_ref()));
-        let rates = styles.map(rate).filter(|rate| *rate > 0.0);
+        let rates = self.styles().map(rate).filter(|rate| *rate > 0.0);
         let seconds = if seconds.is_finite() { seconds.max(0.0) } else { 0.0 };
         let until_next = |rate: f64| (1.0 - (seconds * rate).fract()) / rate;
         let Some(left) = rates.map(until_next).min_by(f64::total_cmp) else {
             return (Cow::Borrowed(self), None);
         };
         let mut now = self.clone();
-        boil(&mut now.style, seconds);
-        now.nodes.values_mut().filter_map(|own| own.style.as_mut()).for_each(|style| boil(style, seconds));
+        now.styles_mut().for_each(|style| boil(style, seconds));
         (Cow::Owned(now), Some(Duration::from_secs_f64(left.clamp(1e-3, 60.0))))
     }
 }

@@ -212,6 +212,18 @@ impl Document {
         uses
     }
 
+    /// The style of the document, and those that nodes have of their own.
+    pub fn styles(&self) -> impl Iterator<Item = &Style> {
+        let own = self.nodes.values().filter_map(|node| node.style.as_ref());
+        std::iter::once(&self.style).chain(own)
+    }
+
+    /// The same, to be changed.
+    pub fn styles_mut(&mut self) -> impl Iterator<Item = &mut Style> {
+        let own = self.nodes.values_mut().filter_map(|node| node.style.as_mut());
+        std::iter::once(&mut self.style).chain(own)
+    }
+
     /// The settings of one node, made if there are none.
     pub fn node_mut(&mut self, path: &str) -> &mut NodeSettings {
         self.nodes.entry(path.to_owned()).or_default()

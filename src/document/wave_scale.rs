@@ -9,8 +9,7 @@ use crate::style::sketch::Anchor;
 impl Document {
     /// Whether anything is sketched with waves that lie on its surface, which other ones replace as the camera comes nearer.
     pub fn has_waves_on_surfaces(&self) -> bool {
-        let own = self.nodes.values().filter_map(|own| own.style.as_ref());
-        std::iter::once(&self.style).chain(own).any(has_waves_on_surfaces)
+        self.styles().any(has_waves_on_surfaces)
     }
 
     /// The document with such waves longer by a factor, above 0.
@@ -19,11 +18,9 @@ impl Document {
             return Cow::Borrowed(self);
         }
         let mut scaled = self.clone();
-        let own = scaled.nodes.values_mut().filter_map(|own| own.style.as_mut());
-        let styles = std::iter::once(&mut scaled.style).chain(own);
-        styles
-            .filter(|style| has_waves_on_surfaces(style))
-            .for_each(|style| style.sketch.wander.wave_scale = factor);
+        for style in scaled.styles_mut().filter(|style| has_waves_on_surfaces(style)) {
+            style.sketch.wander.wave_scale = factor;
+        }
         Cow::Owned(scaled)
     }
 }

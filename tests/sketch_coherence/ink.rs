@@ -181,13 +181,18 @@ pub(crate) fn drawn_small(
     cameras.iter().map(drawn).collect()
 }
 
-/// Draws a picture in all ways, with waves longer by a factor than those of a field.
-pub(crate) fn frame(
-    draftsmen: &mut [Draftsman; 3],
-    model: &Model,
-    eye: Eye,
-    (field, wave_scale): (&FieldUniform, f32),
-) -> Frame {
+/// The waves of a picture.
+#[derive(Clone, Copy)]
+pub(crate) struct Waves<'a> {
+    /// As long as they are to be.
+    pub(crate) field: &'a FieldUniform,
+    /// How much longer they are.
+    pub(crate) wave_scale: f32,
+}
+
+/// Draws a picture in all ways.
+pub(crate) fn frame(draftsmen: &mut [Draftsman; 3], model: &Model, eye: Eye, waves: Waves<'_>) -> Frame {
+    let Waves { field, wave_scale } = waves;
     let anchors = model.anchors(&eye, 0.5);
     let ink = draftsmen.each_mut().map(|draftsman| draftsman.draw(&eye, wave_scale));
     let [plain, by_surface, _] = draftsmen;

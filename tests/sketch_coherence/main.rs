@@ -25,7 +25,7 @@ use hachure::render::base::view::REFERENCE_HEIGHT;
 use hachure::render::effects::sketch::field as field_of;
 use hachure::render::passes::offset_field::FieldUniform;
 use hachure::style::{Sketch, preset};
-use ink::{Changes, Draftsman, compare, drawn_small, frame, plus};
+use ink::{Changes, Draftsman, Waves, compare, drawn_small, frame, plus};
 use model::{Eye, Model, SIDE};
 use paths::{Eased, Length, PATHS, Path, Step, dolly, eased, runs, target};
 
@@ -107,13 +107,26 @@ fn plain_rms() -> f64 {
     f64::from(measured().wander.detail).hypot(1.0)
 }
 
-/// What is looked at apart: its name, the least coherence, and the greatest share of the pixels with ink that pop beyond those of
-/// offsets that do not change.
-const PARTS: [(&str, f64, f64); 3] = [
-    ("", MIN_OF_INK, MAX_POPS),
-    (" elsewhere", MIN_OF_INK, MAX_POPS),
-    (" crossings", MIN_OF_CROSSINGS, MAX_POPS_OF_CROSSINGS),
+/// What is looked at apart.
+struct Part {
+    name: &'static str,
+    min_coherence: f64,
+    /// Greatest share of the pixels with ink that pop beyond those of offsets that do not change.
+    max_pops: f64,
+}
+
+const PARTS: [Part; 3] = [
+    Part { name: "", min_coherence: MIN_OF_INK, max_pops: MAX_POPS },
+    Part { name: " elsewhere", min_coherence: MIN_OF_INK, max_pops: MAX_POPS },
+    Part { name: " crossings", min_coherence: MIN_OF_CROSSINGS, max_pops: MAX_POPS_OF_CROSSINGS },
 ];
+
+/// A row of the table of ink.
+struct InkRow<'a> {
+    name: &'a str,
+    steps: &'a [Step],
+    floor: Floor,
+}
 
 /// What pops though offsets do not change.
 #[derive(Debug, Clone, Copy)]
@@ -132,22 +145,25 @@ fn measure_ink(
     session: &mut Session,
     model: &Model,
     draftsmen: &mut [Draftsman; 3],
-    (name, steps, floor): (&str, &[Step], Floor),
+    row: &InkRow<'_>,
     failures: &mut Failures,
 ) -> [f64; 3] {
+    let InkRow { name, steps, floor } = *row;
     let field = seeds(&measured(), SIDE, 1)[0];
     let mut all = [Changes::default(); 2];
     let count = steps.len().min(MAX_STEPS);
     for step in (0..count).map(|i| steps[i * steps.len() / count]) {
         let [before, after] = [0, 1].map(|at| {
             let eye = Eye::new(session, step.cameras[at], SIDE);
-            frame(draftsmen, model, eye, (&field, step.wave_scales[at]))
+            let wave_scale = step.wave_scales[at];
+            frame(draftsmen, model, eye, Waves { field: &field, wave_scale })
         });
         all = plus(all, compare(&before, &after));
     }
     let [elsewhere, crossings] = all;
     let mut drawn_pops = [0.0; 3];
-    for (number, (part, least, most)) in PARTS.into_iter().enumerate() {
+    for (number, part) in PARTS.into_iter().enumerate() {
+        let Part { name: part, min_coherence, max_pops } = part;
         let changes = [elsewhere.plus(&crossings), elsewhere, crossings][number];
         let [surface, screen, locked, moved] = changes.errors();
         let pops = changes.pops();
@@ -166,9 +182,9 @@ fn measure_ink(
             Floor::Any => [0.0; 2],
         };
         for (i, what) in ["ink", "offsets of ink"].into_iter().enumerate() {
-            let is_enough = coherences[i].is_none_or(|coherence| coherence >= least);
+            let is_enough = coherences[i].is_none_or(|coherence| coherence >= min_coherence);
             failures.check(is_enough, format!("{row}: {what}: {:.3?}", coherences[i]));
-            failures.check(beyond[i] <= most, format!("{row}: {what}: {:.5} pop", beyond[i]));
+            failures.check(beyond[i] <= max_pops, format!("{row}: {what}: {:.5} pop", beyond[i]));
         }
     }
     drawn_pops
@@ -221,8 +237,8 @@ fn sketches_move_with_the_model() {
                     runs(&model, path, dolly, length).iter().map(|run| Step::new(run)).collect();
                 let name = format!("{} ×{stride}", path.name());
                 let mut measure = |name: &str, steps: &[Step], floor| {
-                    let steps = (name, steps, floor);
-                    measure_ink(&mut session, &model, &mut draftsmen, steps, &mut failures)
+                    let row = InkRow { name, steps, floor };
+                    measure_ink(&mut session, &model, &mut draftsmen, &row, &mut failures)
                 };
                 if path == Path::Dolly && stride >= 10 {
                     let Eased { moved, held, rest } = eased(&steps);

@@ -25,13 +25,14 @@ struct Stroke {
 
 // As in src/geometry/stripes/levels.rs.
 const FAMILIES: u32 = 3u;
-// The number that stands for 0 in what a family has room for: src/geometry/stripes/vertex.rs.
-const MIDDLE: i32 = 16383;
 const THIRD_DENSITY: f32 = 0.89;
 const BASE_LEVEL: i32 = 5;
 const LAST_LEVEL: i32 = 6;
 // Levels below the own one by which lines are told apart, so that a line keeps its number while one comes closer.
 const FINER_BY: i32 = 4;
+
+// As in src/geometry/stripes/vertex.rs: the number that stands for 0 in coordinates of normals.
+const MIDDLE: i32 = 16383;
 
 // As in src/render/effects/hatching/calibration.rs.
 const SOFT: f32 = 0.04;

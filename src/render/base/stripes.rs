@@ -7,7 +7,7 @@ use glam::{DVec3, Vec3};
 
 use crate::document::Document;
 use crate::geometry::stripes::{StripeField, StripeVertex};
-use crate::geometry::{CreaseRule, FieldOptions, Mesh, Patches, Topology};
+use crate::geometry::{Bounds, CreaseRule, FieldOptions, Mesh, Patches, Topology};
 use crate::gpu::geometry::triangle_corners;
 use crate::gpu::{Gpu, GpuError, RecordTexture, Target};
 use crate::hatching::cache::Cache;
@@ -99,13 +99,12 @@ pub struct Grid {
 const BITS: u32 = 21;
 
 impl Grid {
-    fn around(positions: &[Vec3]) -> Self {
-        let ends = positions.iter().fold(None, |ends: Option<[Vec3; 2]>, p| {
-            ends.map_or(Some([*p; 2]), |[low, high]| Some([low.min(*p), high.max(*p)]))
-        });
-        let [low, high] = ends.unwrap_or_default();
-        let step = (high - low).max_element() / ((1 << BITS) - 1) as f32;
-        Self { origin: low, step: if step.is_normal() { step } else { 1.0 } }
+    fn around(bounds: &Bounds) -> Self {
+        if bounds.is_empty() {
+            return Self { origin: Vec3::ZERO, step: 1.0 };
+        }
+        let step = ((bounds.max - bounds.min).max_element() / f64::from((1 << BITS) - 1)) as f32;
+        Self { origin: bounds.min.as_vec3(), step: if step.is_normal() { step } else { 1.0 } }
     }
 
     /// A place on the grid: 21 bits for each coordinate, one after the other.
@@ -155,7 +154,7 @@ impl GpuStripes {
         for SolvedStripes { request, field } in &solved {
             let none = Mesh::default();
             let mesh = scene.meshes.get(request.mesh).map_or(&none, |mesh| mesh);
-            let grid = Grid::around(&mesh.positions);
+            let grid = Grid::around(&mesh.bounds());
             places.push(StripePlace {
                 first_triangle: triangles.len() as u32,
                 cycles_per_unit: field.cycles_per_unit,
@@ -237,7 +236,7 @@ mod tests {
     fn a_vertex_takes_two_texels_and_lies_within_half_a_step_of_its_place() {
         assert_eq!(size_of::<VertexRecord>(), 32);
         let positions = [[-3.0, 700.0, 0.25], [5.0, 702.0, 0.25], [1.3, 701.1, 1e3]].map(Vec3::from_array);
-        let grid = Grid::around(&positions);
+        let grid = Grid::around(&Bounds::of_points(&positions));
         for position in positions {
             let [low, high] = grid.packed(position);
             let bits = u64::from(low) | u64::from(high) << 32;
@@ -255,7 +254,7 @@ mod tests {
             vec![Vec3::NAN, Vec3::X],
             vec![Vec3::splat(-3e38), Vec3::splat(3e38)],
         ] {
-            let grid = Grid::around(&positions);
+            let grid = Grid::around(&Bounds::of_points(&positions));
             assert!(grid.step > 0.0 && grid.step.is_finite());
             for position in positions {
                 grid.packed(position);
