@@ -1,5 +1,6 @@
 //! Hatching: tones are as dark as asked, strokes keep their size on paper and stay where they are, formulas agree with plain twins,
-//! and models that are not as they should be are hatched all the same.
+//! and models that are not as they should be are hatched all the same. `HACHURE_HATCHING_ONLY=Woodcut` limits the heavy one to a
+//! preset.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 #![allow(clippy::print_stdout, reason = "the numbers are what it is for")]
@@ -18,7 +19,7 @@ use hachure::hatching::tonal_art_map::composition::{
 };
 use hachure::hatching::tonal_art_map::{TonalArtMap, sets};
 use hachure::render::base::view::REFERENCE_HEIGHT;
-use hachure::scene::Camera;
+use hachure::scene::{Camera, Projection};
 use hachure::style::hatching::{Direction, Hatching, Mapping, Set};
 use image::RgbaImage;
 
@@ -157,7 +158,8 @@ fn tones_are_as_dark_as_asked() {
 #[ignore = "heavy: run by `make quality`"]
 fn all_tones_are_as_dark_as_asked() {
     let mut off = Vec::new();
-    for (name, hatching) in presets() {
+    let only = std::env::var("HACHURE_HATCHING_ONLY").unwrap_or_default();
+    for (name, hatching) in presets().into_iter().filter(|(name, _)| name.contains(&only)) {
         let worst = deviations(&hatching, 4, 8, 6);
         println!("{name}: {worst}");
         if worst.mean > 0.02 || worst.spread > MAX_SPREAD {
@@ -167,15 +169,19 @@ fn all_tones_are_as_dark_as_asked() {
     assert!(off.is_empty(), "{off:?}");
 }
 
-/// Share of the pixels near ink that change by more than 0.6 when a plane comes closer by 1 %, after taking that back.
-fn pops(session: &mut Session, hatching: &Hatching) -> f64 {
-    let distance = 4.0;
+/// Share of the pixels that change by more than 0.6 when a plane is zoomed in by 1 %, after taking that back. It is seen at a slant:
+/// the density of strokes changes by a fifth of an octave over the picture.
+fn pops(session: &mut Session, hatching: &Hatching, distance: f64) -> f64 {
     let closer = 1.01;
-    let mut plane = opened(primitives::plane(30.0), DMat4::from_rotation_z(0.4), distance);
+    let turn = DMat4::from_rotation_x(-0.3) * DMat4::from_rotation_z(0.4);
+    let mut plane = opened(primitives::plane(30.0), turn, distance);
     plane.document.style = even(hatching.clone(), 0.35, SIDE);
     session.set_scene(&plane).unwrap();
     let far = inks(&drawn(session, &plane));
-    plane.document.camera.as_mut().unwrap().position.z = distance / closer;
+    let camera = plane.document.camera.as_mut().unwrap();
+    let half = 0.5 * camera.view_angle().to_radians();
+    let view_angle = 2.0 * (half.tan() / closer).atan().to_degrees();
+    camera.projection = Projection::Perspective { view_angle };
     let near = inks(&drawn(session, &plane));
     let middle = f64::from(SIDE) / 2.0;
     let at = |inks: &[Option<f64>], x: usize, y: usize| inks[y * SIDE as usize + x].unwrap_or(0.0);
@@ -204,14 +210,17 @@ fn pops(session: &mut Session, hatching: &Hatching) -> f64 {
 #[test]
 fn strokes_stay_where_they_are_when_one_comes_closer() {
     let mut session = session();
+    // Over an octave, after which each line has become two.
+    let distances: [f64; 5] = std::array::from_fn(|i| 4.0 * 2.0_f64.powf(i as f64 / 5.0));
     for (name, hatching) in presets() {
-        let stripes = pops(&mut session, &hatching);
-        println!("{name}: {:.2} % pop", 100.0 * stripes);
-        assert!(stripes <= 0.015, "{name}: {stripes}");
+        let stripes = distances.map(|distance| pops(&mut session, &hatching, distance));
+        println!("{name}: {:.2?} % pop", stripes.map(|share| 100.0 * share));
+        let worst = stripes.into_iter().fold(0.0, f64::max);
+        assert!(worst <= 0.015, "{name}: {worst}");
     }
     // What stays on the paper is no match: the test can fail.
     let paper = Hatching { mapping: Mapping::ImageSpace, ..Hatching::default() };
-    let popped = pops(&mut session, &paper);
+    let popped = pops(&mut session, &paper, 4.0);
     println!("on the paper: {:.2} % pop", 100.0 * popped);
     assert!(popped > 0.015, "{popped}");
 }

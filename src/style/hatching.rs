@@ -190,7 +190,7 @@ impl Default for Hatching {
                 randomness: 1.0,
                 pointedness: 0.5,
                 late_insertion: 0.45,
-                variation: 0.3,
+                variation: 0.2,
             },
             cross_hatching: CrossHatching { directions: 3, second: 0.42, third: 0.7, shadows_cross: true },
             tone: Tone {

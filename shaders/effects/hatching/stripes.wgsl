@@ -29,7 +29,9 @@ const THIRD_DENSITY: f32 = 0.89;
 const BASE_LEVEL: i32 = 5;
 const LAST_LEVEL: i32 = 6;
 // Levels below the own one by which lines are told apart, so that a line keeps its number while one comes closer.
-const FINER_BY: i32 = 4;
+const FINER_BY: i32 = 6;
+// So many numbers of strokes there are before they begin again.
+const STROKES: u32 = 16u;
 
 // As in src/geometry/stripes/vertex.rs: the number that stands for 0 in coordinates of normals.
 const MIDDLE: i32 = 16383;
@@ -65,17 +67,33 @@ fn unit_of(hash: u32) -> f32 {
     return f32(hash >> 8u) / 16777216.0;
 }
 
-// Ranks among 16 that chance follows: those of lines beside each other lie far apart, so that the tone is even, and so do those of
-// strokes beside each other along a line, of which each has another. `odd`: of the line's number; `birth`: a hash of the level at
-// which it was born.
-fn rank_of_line(odd: u32) -> u32 {
-    return 2u * (reverseBits(odd >> 1u) >> 29u);
+// When a line comes among those near it, of 16 turns, and where its strokes begin, in fifteenths of one: found by a search for the most
+// even tone in patches of 8 x 8 spacings, at every density and length. One hexadecimal digit for each of `BROOD` lines that were born
+// at a level beside each other; those of the next level have the other words. Their strokes take turns: every second one comes eight
+// turns later. As in src/render/effects/hatching/ranks.rs.
+const BROOD: u32 = 8u;
+const RANKS: vec2<u32> = vec2(0x6c0b71dau, 0x8d462b97u);
+const OFFSETS: vec2<u32> = vec2(0x7e32c894u, 0xb5d3c8e2u);
+
+// A line among those that were born with it; the same one while one comes closer, and however a triangle counts.
+struct Brood {
+    index: u32,
+    level: i32,
 }
 
-fn rank_of_stroke(odd: u32, birth: u32, number: u32) -> u32 {
-    let line = odd >> 1u;
-    let along = (reverseBits(number) >> 28u) ^ (birth & 15u);
-    return (along + rank_of_line(odd) + ((line ^ (line >> 1u)) & 1u)) & 15u;
+// `number`: among the lines of the level after `k`.
+fn brood_of(number: f32, rows: Rows, k: i32, sense: f32) -> Brood {
+    let bits = u32(i32(number * sense)) & (rows.period - 1u);
+    let born = countTrailingZeros(select(bits, rows.period, bits == 0u));
+    return Brood((bits >> (born + 1u)) % BROOD, k + 1 - i32(born));
+}
+
+fn digit_of(words: vec2<u32>, brood: Brood) -> u32 {
+    return (words[u32(brood.level) & 1u] >> (4u * brood.index)) & 15u;
+}
+
+fn rank_of_stroke(rank: u32, number: u32) -> u32 {
+    return (rank + 8u * (number & 1u)) & 15u;
 }
 
 // Value noise, 0 to 1.
@@ -206,8 +224,9 @@ struct Family {
     per_px: f32,
     // Its change from pixel to pixel.
     screen: vec2<f32>,
-    // How far its gradient agrees with a direction that is the same everywhere.
-    up: f32,
+    // 1 where its gradient agrees with a direction that is the same everywhere, or −1: lines and strokes are counted in one sense,
+    // whichever that of the triangle is.
+    sense: f32,
     number: u32,
 }
 
@@ -225,7 +244,7 @@ fn family_of(s: Stripes, number: u32) -> Family {
     }
     gradient = normalize(gradient + vec3(1e-20)) * frequency;
     let screen = vec2(dot(gradient, s.dx), dot(gradient, s.dy));
-    return Family(cycles, max(length(screen), 1e-12), screen, dot(gradient, vec3(0.31, 0.89, 0.33)), number);
+    return Family(cycles, max(length(screen), 1e-12), screen, select(1.0, -1.0, dot(gradient, vec3(0.31, 0.89, 0.33)) < 0.0), number);
 }
 
 // Phases of the corners at a level, 1/65536 of a cycle, from those of the level before (0 before the first one).
@@ -333,9 +352,6 @@ struct Along {
     k: i32,
     place: f32,
     length: f32,
-    // So many numbers of strokes there are before they begin again, less one; and of their halves.
-    mask: u32,
-    halves_mask: u32,
 }
 
 fn along_at(s: Stripes, family: Family, stroke: Stroke) -> Along {
@@ -343,17 +359,13 @@ fn along_at(s: Stripes, family: Family, stroke: Stroke) -> Along {
     // Along the stroke itself: where a surface is seen at a slant the steepest way is another.
     let slope = abs(family.screen.x * across.screen.y - family.screen.y * across.screen.x) / family.per_px;
     let level = level_of(max(slope, 1e-12), stroke.length);
-    // In one sense, whichever that of the triangle is.
-    let sense = select(1.0, -1.0, family.up < 0.0);
     let rows = rows_at(s, across, level.k);
     let finer = 0.5 * wrapped(rows.finer - 2.0 * rows.own);
-    let at = (rows.own + finer * smoothstep(0.0, 1.0, level.place)) * sense;
+    let at = (rows.own + finer * smoothstep(0.0, 1.0, level.place)) * family.sense;
     // So that the ends of neighbors do not line up.
     let frequency = s.frequency * exp2(f32(level.k)) * 1.7;
     let noise = mix(value_noise(s.place * frequency), value_noise(s.place * frequency * 2.0), level.place);
-    let mask = (rows.period >> 1u) - 1u;
-    let halves_mask = min(2u * mask + 1u, (1u << u32(FINER_BY)) - 1u);
-    return Along(at + mix(0.5, 0.25, level.place) * (noise - 0.5), level.k, level.place, level.spacing, mask, halves_mask);
+    return Along(at + mix(0.25, 0.125, level.place) * (noise - 0.5), level.k, level.place, level.spacing);
 }
 
 // A line near a pixel: how wide it is there, and how far from its middle the pixel lies, px.
@@ -370,26 +382,22 @@ fn lateness(stroke: Stroke, place: f32) -> f32 {
 }
 
 // The line of a number: those that the level itself has are even.
-fn line_at(number: f32, family: u32, rows: Rows, level: Level, along: Along, stroke: Stroke, tone: f32) -> Line {
+fn line_at(number: f32, family: Family, rows: Rows, level: Level, along: Along, stroke: Stroke, tone: f32) -> Line {
     let even = (i32(number) & 1) == 0;
     let coarse = 2.0 * wrapped(rows.own);
     let fine = rows.finer - number;
     let blended = select(fine, mix(coarse, fine, smoothstep(0.0, 1.0, level.place)), even && abs(coarse - fine) < 0.5);
-    // The odd part of its number, and the level at which it was born: a line keeps both while one comes closer.
-    let bits = u32(i32(number)) & (rows.period - 1u);
-    // The same for a line and for the same line counted from the other side.
-    let code = select(min(bits, rows.period - bits), rows.period, bits == 0u);
-    let born = countTrailingZeros(code);
-    let odd = code >> born;
-    let birth = mixed(u32(level.k + 1 - i32(born)) ^ (family * 7919u));
-    let id = mixed(odd + birth);
+    let brood = brood_of(number, rows, level.k, family.sense);
+    let rank = digit_of(RANKS, brood);
+    let id = hash_of(brood.index, u32(brood.level) ^ (family.number * 7919u));
     var tapered = 1.0;
-    var chance = (f32(rank_of_line(odd)) + 2.0 * unit_of(id)) / 16.0;
+    // Of a line that goes on and on: whose turn it would be does not matter.
+    var chance = (f32(rank & 7u) + unit_of(id)) / 8.0;
     var variation = 0.0;
     if stroke.taper > 0.0 {
         // Twice as much where there are twice as many, so that what is an end stays one.
-        let u = along.at + fract(unit_of(mixed(id)) * exp2(f32(along.k + BASE_LEVEL)));
-        let stroke_number = u32(i32(floor(u))) & along.mask;
+        let u = along.at + f32((digit_of(OFFSETS, brood) << (u32(along.k + BASE_LEVEL) & 3u)) % 15u) / 15.0;
+        let stroke_number = u32(i32(floor(u))) % STROKES;
         let share = fract(u);
         let end = min(share, 1.0 - share) * along.length - stroke.gap;
         // Where strokes are nearly twice as long as wanted they come apart in the middle.
@@ -397,13 +405,12 @@ fn line_at(number: f32, family: u32, rows: Rows, level: Level, along: Along, str
         let middle = abs(share - 0.5) * along.length - stroke.gap;
         tapered = clamp(end / stroke.taper, 0.0, 1.0);
         tapered = min(tapered, mix(1.0, clamp(middle / stroke.taper, 0.0, 1.0), apart));
-        let half = select(0u, 1u, share > 0.5);
+        let half_number = (2u * stroke_number + select(0u, 1u, share > 0.5)) % STROKES;
         let whole = hash_of(id, stroke_number);
-        let half_number = (2u * stroke_number + half) & along.halves_mask;
-        let halves = hash_of(id, half_number);
-        let ranks = vec2(f32(rank_of_stroke(odd, birth, stroke_number)), f32(rank_of_stroke(odd, birth, half_number)));
-        chance = mix(ranks.x + unit_of(whole), ranks.y + unit_of(halves), apart) / 16.0;
-        let others = (5.0 * ranks + 3.0) % 16.0 + vec2(unit_of(mixed(whole)), unit_of(mixed(halves)));
+        let half = hash_of(id, half_number);
+        let ranks = vec2(f32(rank_of_stroke(rank, stroke_number)), f32(rank_of_stroke(rank, half_number)));
+        chance = mix(ranks.x + unit_of(whole), ranks.y + unit_of(half), apart) / 16.0;
+        let others = (5.0 * ranks + 3.0) % 16.0 + vec2(unit_of(mixed(whole)), unit_of(mixed(half)));
         variation = mix(others.x, others.y, apart) / 16.0 - 0.5;
     }
     let late = lateness(stroke, level.place);
@@ -440,13 +447,13 @@ fn stripe_ink(px: vec2<i32>, s: Stripes, number: u32, stroke: Stroke, ink: f32) 
     }
     let tone = tone_for(stroke.table, level.place, along.place, ink);
     let nearest = round(rows.finer);
-    var line = line_at(nearest, number, rows, level, along, stroke, tone);
+    var line = line_at(nearest, family, rows, level, along, stroke, tone);
     // An old line may be so wide that it reaches beyond an inserted one.
     var wide = Line(0.0, 0.0);
     let widest = stroke.spacing * stroke.max_width * (1.0 + 0.5 * stroke.variation) + 2.0;
     if (i32(nearest) & 1) == 1 && widest > 0.5 * level.spacing {
         let even = nearest + select(-1.0, 1.0, rows.finer > nearest);
-        wide = line_at(even, number, rows, level, along, stroke, tone);
+        wide = line_at(even, family, rows, level, along, stroke, tone);
     }
     if !reaches(line) && !reaches(wide) {
         return 0.0;

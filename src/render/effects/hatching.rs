@@ -8,6 +8,7 @@
 
 mod calibration;
 mod indication;
+mod ranks;
 mod requests;
 mod sets;
 mod strokes;

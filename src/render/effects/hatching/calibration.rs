@@ -5,6 +5,7 @@ use std::array;
 
 use rayon::prelude::*;
 
+use super::ranks::{Brood, rank_of_stroke};
 use super::strokes::GpuStroke;
 
 /// Places in the octave between two densities, and in that between two lengths of strokes. What comes after the last is the first.
@@ -14,13 +15,13 @@ pub(super) const LENGTHS: usize = 10;
 pub(super) const INKS: usize = 64;
 /// Tones that are reckoned: more of lines that go on and on, which cost little.
 const TONES: [usize; 2] = [32, 128];
-/// After so many lines of the finer level, and half as many strokes, numbers begin again.
+/// Lines of the finer level and strokes of each that are reckoned: after that they are much the same.
 const PERIOD: usize = 32;
-const STROKES: usize = PERIOD / 2;
-/// Lines of half a period: the others are the same in reverse.
-const LINES: usize = PERIOD / 2 + 1;
+const STROKES: usize = 8;
+/// With the first line of the next period.
+const LINES: usize = PERIOD + 1;
 /// Places along each stroke that are reckoned.
-const ALONG: usize = 4;
+const ALONG: usize = 5;
 
 /// What strokes of one kind need to be as dark as asked.
 #[derive(Debug, Clone, PartialEq)]
@@ -80,7 +81,7 @@ fn inverse(inks: &[f32]) -> Vec<f32> {
     (0..INKS).map(|i| inverted(i as f32 / (INKS - 1) as f32)).collect()
 }
 
-/// What all lines of half a period are like at a place along them, whatever the tone.
+/// What all lines of a period are like at a place along them, whatever the tone.
 struct Lines {
     /// The tone from which on a line is drawn, if it is not inserted.
     thresholds: [f32; LINES],
@@ -116,27 +117,24 @@ struct Place {
 
 /// `x`: along the line, in strokes.
 fn place_at(stroke: &GpuStroke, octave: f32, row: u32, x: f32) -> Place {
-    let code = if row == 0 { PERIOD as u32 } else { row };
-    let born = code.trailing_zeros();
-    let odd = code >> born;
-    let birth = mixed(1_u32.wrapping_sub(born));
-    let id = mixed(odd.wrapping_add(birth));
+    let brood = Brood::of(row, PERIOD as u32, 1);
+    let rank = brood.rank();
+    let id = hash(brood.index, brood.level as u32);
     if stroke.taper <= 0.0 {
-        let chance = (rank_of_line(odd) as f32 + 2.0 * unit(id)) / 16.0;
-        return Place { tapered: 1.0, chance, variation: 0.0 };
+        return Place { tapered: 1.0, chance: ((rank & 7) as f32 + unit(id)) / 8.0, variation: 0.0 };
     }
     let length = stroke.length * octave.exp2();
-    let u = x + unit(mixed(id));
-    let number = (u.floor() as i32 & 15) as u32;
+    let u = x + brood.offset(0);
+    let number = (u.floor() as i32).rem_euclid(16) as u32;
     let share = u - u.floor();
     let end = share.min(1.0 - share) * length - stroke.gap;
     let apart = smoothstep(0.35, 1.0, octave);
     let middle = (share - 0.5).abs() * length - stroke.gap;
     let [end, middle] = [end, middle].map(|left| (left / stroke.taper).clamp(0.0, 1.0));
     let half = u32::from(share > 0.5);
-    let numbers = [number, (2 * number + half) & 15];
+    let numbers = [number, (2 * number + half) % 16];
     let [whole, halves] = numbers.map(|n| hash(id, n));
-    let [rank, half_rank] = numbers.map(|n| rank_of_stroke(odd, birth, n) as f32);
+    let [rank, half_rank] = numbers.map(|n| rank_of_stroke(rank, n) as f32);
     let mix = |from: f32, to: f32| from + (to - from) * apart;
     let other = |rank: f32| (5.0 * rank + 3.0) % 16.0;
     let tapered = end.min(1.0 + (middle - 1.0) * apart);
@@ -223,16 +221,6 @@ fn hash(a: u32, b: u32) -> u32 {
 
 fn unit(hash: u32) -> f32 {
     (hash >> 8) as f32 / 16_777_216.0
-}
-
-fn rank_of_line(odd: u32) -> u32 {
-    2 * ((odd >> 1).reverse_bits() >> 29)
-}
-
-fn rank_of_stroke(odd: u32, birth: u32, number: u32) -> u32 {
-    let line = odd >> 1;
-    let along = (number.reverse_bits() >> 28) ^ (birth & 15);
-    (along + rank_of_line(odd) + ((line ^ (line >> 1)) & 1)) & 15
 }
 
 #[cfg(test)]
