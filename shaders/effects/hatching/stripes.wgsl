@@ -428,11 +428,11 @@ fn line_at(number: f32, family: Family, rows: Rows, level: Level, along: Along, 
 }
 
 fn reaches(line: Line) -> bool {
-    return line.width > 0.0 && line.away < max(line.width, FULL_WIDTH) * 0.5 + 0.5;
+    return line.width > 0.0 && line.away < 0.5 * (max(line.width, FULL_WIDTH) + frame.coverage_ramp);
 }
 
 fn line_ink(line: Line) -> f32 {
-    let covered = clamp(max(line.width, FULL_WIDTH) * 0.5 - line.away + 0.5, 0.0, 1.0);
+    let covered = clamp((0.5 * max(line.width, FULL_WIDTH) - line.away) / frame.coverage_ramp + 0.5, 0.0, 1.0);
     return covered * min(line.width / (FULL_WIDTH), 1.0);
 }
 
