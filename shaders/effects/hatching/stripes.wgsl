@@ -41,6 +41,9 @@ const SOFT: f32 = 0.04;
 // A stroke ends where it would be narrower, px; one that is narrower than the other is drawn so wide, and paler.
 const MIN_WIDTH: f32 = 0.45;
 const FULL_WIDTH: f32 = 0.7;
+// The share of its greatest width from which on a stroke's ends close, and that at which it has none.
+const ENDS_CLOSE: f32 = 0.3;
+const ENDS_CLOSED: f32 = 0.8;
 // From so much more tone on than they need inserted lines count as neighbors.
 const INSERTED: f32 = 0.2;
 const OCTAVE_PLACES: u32 = 32u;
@@ -414,7 +417,10 @@ fn line_at(number: f32, family: Family, rows: Rows, level: Level, along: Along, 
         variation = mix(others.x, others.y, apart) / 16.0 - 0.5;
     }
     let late = lateness(stroke, level.place);
-    let threshold = stroke.tone_by_count * (stroke.randomness * chance + (1.0 - tapered) * stroke.pointedness) + select(late, 0.0, even);
+    let turn = stroke.tone_by_count * stroke.randomness * chance + select(late, 0.0, even);
+    // Strokes that are wide run into the next ones: no specks of paper in the dark.
+    tapered = mix(tapered, 1.0, smoothstep(ENDS_CLOSE, ENDS_CLOSED, (tone - turn) / max(1.0 - turn, 1e-3)));
+    let threshold = turn + stroke.tone_by_count * (1.0 - tapered) * stroke.pointedness;
     let beyond = clamp((tone - threshold) / max(1.0 - threshold, 1e-3), 0.0, 1.0);
     let share = mix(stroke.min_width, stroke.max_width, beyond);
     let pressed = sqrt(tapered) * (1.0 - stroke.variation * variation) * smoothstep(0.0, SOFT, tone - threshold);

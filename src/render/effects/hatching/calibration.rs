@@ -83,10 +83,12 @@ fn inverse(inks: &[f32]) -> Vec<f32> {
 
 /// What all lines of a period are like at a place along them, whatever the tone.
 struct Lines {
-    /// The tone from which on a line is drawn, if it is not inserted.
-    thresholds: [f32; LINES],
-    /// Share of its width: less near the ends of strokes.
-    pressed: [f32; LINES],
+    /// The tone from which on a line is drawn, if it is not inserted and no end is near.
+    turns: [f32; LINES],
+    /// 0 where a stroke ends.
+    tapered: [f32; LINES],
+    /// Share of its width.
+    varied: [f32; LINES],
 }
 
 /// So many places along each stroke. `octave`: place in that of lengths.
@@ -97,10 +99,10 @@ fn places(stroke: &GpuStroke, octave: f32, along: usize) -> Vec<Lines> {
         let shift = (number as u32).reverse_bits() >> (32 - STROKES.trailing_zeros());
         let x = number as f32 + (share as f32 + middle(shift as usize, STROKES)) / along as f32;
         let places: [Place; LINES] = array::from_fn(|row| place_at(stroke, octave, row as u32, x));
-        let late = |p: Place| stroke.randomness * p.chance + (1.0 - p.tapered) * stroke.pointedness;
         Lines {
-            thresholds: places.map(|p| stroke.tone_by_count * late(p)),
-            pressed: places.map(|p| p.tapered.sqrt() * (1.0 - stroke.variation * p.variation)),
+            turns: places.map(|p| stroke.tone_by_count * stroke.randomness * p.chance),
+            tapered: places.map(|p| p.tapered),
+            varied: places.map(|p| 1.0 - stroke.variation * p.variation),
         }
     };
     let count = if stroke.taper > 0.0 { STROKES * along } else { 1 };
@@ -152,16 +154,23 @@ fn mean_ink(stroke: &GpuStroke, tone: f32, place: f32, strokes: &[Lines]) -> f32
     let spacing = 0.5 * stroke.spacing * place.exp2();
     let apart = spacing * (2.0 - smoothstep(0.0, INSERTED, tone - late));
     let mut inks = [0.0; LINES - 1];
-    for Lines { thresholds, pressed } in strokes {
+    for Lines { turns, tapered, varied } in strokes {
         let widths: [f32; LINES] = array::from_fn(|row| {
-            let threshold = thresholds[row] + lates[row];
-            width(stroke, tone - threshold, 1.0 - threshold, pressed[row], apart)
+            let turn = turns[row] + lates[row];
+            let tapered = closed(tapered[row], (tone - turn) / (1.0 - turn).max(1e-3));
+            let threshold = turn + stroke.tone_by_count * (1.0 - tapered) * stroke.pointedness;
+            width(stroke, tone - threshold, 1.0 - threshold, tapered.sqrt() * varied[row], apart)
         });
         for (ink, (one, other)) in inks.iter_mut().zip(widths.iter().zip(&widths[1..])) {
             *ink += ink_between(*one, *other, spacing);
         }
     }
     inks.iter().sum::<f32>() / (spacing * (inks.len() * strokes.len()) as f32)
+}
+
+/// What is left of a stroke's end: the wider a stroke is, the less.
+fn closed(tapered: f32, share: f32) -> f32 {
+    tapered + (1.0 - tapered) * smoothstep(ENDS_CLOSE, ENDS_CLOSED, share)
 }
 
 /// Width of a line, px; `beyond`: by how much the tone is above the line's threshold, and `most`: by how much it can be; `apart`: to
@@ -203,6 +212,9 @@ const SOFT: f32 = 0.04;
 const MIN_WIDTH: f32 = 0.45;
 const FULL_WIDTH: f32 = 0.7;
 const INSERTED: f32 = 0.2;
+// The share of its greatest width from which on a stroke's ends close, and that at which it has none.
+const ENDS_CLOSE: f32 = 0.3;
+const ENDS_CLOSED: f32 = 0.8;
 
 fn smoothstep(from: f32, to: f32, x: f32) -> f32 {
     let t = ((x - from) / (to - from)).clamp(0.0, 1.0);
