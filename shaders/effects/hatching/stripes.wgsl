@@ -70,31 +70,33 @@ fn unit_of(hash: u32) -> f32 {
     return f32(hash >> 8u) / 16777216.0;
 }
 
-// When a line comes among those near it, of 16 turns, and where its strokes begin, in fifteenths of one: found by a search for the most
-// even tone in patches of 8 x 8 spacings, at every density and length. One hexadecimal digit for each of `BROOD` lines that were born
-// at a level beside each other; those of the next level have the other words. Their strokes take turns: every second one comes eight
-// turns later. As in src/render/effects/hatching/ranks.rs.
-const BROOD: u32 = 8u;
+// Ranks of lines near each other, of 16: the lower, the lighter a tone may be in which a line is drawn; and where its strokes begin,
+// in fifteenths of one. Found by a search for the most even tone in patches of 8 × 8 spacings, at every density and length. A
+// hexadecimal digit for each of `IDS` lines that were born at a level beside each other; those of the next level have the other words.
+// As in src/render/effects/hatching/ranks.rs.
+const IDS: u32 = 8u;
 const RANKS: vec2<u32> = vec2(0x6c0b71dau, 0x8d462b97u);
 const OFFSETS: vec2<u32> = vec2(0x7e32c894u, 0xb5d3c8e2u);
 
-// A line among those that were born with it; the same one while one comes closer, and however a triangle counts.
-struct Brood {
+// Which line it is: the same one while one comes closer, and however a triangle counts.
+struct LineId {
+    // Among those that were born with it.
     index: u32,
     level: i32,
 }
 
 // `number`: among the lines of the level after `k`.
-fn brood_of(number: f32, rows: Rows, k: i32, sense: f32) -> Brood {
+fn line_id(number: f32, rows: Rows, k: i32, sense: f32) -> LineId {
     let bits = u32(i32(number * sense)) & (rows.period - 1u);
     let born = countTrailingZeros(select(bits, rows.period, bits == 0u));
-    return Brood((bits >> (born + 1u)) % BROOD, k + 1 - i32(born));
+    return LineId((bits >> (born + 1u)) % IDS, k + 1 - i32(born));
 }
 
-fn digit_of(words: vec2<u32>, brood: Brood) -> u32 {
-    return (words[u32(brood.level) & 1u] >> (4u * brood.index)) & 15u;
+fn digit_of(words: vec2<u32>, id: LineId) -> u32 {
+    return (words[u32(id.level) & 1u] >> (4u * id.index)) & 15u;
 }
 
+// Every second stroke of a line comes later, so that both kinds do so evenly.
 fn rank_of_stroke(rank: u32, number: u32) -> u32 {
     return (rank + 8u * (number & 1u)) & 15u;
 }
@@ -390,16 +392,16 @@ fn line_at(number: f32, family: Family, rows: Rows, level: Level, along: Along, 
     let coarse = 2.0 * wrapped(rows.own);
     let fine = rows.finer - number;
     let blended = select(fine, mix(coarse, fine, smoothstep(0.0, 1.0, level.place)), even && abs(coarse - fine) < 0.5);
-    let brood = brood_of(number, rows, level.k, family.sense);
-    let rank = digit_of(RANKS, brood);
-    let id = hash_of(brood.index, u32(brood.level) ^ (family.number * 7919u));
+    let id = line_id(number, rows, level.k, family.sense);
+    let rank = digit_of(RANKS, id);
+    let seed = hash_of(id.index, u32(id.level) ^ (family.number * 7919u));
     var tapered = 1.0;
-    // Of a line that goes on and on: whose turn it would be does not matter.
-    var chance = (f32(rank & 7u) + unit_of(id)) / 8.0;
+    // Of a line that goes on and on: it has no second strokes.
+    var chance = (f32(rank & 7u) + unit_of(seed)) / 8.0;
     var variation = 0.0;
     if stroke.taper > 0.0 {
         // Twice as much where there are twice as many, so that what is an end stays one.
-        let u = along.at + f32((digit_of(OFFSETS, brood) << (u32(along.k + BASE_LEVEL) & 3u)) % 15u) / 15.0;
+        let u = along.at + f32((digit_of(OFFSETS, id) << (u32(along.k + BASE_LEVEL) & 3u)) % 15u) / 15.0;
         let stroke_number = u32(i32(floor(u))) % STROKES;
         let share = fract(u);
         let end = min(share, 1.0 - share) * along.length - stroke.gap;
@@ -409,18 +411,18 @@ fn line_at(number: f32, family: Family, rows: Rows, level: Level, along: Along, 
         tapered = clamp(end / stroke.taper, 0.0, 1.0);
         tapered = min(tapered, mix(1.0, clamp(middle / stroke.taper, 0.0, 1.0), apart));
         let half_number = (2u * stroke_number + select(0u, 1u, share > 0.5)) % STROKES;
-        let whole = hash_of(id, stroke_number);
-        let half = hash_of(id, half_number);
+        let whole = hash_of(seed, stroke_number);
+        let half = hash_of(seed, half_number);
         let ranks = vec2(f32(rank_of_stroke(rank, stroke_number)), f32(rank_of_stroke(rank, half_number)));
         chance = mix(ranks.x + unit_of(whole), ranks.y + unit_of(half), apart) / 16.0;
         let others = (5.0 * ranks + 3.0) % 16.0 + vec2(unit_of(mixed(whole)), unit_of(mixed(half)));
         variation = mix(others.x, others.y, apart) / 16.0 - 0.5;
     }
     let late = lateness(stroke, level.place);
-    let turn = stroke.tone_by_count * stroke.randomness * chance + select(late, 0.0, even);
+    let onset = stroke.tone_by_count * stroke.randomness * chance + select(late, 0.0, even);
     // Strokes that are wide run into the next ones: no specks of paper in the dark.
-    tapered = mix(tapered, 1.0, smoothstep(ENDS_CLOSE, ENDS_CLOSED, (tone - turn) / max(1.0 - turn, 1e-3)));
-    let threshold = turn + stroke.tone_by_count * (1.0 - tapered) * stroke.pointedness;
+    tapered = mix(tapered, 1.0, smoothstep(ENDS_CLOSE, ENDS_CLOSED, (tone - onset) / max(1.0 - onset, 1e-3)));
+    let threshold = onset + stroke.tone_by_count * (1.0 - tapered) * stroke.pointedness;
     let beyond = clamp((tone - threshold) / max(1.0 - threshold, 1e-3), 0.0, 1.0);
     let share = mix(stroke.min_width, stroke.max_width, beyond);
     let pressed = sqrt(tapered) * (1.0 - stroke.variation * variation) * smoothstep(0.0, SOFT, tone - threshold);

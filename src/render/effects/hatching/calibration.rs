@@ -5,7 +5,7 @@ use std::array;
 
 use rayon::prelude::*;
 
-use super::ranks::{Brood, rank_of_stroke};
+use super::ranks::{LineId, rank_of_stroke};
 use super::strokes::GpuStroke;
 
 /// Places in the octave between two densities, and in that between two lengths of strokes. What comes after the last is the first.
@@ -84,7 +84,7 @@ fn inverse(inks: &[f32]) -> Vec<f32> {
 /// What all lines of a period are like at a place along them, whatever the tone.
 struct Lines {
     /// The tone from which on a line is drawn, if it is not inserted and no end is near.
-    turns: [f32; LINES],
+    onsets: [f32; LINES],
     /// 0 where a stroke ends.
     tapered: [f32; LINES],
     /// Share of its width.
@@ -100,7 +100,7 @@ fn places(stroke: &GpuStroke, octave: f32, along: usize) -> Vec<Lines> {
         let x = number as f32 + (share as f32 + middle(shift as usize, STROKES)) / along as f32;
         let places: [Place; LINES] = array::from_fn(|row| place_at(stroke, octave, row as u32, x));
         Lines {
-            turns: places.map(|p| stroke.tone_by_count * stroke.randomness * p.chance),
+            onsets: places.map(|p| stroke.tone_by_count * stroke.randomness * p.chance),
             tapered: places.map(|p| p.tapered),
             varied: places.map(|p| 1.0 - stroke.variation * p.variation),
         }
@@ -119,14 +119,14 @@ struct Place {
 
 /// `x`: along the line, in strokes.
 fn place_at(stroke: &GpuStroke, octave: f32, row: u32, x: f32) -> Place {
-    let brood = Brood::of(row, PERIOD as u32, 1);
-    let rank = brood.rank();
-    let id = hash(brood.index, brood.level as u32);
+    let id = LineId::of(row, PERIOD as u32, 1);
+    let rank = id.rank();
+    let seed = hash(id.index, id.level as u32);
     if stroke.taper <= 0.0 {
-        return Place { tapered: 1.0, chance: ((rank & 7) as f32 + unit(id)) / 8.0, variation: 0.0 };
+        return Place { tapered: 1.0, chance: ((rank & 7) as f32 + unit(seed)) / 8.0, variation: 0.0 };
     }
     let length = stroke.length * octave.exp2();
-    let u = x + brood.offset(0);
+    let u = x + id.offset(0);
     let number = (u.floor() as i32).rem_euclid(16) as u32;
     let share = u - u.floor();
     let end = share.min(1.0 - share) * length - stroke.gap;
@@ -135,7 +135,7 @@ fn place_at(stroke: &GpuStroke, octave: f32, row: u32, x: f32) -> Place {
     let [end, middle] = [end, middle].map(|left| (left / stroke.taper).clamp(0.0, 1.0));
     let half = u32::from(share > 0.5);
     let numbers = [number, (2 * number + half) % 16];
-    let [whole, halves] = numbers.map(|n| hash(id, n));
+    let [whole, halves] = numbers.map(|n| hash(seed, n));
     let [rank, half_rank] = numbers.map(|n| rank_of_stroke(rank, n) as f32);
     let mix = |from: f32, to: f32| from + (to - from) * apart;
     let other = |rank: f32| (5.0 * rank + 3.0) % 16.0;
@@ -154,11 +154,11 @@ fn mean_ink(stroke: &GpuStroke, tone: f32, place: f32, strokes: &[Lines]) -> f32
     let spacing = 0.5 * stroke.spacing * place.exp2();
     let apart = spacing * (2.0 - smoothstep(0.0, INSERTED, tone - late));
     let mut inks = [0.0; LINES - 1];
-    for Lines { turns, tapered, varied } in strokes {
+    for Lines { onsets, tapered, varied } in strokes {
         let widths: [f32; LINES] = array::from_fn(|row| {
-            let turn = turns[row] + lates[row];
-            let tapered = closed(tapered[row], (tone - turn) / (1.0 - turn).max(1e-3));
-            let threshold = turn + stroke.tone_by_count * (1.0 - tapered) * stroke.pointedness;
+            let onset = onsets[row] + lates[row];
+            let tapered = closed(tapered[row], (tone - onset) / (1.0 - onset).max(1e-3));
+            let threshold = onset + stroke.tone_by_count * (1.0 - tapered) * stroke.pointedness;
             width(stroke, tone - threshold, 1.0 - threshold, tapered.sqrt() * varied[row], apart)
         });
         for (ink, (one, other)) in inks.iter_mut().zip(widths.iter().zip(&widths[1..])) {

@@ -1,24 +1,27 @@
-//! When a line of hatching comes among those near it, and where its strokes begin: as in `shaders/effects/hatching/stripes.wgsl`.
+//! In which order lines of hatching come as it gets darker, and where their strokes begin: as in
+//! `shaders/effects/hatching/stripes.wgsl`.
 
 /// So many lines that were born at a level beside each other differ.
-pub(super) const BROOD: u32 = 8;
-/// Ranks among 16 and beginnings in fifteenths of a stroke, a hexadecimal digit for each line of a brood; those of the next level
-/// have the other words.
+const IDS: u32 = 8;
+/// Ranks of 16, and beginnings in fifteenths of a stroke: a hexadecimal digit for each of [`IDS`]; lines of the next level have the
+/// other words. Found by a search for the most even tone in patches of 8 × 8 spacings, at every density and length.
 const RANKS: [u32; 2] = [0x6c0b_71da, 0x8d46_2b97];
 const OFFSETS: [u32; 2] = [0x7e32_c894, 0xb5d3_c8e2];
 
-/// A line among those that were born with it.
-pub(super) struct Brood {
+/// Which line it is: the same one while one comes closer.
+pub(super) struct LineId {
+    /// Among those that were born with it.
     pub(super) index: u32,
+    /// At which it was born.
     pub(super) level: i32,
 }
 
-impl Brood {
+impl LineId {
     /// `number`: of the line among those of a level, that begin again after `period` (a power of two).
     pub(super) fn of(number: u32, period: u32, level: i32) -> Self {
         let bits = number % period;
         let born = (if bits == 0 { period } else { bits }).trailing_zeros();
-        Self { index: (bits >> (born + 1)) % BROOD, level: level - born as i32 }
+        Self { index: (bits >> (born + 1)) % IDS, level: level - born as i32 }
     }
 
     fn digit(&self, words: [u32; 2]) -> u32 {
@@ -36,7 +39,7 @@ impl Brood {
     }
 }
 
-/// Strokes of a line take turns: every second one comes later.
+/// Every second stroke of a line comes later, so that both kinds do so evenly.
 pub(super) fn rank_of_stroke(rank: u32, number: u32) -> u32 {
     (rank + 8 * (number & 1)) & 15
 }
