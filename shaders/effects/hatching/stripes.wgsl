@@ -421,11 +421,11 @@ fn line_at(number: f32, family: Family, rows: Rows, level: Level, along: Along, 
     let late = lateness(stroke, level.place);
     let onset = stroke.tone_by_count * stroke.randomness * chance + select(late, 0.0, even);
     // Strokes that are wide run into the next ones: no specks of paper in the dark.
-    tapered = mix(tapered, 1.0, smoothstep(ENDS_CLOSE, ENDS_CLOSED, (tone - onset) / max(1.0 - onset, 1e-3)));
-    let threshold = onset + stroke.tone_by_count * (1.0 - tapered) * stroke.pointedness;
+    let closed = smoothstep(ENDS_CLOSE, ENDS_CLOSED, (tone - onset) / max(1.0 - onset, 1e-3));
+    let threshold = onset + stroke.tone_by_count * (1.0 - mix(tapered, 1.0, closed)) * stroke.pointedness;
     let beyond = clamp((tone - threshold) / max(1.0 - threshold, 1e-3), 0.0, 1.0);
     let share = mix(stroke.min_width, stroke.max_width, beyond);
-    let pressed = sqrt(tapered) * (1.0 - stroke.variation * variation) * smoothstep(0.0, SOFT, tone - threshold);
+    let pressed = mix(sqrt(tapered), 1.0, closed) * (1.0 - stroke.variation * variation) * smoothstep(0.0, SOFT, tone - threshold);
     var width = stroke.spacing * share * pressed;
     // No hair lines: a stroke ends, it does not fade.
     width = select(width, 0.0, width < MIN_WIDTH);

@@ -87,7 +87,9 @@ struct Lines {
     onsets: [f32; LINES],
     /// 0 where a stroke ends.
     tapered: [f32; LINES],
-    /// Share of its width.
+    /// Share of its width there.
+    narrowed: [f32; LINES],
+    /// Share of its width anywhere.
     varied: [f32; LINES],
 }
 
@@ -102,6 +104,7 @@ fn places(stroke: &GpuStroke, octave: f32, along: usize) -> Vec<Lines> {
         Lines {
             onsets: places.map(|p| stroke.tone_by_count * stroke.randomness * p.chance),
             tapered: places.map(|p| p.tapered),
+            narrowed: places.map(|p| p.tapered.sqrt()),
             varied: places.map(|p| 1.0 - stroke.variation * p.variation),
         }
     };
@@ -154,23 +157,20 @@ fn mean_ink(stroke: &GpuStroke, tone: f32, place: f32, strokes: &[Lines]) -> f32
     let spacing = 0.5 * stroke.spacing * place.exp2();
     let apart = spacing * (2.0 - smoothstep(0.0, INSERTED, tone - late));
     let mut inks = [0.0; LINES - 1];
-    for Lines { onsets, tapered, varied } in strokes {
+    for Lines { onsets, tapered, narrowed, varied } in strokes {
         let widths: [f32; LINES] = array::from_fn(|row| {
             let onset = onsets[row] + lates[row];
-            let tapered = closed(tapered[row], (tone - onset) / (1.0 - onset).max(1e-3));
-            let threshold = onset + stroke.tone_by_count * (1.0 - tapered) * stroke.pointedness;
-            width(stroke, tone - threshold, 1.0 - threshold, tapered.sqrt() * varied[row], apart)
+            let closed = smoothstep(ENDS_CLOSE, ENDS_CLOSED, (tone - onset) / (1.0 - onset).max(1e-3));
+            let open = (1.0 - tapered[row]) * (1.0 - closed);
+            let threshold = onset + stroke.tone_by_count * open * stroke.pointedness;
+            let pressed = (narrowed[row] + (1.0 - narrowed[row]) * closed) * varied[row];
+            width(stroke, tone - threshold, 1.0 - threshold, pressed, apart)
         });
         for (ink, (one, other)) in inks.iter_mut().zip(widths.iter().zip(&widths[1..])) {
             *ink += ink_between(*one, *other, spacing);
         }
     }
     inks.iter().sum::<f32>() / (spacing * (inks.len() * strokes.len()) as f32)
-}
-
-/// What is left of a stroke's end: the wider a stroke is, the less.
-fn closed(tapered: f32, share: f32) -> f32 {
-    tapered + (1.0 - tapered) * smoothstep(ENDS_CLOSE, ENDS_CLOSED, share)
 }
 
 /// Width of a line, px; `beyond`: by how much the tone is above the line's threshold, and `most`: by how much it can be; `apart`: to
