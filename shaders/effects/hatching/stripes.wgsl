@@ -82,6 +82,7 @@ const OFFSETS: vec2<u32> = vec2(0x7e32c894u, 0xb5d3c8e2u);
 struct LineId {
     // Among those that were born with it.
     index: u32,
+    // At which it was born.
     level: i32,
 }
 
