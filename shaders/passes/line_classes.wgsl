@@ -3,7 +3,7 @@
 // The class: where two lines run within a pixel of each other (a part that touches another, or dips into it), chance decides in
 // every pixel which of them is found there. Such lines become one: of the widest class that has no gap as long as a stretch
 // there and is found at one step of three or more, bridged between its points. No other class shows in between on less than a
-// stretch.
+// stretch. A line makes way only for one that stays itself: of three side by side both outer ones are drawn.
 //
 // Dots: pieces of lines that are too short to tell anything, and that nothing continues but a line beside them, are left out.
 //
@@ -27,6 +27,10 @@ override LAST_ROUND: bool = true;
 
 // See `pack_link`.
 var linking_tex: texture_storage_2d<r32uint, write>;
+// The class that each pixel is to have, if all changes are made; `NO_EDGE`: it is left out. Undefined where no line is.
+var settling_tex: texture_storage_2d<r32uint, write>;
+// Afterwards the same.
+var settled_tex: texture_2d<u32>;
 // What changes, in any order.
 var<storage, read_write> changing: Counting;
 var<storage, read_write> changes: array<Change>;
@@ -39,6 +43,9 @@ struct Change {
     edge: vec4<u32>,
     spine: u32,
     px: u32,
+    // The pixel of the line that it makes way for, and its class: nothing changes unless that stays. 0: it depends on nothing.
+    beside: u32,
+    beside_class: u32,
 }
 
 // Beside a line, px.
@@ -60,9 +67,10 @@ fn cs_links(@builtin(global_invocation_id) id: vec3<u32>) {
     for (var place = 0u; place < AROUND; place++) {
         let point = point_at(px + away_of(place));
         let seen = seen_from(own, towards, point);
+        let distance = abs(seen.x);
+        let is_here = distance <= ABREAST && seen.y < MERGING;
+        classes |= select(0u, bit_of(point.class_of), is_here);
         if seen.y < BESIDE {
-            let distance = abs(seen.x);
-            classes |= select(0u, bit_of(point.class_of), distance <= ABREAST);
             let cost = distance + 2.0 * seen.y;
             let link = PixelLink(place, abs(turn(own, point)) > 128, distance);
             if seen.x > 0.3 && seen.x < 2.5 && cost < min_cost.x {
@@ -79,7 +87,7 @@ fn cs_links(@builtin(global_invocation_id) id: vec3<u32>) {
     textureStore(linking_tex, px, vec4(classes | (links << CLASS_BITS), 0u, 0u, 0u));
 }
 
-fn change(px: vec2<i32>, edge: vec4<u32>, spine: u32) {
+fn add(change: Change) {
     let index = atomicAdd(&changing.count, 1u);
     if index >= arrayLength(&changes) {
         return;
@@ -87,7 +95,7 @@ fn change(px: vec2<i32>, edge: vec4<u32>, spine: u32) {
     if index % GROUP == 0u {
         atomicAdd(&changing.groups[0], 1u);
     }
-    changes[index] = Change(edge, spine, pack_pixel(px));
+    changes[index] = change;
 }
 
 // Whether what is followed from a pixel is too short, and nothing else continues it.
@@ -115,6 +123,23 @@ fn is_beside_longer(px: vec2<i32>, own: Point, own_length: f32) -> bool {
     return nearest < NEARBY && follow(beside, links, 0u).own_length + follow(beside, links, 1u).own_length > own_length;
 }
 
+// The nearest pixel of a class that runs beside a point.
+fn pixel_beside(px: vec2<i32>, own: Point, class_of: u32) -> vec2<i32> {
+    let towards = unpack_tangent(u32(own.tangent));
+    var nearest = 1e9;
+    var beside = px;
+    for (var place = 0u; place < AROUND; place++) {
+        let other = px + away_of(place);
+        let point = point_at(other);
+        let seen = seen_from(own, towards, point);
+        if point.class_of == class_of && abs(seen.x) <= ABREAST && seen.y < nearest {
+            nearest = seen.y;
+            beside = other;
+        }
+    }
+    return beside;
+}
+
 @compute @workgroup_size(GROUP)
 fn cs_settle(@builtin(global_invocation_id) id: vec3<u32>) {
     if id.x >= list.count {
@@ -133,7 +158,8 @@ fn cs_settle(@builtin(global_invocation_id) id: vec3<u32>) {
     let is_short = WITH_PIECES && own_length < least[0];
     if (WITH_DOTS && is_dot(px, own.texel.y, ahead, behind))
         || (is_short && LAST_ROUND && is_beside_longer(px, own, own_length)) {
-        change(px, vec4(0u), 0u);
+        add(Change(vec4(0u), 0u, pack_pixel(px), 0u, NO_EDGE));
+        textureStore(settling_tex, px, vec4(NO_EDGE));
         return;
     }
     let classes = ahead.classes | behind.classes;
@@ -141,16 +167,17 @@ fn cs_settle(@builtin(global_invocation_id) id: vec3<u32>) {
     if !LAST_ROUND && (is_meeting || is_short) {
         keep(px);
     }
-    if !is_meeting {
-        return;
+    var class_of = own.class_of;
+    if is_meeting {
+        class_of = settled(px, own.class_of, links, ahead, behind);
     }
-    let class_of = settled(px, own.class_of, links, ahead, behind);
+    textureStore(settling_tex, px, vec4(class_of));
     if class_of == own.class_of {
         return;
     }
     if (classes_in(links) & bit_of(class_of)) != 0u {
         // It runs through another pixel here.
-        change(px, vec4(0u), 0u);
+        add(Change(vec4(0u), 0u, pack_pixel(px), pack_pixel(pixel_beside(px, own, class_of)), class_of));
         return;
     }
     // Between the pixels that have it.
@@ -173,7 +200,8 @@ fn cs_settle(@builtin(global_invocation_id) id: vec3<u32>) {
         (look.w & ~phase) | (own.texel.w & phase),
     );
     let rank = select(0.0, 1.0, is_of_profile(class_of));
-    change(px, edge, spine_of(edge, halves_of(look.y, class_of), rank, 1.0 - range_share(depth)));
+    let spine = spine_of(edge, halves_of(look.y, class_of), rank, 1.0 - range_share(depth));
+    add(Change(edge, spine, pack_pixel(px), 0u, NO_EDGE));
 }
 
 @compute @workgroup_size(GROUP)
@@ -182,6 +210,11 @@ fn cs_change(@builtin(global_invocation_id) id: vec3<u32>) {
         return;
     }
     let px = unpack_pixel(changes[id.x].px);
+    let beside_class = changes[id.x].beside_class;
+    let settled = textureLoad(settled_tex, unpack_pixel(changes[id.x].beside), 0).x;
+    if beside_class != NO_EDGE && settled != beside_class {
+        return;
+    }
     textureStore(edge_tex, px, changes[id.x].edge);
     textureStore(changed_spine_tex, px, vec4(changes[id.x].spine, 0u, 0u, 0u));
 }

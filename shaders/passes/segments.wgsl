@@ -24,16 +24,19 @@ var<storage, read_write> keys: array<atomic<u32>>;
 var<storage, read_write> finding: Counting;
 
 // Where segments share a pixel the greatest counts, 0 to 1: the widest, for it would hide the others; profile edges before inner
-// ones; then the nearest, so roughly that lines at one place are told apart by the object's number: which one wins does not change
-// along them. A line that goes on behind a nearer object leaves the pixel to its outline. x: where it is drawn; y: where it is
-// suppressed.
-fn precedence_of(own: u32, depth: f32, full_width: f32, is_profile: bool, stroke_precedence: f32, ends_here: bool) -> vec2<f32> {
+// ones; of inner ones the class that comes first, as where lines merge (`widest_of`), so that both agree where a fold is an
+// intersection too; then the nearest, so roughly that lines at one place are told apart by the object's number: which one wins does
+// not change along them. A line that goes on behind a nearer object leaves the pixel to its outline. x: where it is drawn; y: where
+// it is suppressed.
+fn precedence_of(own: u32, class_of: u32, depth: f32, full_width: f32, stroke_precedence: f32, ends_here: bool) -> vec2<f32> {
+    let is_profile = is_of_profile(class_of);
     let rank = f32(u32(min(full_width * 4.0, 126.0))) + select(0.0, 0.5, is_profile);
     let roughly = bitcast<f32>(bitcast<u32>(depth) & ~0xfffu);
     let clip = frame.clip_from_view * vec4(0.0, 0.0, -roughly, 1.0);
     let nearest = clip.z / clip.w * (1.0 - f32(own & 63u) / f32(64 << 12u));
+    let by_class = select((f32(SECTION - class_of) + nearest) / f32(SECTION), nearest, is_profile);
     // Of strokes the same time of drawing counts everywhere, so that none tears another one along it.
-    let first = select(nearest, mix(nearest, stroke_precedence, 0.5), WITH_STROKES);
+    let first = select(by_class, mix(nearest, stroke_precedence, 0.5), WITH_STROKES);
     let drawn = select(rank + 1.0 + 0.499 * first, 0.5 + 0.499 * first, ends_here);
     return vec2(drawn, 0.5 * nearest) / 128.0;
 }
@@ -109,7 +112,7 @@ fn point_at(v: Segment, number: u32, px: vec2<f32>) -> SegmentPoint {
     );
     let ends_here = is_covered(left, own) || is_covered(right, own);
     let is_profile = is_of_profile(class_of);
-    let precedence = precedence_of(own, depth, full_width, is_profile, hand.precedence, ends_here);
+    let precedence = precedence_of(own, class_of, depth, full_width, hand.precedence, ends_here);
     let order = select(precedence.x, precedence.y, is_suppressed);
     var texel = pack_edge(edge);
     texel.w |= select(0u, STROKE, hand.is_stroke);

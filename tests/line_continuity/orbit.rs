@@ -9,7 +9,8 @@ use crate::lines::{Lines, Point};
 
 /// A point is found again within this, px, in a line of about its direction; with another class if none there has its own.
 const NEAR: f64 = 1.5;
-/// Two lines of different classes that run so near beside each other, px, may merge into one of them.
+/// Two lines of different classes that are so near each other, px, may merge into one of them, and where they meet moves by as much
+/// from one picture to the next.
 const MERGING: f64 = 2.5;
 /// A class that exact visible edges do not have within so many pixels is none that a line could have kept.
 const TRUE_NEAR: usize = 2;
@@ -23,7 +24,7 @@ pub(crate) struct Changes {
     /// Found again, with another class, though exact visible edges still have its class there. (Where a face turns away a
     /// fold becomes an outline.)
     pub(crate) classes: usize,
-    /// Those of them where a line of the other class ran beside the point before: two lines have merged.
+    /// Those of them where a line of the other class was near the point before: two lines have merged, or meet elsewhere now.
     pub(crate) merges: usize,
     /// Of inner lines whose ink has changed by more than a quarter, where nothing is that could hide them.
     pub(crate) strengths: usize,
@@ -50,7 +51,7 @@ impl Changes {
             let has_changed = found.classes != 0 && found.classes & bit(point.class) == 0;
             if has_changed && truth.is_near(at, point.class) {
                 changes.classes += 1;
-                changes.merges += usize::from(found.ran_beside(before.0, point));
+                changes.merges += usize::from(found.was_near(before.0, point));
             }
             let is_weaker = (found.weight - point.weight).abs() > 0.25;
             if !point.class.is_profile() && is_weaker && !may_hide(before.0, point, point.at) {
@@ -128,12 +129,11 @@ impl Found {
         found
     }
 
-    /// Whether a line of one of these classes ran beside a point, with which it may have merged.
-    fn ran_beside(&self, before: &Lines, point: &Point) -> bool {
-        before.around(point.at, 3).any(|(_, other)| {
-            let is_beside = other.is_parallel(point) && other.at.distance(point.at) < MERGING;
-            is_beside && self.classes & bit(other.class) != 0
-        })
+    /// Whether a line of one of these classes was near a point, with which it may have merged.
+    fn was_near(&self, before: &Lines, point: &Point) -> bool {
+        before
+            .around(point.at, 3)
+            .any(|(_, other)| other.at.distance(point.at) < MERGING && self.classes & bit(other.class) != 0)
     }
 }
 

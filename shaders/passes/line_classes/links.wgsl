@@ -4,8 +4,10 @@
 
 var edge_map_tex: texture_storage_2d<rgba32uint, read>;
 
+// A line goes on beside its tangent up to this distance, px.
+const BESIDE: f32 = 1.0;
 // Two lines that are closer than this, px, are one: their ink overlaps.
-const BESIDE: f32 = 1.5;
+const MERGING: f32 = 1.5;
 // Points are side by side up to this distance along their line, px.
 const ABREAST: f32 = 0.75;
 // Angle up to which two tangents belong to one line, of 512 for a full turn: 32 degrees.

@@ -155,7 +155,7 @@ fn nearest_of(class_of: u32, px: vec2<i32>, links: u32, first_side: u32) -> Near
         let point = point_at(walk.px + away_of(place));
         let seen = seen_from(line, towards, point);
         let distance = abs(seen.x) + seen.y;
-        if point.class_of == class_of && seen.y < BESIDE && abs(seen.x) <= ABREAST && distance < min_distance {
+        if point.class_of == class_of && seen.y < MERGING && abs(seen.x) <= ABREAST && distance < min_distance {
             min_distance = distance;
             nearest = Nearest(point.texel, dot(point.at - line.at, left));
         }

@@ -20,6 +20,7 @@ const CHANGE_BYTES: u64 = 32;
 const CHANGED: u64 = 8;
 
 const LINKS: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;
+const CLASSES: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;
 
 /// What deciding needs.
 pub struct LineClasses {
@@ -61,15 +62,22 @@ impl LineClasses {
         self.changes.reserve(rec.gpu, area.div_ceil(CHANGED) * CHANGE_BYTES)?;
         self.least.write(rec.gpu, &vec![LEAST * height as f32 / REFERENCE_HEIGHT as f32]);
         let links = rec.target("links of lines", LINKS)?;
+        let settled = rec.target("settled classes", CLASSES)?;
         let read = inputs! {
             spine_tex: spines,
             edge_map_tex: &edge_map.edges,
             link_tex: &links,
+            settled_tex: &settled,
             geometry_tex: &gbuffer.geometry,
             edge_styles: edge_styles,
             least: &self.least,
         };
-        let written = inputs! { linking_tex: &links, edge_tex: &edge_map.edges, changed_spine_tex: spines };
+        let written = inputs! {
+            linking_tex: &links,
+            settling_tex: &settled,
+            edge_tex: &edge_map.edges,
+            changed_spine_tex: spines,
+        };
         let all = read.and(&written);
         let lines = pixels.list(rec, spines)?;
         if !decisions.classes {
