@@ -14,6 +14,7 @@
 mod coaxial;
 #[path = "../common/mod.rs"]
 mod common;
+mod folded;
 mod lines;
 mod orbit;
 mod runs;
@@ -21,7 +22,7 @@ mod sunk;
 
 use std::path::PathBuf;
 
-use common::line_drawing::line_drawing;
+use common::line_drawing::{line_drawing, set_width};
 use common::line_scenes::{Subject, models, models_in_patches};
 use common::line_truth::{Stage, directions, projector};
 use common::session;
@@ -111,6 +112,36 @@ fn what_ends_just_behind_a_wall_draws_one_line() {
         let [borders, intersections] = [EdgeClass::Border, EdgeClass::Intersection].map(count);
         let strays = borders.min(intersections);
         assert!(strays <= 8, "{depth} behind: {borders} px of border, {intersections} of intersection");
+    }
+}
+
+/// Each of them is less than MERGING from the next one, see `shaders/passes/line_classes/links.wgsl`.
+#[test]
+fn of_three_lines_side_by_side_both_outer_ones_are_drawn() {
+    let mut session = session();
+    for distance in [1.1, 1.2, 1.3, 1.4] {
+        let scene = folded::folded_sheet(distance);
+        let mut opened = line_drawing(&scene, folded::from_above(400));
+        set_width(&mut opened, 1.0, 400);
+        session.set_scene(&opened).unwrap();
+        let lines = Lines::draw(&mut session, &opened, 400);
+        let drawn = |x: f64, class| {
+            let eye = projector(&folded::from_above(400), 400);
+            let is_there = |point: &&lines::Point| {
+                let at = eye.view_from_world.inverse().transform_point3(eye.unproject(point.at, point.depth));
+                (at.x - x).abs() < 0.3 && at.y.abs() < 130.0
+            };
+            lines.points().map(|(_, point)| point).filter(is_there).filter(|p| p.class == class).count()
+        };
+        let distance = f64::from(distance);
+        let [border, ridge, valley] = [
+            drawn(0.0, EdgeClass::Border),
+            drawn(distance, EdgeClass::Ridge),
+            drawn(2.0 * distance, EdgeClass::Valley),
+        ];
+        println!("{distance} px apart: border {border} px, ridge {ridge} px, valley {valley} px");
+        assert!(border > 240 && valley > 240, "{distance} px apart: border {border} px, valley {valley} px");
+        assert!(ridge < 20, "{distance} px apart: ridge {ridge} px");
     }
 }
 
