@@ -43,7 +43,7 @@ struct Change {
     edge: vec4<u32>,
     spine: u32,
     px: u32,
-    // The pixel of the line that it makes way for, and its class: nothing changes unless that stays. 0: it depends on nothing.
+    // The pixel of the line that it makes way for, and its class: nothing changes unless that stays. `NO_EDGE`: always.
     beside: u32,
     beside_class: u32,
 }
