@@ -19,10 +19,16 @@ fn unpack_pixel(px: u32) -> vec2<i32> {
     return vec2<i32>(vec2(px & 0xffffu, px >> 16u));
 }
 
-fn keep(px: vec2<i32>) {
-    let index = atomicAdd(&keeping.count, 1u);
-    kept_pixels[index] = pack_pixel(px);
-    if index % GROUP == 0u {
-        atomicAdd(&keeping.groups[0], 1u);
+// Makes room for so many pixels; returns the index of the first.
+fn keep_many(count: u32) -> u32 {
+    let first = atomicAdd(&keeping.count, count);
+    let groups = (first + count + GROUP - 1u) / GROUP - (first + GROUP - 1u) / GROUP;
+    if groups > 0u {
+        atomicAdd(&keeping.groups[0], groups);
     }
+    return first;
+}
+
+fn keep(px: vec2<i32>) {
+    kept_pixels[keep_many(1u)] = pack_pixel(px);
 }

@@ -8,8 +8,9 @@
 // Dots: pieces of lines that are too short to tell anything, and that nothing continues but a line beside them, are left out.
 //
 // 1. `cs_links` finds for each pixel of a line the next one in both directions, and which classes run there.
-// 2. `cs_settle` follows these links, and decides.
-// 3. `cs_change` writes what changes. All three run once more for the pixels where classes meet and those of short pieces.
+// 2. `cs_sift` follows these links, and lists the few pixels about which there is something to decide.
+// 3. `cs_settle` decides about those.
+// 4. `cs_change` writes what changes. Links, deciding and changes take a second round.
 #import common/frame.wgsl
 #import common/edge_map.wgsl
 #import common/line_width.wgsl
@@ -98,16 +99,35 @@ fn add(change: Change) {
     changes[index] = change;
 }
 
+// Below this length, px, an object's pieces are dots.
+fn shortest_of(object: u32) -> f32 {
+    return min(edge_styles[object].min_length, f32(FARTHEST));
+}
+
+// The greater side of the box around the last pixels of both stretches, px.
+fn extent_of(ahead: Stretch, behind: Stretch) -> f32 {
+    let extent = abs(ahead.last - behind.last);
+    return f32(max(extent.x, extent.y));
+}
+
+fn own_length(ahead: Stretch, behind: Stretch) -> f32 {
+    return ahead.own_length + behind.own_length;
+}
+
+// Whether a piece that ends or runs into another line on both sides is shorter than a stretch.
+fn is_piece(ahead: Stretch, behind: Stretch) -> bool {
+    return own_length(ahead, behind) < least[0];
+}
+
 // Whether what is followed from a pixel is too short, and nothing else continues it.
 fn is_dot(px: vec2<i32>, object: u32, ahead: Stretch, behind: Stretch) -> bool {
-    let shortest = min(edge_styles[object].min_length, f32(FARTHEST));
-    let extent = abs(ahead.last - behind.last);
-    return f32(max(extent.x, extent.y)) < shortest && is_short(px, object, shortest);
+    let shortest = shortest_of(object);
+    return extent_of(ahead, behind) < shortest && is_short(px, object, shortest);
 }
 
 // Whether a pixel of a piece that ends or runs into another line on both sides lies beside a longer one: of two lines that are so
 // near each other, chance shows now and then both.
-fn is_beside_longer(px: vec2<i32>, own: Point, own_length: f32) -> bool {
+fn is_beside_longer(px: vec2<i32>, own: Point, length: f32) -> bool {
     let towards = unpack_tangent(u32(own.tangent));
     var nearest = NEARBY;
     var beside = px;
@@ -120,7 +140,7 @@ fn is_beside_longer(px: vec2<i32>, own: Point, own_length: f32) -> bool {
         }
     }
     let links = textureLoad(link_tex, beside, 0).x;
-    return nearest < NEARBY && follow(beside, links, 0u).own_length + follow(beside, links, 1u).own_length > own_length;
+    return nearest < NEARBY && own_length(follow(beside, links, 0u), follow(beside, links, 1u)) > length;
 }
 
 // The nearest pixel of a class that runs beside a point.
@@ -140,6 +160,31 @@ fn pixel_beside(px: vec2<i32>, own: Point, class_of: u32) -> vec2<i32> {
     return beside;
 }
 
+// Whether several classes meet here.
+fn is_meeting(ahead: Stretch, behind: Stretch) -> bool {
+    let classes = ahead.nearby | behind.nearby;
+    return WITH_CLASSES && (classes & (classes - 1u)) != 0u;
+}
+
+// Lists the pixels where classes meet, and those of pieces that may be too short.
+@compute @workgroup_size(GROUP)
+fn cs_sift(@builtin(global_invocation_id) id: vec3<u32>) {
+    if id.x >= list.count {
+        return;
+    }
+    let px = unpack_pixel(listed_pixels[id.x]);
+    let own = point_at(px);
+    let links = textureLoad(link_tex, px, 0).x;
+    let ahead = follow(px, links, 0u);
+    let behind = follow(px, links, 1u);
+    let is_short = WITH_PIECES && is_piece(ahead, behind);
+    let may_be_dot = WITH_DOTS && extent_of(ahead, behind) < shortest_of(own.texel.y);
+    if is_meeting(ahead, behind) || is_short || may_be_dot {
+        keep(px);
+    }
+    textureStore(settling_tex, px, vec4(own.class_of));
+}
+
 @compute @workgroup_size(GROUP)
 fn cs_settle(@builtin(global_invocation_id) id: vec3<u32>) {
     if id.x >= list.count {
@@ -154,21 +199,14 @@ fn cs_settle(@builtin(global_invocation_id) id: vec3<u32>) {
     let links = textureLoad(link_tex, px, 0).x;
     let ahead = follow(px, links, 0u);
     let behind = follow(px, links, 1u);
-    let own_length = ahead.own_length + behind.own_length;
-    let is_short = WITH_PIECES && own_length < least[0];
-    if (WITH_DOTS && is_dot(px, own.texel.y, ahead, behind))
-        || (is_short && LAST_ROUND && is_beside_longer(px, own, own_length)) {
+    if LAST_ROUND && ((WITH_DOTS && is_dot(px, own.texel.y, ahead, behind))
+        || (WITH_PIECES && is_piece(ahead, behind) && is_beside_longer(px, own, own_length(ahead, behind)))) {
         add(Change(vec4(0u), 0u, pack_pixel(px), 0u, NO_EDGE));
         textureStore(settling_tex, px, vec4(NO_EDGE));
         return;
     }
-    let classes = ahead.classes | behind.classes;
-    let is_meeting = WITH_CLASSES && (classes & (classes - 1u)) != 0u;
-    if !LAST_ROUND && (is_meeting || is_short) {
-        keep(px);
-    }
     var class_of = own.class_of;
-    if is_meeting {
+    if is_meeting(ahead, behind) {
         class_of = settled(px, own.class_of, links, ahead, behind);
     }
     textureStore(settling_tex, px, vec4(class_of));

@@ -2,6 +2,9 @@
 #import common/edge_map.wgsl
 #import passes/line_classes/links.wgsl
 
+// Whether lines have different widths.
+override WITH_WIDTHS: bool = true;
+
 // The shortest stretch, px.
 var<storage, read> least: array<f32>;
 // As `pack_link` packs links. Undefined where no line is.
@@ -51,8 +54,9 @@ fn advanced(walk: Walk, link: PixelLink) -> Walk {
 // What following a line in one direction comes to.
 struct Stretch {
     steps: Steps,
-    // All classes that are met.
+    // All classes that are met, and those less than a stretch away.
     classes: u32,
+    nearby: u32,
     // The step behind which nothing continues the line, or else `ENDLESS`.
     end: i32,
     // The last pixel.
@@ -69,18 +73,25 @@ fn step_at(distance: f32) -> u32 {
     return u32(distance * steps_per_px() + 0.5);
 }
 
+// Steps without a class that are no gap in it.
+fn longest_gap() -> i32 {
+    return i32(min(ceil(least[0]), MAX_STEPS));
+}
+
 fn follow(px: vec2<i32>, links: u32, first_side: u32) -> Stretch {
     let farthest = 2.0 * min(least[0], MAX_STEPS / steps_per_px());
-    var stretch = Stretch(Steps(vec4(0u), vec4(0u), vec4(0u)), 0u, ENDLESS, px, f32(ENDLESS));
+    var stretch = Stretch(Steps(vec4(0u), vec4(0u), vec4(0u)), 0u, 0u, ENDLESS, px, f32(ENDLESS));
     var walk = Walk(px, links, first_side);
     var distance = 0.0;
     while stretch.end == ENDLESS && distance < farthest {
         let classes = classes_in(walk.texel);
+        let step = step_at(distance);
         stretch.classes |= classes;
-        stretch.steps = with_step(stretch.steps, classes, step_at(distance));
+        stretch.nearby |= select(0u, classes, i32(step) <= longest_gap());
+        stretch.steps = with_step(stretch.steps, classes, step);
         let link = unpack_link(walk.texel, walk.side);
         if link.place == OWN {
-            stretch.end = i32(step_at(distance));
+            stretch.end = i32(step);
         }
         walk = advanced(walk, link);
         let is_answered = unpack_link(walk.texel, 1u - walk.side).place == opposite_of(link.place);
@@ -104,20 +115,15 @@ fn steps_of(ahead: Stretch, behind: Stretch, class_of: u32) -> vec2<u32> {
     return vec2(steps_in(ahead.steps, class_of), steps_in(behind.steps, class_of));
 }
 
-// Steps without a class that are no gap in it.
-fn longest_gap() -> i32 {
-    return i32(min(ceil(least[0]), MAX_STEPS));
-}
-
-// The last of these steps that is reached from one of them without a gap as long as a stretch.
-fn last_step(steps: u32, first: i32, longest: i32) -> i32 {
-    var last = first;
-    for (var step = first + 1; step <= last + longest && step < 32; step++) {
-        if (steps & (1u << u32(step))) != 0u {
-            last = step;
-        }
+// The last of these steps that is reached from the first of them without a gap as long as a stretch, in both directions.
+fn last_of(steps: vec2<u32>, first: vec2<i32>, longest: i32) -> vec2<i32> {
+    var filled = steps;
+    for (var length = 1; length < longest; length *= 2) {
+        filled |= filled << vec2(u32(min(length, longest - length)));
     }
-    return last;
+    let run = countTrailingZeros(~(filled >> vec2<u32>(first)));
+    let reached = (vec2(2u) << (vec2<u32>(first) + run - 1u)) - 1u;
+    return vec2<i32>(firstLeadingBit(steps & reached));
 }
 
 // How many of the steps up to these, in both directions, a class has.
@@ -171,7 +177,7 @@ fn half_width_nearby(class_of: u32, px: vec2<i32>, links: u32, first: vec2<i32>)
 // The widest of these classes, which are bits of a number; of equal ones the first.
 fn widest_of(classes: u32, px: vec2<i32>, links: u32, ahead: Stretch, behind: Stretch) -> u32 {
     var widest = countTrailingZeros(classes) + 1u;
-    if (classes & (classes - 1u)) == 0u {
+    if !WITH_WIDTHS || (classes & (classes - 1u)) == 0u {
         return widest;
     }
     var greatest = -1.0;
@@ -200,7 +206,7 @@ fn settled(px: vec2<i32>, own: u32, links: u32, ahead: Stretch, behind: Stretch)
         let steps = steps_of(ahead, behind, class_of);
         let first = first_of(steps);
         if first.x + first.y <= longest {
-            let last = vec2(last_step(steps.x, first.x, longest), last_step(steps.y, first.y, longest));
+            let last = last_of(steps, first, longest);
             let is_dense = MAX_STEPS_APART * count_up_to(steps, last) >= last.x + last.y + 1;
             if is_dense && (last.x + last.y + 1 >= longest || any(last + 1 >= ends)) {
                 running |= bit_of(class_of);

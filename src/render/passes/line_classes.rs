@@ -1,7 +1,7 @@
 //! Lines followed over stretches, which decides their class and leaves out dots: see `shaders/passes/line_classes.wgsl`.
 //!
 //! ```text
-//! pixels of lines ─► links ─► settle ─► change ─► edge map, spines
+//! pixels of lines ─► links ─► sift ─► settle ─► change ─► edge map, spines
 //! ```
 
 use super::edge_map::EdgeMap;
@@ -24,8 +24,8 @@ const CLASSES: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;
 
 /// What deciding needs.
 pub struct LineClasses {
-    /// Pixels that are decided once more.
-    again: RecordList,
+    /// Pixels about which there is something to decide.
+    sifted: RecordList,
     changes: RecordList,
     least: ArrayBuffer,
 }
@@ -34,7 +34,7 @@ impl LineClasses {
     /// Without room for any.
     pub fn new(gpu: &Gpu) -> Self {
         Self {
-            again: RecordList::new(gpu, "lines to decide again"),
+            sifted: RecordList::new(gpu, "pixels of lines to decide about"),
             changes: RecordList::new(gpu, "changes of lines"),
             least: ArrayBuffer::new(gpu, "shortest stretch"),
         }
@@ -58,7 +58,7 @@ impl LineClasses {
         let Some(spines) = edge_map.spines.as_ref().filter(|_| decisions.any()) else { return Ok(()) };
         let [width, height] = rec.size();
         let area = u64::from(width) * u64::from(height);
-        self.again.reserve(rec.gpu, area * 4)?;
+        self.sifted.reserve(rec.gpu, area * 4)?;
         self.changes.reserve(rec.gpu, area.div_ceil(CHANGED) * CHANGE_BYTES)?;
         self.least.write(rec.gpu, &vec![LEAST * height as f32 / REFERENCE_HEIGHT as f32]);
         let links = rec.target("links of lines", LINKS)?;
@@ -80,52 +80,42 @@ impl LineClasses {
         };
         let all = read.and(&written);
         let lines = pixels.list(rec, spines)?;
-        if !decisions.classes {
-            return self.round(rec, &all, lines, None, decisions);
+        let sifting = inputs! {
+            list: lines.count(),
+            listed_pixels: lines.buffer(),
+            keeping: self.sifted.count(),
+            kept_pixels: self.sifted.buffer(),
+        };
+        let sifting = sifting.and(&all);
+        self.sifted.empty(rec);
+        rec.compute("links of lines", &program("cs_links"), &sifting, lines.count())?;
+        rec.compute("sift lines", &decisions.program("cs_sift", true), &sifting, lines.count())?;
+        let listed = inputs! { list: self.sifted.count(), listed_pixels: self.sifted.buffer() };
+        let listed = listed.and(&all);
+        if decisions.classes {
+            self.round(rec, &listed, decisions, false)?;
+            // Neighbors that decided differently, at the ends of stretches, agree the second time.
+            rec.compute("links of lines", &program("cs_links"), &listed, self.sifted.count())?;
         }
-        self.round(rec, &all, lines, Some(&self.again), decisions)?;
-        // Neighbors that decided differently, at the ends of stretches, agree the second time.
-        self.round(rec, &all, &self.again, None, decisions)
+        self.round(rec, &listed, decisions, true)
     }
 
-    /// Decides pixels of lines, and lists those that are to be decided `again`; `None`: it is the last round.
+    /// Decides about the pixels that were sifted. In the last round lines are as they will be: what is short is left out.
     fn round(
         &self,
         rec: &mut Recorder<'_>,
-        inputs: &Inputs<'_>,
-        lines: &RecordList,
-        again: Option<&RecordList>,
+        listed: &Inputs<'_>,
         decisions: Decisions,
+        is_last: bool,
     ) -> Result<(), RenderError> {
-        if let Some(again) = again {
-            again.empty(rec);
-        }
         self.changes.empty(rec);
-        let followed = inputs! {
-            list: lines.count(),
-            listed_pixels: lines.buffer(),
-            keeping: again.map(RecordList::count),
-            kept_pixels: again.map(RecordList::buffer),
-        };
-        let changed = inputs! {
+        let changes = inputs! {
             changing: self.changes.count(),
             changed: self.changes.count(),
             changes: self.changes.buffer(),
         };
-        let is_last = again.is_none();
-        let all = followed.and(&changed).and(inputs);
-        let settle = Program {
-            switches: vec![
-                ("WITH_CLASSES", decisions.classes),
-                // What is short is decided in the last round, when lines are as they will be.
-                ("WITH_DOTS", decisions.dots && is_last),
-                ("WITH_PIECES", decisions.pieces),
-                ("LAST_ROUND", is_last),
-            ],
-            ..program("cs_settle")
-        };
-        rec.compute("links of lines", &program("cs_links"), &all, lines.count())?;
-        rec.compute("classes of lines", &settle, &all, lines.count())?;
+        let all = changes.and(listed);
+        rec.compute("classes of lines", &decisions.program("cs_settle", is_last), &all, self.sifted.count())?;
         rec.compute("change classes", &program("cs_change"), &all, self.changes.count())?;
         Ok(())
     }
@@ -136,6 +126,8 @@ impl LineClasses {
 pub struct Decisions {
     /// Their class.
     pub classes: bool,
+    /// Whether the wider class comes first: lines have different widths.
+    pub widths: bool,
     /// Whether they are dots: too short, and nothing continues them.
     pub dots: bool,
     /// Whether they are short pieces beside a longer line.
@@ -146,11 +138,11 @@ impl Decisions {
     /// For lines of these styles; `crossing`: they cross each other without being one, as strokes of a hand do.
     #[must_use]
     pub fn of(styles: &[GpuEdgeStyle], crossing: bool) -> Self {
-        let mut classes = styles.iter().flat_map(|style| style.drawn().map(|(class, _)| class));
-        let first = classes.next();
+        let drawn: Vec<_> = styles.iter().flat_map(GpuEdgeStyle::drawn).collect();
         let dots = styles.iter().any(|s| s.is_exact() && s.min_length > 0.0);
         Self {
-            classes: !crossing && classes.any(|class| Some(class) != first),
+            classes: !crossing && drawn.windows(2).any(|two| two[0].0 != two[1].0),
+            widths: drawn.windows(2).any(|two| two[0].1.width != two[1].1.width),
             dots,
             pieces: !crossing && dots,
         }
@@ -158,6 +150,17 @@ impl Decisions {
 
     fn any(self) -> bool {
         self.classes || self.dots
+    }
+
+    fn program(self, entry_point: &'static str, is_last: bool) -> Program {
+        let switches = vec![
+            ("WITH_CLASSES", self.classes),
+            ("WITH_WIDTHS", self.widths),
+            ("WITH_DOTS", self.dots),
+            ("WITH_PIECES", self.pieces),
+            ("LAST_ROUND", is_last),
+        ];
+        Program { switches, ..program(entry_point) }
     }
 }
 

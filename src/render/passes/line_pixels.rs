@@ -4,7 +4,7 @@ use crate::gpu::{Gpu, Program, RecordList, Recorder, Target, inputs};
 use crate::render::base::error::RenderError;
 
 /// Pixels per side of a workgroup, as in `shaders/passes/line_pixels.wgsl`.
-const GROUP: u32 = 32;
+const GROUP: u32 = 64;
 
 /// The exact lines of an edge map.
 #[derive(Clone, Copy)]
