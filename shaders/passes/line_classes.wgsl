@@ -49,8 +49,11 @@ struct Change {
     beside_class: u32,
 }
 
-// Beside a line, px.
+// Beside a line, px; and farther than anything that is looked at.
 const NEARBY: f32 = 2.5;
+const FAR: f32 = 100.0;
+
+const ALL_CLASSES: u32 = (1u << SECTION) - 1u;
 
 // Finds what continues a line in both directions (over a hole of a pixel too), and which classes run here.
 @compute @workgroup_size(GROUP)
@@ -125,39 +128,31 @@ fn is_dot(px: vec2<i32>, object: u32, ahead: Stretch, behind: Stretch) -> bool {
     return extent_of(ahead, behind) < shortest && is_short(px, object, shortest);
 }
 
-// Whether a pixel of a piece that ends or runs into another line on both sides lies beside a longer one: of two lines that are so
-// near each other, chance shows now and then both.
-fn is_beside_longer(px: vec2<i32>, own: Point, length: f32) -> bool {
+// The nearest pixel in which a line of these classes, which are bits of a number, runs beside a point, farther than `least` and nearer
+// than `most`, px; `px` itself: there is none.
+fn nearest_beside(px: vec2<i32>, own: Point, classes: u32, least: f32, most: f32) -> vec2<i32> {
     let towards = unpack_tangent(u32(own.tangent));
-    var nearest = NEARBY;
-    var beside = px;
-    for (var place = 0u; place < AROUND; place++) {
-        let other = px + away_of(place);
-        let seen = seen_from(own, towards, point_at(other));
-        if abs(seen.x) <= ABREAST && seen.y > 0.5 && seen.y < nearest {
-            nearest = seen.y;
-            beside = other;
-        }
-    }
-    let links = textureLoad(link_tex, beside, 0).x;
-    return nearest < NEARBY && own_length(follow(beside, links, 0u), follow(beside, links, 1u)) > length;
-}
-
-// The nearest pixel of a class that runs beside a point.
-fn pixel_beside(px: vec2<i32>, own: Point, class_of: u32) -> vec2<i32> {
-    let towards = unpack_tangent(u32(own.tangent));
-    var nearest = 1e9;
+    var nearest = most;
     var beside = px;
     for (var place = 0u; place < AROUND; place++) {
         let other = px + away_of(place);
         let point = point_at(other);
         let seen = seen_from(own, towards, point);
-        if point.class_of == class_of && abs(seen.x) <= ABREAST && seen.y < nearest {
+        let is_asked = (classes & bit_of(point.class_of)) != 0u;
+        if is_asked && abs(seen.x) <= ABREAST && seen.y > least && seen.y < nearest {
             nearest = seen.y;
             beside = other;
         }
     }
     return beside;
+}
+
+// Whether a pixel of a piece that ends or runs into another line on both sides lies beside a longer one: of two lines that are so
+// near each other, chance shows now and then both.
+fn is_beside_longer(px: vec2<i32>, own: Point, length: f32) -> bool {
+    let beside = nearest_beside(px, own, ALL_CLASSES, 0.5, NEARBY);
+    let links = textureLoad(link_tex, beside, 0).x;
+    return any(beside != px) && own_length(follow(beside, links, 0u), follow(beside, links, 1u)) > length;
 }
 
 // Whether several classes meet here.
@@ -215,7 +210,7 @@ fn cs_settle(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     if (classes_in(links) & bit_of(class_of)) != 0u {
         // It runs through another pixel here.
-        add(Change(vec4(0u), 0u, pack_pixel(px), pack_pixel(pixel_beside(px, own, class_of)), class_of));
+        add(Change(vec4(0u), 0u, pack_pixel(px), pack_pixel(nearest_beside(px, own, bit_of(class_of), -1.0, FAR)), class_of));
         return;
     }
     // Between the pixels that have it.

@@ -54,7 +54,7 @@ fn advanced(walk: Walk, link: PixelLink) -> Walk {
 // What following a line in one direction comes to.
 struct Stretch {
     steps: Steps,
-    // All classes that are met, and those less than a stretch away.
+    // All classes that are met, and those no farther away than a stretch.
     classes: u32,
     nearby: u32,
     // The step behind which nothing continues the line, or else `ENDLESS`.
