@@ -128,18 +128,18 @@ fn is_dot(px: vec2<i32>, object: u32, ahead: Stretch, behind: Stretch) -> bool {
     return extent_of(ahead, behind) < shortest && is_short(px, object, shortest);
 }
 
-// The nearest pixel in which a line of these classes, which are bits of a number, runs beside a point, farther than `least` and nearer
-// than `most`, px; `px` itself: there is none.
-fn nearest_beside(px: vec2<i32>, own: Point, classes: u32, least: f32, most: f32) -> vec2<i32> {
+// The nearest pixel in which a line of these classes, which are bits of a number, runs beside a point, farther than `above` and nearer
+// than `below`, px; `px` itself: there is none.
+fn nearest_beside(px: vec2<i32>, own: Point, classes: u32, above: f32, below: f32) -> vec2<i32> {
     let towards = unpack_tangent(u32(own.tangent));
-    var nearest = most;
+    var nearest = below;
     var beside = px;
     for (var place = 0u; place < AROUND; place++) {
         let other = px + away_of(place);
         let point = point_at(other);
         let seen = seen_from(own, towards, point);
         let is_asked = (classes & bit_of(point.class_of)) != 0u;
-        if is_asked && abs(seen.x) <= ABREAST && seen.y > least && seen.y < nearest {
+        if is_asked && abs(seen.x) <= ABREAST && seen.y > above && seen.y < nearest {
             nearest = seen.y;
             beside = other;
         }
@@ -157,7 +157,7 @@ fn is_beside_longer(px: vec2<i32>, own: Point, length: f32) -> bool {
 
 // Whether several classes meet here.
 fn is_meeting(ahead: Stretch, behind: Stretch) -> bool {
-    let classes = ahead.nearby | behind.nearby;
+    let classes = ahead.classes | behind.classes;
     return WITH_CLASSES && (classes & (classes - 1u)) != 0u;
 }
 

@@ -2,7 +2,7 @@
 #import common/edge_map.wgsl
 #import passes/line_classes/links.wgsl
 
-// Whether lines have different widths.
+// Whether the styles of lines have different widths. What varies in width does so for all classes at a place alike.
 override WITH_WIDTHS: bool = true;
 
 // The shortest stretch, px.
@@ -54,9 +54,8 @@ fn advanced(walk: Walk, link: PixelLink) -> Walk {
 // What following a line in one direction comes to.
 struct Stretch {
     steps: Steps,
-    // All classes that are met, and those no farther away than a stretch.
+    // The classes that are met no farther away than a stretch: those farther on decide nothing here.
     classes: u32,
-    nearby: u32,
     // The step behind which nothing continues the line, or else `ENDLESS`.
     end: i32,
     // The last pixel.
@@ -80,14 +79,13 @@ fn longest_gap() -> i32 {
 
 fn follow(px: vec2<i32>, links: u32, first_side: u32) -> Stretch {
     let farthest = 2.0 * min(least[0], MAX_STEPS / steps_per_px());
-    var stretch = Stretch(Steps(vec4(0u), vec4(0u), vec4(0u)), 0u, 0u, ENDLESS, px, f32(ENDLESS));
+    var stretch = Stretch(Steps(vec4(0u), vec4(0u), vec4(0u)), 0u, ENDLESS, px, f32(ENDLESS));
     var walk = Walk(px, links, first_side);
     var distance = 0.0;
     while stretch.end == ENDLESS && distance < farthest {
         let classes = classes_in(walk.texel);
         let step = step_at(distance);
-        stretch.classes |= classes;
-        stretch.nearby |= select(0u, classes, i32(step) <= longest_gap());
+        stretch.classes |= select(0u, classes, i32(step) <= longest_gap());
         stretch.steps = with_step(stretch.steps, classes, step);
         let link = unpack_link(walk.texel, walk.side);
         if link.place == OWN {
