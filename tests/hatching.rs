@@ -76,10 +76,9 @@ fn patches(inks: &[Option<f64>], width: usize) -> Vec<f64> {
     (0..rows[0].len()).flat_map(column).filter(|ink| ink.is_finite()).collect()
 }
 
-/// Greatest standard deviation of patches, and how far one of them is off at most: strokes are longer than a patch, and each is there
-/// or not.
-const MAX_SPREAD: f64 = 0.04;
-const MAX_PATCH: f64 = 0.12;
+/// Greatest standard deviation of patches, and how far one of them is off at most.
+const MAX_SPREAD: f64 = 0.025;
+const MAX_PATCH: f64 = 0.05;
 
 /// Tones that are measured, from none to all.
 const TONES: u32 = 64;

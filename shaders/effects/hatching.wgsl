@@ -4,7 +4,7 @@
 #import common/light.wgsl
 #import common/surface_change.wgsl
 #import effects/hatching/indication.wgsl
-#import effects/hatching/stripes.wgsl
+#import effects/hatching/strokes.wgsl
 #import effects/hatching/tonal_art_map.wgsl
 
 const HATCHING: u32 = 7u;

@@ -57,7 +57,7 @@ pub struct Stroke {
     pub length: f32,
     /// Length of pointed ends, reference pixels; 0: strokes go on and on.
     pub taper: f32,
-    /// Half of the gap between the ends of strokes, reference pixels.
+    /// Half of the gap between the ends of strokes, reference pixels; less than 0: half of how far they pass each other.
     pub gap: f32,
     /// How far strokes come one after the other as it gets darker, instead of all at once getting wider.
     pub tone_by_count: f32,
@@ -181,11 +181,11 @@ impl Default for Hatching {
             blend_steps: false,
             stroke: Stroke {
                 spacing: 6.0,
-                min_width: 0.16,
+                min_width: 0.15,
                 max_width: 0.54,
                 length: 120.0,
                 taper: 22.0,
-                gap: 1.5,
+                gap: -11.0,
                 tone_by_count: 0.45,
                 randomness: 1.0,
                 pointedness: 0.5,
@@ -294,8 +294,8 @@ impl Stroke {
             number(list, "length", "Length", length, "Least length of strokes; up to twice as much.", &mut self.length);
             let taper = ("px", 0.0..=40.0, 0.0..=100.0);
             number(list, "taper", "Taper length", taper, "Length of the ends that run out; 0: strokes go on and on.", &mut self.taper);
-            let gap = ("px", 0.0..=8.0, 0.0..=20.0);
-            number(list, "gap", "Gap", gap, "Half of the gap between the ends of two strokes.", &mut self.gap);
+            let gap = ("px", -25.0..=8.0, -50.0..=20.0);
+            number(list, "gap", "Gap", gap, "Half of the gap between the ends of two strokes; less than 0: half of how far they pass each other. At minus half of the taper length tones are the most even.", &mut self.gap);
             let unit = ("", 0.0..=1.0, 0.0..=1.0);
             number(list, "tone_by_count", "Tone by count", unit.clone(), "0: all strokes get wider where it is dark, as an engraver's; 1: more and more come, as of a pen.", &mut self.tone_by_count);
             list.formerly("spread");

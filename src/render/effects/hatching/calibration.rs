@@ -1,11 +1,11 @@
 //! How dark stripes have to be asked for so that they are as dark as they should be: reckoned for an even plane, with the same
-//! arithmetic as `shaders/effects/hatching/stripes.wgsl`.
+//! arithmetic as `shaders/effects/hatching/strokes.wgsl`.
 
 use std::array;
 
 use rayon::prelude::*;
 
-use super::ranks::{LineId, rank_of_stroke};
+use super::ranks::{LineId, rank_of_width};
 use super::strokes::GpuStroke;
 
 /// Places in the octave between two densities, and in that between two lengths of strokes. What comes after the last is the first.
@@ -83,14 +83,44 @@ fn inverse(inks: &[f32]) -> Vec<f32> {
 
 /// What all lines of a period are like at a place along them, whatever the tone.
 struct Lines {
+    own: Strokes,
+    /// The strokes whose ends pass those.
+    passing: Option<Strokes>,
+}
+
+/// One stroke of each line of a period at a place along them.
+struct Strokes {
     /// The tone from which on a line is drawn, if it is not inserted and no end is near.
     onsets: [f32; LINES],
     /// 0 where a stroke ends.
     tapered: [f32; LINES],
-    /// Share of its width there.
-    narrowed: [f32; LINES],
+    /// How wide its end gets where it is dark.
+    closes: [f32; LINES],
     /// Share of its width anywhere.
     varied: [f32; LINES],
+}
+
+impl Strokes {
+    fn of(stroke: &GpuStroke, pieces: &[Piece; LINES]) -> Self {
+        Self {
+            onsets: pieces.map(|p| stroke.tone_by_count * stroke.randomness * p.chance),
+            tapered: pieces.map(|p| p.tapered),
+            closes: pieces.map(|p| p.closes),
+            varied: pieces.map(|p| 1.0 - stroke.variation * p.variation),
+        }
+    }
+
+    /// Width of the stroke of a line, and how far it is from the line's middle, px. `late`: how much later the line comes; `apart`: to
+    /// the next line, px.
+    fn drawn(&self, stroke: &GpuStroke, row: usize, tone: f32, late: f32, apart: f32) -> [f32; 2] {
+        let onset = self.onsets[row] + late;
+        let closed = smoothstep(ENDS_CLOSE, ENDS_CLOSED, (tone - onset) / (1.0 - onset).max(1e-3));
+        let open = 1.0 - self.tapered[row];
+        let tapered = 1.0 - open * (1.0 - closed * self.closes[row]);
+        let threshold = onset + stroke.tone_by_count * (1.0 - tapered) * stroke.pointedness;
+        let width = width(stroke, tone - threshold, 1.0 - threshold, tapered * self.varied[row], apart);
+        [width, PASSING * stroke.spacing * open * (1.0 - closed)]
+    }
 }
 
 /// So many places along each stroke. `octave`: place in that of lengths.
@@ -100,53 +130,61 @@ fn places(stroke: &GpuStroke, octave: f32, along: usize) -> Vec<Lines> {
         let (number, share) = (i % STROKES, i / STROKES);
         let shift = (number as u32).reverse_bits() >> (32 - STROKES.trailing_zeros());
         let x = number as f32 + (share as f32 + middle(shift as usize, STROKES)) / along as f32;
-        let places: [Place; LINES] = array::from_fn(|row| place_at(stroke, octave, row as u32, x));
+        let pieces: [[Piece; 2]; LINES] = array::from_fn(|row| pieces_at(stroke, octave, row as u32, x));
         Lines {
-            onsets: places.map(|p| stroke.tone_by_count * stroke.randomness * p.chance),
-            tapered: places.map(|p| p.tapered),
-            narrowed: places.map(|p| p.tapered.sqrt()),
-            varied: places.map(|p| 1.0 - stroke.variation * p.variation),
+            own: Strokes::of(stroke, &pieces.map(|[own, _]| own)),
+            passing: (stroke.gap < 0.0).then(|| Strokes::of(stroke, &pieces.map(|[_, passing]| passing))),
         }
     };
     let count = if stroke.taper > 0.0 { STROKES * along } else { 1 };
     (0..count).map(lines).collect()
 }
 
+/// A stroke of a line at a place.
 #[derive(Clone, Copy)]
-struct Place {
-    /// 0 where a stroke ends.
+struct Piece {
+    /// 0 where it ends.
     tapered: f32,
+    closes: f32,
     chance: f32,
     variation: f32,
 }
 
-/// `x`: along the line, in strokes.
-fn place_at(stroke: &GpuStroke, octave: f32, row: u32, x: f32) -> Place {
+/// The stroke of a line itself, and the one whose end passes it, if any; `x`: along the line, in strokes.
+fn pieces_at(stroke: &GpuStroke, octave: f32, row: u32, x: f32) -> [Piece; 2] {
     let id = LineId::of(row, PERIOD as u32, 1);
     let rank = id.rank();
     let seed = hash(id.index, id.level as u32);
+    let chance = |jitter: f32| (rank as f32 + jitter) / 16.0;
     if stroke.taper <= 0.0 {
-        return Place { tapered: 1.0, chance: ((rank & 7) as f32 + unit(seed)) / 8.0, variation: 0.0 };
+        return [Piece { tapered: 1.0, closes: 1.0, chance: chance(unit(seed)), variation: 0.0 }; 2];
     }
     let length = stroke.length * octave.exp2();
-    let u = x + id.offset(0);
-    let number = (u.floor() as i32).rem_euclid(16) as u32;
-    let share = u - u.floor();
-    let end = share.min(1.0 - share) * length - stroke.gap;
     let apart = smoothstep(0.35, 1.0, octave);
-    let middle = (share - 0.5).abs() * length - stroke.gap;
-    let [end, middle] = [end, middle].map(|left| (left / stroke.taper).clamp(0.0, 1.0));
-    let half = u32::from(share > 0.5);
-    let numbers = [number, (2 * number + half) % 16];
-    let [whole, halves] = numbers.map(|n| hash(seed, n));
-    let [rank, half_rank] = numbers.map(|n| rank_of_stroke(rank, n) as f32);
     let mix = |from: f32, to: f32| from + (to - from) * apart;
-    let other = |rank: f32| (5.0 * rank + 3.0) % 16.0;
-    let tapered = end.min(1.0 + (middle - 1.0) * apart);
-    let chance = mix(rank + unit(whole), half_rank + unit(halves)) / 16.0;
-    let variation =
-        mix(other(rank) + unit(mixed(whole)), other(half_rank) + unit(mixed(halves))) / 16.0 - 0.5;
-    Place { tapered, chance, variation }
+    let u = x + id.offset(0);
+    let own = (u.floor() as i32).rem_euclid(16) as u32;
+    let share = u - u.floor();
+    let second = u32::from(share > 0.5);
+    let end = share.min(1.0 - share) * length;
+    let middle = (share - 0.5).abs() * length;
+    let taper = |left: f32| ((left - stroke.gap) / stroke.taper).clamp(0.0, 1.0);
+    let piece = |number: u32, half: u32, tapered: f32, closes: f32| {
+        let numbers = [number, (2 * number + half) % 16];
+        let [whole, halves] = numbers.map(|n| hash(seed, n));
+        let [rank, half_rank] = numbers.map(|n| rank_of_width(rank, n) as f32);
+        let variation = mix(rank + unit(mixed(whole)), half_rank + unit(mixed(halves))) / 16.0 - 0.5;
+        Piece { tapered, closes, chance: chance(mix(unit(whole), unit(halves))), variation }
+    };
+    let halves = middle < end;
+    let (nearer, share, other) =
+        if halves { (middle, apart, own) } else { (end, 1.0, (own + 15 + 2 * second) % 16) };
+    let beyond = taper(-nearer) * share;
+    let closes = smoothstep(0.0, (-stroke.gap / stroke.taper).clamp(1e-3, 1.0), beyond);
+    [
+        piece(own, second, taper(end).min(mix(1.0, taper(middle))), 1.0),
+        piece(other, 1 - second, beyond, closes),
+    ]
 }
 
 /// Share of ink of an even plane, at a tone and a place in the octave of densities. Without branches, so that several lines are
@@ -157,20 +195,23 @@ fn mean_ink(stroke: &GpuStroke, tone: f32, place: f32, strokes: &[Lines]) -> f32
     let spacing = 0.5 * stroke.spacing * place.exp2();
     let apart = spacing * (2.0 - smoothstep(0.0, INSERTED, tone - late));
     let mut inks = [0.0; LINES - 1];
-    for Lines { onsets, tapered, narrowed, varied } in strokes {
-        let widths: [f32; LINES] = array::from_fn(|row| {
-            let onset = onsets[row] + lates[row];
-            let closed = smoothstep(ENDS_CLOSE, ENDS_CLOSED, (tone - onset) / (1.0 - onset).max(1e-3));
-            let open = (1.0 - tapered[row]) * (1.0 - closed);
-            let threshold = onset + stroke.tone_by_count * open * stroke.pointedness;
-            let pressed = (narrowed[row] + (1.0 - narrowed[row]) * closed) * varied[row];
-            width(stroke, tone - threshold, 1.0 - threshold, pressed, apart)
-        });
+    for Lines { own, passing } in strokes {
+        let drawn = |strokes: &Strokes, row: usize| strokes.drawn(stroke, row, tone, lates[row], apart);
+        let widths: [f32; LINES] = match passing {
+            None => array::from_fn(|row| drawn(own, row)[0]),
+            Some(passing) => array::from_fn(|row| width_of_both(drawn(own, row), drawn(passing, row))),
+        };
         for (ink, (one, other)) in inks.iter_mut().zip(widths.iter().zip(&widths[1..])) {
             *ink += ink_between(*one, *other, spacing);
         }
     }
     inks.iter().sum::<f32>() / (spacing * (inks.len() * strokes.len()) as f32)
+}
+
+/// Of two strokes that pass each other; of each the width, and how far it gives way to the other, px.
+fn width_of_both([one, aside]: [f32; 2], [other, other_aside]: [f32; 2]) -> f32 {
+    let overlap = (0.5 * (one + other) - aside - other_aside).clamp(0.0, one.min(other));
+    one + other - overlap
 }
 
 /// Width of a line, px; `beyond`: by how much the tone is above the line's threshold, and `most`: by how much it can be; `apart`: to
@@ -206,11 +247,12 @@ fn covered(half: f32, distance: f32) -> f32 {
     distance.min(inner) + beyond - 0.5 * beyond * beyond
 }
 
-// As in `shaders/effects/hatching/stripes.wgsl`.
+// As in `shaders/effects/hatching/strokes.wgsl`.
 const SOFT: f32 = 0.04;
 // A stroke ends where it would be narrower, px; one that is narrower than the other is drawn so wide, and paler.
 const MIN_WIDTH: f32 = 0.45;
 const FULL_WIDTH: f32 = 0.7;
+const PASSING: f32 = 0.25;
 const INSERTED: f32 = 0.2;
 // The share of its greatest width from which on a stroke's ends close, and that at which it has none.
 const ENDS_CLOSE: f32 = 0.3;

@@ -1,11 +1,11 @@
 //! In which order lines of hatching come as it gets darker, and where their strokes begin: as in
-//! `shaders/effects/hatching/stripes.wgsl`.
+//! `shaders/effects/hatching/strokes.wgsl`.
 
 /// So many lines that were born at a level beside each other differ.
 const IDS: u32 = 8;
 /// Ranks of 16, and beginnings in fifteenths of a stroke: a hexadecimal digit for each of [`IDS`]; lines of the next level have the
-/// other words. Found by a search for the most even tone in patches of 8 × 8 spacings, at every density and length.
-const RANKS: [u32; 2] = [0x6c0b_71da, 0x8d46_2b97];
+/// other words. Found by a search for the most even tone in patches of 8 × 8 and 4 × 4 spacings, at every density.
+const RANKS: [u32; 2] = [0x94d0_a6e3, 0x2f7b_185c];
 const OFFSETS: [u32; 2] = [0x7e32_c894, 0xb5d3_c8e2];
 
 /// Which line it is: the same one while one comes closer.
@@ -39,7 +39,7 @@ impl LineId {
     }
 }
 
-/// Every second stroke of a line comes later, so that both kinds do so evenly.
-pub(super) fn rank_of_stroke(rank: u32, number: u32) -> u32 {
-    (rank + 8 * (number & 1)) & 15
+/// In which order widths come: every second stroke of a line has another rank, so that a line is as dark as the others.
+pub(super) fn rank_of_width(rank: u32, number: u32) -> u32 {
+    (5 * (rank + 8 * (number & 1)) + 3) & 15
 }

@@ -4,7 +4,7 @@ use encase::ShaderType;
 
 use crate::style::hatching::Stroke;
 
-/// Twin of `Stroke` in `shaders/effects/hatching/stripes.wgsl`: lengths in px, widths as shares of the spacing.
+/// Twin of `Stroke` in `shaders/effects/hatching/strokes.wgsl`: lengths in px, widths as shares of the spacing.
 #[derive(Debug, Clone, Copy, PartialEq, ShaderType, Default)]
 pub struct GpuStroke {
     pub(super) spacing: f32,
