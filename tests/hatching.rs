@@ -155,6 +155,22 @@ fn tones_are_as_dark_as_asked() {
     }
 }
 
+/// What is not an edge of a stroke is paper or ink: with strokes four times as large, as in a picture of 4320 pixels, edges are few.
+#[test]
+fn strokes_are_gray_at_their_edges_only() {
+    let mut session = session();
+    let mut plane = opened(primitives::plane(6.0), DMat4::from_rotation_z(0.3), 3.0);
+    session.set_scene(&plane).unwrap();
+    for (name, hatching) in presets() {
+        for darkness in [0.25, 0.5] {
+            plane.document.style = even(hatching.clone(), darkness, SIDE / 4);
+            let gray = mid_grays(&inks(&drawn(&mut session, &plane)));
+            println!("{name}, {darkness}: {gray:.3} of the ink is gray");
+            assert!(gray <= 0.25, "{name}, {darkness}: {gray}");
+        }
+    }
+}
+
 #[test]
 #[ignore = "heavy: run by `make quality`"]
 fn all_tones_are_as_dark_as_asked() {

@@ -14,14 +14,14 @@ pub(super) const LENGTHS: usize = 10;
 /// Shares of ink.
 pub(super) const INKS: usize = 64;
 /// Tones that are reckoned: more of lines that go on and on, which cost little.
-const TONES: [usize; 2] = [32, 128];
+const TONES: [usize; 2] = [40, 128];
 /// Lines of the finer level and strokes of each that are reckoned: after that they are much the same.
 const PERIOD: usize = 32;
 const STROKES: usize = 8;
 /// With the first line of the next period.
 const LINES: usize = PERIOD + 1;
 /// Places along each stroke that are reckoned.
-const ALONG: usize = 5;
+const ALONG: usize = 2;
 
 /// What strokes of one kind need to be as dark as asked.
 #[derive(Debug, Clone, PartialEq)]
@@ -313,7 +313,7 @@ mod tests {
                 let [place, length] = [0.618, 0.755].map(at);
                 let asked = greatest * at(0.57);
                 let tone = tone_for(&table, [place, length], asked);
-                let drawn = mean_ink(&stroke, tone, place, &places(&stroke, length, 8 * ALONG));
+                let drawn = mean_ink(&stroke, tone, place, &places(&stroke, length, 40));
                 worst = worst.max((drawn - asked).abs());
             }
             assert!(worst < 0.02, "{name}: {worst}");
