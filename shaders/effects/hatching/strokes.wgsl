@@ -199,13 +199,13 @@ struct Piece {
     numbers: vec2<u32>,
     // 0 where it ends.
     tapered: f32,
-    // How wide its end gets where it is dark: 1, and less and less along what passes another stroke.
+    // How far its end widens where it is dark: 1; along what passes another stroke less and less, down to 0.
     closes: f32,
     // The side to which it gives way: 1, −1, or 0 where no other passes.
     side: f32,
 }
 
-// Of the stroke of a line; `tone`: what is asked for.
+// What a stroke of a line leaves at a pixel; `tone`: what is asked for.
 fn mark_of(row: Row, piece: Piece, stroke: Stroke, tone: f32) -> Mark {
     var jitter = unit_of(row.seed);
     var variation = 0.0;
@@ -271,16 +271,16 @@ fn marks_at(number: f32, family: Family, rows: Rows, level: Level, along: Along,
         return Marks(mark_of(row, piece, stroke, tone), none);
     }
     // The stroke beyond the nearer end: the next one, or the other half.
-    let halves = middle < end;
-    let nearer = select(end, middle, halves);
-    let beyond = clamp((-nearer - stroke.gap) / stroke.taper, 0.0, 1.0) * select(1.0, apart, halves);
+    let in_middle = middle < end;
+    let nearer = select(end, middle, in_middle);
+    let beyond = clamp((-nearer - stroke.gap) / stroke.taper, 0.0, 1.0) * select(1.0, apart, in_middle);
     // Which of the two comes first along the line.
-    piece.side = select(1.0, -1.0, (second == 0u) != halves);
+    piece.side = select(1.0, -1.0, (second == 0u) != in_middle);
     let first = mark_of(row, piece, stroke, tone);
     if beyond <= 0.0 {
         return Marks(first, none);
     }
-    let other = select((own + STROKES + 2u * second - 1u) % STROKES, own, halves);
+    let other = select((own + STROKES + 2u * second - 1u) % STROKES, own, in_middle);
     let numbers = vec2(other, (2u * other + 1u - second) % STROKES);
     let closes = smoothstep(0.0, clamp(-stroke.gap / stroke.taper, 1e-3, 1.0), beyond);
     return Marks(first, mark_of(row, Piece(numbers, beyond, closes, -piece.side), stroke, tone));
@@ -298,23 +298,23 @@ fn any_reach(marks: Marks) -> bool {
     return reaches(marks.own) || reaches(marks.passing);
 }
 
-// `inside`: from the edge of a stroke to a pixel within it, px.
+// Ink of a stroke; `inside`: from its edge to a pixel within it, px, less than 0 beyond it; `width`: px.
 fn mark_ink(inside: f32, width: f32) -> f32 {
-    return clamp(inside / frame.coverage_ramp + 0.5, 0.0, 1.0) * min(width / (FULL_WIDTH), 1.0);
+    return clamp(inside / frame.coverage_ramp + 0.5, 0.0, 1.0) * min(width / FULL_WIDTH, 1.0);
 }
 
-// `left`: share of the widths that is left.
+// Ink of both strokes; `left`: share of their widths that is left.
 fn marks_ink(marks: Marks, left: f32) -> f32 {
     let own = Mark(marks.own.width * left, marks.own.away);
     let passing = Mark(marks.passing.width * left, marks.passing.away);
-    let halves = vec2(half_width(own), half_width(passing));
+    let half_widths = vec2(half_width(own), half_width(passing));
     let aways = vec2(own.away, passing.away);
-    if abs(own.away - passing.away) < halves.x + halves.y && own.width > 0.0 && passing.width > 0.0 {
+    if abs(own.away - passing.away) < half_widths.x + half_widths.y && own.width > 0.0 && passing.width > 0.0 {
         // They are one where they overlap.
-        let edges = max(halves.xx + vec2(-1.0, 1.0) * aways.x, halves.yy + vec2(-1.0, 1.0) * aways.y);
+        let edges = max(half_widths.xx + vec2(-1.0, 1.0) * aways.x, half_widths.yy + vec2(-1.0, 1.0) * aways.y);
         return mark_ink(min(edges.x, edges.y), max(own.width, passing.width));
     }
-    let insides = halves - abs(aways);
+    let insides = half_widths - abs(aways);
     return mark_ink(insides.x, own.width) + mark_ink(insides.y, passing.width);
 }
 

@@ -94,7 +94,7 @@ struct Strokes {
     onsets: [f32; LINES],
     /// 0 where a stroke ends.
     tapered: [f32; LINES],
-    /// How wide its end gets where it is dark.
+    /// How far its end widens where it is dark, 0 to 1.
     closes: [f32; LINES],
     /// Share of its width anywhere.
     varied: [f32; LINES],
@@ -110,16 +110,15 @@ impl Strokes {
         }
     }
 
-    /// Width of the stroke of a line, and how far it is from the line's middle, px. `late`: how much later the line comes; `apart`: to
-    /// the next line, px.
-    fn drawn(&self, stroke: &GpuStroke, row: usize, tone: f32, late: f32, apart: f32) -> [f32; 2] {
+    /// `late`: how much later the line comes; `apart`: to the next line, px.
+    fn mark(&self, stroke: &GpuStroke, row: usize, tone: f32, late: f32, apart: f32) -> Mark {
         let onset = self.onsets[row] + late;
         let closed = smoothstep(ENDS_CLOSE, ENDS_CLOSED, (tone - onset) / (1.0 - onset).max(1e-3));
         let open = 1.0 - self.tapered[row];
         let tapered = 1.0 - open * (1.0 - closed * self.closes[row]);
         let threshold = onset + stroke.tone_by_count * (1.0 - tapered) * stroke.pointedness;
         let width = width(stroke, tone - threshold, 1.0 - threshold, tapered * self.varied[row], apart);
-        [width, PASSING * stroke.spacing * open * (1.0 - closed)]
+        Mark { width, aside: PASSING * stroke.spacing * open * (1.0 - closed) }
     }
 }
 
@@ -130,10 +129,10 @@ fn places(stroke: &GpuStroke, octave: f32, along: usize) -> Vec<Lines> {
         let (number, share) = (i % STROKES, i / STROKES);
         let shift = (number as u32).reverse_bits() >> (32 - STROKES.trailing_zeros());
         let x = number as f32 + (share as f32 + middle(shift as usize, STROKES)) / along as f32;
-        let pieces: [[Piece; 2]; LINES] = array::from_fn(|row| pieces_at(stroke, octave, row as u32, x));
+        let pieces: [Pieces; LINES] = array::from_fn(|row| pieces_at(stroke, octave, row as u32, x));
         Lines {
-            own: Strokes::of(stroke, &pieces.map(|[own, _]| own)),
-            passing: (stroke.gap < 0.0).then(|| Strokes::of(stroke, &pieces.map(|[_, passing]| passing))),
+            own: Strokes::of(stroke, &pieces.map(|p| p.own)),
+            passing: (stroke.gap < 0.0).then(|| Strokes::of(stroke, &pieces.map(|p| p.passing))),
         }
     };
     let count = if stroke.taper > 0.0 { STROKES * along } else { 1 };
@@ -150,14 +149,22 @@ struct Piece {
     variation: f32,
 }
 
-/// The stroke of a line itself, and the one whose end passes it, if any; `x`: along the line, in strokes.
-fn pieces_at(stroke: &GpuStroke, octave: f32, row: u32, x: f32) -> [Piece; 2] {
+/// The stroke of a line at a place, and the one whose end passes it, which has no width where none does.
+#[derive(Clone, Copy)]
+struct Pieces {
+    own: Piece,
+    passing: Piece,
+}
+
+/// `x`: along the line, in strokes.
+fn pieces_at(stroke: &GpuStroke, octave: f32, row: u32, x: f32) -> Pieces {
     let id = LineId::of(row, PERIOD as u32, 1);
     let rank = id.rank();
     let seed = hash(id.index, id.level as u32);
     let chance = |jitter: f32| (rank as f32 + jitter) / 16.0;
     if stroke.taper <= 0.0 {
-        return [Piece { tapered: 1.0, closes: 1.0, chance: chance(unit(seed)), variation: 0.0 }; 2];
+        let own = Piece { tapered: 1.0, closes: 1.0, chance: chance(unit(seed)), variation: 0.0 };
+        return Pieces { own, passing: Piece { tapered: 0.0, closes: 0.0, ..own } };
     }
     let length = stroke.length * octave.exp2();
     let apart = smoothstep(0.35, 1.0, octave);
@@ -176,15 +183,15 @@ fn pieces_at(stroke: &GpuStroke, octave: f32, row: u32, x: f32) -> [Piece; 2] {
         let variation = mix(rank + unit(mixed(whole)), half_rank + unit(mixed(halves))) / 16.0 - 0.5;
         Piece { tapered, closes, chance: chance(mix(unit(whole), unit(halves))), variation }
     };
-    let halves = middle < end;
+    let in_middle = middle < end;
     let (nearer, share, other) =
-        if halves { (middle, apart, own) } else { (end, 1.0, (own + 15 + 2 * second) % 16) };
+        if in_middle { (middle, apart, own) } else { (end, 1.0, (own + 15 + 2 * second) % 16) };
     let beyond = taper(-nearer) * share;
     let closes = smoothstep(0.0, (-stroke.gap / stroke.taper).clamp(1e-3, 1.0), beyond);
-    [
-        piece(own, second, taper(end).min(mix(1.0, taper(middle))), 1.0),
-        piece(other, 1 - second, beyond, closes),
-    ]
+    Pieces {
+        own: piece(own, second, taper(end).min(mix(1.0, taper(middle))), 1.0),
+        passing: piece(other, 1 - second, beyond, closes),
+    }
 }
 
 /// Share of ink of an even plane, at a tone and a place in the octave of densities. Without branches, so that several lines are
@@ -196,10 +203,10 @@ fn mean_ink(stroke: &GpuStroke, tone: f32, place: f32, strokes: &[Lines]) -> f32
     let apart = spacing * (2.0 - smoothstep(0.0, INSERTED, tone - late));
     let mut inks = [0.0; LINES - 1];
     for Lines { own, passing } in strokes {
-        let drawn = |strokes: &Strokes, row: usize| strokes.drawn(stroke, row, tone, lates[row], apart);
+        let mark = |strokes: &Strokes, row: usize| strokes.mark(stroke, row, tone, lates[row], apart);
         let widths: [f32; LINES] = match passing {
-            None => array::from_fn(|row| drawn(own, row)[0]),
-            Some(passing) => array::from_fn(|row| width_of_both(drawn(own, row), drawn(passing, row))),
+            None => array::from_fn(|row| mark(own, row).width),
+            Some(passing) => array::from_fn(|row| mark(own, row).width_with(mark(passing, row))),
         };
         for (ink, (one, other)) in inks.iter_mut().zip(widths.iter().zip(&widths[1..])) {
             *ink += ink_between(*one, *other, spacing);
@@ -208,10 +215,21 @@ fn mean_ink(stroke: &GpuStroke, tone: f32, place: f32, strokes: &[Lines]) -> f32
     inks.iter().sum::<f32>() / (spacing * (inks.len() * strokes.len()) as f32)
 }
 
-/// Of two strokes that pass each other; of each the width, and how far it gives way to the other, px.
-fn width_of_both([one, aside]: [f32; 2], [other, other_aside]: [f32; 2]) -> f32 {
-    let overlap = (0.5 * (one + other) - aside - other_aside).clamp(0.0, one.min(other));
-    one + other - overlap
+/// What a stroke of a line leaves at a place, px.
+#[derive(Clone, Copy)]
+struct Mark {
+    width: f32,
+    /// From the middle of the line.
+    aside: f32,
+}
+
+impl Mark {
+    /// Width of both where the stroke passes another.
+    fn width_with(self, other: Self) -> f32 {
+        let apart = self.aside + other.aside;
+        let overlap = 0.5 * (self.width + other.width) - apart;
+        self.width + other.width - overlap.min(self.width).min(other.width).max(0.0)
+    }
 }
 
 /// Width of a line, px; `beyond`: by how much the tone is above the line's threshold, and `most`: by how much it can be; `apart`: to

@@ -32,7 +32,8 @@ impl GpuStroke {
             max_width: stroke.max_width.max(min_width),
             length: stroke.length * scale,
             taper: stroke.taper * scale,
-            gap: stroke.gap * scale,
+            // Strokes without ends have none that pass each other.
+            gap: if stroke.taper > 0.0 { stroke.gap * scale } else { 0.0 },
             tone_by_count: stroke.tone_by_count,
             randomness: stroke.randomness,
             pointedness: stroke.pointedness,
