@@ -107,13 +107,9 @@ fn no_line() -> Line {
     return Line(vec4(0.0), 0.0, false, 0.0, vec2(0.0), vec2(0.0));
 }
 
-// The line of the pixel of the edge map that was found, at a place in the picture, as far as surface `g` of the pixel there does
-// not hide it.
-fn line_at(at: vec2<f32>, g: Surfel, found: u32) -> Line {
-    if found == 0u {
-        return no_line();
-    }
-    let from_px = vec2<i32>(vec2((found - 1u) & 0xffffu, (found - 1u) >> 16u));
+// The line of a pixel of the edge map that was found, at a place in the picture, as far as surface `g` of the pixel there does not
+// hide it.
+fn line_at(at: vec2<f32>, g: Surfel, from_px: vec2<i32>, texel: vec4<u32>) -> Line {
     var to_source = vec2(0.0);
     var surface = g;
     if MOVED {
@@ -121,7 +117,6 @@ fn line_at(at: vec2<f32>, g: Surfel, found: u32) -> Line {
         to_source = vec2<f32>(vec2<i32>(vec2(source & 0xffffu, source >> 16u)) - from_px);
         surface = unpack_surfel(geometry_at(vec2<i32>(floor(at + to_source))));
     }
-    let texel = textureLoad(edge_map_tex, from_px);
     let edge = unpack_edge(texel);
     let spine = vec2<f32>(from_px) + 0.5 + edge.offset;
     // It has been found that nothing lies before the edge that is drawn so.
@@ -179,33 +174,19 @@ fn own_line(px: vec2<i32>) -> u32 {
     return select(0u, ((own.y << 16u) | own.x) + 1u, textureLoad(spine_tex, px, 0).x != 0u);
 }
 
-// A hidden line may have won against one that is not: of the lines of the pixels around, the one that covers most. Right beside
-// it that has been found nowhere if the hidden one is wider.
-fn line_around(at: vec2<f32>, g: Surfel, hidden: u32) -> Line {
-    let px = vec2<i32>(floor(at));
-    let last = vec2<i32>(frame.size) - 1;
-    var best = no_line();
-    var tried = hidden;
-    let farthest = select(16, select(1, 2, NARROW_BY_TWO), NARROW);
-    for (var reach = 1; reach <= farthest; reach *= 2) {
-        for (var i = 0; i < 9; i++) {
-            let q = clamp(px + reach * (vec2(i % 3, i / 3) - 1), vec2(0), last);
-            var found = 0u;
-            if NARROW || reach == 1 {
-                found = own_line(q);
-            } else {
-                found = textureLoad(farthest_tex, q, 0).x;
-            }
-            if found != tried && found != hidden {
-                let line = line_at(at, g, found);
-                if line.ink.a > best.ink.a {
-                    best = line;
-                }
-            }
-            tried = found;
-        }
+// How many of the lines around a pixel are looked at.
+fn around_count() -> i32 {
+    return 9 * select(5, select(1, 2, NARROW_BY_TWO), NARROW);
+}
+
+// The line of a pixel around another, in its neighborhood or farther and farther away.
+fn found_around(px: vec2<i32>, k: i32) -> u32 {
+    let reach = 1 << u32(k / 9);
+    let q = clamp(px + reach * (vec2(k % 3, k / 3 % 3) - 1), vec2(0), vec2<i32>(frame.size) - 1);
+    if NARROW || reach == 1 {
+        return own_line(q);
     }
-    return best;
+    return textureLoad(farthest_tex, q, 0).x;
 }
 
 // A line that has been found, and how far within its reach the pixel lies: the least counts.
@@ -244,12 +225,6 @@ fn found_nearby(px: vec2<i32>) -> u32 {
     return best.found;
 }
 
-// A line that runs beside the one that was found, and how much of its width that leaves of it.
-struct Beside {
-    found: u32,
-    share: f32,
-}
-
 // So far apart, px, are spines at least that are not of one line, and so far along it at most is looked.
 const APART: f32 = 0.9;
 const ALONG: f32 = 1.0;
@@ -258,50 +233,50 @@ const THIN: f32 = 1.0;
 // Cosine of the angle up to which lines run side by side.
 const PARALLEL: f32 = 0.97;
 
-// Where several thin lines run through a pixel, each covers its share: their sum is an even gray, the nearest one alone is not.
-fn found_beside(px: vec2<i32>, found: u32) -> Beside {
-    let first_px = vec2<i32>(vec2((found - 1u) & 0xffffu, (found - 1u) >> 16u));
-    let first = unpack_edge(textureLoad(edge_map_tex, first_px));
-    let tangent = unpack_tangent(first.tangent);
-    let left = vec2(tangent.y, -tangent.x);
-    let spine = vec2<f32>(first_px) + first.offset;
-    if first.half_width > THIN {
-        return Beside(0u, 0.0);
-    }
-    var spines = nine_at(spine_tex, px);
+// A line as far as those are compared with it that are beside it.
+struct Spine {
+    // px.
+    at: vec2<f32>,
+    tangent: vec2<f32>,
+    half_width: f32,
+}
+
+fn spine_at(px: vec2<i32>, texel: vec4<u32>) -> Spine {
+    let edge = unpack_edge(texel);
+    return Spine(vec2<f32>(px) + edge.offset, unpack_tangent(edge.tangent), edge.half_width);
+}
+
+// How far a point lies across a line, px.
+fn across(line: Spine, at: vec2<f32>) -> f32 {
+    return abs(dot(at - line.at, vec2(line.tangent.y, -line.tangent.x)));
+}
+
+fn along(line: Spine, at: vec2<f32>) -> f32 {
+    return abs(dot(at - line.at, line.tangent));
+}
+
+// The line that runs beside a thin one that was found at a pixel; 0: none.
+fn found_beside(px: vec2<i32>, found: u32, line: Spine) -> u32 {
     var best = Nearby(0u, 0.0);
-    var gap = 0.0;
+    var spines = nine_at(spine_tex, px);
     for (var i = 0; i < 9; i++) {
         let away = vec2(i % 3, i / 3) - 1;
         let offset = vec2(f32((spines[i] >> 8u) & 255u), f32(spines[i] & 255u)) / 127.0 - 1.0;
-        let d = vec2<f32>(px + away) + offset - spine;
+        let at = vec2<f32>(px + away) + offset;
         let next = nearer_of(best, spines[i], px, away);
-        if next.found != best.found && abs(dot(d, left)) > APART && abs(dot(d, tangent)) < ALONG {
+        if next.found != best.found && across(line, at) > APART && along(line, at) < ALONG {
             best = next;
-            gap = abs(dot(d, left));
         }
     }
-    if best.found == 0u {
-        return Beside(0u, 0.0);
-    }
-    let second_px = vec2<i32>(vec2((best.found - 1u) & 0xffffu, (best.found - 1u) >> 16u));
-    let second = unpack_edge(textureLoad(edge_map_tex, second_px));
-    let is_parallel = abs(dot(unpack_tangent(second.tangent), tangent)) > PARALLEL;
-    let width = first.half_width + second.half_width;
-    return Beside(select(0u, best.found, is_parallel), clamp(gap / max(width, 1e-6), 0.0, 1.0));
+    return select(0u, best.found, found != 0u && line.half_width <= THIN);
 }
 
-// Ink of a thin line, with that of the one beside it.
-fn with_ink_beside(at: vec2<f32>, g: Surfel, ink: vec4<f32>, found: u32) -> vec4<f32> {
-    if found == 0u || ink.a >= 1.0 || MOVED || NARROW_BY_TWO || !(NARROW || WITH_WIDTHS) {
-        return ink;
-    }
-    let beside = found_beside(vec2<i32>(floor(at)), found);
-    if beside.found == 0u {
-        return ink;
-    }
-    let other = line_at(at, g, beside.found);
-    return ink + other.ink * min(beside.share, (1.0 - ink.a) / max(other.ink.a, 1e-6));
+// Where several thin lines run through a pixel, each covers its share: their sum is an even gray, the nearest one alone is not.
+fn with_ink_beside(ink: vec4<f32>, first: Spine, beside: vec4<f32>, second: Spine) -> vec4<f32> {
+    let is_parallel = abs(dot(first.tangent, second.tangent)) > PARALLEL;
+    let width = first.half_width + second.half_width;
+    let share = select(0.0, clamp(across(first, second.at) / max(width, 1e-6), 0.0, 1.0), is_parallel);
+    return ink + beside * min(share, (1.0 - ink.a) / max(beside.a, 1e-6));
 }
 
 fn farthest_at(px: vec2<i32>) -> u32 {
@@ -315,25 +290,11 @@ fn farthest_at(px: vec2<i32>) -> u32 {
 // Both run along one spine, within a pixel or so: 0, as they are one line, which has the greater width. Farther apart it grows
 // to 1. Where half widths differ by no more than a pixel it is 0: such lines are looked for only where the picture has others
 // that differ more (WITH_WIDTHS), and must not depend on those.
-fn apart(thin: u32, wide: u32) -> f32 {
-    if wide == 0u || thin == 0u {
-        return 1.0;
-    }
-    let thin_px = vec2<i32>(vec2((thin - 1u) & 0xffffu, (thin - 1u) >> 16u));
-    let wide_px = vec2<i32>(vec2((wide - 1u) & 0xffffu, (wide - 1u) >> 16u));
-    let thin_texel = textureLoad(edge_map_tex, thin_px);
-    if is_stroke(thin_texel) {
-        return 1.0;
-    }
-    let a = unpack_edge(thin_texel);
-    let b = unpack_edge(textureLoad(edge_map_tex, wide_px));
-    if b.half_width - a.half_width <= 1.0 {
+fn apart(thin: Spine, wide: Spine) -> f32 {
+    if wide.half_width - thin.half_width <= 1.0 {
         return 0.0;
     }
-    let tangent = unpack_tangent(b.tangent);
-    let d = vec2<f32>(thin_px - wide_px) + a.offset - b.offset;
-    let beside = smoothstep(0.75, 1.5, abs(dot(d, vec2(tangent.y, -tangent.x))));
-    return max(beside, smoothstep(1.5, 3.0, abs(dot(d, tangent))));
+    return max(smoothstep(0.75, 1.5, across(wide, thin.at)), smoothstep(1.5, 3.0, along(wide, thin.at)));
 }
 
 fn over(front: vec4<f32>, back: vec4<f32>) -> vec4<f32> {
@@ -392,45 +353,123 @@ fn lines_at(px: vec2<i32>, g: Surfel) -> Line {
 
 // The same of a place in the picture; `g`: of the pixel there.
 fn lines_at_place(at: vec2<f32>, g: Surfel) -> Line {
-    let px = vec2<i32>(floor(at));
     var lines = no_line();
     if WITH_EXACT {
-        let farthest = farthest_at(px);
-        lines = line_at(at, g, farthest);
-        if lines.is_occluded {
-            lines = line_around(at, g, farthest);
-        }
-        var nearest = farthest;
-        if WITH_WIDTHS {
-            nearest = textureLoad(nearest_tex, px).x;
-        }
-        // A wide line is found farther from it than it has ink: one that ends at it is not to stop before.
-        let own = ((u32(px.y) << 16u) | u32(px.x)) + 1u;
-        let may_end = !NARROW && !MOVED && own != farthest && own != nearest;
-        if may_end && lines.ink.a < 1.0 && textureLoad(spine_tex, px, 0).x != 0u {
-            let ending = line_at(at, g, own);
-            lines.depth = select(lines.depth, ending.depth, lines.ink.a == 0.0);
-            lines.strength = max(lines.strength, ending.strength);
-            lines.ink = over(lines.ink, ending.ink);
-        }
-        lines.ink = with_ink_beside(at, g, lines.ink, farthest);
-        if nearest != farthest {
-            // A thin line inside a wide one is the nearer one.
-            var thin = line_at(at, g, nearest);
-            thin.ink = with_ink_beside(at, g, thin.ink, nearest);
-            let ink = thin.ink * apart(nearest, farthest);
-            let strength = select(lines.strength, thin.strength, ink.a > 0.0);
-            let depth = select(lines.depth, thin.depth, ink.a > 0.0);
-            let away = select(lines.away, thin.away, ink.a > 0.0);
-            let to_source = select(lines.to_source, thin.to_source, ink.a > 0.0);
-            // Where both are translucent they are one ink.
-            let both = over(ink, lines.ink);
-            let most = max(thin.strength, lines.strength);
-            lines = Line(both * min(most / max(both.a, 1e-6), 1.0), depth, false, strength, away, to_source);
-        }
+        lines = exact_lines_at(at, g);
     }
     if WITH_OPERATORS && !MOVED {
-        lines = with_operator_ink(lines, textureLoad(edge_map_tex, px), g);
+        lines = with_operator_ink(lines, textureLoad(edge_map_tex, vec2<i32>(floor(at))), g);
+    }
+    return lines;
+}
+
+// Why a line is looked at, in this order.
+const FARTHEST: u32 = 0u;
+// A hidden line may have won against one that is not: of the lines of the pixels around, the one that covers most. Right beside
+// it that has been found nowhere if the hidden one is wider.
+const AROUND: u32 = 1u;
+// A wide line is found farther from it than it has ink: one that ends at it is not to stop before.
+const ENDING: u32 = 2u;
+const BESIDE_FARTHEST: u32 = 3u;
+// A thin line inside a wide one is the nearer one.
+const NEAREST: u32 = 4u;
+const BESIDE_NEAREST: u32 = 5u;
+
+// Lines are looked at one after the other in one loop: what a device does for a line is then done once where there is only one.
+fn exact_lines_at(at: vec2<f32>, g: Surfel) -> Line {
+    let px = vec2<i32>(floor(at));
+    let with_beside = !MOVED && !NARROW_BY_TWO && (NARROW || WITH_WIDTHS);
+    let farthest = farthest_at(px);
+    var nearest = farthest;
+    if WITH_WIDTHS {
+        nearest = textureLoad(nearest_tex, px).x;
+    }
+    let own = own_line(px);
+    let may_end = !NARROW && !MOVED && own != farthest && own != nearest;
+
+    var lines = no_line();
+    var thin = no_line();
+    var thin_opacity = 1.0;
+    var first = Spine(vec2(0.0), vec2(0.0), 0.0);
+    var beside = 0u;
+    var tried = farthest;
+    var around = 0;
+    var step = FARTHEST;
+    var found = farthest;
+    loop {
+        let from_px = vec2<i32>(vec2((found - 1u) & 0xffffu, (found - 1u) >> 16u));
+        let texel = textureLoad(edge_map_tex, from_px);
+        let spine = spine_at(from_px, texel);
+        var line = no_line();
+        if found != 0u {
+            line = line_at(at, g, from_px, texel);
+        }
+        if step == FARTHEST {
+            lines = line;
+        } else if step == AROUND && line.ink.a > lines.ink.a {
+            lines = line;
+        } else if step == ENDING {
+            lines.depth = select(lines.depth, line.depth, lines.ink.a == 0.0);
+            lines.strength = max(lines.strength, line.strength);
+            lines.ink = over(lines.ink, line.ink);
+        } else if step == BESIDE_FARTHEST {
+            lines.ink = with_ink_beside(lines.ink, first, line.ink, spine);
+        } else if step == NEAREST {
+            thin = line;
+            if farthest != 0u && found != 0u && !is_stroke(texel) {
+                thin_opacity = apart(spine, first);
+            }
+        } else if step == BESIDE_NEAREST {
+            thin.ink = with_ink_beside(thin.ink, first, line.ink, spine);
+        }
+        if step == FARTHEST || step == NEAREST {
+            first = spine;
+            if with_beside {
+                beside = found_beside(px, found, spine);
+            }
+        }
+
+        found = 0u;
+        if step == FARTHEST && line.is_occluded {
+            lines = no_line();
+            step = AROUND;
+        }
+        while step == AROUND && around < around_count() && found == 0u {
+            let next = found_around(px, around);
+            found = select(next, 0u, next == tried || next == farthest);
+            tried = next;
+            around += 1;
+        }
+        if found == 0u && step < ENDING && may_end && lines.ink.a < 1.0 {
+            found = own;
+            step = ENDING;
+        }
+        if found == 0u && step < BESIDE_FARTHEST && lines.ink.a < 1.0 {
+            found = beside;
+            step = BESIDE_FARTHEST;
+        }
+        if found == 0u && step < NEAREST && nearest != farthest {
+            found = nearest;
+            step = NEAREST;
+        }
+        if found == 0u && step == NEAREST && thin.ink.a < 1.0 {
+            found = beside;
+            step = BESIDE_NEAREST;
+        }
+        if found == 0u {
+            break;
+        }
+    }
+    if nearest != farthest {
+        let ink = thin.ink * thin_opacity;
+        let strength = select(lines.strength, thin.strength, ink.a > 0.0);
+        let depth = select(lines.depth, thin.depth, ink.a > 0.0);
+        let away = select(lines.away, thin.away, ink.a > 0.0);
+        let to_source = select(lines.to_source, thin.to_source, ink.a > 0.0);
+        // Where both are translucent they are one ink.
+        let both = over(ink, lines.ink);
+        let most = max(thin.strength, lines.strength);
+        lines = Line(both * min(most / max(both.a, 1e-6), 1.0), depth, false, strength, away, to_source);
     }
     return lines;
 }
