@@ -15,6 +15,7 @@
 #import common/edge_map.wgsl
 #import common/line_width.wgsl
 #import common/pixel_list.wgsl
+#import gpu/neighbors.wgsl
 #import passes/line_classes/links.wgsl
 #import passes/line_classes/stretch.wgsl
 #import passes/line_classes/dots.wgsl
@@ -55,6 +56,20 @@ const FAR: f32 = 100.0;
 
 const ALL_CLASSES: u32 = (1u << SECTION) - 1u;
 
+// The places around a pixel in which lines run, as the bits of a number.
+fn lines_around(px: vec2<i32>) -> u32 {
+    var lines = 0u;
+    for (var i = 0; i < 9; i++) {
+        let away = 2 * vec2(i % 3, i / 3);
+        let four = vec4<u32>(four_at(spine_tex, px + away - 2) != vec4(0u));
+        // The last column and the last row are beyond them.
+        let is_around = vec4(true, away.x < 4, away.y < 4, all(away < vec2(4)));
+        let place = u32(away.x + 5 * away.y);
+        lines |= any_of(select(vec4(0u), four, is_around) << vec4(place, place + 1u, place + 5u, place + 6u));
+    }
+    return lines;
+}
+
 // Finds what continues a line in both directions (over a hole of a pixel too), and which classes run here.
 @compute @workgroup_size(GROUP)
 fn cs_links(@builtin(global_invocation_id) id: vec3<u32>) {
@@ -68,7 +83,8 @@ fn cs_links(@builtin(global_invocation_id) id: vec3<u32>) {
     var ahead = PixelLink(OWN, false, 0.0);
     var behind = ahead;
     var min_cost = vec2(1e9);
-    for (var place = 0u; place < AROUND; place++) {
+    for (var places = lines_around(px); places != 0u; places &= places - 1u) {
+        let place = countTrailingZeros(places);
         let point = point_at(px + away_of(place));
         let seen = seen_from(own, towards, point);
         let distance = abs(seen.x);
@@ -152,7 +168,7 @@ fn nearest_beside(px: vec2<i32>, own: Point, classes: u32, above: f32, below: f3
 fn is_beside_longer(px: vec2<i32>, own: Point, length: f32) -> bool {
     let beside = nearest_beside(px, own, ALL_CLASSES, 0.5, NEARBY);
     let links = textureLoad(link_tex, beside, 0).x;
-    return any(beside != px) && own_length(follow(beside, links, 0u), follow(beside, links, 1u)) > length;
+    return any(beside != px) && own_length(followed(beside, links, 0u), followed(beside, links, 1u)) > length;
 }
 
 // Whether several classes meet here.
@@ -161,7 +177,7 @@ fn is_meeting(ahead: Stretch, behind: Stretch) -> bool {
     return WITH_CLASSES && (classes & (classes - 1u)) != 0u;
 }
 
-// Lists the pixels where classes meet, and those of pieces that may be too short.
+// Lists the pixels where classes meet, and those of pieces that may be too short: a stretch tells.
 @compute @workgroup_size(GROUP)
 fn cs_sift(@builtin(global_invocation_id) id: vec3<u32>) {
     if id.x >= list.count {
@@ -170,8 +186,8 @@ fn cs_sift(@builtin(global_invocation_id) id: vec3<u32>) {
     let px = unpack_pixel(listed_pixels[id.x]);
     let own = point_at(px);
     let links = textureLoad(link_tex, px, 0).x;
-    let ahead = follow(px, links, 0u);
-    let behind = follow(px, links, 1u);
+    let ahead = follow(px, links, 0u, stretch_length());
+    let behind = follow(px, links, 1u, stretch_length());
     let is_short = WITH_PIECES && is_piece(ahead, behind);
     let may_be_dot = WITH_DOTS && extent_of(ahead, behind) < shortest_of(own.texel.y);
     if is_meeting(ahead, behind) || is_short || may_be_dot {
@@ -192,8 +208,8 @@ fn cs_settle(@builtin(global_invocation_id) id: vec3<u32>) {
         return;
     }
     let links = textureLoad(link_tex, px, 0).x;
-    let ahead = follow(px, links, 0u);
-    let behind = follow(px, links, 1u);
+    let ahead = followed(px, links, 0u);
+    let behind = followed(px, links, 1u);
     if LAST_ROUND && ((WITH_DOTS && is_dot(px, own.texel.y, ahead, behind))
         || (WITH_PIECES && is_piece(ahead, behind) && is_beside_longer(px, own, own_length(ahead, behind)))) {
         add(Change(vec4(0u), 0u, pack_pixel(px), 0u, NO_EDGE));

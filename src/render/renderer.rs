@@ -24,7 +24,7 @@ use super::passes::accumulate::Subject;
 use super::passes::coordinates::Coordinates;
 use super::passes::layer_report::LayerReport;
 use super::passes::layers::{LayerMethod, Reported};
-use super::passes::line_distance::BLOCK;
+use super::passes::line_blocks::BLOCK;
 use super::views;
 use crate::document::{Document, Glyph};
 use crate::geometry::Topology;

@@ -77,8 +77,17 @@ fn longest_gap() -> i32 {
     return i32(min(ceil(least[0]), MAX_STEPS));
 }
 
-fn follow(px: vec2<i32>, links: u32, first_side: u32) -> Stretch {
-    let farthest = 2.0 * min(least[0], MAX_STEPS / steps_per_px());
+// How far it is to the end of the last step of a stretch, px.
+fn stretch_length() -> f32 {
+    return (f32(longest_gap()) + 0.5) / steps_per_px();
+}
+
+// Followed as far as it decides anything here.
+fn followed(px: vec2<i32>, links: u32, first_side: u32) -> Stretch {
+    return follow(px, links, first_side, 2.0 * min(least[0], MAX_STEPS / steps_per_px()));
+}
+
+fn follow(px: vec2<i32>, links: u32, first_side: u32, farthest: f32) -> Stretch {
     var stretch = Stretch(Steps(vec4(0u), vec4(0u), vec4(0u)), 0u, ENDLESS, px, f32(ENDLESS));
     var walk = Walk(px, links, first_side);
     var distance = 0.0;

@@ -312,7 +312,8 @@ impl OpaqueLayer {
             return Ok(None);
         };
         let (radius, widths) = (&mut self.greatest_radius, Widths::of(&group.edge_styles));
-        self.line_distance.run(revision, |_| line_distance(rec, spines, widths, radius)).map(Some)
+        let blocks = self.line_pixels.blocks();
+        self.line_distance.run(revision, |_| line_distance(rec, spines, blocks, widths, radius)).map(Some)
     }
 
     /// The lines of the surfaces.

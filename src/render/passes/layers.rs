@@ -311,7 +311,7 @@ impl LayerLines {
         *nearer = now;
         let line_distance = match &edge_map.spines {
             Some(spines) => {
-                Some(line_distance(rec, spines, Widths::of(inputs.styles), &mut self.greatest_radius)?)
+                Some(line_distance(rec, spines, None, Widths::of(inputs.styles), &mut self.greatest_radius)?)
             }
             None => None,
         };

@@ -1,5 +1,6 @@
 //! Which line each pixel belongs to: an exact distance transform whose cost does not depend on the lines' width.
 
+use super::line_blocks::{block_count, block_groups, line_blocks};
 use crate::gpu::{ArrayBuffer, Program, Recorder, Target, inputs};
 use crate::render::base::edge_style::GpuEdgeStyle;
 use crate::render::base::error::RenderError;
@@ -7,10 +8,6 @@ use crate::render::base::error::RenderError;
 const INDEX: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;
 /// Columns or rows per workgroup, as in `passes/line_distance.wgsl`.
 const GROUP: u32 = 64;
-
-/// Pixels per side of a block, and blocks per side of a workgroup, as in `passes/near_lines.wgsl`.
-pub const BLOCK: u32 = 4;
-const BLOCK_GROUP: u32 = 16;
 
 /// Lines with a greater radius than this (px) reach farther than to the next pixel, or to that behind it.
 const NARROW: f32 = 0.95;
@@ -53,27 +50,30 @@ pub fn nearest_lines(
     transform(rec, spines, radius, true)
 }
 
-/// Finds the lines that reach each pixel from where spines run; `radius` is a buffer for the greatest radius.
+/// Finds the lines that reach each pixel from where spines run; `blocks` are those of [`line_blocks`], if they are known, `radius` is
+/// a buffer for the greatest radius.
 ///
 /// # Errors
 /// [`RenderError`].
 pub fn line_distance(
     rec: &mut Recorder<'_>,
     spines: &Target,
+    blocks: Option<&Target>,
     widths: Widths,
     radius: &mut ArrayBuffer,
 ) -> Result<LineDistance, RenderError> {
     let by_two = widths.greatest_radius > NARROW;
     if !by_two || (widths.greatest_radius <= NARROW_BY_TWO && widths.are_moved && !widths.differ) {
-        let blocks = rec.size().map(|side| side.div_ceil(BLOCK));
-        let near = rec.target_of("near lines", INDEX, blocks)?;
+        let size = rec.size();
+        let near = rec.target_of("near lines", INDEX, block_count(size))?;
+        let blocks = blocks.map_or_else(|| line_blocks(rec, spines), |blocks| Ok(blocks.clone()))?;
         let program = Program {
             file: "passes/near_lines.wgsl",
             entry_point: "cs_main",
             switches: vec![("NARROW_BY_TWO", by_two)],
         };
-        let inputs = inputs! { spine_tex: spines, near_tex: &near };
-        rec.compute("near lines", &program, &inputs, blocks.map(|side| side.div_ceil(BLOCK_GROUP)))?;
+        let inputs = inputs! { block_tex: &blocks, near_tex: &near };
+        rec.compute("near lines", &program, &inputs, block_groups(size))?;
         return Ok(LineDistance::Narrow { spines: spines.clone(), near, by_two });
     }
     radius.write(rec.gpu, &vec![widths.greatest_radius]);

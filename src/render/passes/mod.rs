@@ -13,6 +13,7 @@ pub mod gbuffer;
 pub mod layer_lists;
 pub mod layer_report;
 pub mod layers;
+pub mod line_blocks;
 pub mod line_classes;
 pub mod line_distance;
 pub mod line_pixels;

@@ -118,9 +118,9 @@ impl SketchPass {
             pass.run(rec, buffer, lines.value, noise)
         })?;
         let radius = &mut self.greatest_radius;
-        let line_distance = self
-            .line_distance
-            .run((moved.revision, widths), |_| line_distance(rec, &moved.value.spines, widths, radius))?;
+        let line_distance = self.line_distance.run((moved.revision, widths), |_| {
+            line_distance(rec, &moved.value.spines, None, widths, radius)
+        })?;
         Ok(MovedLines { edges: moved.value, line_distance })
     }
 }

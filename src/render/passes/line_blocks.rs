@@ -1,0 +1,34 @@
+//! Blocks of pixels, and in which of them lines run: what looks for lines looks here first.
+
+use crate::gpu::{Program, Recorder, Target, inputs};
+use crate::render::base::error::RenderError;
+
+/// Pixels per side of a block, as in `shaders/common/line_block.wgsl`.
+pub const BLOCK: u32 = 4;
+/// Blocks per side of a workgroup, as in `shaders/passes/{line_blocks,line_pixels,near_lines}.wgsl`.
+const GROUP: u32 = 16;
+
+pub(super) const BLOCKS: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;
+
+/// How many blocks there are in a picture, across and down.
+pub(super) fn block_count(size: [u32; 2]) -> [u32; 2] {
+    size.map(|side| side.div_ceil(BLOCK))
+}
+
+/// How many workgroups work through these blocks, across and down.
+pub(super) fn block_groups(size: [u32; 2]) -> [u32; 2] {
+    block_count(size).map(|side| side.div_ceil(GROUP))
+}
+
+/// Finds the pixels of each block in which lines run; see `shaders/common/line_block.wgsl`.
+///
+/// # Errors
+/// [`RenderError`].
+pub fn line_blocks(rec: &mut Recorder<'_>, spines: &Target) -> Result<Target, RenderError> {
+    let size = rec.size();
+    let blocks = rec.target_of("blocks of lines", BLOCKS, block_count(size))?;
+    let inputs = inputs! { spine_tex: spines, finding_tex: &blocks };
+    let program = Program::new("passes/line_blocks.wgsl", "cs_main");
+    rec.compute("blocks of lines", &program, &inputs, block_groups(size))?;
+    Ok(blocks)
+}
