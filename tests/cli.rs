@@ -6,7 +6,12 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 fn hachure(args: &[&str]) -> Output {
+    hachure_in(Path::new(env!("CARGO_MANIFEST_DIR")), args)
+}
+
+fn hachure_in(folder: &Path, args: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_hachure"))
+        .current_dir(folder)
         .args(args)
         .env_remove("DISPLAY")
         .env_remove("WAYLAND_DISPLAY")
@@ -225,6 +230,17 @@ fn info_styles_and_bench_print_what_they_promise() {
     assert!(stage("gooch + edges, 2 px", "segments") > 0.0);
     assert!(stage("gooch + edges, 32 px", "lines") > 0.0);
     assert_eq!(stage("plain", "lines"), 0.0);
+}
+
+#[test]
+fn bench_says_what_it_cannot_measure() {
+    let nowhere = tempfile::tempdir().unwrap();
+    let bench = hachure_in(nowhere.path(), &["bench"]);
+    assert!(!bench.status.success());
+    assert!(String::from_utf8_lossy(&bench.stderr).contains("name a model"));
+    let bench = hachure(&["bench", &crank(), "--resolution", "64,64", "--only", "no such row"]);
+    assert!(!bench.status.success());
+    assert!(String::from_utf8_lossy(&bench.stderr).contains("`no such row`"));
 }
 
 #[test]

@@ -7,13 +7,12 @@ use glam::DMat4;
 use serde_json::json;
 
 use super::args::BenchArgs;
-use super::{CliError, print_json, print_line, sample};
+use super::{CliError, print_json, print_line, sample, session};
 use crate::document::{LayersBy, Lighting};
 use crate::export::Session;
 use crate::export::session::{Opened, initial_camera, open, topology};
 use crate::geometry::primitives;
 use crate::gpu::Gpu;
-use crate::hatching::cache::Cache;
 use crate::import::Progress;
 use crate::render::MAX_LAYERS;
 use crate::render::Request;
@@ -81,7 +80,8 @@ impl Row {
 }
 
 pub(super) fn run(args: &BenchArgs) -> Result<(), CliError> {
-    let files = if args.files.is_empty() { sample().into_iter().collect() } else { args.files.clone() };
+    let files =
+        if args.files.is_empty() { vec![sample().ok_or(CliError::NoSample)?] } else { args.files.clone() };
     let started = Instant::now();
     let opened = open(&files, |_| {}, &Progress::default())?;
     let load_ms = started.elapsed().as_secs_f64() * 1e3;
@@ -91,6 +91,9 @@ pub(super) fn run(args: &BenchArgs) -> Result<(), CliError> {
     let mut looks = looks(has_uvs, &bench.layers()?, args.resolution.0)?;
     if let Some(only) = &args.only {
         let mut number = 0..;
+        if !looks.iter().any(|look| look.name.contains(only.as_str())) {
+            return Err(CliError::NoRow(only.clone()));
+        }
         looks.retain(|look| number.next() == Some(0) || look.name.contains(only.as_str()));
     }
     let mut rows: Vec<Row> =
@@ -184,8 +187,7 @@ impl Bench {
     fn new(opened: Opened, size: [u32; 2]) -> Result<Self, CliError> {
         let Opened { document, scene } = &opened;
         let camera = initial_camera(document, scene, f64::from(size[0]) / f64::from(size[1]));
-        let mut session = Session::new(Gpu::headless()?);
-        session.set_cache(Cache::of_user());
+        let mut session = session(Gpu::headless()?)?;
         // The window knows it too, as soon as a background job has found it out.
         let started = Instant::now();
         let mut found = topology(scene, document.view.creases());

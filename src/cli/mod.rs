@@ -13,9 +13,10 @@ use clap::Parser as _;
 
 use crate::app::{self, AppError};
 use crate::document::{DocumentError, PatternError};
-use crate::export::ExportError;
 use crate::export::session::OpenError;
-use crate::gpu::GpuError;
+use crate::export::{ExportError, Session};
+use crate::gpu::{Gpu, GpuError};
+use crate::hatching::cache::Cache;
 use crate::render::RenderError;
 use crate::style::{StyleError, preset};
 
@@ -53,6 +54,12 @@ pub enum CliError {
         "a scale needs to know how long a unit of the model is, and the file does not say; add --unit mm, or whatever it is"
     )]
     NoUnit,
+    /// Nothing was named to be measured.
+    #[error("no model was named, and the sample, {}, is not here; name a model", SAMPLE)]
+    NoSample,
+    /// Rows of measurements were asked for that there are none of.
+    #[error("no row has `{0}` in its name; without --only all of them are printed")]
+    NoRow(String),
     /// The output could not be written.
     #[error("cannot write to standard output: {0}")]
     Output(#[from] std::io::Error),
@@ -95,9 +102,21 @@ fn window(mut files: Vec<PathBuf>, style: Option<&str>) -> Result<(), CliError> 
     Ok(app::run(files, style.map(|p| p.style))?)
 }
 
+const SAMPLE: &str = "assets/models/crank.glb";
+
 /// The model that comes with the program, where it is started from its own folder.
 fn sample() -> Option<PathBuf> {
-    Some(PathBuf::from("assets/models/crank.glb")).filter(|path| path.exists())
+    Some(PathBuf::from(SAMPLE)).filter(|path| path.exists())
+}
+
+/// What pictures are drawn with, by the user's own shaders if `HACHURE_SHADERS` names any and they are right.
+fn session(gpu: Gpu) -> Result<Session, CliError> {
+    let mut session = Session::new(gpu);
+    session.set_cache(Cache::of_user());
+    match session.renderer().take_shader_error() {
+        Some(mistake) => Err(RenderError::from(mistake).into()),
+        None => Ok(session),
+    }
 }
 
 /// Prints a value as JSON with a newline.

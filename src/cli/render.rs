@@ -5,14 +5,13 @@ use std::thread::JoinHandle;
 use serde_json::json;
 
 use super::args::{CameraArgs, LookArgs, RenderArgs, SectionAt};
-use super::{CliError, layers, print_json, warn};
+use super::{CliError, layers, print_json, session, warn};
 use crate::document::{Document, Pattern, Role, SectionSettings, ViewSettings, glyph, section};
 use crate::export::session::{OpenError, Opened, initial_camera, open};
-use crate::export::{Session, save_png};
+use crate::export::save_png;
 use crate::gpu::{Gpu, GpuError};
-use crate::hatching::cache::Cache;
 use crate::import::{ImageCache, Progress};
-use crate::render::{RenderError, StyleImages};
+use crate::render::StyleImages;
 use crate::scene::{Camera, NodeId, Projection, Scene, Warning};
 use crate::style::{Color, Style, param, preset};
 
@@ -39,11 +38,7 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
     }
     opened.document.camera = Some(camera);
 
-    let mut session = Session::new(device.wait()?);
-    session.set_cache(Cache::of_user());
-    if let Some(mistake) = session.renderer().take_shader_error() {
-        return Err(RenderError::from(mistake).into());
-    }
+    let mut session = session(device.wait()?)?;
     session.set_samples(args.samples);
     session.set_scene(&opened)?;
     session.renderer().set_images(StyleImages::new(images.images()));
