@@ -18,6 +18,7 @@ pub struct ListedLines<'a> {
 /// A list of pixels in which lines run, or ran before some of them were left out; see `shaders/common/pixel_list.wgsl`.
 pub struct LinePixels {
     list: RecordList,
+    /// Of the lines that are listed; `None`: none are.
     blocks: Option<Target>,
 }
 
