@@ -12,18 +12,18 @@ fn lines_in(first: vec2<i32>) -> u32 {
     for (var i = 0; i < 4; i++) {
         let away = 2 * vec2(i & 1, i >> 1u);
         let here = vec4<u32>(four_at(spine_tex, first + away) != vec4(0u)) << vec4(0u, 1u, 4u, 5u);
-        lines |= any_of(here) << u32(away.x + BLOCK * away.y);
+        lines |= any_of(here) << u32(away.x + LINE_BLOCK * away.y);
     }
-    let inside = clamp(vec2<i32>(frame.size) - first, vec2(0), vec2(BLOCK));
+    let inside = clamp(vec2<i32>(frame.size) - first, vec2(0), vec2(LINE_BLOCK));
     let columns = ((1u << u32(inside.x)) - 1u) * FIRST_COLUMN;
-    return lines & columns & ((1u << u32(BLOCK * inside.y)) - 1u);
+    return lines & columns & ((1u << u32(LINE_BLOCK * inside.y)) - 1u);
 }
 
 // Workgroups as in src/render/passes/line_blocks.rs.
 @compute @workgroup_size(16, 16)
 fn cs_main(@builtin(global_invocation_id) id: vec3<u32>) {
     let block = vec2<i32>(id.xy);
-    if all(BLOCK * block < vec2<i32>(frame.size)) {
-        textureStore(finding_tex, block, vec4(lines_in(BLOCK * block), 0u, 0u, 0u));
+    if all(LINE_BLOCK * block < vec2<i32>(frame.size)) {
+        textureStore(finding_tex, block, vec4(lines_in(LINE_BLOCK * block), 0u, 0u, 0u));
     }
 }

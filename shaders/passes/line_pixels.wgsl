@@ -9,7 +9,7 @@ var block_tex: texture_2d<u32>;
 @compute @workgroup_size(16, 16)
 fn cs_main(@builtin(global_invocation_id) id: vec3<u32>) {
     let block = vec2<i32>(id.xy);
-    if any(BLOCK * block >= vec2<i32>(frame.size)) {
+    if any(LINE_BLOCK * block >= vec2<i32>(frame.size)) {
         return;
     }
     var lines = textureLoad(block_tex, block, 0).x;
@@ -19,7 +19,7 @@ fn cs_main(@builtin(global_invocation_id) id: vec3<u32>) {
     var index = keep_many(countOneBits(lines));
     for (; lines != 0u; lines &= lines - 1u) {
         let place = i32(countTrailingZeros(lines));
-        kept_pixels[index] = pack_pixel(BLOCK * block + vec2(place % BLOCK, place / BLOCK));
+        kept_pixels[index] = pack_pixel(LINE_BLOCK * block + vec2(place % LINE_BLOCK, place / LINE_BLOCK));
         index++;
     }
 }

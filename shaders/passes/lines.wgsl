@@ -6,6 +6,7 @@
 #import common/edge_map.wgsl
 #import common/edge_style.wgsl
 #import common/coverage.wgsl
+#import common/line_block.wgsl
 #import gpu/neighbors.wgsl
 #import common/placed.wgsl
 
@@ -306,7 +307,7 @@ fn covered_by_lines(px: vec2<i32>) -> u32 {
     var covered = 0u;
     if WITH_EXACT {
         if NARROW {
-            covered |= textureLoad(nearest_tex, px / 4).x;
+            covered |= textureLoad(nearest_tex, px / LINE_BLOCK).x;
         } else {
             covered |= textureLoad(farthest_tex, px, 0).x;
         }

@@ -22,7 +22,7 @@ fn reaching(away: vec2<i32>) -> u32 {
 @compute @workgroup_size(16, 16)
 fn cs_main(@builtin(global_invocation_id) id: vec3<u32>) {
     let block = vec2<i32>(id.xy);
-    let last = (vec2<i32>(frame.size) - 1) / BLOCK;
+    let last = (vec2<i32>(frame.size) - 1) / LINE_BLOCK;
     if any(block > last) {
         return;
     }

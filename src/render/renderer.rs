@@ -24,7 +24,7 @@ use super::passes::accumulate::Subject;
 use super::passes::coordinates::Coordinates;
 use super::passes::layer_report::LayerReport;
 use super::passes::layers::{LayerMethod, Reported};
-use super::passes::line_blocks::BLOCK;
+use super::passes::line_blocks::LINE_BLOCK;
 use super::views;
 use crate::document::{Document, Glyph};
 use crate::geometry::Topology;
@@ -410,7 +410,7 @@ impl Renderer {
         self.last = None;
         let picture = self.state.record(&mut recorder, &inputs)?;
         recorder.submit();
-        self.pool.shrink_to(&[size, size.map(|side| side.div_ceil(BLOCK))]);
+        self.pool.shrink_to(&[size, size.map(|side| side.div_ceil(LINE_BLOCK))]);
         self.state.shrink(&self.gpu);
         self.last = Some((picture.clone(), view));
         self.note_reports();

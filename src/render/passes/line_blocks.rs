@@ -4,7 +4,7 @@ use crate::gpu::{Program, Recorder, Target, inputs};
 use crate::render::base::error::RenderError;
 
 /// Pixels per side of a block, as in `shaders/common/line_block.wgsl`.
-pub const BLOCK: u32 = 4;
+pub const LINE_BLOCK: u32 = 4;
 /// Blocks per side of a workgroup, as in `shaders/passes/{line_blocks,line_pixels,near_lines}.wgsl`.
 const GROUP: u32 = 16;
 
@@ -12,7 +12,7 @@ pub(super) const BLOCKS: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;
 
 /// How many blocks there are in a picture, across and down.
 pub(super) fn block_count(size: [u32; 2]) -> [u32; 2] {
-    size.map(|side| side.div_ceil(BLOCK))
+    size.map(|side| side.div_ceil(LINE_BLOCK))
 }
 
 /// How many workgroups work through these blocks, across and down.
