@@ -2,8 +2,8 @@
 #import common/edge_map.wgsl
 #import passes/line_classes/links.wgsl
 
-// Whether the styles of lines have different widths. What varies in width does so for all classes at a place alike.
-override WITH_WIDTHS: bool = true;
+// Whether the wider class comes first: styles of lines have different widths. What varies in width does so for all classes at a place alike.
+override WIDER_FIRST: bool = true;
 
 // The shortest stretch, px.
 var<storage, read> least: array<f32>;
@@ -184,7 +184,7 @@ fn half_width_nearby(class_of: u32, px: vec2<i32>, links: u32, first: vec2<i32>)
 // The widest of these classes, which are bits of a number; of equal ones the first.
 fn widest_of(classes: u32, px: vec2<i32>, links: u32, ahead: Stretch, behind: Stretch) -> u32 {
     var widest = countTrailingZeros(classes) + 1u;
-    if !WITH_WIDTHS || (classes & (classes - 1u)) == 0u {
+    if !WIDER_FIRST || (classes & (classes - 1u)) == 0u {
         return widest;
     }
     var greatest = -1.0;

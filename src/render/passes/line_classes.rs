@@ -127,7 +127,7 @@ pub struct Decisions {
     /// Their class.
     pub classes: bool,
     /// Whether the wider class comes first: lines have different widths.
-    pub widths: bool,
+    pub wider_first: bool,
     /// Whether they are dots: too short, and nothing continues them.
     pub dots: bool,
     /// Whether they are short pieces beside a longer line.
@@ -142,7 +142,7 @@ impl Decisions {
         let dots = styles.iter().any(|s| s.is_exact() && s.min_length > 0.0);
         Self {
             classes: !crossing && drawn.windows(2).any(|two| two[0].0 != two[1].0),
-            widths: drawn.windows(2).any(|two| two[0].1.width != two[1].1.width),
+            wider_first: drawn.windows(2).any(|two| two[0].1.width != two[1].1.width),
             dots,
             pieces: !crossing && dots,
         }
@@ -155,7 +155,7 @@ impl Decisions {
     fn program(self, entry_point: &'static str, is_last: bool) -> Program {
         let switches = vec![
             ("WITH_CLASSES", self.classes),
-            ("WITH_WIDTHS", self.widths),
+            ("WIDER_FIRST", self.wider_first),
             ("WITH_DOTS", self.dots),
             ("WITH_PIECES", self.pieces),
             ("LAST_ROUND", is_last),
