@@ -365,16 +365,16 @@ fn lines_at_place(at: vec2<f32>, g: Surfel) -> Line {
 }
 
 // Why a line is looked at, in this order.
-const FARTHEST: u32 = 0u;
+const LOOK_FARTHEST: u32 = 0u;
 // A hidden line may have won against one that is not: of the lines of the pixels around, the one that covers most. Right beside
 // it that has been found nowhere if the hidden one is wider.
-const AROUND: u32 = 1u;
+const LOOK_AROUND: u32 = 1u;
 // A wide line is found farther from it than it has ink: one that ends at it is not to stop before.
-const ENDING: u32 = 2u;
-const BESIDE_FARTHEST: u32 = 3u;
+const LOOK_ENDING: u32 = 2u;
+const LOOK_BESIDE_FARTHEST: u32 = 3u;
 // A thin line inside a wide one is the nearer one.
-const NEAREST: u32 = 4u;
-const BESIDE_NEAREST: u32 = 5u;
+const LOOK_NEAREST: u32 = 4u;
+const LOOK_BESIDE_NEAREST: u32 = 5u;
 
 // Lines are looked at one after the other in one loop: what a device does for a line is then done once where there is only one.
 fn exact_lines_at(at: vec2<f32>, g: Surfel) -> Line {
@@ -395,7 +395,7 @@ fn exact_lines_at(at: vec2<f32>, g: Surfel) -> Line {
     var beside = 0u;
     var tried = farthest;
     var around = 0;
-    var step = FARTHEST;
+    var step = LOOK_FARTHEST;
     var found = farthest;
     loop {
         let from_px = vec2<i32>(vec2((found - 1u) & 0xffffu, (found - 1u) >> 16u));
@@ -405,25 +405,25 @@ fn exact_lines_at(at: vec2<f32>, g: Surfel) -> Line {
         if found != 0u {
             line = line_at(at, g, from_px, texel);
         }
-        if step == FARTHEST {
+        if step == LOOK_FARTHEST {
             lines = line;
-        } else if step == AROUND && line.ink.a > lines.ink.a {
+        } else if step == LOOK_AROUND && line.ink.a > lines.ink.a {
             lines = line;
-        } else if step == ENDING {
+        } else if step == LOOK_ENDING {
             lines.depth = select(lines.depth, line.depth, lines.ink.a == 0.0);
             lines.strength = max(lines.strength, line.strength);
             lines.ink = over(lines.ink, line.ink);
-        } else if step == BESIDE_FARTHEST {
+        } else if step == LOOK_BESIDE_FARTHEST {
             lines.ink = with_ink_beside(lines.ink, first, line.ink, spine);
-        } else if step == NEAREST {
+        } else if step == LOOK_NEAREST {
             thin = line;
             if farthest != 0u && found != 0u && !is_stroke(texel) {
                 thin_opacity = apart(spine, first);
             }
-        } else if step == BESIDE_NEAREST {
+        } else if step == LOOK_BESIDE_NEAREST {
             thin.ink = with_ink_beside(thin.ink, first, line.ink, spine);
         }
-        if step == FARTHEST || step == NEAREST {
+        if step == LOOK_FARTHEST || step == LOOK_NEAREST {
             first = spine;
             if with_beside {
                 beside = found_beside(px, found, spine);
@@ -431,31 +431,31 @@ fn exact_lines_at(at: vec2<f32>, g: Surfel) -> Line {
         }
 
         found = 0u;
-        if step == FARTHEST && line.is_occluded {
+        if step == LOOK_FARTHEST && line.is_occluded {
             lines = no_line();
-            step = AROUND;
+            step = LOOK_AROUND;
         }
-        while step == AROUND && around < around_count() && found == 0u {
+        while step == LOOK_AROUND && around < around_count() && found == 0u {
             let next = found_around(px, around);
             found = select(next, 0u, next == tried || next == farthest);
             tried = next;
             around += 1;
         }
-        if found == 0u && step < ENDING && may_end && lines.ink.a < 1.0 {
+        if found == 0u && step < LOOK_ENDING && may_end && lines.ink.a < 1.0 {
             found = own;
-            step = ENDING;
+            step = LOOK_ENDING;
         }
-        if found == 0u && step < BESIDE_FARTHEST && lines.ink.a < 1.0 {
+        if found == 0u && step < LOOK_BESIDE_FARTHEST && lines.ink.a < 1.0 {
             found = beside;
-            step = BESIDE_FARTHEST;
+            step = LOOK_BESIDE_FARTHEST;
         }
-        if found == 0u && step < NEAREST && nearest != farthest {
+        if found == 0u && step < LOOK_NEAREST && nearest != farthest {
             found = nearest;
-            step = NEAREST;
+            step = LOOK_NEAREST;
         }
-        if found == 0u && step == NEAREST && thin.ink.a < 1.0 {
+        if found == 0u && step == LOOK_NEAREST && thin.ink.a < 1.0 {
             found = beside;
-            step = BESIDE_NEAREST;
+            step = LOOK_BESIDE_NEAREST;
         }
         if found == 0u {
             break;

@@ -90,11 +90,12 @@ pub(super) fn run(args: &BenchArgs) -> Result<(), CliError> {
     let has_uvs = bench.opened.scene.meshes.iter().any(|mesh| !mesh.uvs.is_empty());
     let mut looks = looks(has_uvs, &bench.layers()?, args.resolution.0)?;
     if let Some(only) = &args.only {
-        let mut number = 0..;
-        if !looks.iter().any(|look| look.name.contains(only.as_str())) {
+        let is_asked = |look: &BenchLook| look.name.contains(only.as_str());
+        if !looks.iter().any(is_asked) {
             return Err(CliError::NoRow(only.clone()));
         }
-        looks.retain(|look| number.next() == Some(0) || look.name.contains(only.as_str()));
+        let mut number = 0..;
+        looks.retain(|look| number.next() == Some(0) || is_asked(look));
     }
     let mut rows: Vec<Row> =
         looks.iter().map(|look| Row { name: look.name, frame_ms: Vec::new(), stages: Vec::new() }).collect();

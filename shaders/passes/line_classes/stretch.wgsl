@@ -2,7 +2,8 @@
 #import common/edge_map.wgsl
 #import passes/line_classes/links.wgsl
 
-// Whether the wider class comes first: styles of lines have different widths. What varies in width does so for all classes at a place alike.
+// Whether the wider class comes first: styles of lines have different widths. What varies in width does so for all classes at a
+// place alike.
 override WIDER_FIRST: bool = true;
 
 // The shortest stretch, px.
@@ -87,6 +88,7 @@ fn followed(px: vec2<i32>, links: u32, first_side: u32) -> Stretch {
     return follow(px, links, first_side, 2.0 * min(least[0], MAX_STEPS / steps_per_px()));
 }
 
+// `farthest`: px.
 fn follow(px: vec2<i32>, links: u32, first_side: u32, farthest: f32) -> Stretch {
     var stretch = Stretch(Steps(vec4(0u), vec4(0u), vec4(0u)), 0u, ENDLESS, px, f32(ENDLESS));
     var walk = Walk(px, links, first_side);

@@ -8,7 +8,7 @@ pub const LINE_BLOCK: u32 = 4;
 /// Blocks per side of a workgroup, as in `shaders/passes/{line_blocks,line_pixels,near_lines}.wgsl`.
 const GROUP: u32 = 16;
 
-pub(super) const BLOCKS: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;
+const BLOCKS: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;
 
 /// How many blocks there are in a picture, across and down.
 pub(super) fn block_count(size: [u32; 2]) -> [u32; 2] {
