@@ -9,13 +9,14 @@
 //
 // 1. `cs_links` finds for each pixel of a line the next one in both directions, and which classes run there.
 // 2. `cs_sift` follows these links, and lists the few pixels about which there is something to decide.
-// 3. `cs_settle` decides about those.
-// 4. `cs_change` writes what changes. Links, deciding and changes take a second round.
+// 3. `cs_settle` decides about classes, `cs_leave_out` about what is too short.
+// 4. `cs_replace` finds what the pixels become that change, and `cs_change` writes it: until then lines are as they were.
+//
+// Links, classes and changes take a second round: only then is it known what is too short.
 #import common/frame.wgsl
 #import common/edge_map.wgsl
 #import common/line_width.wgsl
 #import common/pixel_list.wgsl
-#import gpu/neighbors.wgsl
 #import passes/line_classes/links.wgsl
 #import passes/line_classes/stretch.wgsl
 #import passes/line_classes/dots.wgsl
@@ -27,48 +28,30 @@ override WITH_PIECES: bool = true;
 // Whether this is the last round of deciding: lines are as they will be.
 override LAST_ROUND: bool = true;
 
+var spine_tex: texture_storage_2d<r32uint, read>;
 // See `pack_link`.
 var linking_tex: texture_storage_2d<r32uint, write>;
 // The class that each pixel is to have, if all changes are made; `NO_EDGE`: it is left out. Undefined where no line is.
 var settling_tex: texture_storage_2d<r32uint, write>;
 // Afterwards the same.
-var settled_tex: texture_2d<u32>;
-// What changes, in any order.
-var<storage, read_write> changing: Counting;
+var settled_tex: texture_storage_2d<r32uint, read>;
+// The pixels that may be dots or short pieces.
+var<storage, read_write> keeping_short: Counting;
+var<storage, read_write> short_pixels: array<u32>;
+// What the pixels that change become, in their order.
 var<storage, read_write> changes: array<Change>;
-// Afterwards the same.
-var<storage, read> changed: ListHead;
 var edge_tex: texture_storage_2d<rgba32uint, write>;
 var changed_spine_tex: texture_storage_2d<r32uint, write>;
 
 struct Change {
     edge: vec4<u32>,
     spine: u32,
-    px: u32,
-    // The pixel of the line that it makes way for, and its class: nothing changes unless that stays. `NO_EDGE`: always.
-    beside: u32,
-    beside_class: u32,
 }
 
-// Beside a line, px; and farther than anything that is looked at.
+// Beside a line, px.
 const NEARBY: f32 = 2.5;
-const FAR: f32 = 100.0;
 
 const ALL_CLASSES: u32 = (1u << SECTION) - 1u;
-
-// The places around a pixel in which lines run, as the bits of a number.
-fn lines_around(px: vec2<i32>) -> u32 {
-    var lines = 0u;
-    for (var i = 0; i < 9; i++) {
-        let away = 2 * vec2(i % 3, i / 3);
-        let four = vec4<u32>(four_at(spine_tex, px + away - 2) != vec4(0u));
-        // The last column and the last row are beyond them.
-        let is_around = vec4(true, away.x < 4, away.y < 4, all(away < vec2(4)));
-        let place = u32(away.x + 5 * away.y);
-        lines |= any_of(select(vec4(0u), four, is_around) << vec4(place, place + 1u, place + 5u, place + 6u));
-    }
-    return lines;
-}
 
 // Finds what continues a line in both directions (over a hole of a pixel too), and which classes run here.
 @compute @workgroup_size(GROUP)
@@ -107,17 +90,6 @@ fn cs_links(@builtin(global_invocation_id) id: vec3<u32>) {
     textureStore(linking_tex, px, vec4(classes | (links << CLASS_BITS), 0u, 0u, 0u));
 }
 
-fn add(change: Change) {
-    let index = atomicAdd(&changing.count, 1u);
-    if index >= arrayLength(&changes) {
-        return;
-    }
-    if index % GROUP == 0u {
-        atomicAdd(&changing.groups[0], 1u);
-    }
-    changes[index] = change;
-}
-
 // Below this length, px, an object's pieces are dots.
 fn shortest_of(object: u32) -> f32 {
     return min(edge_styles[object].min_length, f32(FARTHEST));
@@ -141,7 +113,8 @@ fn is_piece(ahead: Stretch, behind: Stretch) -> bool {
 // Whether what is followed from a pixel is too short, and nothing else continues it.
 fn is_dot(px: vec2<i32>, object: u32, ahead: Stretch, behind: Stretch) -> bool {
     let shortest = shortest_of(object);
-    return extent_of(ahead, behind) < shortest && is_short(px, object, shortest);
+    let is_far = extent_of(ahead, behind) >= shortest || extent_around(lines_around(px)) >= shortest;
+    return !is_far && is_short(px, object, shortest);
 }
 
 // The nearest pixel in which a line of these classes, which are bits of a number, runs beside a point, farther than `above` and nearer
@@ -167,14 +140,30 @@ fn nearest_beside(px: vec2<i32>, own: Point, classes: u32, above: f32, below: f3
 // near each other, chance shows now and then both.
 fn is_beside_longer(px: vec2<i32>, own: Point, length: f32) -> bool {
     let beside = nearest_beside(px, own, ALL_CLASSES, 0.5, NEARBY);
-    let links = textureLoad(link_tex, beside, 0).x;
-    return any(beside != px) && own_length(followed(beside, links, 0u), followed(beside, links, 1u)) > length;
+    let links = textureLoad(link_tex, beside).x;
+    let ahead = follow(beside, links, 0u, stretch_length());
+    let behind = follow(beside, links, 1u, stretch_length());
+    return any(beside != px) && own_length(ahead, behind) > length;
 }
 
 // Whether several classes meet here.
 fn is_meeting(ahead: Stretch, behind: Stretch) -> bool {
     let classes = ahead.classes | behind.classes;
     return WITH_CLASSES && (classes & (classes - 1u)) != 0u;
+}
+
+// Whether it may be a dot or a short piece.
+fn may_be_short(own: Point, ahead: Stretch, behind: Stretch) -> bool {
+    let may_be_dot = WITH_DOTS && extent_of(ahead, behind) < shortest_of(own.texel.y);
+    return may_be_dot || (WITH_PIECES && is_piece(ahead, behind));
+}
+
+fn keep_short(px: vec2<i32>) {
+    let index = atomicAdd(&keeping_short.count, 1u);
+    if index % GROUP == 0u {
+        atomicAdd(&keeping_short.groups[0], 1u);
+    }
+    short_pixels[index] = pack_pixel(px);
 }
 
 // Lists the pixels where classes meet, and those of pieces that may be too short: a stretch tells.
@@ -185,13 +174,13 @@ fn cs_sift(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     let px = unpack_pixel(listed_pixels[id.x]);
     let own = point_at(px);
-    let links = textureLoad(link_tex, px, 0).x;
+    let links = textureLoad(link_tex, px).x;
     let ahead = follow(px, links, 0u, stretch_length());
     let behind = follow(px, links, 1u, stretch_length());
-    let is_short = WITH_PIECES && is_piece(ahead, behind);
-    let may_be_dot = WITH_DOTS && extent_of(ahead, behind) < shortest_of(own.texel.y);
-    if is_meeting(ahead, behind) || is_short || may_be_dot {
+    if is_meeting(ahead, behind) {
         keep(px);
+    } else if may_be_short(own, ahead, behind) {
+        keep_short(px);
     }
     textureStore(settling_tex, px, vec4(own.class_of));
 }
@@ -204,43 +193,54 @@ fn cs_settle(@builtin(global_invocation_id) id: vec3<u32>) {
     let px = unpack_pixel(listed_pixels[id.x]);
     let own = point_at(px);
     if own.class_of == NO_EDGE {
-        // It was left out the first time.
+        // It made way the first time.
         return;
     }
-    let links = textureLoad(link_tex, px, 0).x;
+    let links = textureLoad(link_tex, px).x;
     let ahead = followed(px, links, 0u);
     let behind = followed(px, links, 1u);
-    if LAST_ROUND && ((WITH_DOTS && is_dot(px, own.texel.y, ahead, behind))
-        || (WITH_PIECES && is_piece(ahead, behind) && is_beside_longer(px, own, own_length(ahead, behind)))) {
-        add(Change(vec4(0u), 0u, pack_pixel(px), 0u, NO_EDGE));
-        textureStore(settling_tex, px, vec4(NO_EDGE));
-        return;
-    }
-    var class_of = own.class_of;
-    if is_meeting(ahead, behind) {
-        class_of = settled(px, own.class_of, links, ahead, behind);
-    }
+    let class_of = settled(px, own.class_of, links, ahead, behind);
     textureStore(settling_tex, px, vec4(class_of));
-    if class_of == own.class_of {
+    if class_of != own.class_of {
+        keep(px);
+    }
+    if LAST_ROUND && may_be_short(own, ahead, behind) {
+        keep_short(px);
+    }
+}
+
+@compute @workgroup_size(GROUP)
+fn cs_leave_out(@builtin(global_invocation_id) id: vec3<u32>) {
+    if id.x >= list.count {
         return;
     }
-    if (classes_in(links) & bit_of(class_of)) != 0u {
-        // It runs through another pixel here.
-        add(Change(vec4(0u), 0u, pack_pixel(px), pack_pixel(nearest_beside(px, own, bit_of(class_of), -1.0, FAR)), class_of));
+    let px = unpack_pixel(listed_pixels[id.x]);
+    let own = point_at(px);
+    if own.class_of == NO_EDGE {
         return;
     }
-    // Between the pixels that have it.
-    let first = first_of(steps_of(ahead, behind, class_of));
-    let next = nearest_of(class_of, px, links, 0u);
-    let last = nearest_of(class_of, px, links, 1u);
-    var share = f32(first.x) / f32(first.x + first.y);
-    share = select(share, 1.0, first.x == ENDLESS);
-    share = select(share, 0.0, first.y == ENDLESS);
+    let links = textureLoad(link_tex, px).x;
+    let ahead = follow(px, links, 0u, stretch_length());
+    let behind = follow(px, links, 1u, stretch_length());
+    if (WITH_DOTS && is_dot(px, own.texel.y, ahead, behind))
+        || (WITH_PIECES && is_piece(ahead, behind) && is_beside_longer(px, own, own_length(ahead, behind))) {
+        textureStore(settling_tex, px, vec4(NO_EDGE));
+        keep(px);
+    }
+}
+
+// The line of a pixel with another class, between the pixels that have it.
+fn replaced(px: vec2<i32>, own: Point, links: u32, class_of: u32) -> Change {
+    let ahead = nearest_of(class_of, px, links, 0u);
+    let behind = nearest_of(class_of, px, links, 1u);
+    var share = ahead.distance / (ahead.distance + behind.distance);
+    share = select(share, 1.0, ahead.distance >= FAR);
+    share = select(share, 0.0, behind.distance >= FAR);
     let tangent = unpack_tangent(u32(own.tangent));
-    let depth = mix(bitcast<f32>(next.texel.z), bitcast<f32>(last.texel.z), share);
-    let shift = mix(next.shift, last.shift, share) * vec2(tangent.y, -tangent.x);
+    let depth = mix(bitcast<f32>(ahead.texel.z), bitcast<f32>(behind.texel.z), share);
+    let shift = mix(ahead.shift, behind.shift, share) * vec2(tangent.y, -tangent.x);
     let offset = pack_offset(offset_of(own.texel) + shift);
-    let look = select(last.texel, next.texel, vec4(first.x <= first.y));
+    let look = select(behind.texel, ahead.texel, vec4(share <= 0.5));
     let phase = 1023u << 16u;
     let edge = vec4(
         (class_of << 28u) | (own.texel.x & 0x0fff0000u) | offset,
@@ -249,21 +249,37 @@ fn cs_settle(@builtin(global_invocation_id) id: vec3<u32>) {
         (look.w & ~phase) | (own.texel.w & phase),
     );
     let rank = select(0.0, 1.0, is_of_profile(class_of));
-    let spine = spine_of(edge, halves_of(look.y, class_of), rank, 1.0 - range_share(depth));
-    add(Change(edge, spine, pack_pixel(px), 0u, NO_EDGE));
+    return Change(edge, spine_of(edge, halves_of(look.y, class_of), rank, 1.0 - range_share(depth)));
+}
+
+@compute @workgroup_size(GROUP)
+fn cs_replace(@builtin(global_invocation_id) id: vec3<u32>) {
+    if id.x >= min(list.count, arrayLength(&changes)) {
+        return;
+    }
+    let px = unpack_pixel(listed_pixels[id.x]);
+    let own = point_at(px);
+    let links = textureLoad(link_tex, px).x;
+    let class_of = textureLoad(settled_tex, px).x;
+    if class_of == NO_EDGE {
+        changes[id.x] = Change(vec4(0u), 0u);
+    } else if (classes_in(links) & bit_of(class_of)) != 0u {
+        // It runs through another pixel here, and this one makes way unless that changes too.
+        let beside = nearest_beside(px, own, bit_of(class_of), -1.0, FAR);
+        let stays = textureLoad(settled_tex, beside).x == class_of;
+        let spine = textureLoad(spine_tex, px).x;
+        changes[id.x] = Change(select(own.texel, vec4(0u), stays), select(spine, 0u, stays));
+    } else {
+        changes[id.x] = replaced(px, own, links, class_of);
+    }
 }
 
 @compute @workgroup_size(GROUP)
 fn cs_change(@builtin(global_invocation_id) id: vec3<u32>) {
-    if id.x >= min(changed.count, arrayLength(&changes)) {
+    if id.x >= min(list.count, arrayLength(&changes)) {
         return;
     }
-    let px = unpack_pixel(changes[id.x].px);
-    let beside_class = changes[id.x].beside_class;
-    let settled = textureLoad(settled_tex, unpack_pixel(changes[id.x].beside), 0).x;
-    if beside_class != NO_EDGE && settled != beside_class {
-        return;
-    }
+    let px = unpack_pixel(listed_pixels[id.x]);
     textureStore(edge_tex, px, changes[id.x].edge);
     textureStore(changed_spine_tex, px, vec4(changes[id.x].spine, 0u, 0u, 0u));
 }

@@ -1,40 +1,62 @@
 // Pieces of lines that are too short to tell anything and that nothing continues.
 #import common/frame.wgsl
 #import common/gbuffer.wgsl
+#import common/line_block.wgsl
 
-var spine_tex: texture_2d<u32>;
+var block_tex: texture_storage_2d<r32uint, read>;
 
 // Pieces are followed so far, px: a row of what is around a pixel is the bits of a number.
 const FARTHEST: i32 = 15;
 const ROWS: i32 = 2 * FARTHEST + 1;
 
-// Beyond the picture lines may go on.
-fn is_line(px: vec2<i32>) -> bool {
-    let is_inside = all(px >= vec2(0)) && all(px < vec2<i32>(frame.size));
-    return !is_inside || textureLoad(spine_tex, px, 0).x != 0u;
+// The lowest bits, 0 to 31 of them.
+fn lowest_bits(count: i32) -> u32 {
+    return (1u << u32(clamp(count, 0, 31))) - 1u;
+}
+
+// The rows of pixels with lines in them, from `first` to `last`. Beyond the picture lines may go on.
+fn rows_of_lines(first: vec2<i32>, last: vec2<i32>) -> array<u32, ROWS> {
+    var rows: array<u32, ROWS>;
+    let block = first / LINE_BLOCK;
+    let count = last / LINE_BLOCK - block + 1;
+    for (var i = 0; i < count.x * count.y; i++) {
+        let at = block + vec2(i % count.x, i / count.x);
+        let lines = textureLoad(block_tex, at).x;
+        let place = LINE_BLOCK * at - first;
+        for (var y = 0; y < LINE_BLOCK; y++) {
+            let row = (lines >> u32(LINE_BLOCK * y)) & lowest_bits(LINE_BLOCK);
+            let is_inside = place.y + y >= 0 && place.y + y < ROWS;
+            let moved = select(row << u32(max(place.x, 0)), row >> u32(max(-place.x, 0)), place.x < 0);
+            rows[clamp(place.y + y, 0, ROWS - 1)] |= select(0u, moved, is_inside);
+        }
+    }
+    let outside = lowest_bits(-first.x) | ~lowest_bits(i32(frame.size.x) - first.x);
+    for (var y = 0; y <= last.y - first.y; y++) {
+        let is_inside = first.y + y >= 0 && first.y + y < i32(frame.size.y);
+        rows[y] = (rows[y] | select(~0u, outside, is_inside)) & lowest_bits(last.x - first.x + 1);
+    }
+    return rows;
 }
 
 // The corners of the box around all that is connected to a pixel of a line, as far as it is within `reach` of it, px. A gap of one
 // pixel interrupts no line.
 fn box_around(px: vec2<i32>, reach: i32) -> vec4<i32> {
     let last = 2 * reach;
-    var lines: array<u32, ROWS>;
+    var lines = rows_of_lines(px - reach, px + reach);
     var own: array<u32, ROWS>;
-    for (var y = 0; y <= last; y++) {
-        for (var x = 0; x <= last; x++) {
-            lines[y] |= select(0u, 1u << u32(x), is_line(px + vec2(x, y) - reach));
-        }
-    }
     own[reach] = 1u << u32(reach);
     var is_growing = true;
     while is_growing {
         is_growing = false;
-        for (var y = 0; y <= last; y++) {
-            let beside = own[max(y - 1, 0)] | own[y] | own[min(y + 1, last)];
-            let rows = own[max(y - 2, 0)] | beside | own[min(y + 2, last)];
-            let grown = (rows | (rows << 1u) | (rows >> 1u) | (rows << 2u) | (rows >> 2u)) & lines[y];
+        // Down and up again; the last two rows.
+        var rows = vec2(0u);
+        for (var i = 0; i < 2 * (last + 1); i++) {
+            let y = min(i, 2 * last + 1 - i);
+            let beside = own[y] | rows.x | rows.y;
+            let grown = (beside | (beside << 1u) | (beside >> 1u) | (beside << 2u) | (beside >> 2u)) & lines[y];
             is_growing = is_growing || grown != own[y];
             own[y] = grown;
+            rows = vec2(grown, rows.x);
         }
     }
     var columns = 0u;

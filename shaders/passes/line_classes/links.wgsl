@@ -61,6 +61,24 @@ fn opposite_of(place: u32) -> u32 {
     return 2u * OWN - place;
 }
 
+// The places around a pixel in which lines run, as the bits of a number.
+fn lines_around(px: vec2<i32>) -> u32 {
+    var lines = 0u;
+    for (var place = 0u; place < AROUND; place++) {
+        lines |= select(0u, 1u << place, line_class(textureLoad(edge_map_tex, px + away_of(place))) != NO_EDGE);
+    }
+    return lines;
+}
+
+// The greater side of the box around these places, px.
+fn extent_around(places: u32) -> f32 {
+    let columns = (places | (places >> 5u) | (places >> 10u) | (places >> 15u) | (places >> 20u)) & 31u;
+    let rows = (places | (places >> 1u) | (places >> 2u) | (places >> 3u) | (places >> 4u)) & 0x108421u;
+    let both = vec2(columns, rows);
+    let extent = (firstLeadingBit(both) - firstTrailingBit(both)) / vec2(1u, 5u);
+    return f32(max(extent.x, extent.y));
+}
+
 // The next pixel of a line.
 struct PixelLink {
     // Of those around; `OWN`: the line ends here.

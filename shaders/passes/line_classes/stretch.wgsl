@@ -9,14 +9,14 @@ override WIDER_FIRST: bool = true;
 // The shortest stretch, px.
 var<storage, read> least: array<f32>;
 // As `pack_link` packs links. Undefined where no line is.
-var link_tex: texture_2d<u32>;
+var link_tex: texture_storage_2d<r32uint, read>;
 
 // Most steps of a stretch that are told apart: twice as many have to fit into the bits of a number.
 const MAX_STEPS: f32 = 15.0;
 // A class is found at one of so many steps at least; what is found less often is a line behind that peeps through.
 const MAX_STEPS_APART: i32 = 3;
-// More than the links of two stretches in the largest pictures.
-const MAX_LINKS: i32 = 64;
+// Farther than anything that is looked at, px.
+const FAR: f32 = 100.0;
 // Longer than any.
 const ENDLESS: i32 = 1000;
 
@@ -49,7 +49,7 @@ struct Walk {
 
 fn advanced(walk: Walk, link: PixelLink) -> Walk {
     let px = walk.px + away_of(link.place);
-    return Walk(px, textureLoad(link_tex, px, 0).x, walk.side ^ select(0u, 1u, link.is_turned));
+    return Walk(px, textureLoad(link_tex, px).x, walk.side ^ select(0u, 1u, link.is_turned));
 }
 
 // What following a line in one direction comes to.
@@ -83,9 +83,13 @@ fn stretch_length() -> f32 {
     return (f32(longest_gap()) + 0.5) / steps_per_px();
 }
 
-// Followed as far as it decides anything here.
+// As far as a line decides anything here, px.
+fn farthest() -> f32 {
+    return 2.0 * min(least[0], MAX_STEPS / steps_per_px());
+}
+
 fn followed(px: vec2<i32>, links: u32, first_side: u32) -> Stretch {
-    return follow(px, links, first_side, 2.0 * min(least[0], MAX_STEPS / steps_per_px()));
+    return follow(px, links, first_side, farthest());
 }
 
 // `farthest`: px.
@@ -154,25 +158,31 @@ struct Nearest {
     texel: vec4<u32>,
     // From the line to the left of it there, px.
     shift: f32,
+    // How far it is along the line, px; `FAR`: it is not found.
+    distance: f32,
 }
 
 fn nearest_of(class_of: u32, px: vec2<i32>, links: u32, first_side: u32) -> Nearest {
     var walk = Walk(px, links, first_side);
-    for (var i = 0; i < MAX_LINKS && (classes_in(walk.texel) & bit_of(class_of)) == 0u; i++) {
-        walk = advanced(walk, unpack_link(walk.texel, walk.side));
+    var distance = 0.0;
+    while distance < farthest() && (classes_in(walk.texel) & bit_of(class_of)) == 0u {
+        let link = unpack_link(walk.texel, walk.side);
+        walk = advanced(walk, link);
+        distance = select(distance + link.distance, FAR, link.place == OWN);
     }
+    distance = select(FAR, distance, (classes_in(walk.texel) & bit_of(class_of)) != 0u);
     let line = point_at(walk.px);
     let towards = unpack_tangent(u32(line.tangent));
     let left = vec2(towards.y, -towards.x) * select(-1.0, 1.0, walk.side == first_side);
-    var nearest = Nearest(line.texel, 0.0);
+    var nearest = Nearest(line.texel, 0.0, distance);
     var min_distance = 1e9;
     for (var place = 0u; place < AROUND; place++) {
         let point = point_at(walk.px + away_of(place));
         let seen = seen_from(line, towards, point);
-        let distance = abs(seen.x) + seen.y;
-        if point.class_of == class_of && seen.y < MERGING && abs(seen.x) <= ABREAST && distance < min_distance {
-            min_distance = distance;
-            nearest = Nearest(point.texel, dot(point.at - line.at, left));
+        let from_line = abs(seen.x) + seen.y;
+        if point.class_of == class_of && seen.y < MERGING && abs(seen.x) <= ABREAST && from_line < min_distance {
+            min_distance = from_line;
+            nearest = Nearest(point.texel, dot(point.at - line.at, left), distance);
         }
     }
     return nearest;
@@ -210,7 +220,7 @@ fn settled(px: vec2<i32>, own: u32, links: u32, ahead: Stretch, behind: Stretch)
     // The nearest other class on either side.
     var nearest = vec2<i32>(ENDLESS);
     var beside = vec2<u32>(NO_EDGE);
-    for (var left = ahead.classes | behind.classes; left != 0u; left &= left - 1u) {
+    for (var left = ahead.classes | behind.classes; left != 0u && (WIDER_FIRST || running == 0u); left &= left - 1u) {
         let class_of = countTrailingZeros(left) + 1u;
         let steps = steps_of(ahead, behind, class_of);
         let first = first_of(steps);

@@ -288,7 +288,7 @@ impl OpaqueLayer {
         rec: &mut Recorder<'_>,
         spines: &Target,
     ) -> Result<&RecordList, RenderError> {
-        self.line_pixels.list(rec, spines)
+        Ok(self.line_pixels.list(rec, spines)?.list)
     }
 
     /// Lets go of the edges.

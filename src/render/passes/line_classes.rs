@@ -1,13 +1,13 @@
 //! Lines followed over stretches, which decides their class and leaves out dots: see `shaders/passes/line_classes.wgsl`.
 //!
 //! ```text
-//! pixels of lines ─► links ─► sift ─► settle ─► change ─► edge map, spines
+//! pixels of lines ─► links ─► sift ─► settle, leave out ─► replace ─► change ─► edge map, spines
 //! ```
 
 use super::edge_map::EdgeMap;
 use super::gbuffer::GBuffer;
-use super::line_pixels::LinePixels;
-use crate::gpu::{ArrayBuffer, Gpu, Inputs, Program, RecordList, Recorder, inputs};
+use super::line_pixels::{FoundPixels, LinePixels};
+use crate::gpu::{ArrayBuffer, Gpu, Inputs, Program, RecordBuffer, RecordList, Recorder, inputs};
 use crate::render::base::edge_style::GpuEdgeStyle;
 use crate::render::base::error::RenderError;
 use crate::render::base::view::REFERENCE_HEIGHT;
@@ -24,9 +24,14 @@ const CLASSES: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;
 
 /// What deciding needs.
 pub struct LineClasses {
-    /// Pixels about which there is something to decide.
-    sifted: RecordList,
-    changes: RecordList,
+    /// Pixels where classes meet.
+    meeting: RecordList,
+    /// Pixels that may be dots or short pieces.
+    short: RecordList,
+    /// Pixels that change.
+    changing: RecordList,
+    /// What they become.
+    changes: RecordBuffer,
     least: ArrayBuffer,
 }
 
@@ -34,8 +39,10 @@ impl LineClasses {
     /// Without room for any.
     pub fn new(gpu: &Gpu) -> Self {
         Self {
-            sifted: RecordList::new(gpu, "pixels of lines to decide about"),
-            changes: RecordList::new(gpu, "changes of lines"),
+            meeting: RecordList::new(gpu, "pixels where classes of lines meet"),
+            short: RecordList::new(gpu, "pixels of short lines"),
+            changing: RecordList::new(gpu, "pixels of lines that change"),
+            changes: RecordBuffer::new(gpu, "changes of lines"),
             least: ArrayBuffer::new(gpu, "shortest stretch"),
         }
     }
@@ -58,12 +65,17 @@ impl LineClasses {
         let Some(spines) = edge_map.spines.as_ref().filter(|_| decisions.any()) else { return Ok(()) };
         let [width, height] = rec.size();
         let area = u64::from(width) * u64::from(height);
-        self.sifted.reserve(rec.gpu, area * 4)?;
+        self.meeting.reserve(rec.gpu, area * 4)?;
+        self.short.reserve(rec.gpu, area * 4)?;
+        // Each pixel may change its class or be too short.
+        self.changing.reserve(rec.gpu, area * 8)?;
         self.changes.reserve(rec.gpu, area.div_ceil(CHANGED) * CHANGE_BYTES)?;
         self.least.write(rec.gpu, &vec![LEAST * height as f32 / REFERENCE_HEIGHT as f32]);
         let links = rec.target("links of lines", LINKS)?;
         let settled = rec.target("settled classes", CLASSES)?;
+        let FoundPixels { list: lines, blocks } = pixels.list(rec, spines)?;
         let read = inputs! {
+            block_tex: blocks,
             spine_tex: spines,
             edge_map_tex: &edge_map.edges,
             link_tex: &links,
@@ -79,44 +91,64 @@ impl LineClasses {
             changed_spine_tex: spines,
         };
         let all = read.and(&written);
-        let lines = pixels.list(rec, spines)?;
         let sifting = inputs! {
             list: lines.count(),
             listed_pixels: lines.buffer(),
-            keeping: self.sifted.count(),
-            kept_pixels: self.sifted.buffer(),
+            keeping: self.meeting.count(),
+            kept_pixels: self.meeting.buffer(),
+            keeping_short: self.short.count(),
+            short_pixels: self.short.buffer(),
         };
         let sifting = sifting.and(&all);
-        self.sifted.empty(rec);
+        self.meeting.empty(rec);
+        self.short.empty(rec);
         rec.compute("links of lines", &program("cs_links"), &sifting, lines.count())?;
         rec.compute("sift lines", &decisions.program("cs_sift", true), &sifting, lines.count())?;
-        let listed = inputs! { list: self.sifted.count(), listed_pixels: self.sifted.buffer() };
-        let listed = listed.and(&all);
+        self.changing.empty(rec);
         if decisions.classes {
-            self.round(rec, &listed, decisions, false)?;
+            self.decide(rec, &decisions.program("cs_settle", false), &all, &self.meeting)?;
+            self.change(rec, &all)?;
             // Neighbors that decided differently, at the ends of stretches, agree the second time.
-            rec.compute("links of lines", &program("cs_links"), &listed, self.sifted.count())?;
+            for listed in [&self.meeting, &self.short] {
+                let inputs = inputs! { list: listed.count(), listed_pixels: listed.buffer() };
+                rec.compute("links of lines", &program("cs_links"), &inputs.and(&all), listed.count())?;
+            }
+            self.changing.empty(rec);
+            self.decide(rec, &decisions.program("cs_settle", true), &all, &self.meeting)?;
         }
-        self.round(rec, &listed, decisions, true)
+        self.decide(rec, &decisions.program("cs_leave_out", true), &all, &self.short)?;
+        self.change(rec, &all)
     }
 
-    /// Decides about the pixels that were sifted. In the last round lines are as they will be: what is short is left out.
-    fn round(
+    /// Adds those of the listed pixels that are to change.
+    fn decide(
         &self,
         rec: &mut Recorder<'_>,
-        listed: &Inputs<'_>,
-        decisions: Decisions,
-        is_last: bool,
+        program: &Program,
+        inputs: &Inputs<'_>,
+        listed: &RecordList,
     ) -> Result<(), RenderError> {
-        self.changes.empty(rec);
-        let changes = inputs! {
-            changing: self.changes.count(),
-            changed: self.changes.count(),
+        let lists = inputs! {
+            list: listed.count(),
+            listed_pixels: listed.buffer(),
+            keeping: self.changing.count(),
+            kept_pixels: self.changing.buffer(),
+            keeping_short: self.short.count(),
+            short_pixels: self.short.buffer(),
+        };
+        rec.compute("classes of lines", program, &lists.and(inputs), listed.count())?;
+        Ok(())
+    }
+
+    fn change(&self, rec: &mut Recorder<'_>, inputs: &Inputs<'_>) -> Result<(), RenderError> {
+        let lists = inputs! {
+            list: self.changing.count(),
+            listed_pixels: self.changing.buffer(),
             changes: self.changes.buffer(),
         };
-        let all = changes.and(listed);
-        rec.compute("classes of lines", &decisions.program("cs_settle", is_last), &all, self.sifted.count())?;
-        rec.compute("change classes", &program("cs_change"), &all, self.changes.count())?;
+        let all = lists.and(inputs);
+        rec.compute("change classes", &program("cs_replace"), &all, self.changing.count())?;
+        rec.compute("change classes", &program("cs_change"), &all, self.changing.count())?;
         Ok(())
     }
 }

@@ -15,6 +15,15 @@ pub struct ListedLines<'a> {
     pub pixels: &'a RecordList,
 }
 
+/// What is known of the pixels in which lines run.
+#[derive(Clone, Copy)]
+pub struct FoundPixels<'a> {
+    /// All of them.
+    pub list: &'a RecordList,
+    /// In which pixels of each block there are any, see [`line_blocks`].
+    pub blocks: &'a Target,
+}
+
 /// A list of pixels in which lines run, or ran before some of them were left out; see `shaders/common/pixel_list.wgsl`.
 pub struct LinePixels {
     list: RecordList,
@@ -42,26 +51,31 @@ impl LinePixels {
     ///
     /// # Errors
     /// [`RenderError`].
-    pub fn list(&mut self, rec: &mut Recorder<'_>, spines: &Target) -> Result<&RecordList, RenderError> {
-        if self.blocks.is_none() {
-            let [width, height] = rec.size();
-            rec.gpu.check_bytes_of_pixels("with lines", [width, height], 4)?;
-            self.list.reserve(rec.gpu, u64::from(width) * u64::from(height) * 4)?;
-            self.list.empty(rec);
-            let blocks = line_blocks(rec, spines)?;
-            let inputs = inputs! {
-                block_tex: &blocks,
-                keeping: self.list.count(),
-                kept_pixels: self.list.buffer(),
-            };
-            rec.compute(
-                "pixels of lines",
-                &Program::new("passes/line_pixels.wgsl", "cs_main"),
-                &inputs,
-                block_groups([width, height]),
-            )?;
-            self.blocks = Some(blocks);
-        }
-        Ok(&self.list)
+    pub fn list(&mut self, rec: &mut Recorder<'_>, spines: &Target) -> Result<FoundPixels<'_>, RenderError> {
+        let blocks = match self.blocks.take() {
+            Some(blocks) => blocks,
+            None => self.find(rec, spines)?,
+        };
+        Ok(FoundPixels { list: &self.list, blocks: self.blocks.insert(blocks) })
+    }
+
+    fn find(&mut self, rec: &mut Recorder<'_>, spines: &Target) -> Result<Target, RenderError> {
+        let [width, height] = rec.size();
+        rec.gpu.check_bytes_of_pixels("with lines", [width, height], 4)?;
+        self.list.reserve(rec.gpu, u64::from(width) * u64::from(height) * 4)?;
+        self.list.empty(rec);
+        let blocks = line_blocks(rec, spines)?;
+        let inputs = inputs! {
+            block_tex: &blocks,
+            keeping: self.list.count(),
+            kept_pixels: self.list.buffer(),
+        };
+        rec.compute(
+            "pixels of lines",
+            &Program::new("passes/line_pixels.wgsl", "cs_main"),
+            &inputs,
+            block_groups([width, height]),
+        )?;
+        Ok(blocks)
     }
 }
