@@ -123,8 +123,8 @@ fn nearest_beside(px: vec2<i32>, own: Point, classes: u32, above: f32, below: f3
     let towards = unpack_tangent(u32(own.tangent));
     var nearest = below;
     var beside = px;
-    for (var place = 0u; place < AROUND; place++) {
-        let other = px + away_of(place);
+    for (var places = lines_around(px); places != 0u; places &= places - 1u) {
+        let other = px + away_of(countTrailingZeros(places));
         let point = point_at(other);
         let seen = seen_from(own, towards, point);
         let is_asked = (classes & bit_of(point.class_of)) != 0u;

@@ -2,8 +2,7 @@
 #import common/frame.wgsl
 #import common/gbuffer.wgsl
 #import common/line_block.wgsl
-
-var block_tex: texture_storage_2d<r32uint, read>;
+#import passes/line_classes/links.wgsl
 
 // Pieces are followed so far, px: a row of what is around a pixel is the bits of a number.
 const FARTHEST: i32 = 15;

@@ -1,8 +1,10 @@
 // What continues a line: links from pixel to pixel.
 #import common/frame.wgsl
 #import common/edge_map.wgsl
+#import common/line_block.wgsl
 
 var edge_map_tex: texture_storage_2d<rgba32uint, read>;
+var block_tex: texture_storage_2d<r32uint, read>;
 
 // A line goes on beside its tangent up to this distance, px.
 const BESIDE: f32 = 1.0;
@@ -50,7 +52,6 @@ fn seen_from(own: Point, towards: vec2<f32>, point: Point) -> vec2<f32> {
 }
 
 // The pixels around one, row by row: two in each direction.
-const AROUND: u32 = 25u;
 const OWN: u32 = 12u;
 
 fn away_of(place: u32) -> vec2<i32> {
@@ -61,11 +62,23 @@ fn opposite_of(place: u32) -> u32 {
     return 2u * OWN - place;
 }
 
-// The places around a pixel in which lines run, as the bits of a number.
+// The places around a pixel in which lines run, or ran before they made way, as the bits of a number.
 fn lines_around(px: vec2<i32>) -> u32 {
+    // They lie in two by two blocks.
+    let first = px - 2;
+    let block = first >> vec2(2u);
+    let top_left = textureLoad(block_tex, block).x;
+    let top_right = textureLoad(block_tex, block + vec2(1, 0)).x;
+    let bottom_left = textureLoad(block_tex, block + vec2(0, 1)).x;
+    let bottom_right = textureLoad(block_tex, block + 1).x;
+    let place = vec2<u32>(first - LINE_BLOCK * block);
     var lines = 0u;
-    for (var place = 0u; place < AROUND; place++) {
-        lines |= select(0u, 1u << place, line_class(textureLoad(edge_map_tex, px + away_of(place))) != NO_EDGE);
+    for (var y = 0u; y < 5u; y++) {
+        let row = place.y + y;
+        let is_top = row < 4u;
+        let left = (select(bottom_left, top_left, is_top) >> (4u * (row & 3u))) & FIRST_ROW;
+        let right = (select(bottom_right, top_right, is_top) >> (4u * (row & 3u))) & FIRST_ROW;
+        lines |= (((left | (right << 4u)) >> place.x) & 31u) << (5u * y);
     }
     return lines;
 }

@@ -176,8 +176,8 @@ fn nearest_of(class_of: u32, px: vec2<i32>, links: u32, first_side: u32) -> Near
     let left = vec2(towards.y, -towards.x) * select(-1.0, 1.0, walk.side == first_side);
     var nearest = Nearest(line.texel, 0.0, distance);
     var min_distance = 1e9;
-    for (var place = 0u; place < AROUND; place++) {
-        let point = point_at(walk.px + away_of(place));
+    for (var places = lines_around(walk.px); places != 0u; places &= places - 1u) {
+        let point = point_at(walk.px + away_of(countTrailingZeros(places)));
         let seen = seen_from(line, towards, point);
         let from_line = abs(seen.x) + seen.y;
         if point.class_of == class_of && seen.y < MERGING && abs(seen.x) <= ABREAST && from_line < min_distance {
