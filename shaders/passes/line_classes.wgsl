@@ -158,6 +158,7 @@ fn may_be_short(own: Point, ahead: Stretch, behind: Stretch) -> bool {
     return may_be_dot || (WITH_PIECES && is_piece(ahead, behind));
 }
 
+// As `keep`: functions can't be told which list they add to.
 fn keep_short(px: vec2<i32>) {
     let index = atomicAdd(&keeping_short.count, 1u);
     if index % GROUP == 0u {

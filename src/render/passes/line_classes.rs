@@ -116,7 +116,9 @@ impl LineClasses {
             self.changing.empty(rec);
             self.decide(rec, &decisions.program("cs_settle", true), &all, &self.meeting)?;
         }
-        self.decide(rec, &decisions.program("cs_leave_out", true), &all, &self.short)?;
+        if decisions.dots || decisions.pieces {
+            self.decide(rec, &decisions.program("cs_leave_out", true), &all, &self.short)?;
+        }
         self.change(rec, &all)
     }
 
@@ -140,6 +142,7 @@ impl LineClasses {
         Ok(())
     }
 
+    /// Gives the pixels that change what they are to be.
     fn change(&self, rec: &mut Recorder<'_>, inputs: &Inputs<'_>) -> Result<(), RenderError> {
         let lists = inputs! {
             list: self.changing.count(),
