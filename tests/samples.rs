@@ -151,8 +151,8 @@ fn the_first_sample_and_what_is_flat_are_the_plain_picture() {
     session.set_scene(&opened).unwrap();
     let plain = smooth(&mut session, &opened, 1);
     assert!(first == plain);
-    // So the picture of something that moved is the first sample of what rests.
-    assert_eq!(sample(&mut session, &opened, 64, &[]).sample, Sample { index: 1, of: 64 });
+    // But it is no part of a picture of more.
+    assert_eq!(sample(&mut session, &opened, 64, &[]).sample, Sample { index: 0, of: 64 });
     // Inside the cube and outside of it, the mean of equal colors is that color, bit for bit.
     let many = smooth(&mut session, &opened, 64);
     let polygon = outline(&opened, [SIDE; 2]);
@@ -162,6 +162,24 @@ fn the_first_sample_and_what_is_flat_are_the_plain_picture() {
         let px = DVec2::new(f64::from(i as u32 % SIDE), f64::from(i as u32 / SIDE));
         assert!((1e-9..1.0 - 1e-9).contains(&coverage(&polygon, px)), "{px}");
     }
+}
+
+/// Strokes of a picture of one sample are crisp: they must not come from the first of many, nor go into their mean.
+#[test]
+fn a_hatched_picture_of_one_sample_is_the_same_whatever_was_drawn_before() {
+    let mut session = session();
+    let mut opened = slanted();
+    set(&mut opened, "technique", "hatching");
+    let mut images = |samples: [u32; 2]| {
+        session.set_scene(&opened).unwrap();
+        samples.map(|samples| {
+            session.set_samples(samples);
+            session.image(&opened, [240; 2], true).unwrap()
+        })
+    };
+    let [one, four] = images([1, 4]);
+    assert!(one != four);
+    assert!(images([4, 1]) == [four, one]);
 }
 
 #[test]

@@ -14,47 +14,46 @@ const REST: [Duration; 2] = [Duration::from_millis(150), Duration::from_secs(1)]
 #[derive(Debug)]
 pub struct Refining {
     quiet_since: Instant,
-    /// Samples that the present picture is asked for: one until it rests.
-    asked: u32,
-    /// Samples that it is to have at rest.
+    /// Samples that the picture is to have at rest.
     wanted: u32,
+    /// Whether it rests.
+    rests: bool,
     /// The last one that was drawn; `None` when it could not be drawn.
     drawn: Option<Sample>,
+    is_complete: bool,
 }
 
 impl Default for Refining {
     fn default() -> Self {
-        Self { quiet_since: Instant::now(), asked: 1, wanted: 1, drawn: None }
+        Self { quiet_since: Instant::now(), wanted: 1, rests: false, drawn: None, is_complete: true }
     }
 }
 
 impl Refining {
     /// A new picture, which is to have so many samples at rest.
     pub fn begin(&mut self, wanted: u32) {
-        *self = Self { wanted, ..Self::default() };
+        *self = Self { wanted, is_complete: wanted <= 1, ..Self::default() };
     }
 
-    /// How many samples to ask the renderer for.
+    /// How many samples to ask the renderer for. While something moves, of all of them only the first one is ever drawn.
     pub fn samples(&self) -> u32 {
-        self.asked
+        self.wanted
     }
 
     /// Takes note of what was drawn; `None`: nothing could be.
     pub fn note(&mut self, drawn: Option<Sample>) {
         self.drawn = drawn;
-        if drawn.is_none_or(|sample| sample.is_last() && self.asked > 1) {
-            self.wanted = 1;
-        }
+        self.is_complete = drawn.is_none_or(Sample::is_last);
     }
 
     /// Whether no more samples are to come.
     pub fn is_complete(&self) -> bool {
-        self.wanted <= 1
+        self.is_complete
     }
 
     /// Samples so far, and how many there are to be; `None` when it is complete, or does not rest yet.
     pub fn progress(&self) -> Option<(u32, u32)> {
-        let drawn = self.drawn.filter(|_| self.asked > 1 && !self.is_complete())?;
+        let drawn = self.drawn.filter(|_| self.rests && !self.is_complete)?;
         Some((drawn.index + 1, drawn.of))
     }
 
@@ -64,7 +63,7 @@ impl Refining {
         if context.input(|i| !i.events.is_empty() || i.pointer.any_down()) {
             self.quiet_since = Instant::now();
         }
-        if self.is_complete() {
+        if self.is_complete {
             return false;
         }
         let [least, most] = REST;
@@ -72,7 +71,7 @@ impl Refining {
         if !left.is_zero() {
             context.request_repaint_after(left);
         } else if !is_busy {
-            self.asked = self.wanted;
+            self.rests = true;
         }
         left.is_zero() && !is_busy
     }

@@ -360,6 +360,7 @@ impl Renderer {
             document: request.document.clone(),
             camera: *request.camera,
             size,
+            is_single: request.samples <= 1,
             incomplete: self.incomplete,
         };
         let sample = self.state.next_sample(subject, request.samples);

@@ -1,6 +1,10 @@
 //! Hatched pictures for measurements.
 
+use hachure::export::Session;
+use hachure::export::session::{Opened, initial_camera};
+use hachure::gpu::readback;
 use hachure::render::base::view::REFERENCE_HEIGHT;
+use hachure::render::{Picture, Request};
 use hachure::style::hatching::{Hatching, Mapping};
 use hachure::style::{Color, Curve, Style, Technique, preset};
 use image::RgbaImage;
@@ -22,6 +26,23 @@ pub fn even(mut hatching: Hatching, darkness: f32, side: u32) -> Style {
     let mut style = Style { technique: Technique::Hatching, hatching, ..Style::default() };
     (style.edges.profile.show, style.edges.inner.show) = (false, false);
     style
+}
+
+/// As the window shows it while something moves: the first of several samples. The scene must have been set.
+pub fn moving(session: &mut Session, opened: &Opened, side: u32) -> Picture {
+    session.find_stripes(&opened.document, &opened.scene).unwrap();
+    let Opened { document, scene, .. } = opened;
+    let camera = document.camera.unwrap_or_else(|| initial_camera(document, scene, 1.0));
+    let request =
+        Request { document, camera: &camera, size: [side; 2], transparent: true, selected: &[], samples: 2 };
+    session.renderer().render(&request).unwrap()
+}
+
+/// Reads a picture back.
+pub fn read(session: &mut Session, picture: &Picture) -> RgbaImage {
+    let [width, height] = picture.image.size();
+    RgbaImage::from_raw(width, height, readback::read(session.renderer().gpu(), &picture.image).unwrap())
+        .unwrap()
 }
 
 /// Share of ink of each pixel; `None` beside the model.

@@ -4,10 +4,8 @@ use glam::{DVec2, DVec3, UVec2};
 use hachure::export::Session;
 use hachure::export::session::Opened;
 use hachure::geometry::Projector;
-use hachure::gpu::readback;
 use hachure::render::View;
 use hachure::scene::Camera;
-use image::RgbaImage;
 
 use crate::common::{Surfel, hatched, surfels};
 
@@ -18,7 +16,7 @@ const INK: f64 = 0.2;
 /// Greatest difference of depths at which two pixels show the same place, as a share of the depth.
 const SAME_DEPTH: f64 = 4e-3;
 
-/// Ink and surface of each pixel, one sample each.
+/// Ink and surface of each pixel of a picture while something moves.
 #[derive(Clone)]
 pub(crate) struct Frame {
     pub(crate) side: usize,
@@ -31,10 +29,11 @@ pub(crate) struct Frame {
 impl Frame {
     pub(crate) fn drawn(session: &mut Session, opened: &mut Opened, camera: Camera, side: u32) -> Self {
         opened.document.camera = Some(camera);
-        let picture = session.draw(opened, [side; 2], true).unwrap();
-        let bytes = readback::read(session.renderer().gpu(), &picture.image).unwrap();
-        let image = RgbaImage::from_raw(side, side, bytes).unwrap();
-        let inks = hatched::inks(&image).into_iter().map(|ink| ink.unwrap_or(0.0)).collect();
+        let picture = hatched::moving(session, opened, side);
+        let inks = hatched::inks(&hatched::read(session, &picture))
+            .into_iter()
+            .map(|ink| ink.unwrap_or(0.0))
+            .collect();
         let view = View::new(&camera, &opened.scene.bounds(), UVec2::splat(side));
         Self { side: side as usize, inks, surfels: surfels(session, &picture), projector: view.projector() }
     }

@@ -29,6 +29,9 @@ const SOFT: f32 = 0.04;
 // A stroke ends where it would be narrower, px; one that is narrower than the other is drawn so wide, and paler.
 const MIN_WIDTH: f32 = 0.45;
 const FULL_WIDTH: f32 = 0.7;
+// Spacings from which on strokes begin to be crisp, and are, px.
+const CLOSE: f32 = 2.0;
+const WIDE_APART: f32 = 4.0;
 // The share of its greatest width from which on a stroke's ends close, and that at which it has none.
 const ENDS_CLOSE: f32 = 0.3;
 const ENDS_CLOSED: f32 = 0.8;
@@ -298,13 +301,18 @@ fn any_reach(marks: Marks) -> bool {
     return reaches(marks.own) || reaches(marks.passing);
 }
 
+// Width of a stroke's soft rim, px: strokes that lie close would beat with the pixels if they were crisp.
+fn rim_of(stroke: Stroke) -> f32 {
+    return mix(frame.coverage_ramp, frame.stroke_ramp, smoothstep(CLOSE, WIDE_APART, stroke.spacing));
+}
+
 // Ink of a stroke; `inside`: from its edge to a pixel within it, px, less than 0 beyond it; `width`: px.
-fn mark_ink(inside: f32, width: f32) -> f32 {
-    return clamp(inside / frame.coverage_ramp + 0.5, 0.0, 1.0) * min(width / FULL_WIDTH, 1.0);
+fn mark_ink(inside: f32, width: f32, rim: f32) -> f32 {
+    return clamp(inside / rim + 0.5, 0.0, 1.0) * min(width / FULL_WIDTH, 1.0);
 }
 
 // Ink of both strokes; `left`: share of their widths that is left.
-fn marks_ink(marks: Marks, left: f32) -> f32 {
+fn marks_ink(marks: Marks, left: f32, rim: f32) -> f32 {
     let own = Mark(marks.own.width * left, marks.own.away);
     let passing = Mark(marks.passing.width * left, marks.passing.away);
     let half_widths = vec2(half_width(own), half_width(passing));
@@ -312,10 +320,10 @@ fn marks_ink(marks: Marks, left: f32) -> f32 {
     if abs(own.away - passing.away) < half_widths.x + half_widths.y && own.width > 0.0 && passing.width > 0.0 {
         // They are one where they overlap.
         let edges = max(half_widths.xx + vec2(-1.0, 1.0) * aways.x, half_widths.yy + vec2(-1.0, 1.0) * aways.y);
-        return mark_ink(min(edges.x, edges.y), max(own.width, passing.width));
+        return mark_ink(min(edges.x, edges.y), max(own.width, passing.width), rim);
     }
     let insides = half_widths - abs(aways);
-    return mark_ink(insides.x, own.width) + mark_ink(insides.y, passing.width);
+    return mark_ink(insides.x, own.width, rim) + mark_ink(insides.y, passing.width, rim);
 }
 
 // Ink of a family where `ink` of all is to be inked.
@@ -345,5 +353,6 @@ fn stripe_ink(px: vec2<i32>, s: Stripes, number: u32, stroke: Stroke, ink: f32) 
     let run = vec2(-family.screen.y, family.screen.x) / family.per_px;
     let enough = min(2.0 * stroke.spacing, FOLLOWED);
     let left = smoothstep(0.4, 1.0, length_left(px, run, enough) / enough);
-    return max(marks_ink(near, left), marks_ink(wide, left));
+    let rim = rim_of(stroke);
+    return max(marks_ink(near, left, rim), marks_ink(wide, left, rim));
 }
