@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3, UVec2};
 use hachure::export::Session;
 use hachure::export::session::Opened;
 use hachure::geometry::Projector;
-use hachure::render::View;
+use hachure::render::{Picture, View};
 use hachure::scene::Camera;
 
 use crate::common::{Surfel, hatched, surfels};
@@ -16,7 +16,7 @@ const INK: f64 = 0.2;
 /// Greatest difference of depths at which two pixels show the same place, as a share of the depth.
 const SAME_DEPTH: f64 = 4e-3;
 
-/// Ink and surface of each pixel of a picture while something moves.
+/// Ink and surface of each pixel, one sample each.
 #[derive(Clone)]
 pub(crate) struct Frame {
     pub(crate) side: usize,
@@ -27,15 +27,28 @@ pub(crate) struct Frame {
 }
 
 impl Frame {
+    /// As it is while something moves.
     pub(crate) fn drawn(session: &mut Session, opened: &mut Opened, camera: Camera, side: u32) -> Self {
         opened.document.camera = Some(camera);
         let picture = hatched::moving(session, opened, side);
-        let inks = hatched::inks(&hatched::read(session, &picture))
+        Self::of(session, opened, camera, &picture)
+    }
+
+    /// As a picture of one sample is.
+    pub(crate) fn single(session: &mut Session, opened: &mut Opened, camera: Camera, side: u32) -> Self {
+        opened.document.camera = Some(camera);
+        let picture = session.draw(opened, [side; 2], true).unwrap();
+        Self::of(session, opened, camera, &picture)
+    }
+
+    fn of(session: &mut Session, opened: &Opened, camera: Camera, picture: &Picture) -> Self {
+        let size = UVec2::from_array(picture.image.size());
+        let inks = hatched::inks(&hatched::read(session, picture))
             .into_iter()
             .map(|ink| ink.unwrap_or(0.0))
             .collect();
-        let view = View::new(&camera, &opened.scene.bounds(), UVec2::splat(side));
-        Self { side: side as usize, inks, surfels: surfels(session, &picture), projector: view.projector() }
+        let view = View::new(&camera, &opened.scene.bounds(), size);
+        Self { side: size.x as usize, inks, surfels: surfels(session, picture), projector: view.projector() }
     }
 
     /// The point in the world that a pixel shows.

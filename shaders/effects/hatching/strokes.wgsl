@@ -26,7 +26,7 @@ const STROKES: u32 = 16u;
 
 // As in src/render/effects/hatching/calibration.rs.
 const SOFT: f32 = 0.04;
-// A stroke ends where it would be narrower, px; one that is narrower than the other is drawn so wide, and paler.
+// A stroke ends where it would be narrower, px; one that is narrower than the other is drawn so wide, and paler, if it is soft.
 const MIN_WIDTH: f32 = 0.45;
 const FULL_WIDTH: f32 = 0.7;
 // Spacings from which on strokes begin to be crisp, and are, px.
@@ -289,41 +289,56 @@ fn marks_at(number: f32, family: Family, rows: Rows, level: Level, along: Along,
     return Marks(first, mark_of(row, Piece(numbers, beyond, closes, -piece.side), stroke, tone));
 }
 
-fn half_width(mark: Mark) -> f32 {
-    return select(0.0, 0.5 * max(mark.width, FULL_WIDTH), mark.width > 0.0);
+// How fine strokes are drawn.
+struct Nib {
+    // Width of a stroke's soft rim, px.
+    rim: f32,
+    // A stroke that is narrower is drawn so wide, px, and paler.
+    least: f32,
 }
 
-fn reaches(mark: Mark) -> bool {
-    return mark.width > 0.0 && abs(mark.away) < half_width(mark) + 0.5 * frame.coverage_ramp;
+// Crisp strokes would beat with the pixels if they lay close, and have gaps if they did not cover a pixel of each row or column
+// that they cross. `away`: across strokes in the picture.
+fn nib_of(stroke: Stroke, away: vec2<f32>) -> Nib {
+    let is_crisp = frame.stroke_ramp < frame.coverage_ramp;
+    let crispness = select(0.0, smoothstep(CLOSE, WIDE_APART, stroke.spacing), is_crisp);
+    let connected = max(abs(away.x), abs(away.y)) / max(length(away), 1e-12);
+    return Nib(
+        mix(frame.coverage_ramp, frame.stroke_ramp, crispness),
+        mix(FULL_WIDTH, connected, crispness),
+    );
 }
 
-fn any_reach(marks: Marks) -> bool {
-    return reaches(marks.own) || reaches(marks.passing);
+fn half_width(mark: Mark, nib: Nib) -> f32 {
+    return select(0.0, 0.5 * max(mark.width, nib.least), mark.width > 0.0);
 }
 
-// Width of a stroke's soft rim, px: strokes that lie close would beat with the pixels if they were crisp.
-fn rim_of(stroke: Stroke) -> f32 {
-    return mix(frame.coverage_ramp, frame.stroke_ramp, smoothstep(CLOSE, WIDE_APART, stroke.spacing));
+fn reaches(mark: Mark, nib: Nib) -> bool {
+    return mark.width > 0.0 && abs(mark.away) < half_width(mark, nib) + 0.5 * nib.rim;
+}
+
+fn any_reach(marks: Marks, nib: Nib) -> bool {
+    return reaches(marks.own, nib) || reaches(marks.passing, nib);
 }
 
 // Ink of a stroke; `inside`: from its edge to a pixel within it, px, less than 0 beyond it; `width`: px.
-fn mark_ink(inside: f32, width: f32, rim: f32) -> f32 {
-    return clamp(inside / rim + 0.5, 0.0, 1.0) * min(width / FULL_WIDTH, 1.0);
+fn mark_ink(inside: f32, width: f32, nib: Nib) -> f32 {
+    return clamp(inside / nib.rim + 0.5, 0.0, 1.0) * min(width / nib.least, 1.0);
 }
 
 // Ink of both strokes; `left`: share of their widths that is left.
-fn marks_ink(marks: Marks, left: f32, rim: f32) -> f32 {
+fn marks_ink(marks: Marks, left: f32, nib: Nib) -> f32 {
     let own = Mark(marks.own.width * left, marks.own.away);
     let passing = Mark(marks.passing.width * left, marks.passing.away);
-    let half_widths = vec2(half_width(own), half_width(passing));
+    let half_widths = vec2(half_width(own, nib), half_width(passing, nib));
     let aways = vec2(own.away, passing.away);
     if abs(own.away - passing.away) < half_widths.x + half_widths.y && own.width > 0.0 && passing.width > 0.0 {
         // They are one where they overlap.
         let edges = max(half_widths.xx + vec2(-1.0, 1.0) * aways.x, half_widths.yy + vec2(-1.0, 1.0) * aways.y);
-        return mark_ink(min(edges.x, edges.y), max(own.width, passing.width), rim);
+        return mark_ink(min(edges.x, edges.y), max(own.width, passing.width), nib);
     }
     let insides = half_widths - abs(aways);
-    return mark_ink(insides.x, own.width, rim) + mark_ink(insides.y, passing.width, rim);
+    return mark_ink(insides.x, own.width, nib) + mark_ink(insides.y, passing.width, nib);
 }
 
 // Ink of a family where `ink` of all is to be inked.
@@ -346,13 +361,13 @@ fn stripe_ink(px: vec2<i32>, s: Stripes, number: u32, stroke: Stroke, ink: f32) 
         let even = nearest + select(-1.0, 1.0, rows.finer > nearest);
         wide = marks_at(even, family, rows, level, along, stroke, tone);
     }
-    if !any_reach(near) && !any_reach(wide) {
+    let nib = nib_of(stroke, family.screen);
+    if !any_reach(near, nib) && !any_reach(wide, nib) {
         return 0.0;
     }
     // What crosses a narrow facet would be a tooth of a comb.
     let run = vec2(-family.screen.y, family.screen.x) / family.per_px;
     let enough = min(2.0 * stroke.spacing, FOLLOWED);
     let left = smoothstep(0.4, 1.0, length_left(px, run, enough) / enough);
-    let rim = rim_of(stroke);
-    return max(marks_ink(near, left, rim), marks_ink(wide, left, rim));
+    return max(marks_ink(near, left, nib), marks_ink(wide, left, nib));
 }

@@ -23,7 +23,7 @@ const STEP: [f64; 2] = [0.754_877_666_246_692_7, 0.569_840_290_998_053_2];
 
 /// See [`Sample::stroke_ramp`]; on models a fifth of the pixels with ink are then gray. A sharper one shows more stairs than it
 /// takes away gray.
-const PRINTED_STROKE_RAMP: f32 = 0.33;
+const PRINTED_STROKE_RAMP: f32 = 0.25;
 
 impl Sample {
     /// The only sample of a picture.
