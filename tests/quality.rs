@@ -13,7 +13,8 @@ use std::time::{Duration, Instant};
 use common::median;
 use hachure::document::ViewSettings;
 use hachure::export::session::topology;
-use hachure::geometry::{Mesh, primitives};
+use hachure::geometry::stripes::StripeVertex;
+use hachure::geometry::{DirectionField, FieldOptions, Mesh, StripeField, primitives};
 use hachure::import::{ImportOptions, Progress, load};
 
 /// A GLB with positions and 32-bit indices only.
@@ -129,4 +130,30 @@ fn loading_with_topology_is_quick() {
     let (load, all) = (median(load), median(all));
     println!("file of 1.1 million triangles to scene {load:.3} s, with topology {all:.3} s (goal 0.35)");
     assert!(all <= 0.7);
+}
+
+#[test]
+#[ignore = "heavy: run by `make quality`"]
+fn directions_and_stripes_of_hatching_are_found_quickly() {
+    let options = FieldOptions::default();
+    let field = ball(100_000);
+    let times = (0..5).map(|_| {
+        let began = Instant::now();
+        DirectionField::solve(&field, &options, &|_| true).unwrap();
+        began.elapsed().as_secs_f64()
+    });
+    let time = median(times.collect());
+    println!("directions of 100,000 triangles {time:.2} s (goal 0.5)");
+    assert!(time <= 1.0);
+    for (triangles, goal) in [(52_000, 4.0), (1_100_000, 40.0)] {
+        let mesh = ball(triangles);
+        let began = Instant::now();
+        let field = StripeField::solve(&mesh, &options, &|_| true).unwrap();
+        let time = began.elapsed().as_secs_f64();
+        println!("directions and stripes of {} triangles {time:.2} s (goal {goal})", mesh.triangle_count());
+        assert!(time <= 2.0 * goal);
+        let bytes = field.vertices.len() * size_of::<StripeVertex>() / mesh.positions.len();
+        println!("  {bytes} bytes a vertex (goal 64)");
+        assert!(bytes <= 64);
+    }
 }
