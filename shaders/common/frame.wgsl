@@ -24,8 +24,6 @@ struct Frame {
     // Width in pixels of the soft rim of what is covered by a computed share: 1 in a single picture, less the more
     // samples are averaged.
     coverage_ramp: f32,
-    // The same of strokes of hatching: narrower in a picture of one sample.
-    stroke_ramp: f32,
     // Weight of this sample beside the mean of those before it.
     sample_weight: f32,
     // 1: orthographic.

@@ -353,14 +353,15 @@ impl Renderer {
         }
         let size = request.size.map(|s| s.max(1));
         let scale = size[1] as f32 / REFERENCE_HEIGHT as f32;
-        let objects = Objects::new(request.document, scene, &self.images, &self.strokes, scale);
+        let is_single = request.samples <= 1;
+        let objects = Objects::new(request.document, scene, &self.images, &self.strokes, scale, is_single);
         let subject = Subject {
             shaders: self.pipelines.generation(),
             scene_revision: self.scene_revision,
             document: request.document.clone(),
             camera: *request.camera,
             size,
-            is_single: request.samples <= 1,
+            is_single,
             incomplete: self.incomplete,
         };
         let sample = self.state.next_sample(subject, request.samples);

@@ -9,6 +9,8 @@ struct Stroke {
     spacing: f32,
     min_width: f32,
     max_width: f32,
+    // A stroke ends where it would be narrower, px.
+    end_width: f32,
     length: f32,
     taper: f32,
     gap: f32,
@@ -17,6 +19,8 @@ struct Stroke {
     pointedness: f32,
     late_insertion: f32,
     variation: f32,
+    // 1 where strokes are ink or paper, 0 where they have soft rims.
+    crispness: f32,
     // Which of the tables says what tone to ask for.
     table: u32,
 }
@@ -26,12 +30,10 @@ const STROKES: u32 = 16u;
 
 // As in src/render/effects/hatching/calibration.rs.
 const SOFT: f32 = 0.04;
-// A stroke ends where it would be narrower, px; one that is narrower than the other is drawn so wide, and paler, if it is soft.
-const MIN_WIDTH: f32 = 0.45;
+// A stroke that is narrower is drawn so wide, px, and paler, if it is soft.
 const FULL_WIDTH: f32 = 0.7;
-// Spacings from which on strokes begin to be crisp, and are, px.
-const CLOSE: f32 = 2.0;
-const WIDE_APART: f32 = 4.0;
+// Width of the soft rim of crisp strokes, px: a sharper one shows more stairs than it takes away gray.
+const CRISP_RIM: f32 = 0.22;
 // The share of its greatest width from which on a stroke's ends close, and that at which it has none.
 const ENDS_CLOSE: f32 = 0.3;
 const ENDS_CLOSED: f32 = 0.8;
@@ -125,6 +127,9 @@ fn tone_for(table: u32, place: f32, length: f32, ink: f32) -> f32 {
     return mix(by_row.x, by_row.y, fract(column));
 }
 
+// The share of the length that is enough for a stroke below which it is none.
+const SHORT: f32 = 0.55;
+
 // Strokes are followed so far at most, px.
 const FOLLOWED: f32 = 8.0;
 
@@ -208,6 +213,11 @@ struct Piece {
     side: f32,
 }
 
+// No hair lines: a stroke ends, it does not fade.
+fn ended(width: f32, stroke: Stroke) -> f32 {
+    return select(width, 0.0, width < stroke.end_width);
+}
+
 // What a stroke of a line leaves at a pixel; `tone`: what is asked for.
 fn mark_of(row: Row, piece: Piece, stroke: Stroke, tone: f32) -> Mark {
     var jitter = unit_of(row.seed);
@@ -229,9 +239,7 @@ fn mark_of(row: Row, piece: Piece, stroke: Stroke, tone: f32) -> Mark {
     let beyond = clamp((tone - threshold) / max(1.0 - threshold, 1e-3), 0.0, 1.0);
     let share = mix(stroke.min_width, stroke.max_width, beyond);
     let pressed = tapered * (1.0 - stroke.variation * variation) * smoothstep(0.0, SOFT, tone - threshold);
-    var width = stroke.spacing * share * pressed;
-    // No hair lines: a stroke ends, it does not fade.
-    width = select(width, 0.0, width < MIN_WIDTH);
+    var width = ended(stroke.spacing * share * pressed, stroke);
     // Nor hair lines of paper: strokes that nearly touch do.
     width += smoothstep(row.next - FULL_WIDTH, row.next, width);
     let aside = piece.side * PASSING * stroke.spacing * (1.0 - piece.tapered) * (1.0 - closed);
@@ -297,15 +305,13 @@ struct Nib {
     least: f32,
 }
 
-// Crisp strokes would beat with the pixels if they lay close, and have gaps if they did not cover a pixel of each row or column
-// that they cross. `away`: across strokes in the picture.
+// Crisp strokes would have gaps if they did not cover a pixel of each row or column that they cross. `away`: across strokes in the
+// picture.
 fn nib_of(stroke: Stroke, away: vec2<f32>) -> Nib {
-    let is_crisp = frame.stroke_ramp < frame.coverage_ramp;
-    let crispness = select(0.0, smoothstep(CLOSE, WIDE_APART, stroke.spacing), is_crisp);
     let connected = max(abs(away.x), abs(away.y)) / max(length(away), 1e-12);
     return Nib(
-        mix(frame.coverage_ramp, frame.stroke_ramp, crispness),
-        mix(FULL_WIDTH, connected, crispness),
+        mix(frame.coverage_ramp, CRISP_RIM, stroke.crispness),
+        mix(FULL_WIDTH, connected, stroke.crispness),
     );
 }
 
@@ -327,9 +333,9 @@ fn mark_ink(inside: f32, width: f32, nib: Nib) -> f32 {
 }
 
 // Ink of both strokes; `left`: share of their widths that is left.
-fn marks_ink(marks: Marks, left: f32, nib: Nib) -> f32 {
-    let own = Mark(marks.own.width * left, marks.own.away);
-    let passing = Mark(marks.passing.width * left, marks.passing.away);
+fn marks_ink(marks: Marks, left: f32, stroke: Stroke, nib: Nib) -> f32 {
+    let own = Mark(ended(marks.own.width * left, stroke), marks.own.away);
+    let passing = Mark(ended(marks.passing.width * left, stroke), marks.passing.away);
     let half_widths = vec2(half_width(own, nib), half_width(passing, nib));
     let aways = vec2(own.away, passing.away);
     if abs(own.away - passing.away) < half_widths.x + half_widths.y && own.width > 0.0 && passing.width > 0.0 {
@@ -368,6 +374,6 @@ fn stripe_ink(px: vec2<i32>, s: Stripes, number: u32, stroke: Stroke, ink: f32) 
     // What crosses a narrow facet would be a tooth of a comb.
     let run = vec2(-family.screen.y, family.screen.x) / family.per_px;
     let enough = min(2.0 * stroke.spacing, FOLLOWED);
-    let left = smoothstep(0.4, 1.0, length_left(px, run, enough) / enough);
-    return max(marks_ink(near, left, nib), marks_ink(wide, left, nib));
+    let left = smoothstep(SHORT, 1.0, length_left(px, run, enough) / enough);
+    return max(marks_ink(near, left, stroke, nib), marks_ink(wide, left, stroke, nib));
 }

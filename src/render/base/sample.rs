@@ -21,10 +21,6 @@ pub const MAX_SAMPLES: u32 = 1024;
 /// The reciprocals of the plastic number and of its square.
 const STEP: [f64; 2] = [0.754_877_666_246_692_7, 0.569_840_290_998_053_2];
 
-/// See [`Sample::stroke_ramp`]; on models a fifth of the pixels with ink are then gray. A sharper one shows more stairs than it
-/// takes away gray.
-const PRINTED_STROKE_RAMP: f32 = 0.25;
-
 impl Sample {
     /// The only sample of a picture.
     pub const ONLY: Self = Self { index: 0, of: 1 };
@@ -41,12 +37,6 @@ impl Sample {
     /// jagged on the way nor soft in the end.
     pub fn coverage_ramp(self) -> f32 {
         1.0 / (self.index as f32 + 1.0).sqrt()
-    }
-
-    /// Width of the soft rim of strokes of hatching, pixels. A picture without anti-aliasing shows them as a print does: ink or paper,
-    /// hardly a gray. Otherwise as [`Self::coverage_ramp`]: while something moves, crisp strokes would flicker.
-    pub fn stroke_ramp(self) -> f32 {
-        if self.of <= 1 { PRINTED_STROKE_RAMP } else { self.coverage_ramp() }
     }
 
     /// Its weight beside the mean of all before it.

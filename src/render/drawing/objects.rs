@@ -46,13 +46,15 @@ pub struct Objects {
 }
 
 impl Objects {
-    /// Resolves styles and roles of a document for the nodes of a scene; `scale`: pixels per reference pixel.
+    /// Resolves styles and roles of a document for the nodes of a scene; `scale`: pixels per reference pixel; `is_single`: whether
+    /// the picture has one sample only.
     pub fn new(
         document: &Document,
         scene: &GpuScene,
         images: &StyleImages,
         strokes: &StrokeMaps,
         scale: f32,
+        is_single: bool,
     ) -> Self {
         let stripes = StripesBy::new(document, &scene.scene);
         let resolved = document.resolve(&scene.scene);
@@ -75,6 +77,7 @@ impl Objects {
                 strokes,
                 stripes,
                 scale,
+                is_single,
             });
             objects.add(node, r, scene, images, document.view.show == Show::Picture);
         }

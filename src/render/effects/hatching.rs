@@ -126,7 +126,7 @@ impl Hatchings {
         let style = &object.style.hatching;
         let request = request_of(object.scene, object.node, style, object.stripes);
         let place = request.and_then(|request| object.scene.stripe_place(&request));
-        let stroke = GpuStroke::new(&style.stroke, object.scale);
+        let stroke = GpuStroke::new(&style.stroke, object.scale, object.is_single);
         let known = self.tables.iter().position(|table| table.stroke == stroke);
         let table = known.unwrap_or_else(|| {
             self.tables.push(table_of(&stroke));

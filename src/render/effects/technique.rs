@@ -36,6 +36,8 @@ pub struct Styled<'a> {
     pub stripes: StripesBy,
     /// Pixels per reference pixel.
     pub scale: f32,
+    /// Whether the picture has one sample only.
+    pub is_single: bool,
 }
 
 impl Styled<'_> {

@@ -23,7 +23,7 @@ pub struct Subject {
     pub camera: Camera,
     /// Size of the picture in pixels.
     pub size: [u32; 2],
-    /// Whether it has one sample only: some things are drawn otherwise then ([`Sample::stroke_ramp`]).
+    /// Whether it has one sample only: strokes of hatching are crisp then.
     pub is_single: bool,
     /// How often a sample turned out to be incomplete: none of those has a part in it.
     pub incomplete: u64,

@@ -239,7 +239,7 @@ fn width(stroke: &GpuStroke, beyond: f32, most: f32, pressed: f32, apart: f32) -
     let share = stroke.min_width + (stroke.max_width - stroke.min_width) * share;
     let width = stroke.spacing * share * pressed * smoothstep(0.0, SOFT, beyond);
     // No hair lines: a stroke ends, it does not fade.
-    let width = if width < MIN_WIDTH { 0.0 } else { width };
+    let width = if width < stroke.end_width { 0.0 } else { width };
     // Nor hair lines of paper.
     width + smoothstep(apart - FULL_WIDTH, apart, width)
 }
@@ -267,8 +267,7 @@ fn covered(half: f32, distance: f32) -> f32 {
 
 // As in `shaders/effects/hatching/strokes.wgsl`.
 const SOFT: f32 = 0.04;
-// A stroke ends where it would be narrower, px; one that is narrower than the other is drawn so wide, and paler.
-const MIN_WIDTH: f32 = 0.45;
+// A stroke that is narrower is drawn so wide, px, and paler.
 const FULL_WIDTH: f32 = 0.7;
 const PASSING: f32 = 0.25;
 const INSERTED: f32 = 0.2;
@@ -276,7 +275,7 @@ const INSERTED: f32 = 0.2;
 const ENDS_CLOSE: f32 = 0.3;
 const ENDS_CLOSED: f32 = 0.8;
 
-fn smoothstep(from: f32, to: f32, x: f32) -> f32 {
+pub(super) fn smoothstep(from: f32, to: f32, x: f32) -> f32 {
     let t = ((x - from) / (to - from)).clamp(0.0, 1.0);
     t * t * (3.0 - 2.0 * t)
 }
@@ -321,8 +320,10 @@ mod tests {
         let presets = preset::all().into_iter().filter(|p| p.style.technique == Technique::Hatching);
         let all =
             presets.map(|p| (p.name, p.style.hatching)).chain([("default".into(), Hatching::default())]);
-        for (name, hatching) in all {
-            let stroke = GpuStroke::new(&hatching.stroke, 1.0);
+        for ((name, hatching), is_single) in
+            all.flat_map(|preset| [false, true].map(|is_single| (preset.clone(), is_single)))
+        {
+            let stroke = GpuStroke::new(&hatching.stroke, 1.0, is_single);
             let Calibration { tones: table, greatest } = Calibration::of(&stroke);
             assert!(greatest > 0.3, "{name}: {greatest}");
             let mut worst = 0.0_f32;
