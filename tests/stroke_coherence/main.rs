@@ -129,16 +129,17 @@ fn measure_crumbs(session: &mut Session, models: &[&str], failures: &mut Failure
                 .map(|drawn| Marks::of(&drawn(session, &mut opened, camera, PICTURE)));
             for (what, marks) in [("moving", &moving), ("one sample", &single)] {
                 println!(
-                    "{name:<8}{:<24}{what:<12}{:5.2} % of the ink, {:.2} % inside of surfaces",
+                    "{name:<10}{:<24}{what:<12}{:5.2} % of the ink, {:.2} % inside of surfaces",
                     preset.name,
                     100.0 * marks.crumbs(),
                     100.0 * marks.free_crumbs()
                 );
             }
-            // What is crisp has no gaps: only borders cut it into more pieces.
-            let [all, pieces] = [moving.crumbs(), single.free_crumbs()];
+            // What is crisp has no gaps: only borders cut it into pieces.
+            let pieces = single.free_crumbs();
             failures
                 .check(pieces <= MAX_PIECES, format!("{name}: {} has {pieces:.4} in pieces", preset.name));
+            let all = moving.crumbs().max(single.crumbs());
             failures.check(all <= MAX_CRUMBS, format!("{name}: {} has {all:.4} in crumbs", preset.name));
         }
     }
@@ -148,7 +149,7 @@ fn measure_crumbs(session: &mut Session, models: &[&str], failures: &mut Failure
 #[ignore = "heavy: run by `make quality`"]
 fn strokes_leave_no_crumbs() {
     let mut failures = Failures::default();
-    measure_crumbs(&mut session(), &MODELS, &mut failures);
+    measure_crumbs(&mut session(), &["ogre", "crank", "temple", "cloister"], &mut failures);
     failures.report();
 }
 

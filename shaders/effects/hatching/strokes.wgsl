@@ -44,6 +44,11 @@ const INSERTED: f32 = 0.2;
 const OCTAVE_PLACES: u32 = 32u;
 const OCTAVE_LENGTHS: u32 = 10u;
 const INK_STEPS: u32 = 64u;
+// The share of the length that is enough for a stroke below which it is none.
+const SHORT: f32 = 0.55;
+// Strokes are followed so far at most, px, and so far from their edges: those of which a surface shows less would be rows of dots.
+const FOLLOWED: f32 = 8.0;
+const INSET: f32 = 1.0;
 
 // For each table, place in the octave of densities, in that of lengths, and share of ink the tone to ask for.
 var<storage, read> stripe_tones: array<f32>;
@@ -127,24 +132,22 @@ fn tone_for(table: u32, place: f32, length: f32, ink: f32) -> f32 {
     return mix(by_row.x, by_row.y, fract(column));
 }
 
-// The share of the length that is enough for a stroke below which it is none.
-const SHORT: f32 = 0.55;
-
-// Strokes are followed so far at most, px.
-const FOLLOWED: f32 = 8.0;
-
-// Length that the surface leaves of a stroke through a pixel, px; beyond `length` it does not matter.
-fn length_left(px: vec2<i32>, along: vec2<f32>, length: f32) -> f32 {
+// Length that the surface leaves of a stroke, px; beyond `enough` it does not matter. `core`: from the pixel to what of the stroke is
+// followed.
+fn length_left(px: vec2<i32>, core: vec2<f32>, along: vec2<f32>, enough: f32) -> f32 {
     let own = textureLoad(surface_id_tex, px, 0).x;
     let most = vec2<i32>(frame.size) - 1;
-    var left = 1.0;
+    // From column to column or from row to row, so that all pixels of a stroke meet the same ones.
+    let step = along / max(abs(along.x), abs(along.y));
+    let step_length = length(step);
+    var left = step_length;
     for (var way = -1.0; way <= 1.0; way += 2.0) {
-        for (var i = 1.0; left < length; i += 1.0) {
-            let q = px + vec2<i32>(round(i * way * along));
+        for (var i = 1.0; left < enough; i += 1.0) {
+            let q = px + vec2<i32>(round(core + i * way * step));
             if textureLoad(surface_id_tex, clamp(q, vec2(0), most), 0).x != own {
                 break;
             }
-            left += 1.0;
+            left += step_length;
         }
     }
     return left;
@@ -347,6 +350,24 @@ fn marks_ink(marks: Marks, left: f32, stroke: Stroke, nib: Nib) -> f32 {
     return mark_ink(insides.x, own.width, nib) + mark_ink(insides.y, passing.width, nib);
 }
 
+// In which a pixel lies deeper.
+fn deeper(a: Mark, b: Mark) -> Mark {
+    if 0.5 * a.width - abs(a.away) < 0.5 * b.width - abs(b.away) {
+        return b;
+    }
+    return a;
+}
+
+// From a pixel to the core of a stroke, in the pixel's own column or row, px.
+fn to_core(mark: Mark, family: Family) -> vec2<f32> {
+    let most = max(0.5 * mark.width - INSET, 0.0);
+    let across = (clamp(mark.away, -most, most) - mark.away) * family.sense * family.per_px;
+    if abs(family.screen.y) > abs(family.screen.x) {
+        return vec2(0.0, across / family.screen.y);
+    }
+    return vec2(across / family.screen.x, 0.0);
+}
+
 // Ink of a family where `ink` of all is to be inked.
 fn stripe_ink(px: vec2<i32>, s: Stripes, number: u32, stroke: Stroke, ink: f32) -> f32 {
     let family = family_of(s, number);
@@ -374,6 +395,7 @@ fn stripe_ink(px: vec2<i32>, s: Stripes, number: u32, stroke: Stroke, ink: f32) 
     // What crosses a narrow facet would be a tooth of a comb.
     let run = vec2(-family.screen.y, family.screen.x) / family.per_px;
     let enough = min(2.0 * stroke.spacing, FOLLOWED);
-    let left = smoothstep(SHORT, 1.0, length_left(px, run, enough) / enough);
+    let core = to_core(deeper(deeper(near.own, near.passing), deeper(wide.own, wide.passing)), family);
+    let left = smoothstep(SHORT, 1.0, length_left(px, core, run, enough) / enough);
     return max(marks_ink(near, left, stroke, nib), marks_ink(wide, left, stroke, nib));
 }

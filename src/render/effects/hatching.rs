@@ -11,6 +11,7 @@ mod indication;
 mod ranks;
 mod requests;
 mod sets;
+mod smoothstep;
 mod strokes;
 
 use std::sync::{Arc, Mutex, PoisonError};

@@ -116,7 +116,7 @@ impl LineClasses {
             self.changing.empty(rec);
             self.decide(rec, &decisions.program("cs_settle", true), &all, &self.meeting)?;
         }
-        if decisions.dots || decisions.pieces {
+        if decisions.dots {
             self.decide(rec, &decisions.program("cs_leave_out", true), &all, &self.short)?;
         }
         self.change(rec, &all)

@@ -6,6 +6,7 @@ use std::array;
 use rayon::prelude::*;
 
 use super::ranks::{LineId, rank_of_width};
+use super::smoothstep::smoothstep;
 use super::strokes::GpuStroke;
 
 /// Places in the octave between two densities, and in that between two lengths of strokes. What comes after the last is the first.
@@ -274,11 +275,6 @@ const INSERTED: f32 = 0.2;
 // The share of its greatest width from which on a stroke's ends close, and that at which it has none.
 const ENDS_CLOSE: f32 = 0.3;
 const ENDS_CLOSED: f32 = 0.8;
-
-pub(super) fn smoothstep(from: f32, to: f32, x: f32) -> f32 {
-    let t = ((x - from) / (to - from)).clamp(0.0, 1.0);
-    t * t * (3.0 - 2.0 * t)
-}
 
 fn mixed(v: u32) -> u32 {
     let state = v.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);

@@ -2,7 +2,7 @@
 
 use encase::ShaderType;
 
-use super::calibration::smoothstep;
+use super::smoothstep::smoothstep;
 use crate::style::hatching::Stroke;
 
 /// Twin of `Stroke` in `shaders/effects/hatching/strokes.wgsl`: lengths in px, widths as shares of the spacing.
