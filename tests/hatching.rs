@@ -188,6 +188,47 @@ fn tones_are_as_dark_as_asked() {
     }
 }
 
+/// Strokes of tonal art maps: a pen's by texture coordinates and on the picture, small ones that cannot be crisp, and dots.
+fn tiled() -> [(&'static str, Hatching); 4] {
+    let of = |mapping, set| Hatching { mapping, set, ..Hatching::default() };
+    let dots = Hatching { blend_tones: false, turn_step: 90.0, ..of(Mapping::ImageSpace, Set::Stipple) };
+    let mut small = of(Mapping::ImageSpace, Set::Pen);
+    small.stroke.spacing = 3.5;
+    [
+        ("uv", of(Mapping::Uv, Set::Pen)),
+        ("image_space", of(Mapping::ImageSpace, Set::Pen)),
+        ("small", small),
+        ("dots", dots),
+    ]
+}
+
+#[test]
+fn strokes_of_tiles_are_ink_or_paper_in_pictures_of_one_sample() {
+    for (name, hatching) in tiled() {
+        for samples in [Samples::First, Samples::One] {
+            let worst = deviations(&hatching, samples, 8, 2, 2);
+            println!("{name}, {samples:?}: {worst}");
+            assert!(worst.mean <= 0.02, "{name}, {samples:?}: {worst}");
+            let is_bounded = samples == Samples::One && name != "small";
+            assert!(!is_bounded || worst.gray <= MAX_GRAY, "{name}: {worst}");
+        }
+    }
+}
+
+#[test]
+fn strokes_of_tiles_come_one_by_one_or_blended() {
+    let mut session = session();
+    let mut plane = opened(primitives::plane(6.0), DMat4::IDENTITY, 3.0);
+    session.set_scene(&plane).unwrap();
+    let darkest = [true, false].map(|blend_tones| {
+        let hatching = Hatching { blend_tones, mapping: Mapping::ImageSpace, ..Hatching::default() };
+        // Half of the lightest tone that a set has.
+        plane.document.style = even(hatching, 0.06, SIDE);
+        inks(&drawn(&mut session, &plane)).into_iter().flatten().fold(0.0, f64::max)
+    });
+    assert!(darkest[0] < 0.6 && darkest[1] > 0.95, "{darkest:?}");
+}
+
 /// Strokes as they are, without outlines and the grain of a paper, in black on white.
 fn measure_gray(models: &[&str]) {
     let mut session = session();

@@ -61,6 +61,8 @@ struct HatchingStyle {
     shadows_differ: u32,
     turn_step: f32,
     blends_steps: u32,
+    // Whether tones of tiles are blended, or strokes come one by one.
+    blends_tones: u32,
     towards_light: u32,
     // Strokes that are left out away from edges.
     indication: Indication,
@@ -212,6 +214,15 @@ fn laid_at(object: u32, dark: Dark) -> Laid {
     return Laid(hatching_styles[object].strokes, 0.0);
 }
 
+// Ink at a point of the paper (in tiles), where strokes run at an angle.
+fn image_space_ink_at(object: u32, at: vec2<f32>, angle: f32, strokes: u32, ink: f32) -> f32 {
+    let lod = max(log2(TILE / hatching_styles[object].tile), 0.0);
+    if hatching_styles[object].blends_tones == 1u {
+        return blended_ink_at(at, angle, strokes, ink, lod);
+    }
+    return ink_by_strokes_at(at, angle, strokes, ink, lod, hatching_styles[object].stroke.crispness);
+}
+
 // Strokes on the paper, turned as the surface says, in steps: sign(a) · ⌊|a| / T⌋ · T.
 fn strokes_in_image_space(px: vec2<i32>, texel: vec4<u32>, s: Surfel, pos_view: vec3<f32>, ink: f32, laid: Laid) -> f32 {
     let object = s.object;
@@ -221,17 +232,16 @@ fn strokes_in_image_space(px: vec2<i32>, texel: vec4<u32>, s: Surfel, pos_view: 
     let angle = atan2(facing.y, max(facing.x, 1e-12));
     let at = (vec2<f32>(px) + 0.5 - frame.jitter) / hatching_styles[object].tile;
     let strokes = laid.strokes;
-    let lod = max(log2(TILE / hatching_styles[object].tile), 0.0);
     let step = hatching_styles[object].turn_step;
     if step <= 0.0 {
-        return image_space_ink_at(at, angle + laid.turn, strokes, ink, lod);
+        return image_space_ink_at(object, at, angle + laid.turn, strokes, ink);
     }
     let steps = floor(abs(angle) / step);
-    let drawn = image_space_ink_at(at, sign(angle) * steps * step + laid.turn, strokes, ink, lod);
+    let drawn = image_space_ink_at(object, at, sign(angle) * steps * step + laid.turn, strokes, ink);
     if hatching_styles[object].blends_steps == 0u {
         return drawn;
     }
-    let next = image_space_ink_at(at, sign(angle) * (steps + 1.0) * step + laid.turn, strokes, ink, lod);
+    let next = image_space_ink_at(object, at, sign(angle) * (steps + 1.0) * step + laid.turn, strokes, ink);
     return mix(drawn, next, abs(angle) / step - steps);
 }
 
@@ -252,12 +262,13 @@ fn strokes_by_uv(texel: vec4<u32>, object: u32, inks: vec3<f32>, laid: Laid) -> 
     let strokes = laid.strokes;
     let turn = laid.turn;
     let tile = 0.5 * hatching_styles[object].tile;
-    var left = 1.0 - uv_ink_of(uv, pixel, tile, strokes, turn, 0u, inks.x);
+    let crispness = hatching_styles[object].stroke.crispness;
+    var left = 1.0 - uv_ink_of(uv, pixel, tile, strokes, turn, 0u, inks.x, crispness);
     if WITH_SECOND && inks.y > 0.0 {
-        left *= 1.0 - uv_ink_of(uv, pixel, tile, strokes, turn, 1u, inks.y);
+        left *= 1.0 - uv_ink_of(uv, pixel, tile, strokes, turn, 1u, inks.y, crispness);
     }
     if WITH_THIRD && inks.z > 0.0 {
-        left *= 1.0 - uv_ink_of(uv, pixel, tile, strokes, turn, 2u, inks.z);
+        left *= 1.0 - uv_ink_of(uv, pixel, tile, strokes, turn, 2u, inks.z, crispness);
     }
     return 1.0 - left;
 }

@@ -24,6 +24,8 @@ pub struct Hatching {
     pub turn_step: f32,
     /// Whether the strokes of the two nearest steps are blended.
     pub blend_steps: bool,
+    /// Whether tones between those of a set are blends of both; strokes come one by one otherwise.
+    pub blend_tones: bool,
     /// What single strokes are like.
     pub stroke: Stroke,
     /// How strokes make tones.
@@ -179,6 +181,7 @@ impl Default for Hatching {
             direction: Direction::default(),
             turn_step: 15.0,
             blend_steps: false,
+            blend_tones: true,
             stroke: Stroke {
                 spacing: 6.0,
                 min_width: 0.15,
@@ -243,6 +246,13 @@ impl Hatching {
                 "Blend steps",
                 "Strokes of the two nearest steps are blended, so that none is cut off.",
                 &mut self.blend_steps,
+            );
+            list.switch(
+                "blend_tones",
+                "Blend tones",
+                "Tones between two of the strokes' own are blends of both; otherwise, and always in pictures of one sample, strokes come \
+                 one by one.",
+                &mut self.blend_tones,
             );
         });
         list.color("ink", "Ink", "Color of the ink.", &mut self.ink);

@@ -9,6 +9,11 @@ var tile_of_strokes: sampler;
 // Texels along the side of a tile at its finest resolution.
 const TILE: f32 = 256.0;
 const DIRECTIONS: u32 = 3u;
+// As the last of `LIGHT_INKS` in src/hatching/tonal_art_map/composition.rs.
+const DARKEST_LIGHT: f32 = 0.384;
+// Crisp strokes go from paper to ink within so much of what a tile has; in the middle of it, so that tones stay as dark.
+const CRISP_STEP: f32 = 0.15;
+const CRISP_MIDDLE: f32 = 0.475;
 
 struct LaidDirection {
     turn: f32,
@@ -58,18 +63,6 @@ fn tone_of_ink(ink: f32) -> f32 {
     return tone;
 }
 
-// Ink at a point of the paper (in tiles), where strokes run at an angle; each pixel blends two neighboring tones.
-fn image_space_ink_at(at: vec2<f32>, angle: f32, strokes: u32, ink: f32, lod: f32) -> f32 {
-    var samples = array<vec3<f32>, 3>();
-    for (var i = 0u; i < DIRECTIONS; i++) {
-        let place = place_in_tile(at, angle, laid_direction(i));
-        samples[i] = textureSampleLevel(light_tones, tile_of_strokes, place, strokes, lod).rgb;
-    }
-    let tone = tone_of_ink(ink);
-    let whole = u32(tone);
-    return mix(composed(whole, samples), composed(whole + 1u, samples), tone - f32(whole));
-}
-
 // Ink of a texel where a mean ink is asked for.
 fn ink_of_priority(texel: vec4<f32>, ink: f32) -> f32 {
     return select(select(0.0, texel.y, ink > texel.x && texel.x < 0.999), texel.w, ink > texel.z && texel.z < 0.999);
@@ -89,9 +82,58 @@ fn priority_ink(place: vec2<f32>, strokes: u32, level: u32, ink: f32) -> f32 {
     return mix(mix(inks.x, inks.y, f.x), mix(inks.z, inks.w, f.x), f.y);
 }
 
+// The more crisp, the more what a tile has is ink or paper.
+fn crisp_ink(ink: f32, crispness: f32) -> f32 {
+    return mix(ink, clamp((ink - CRISP_MIDDLE) / CRISP_STEP + 0.5, 0.0, 1.0), crispness);
+}
+
+// Ink at a point of the paper (in tiles), where strokes run at an angle; each pixel blends two neighboring tones.
+fn blended_ink_at(at: vec2<f32>, angle: f32, strokes: u32, ink: f32, lod: f32) -> f32 {
+    var samples = array<vec3<f32>, 3>();
+    for (var i = 0u; i < DIRECTIONS; i++) {
+        let place = place_in_tile(at, angle, laid_direction(i));
+        samples[i] = textureSampleLevel(light_tones, tile_of_strokes, place, strokes, lod).rgb;
+    }
+    let tone = tone_of_ink(ink);
+    let whole = u32(tone);
+    return mix(composed(whole, samples), composed(whole + 1u, samples), tone - f32(whole));
+}
+
+// Mean ink of each direction, so that all of them together have that of a tone: `inks_of_layers` in
+// src/hatching/tonal_art_map/composition.rs.
+fn inks_of_layers(ink: f32) -> vec3<f32> {
+    if ink <= DARKEST_LIGHT {
+        return vec3(ink, 0.0, 0.0);
+    }
+    let crossed = 1.0 - sqrt((1.0 - ink) / (1.0 - DARKEST_LIGHT));
+    return select(vec3(1.0 - pow(1.0 - ink, 1.0 / 3.0)), vec3(DARKEST_LIGHT, crossed, crossed), crossed <= DARKEST_LIGHT);
+}
+
+// Mean ink of a tile in a pixel, of all texels that it has there: strokes that are drawn smaller only get finer.
+fn mean_priority_ink(place: vec2<f32>, strokes: u32, ink: f32, lod: f32) -> f32 {
+    let side = i32(min(exp2(round(lod)), 4.0));
+    var sum = 0.0;
+    for (var i = 0; i < side * side; i++) {
+        let aside = (vec2(f32(i % side), f32(i / side)) + 0.5) / f32(side) - 0.5;
+        sum += priority_ink(place + aside * exp2(lod) / TILE, strokes, 0u, ink);
+    }
+    return sum / f32(side * side);
+}
+
+// The same where strokes come one by one.
+fn ink_by_strokes_at(at: vec2<f32>, angle: f32, strokes: u32, ink: f32, lod: f32, crispness: f32) -> f32 {
+    let inks = inks_of_layers(min(ink, 1.0));
+    var left = 1.0;
+    for (var i = 0u; i < DIRECTIONS; i++) {
+        let place = place_in_tile(at, angle, laid_direction(i));
+        left *= 1.0 - crisp_ink(mean_priority_ink(place, strokes, inks[i], lod), crispness);
+    }
+    return 1.0 - left;
+}
+
 // Ink of one direction of strokes by texture coordinates: tiles as large as wanted between two octaves, of which the one comes as the
 // other goes, stroke by stroke. `pixel`: size of a pixel in texture coordinates; `tile`: px.
-fn uv_ink_of(uv: vec2<f32>, pixel: f32, tile: f32, strokes: u32, turn: f32, number: u32, ink: f32) -> f32 {
+fn uv_ink_of(uv: vec2<f32>, pixel: f32, tile: f32, strokes: u32, turn: f32, number: u32, ink: f32, crispness: f32) -> f32 {
     let wanted = -log2(max(pixel * tile, 1e-12));
     let octave = floor(wanted);
     let share = wanted - octave;
@@ -103,7 +145,9 @@ fn uv_ink_of(uv: vec2<f32>, pixel: f32, tile: f32, strokes: u32, turn: f32, numb
     let first = 1.0 - pow(left, 1.0 - share);
     let second = 1.0 - pow(left, share);
     // A tile that is twice as large has its strokes at twice the resolution.
-    let a = mix(priority_ink(coarse, strokes, 1u, first), priority_ink(coarse, strokes, 0u, first), share);
+    // Of two resolutions together nothing would be crisp.
+    let finer = select(share, round(share), crispness > 0.0);
+    let a = mix(priority_ink(coarse, strokes, 1u, first), priority_ink(coarse, strokes, 0u, first), finer);
     let b = priority_ink(fine, strokes, 1u, second);
-    return 1.0 - (1.0 - a) * (1.0 - b);
+    return 1.0 - (1.0 - crisp_ink(a, crispness)) * (1.0 - crisp_ink(b, crispness));
 }
