@@ -69,6 +69,8 @@ pub struct Stroke {
     pub pointedness: f32,
     /// How much later a line comes that is inserted between two others.
     pub late_insertion: f32,
+    /// How differently lines are delayed that are inserted; 0: all in one place come at once.
+    pub insertion_spread: f32,
     /// How much widths vary from stroke to stroke.
     pub variation: f32,
 }
@@ -193,6 +195,7 @@ impl Default for Hatching {
                 randomness: 1.0,
                 pointedness: 0.5,
                 late_insertion: 0.45,
+                insertion_spread: 0.0,
                 variation: 0.2,
             },
             cross_hatching: CrossHatching { directions: 3, second: 0.42, third: 0.7, shadows_cross: true },
@@ -315,6 +318,7 @@ impl Stroke {
             list.formerly("pointed");
             number(list, "late_insertion", "Insert delay", unit.clone(), "How much darker it must be before lines are inserted between others.", &mut self.late_insertion);
             list.formerly("inserted");
+            number(list, "insertion_spread", "Insert spread", ("", 0.0..=2.0, 0.0..=2.0), "How differently inserted lines are delayed; 0: all in one place come at once.", &mut self.insertion_spread);
             number(list, "variation", "Variation", unit, "How much widths vary from stroke to stroke.", &mut self.variation);
         });
     }

@@ -18,6 +18,7 @@ struct Stroke {
     randomness: f32,
     pointedness: f32,
     late_insertion: f32,
+    insertion_spread: f32,
     variation: f32,
     // 1 where strokes are ink or paper, 0 where they have soft rims.
     crispness: f32,
@@ -185,8 +186,8 @@ struct Mark {
 
 // How much later a line comes that is inserted between two others: never where an octave begins, as those that were inserted
 // before it are old lines there.
-fn lateness(stroke: Stroke, place: f32) -> f32 {
-    let rest = 1.0 - place;
+fn lateness(stroke: Stroke, place: f32, rank: u32) -> f32 {
+    let rest = pow(1.0 - place, exp2(stroke.insertion_spread * (f32(rank) / 7.5 - 1.0)));
     return mix(pow(rest, 8.0), rest, stroke.late_insertion);
 }
 
@@ -262,12 +263,13 @@ fn marks_at(number: f32, family: Family, rows: Rows, level: Level, along: Along,
     let fine = rows.finer - number;
     let blended = select(fine, mix(coarse, fine, smoothstep(0.0, 1.0, level.place)), even && abs(coarse - fine) < 0.5);
     let id = line_id(number, rows, level.k, family.sense);
-    let late = lateness(stroke, level.place);
+    let rank = digit_of(RANKS, id);
+    let late = lateness(stroke, level.place, rank);
     let next = level.spacing * mix(1.0, 0.5, smoothstep(0.0, INSERTED, tone - late));
     // Where strokes are nearly twice as long as wanted they come apart in the middle.
     let apart = smoothstep(0.35, 1.0, along.place);
     let seed = hash_of(id.index, u32(id.level) ^ (family.number * 7919u));
-    let row = Row(family.sense * blended * level.spacing * 0.5, digit_of(RANKS, id), seed, select(late, 0.0, even), next, apart);
+    let row = Row(family.sense * blended * level.spacing * 0.5, rank, seed, select(late, 0.0, even), next, apart);
     let none = Mark(0.0, 0.0);
     if stroke.taper <= 0.0 {
         return Marks(mark_of(row, Piece(vec2(0u), 1.0, 1.0, 0.0), stroke, tone), none);

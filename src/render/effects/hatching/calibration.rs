@@ -198,13 +198,14 @@ fn pieces_at(stroke: &GpuStroke, octave: f32, row: u32, x: f32) -> Pieces {
 /// Share of ink of an even plane, at a tone and a place in the octave of densities. Without branches, so that several lines are
 /// reckoned at once.
 fn mean_ink(stroke: &GpuStroke, tone: f32, place: f32, strokes: &[Lines]) -> f32 {
-    let late = lateness(stroke, place);
-    let lates: [f32; LINES] = array::from_fn(|row| if row % 2 == 1 { late } else { 0.0 });
+    let rank = |row: usize| LineId::of(row as u32, PERIOD as u32, 1).rank();
+    let late: [f32; LINES] = array::from_fn(|row| lateness(stroke, place, rank(row)));
     let spacing = 0.5 * stroke.spacing * place.exp2();
-    let apart = spacing * (2.0 - smoothstep(0.0, INSERTED, tone - late));
+    let apart = late.map(|late| spacing * (2.0 - smoothstep(0.0, INSERTED, tone - late)));
     let mut inks = [0.0; LINES - 1];
     for Lines { own, passing } in strokes {
-        let mark = |strokes: &Strokes, row: usize| strokes.mark(stroke, row, tone, lates[row], apart);
+        let late = |row: usize| if row % 2 == 1 { late[row] } else { 0.0 };
+        let mark = |strokes: &Strokes, row: usize| strokes.mark(stroke, row, tone, late(row), apart[row]);
         let widths: [f32; LINES] = match passing {
             None => array::from_fn(|row| mark(own, row).width),
             Some(passing) => array::from_fn(|row| mark(own, row).width_with(mark(passing, row))),
@@ -245,8 +246,8 @@ fn width(stroke: &GpuStroke, beyond: f32, most: f32, pressed: f32, apart: f32) -
     width + smoothstep(apart - FULL_WIDTH, apart, width)
 }
 
-fn lateness(stroke: &GpuStroke, octave: f32) -> f32 {
-    let rest = 1.0 - octave;
+fn lateness(stroke: &GpuStroke, octave: f32, rank: u32) -> f32 {
+    let rest = (1.0 - octave).powf((stroke.insertion_spread * (rank as f32 / 7.5 - 1.0)).exp2());
     rest.powi(8) + (rest - rest.powi(8)) * stroke.late_insertion
 }
 
