@@ -13,6 +13,8 @@ const HATCHING: u32 = 7u;
 override WITH_HATCHING: bool = true;
 override WITH_STRIPES: bool = true;
 override WITH_IMAGE_SPACE_STROKES: bool = true;
+override WITH_BLENDED_TONES: bool = true;
+override WITH_STROKES_ONE_BY_ONE: bool = true;
 override WITH_STROKES_BY_UV: bool = true;
 override WITH_INDICATION: bool = false;
 override SHOWS_DETAIL: bool = false;
@@ -217,10 +219,13 @@ fn laid_at(object: u32, dark: Dark) -> Laid {
 // Ink at a point of the paper (in tiles), where strokes run at an angle.
 fn image_space_ink_at(object: u32, at: vec2<f32>, angle: f32, strokes: u32, ink: f32) -> f32 {
     let lod = max(log2(TILE / hatching_styles[object].tile), 0.0);
-    if hatching_styles[object].blends_tones == 1u {
+    if WITH_BLENDED_TONES && hatching_styles[object].blends_tones == 1u {
         return blended_ink_at(at, angle, strokes, ink, lod);
     }
-    return ink_by_strokes_at(at, angle, strokes, ink, lod, hatching_styles[object].stroke.crispness);
+    if WITH_STROKES_ONE_BY_ONE {
+        return ink_by_strokes_at(at, angle, strokes, ink, lod, hatching_styles[object].stroke.crispness);
+    }
+    return 0.0;
 }
 
 // Strokes on the paper, turned as the surface says, in steps: sign(a) · ⌊|a| / T⌋ · T.

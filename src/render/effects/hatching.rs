@@ -312,11 +312,14 @@ impl SurfaceTechnique for HatchingShading {
     fn switches(hatchings: &Hatchings) -> Vec<(&'static str, bool)> {
         let any = |directions| hatchings.styles.iter().any(|s| s.directions >= directions);
         let is_mapped = |mapping| hatchings.styles.iter().any(|s| s.mapping == mapping);
+        let blends = |tones| hatchings.styles.iter().any(|s| s.mapping != 0 && s.blends_tones == tones);
         vec![
             ("WITH_HATCHING", !hatchings.styles.is_empty()),
             ("WITH_STRIPES", is_mapped(STRIPES)),
             // Caps of sections too.
             ("WITH_IMAGE_SPACE_STROKES", is_mapped(IN_IMAGE_SPACE) || hatchings.has_caps),
+            ("WITH_BLENDED_TONES", blends(1)),
+            ("WITH_STROKES_ONE_BY_ONE", blends(0)),
             ("WITH_STROKES_BY_UV", is_mapped(BY_UV)),
             ("SHOWS_DETAIL", hatchings.styles.iter().any(|s| s.shows_detail == 1)),
             ("WITH_INDICATION", hatchings.styles.iter().any(|s| s.indication.amount > 0.0)),
