@@ -120,7 +120,7 @@ fn mean_priority_ink(place: vec2<f32>, strokes: u32, ink: f32, lod: f32) -> f32 
     return sum / f32(side * side);
 }
 
-// The same where strokes come one by one.
+// Ink at a point of the paper (in tiles), where strokes run at an angle and come one by one as it gets darker.
 fn ink_by_strokes_at(at: vec2<f32>, angle: f32, strokes: u32, ink: f32, lod: f32, crispness: f32) -> f32 {
     let inks = inks_of_layers(min(ink, 1.0));
     var left = 1.0;
