@@ -7,12 +7,12 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use hachure::geometry::EdgeClass;
 use hachure::gpu::Shaders;
-use hachure::gpu::buffer::EMPTY_ARRAY;
+use hachure::gpu::uniform_arrays::can_be_uniform;
 use hachure::style::Technique;
 use strum::VariantNames as _;
 use wgpu::naga::{
-    AddressSpace, ArraySize, Expression, Handle, Literal, Module, Scalar, ScalarKind, Type, TypeInner,
-    VectorSize,
+    AddressSpace, ArraySize, Expression, Handle, Literal, Module, Scalar, ScalarKind, StorageAccess, Type,
+    TypeInner, VectorSize,
 };
 
 /// A struct that derives `ShaderType`.
@@ -145,7 +145,7 @@ fn rust_and_wgsl_agree_on_every_struct() {
 }
 
 #[test]
-fn no_uniform_is_without_a_twin_and_no_element_larger_than_an_empty_array() {
+fn no_uniform_is_without_a_twin_and_no_array_of_structs_unfit_for_one() {
     let twins = twins(&sources());
     for file in Shaders::embedded() {
         let module = Shaders::default().validate(&file).unwrap();
@@ -154,8 +154,16 @@ fn no_uniform_is_without_a_twin_and_no_element_larger_than_an_empty_array() {
             if let (AddressSpace::Uniform, Some(name)) = (variable.space, ty.name.as_deref()) {
                 assert!(name == "LayerCount" || twins.iter().any(|twin| twin.wgsl == name), "{file}: {name}");
             }
-            if let TypeInner::Array { size: ArraySize::Dynamic, stride, .. } = ty.inner {
-                assert!(u64::from(stride) <= EMPTY_ARRAY, "{file}: {:?}", variable.name);
+            let is_read = variable.space == AddressSpace::Storage { access: StorageAccess::LOAD };
+            if let TypeInner::Array { size: ArraySize::Dynamic, base, .. } = ty.inner
+                && matches!(module.types[base].inner, TypeInner::Struct { .. })
+                && is_read
+            {
+                assert!(
+                    can_be_uniform(&module, variable),
+                    "{file}: {:?} lies otherwise than uniforms do",
+                    variable.name
+                );
             }
         }
     }

@@ -11,7 +11,7 @@ override WITH_MATCAP: bool = true;
 // Twin: `GpuMatcapStyle` in src/render/effects/matcap.rs.
 struct MatcapStyle {
     // Share of the object's own color.
-    object_color: f32,
+    @align(16) object_color: f32,
     shadow: f32,
     // Layer of `spheres`.
     sphere: u32,

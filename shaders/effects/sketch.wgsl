@@ -52,7 +52,7 @@ struct Sketch {
 // Twin: `SketchObject` in src/render/effects/sketch/uniforms.rs.
 struct SketchObject {
     // The middle of the object, px.
-    middle: vec2<f32>,
+    @align(16) middle: vec2<f32>,
 }
 
 // Whether the noise follows the picture.

@@ -33,7 +33,7 @@ struct LightView {
 // Twin: `GpuShadowLight` in src/render/passes/shadow_mask.rs.
 struct ShadowLight {
     // Its pictures.
-    first: u32,
+    @align(16) first: u32,
     count: u32,
     // Tangent of the light's radius as seen from the receiver.
     spread: f32,

@@ -2,6 +2,7 @@
 //! that variable's type. Bind group 1 of every shader is numbered by [`number`]; its variables carry no numbers in WGSL.
 
 use std::collections::HashMap;
+use std::num::NonZeroU64;
 
 use wgpu::naga::valid::ModuleInfo;
 use wgpu::naga::{
@@ -12,6 +13,7 @@ use wgpu::naga::{
 use super::buffer::Element;
 use super::inputs::{Inputs, Resource};
 use super::placeholders::Placeholders;
+use super::uniform_arrays::{UNIFORM_BYTES, can_be_uniform};
 use super::{Gpu, ShaderError};
 
 /// The bind group of what a pass reads and writes.
@@ -27,6 +29,8 @@ pub struct Binding {
     bytes: u64,
     /// The struct that it is, or whose array it is.
     struct_name: Option<String>,
+    /// Whether it may be a uniform, although it is written as a storage buffer.
+    can_be_uniform: bool,
 }
 
 /// The bindings of group 1 of a shader.
@@ -73,7 +77,9 @@ impl Bindings {
                 _ => variable.ty,
             };
             let struct_name = module.types[element].name.clone();
-            bindings.all.push(Binding { name, number: place.binding, ty, bytes, struct_name });
+            let can_be_uniform = can_be_uniform(module, variable);
+            let number = place.binding;
+            bindings.all.push(Binding { name, number, ty, bytes, struct_name, can_be_uniform });
             handles.push(handle);
         }
         for (number, entry_point) in module.entry_points.iter().enumerate() {
@@ -90,20 +96,34 @@ impl Bindings {
         used.iter().filter_map(|&index| self.all.get(index))
     }
 
-    /// The layout of what an entry point uses.
+    /// Numbers of the arrays an entry point uses that are bound as uniforms, with these inputs.
+    pub fn uniforms(&self, entry_point: &str, inputs: &Inputs<'_>) -> Vec<u32> {
+        let is_short = |binding: &&Binding| match inputs.find(&binding.name) {
+            Some(Some(Resource::Array(array))) => binding.can_be_uniform && array.is_short(),
+            _ => false,
+        };
+        self.used_by(entry_point).filter(is_short).map(|binding| binding.number).collect()
+    }
+
+    /// The layout of what an entry point uses; `uniforms`: numbers of the arrays that are bound as such.
     pub fn layout(
         &self,
         gpu: &Gpu,
         label: &str,
         entry_point: &str,
         visibility: wgpu::ShaderStages,
+        uniforms: &[u32],
     ) -> wgpu::BindGroupLayout {
         let entries: Vec<_> = self
             .used_by(entry_point)
             .map(|binding| wgpu::BindGroupLayoutEntry {
                 binding: binding.number,
                 visibility,
-                ty: binding.ty,
+                ty: if uniforms.contains(&binding.number) {
+                    buffer_type(wgpu::BufferBindingType::Uniform)
+                } else {
+                    binding.ty
+                },
                 count: None,
             })
             .collect();
@@ -124,6 +144,7 @@ impl Bindings {
         file: &str,
         entry_point: &str,
         layout: &wgpu::BindGroupLayout,
+        uniforms: &[u32],
         inputs: &Inputs<'_>,
     ) -> Result<wgpu::BindGroup, ShaderError> {
         let wrong = |name: &str, problem: String| ShaderError::Input {
@@ -153,7 +174,14 @@ impl Bindings {
                 let resource = match inputs.find(&binding.name)? {
                     Some(Resource::Target(target)) => wgpu::BindingResource::TextureView(target.view()),
                     Some(Resource::Buffer(buffer)) => buffer.as_entire_binding(),
-                    Some(Resource::Array(array)) => array.buffer().as_entire_binding(),
+                    Some(Resource::Array(array)) => {
+                        let is_uniform = uniforms.contains(&binding.number);
+                        wgpu::BindingResource::Buffer(wgpu::BufferBinding {
+                            buffer: array.buffer(),
+                            offset: 0,
+                            size: NonZeroU64::new(UNIFORM_BYTES).filter(|_| is_uniform),
+                        })
+                    }
                     Some(Resource::Layers(view)) => wgpu::BindingResource::TextureView(view),
                     Some(Resource::Sampler(sampler)) => wgpu::BindingResource::Sampler(sampler),
                     None => placeholders.find(binding.ty)?,
@@ -169,14 +197,17 @@ impl Bindings {
     }
 }
 
+fn buffer_type(ty: wgpu::BufferBindingType) -> wgpu::BindingType {
+    wgpu::BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: None }
+}
+
 /// What a variable is bound as; `None`: as nothing that a pass can give.
 fn type_of(variable: &GlobalVariable, inner: &TypeInner) -> Option<wgpu::BindingType> {
-    let buffer = |ty| wgpu::BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: None };
     Some(match (variable.space, inner) {
-        (AddressSpace::Uniform, _) => buffer(wgpu::BufferBindingType::Uniform),
-        (AddressSpace::Storage { access }, _) => {
-            buffer(wgpu::BufferBindingType::Storage { read_only: !access.contains(StorageAccess::STORE) })
-        }
+        (AddressSpace::Uniform, _) => buffer_type(wgpu::BufferBindingType::Uniform),
+        (AddressSpace::Storage { access }, _) => buffer_type(wgpu::BufferBindingType::Storage {
+            read_only: !access.contains(StorageAccess::STORE),
+        }),
         (_, TypeInner::Sampler { comparison: false }) => {
             wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering)
         }

@@ -3,6 +3,7 @@
 use encase::internal::WriteInto;
 use encase::{ShaderType, StorageBuffer as StorageBytes, UniformBuffer as UniformBytes};
 
+use super::uniform_arrays::UNIFORM_BYTES;
 use super::{Gpu, GpuError};
 
 /// A uniform buffer that holds one `T`.
@@ -121,9 +122,6 @@ impl DynamicBuffer {
     }
 }
 
-/// Bytes of an array without elements: shaders ask for room for one, and none is larger.
-pub const EMPTY_ARRAY: u64 = 1024;
-
 /// What an array holds, as far as it can be compared with what a shader expects.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Element {
@@ -143,9 +141,11 @@ impl Element {
     }
 }
 
-/// A read-only storage buffer that holds an array and grows with it.
+/// A read-only buffer that holds an array and grows with it, which shaders read as a uniform where it is short enough.
 pub struct ArrayBuffer {
     buffer: wgpu::Buffer,
+    /// How many of its bytes have been written.
+    written: u64,
     element: Option<Element>,
     label: &'static str,
 }
@@ -153,14 +153,14 @@ pub struct ArrayBuffer {
 impl ArrayBuffer {
     /// An empty array.
     pub fn new(gpu: &Gpu, label: &'static str) -> Self {
-        Self { buffer: Self::create(gpu, label, EMPTY_ARRAY), element: None, label }
+        Self { buffer: Self::create(gpu, label, UNIFORM_BYTES), written: 0, element: None, label }
     }
 
     fn create(gpu: &Gpu, label: &str, size: u64) -> wgpu::Buffer {
         gpu.device.create_buffer(&wgpu::BufferDescriptor {
             label: Some(label),
             size,
-            usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST,
+            usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
             mapped_at_creation: false,
         })
     }
@@ -177,7 +177,13 @@ impl ArrayBuffer {
             self.buffer = Self::create(gpu, self.label, needed.next_power_of_two());
         }
         gpu.queue.write_buffer(&self.buffer, 0, bytes);
+        self.written = needed;
         self.element = Some(Element::of::<T>());
+    }
+
+    /// Whether it is short enough for a uniform.
+    pub(super) fn is_short(&self) -> bool {
+        self.written <= UNIFORM_BYTES
     }
 
     /// What was written; `None`: nothing yet.

@@ -25,6 +25,7 @@ pub mod reports;
 pub mod shader;
 mod specialize;
 pub mod timer;
+pub mod uniform_arrays;
 
 pub use buffer::{ArrayBuffer, DynamicBuffer, RecordBuffer, UniformBuffer};
 pub use depth_rules::{DepthRule, STENCIL};

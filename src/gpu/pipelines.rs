@@ -7,10 +7,11 @@ use std::collections::hash_map::Entry;
 use wgpu::naga::valid::ModuleInfo;
 use wgpu::naga::{Module, ShaderStage};
 
-use super::bindings::Bindings;
+use super::bindings::{Bindings, INPUTS};
 use super::depth_rules::DepthTest;
 use super::placeholders::Placeholders;
 use super::specialize::specialized;
+use super::uniform_arrays::make_uniform;
 use super::{Gpu, Inputs, ShaderError, Shaders};
 
 /// A shader of a file below `shaders/`, specialized: switches are its `override` constants, and what is switched off is
@@ -86,8 +87,9 @@ pub struct Pipelines {
     shaders: Shaders,
     parsed: HashMap<&'static str, Shader>,
     placeholders: Placeholders,
-    raster: HashMap<RasterKey, Cached<wgpu::RenderPipeline>>,
-    compute: HashMap<Program, Cached<wgpu::ComputePipeline>>,
+    /// By what they are made of, and the numbers of the arrays that are uniforms.
+    raster: HashMap<(RasterKey, Vec<u32>), Cached<wgpu::RenderPipeline>>,
+    compute: HashMap<(Program, Vec<u32>), Cached<wgpu::ComputePipeline>>,
     frame_layout: wgpu::BindGroupLayout,
     generation: u64,
 }
@@ -185,14 +187,17 @@ impl Pipelines {
         key: &RasterKey,
         inputs: &Inputs<'_>,
     ) -> Result<Bound<wgpu::RenderPipeline>, ShaderError> {
-        if !self.raster.contains_key(key) {
+        let uniforms = self.uniforms(gpu, &key.program, inputs)?;
+        let key = (key.clone(), uniforms);
+        if !self.raster.contains_key(&key) {
             let frame = self.frame_layout.clone();
             let vertex = self.module(gpu, FULLSCREEN)?;
-            let made = build_raster(gpu, &vertex, self.shader(gpu, key.program.file)?, &frame, key)?;
+            let made = build_raster(gpu, &vertex, self.shader(gpu, key.0.program.file)?, &frame, &key)?;
             self.raster.insert(key.clone(), made);
         }
-        let made = self.raster.get(key).ok_or_else(|| missing(&key.program))?.clone();
-        let inputs = self.bind(gpu, &key.program, &made.inputs, inputs)?;
+        let (RasterKey { program, .. }, uniforms) = &key;
+        let made = self.raster.get(&key).ok_or_else(|| missing(program))?.clone();
+        let inputs = self.bind(gpu, program, &made.inputs, uniforms, inputs)?;
         Ok(Bound { pipeline: made.pipeline, inputs })
     }
 
@@ -206,14 +211,26 @@ impl Pipelines {
         program: &Program,
         inputs: &Inputs<'_>,
     ) -> Result<Bound<wgpu::ComputePipeline>, ShaderError> {
-        if !self.compute.contains_key(program) {
+        let uniforms = self.uniforms(gpu, program, inputs)?;
+        let key = (program.clone(), uniforms);
+        if !self.compute.contains_key(&key) {
             let frame = self.frame_layout.clone();
-            let made = build_compute(gpu, self.shader(gpu, program.file)?, &frame, program)?;
-            self.compute.insert(program.clone(), made);
+            let made = build_compute(gpu, self.shader(gpu, program.file)?, &frame, &key)?;
+            self.compute.insert(key.clone(), made);
         }
-        let made = self.compute.get(program).ok_or_else(|| missing(program))?.clone();
-        let inputs = self.bind(gpu, program, &made.inputs, inputs)?;
+        let made = self.compute.get(&key).ok_or_else(|| missing(program))?.clone();
+        let inputs = self.bind(gpu, program, &made.inputs, &key.1, inputs)?;
         Ok(Bound { pipeline: made.pipeline, inputs })
+    }
+
+    /// Which arrays a program reads as uniforms, with these inputs.
+    pub(super) fn uniforms(
+        &mut self,
+        gpu: &Gpu,
+        program: &Program,
+        inputs: &Inputs<'_>,
+    ) -> Result<Vec<u32>, ShaderError> {
+        Ok(self.shader(gpu, program.file)?.bindings.uniforms(program.entry_point, inputs))
     }
 
     fn bind(
@@ -221,11 +238,12 @@ impl Pipelines {
         gpu: &Gpu,
         program: &Program,
         layout: &wgpu::BindGroupLayout,
+        uniforms: &[u32],
         inputs: &Inputs<'_>,
     ) -> Result<wgpu::BindGroup, ShaderError> {
         let shader = self.parsed.get(program.file).ok_or_else(|| missing(program))?;
         let Program { file, entry_point, .. } = *program;
-        shader.bindings.group(gpu, &mut self.placeholders, file, entry_point, layout, inputs)
+        shader.bindings.group(gpu, &mut self.placeholders, file, entry_point, layout, uniforms, inputs)
     }
 }
 
@@ -251,10 +269,14 @@ impl Shader {
         gpu: &Gpu,
         stage: ShaderStage,
         program: &Program,
+        uniforms: &[u32],
     ) -> Result<wgpu::ShaderModule, ShaderError> {
         let Program { file, entry_point, .. } = *program;
         specialized(&self.source, &self.info, stage, entry_point, &program.constants())
-            .map(|source| create_module(gpu, file, source))
+            .map(|mut source| {
+                make_uniform(&mut source, INPUTS, uniforms);
+                create_module(gpu, file, source)
+            })
             .map_err(|message| ShaderError::Invalid {
                 file: file.to_owned(),
                 line: 0,
@@ -289,11 +311,12 @@ fn build_raster(
     vertex: &wgpu::ShaderModule,
     shader: &Shader,
     frame_layout: &wgpu::BindGroupLayout,
-    key: &RasterKey,
+    (key, uniforms): &(RasterKey, Vec<u32>),
 ) -> Result<Cached<wgpu::RenderPipeline>, ShaderError> {
     let label = key.program.file;
-    let inputs = shader.bindings.layout(gpu, label, key.program.entry_point, wgpu::ShaderStages::FRAGMENT);
-    let fragment = shader.specialized(gpu, ShaderStage::Fragment, &key.program)?;
+    let inputs =
+        shader.bindings.layout(gpu, label, key.program.entry_point, wgpu::ShaderStages::FRAGMENT, uniforms);
+    let fragment = shader.specialized(gpu, ShaderStage::Fragment, &key.program, uniforms)?;
     let write_mask = if key.writes { wgpu::ColorWrites::ALL } else { wgpu::ColorWrites::empty() };
     let targets: Vec<_> = key
         .outputs
@@ -328,11 +351,12 @@ fn build_compute(
     gpu: &Gpu,
     shader: &Shader,
     frame_layout: &wgpu::BindGroupLayout,
-    program: &Program,
+    (program, uniforms): &(Program, Vec<u32>),
 ) -> Result<Cached<wgpu::ComputePipeline>, ShaderError> {
     let label = program.file;
-    let inputs = shader.bindings.layout(gpu, label, program.entry_point, wgpu::ShaderStages::COMPUTE);
-    let module = shader.specialized(gpu, ShaderStage::Compute, program)?;
+    let inputs =
+        shader.bindings.layout(gpu, label, program.entry_point, wgpu::ShaderStages::COMPUTE, uniforms);
+    let module = shader.specialized(gpu, ShaderStage::Compute, program, uniforms)?;
     let pipeline = gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
         label: Some(label),
         layout: Some(&pipeline_layout(gpu, label, frame_layout, &inputs)),

@@ -7,7 +7,7 @@
 
 // Twin: `GpuIndication` in src/render/effects/hatching/indication.rs; parameters in src/style/indication.rs.
 struct Indication {
-    amount: f32,
+    @align(16) amount: f32,
     // 1: by the fields of the paper; 0: by the nearest line.
     by_fields: u32,
     // px.

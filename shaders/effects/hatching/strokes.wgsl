@@ -6,7 +6,7 @@
 
 // Twin: `GpuStroke` in src/render/effects/hatching/strokes.rs. Lengths in px, widths as shares of the spacing.
 struct Stroke {
-    spacing: f32,
+    @align(16) spacing: f32,
     min_width: f32,
     max_width: f32,
     // A stroke ends where it would be narrower, px.

@@ -22,6 +22,7 @@ const SPHERES: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
 /// Twin of `MatcapStyle` in `shaders/effects/matcap.wgsl`.
 #[derive(Debug, Clone, Copy, PartialEq, ShaderType, Default)]
 pub struct GpuMatcapStyle {
+    #[shader(align(16))]
     object_color: f32,
     shadow: f32,
     sphere: u32,

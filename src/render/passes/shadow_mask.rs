@@ -28,6 +28,7 @@ pub struct GpuLightView {
 /// Which pictures are of one light; twin of `ShadowLight` in `shaders/passes/shadow_mask.wgsl`.
 #[derive(Debug, Clone, Copy, PartialEq, ShaderType, Default)]
 pub struct GpuShadowLight {
+    #[shader(align(16))]
     first: u32,
     count: u32,
     spread: f32,

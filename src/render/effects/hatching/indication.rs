@@ -7,6 +7,7 @@ use crate::style::indication::{DetailBy, Indication};
 /// Twin of `Indication` in `shaders/effects/hatching/indication.wgsl`. Lengths in px.
 #[derive(Debug, Clone, Copy, PartialEq, ShaderType, Default)]
 pub struct GpuIndication {
+    #[shader(align(16))]
     pub(super) amount: f32,
     by_fields: u32,
     distance: f32,

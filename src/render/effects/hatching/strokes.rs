@@ -8,6 +8,7 @@ use crate::style::hatching::Stroke;
 /// Twin of `Stroke` in `shaders/effects/hatching/strokes.wgsl`: lengths in px, widths as shares of the spacing.
 #[derive(Debug, Clone, Copy, PartialEq, ShaderType, Default)]
 pub struct GpuStroke {
+    #[shader(align(16))]
     pub(super) spacing: f32,
     pub(super) min_width: f32,
     pub(super) max_width: f32,

@@ -54,6 +54,7 @@ pub(super) struct SketchUniform {
 #[derive(Debug, Clone, Copy, PartialEq, ShaderType, Default)]
 pub(super) struct SketchObject {
     /// The middle of the object, px.
+    #[shader(align(16))]
     pub(super) middle: Vec2,
 }
 
