@@ -19,7 +19,7 @@ draw() { # draw NAME MODEL ARGUMENTS...
 	echo "screenshots/$name.png"
 }
 
-# Technical illustration with white inner and black profile edges (paper, Fig. 7).
+# Technical illustration with black outlines and white folds (paper, Fig. 7).
 draw gooch "$crank" --style gooch
 draw gooch_ogre "$ogre" --style gooch
 draw statue "$ogre" --style statue
