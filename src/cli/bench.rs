@@ -11,7 +11,7 @@ use super::{CliError, print_json, print_line, sample, session};
 use crate::document::{LayersBy, Lighting};
 use crate::export::Session;
 use crate::export::session::{Opened, initial_camera, open, topology};
-use crate::geometry::primitives;
+use crate::geometry::{EdgeClass, primitives};
 use crate::gpu::Gpu;
 use crate::import::Progress;
 use crate::render::MAX_LAYERS;
@@ -353,6 +353,7 @@ fn styles(has_uvs: bool) -> Result<Vec<(&'static str, Style)>, CliError> {
 fn exact(width: f32) -> Result<Style, CliError> {
     let mut style = preset::load("gooch")?.style;
     (style.edges.profile.width, style.edges.inner.width) = (width, width);
+    style.edges.class_mut(EdgeClass::Intersection).width = None;
     Ok(style)
 }
 
