@@ -52,6 +52,14 @@ pub struct RasterKey {
     pub depth: Option<(wgpu::TextureFormat, DepthTest)>,
 }
 
+/// What a pipeline is made of, and how it reads arrays.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+struct Variant<K> {
+    key: K,
+    /// Numbers of the arrays that are uniforms.
+    uniforms: Vec<u32>,
+}
+
 /// A pipeline and the layout of its group 1.
 #[derive(Clone)]
 struct Cached<P> {
@@ -87,9 +95,8 @@ pub struct Pipelines {
     shaders: Shaders,
     parsed: HashMap<&'static str, Shader>,
     placeholders: Placeholders,
-    /// By what they are made of, and the numbers of the arrays that are uniforms.
-    raster: HashMap<(RasterKey, Vec<u32>), Cached<wgpu::RenderPipeline>>,
-    compute: HashMap<(Program, Vec<u32>), Cached<wgpu::ComputePipeline>>,
+    raster: HashMap<Variant<RasterKey>, Cached<wgpu::RenderPipeline>>,
+    compute: HashMap<Variant<Program>, Cached<wgpu::ComputePipeline>>,
     frame_layout: wgpu::BindGroupLayout,
     generation: u64,
 }
@@ -187,17 +194,16 @@ impl Pipelines {
         key: &RasterKey,
         inputs: &Inputs<'_>,
     ) -> Result<Bound<wgpu::RenderPipeline>, ShaderError> {
-        let uniforms = self.uniforms(gpu, &key.program, inputs)?;
-        let key = (key.clone(), uniforms);
-        if !self.raster.contains_key(&key) {
+        let program = &key.program;
+        let variant = Variant { key: key.clone(), uniforms: self.uniforms(gpu, program, inputs)? };
+        if !self.raster.contains_key(&variant) {
             let frame = self.frame_layout.clone();
             let vertex = self.module(gpu, FULLSCREEN)?;
-            let made = build_raster(gpu, &vertex, self.shader(gpu, key.0.program.file)?, &frame, &key)?;
-            self.raster.insert(key.clone(), made);
+            let made = build_raster(gpu, &vertex, self.shader(gpu, program.file)?, &frame, &variant)?;
+            self.raster.insert(variant.clone(), made);
         }
-        let (RasterKey { program, .. }, uniforms) = &key;
-        let made = self.raster.get(&key).ok_or_else(|| missing(program))?.clone();
-        let inputs = self.bind(gpu, program, &made.inputs, uniforms, inputs)?;
+        let made = self.raster.get(&variant).ok_or_else(|| missing(program))?.clone();
+        let inputs = self.bind(gpu, program, &made.inputs, &variant.uniforms, inputs)?;
         Ok(Bound { pipeline: made.pipeline, inputs })
     }
 
@@ -211,15 +217,14 @@ impl Pipelines {
         program: &Program,
         inputs: &Inputs<'_>,
     ) -> Result<Bound<wgpu::ComputePipeline>, ShaderError> {
-        let uniforms = self.uniforms(gpu, program, inputs)?;
-        let key = (program.clone(), uniforms);
-        if !self.compute.contains_key(&key) {
+        let variant = Variant { key: program.clone(), uniforms: self.uniforms(gpu, program, inputs)? };
+        if !self.compute.contains_key(&variant) {
             let frame = self.frame_layout.clone();
-            let made = build_compute(gpu, self.shader(gpu, program.file)?, &frame, &key)?;
-            self.compute.insert(key.clone(), made);
+            let made = build_compute(gpu, self.shader(gpu, program.file)?, &frame, &variant)?;
+            self.compute.insert(variant.clone(), made);
         }
-        let made = self.compute.get(&key).ok_or_else(|| missing(program))?.clone();
-        let inputs = self.bind(gpu, program, &made.inputs, &key.1, inputs)?;
+        let made = self.compute.get(&variant).ok_or_else(|| missing(program))?.clone();
+        let inputs = self.bind(gpu, program, &made.inputs, &variant.uniforms, inputs)?;
         Ok(Bound { pipeline: made.pipeline, inputs })
     }
 
@@ -311,7 +316,7 @@ fn build_raster(
     vertex: &wgpu::ShaderModule,
     shader: &Shader,
     frame_layout: &wgpu::BindGroupLayout,
-    (key, uniforms): &(RasterKey, Vec<u32>),
+    Variant { key, uniforms }: &Variant<RasterKey>,
 ) -> Result<Cached<wgpu::RenderPipeline>, ShaderError> {
     let label = key.program.file;
     let inputs =
@@ -351,7 +356,7 @@ fn build_compute(
     gpu: &Gpu,
     shader: &Shader,
     frame_layout: &wgpu::BindGroupLayout,
-    (program, uniforms): &(Program, Vec<u32>),
+    Variant { key: program, uniforms }: &Variant<Program>,
 ) -> Result<Cached<wgpu::ComputePipeline>, ShaderError> {
     let label = program.file;
     let inputs =
