@@ -16,6 +16,9 @@ pub fn line_drawing(scene: &Arc<Scene>, camera: Camera) -> Opened {
     let mut opened = Opened { document: Default::default(), scene: Arc::clone(scene) };
     opened.document.camera = Some(camera);
     set(&mut opened, "technique", "blank");
+    for class in EdgeClass::ALL {
+        set(&mut opened, &format!("edges.{}.width", <&str>::from(class)), "inherit");
+    }
     opened
 }
 
