@@ -22,35 +22,28 @@ struct GoochStyle {
     alpha: f32,
     warm: vec3<f32>,
     beta: f32,
+    // Directions across the axis of the stripes, where the angle around it is 0° and 90°; world or view space.
+    across: vec3<f32>,
     highlight: f32,
+    around: vec3<f32>,
     shininess: f32,
+    // Strength of the stripes, their number, and 1 where the axis is the view's.
+    metal: f32,
+    stripes: f32,
+    is_of_view: u32,
+    // 1 where stripes lie around the axes of forms.
+    is_of_form: u32,
     // How far the key is turned to the side, 0 to 1.
     side_light: f32,
     // How far cool and warm are multiplied by the object's own color, 0 to 1.
     object_hue: f32,
-    // Which metal it is of, counted from 1; 0: of none.
-    metal: u32,
-}
-
-// Stripes of milled metal. Twin: `GpuMetal` in src/render/effects/gooch.rs.
-struct Metal {
-    // Directions across the axis of the stripes, where the angle around it is 0° and 90°; world or view space.
-    across: vec3<f32>,
-    // 0 to 1.
-    strength: f32,
-    around: vec3<f32>,
-    stripes: f32,
-    // 1 where the axis is the view's.
-    is_of_view: u32,
-    // 1 where stripes lie around the axes of forms: which of the metals are theirs, and how many.
-    is_of_form: u32,
+    // Where the styles of its forms are, and how many.
     first_form: u32,
     forms: u32,
 }
 
-// By object id.
+// By object id; behind them those of forms, with an axis of their own.
 var<storage, read> gooch_styles: array<GoochStyle>;
-var<storage, read> metals: array<Metal>;
 
 const TAU: f32 = 6.28318530718;
 
@@ -62,12 +55,12 @@ fn chance(index: u32, seed: u32) -> f32 {
 }
 
 // A direction in view space, seen along the axis of the stripes.
-fn along_axis(metal: Metal, direction: vec3<f32>) -> vec2<f32> {
+fn along_axis(style: GoochStyle, direction: vec3<f32>) -> vec2<f32> {
     var d = direction;
-    if metal.is_of_view == 0u {
+    if style.is_of_view == 0u {
         d = (frame.world_from_view * vec4(d, 0.0)).xyz;
     }
-    return vec2(dot(d, metal.across), dot(d, metal.around));
+    return vec2(dot(d, style.across), dot(d, style.around));
 }
 
 // The angle of such a direction around the axis, in turns from 0 to 1.
@@ -103,14 +96,14 @@ fn stripes_at(turn: f32, count: f32, seed: u32, footprint: f32) -> f32 {
 }
 
 // Change of the turn per pixel along an axis of the picture, from both sides where the surface goes on there.
-fn turn_slope(px: vec2<i32>, s: Surfel, metal: Metal, turn: f32, axis: vec2<i32>) -> f32 {
+fn turn_slope(px: vec2<i32>, s: Surfel, style: GoochStyle, turn: f32, axis: vec2<i32>) -> f32 {
     var change = vec2(0.0);
     for (var side = -1; side <= 1; side += 2) {
         let q = px + side * axis;
         let other = unpack_surfel(geometry_at(q));
         let is_inside = all(q >= vec2(0)) && all(q < vec2<i32>(frame.size));
         if is_inside && goes_on(px, s, q, other) {
-            change += vec2(f32(side) * turned(turn, turn_of(along_axis(metal, other.normal))), 1.0);
+            change += vec2(f32(side) * turned(turn, turn_of(along_axis(style, other.normal))), 1.0);
         }
     }
     return change.x / max(change.y, 1.0);
@@ -118,35 +111,35 @@ fn turn_slope(px: vec2<i32>, s: Surfel, metal: Metal, turn: f32, axis: vec2<i32>
 
 // A shade in the stripes of milled metal: black at intensity 0, as it is at one half, white at 1. The paper makes the
 // stripe nearest to the light white; here that one stands where the light does, so that none of them ever jumps.
-fn metallic(px: vec2<i32>, s: Surfel, metal: Metal, shade: vec3<f32>, light: vec3<f32>) -> vec3<f32> {
-    let across = along_axis(metal, s.normal);
+fn metallic(px: vec2<i32>, s: Surfel, style: GoochStyle, shade: vec3<f32>, light: vec3<f32>) -> vec3<f32> {
+    let across = along_axis(style, s.normal);
     let turn = turn_of(across);
     let slope = vec2(
-        turn_slope(px, s, metal, turn, vec2(1, 0)),
-        turn_slope(px, s, metal, turn, vec2(0, 1)),
+        turn_slope(px, s, style, turn, vec2(1, 0)),
+        turn_slope(px, s, style, turn, vec2(0, 1)),
     );
-    let footprint = length(slope) * metal.stripes * frame.coverage_ramp;
-    var intensity = stripes_at(turn, metal.stripes, s.object, footprint);
-    let light_across = along_axis(metal, light);
-    let off = abs(turned(turn, turn_of(light_across))) * metal.stripes;
+    let footprint = length(slope) * style.stripes * frame.coverage_ramp;
+    var intensity = stripes_at(turn, style.stripes, s.object, footprint);
+    let light_across = along_axis(style, light);
+    let off = abs(turned(turn, turn_of(light_across))) * style.stripes;
     let width = max(footprint, 1.0);
     let white = max(1.0 - off / width, 0.0) / width * smoothstep(0.05, 0.3, length(light_across));
     intensity = mix(intensity, 1.0, white);
     let dark = shade * min(2.0 * intensity, 1.0);
     let color = mix(dark, vec3(1.0), max(2.0 * intensity - 1.0, 0.0));
     // What faces along the axis has no angle around it.
-    return mix(shade, color, metal.strength * smoothstep(0.1, 0.5, length(across)));
+    return mix(shade, color, style.metal * smoothstep(0.1, 0.5, length(across)));
 }
 
-// The metal of the form that a pixel shows.
-fn metal_of_form(px: vec2<i32>, object: u32, metal: Metal) -> Metal {
+// The style of the form that a pixel shows.
+fn style_of_form(px: vec2<i32>, object: u32, style: GoochStyle) -> GoochStyle {
     let surface = surface_of(textureLoad(surface_id_tex, px, 0).x, object);
-    if surface < metal.forms {
-        return metals[metal.first_form + surface];
+    if surface < style.forms {
+        return gooch_styles[style.first_form + surface];
     }
-    var none = metal;
-    none.strength = 0.0;
-    return none;
+    var own = style;
+    own.metal = 0.0;
+    return own;
 }
 
 // Where the key stands for Gooch shading: from where it is towards the side, across the line of sight, where the paper has it
@@ -171,12 +164,10 @@ fn gooch(px: vec2<i32>, s: Surfel, base: vec3<f32>, pos_view: vec3<f32>) -> vec3
         warmth *= 1.0 - SHADE * shadow_at(px, 0u, n_l);
     }
     var shade = mix(cool, warm, warmth);
-    if WITH_METAL && style.metal > 0u {
-        var metal = metals[style.metal - 1u];
-        if metal.is_of_form == 1u {
-            metal = metal_of_form(px, s.object, metal);
-        }
-        shade = metallic(px, s, metal, shade, l);
+    if WITH_METAL && style.metal > 0.0 && style.is_of_form == 0u {
+        shade = metallic(px, s, style, shade, l);
+    } else if WITH_METAL && style.metal > 0.0 {
+        shade = metallic(px, s, style_of_form(px, s.object, style), shade, l);
     }
     let reflected = reflect(-l, s.normal);
     let gloss = pow(max(dot(reflected, eye), 0.0), style.shininess);

@@ -17,67 +17,52 @@ pub struct GpuGoochStyle {
     alpha: f32,
     warm: Vec3,
     beta: f32,
-    highlight: f32,
-    shininess: f32,
-    side_light: f32,
-    object_hue: f32,
-    metal: u32,
-}
-
-/// Twin of `Metal` in `shaders/effects/gooch.wgsl`.
-#[derive(Debug, Clone, Copy, PartialEq, ShaderType, Default)]
-pub struct GpuMetal {
     across: Vec3,
-    strength: f32,
+    highlight: f32,
     around: Vec3,
+    shininess: f32,
+    metal: f32,
     stripes: f32,
     is_of_view: u32,
     is_of_form: u32,
+    side_light: f32,
+    object_hue: f32,
     first_form: u32,
     forms: u32,
 }
 
 impl GpuGoochStyle {
-    /// Without metal.
-    fn new(gooch: &Gooch) -> Self {
+    /// Of an object that lies at `world_from_local`.
+    fn new(gooch: &Gooch, world_from_local: &DMat4) -> Self {
+        let [across, around] = directions(gooch.metal_axis, world_from_local);
         Self {
             cool: gooch.cool.to_linear(),
             alpha: gooch.alpha,
             warm: gooch.warm.to_linear(),
             beta: gooch.beta,
-            highlight: gooch.highlight,
-            shininess: gooch.shininess,
-            side_light: gooch.side_light,
-            object_hue: gooch.object_hue,
-            metal: 0,
-        }
-    }
-}
-
-impl GpuMetal {
-    /// Of an object that lies at `world_from_local`; without forms.
-    fn new(gooch: &Gooch, world_from_local: &DMat4) -> Self {
-        let [across, around] = directions(gooch.metal_axis, world_from_local);
-        Self {
             across,
-            strength: gooch.metal,
+            highlight: gooch.highlight,
             around,
+            shininess: gooch.shininess,
+            metal: gooch.metal,
             stripes: gooch.stripes as f32,
             is_of_view: u32::from(gooch.metal_axis == MetalAxis::View),
             is_of_form: u32::from(gooch.metal_axis == MetalAxis::Form),
+            side_light: gooch.side_light,
+            object_hue: gooch.object_hue,
             first_form: 0,
             forms: 0,
         }
     }
 
-    /// That of a form around an axis of a mesh that lies at `world_from_local`.
+    /// The style of a form around an axis of a mesh that lies at `world_from_local`.
     fn of_form(self, form: &FormAxis, world_from_local: &DMat4) -> Self {
         // One sense and one beginning for all forms around parallel axes, so that their stripes meet.
         let sense = if form.direction.dot(DVec3::new(0.9, 1.0, 1.1)) < 0.0 { -1.0 } else { 1.0 };
         let side = if form.direction.y.abs() < 0.7 { DVec3::Y } else { DVec3::Z };
         let [axis, side] = [form.direction * sense, side].map(|v| world_from_local.transform_vector3(v));
         let [across, around] = directions_about(axis, side, DVec3::Z);
-        Self { across, around, strength: self.strength * form.strength as f32, ..self }
+        Self { across, around, metal: self.metal * form.strength as f32, ..self }
     }
 }
 
@@ -86,14 +71,13 @@ impl GpuMetal {
 pub struct GoochStyles {
     /// By object id; empty when there are none.
     objects: Vec<GpuGoochStyle>,
-    /// Those of objects, each before those of its forms.
-    metals: Vec<GpuMetal>,
+    /// Those of the forms of objects with stripes around them.
+    forms: Vec<GpuGoochStyle>,
 }
 
 /// Gooch shading on the device.
 pub struct GoochShading {
     styles: ArrayBuffer,
-    metals: ArrayBuffer,
 }
 
 impl SurfaceTechnique for GoochShading {
@@ -105,7 +89,7 @@ impl SurfaceTechnique for GoochShading {
     fn shared(_gpu: &Gpu) {}
 
     fn new(gpu: &Gpu) -> Self {
-        Self { styles: ArrayBuffer::new(gpu, "gooch styles"), metals: ArrayBuffer::new(gpu, "metals") }
+        Self { styles: ArrayBuffer::new(gpu, "gooch styles") }
     }
 
     fn add(styles: &mut Self::Styles, object: &Styled<'_>) {
@@ -114,38 +98,31 @@ impl SurfaceTechnique for GoochShading {
             && let Some(entry) = object.entry(&mut styles.objects)
         {
             let gooch = &object.style.gooch;
-            *entry = GpuGoochStyle::new(gooch);
-            if gooch.metal > 0.0 {
-                let mut metal = GpuMetal::new(gooch, &node.world_from_local);
-                let axes = match gooch.metal_axis {
-                    MetalAxis::Form => object.scene.form_axes(object.node),
-                    _ => &[],
-                };
-                let number = styles.metals.len() as u32 + 1;
-                (entry.metal, metal.first_form, metal.forms) = (number, number, axes.len() as u32);
-                styles.metals.push(metal);
-                styles.metals.extend(axes.iter().map(|axis| metal.of_form(axis, &node.world_from_local)));
+            *entry = GpuGoochStyle::new(gooch, &node.world_from_local);
+            if gooch.metal > 0.0 && gooch.metal_axis == MetalAxis::Form {
+                let axes = object.scene.form_axes(object.node);
+                entry.first_form = (object.count + styles.forms.len()) as u32;
+                entry.forms = axes.len() as u32;
+                let own = *entry;
+                styles.forms.extend(axes.iter().map(|axis| own.of_form(axis, &node.world_from_local)));
             }
         }
     }
 
     fn switches(styles: &Self::Styles) -> Vec<(&'static str, bool)> {
-        vec![("WITH_GOOCH", !styles.objects.is_empty()), ("WITH_METAL", !styles.metals.is_empty())]
+        let has_metal = styles.objects.iter().any(|style| style.metal > 0.0);
+        vec![("WITH_GOOCH", !styles.objects.is_empty()), ("WITH_METAL", has_metal)]
     }
 
     fn upload(&mut self, (): &mut (), gpu: &Gpu, styles: &Self::Styles) -> Result<(), RenderError> {
         if !styles.objects.is_empty() {
-            self.styles.write(gpu, &styles.objects);
-        }
-        if !styles.metals.is_empty() {
-            self.metals.write(gpu, &styles.metals);
+            self.styles.write(gpu, &[styles.objects.as_slice(), &styles.forms].concat());
         }
         Ok(())
     }
 
     fn bind<'a>(&'a self, (): &'a (), inputs: &mut Inputs<'a>) {
         inputs.set("gooch_styles", &self.styles);
-        inputs.set("metals", &self.metals);
     }
 }
 
