@@ -6,15 +6,25 @@
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use hachure::gpu::Shaders;
+use hachure::gpu::bindings::INPUTS;
 use hachure::gpu::integer_textures::{IntegerTextures, MAX_STORAGE_TEXTURES};
+use hachure::gpu::uniform_arrays::{can_be_uniform, make_uniform};
 use naga::back::{PipelineConstants, hlsl, msl, pipeline_constants::process_overrides, spv};
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use naga::{AddressSpace, ImageClass, Module, ShaderStage, TypeInner};
 
-/// A shader with its imports, in one of the ways to read whole numbers.
+/// How a shader reads arrays of structs: see `hachure::gpu::uniform_arrays`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Arrays {
+    Stored,
+    Uniform,
+}
+
+/// A shader with its imports, in one of the ways to read whole numbers and arrays.
 struct Shader {
     file: String,
     textures: IntegerTextures,
+    arrays: Arrays,
     module: Module,
     info: ModuleInfo,
 }
@@ -25,17 +35,27 @@ fn shaders() -> Vec<Shader> {
     let mut all = Vec::new();
     for file in Shaders::embedded() {
         for textures in [IntegerTextures::Storage, IntegerTextures::Sampled] {
-            let (module, _) = shaders.module(&file, textures).unwrap_or_else(|error| panic!("{error}"));
-            let capabilities = Capabilities::SHADER_FLOAT16_IN_FLOAT32 | Capabilities::PRIMITIVE_INDEX;
-            let info = Validator::new(ValidationFlags::all(), capabilities)
-                .validate(&module)
-                .unwrap_or_else(|error| panic!("{file}, {textures:?}: {}", error.into_inner()));
-            if !module.entry_points.is_empty() {
-                all.push(Shader { file: file.clone(), textures, module, info });
+            for arrays in [Arrays::Stored, Arrays::Uniform] {
+                let (mut module, _) =
+                    shaders.module(&file, textures).unwrap_or_else(|error| panic!("{error}"));
+                if arrays == Arrays::Uniform {
+                    let fitting = module.global_variables.iter().filter(|(_, v)| can_be_uniform(&module, v));
+                    let numbers: Vec<_> =
+                        fitting.filter_map(|(_, v)| v.binding.as_ref().map(|place| place.binding)).collect();
+                    make_uniform(&mut module, INPUTS, &numbers);
+                }
+                let capabilities = Capabilities::SHADER_FLOAT16_IN_FLOAT32 | Capabilities::PRIMITIVE_INDEX;
+                let info =
+                    Validator::new(ValidationFlags::all(), capabilities).validate(&module).unwrap_or_else(
+                        |error| panic!("{file}, {textures:?}, {arrays:?}: {}", error.into_inner()),
+                    );
+                if !module.entry_points.is_empty() {
+                    all.push(Shader { file: file.clone(), textures, arrays, module, info });
+                }
             }
         }
     }
-    assert!(all.len() > 60, "{}", all.len());
+    assert!(all.len() > 120, "{}", all.len());
     all
 }
 
@@ -77,7 +97,7 @@ fn every_shader_is_translated_for_every_system() {
     type Translate = fn(&Module, &ModuleInfo, EntryPoint<'_>) -> Result<(), String>;
     let languages: [(&str, Translate); 3] = [("SPIR-V", to_spirv), ("MSL", to_msl), ("HLSL", to_hlsl)];
     let mut faults = Vec::new();
-    for Shader { file, textures, module, info } in shaders() {
+    for Shader { file, textures, arrays, module, info } in shaders() {
         for entry_point in &module.entry_points {
             let place = (entry_point.stage, entry_point.name.as_str());
             for on in [false, true] {
@@ -94,7 +114,9 @@ fn every_shader_is_translated_for_every_system() {
                     let translated = catch_unwind(AssertUnwindSafe(|| translate(&module, &info, place)));
                     if let Err(error) = translated.unwrap_or_else(|_| Err("naga panicked".to_owned())) {
                         let name = place.1;
-                        faults.push(format!("shaders/{file}, {name}, {textures:?}, {language}: {error}"));
+                        faults.push(format!(
+                            "shaders/{file}, {name}, {textures:?}, {arrays:?}, {language}: {error}"
+                        ));
                     }
                 }
             }
@@ -145,7 +167,7 @@ impl Bound {
 #[test]
 fn every_shader_reads_and_writes_no_more_than_every_device_binds() {
     let mut faults = Vec::new();
-    for Shader { file, textures, module, info } in shaders() {
+    for Shader { file, textures, arrays, module, info } in shaders() {
         let limits = match textures {
             IntegerTextures::Sampled => wgpu::Limits::default(),
             IntegerTextures::Storage => wgpu::Limits {
@@ -156,7 +178,10 @@ fn every_shader_reads_and_writes_no_more_than_every_device_binds() {
         for (number, entry_point) in module.entry_points.iter().enumerate() {
             let bound = Bound::of(&module, &info, number);
             if !bound.fits(&limits) {
-                faults.push(format!("shaders/{file}, {}, {textures:?}: {bound:?}", entry_point.name));
+                faults.push(format!(
+                    "shaders/{file}, {}, {textures:?}, {arrays:?}: {bound:?}",
+                    entry_point.name
+                ));
             }
         }
     }
