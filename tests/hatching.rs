@@ -83,8 +83,6 @@ fn patches(inks: &[Option<f64>], width: usize) -> Vec<f64> {
 /// Greatest standard deviation of patches, and how far one of them is off at most.
 const MAX_SPREAD: f64 = 0.025;
 const MAX_PATCH: f64 = 0.05;
-/// The same where each stroke is some whole pixels wide: a pencil's have one or two.
-const MAX_CRISP_PATCH: f64 = 0.07;
 
 /// At most so much of the ink of a picture of one sample is gray.
 const MAX_GRAY: f64 = 0.25;
@@ -107,11 +105,11 @@ struct Deviations {
 
 impl Deviations {
     fn is_within_bounds(&self, samples: Samples) -> bool {
-        let (max_patch, max_gray) = match samples {
-            Samples::One => (MAX_CRISP_PATCH, MAX_GRAY),
-            Samples::First => (MAX_PATCH, 1.0),
+        let max_gray = match samples {
+            Samples::One => MAX_GRAY,
+            Samples::First => 1.0,
         };
-        self.mean <= 0.02 && self.spread <= MAX_SPREAD && self.patch <= max_patch && self.gray <= max_gray
+        self.mean <= 0.02 && self.spread <= MAX_SPREAD && self.patch <= MAX_PATCH && self.gray <= max_gray
     }
 }
 

@@ -28,13 +28,15 @@ struct Stroke {
 
 // So many numbers of strokes there are before they begin again.
 const STROKES: u32 = 16u;
+// By so much of a rank the next stroke of a line comes later: strokes come evenly along it.
+const STROKE_JITTER: f32 = 7.0 / 16.0;
 
 // As in src/render/effects/hatching/calibration.rs.
 const SOFT: f32 = 0.04;
 // A stroke that is narrower is drawn so wide, px, and paler, if it is soft.
 const FULL_WIDTH: f32 = 0.7;
 // Width of the soft rim of crisp strokes, px: a sharper one shows more stairs than it takes away gray.
-const CRISP_RIM: f32 = 0.22;
+const CRISP_RIM: f32 = 0.2;
 // The share of its greatest width from which on a stroke's ends close, and that at which it has none.
 const ENDS_CLOSE: f32 = 0.3;
 const ENDS_CLOSED: f32 = 0.8;
@@ -69,12 +71,12 @@ fn unit_of(hash: u32) -> f32 {
 }
 
 // Ranks of lines near each other, of 16: the lower, the lighter a tone may be in which a line is drawn; and where its strokes begin,
-// in fifteenths of one. Found by a search for the most even tone in patches of 8 × 8 and 4 × 4 spacings, at every density. A
+// in fifteenths of one. Found by a search for the most even tone in patches of 8 × 8 spacings, at every density. A
 // hexadecimal digit for each of `IDS` lines that were born at a level beside each other; those of the next level have the other words.
 // As in src/render/effects/hatching/ranks.rs.
 const IDS: u32 = 8u;
-const RANKS: vec2<u32> = vec2(0x94d0a6e3u, 0x2f7b185cu);
-const OFFSETS: vec2<u32> = vec2(0x7e32c894u, 0xb5d3c8e2u);
+const RANKS: vec2<u32> = vec2(0x4f6a2d19u, 0xb083c5e7u);
+const OFFSETS: vec2<u32> = vec2(0x5783e40bu, 0x2a9635e8u);
 
 // Which line it is: the same one while one comes closer, and however a triangle counts.
 struct LineId {
@@ -227,11 +229,10 @@ fn mark_of(row: Row, piece: Piece, stroke: Stroke, tone: f32) -> Mark {
     var jitter = unit_of(row.seed);
     var variation = 0.0;
     if stroke.taper > 0.0 {
-        let whole = hash_of(row.seed, piece.numbers.x);
-        let half = hash_of(row.seed, piece.numbers.y);
-        jitter = mix(unit_of(whole), unit_of(half), row.apart);
+        let jitters = fract(jitter + STROKE_JITTER * vec2<f32>(piece.numbers));
+        jitter = mix(jitters.x, jitters.y, row.apart);
         let ranks = vec2(f32(rank_of_width(row.rank, piece.numbers.x)), f32(rank_of_width(row.rank, piece.numbers.y)));
-        let widths = ranks + vec2(unit_of(mixed(whole)), unit_of(mixed(half)));
+        let widths = ranks + jitters;
         variation = mix(widths.x, widths.y, row.apart) / 16.0 - 0.5;
     }
     let chance = (f32(row.rank) + jitter) / 16.0;

@@ -179,10 +179,10 @@ fn pieces_at(stroke: &GpuStroke, octave: f32, row: u32, x: f32) -> Pieces {
     let taper = |left: f32| ((left - stroke.gap) / stroke.taper).clamp(0.0, 1.0);
     let piece = |number: u32, half: u32, tapered: f32, closes: f32| {
         let numbers = [number, (2 * number + half) % 16];
-        let [whole, halves] = numbers.map(|n| hash(seed, n));
+        let [whole, halves] = numbers.map(|n| (unit(seed) + STROKE_JITTER * n as f32).fract());
         let [rank, half_rank] = numbers.map(|n| rank_of_width(rank, n) as f32);
-        let variation = mix(rank + unit(mixed(whole)), half_rank + unit(mixed(halves))) / 16.0 - 0.5;
-        Piece { tapered, closes, chance: chance(mix(unit(whole), unit(halves))), variation }
+        let variation = mix(rank + whole, half_rank + halves) / 16.0 - 0.5;
+        Piece { tapered, closes, chance: chance(mix(whole, halves)), variation }
     };
     let in_middle = middle < end;
     let (nearer, share, other) =
@@ -272,6 +272,7 @@ const SOFT: f32 = 0.04;
 // A stroke that is narrower is drawn so wide, px, and paler.
 const FULL_WIDTH: f32 = 0.7;
 const PASSING: f32 = 0.25;
+const STROKE_JITTER: f32 = 7.0 / 16.0;
 const INSERTED: f32 = 0.2;
 // The share of its greatest width from which on a stroke's ends close, and that at which it has none.
 const ENDS_CLOSE: f32 = 0.3;

@@ -31,7 +31,7 @@ const CLOSE: f32 = 2.0;
 const WIDE_APART: f32 = 4.8;
 /// How narrow soft strokes are where they end, and crisp ones, px.
 const SOFT_END: f32 = 0.45;
-const CRISP_END: f32 = 0.9;
+const CRISP_END: f32 = 0.82;
 
 impl GpuStroke {
     /// Of a style; `scale`: pixels per reference pixel. `is_single`: a picture of one sample shows strokes as a print does, ink or
