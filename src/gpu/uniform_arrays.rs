@@ -11,7 +11,7 @@ use wgpu::naga::{
     UniqueArena,
 };
 
-/// Bytes of a uniform array: what every device binds at least.
+/// Bytes of a uniform array: what WebGPU promises of every device (`maxUniformBufferBindingSize`).
 pub const UNIFORM_BYTES: u64 = 1 << 16;
 
 /// What rows and arrays of uniform structs lie apart, bytes.

@@ -35,8 +35,8 @@ var nearest_edge_tex: texture_storage_2d<r32uint, read>;
 // Two planes of each flat part: src/geometry/patches.rs.
 var flat_parts: texture_storage_2d<rgba32uint, read>;
 
-// Pixels around that are compared.
-const PIXELS_AROUND: u32 = 16u;
+// Pixels of a quarter of the circle around that are compared.
+const PIXELS_OF_QUARTER: u32 = 4u;
 // Nothing is divided by less.
 const MIN_DIVISOR: f32 = 1e-3;
 
@@ -75,11 +75,14 @@ fn is_apart(s: Surfel, plane: Plane, other: Surfel, offset: vec2<i32>, step: f32
 fn silhouette_field(px: vec2<i32>, s: Surfel, i: Indication) -> f32 {
     let plane = plane_of(px, s.depth, s.face_normal);
     var count = 0u;
-    for (var k = 0u; k < PIXELS_AROUND; k++) {
-        let angle = f32(k) * 6.283185307 / f32(PIXELS_AROUND);
-        let offset = vec2<i32>(round(i.radius * vec2(cos(angle), sin(angle))));
-        let other = unpack_surfel(geometry_at(px + offset));
-        count += select(0u, 1u, is_apart(s, plane, other, offset, i.step));
+    for (var k = 0u; k < PIXELS_OF_QUARTER; k++) {
+        let angle = f32(k) * 1.570796327 / f32(PIXELS_OF_QUARTER);
+        var offset = vec2<i32>(round(i.radius * vec2(cos(angle), sin(angle))));
+        for (var quarter = 0u; quarter < 4u; quarter++) {
+            let other = unpack_surfel(geometry_at(px + offset));
+            count += select(0u, 1u, is_apart(s, plane, other, offset, i.step));
+            offset = vec2(-offset.y, offset.x);
+        }
     }
     return weight_at(silhouette_term(count, i), i.silhouette_offset, i.silhouette_slope, i.silhouette_power);
 }
