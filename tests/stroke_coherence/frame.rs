@@ -15,6 +15,8 @@ const POP: f64 = 0.6;
 const INK: f64 = 0.2;
 /// Greatest difference of depths at which two pixels show the same place, as a share of the depth.
 const SAME_DEPTH: f64 = 4e-3;
+/// Least cosine between the normals of faces that are the same one, or neighbors on a round surface.
+const SAME_FACE: f32 = 0.94;
 
 /// Ink and surface of each pixel, one sample each.
 #[derive(Clone)]
@@ -59,8 +61,9 @@ impl Frame {
         (surfel.object != 0).then(|| self.projector.view_from_world.inverse().transform_point3(view))
     }
 
-    /// Ink where a point of a surface is seen, between the centers of pixels; `None` where something else is seen.
-    fn ink_at(&self, world: DVec3, object: u32) -> Option<f64> {
+    /// Ink where a point of a surface is seen, between the centers of pixels; `None` where one of them shows something else, also
+    /// another face of the same object. `surfel`: how another picture sees it.
+    fn ink_at(&self, world: DVec3, surfel: &Surfel) -> Option<f64> {
         let view = self.projector.view_from_world.transform_point3(world);
         let at = self.projector.pixel(view) - 0.5;
         let (first, f) = (at.floor(), at - at.floor());
@@ -72,7 +75,9 @@ impl Frame {
         let around = [first, first + 1, first + self.side, first + self.side + 1];
         let is_same = |i: &usize| {
             let there = &self.surfels[*i];
-            there.object == object && (f64::from(there.depth) / -view.z - 1.0).abs() < SAME_DEPTH
+            there.object == surfel.object
+                && there.face_normal.dot(surfel.face_normal) > SAME_FACE
+                && (f64::from(there.depth) / -view.z - 1.0).abs() < SAME_DEPTH
         };
         let [a, b, c, d] = around.map(|i| self.inks[i]);
         let ink = (a * (1.0 - f.x) + b * f.x) * (1.0 - f.y) + (c * (1.0 - f.x) + d * f.x) * f.y;
@@ -92,7 +97,7 @@ pub(crate) fn pops(before: &Frame, after: &Frame) -> Pops {
     let (mut all, mut inked, mut popped) = (0, 0, 0);
     for (i, ink) in after.inks.iter().enumerate() {
         let Some(world) = after.point(i % after.side, i / after.side) else { continue };
-        let Some(was) = before.ink_at(world, after.surfels[i].object) else { continue };
+        let Some(was) = before.ink_at(world, &after.surfels[i]) else { continue };
         all += 1;
         inked += usize::from(ink.max(was) > INK);
         popped += usize::from((ink - was).abs() > POP);

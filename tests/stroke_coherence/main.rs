@@ -34,9 +34,8 @@ const PICTURE: u32 = 800;
 const MODELS: [&str; 3] = ["ogre", "crank", "temple"];
 /// Darkness of even pictures.
 const DARKNESS: f32 = 0.35;
-/// Greatest shares of the pixels that change by more than 0.6: of strokes that go on and on, and of others. (Of a pen's 0.015 are
-/// asked; a pencil's, less than two pixels wide, change more.)
-const MAX_POPS: [f64; 2] = [0.008, 0.016];
+/// Greatest shares of the pixels that change by more than 0.6: of strokes that go on and on, and of others.
+const MAX_POPS: [f64; 2] = [0.008, 0.015];
 /// Of what is painted on the surface.
 const MAX_LOCKED: f64 = 0.002;
 /// Greatest share of the ink that lies in marks shorter than 6 px.
