@@ -83,6 +83,8 @@ fn patches(inks: &[Option<f64>], width: usize) -> Vec<f64> {
 /// Greatest standard deviation of patches, and how far one of them is off at most.
 const MAX_SPREAD: f64 = 0.025;
 const MAX_PATCH: f64 = 0.05;
+/// Of strokes of tiles, which were placed by chance, in pictures of one sample.
+const MAX_CRISP_TILE_PATCH: f64 = 0.06;
 
 /// At most so much of the ink of a picture of one sample is gray.
 const MAX_GRAY: f64 = 0.25;
@@ -207,6 +209,8 @@ fn strokes_of_tiles_are_ink_or_paper_in_pictures_of_one_sample() {
             let worst = deviations(&hatching, samples, 8, 2, 2);
             println!("{name}, {samples:?}: {worst}");
             assert!(worst.mean <= 0.02, "{name}, {samples:?}: {worst}");
+            let most = if samples == Samples::One { MAX_CRISP_TILE_PATCH } else { MAX_PATCH };
+            assert!(worst.patch <= most, "{name}, {samples:?}: {worst}");
             let is_bounded = samples == Samples::One && name != "small";
             assert!(!is_bounded || worst.gray <= MAX_GRAY, "{name}: {worst}");
         }

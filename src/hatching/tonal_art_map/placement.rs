@@ -31,8 +31,8 @@ pub(super) struct Sheet {
 
 /// Pyramids of levels end here, in texels along a side.
 const SMALLEST: usize = 8;
-/// Weight of each resolution, relative to the next finer one.
-const FARTHER: f32 = 0.6;
+/// Weight of each resolution, relative to the next finer one: more than 1, for a tone has to be even over some strokes.
+const FARTHER: f32 = 1.6;
 /// Strokes that are tried in one go.
 const BATCH: usize = 128;
 

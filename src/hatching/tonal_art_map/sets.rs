@@ -27,12 +27,11 @@ pub fn all() -> [Set; 4] {
             include_bytes!(concat!("../../../assets/strokes/sets/", $name, ".png"))
         };
     }
-    // Of many small strokes a few candidates each are enough.
     [
-        set("pen", png!("pen"), 1, 400, pen()),
+        set("pen", png!("pen"), 1, 1500, pen()),
         set("pencil", png!("pencil"), 2, 200, pencil()),
         set("woodcut", png!("woodcut"), 3, 400, woodcut()),
-        set("stipple", png!("stipple"), 4, 100, stipple()),
+        set("stipple", png!("stipple"), 4, 400, stipple()),
     ]
 }
 
