@@ -136,7 +136,11 @@ impl Solved {
             DirectionSource::Curvature => Planes::new(&faces, crease, up),
             _ => Planes::none(mesh.triangle_count()),
         };
-        let cut = CutMesh::new(&faces, |edge| !edge.is_crease(crease) && planes.goes_on(&faces, edge));
+        let follows_form = options.source == DirectionSource::Curvature;
+        let cut = CutMesh::new(&faces, |edge| {
+            let turns = || follows_form && cut::turns(&faces, edge);
+            !edge.is_crease(crease) && planes.goes_on(&faces, edge) && !turns()
+        });
         if !progress(0.4) {
             return None;
         }

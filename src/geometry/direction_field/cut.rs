@@ -56,6 +56,29 @@ impl<'a> Faces<'a> {
     }
 }
 
+/// A triangle is part of a strip if it is at least so many times as long as the edge at its end.
+const LONG: f32 = 8.0;
+/// Cosine of the angle from which on a strip turns.
+const STRAIGHT: f32 = 0.9;
+
+/// Whether a strip of long triangles turns at an edge between two, as a molding does at the corner of a frame: directions are known at
+/// the ends of a triangle only, and those of both legs together are right for neither.
+pub(crate) fn turns(faces: &Faces<'_>, edge: &Edge) -> bool {
+    let along = faces.along(edge);
+    let middle = faces.point(edge.vertices[0]) + 0.5 * along;
+    let to_end = |face: u32| {
+        let ways = faces.corners(face as usize).map(|corner| corner - middle);
+        ways.into_iter().max_by(|a, b| a.length_squared().total_cmp(&b.length_squared())).unwrap_or_default()
+    };
+    let legs = edge.faces.map(to_end);
+    if legs.iter().any(|leg| leg.length() <= LONG * along.length()) {
+        return false;
+    }
+    let [n0, n1] = edge.faces.map(|face| faces.normals[face as usize]);
+    let [first, second] = legs.map(Vec3::normalize_or_zero);
+    -transport(first, n0, n1).dot(second) < STRAIGHT
+}
+
 /// Vertices of which each is all corners of triangles around a point that are connected without crossing a cut.
 pub(crate) struct CutMesh {
     /// The three vertices of each triangle of the mesh.

@@ -81,6 +81,41 @@ fn cylinder(segments: u32, height: f32, capped: bool) -> Mesh {
     from_triangles(positions, indices)
 }
 
+/// A molding around a square: its profile is a flat arch, of which the angle at the corners is no crease.
+fn frame() -> Mesh {
+    const PROFILE: u32 = 9;
+    let mut positions = Vec::new();
+    for corner in [Vec2::new(1.0, 1.0), Vec2::new(-1.0, 1.0), Vec2::new(-1.0, -1.0), Vec2::new(1.0, -1.0)] {
+        for k in 0..PROFILE {
+            let across = k as f32 / (PROFILE - 1) as f32 - 0.5;
+            let rise = 0.02 * (1.0 - 4.0 * across * across);
+            positions.push((corner * (1.0 + 0.1 * across)).extend(rise));
+        }
+    }
+    let mut indices = Vec::new();
+    for side in 0..4 {
+        for k in 0..PROFILE - 1 {
+            let (a, b) = (side * PROFILE + k, (side + 1) % 4 * PROFILE + k);
+            indices.extend([a, b, b + 1, a, b + 1, a + 1]);
+        }
+    }
+    from_triangles(positions, indices)
+}
+
+#[test]
+fn strokes_cross_a_molding_up_to_the_corners_of_a_frame() {
+    let mesh = frame();
+    let field = solve(&mesh, &of_form());
+    for (triangle, corners) in mesh.triangles().iter().zip(field.corner_vertices.as_chunks::<3>().0) {
+        let middle = triangle.iter().map(|&v| mesh.positions[v as usize]).sum::<Vec3>() / 3.0;
+        let along = if middle.x.abs() > middle.y.abs() { Vec3::Y } else { Vec3::X };
+        for &corner in corners {
+            let off = field.directions[corner as usize].dot(along).abs();
+            assert!(off < 0.02, "near {middle}: {off}");
+        }
+    }
+}
+
 #[test]
 fn strokes_run_around_cylinders_of_any_number_of_facets() {
     for segments in [10, 12, 16, 24, 32, 64, 128, 256] {
