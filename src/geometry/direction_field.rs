@@ -1,7 +1,7 @@
 //! The direction of strokes on a surface: around what is round, along what is long, and as parallel as possible.
 //!
-//! Directions have no front and back. They are found on the mesh cut open at its creases, so that strokes may change
-//! their direction there.
+//! Directions have no front and back. They are found on the mesh cut open at its creases and at the corners of moldings,
+//! so that strokes may change their direction there.
 
 pub(crate) mod curvature;
 pub(crate) mod cut;

@@ -1,4 +1,4 @@
-//! A mesh cut open at its creases: the vertices on which directions and stripes live.
+//! A mesh cut open at its creases, and where strips of long triangles turn: the vertices on which directions and stripes live.
 
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
@@ -61,8 +61,8 @@ const LONG: f32 = 8.0;
 /// Cosine of the angle from which on a strip turns.
 const STRAIGHT: f32 = 0.9;
 
-/// Whether a strip of long triangles turns at an edge between two, as a molding does at the corner of a frame: directions are known at
-/// the ends of a triangle only, and those of both legs together are right for neither.
+/// Whether a strip of long triangles turns at an edge between two, as a molding does at the corner of a frame: directions
+/// are known at the ends of a triangle only, and one for both legs would be right for neither.
 pub(crate) fn turns(faces: &Faces<'_>, edge: &Edge) -> bool {
     let along = faces.along(edge);
     let middle = faces.point(edge.vertices[0]) + 0.5 * along;
