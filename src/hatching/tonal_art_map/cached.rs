@@ -5,7 +5,7 @@ use super::generator::{Recipe, RecipeError};
 use crate::hatching::cache::{Cache, Key, KeyMaker};
 
 /// Raised whenever a recipe gives another map than before.
-pub const VERSION: u32 = 1;
+pub const VERSION: u32 = 2;
 
 impl Recipe {
     /// The map of [`Recipe::draw`]; from the cache, where it is put for the next time.
