@@ -138,7 +138,9 @@ impl Solved {
         };
         let follows_form = options.source == DirectionSource::Curvature;
         let cut = CutMesh::new(&faces, |edge| {
-            let turns = || follows_form && cut::turns(&faces, edge);
+            // A flat side has one direction, however it is made of triangles.
+            let is_flat = || edge.faces.iter().any(|&face| planes.direction(face as usize).is_some());
+            let turns = || follows_form && !is_flat() && cut::turns(&faces, edge);
             !edge.is_crease(crease) && planes.goes_on(&faces, edge) && !turns()
         });
         if !progress(0.4) {
