@@ -81,14 +81,14 @@ fn cylinder(segments: u32, height: f32, capped: bool) -> Mesh {
     from_triangles(positions, indices)
 }
 
-/// A molding around a square: its profile is a flat arch, of which the angle at the corners is no crease.
-fn frame() -> Mesh {
+/// A molding around a square: its profile is a flat arch of this height, of which the angle at the corners is no crease.
+fn frame(height: f32) -> Mesh {
     const PROFILE: u32 = 9;
     let mut positions = Vec::new();
     for corner in [Vec2::new(1.0, 1.0), Vec2::new(-1.0, 1.0), Vec2::new(-1.0, -1.0), Vec2::new(1.0, -1.0)] {
         for k in 0..PROFILE {
             let across = k as f32 / (PROFILE - 1) as f32 - 0.5;
-            let rise = 0.02 * (1.0 - 4.0 * across * across);
+            let rise = height * (1.0 - 4.0 * across * across);
             positions.push((corner * (1.0 + 0.1 * across)).extend(rise));
         }
     }
@@ -104,7 +104,7 @@ fn frame() -> Mesh {
 
 #[test]
 fn strokes_cross_a_molding_up_to_the_corners_of_a_frame() {
-    let mesh = frame();
+    let mesh = frame(0.02);
     let field = solve(&mesh, &of_form());
     for (triangle, corners) in mesh.triangles().iter().zip(field.corner_vertices.as_chunks::<3>().0) {
         let middle = triangle.iter().map(|&v| mesh.positions[v as usize]).sum::<Vec3>() / 3.0;
@@ -114,6 +114,14 @@ fn strokes_cross_a_molding_up_to_the_corners_of_a_frame() {
             assert!(off < 0.02, "near {middle}: {off}");
         }
     }
+}
+
+#[test]
+fn a_flat_side_is_whole_whatever_strips_it_is_made_of() {
+    let mesh = frame(0.0);
+    let field = solve(&mesh, &of_form());
+    assert_eq!(field.directions.len(), mesh.positions.len());
+    assert!(field.directions.iter().all(|direction| direction.dot(field.directions[0]).abs() > 0.999));
 }
 
 #[test]
