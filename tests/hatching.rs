@@ -84,7 +84,7 @@ fn patches(inks: &[Option<f64>], width: usize) -> Vec<f64> {
 const MAX_SPREAD: f64 = 0.025;
 const MAX_PATCH: f64 = 0.05;
 /// Of strokes of tiles, which were placed by chance, in pictures of one sample.
-const MAX_CRISP_TILE_PATCH: f64 = 0.06;
+const MAX_CRISP_TILE_PATCH: f64 = 0.055;
 
 /// At most so much of the ink of a picture of one sample is gray.
 const MAX_GRAY: f64 = 0.25;

@@ -9,11 +9,16 @@ var tile_of_strokes: sampler;
 // Texels along the side of a tile at its finest resolution.
 const TILE: f32 = 256.0;
 const DIRECTIONS: u32 = 3u;
-// As the last of `LIGHT_INKS` in src/hatching/tonal_art_map/composition.rs.
-const DARKEST_LIGHT: f32 = 0.384;
-// Crisp strokes go from paper to ink within so much of what a tile has; in the middle of it, so that tones stay as dark.
+// Mean ink of one direction of strokes that come one by one before others cross it: if more of it lay as close, they would run
+// together in some places.
+const FULL_DIRECTION: f32 = 0.32;
+// Crisp strokes go from paper to ink within so much of what a tile has. In the middle of it, so that tones stay as dark: the more
+// of them, the narrower the gaps, which close.
 const CRISP_STEP: f32 = 0.15;
-const CRISP_MIDDLE: f32 = 0.475;
+const CRISP_MIDDLE: f32 = 0.447;
+const CRISP_MIDDLE_BY_INK: f32 = 0.13;
+// Strokes that are hardly crisp, because they lie close, lose ink by what is soft.
+const SOFT_MIDDLE: f32 = 0.405;
 
 struct LaidDirection {
     turn: f32,
@@ -82,9 +87,10 @@ fn priority_ink(place: vec2<f32>, strokes: u32, level: u32, ink: f32) -> f32 {
     return mix(mix(inks.x, inks.y, f.x), mix(inks.z, inks.w, f.x), f.y);
 }
 
-// The more crisp, the more what a tile has is ink or paper.
-fn crisp_ink(ink: f32, crispness: f32) -> f32 {
-    return mix(ink, clamp((ink - CRISP_MIDDLE) / CRISP_STEP + 0.5, 0.0, 1.0), crispness);
+// The more crisp, the more what a tile has is ink or paper; `ink`: the mean ink that is asked for.
+fn crisp_ink(texel: f32, ink: f32, crispness: f32) -> f32 {
+    let middle = mix(SOFT_MIDDLE, CRISP_MIDDLE, crispness) + CRISP_MIDDLE_BY_INK * ink;
+    return mix(texel, clamp((texel - middle) / CRISP_STEP + 0.5, 0.0, 1.0), crispness);
 }
 
 // Ink at a point of the paper (in tiles), where strokes run at an angle; each pixel blends two neighboring tones.
@@ -102,11 +108,11 @@ fn blended_ink_at(at: vec2<f32>, angle: f32, strokes: u32, ink: f32, lod: f32) -
 // Mean ink of each direction, so that all of them together have that of a tone: `inks_of_layers` in
 // src/hatching/tonal_art_map/composition.rs.
 fn inks_of_layers(ink: f32) -> vec3<f32> {
-    if ink <= DARKEST_LIGHT {
+    if ink <= FULL_DIRECTION {
         return vec3(ink, 0.0, 0.0);
     }
-    let crossed = 1.0 - sqrt((1.0 - ink) / (1.0 - DARKEST_LIGHT));
-    return select(vec3(1.0 - pow(1.0 - ink, 1.0 / 3.0)), vec3(DARKEST_LIGHT, crossed, crossed), crossed <= DARKEST_LIGHT);
+    let crossed = 1.0 - sqrt((1.0 - ink) / (1.0 - FULL_DIRECTION));
+    return select(vec3(1.0 - pow(1.0 - ink, 1.0 / 3.0)), vec3(FULL_DIRECTION, crossed, crossed), crossed <= FULL_DIRECTION);
 }
 
 // Mean ink of a tile in a pixel, of all texels that it has there: strokes that are drawn smaller only get finer.
@@ -126,7 +132,7 @@ fn ink_by_strokes_at(at: vec2<f32>, angle: f32, strokes: u32, ink: f32, lod: f32
     var left = 1.0;
     for (var i = 0u; i < DIRECTIONS; i++) {
         let place = place_in_tile(at, angle, laid_direction(i));
-        left *= 1.0 - crisp_ink(mean_priority_ink(place, strokes, inks[i], lod), crispness);
+        left *= 1.0 - crisp_ink(mean_priority_ink(place, strokes, inks[i], lod), inks[i], crispness);
     }
     return 1.0 - left;
 }
@@ -149,5 +155,5 @@ fn uv_ink_of(uv: vec2<f32>, pixel: f32, tile: f32, strokes: u32, turn: f32, numb
     let finer = select(share, round(share), crispness > 0.0);
     let a = mix(priority_ink(coarse, strokes, 1u, first), priority_ink(coarse, strokes, 0u, first), finer);
     let b = priority_ink(fine, strokes, 1u, second);
-    return 1.0 - (1.0 - crisp_ink(a, crispness)) * (1.0 - crisp_ink(b, crispness));
+    return 1.0 - (1.0 - crisp_ink(a, first, crispness)) * (1.0 - crisp_ink(b, second, crispness));
 }
