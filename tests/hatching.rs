@@ -194,8 +194,7 @@ fn tones_are_as_dark_as_asked() {
     }
 }
 
-/// Strokes of tonal art maps: a pen's by texture coordinates and on the picture, small ones that cannot be crisp, and dots.
-/// Those with tiles: a preset and what one may choose.
+/// Strokes of tonal art maps: a pen's by texture coordinates and on the picture, small ones that cannot be crisp, and a preset's dots.
 fn tiled() -> [Tiled; 4] {
     let of = |mapping, set| Hatching { mapping, set, ..Hatching::default() };
     let pen = |name, mapping| Tiled {

@@ -12,12 +12,12 @@ const DIRECTIONS: u32 = 3u;
 // Mean ink of one direction of strokes that come one by one before others cross it: if more of it lay as close, they would run
 // together in some places.
 const FULL_DIRECTION: f32 = 0.32;
-// Crisp strokes go from paper to ink within so much of what a tile has. In the middle of it, so that tones stay as dark: the more
-// of them, the narrower the gaps, which close.
+// A crisp stroke goes from paper to ink within so much of the ink of a tile's texel. The middle of that step grows with the mean ink
+// that is asked for, so that tones stay as dark: strokes that are few would get narrower, gaps between many would close.
 const CRISP_STEP: f32 = 0.15;
 const CRISP_MIDDLE: f32 = 0.447;
 const CRISP_MIDDLE_BY_INK: f32 = 0.13;
-// Strokes that are hardly crisp, because they lie close, lose ink by what is soft.
+// The middle of the step where strokes lie so close that they are hardly crisp: it makes up for what their soft part loses.
 const SOFT_MIDDLE: f32 = 0.405;
 
 struct LaidDirection {
