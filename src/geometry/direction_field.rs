@@ -6,15 +6,17 @@
 pub(crate) mod curvature;
 pub(crate) mod cut;
 pub(crate) mod graph;
+mod narrow;
 mod planes;
 mod smooth;
 mod sources;
 
 use glam::Vec3;
 
-use self::curvature::curvatures;
+use self::curvature::{Curvature, curvatures};
 use self::cut::{CutMesh, Faces};
 use self::graph::Graph;
+use self::narrow::turn_narrow;
 use self::planes::Planes;
 use self::smooth::{Data, smooth};
 use super::{Adjacency, CreaseRule, Mesh};
@@ -22,7 +24,8 @@ use super::{Adjacency, CreaseRule, Mesh};
 /// Where directions come from.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum DirectionSource {
-    /// The direction of the largest absolute curvature; on flat sides along the longer axis.
+    /// The direction of the largest absolute curvature; on flat sides along the longer axis. Lengthwise where strokes
+    /// would be much shorter, as on wires and moldings.
     Curvature,
     /// The direction in which the first texture coordinate grows.
     TextureU,
@@ -146,13 +149,22 @@ impl Solved {
         if !progress(0.4) {
             return None;
         }
-        let (data, graph) =
-            rayon::join(|| data(&faces, &cut, &planes, options, up), || Graph::new(&cut, &faces.areas));
+        let (found, graph) = rayon::join(
+            || {
+                let curvatures = if follows_form { curvatures(&faces, &cut) } else { Vec::new() };
+                (data(&faces, &cut, &planes, &curvatures, options, up), curvatures)
+            },
+            || Graph::new(&cut, &faces.areas),
+        );
+        let (data, curvatures) = found;
         let graphs = graph.hierarchy(64);
         if !progress(0.6) {
             return None;
         }
         let mut directions = smooth(&graphs, data, &|| progress(0.8))?;
+        if follows_form {
+            turn_narrow(&faces, &cut, &curvatures, &mut directions);
+        }
         if let Some(finest) = graphs.first() {
             finest.align(&mut directions);
         }
@@ -169,7 +181,14 @@ impl Solved {
 }
 
 /// What is known about the direction at each vertex.
-fn data(faces: &Faces<'_>, cut: &CutMesh, planes: &Planes, options: &FieldOptions, up: Vec3) -> Data {
+fn data(
+    faces: &Faces<'_>,
+    cut: &CutMesh,
+    planes: &Planes,
+    curvatures: &[Curvature],
+    options: &FieldOptions,
+    up: Vec3,
+) -> Data {
     let reach = match options.source {
         DirectionSource::Curvature if options.smoothing.is_finite() => options.smoothing.clamp(1e-4, 1.0),
         _ => REACH,
@@ -190,7 +209,7 @@ fn data(faces: &Faces<'_>, cut: &CutMesh, planes: &Planes, options: &FieldOption
             }
             let [low, high] = NOISE;
             let level = if options.level.is_finite() { options.level.clamp(0.0, 1.0) } else { 0.0 };
-            for (face, curvature) in curvatures(faces, cut).iter().enumerate() {
+            for (face, curvature) in curvatures.iter().enumerate() {
                 let certain = curvature.confidence;
                 let trust = ((certain - low) / (high - low)).clamp(0.0, 1.0);
                 add_face(face, curvature.direction, trust * certain * faces.areas[face]);

@@ -36,9 +36,16 @@ impl Frame {
         Self::of(session, opened, camera, &picture)
     }
 
-    /// As a picture of one sample is.
-    pub(crate) fn single(session: &mut Session, opened: &mut Opened, camera: Camera, side: u32) -> Self {
+    /// As a picture of so many samples is.
+    pub(crate) fn sampled(
+        session: &mut Session,
+        opened: &mut Opened,
+        camera: Camera,
+        side: u32,
+        samples: u32,
+    ) -> Self {
         opened.document.camera = Some(camera);
+        session.set_samples(samples);
         let picture = session.draw(opened, [side; 2], true).unwrap();
         Self::of(session, opened, camera, &picture)
     }

@@ -17,6 +17,8 @@ pub(crate) struct Curvature {
     pub(crate) direction: Vec3,
     /// 0 where the surface is flat or bends the same in all directions, up to 1 where the direction is certain.
     pub(crate) confidence: f32,
+    /// How much it bends along that direction and across it, in radians per unit length, at least 0.
+    pub(crate) bends: [f32; 2],
 }
 
 /// Of every triangle. Shading normals are used where the mesh has them.
@@ -90,10 +92,10 @@ fn principal(normal: Vec3, corners: [Vec3; 3], normals: [Vec3; 3]) -> Curvature 
     let spread = half_difference.hypot(xy);
     let (k1, k2) = ((mean + spread).abs(), (mean - spread).abs());
     if !(spread > 0.0 && spread.is_finite() && mean.is_finite()) {
-        return Curvature { direction: Vec3::ZERO, confidence: 0.0 };
+        return Curvature { direction: Vec3::ZERO, confidence: 0.0, bends: [0.0; 2] };
     }
     let (sin, cos) = (0.5 * xy.atan2(half_difference)).sin_cos();
     let direction = if k1 >= k2 { x * cos + y * sin } else { y * cos - x * sin };
     let confidence = (k1 - k2).abs() / (k1 + k2 + 0.5) * (0.5 * k1.max(k2)).min(1.0);
-    Curvature { direction, confidence }
+    Curvature { direction, confidence, bends: [k1.max(k2), k1.min(k2)] }
 }

@@ -103,15 +103,18 @@ fn frame(height: f32) -> Mesh {
 }
 
 #[test]
-fn strokes_cross_a_molding_up_to_the_corners_of_a_frame() {
+fn a_molding_is_ruled_across_or_lengthwise_up_to_the_corners_of_a_frame() {
     let mesh = frame(0.02);
-    let field = solve(&mesh, &of_form());
-    for (triangle, corners) in mesh.triangles().iter().zip(field.corner_vertices.as_chunks::<3>().0) {
-        let middle = triangle.iter().map(|&v| mesh.positions[v as usize]).sum::<Vec3>() / 3.0;
-        let along = if middle.x.abs() > middle.y.abs() { Vec3::Y } else { Vec3::X };
-        for &corner in corners {
-            let off = field.directions[corner as usize].dot(along).abs();
-            assert!(off < 0.02, "near {middle}: {off}");
+    // Wide in its scene, and narrow.
+    for (extent, expected) in [(1.0, 0.0), (10.0, 1.0)] {
+        let field = solve(&mesh, &FieldOptions { extent, ..of_form() });
+        for (triangle, corners) in mesh.triangles().iter().zip(field.corner_vertices.as_chunks::<3>().0) {
+            let middle = triangle.iter().map(|&v| mesh.positions[v as usize]).sum::<Vec3>() / 3.0;
+            let along = if middle.x.abs() > middle.y.abs() { Vec3::Y } else { Vec3::X };
+            for &corner in corners {
+                let lengthwise = field.directions[corner as usize].dot(along).abs();
+                assert!((lengthwise - expected).abs() < 0.02, "near {middle}: {lengthwise}");
+            }
         }
     }
 }
@@ -138,6 +141,25 @@ fn strokes_run_around_cylinders_of_any_number_of_facets() {
             }
         }
     }
+}
+
+#[test]
+fn poles_that_are_thin_in_their_scene_are_ruled_lengthwise() {
+    let mesh = cylinder(24, 20.0, false);
+    let off = |extent: f32| {
+        let field = solve(&mesh, &FieldOptions { extent, ..of_form() });
+        worst(&mesh, &field, |_| Some(Vec3::X))
+    };
+    let [thin, thick] = [400.0, 40.0].map(off);
+    assert!(thin < 3.0 && thick > 87.0, "{thin} {thick}");
+}
+
+#[test]
+fn rings_are_ruled_around_however_narrow() {
+    let mesh = cylinder(48, 0.2, false);
+    let field = solve(&mesh, &FieldOptions { extent: 400.0, ..of_form() });
+    let error = worst(&mesh, &field, |p| Some(Vec3::X.cross(p)));
+    assert!(error < 3.0, "{error}");
 }
 
 #[test]
@@ -176,13 +198,16 @@ fn a_box_with_round_edges_is_ruled_straight() {
         [2 * k, 2 * k + 1, 2 * ((k + 1) % n) + 1, 2 * k, 2 * ((k + 1) % n) + 1, 2 * ((k + 1) % n)]
     });
     let mesh = from_triangles(positions, indices.collect());
-    let field = solve(&mesh, &of_form());
-    // Only long edges go on: the strokes cross them, all around.
-    let error = worst(&mesh, &field, |p| {
-        let flat = p.y.abs().min(p.z.abs()) < half - radius + 0.01;
-        flat.then_some(if p.y.abs() > p.z.abs() { Vec3::Z } else { Vec3::Y })
-    });
-    assert!(error < 3.0, "{error}");
+    // The fillets alone are narrow in the second scene, but parts of what is not.
+    for extent in [0.0, 60.0] {
+        let field = solve(&mesh, &FieldOptions { extent, ..of_form() });
+        // Only long edges go on: the strokes cross them, all around.
+        let error = worst(&mesh, &field, |p| {
+            let flat = p.y.abs().min(p.z.abs()) < half - radius + 0.01;
+            flat.then_some(if p.y.abs() > p.z.abs() { Vec3::Z } else { Vec3::Y })
+        });
+        assert!(error < 3.0, "{error}");
+    }
 }
 
 #[test]
