@@ -440,6 +440,47 @@ fn strokes_on_the_paper_are_composed_and_turned_as_the_paper_says() {
     }
 }
 
+#[test]
+fn strokes_on_the_paper_end_at_the_borders_of_objects_if_asked() {
+    let mut session = session();
+    let half = |name, x: f64| {
+        let place = DMat4::from_translation(x * DVec3::X) * DMat4::from_scale(DVec3::new(0.5, 1.0, 1.0));
+        common::object(name, primitives::plane(8.0), place)
+    };
+    let camera = Camera { position: 4.0 * DVec3::Z, focal_point: DVec3::ZERO, ..Camera::default() };
+    let mut drawn = |parts: Vec<common::Object>, cross_objects: bool| {
+        let mut opened = common::opened(&common::scene(parts), DVec3::Z);
+        opened.document.camera = Some(camera);
+        let hatching = Hatching {
+            mapping: Mapping::ImageSpace,
+            direction: Direction::X,
+            cross_objects,
+            ..Hatching::default()
+        };
+        opened.document.style = even(hatching, 0.4, SIDE);
+        session.set_scene(&opened).unwrap();
+        let picture = moving(&mut session, &opened, SIDE);
+        inks(&read(&mut session, &picture))
+    };
+    let whole = drawn(vec![common::object("whole", primitives::plane(8.0), DMat4::IDENTITY)], true);
+    let [crossed, ended] =
+        [true, false].map(|crosses| drawn(vec![half("left", -2.0), half("right", 2.0)], crosses));
+    let apart = |inks: &[Option<f64>], columns: std::ops::Range<usize>| {
+        let differences =
+            inks.iter().zip(&whole).enumerate().filter(|(i, _)| columns.contains(&(i % SIDE as usize)));
+        let all: Vec<f64> = differences.map(|(_, (a, b))| (a.unwrap() - b.unwrap()).abs()).collect();
+        all.iter().sum::<f64>() / all.len() as f64
+    };
+    let middle = SIDE as usize / 2;
+    let sides = [0..middle - 2, middle + 2..SIDE as usize];
+    for columns in sides.clone() {
+        assert!(apart(&crossed, columns) < 1e-3);
+    }
+    // The strokes of one side do not continue those of the other.
+    let moved = sides.map(|columns| apart(&ended, columns));
+    assert!(moved[0].max(moved[1]) > 0.2, "{moved:?}");
+}
+
 fn without_uvs(mut mesh: Mesh) -> Mesh {
     mesh.uvs.clear();
     mesh

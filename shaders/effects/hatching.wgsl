@@ -70,6 +70,8 @@ struct HatchingStyle {
     indication: Indication,
     // 1: the detail that indication gives is drawn instead of strokes.
     shows_detail: u32,
+    // Where the tiles of this object begin, in tiles, so that its strokes end at its borders; 0: those of other objects go on.
+    tile_offset: vec2<f32>,
     // `CURVE` samples of the tone curve.
     curve: array<vec4<f32>, 9>,
 }
@@ -235,7 +237,7 @@ fn strokes_in_image_space(px: vec2<i32>, texel: vec4<u32>, s: Surfel, pos_view: 
     // No direction has a front: angles from −90° to 90°.
     let facing = direction * select(1.0, -1.0, direction.x < 0.0);
     let angle = atan2(facing.y, max(facing.x, 1e-12));
-    let at = (vec2<f32>(px) + 0.5 - frame.jitter) / hatching_styles[object].tile;
+    let at = (vec2<f32>(px) + 0.5 - frame.jitter) / hatching_styles[object].tile + hatching_styles[object].tile_offset;
     let strokes = laid.strokes;
     let step = hatching_styles[object].turn_step;
     if step <= 0.0 {

@@ -26,6 +26,8 @@ pub struct Hatching {
     pub blend_steps: bool,
     /// Whether tones between those of a set are blends of both; strokes come one by one otherwise.
     pub blend_tones: bool,
+    /// Whether strokes on the picture run on across the borders between objects.
+    pub cross_objects: bool,
     /// What single strokes are like.
     pub stroke: Stroke,
     /// How strokes make tones.
@@ -184,6 +186,7 @@ impl Default for Hatching {
             turn_step: 15.0,
             blend_steps: false,
             blend_tones: true,
+            cross_objects: true,
             stroke: Stroke {
                 spacing: 6.0,
                 min_width: 0.15,
@@ -256,6 +259,12 @@ impl Hatching {
                 "Tones between two of the strokes' own are blends of both; otherwise, and always in pictures of one sample, strokes come \
                  one by one.",
                 &mut self.blend_tones,
+            );
+            list.switch(
+                "cross_objects",
+                "Cross objects",
+                "Strokes run on from one object to the next where both have the same direction; otherwise they end at the border.",
+                &mut self.cross_objects,
             );
         });
         list.color("ink", "Ink", "Color of the ink.", &mut self.ink);

@@ -17,7 +17,7 @@ mod strokes;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use encase::ShaderType;
-use glam::{DMat4, Mat4, Vec3, Vec4};
+use glam::{DMat4, DVec2, Mat4, Vec2, Vec3, Vec4};
 
 use self::calibration::Calibration;
 pub use self::indication::GpuIndication;
@@ -73,6 +73,7 @@ pub struct GpuHatchingStyle {
     towards_light: u32,
     indication: GpuIndication,
     shows_detail: u32,
+    tile_offset: Vec2,
     curve: [Vec4; 9],
 }
 
@@ -143,6 +144,7 @@ impl Hatchings {
             Mapping::Stripes | Mapping::Uv | Mapping::ImageSpace => IN_IMAGE_SPACE,
         };
         let uniform = GpuHatchingStyle {
+            tile_offset: if style.cross_objects { Vec2::ZERO } else { tile_offset(object.node) },
             strokes: self.number_of(style, style.set, object),
             strokes_in_shadow: self.number_of(style, style.shadows.set, object),
             ..uniform(style, mapping, stroke, greatest, object.scale, place)
@@ -229,8 +231,16 @@ fn uniform(
         towards_light: u32::from(style.direction == Direction::Light),
         indication: GpuIndication::new(&style.indication, scale),
         shows_detail: u32::from(style.shows_detail),
+        // Depends on the object.
+        tile_offset: Vec2::ZERO,
         curve: samples(&tone.curve),
     }
+}
+
+/// Where the strokes of an object lie that do not go on in others, in tiles: those of any two are far apart (Roberts 2018, "The
+/// Unreasonable Effectiveness of Quasirandom Sequences").
+fn tile_offset(node: usize) -> Vec2 {
+    (node as f64 * DVec2::new(0.754_877_666, 0.569_840_291)).fract().as_vec2()
 }
 
 /// A tone curve as the shader reads it.
