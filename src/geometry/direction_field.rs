@@ -6,7 +6,7 @@
 pub(crate) mod curvature;
 pub(crate) mod cut;
 pub(crate) mod graph;
-mod narrow;
+mod narrow_strips;
 mod planes;
 mod smooth;
 mod sources;
@@ -16,7 +16,7 @@ use glam::Vec3;
 use self::curvature::{Curvature, curvatures};
 use self::cut::{CutMesh, Faces};
 use self::graph::Graph;
-use self::narrow::turn_narrow;
+use self::narrow_strips::turn_on_narrow_strips;
 use self::planes::Planes;
 use self::smooth::{Data, smooth};
 use super::{Adjacency, CreaseRule, Mesh};
@@ -24,8 +24,8 @@ use super::{Adjacency, CreaseRule, Mesh};
 /// Where directions come from.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum DirectionSource {
-    /// The direction of the largest absolute curvature; on flat sides along the longer axis. Lengthwise where strokes
-    /// would be much shorter, as on wires and moldings.
+    /// The direction of the largest absolute curvature; on flat sides along the longer axis. Lengthwise on narrow strips,
+    /// as moldings are.
     Curvature,
     /// The direction in which the first texture coordinate grows.
     TextureU,
@@ -163,7 +163,7 @@ impl Solved {
         }
         let mut directions = smooth(&graphs, data, &|| progress(0.8))?;
         if follows_form {
-            turn_narrow(&faces, &cut, &curvatures, &mut directions);
+            turn_on_narrow_strips(&faces, &cut, &curvatures, &mut directions);
         }
         if let Some(finest) = graphs.first() {
             finest.align(&mut directions);

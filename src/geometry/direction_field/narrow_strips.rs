@@ -1,4 +1,4 @@
-//! Parts of a mesh that are too narrow for strokes across them, as moldings and wires are: their strokes run lengthwise.
+//! Strips that are too narrow for strokes across them, as moldings are: their strokes run lengthwise.
 
 use std::f32::consts::FRAC_2_PI;
 
@@ -9,10 +9,13 @@ use super::cut::{CutMesh, Faces, transport};
 use crate::geometry::Edge;
 use crate::geometry::disjoint_sets::DisjointSets;
 
-/// Strokes across a narrow part are shorter than this in the mean, in extents.
+/// Strokes across a strip are shorter than this in the mean, in extents.
 const SHORT: f32 = 0.03;
 /// Strokes along it are at least so many times as long.
 const LONGER: f32 = 4.0;
+/// Least share of the ends of strokes that lie on its borders. What is closed, as a pole, has none along its sides: the lines around it
+/// would have to be a whole number at every density.
+const BORDERED: f32 = 0.25;
 
 /// Triangles of the cut mesh that are connected.
 #[derive(Clone, Copy, Default)]
@@ -20,19 +23,21 @@ struct Part {
     area: f32,
     /// Across what length strokes end: of those in the directions of the field, and of those across them.
     ends: [f32; 2],
+    /// Of those in the directions of the field, at borders.
+    border_ends: f32,
 }
 
 impl Part {
     /// Whether strokes across the directions of the field would be so much longer that they should be drawn instead.
-    fn is_narrow(&self) -> bool {
+    fn is_narrow_strip(&self) -> bool {
         // Each stroke has two ends.
         let [along, across] = self.ends.map(|ends| 2.0 * self.area / ends);
-        along < SHORT && across > LONGER * along
+        along < SHORT && across > LONGER * along && self.border_ends > BORDERED * self.ends[0]
     }
 }
 
-/// Turns the directions of vertices by a right angle on narrow parts.
-pub(crate) fn turn_narrow(
+/// Turns the directions of vertices by a right angle on narrow strips.
+pub(crate) fn turn_on_narrow_strips(
     faces: &Faces<'_>,
     cut: &CutMesh,
     curvatures: &[Curvature],
@@ -67,12 +72,14 @@ pub(crate) fn turn_narrow(
         let along = faces.along(edge);
         for v in corners.into_iter().flatten().flatten().map(|v| v as usize) {
             let part = &mut parts[part_of[v] as usize];
-            part.ends[0] += 0.5 * along.cross(directions[v]).length();
+            let ends = 0.5 * along.cross(directions[v]).length();
+            part.ends[0] += ends;
+            part.border_ends += ends;
             part.ends[1] += 0.5 * along.dot(directions[v]).abs();
         }
     }
     for (v, direction) in directions.iter_mut().enumerate() {
-        if parts[part_of[v] as usize].is_narrow() {
+        if parts[part_of[v] as usize].is_narrow_strip() {
             *direction = cut.normals[v].cross(*direction);
         }
     }
