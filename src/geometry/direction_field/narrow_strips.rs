@@ -1,6 +1,7 @@
 //! Strips that are too narrow for strokes across them, as moldings are: their strokes run lengthwise.
 
 use std::f32::consts::FRAC_2_PI;
+use std::ops::Range;
 
 use glam::Vec3;
 
@@ -9,8 +10,9 @@ use super::cut::{CutMesh, Faces, transport};
 use crate::geometry::Edge;
 use crate::geometry::disjoint_sets::DisjointSets;
 
-/// Strokes across a strip are shorter than this in the mean, in extents.
-const SHORT: f32 = 0.03;
+/// Mean length of strokes across a strip, in extents. On what is narrower a line that runs lengthwise would be there or not by chance,
+/// whatever the tone.
+const SHORT: Range<f32> = 0.0035..0.03;
 /// Strokes along it are at least so many times as long.
 const LONGER: f32 = 4.0;
 /// Least share of the ends of strokes that lie on its borders. What is closed, as a pole, has none along its sides: the lines around it
@@ -32,7 +34,7 @@ impl Part {
     fn is_narrow_strip(&self) -> bool {
         // Each stroke has two ends.
         let [along, across] = self.ends.map(|ends| 2.0 * self.area / ends);
-        along < SHORT && across > LONGER * along && self.border_ends > BORDERED * self.ends[0]
+        SHORT.contains(&along) && across > LONGER * along && self.border_ends > BORDERED * self.ends[0]
     }
 }
 

@@ -154,6 +154,8 @@ fn gutters_that_are_narrow_in_their_scene_are_ruled_lengthwise_and_poles_are_not
     let [narrow, wide] = [400.0, 40.0].map(|extent| off(&gutter, extent));
     assert!(narrow < 3.0 && wide > 87.0, "{narrow} {wide}");
     assert!(off(&pole, 400.0) > 87.0);
+    // There is no room for several lines.
+    assert!(off(&gutter, 4000.0) > 87.0);
 }
 
 #[test]
