@@ -12,7 +12,7 @@ use crate::geometry::disjoint_sets::DisjointSets;
 
 /// Mean length of strokes across a strip, in extents. On what is narrower a line that runs lengthwise would be there or not by chance,
 /// whatever the tone.
-const SHORT: Range<f32> = 0.0035..0.03;
+const SHORT: Range<f32> = 0.008..0.03;
 /// Strokes along it are at least so many times as long.
 const LONGER: f32 = 4.0;
 /// Least share of the ends of strokes that lie on its borders. What is closed, as a pole, has none along its sides: the lines around it

@@ -106,7 +106,7 @@ fn frame(height: f32) -> Mesh {
 fn a_molding_is_ruled_across_or_lengthwise_up_to_the_corners_of_a_frame() {
     let mesh = frame(0.02);
     // Wide in its scene, and narrow.
-    for (extent, expected) in [(1.0, 0.0), (10.0, 1.0)] {
+    for (extent, expected) in [(1.0, 0.0), (5.0, 1.0)] {
         let field = solve(&mesh, &FieldOptions { extent, ..of_form() });
         for (triangle, corners) in mesh.triangles().iter().zip(field.corner_vertices.as_chunks::<3>().0) {
             let middle = triangle.iter().map(|&v| mesh.positions[v as usize]).sum::<Vec3>() / 3.0;
@@ -151,7 +151,7 @@ fn gutters_that_are_narrow_in_their_scene_are_ruled_lengthwise_and_poles_are_not
         let field = solve(mesh, &FieldOptions { extent, ..of_form() });
         worst(mesh, &field, |_| Some(Vec3::X))
     };
-    let [narrow, wide] = [400.0, 40.0].map(|extent| off(&gutter, extent));
+    let [narrow, wide] = [200.0, 40.0].map(|extent| off(&gutter, extent));
     assert!(narrow < 3.0 && wide > 87.0, "{narrow} {wide}");
     assert!(off(&pole, 400.0) > 87.0);
     // There is no room for several lines.
