@@ -49,9 +49,6 @@ const MAX_PIECES: f64 = 0.0075;
 const SAMPLES: u32 = 8;
 /// Greatest coefficient of variation of spacing and width.
 const MAX_UNEVEN: f64 = 0.08;
-/// The same of ruled lines on a plane that faces the eye: they stay evenly spaced in each picture, so new ones are inserted everywhere
-/// at once.
-const MAX_UNEVEN_RULED: f64 = 0.15;
 /// Steps in an octave of coming closer.
 const STEPS: u32 = 4;
 
@@ -174,8 +171,6 @@ fn measure_evenness(
 ) {
     session.set_scene(&opened).unwrap();
     for (preset, hatching) in presets() {
-        let is_ruled = name == "plane" && hatching.stroke.taper <= 0.0;
-        let most = if is_ruled { MAX_UNEVEN_RULED } else { MAX_UNEVEN };
         opened.document.style = even(hatching, DARKNESS, SIDE);
         let mut seen = Vec::new();
         for step in 0..=5 * STEPS {
@@ -193,7 +188,7 @@ fn measure_evenness(
             100.0 * width
         );
         for (what, varies) in [("spacing", spacing), ("width", width)] {
-            failures.check(varies <= most, format!("{name}: {what} of {preset} varies by {varies:.3}"));
+            failures.check(varies <= MAX_UNEVEN, format!("{name}: {what} of {preset} varies by {varies:.3}"));
         }
     }
 }
