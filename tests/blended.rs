@@ -172,10 +172,10 @@ fn every_technique_shades_what_blends_as_what_does_not() {
         let opaque = image(&mut session, &lit(technique, 1.0), SIDE);
         // Where a toon's bands are smoothed, they are where one surface hides the other.
         let far = blended.pixels().zip(opaque.pixels()).filter(|(a, b)| apart(a, b) > 2).count();
-        // Of a stroke a shade more or less of light decides whether it is there.
+        // Strokes of the floor in the ball's shadow end at the ball, and go on behind one that blends.
         let most = match *technique {
             "toon" => 20,
-            "hatching" => 6,
+            "hatching" => 40,
             _ => 0,
         };
         assert!(far <= most, "{technique}: {far}");

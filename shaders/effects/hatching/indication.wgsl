@@ -3,32 +3,8 @@
 #import common/frame.wgsl
 #import common/gbuffer.wgsl
 #import common/plane.wgsl
+#import effects/hatching/style.wgsl
 #import gpu/record_texture.wgsl
-
-// Twin: `GpuIndication` in src/render/effects/hatching/indication.rs; parameters in src/style/indication.rs.
-struct Indication {
-    @align(16) amount: f32,
-    // 1: by the fields of the paper; 0: by the nearest line.
-    by_fields: u32,
-    // px.
-    distance: f32,
-    falloff: f32,
-    attraction: f32,
-    patch_share: f32,
-    patch_offset: f32,
-    patch_slope: f32,
-    patch_power: f32,
-    silhouette_share: f32,
-    // px.
-    radius: f32,
-    step: f32,
-    alpha: f32,
-    beta: f32,
-    lambda: f32,
-    silhouette_offset: f32,
-    silhouette_slope: f32,
-    silhouette_power: f32,
-}
 
 // The nearest line that is drawn, as `found_tex` in passes/line_distance.wgsl.
 var nearest_edge_tex: texture_storage_2d<r32uint, read>;

@@ -1,30 +1,9 @@
 // Strokes of hatching along the lines of stripes: how dark a tone has to be for each to be drawn, how wide it is then, where it ends,
 // and how its end passes that of the next one.
 #import common/frame.wgsl
-#import common/same_surface.wgsl
+#import effects/hatching/packed_inks.wgsl
 #import effects/hatching/stripes.wgsl
-
-// Twin: `GpuStroke` in src/render/effects/hatching/strokes.rs. Lengths in px, widths as shares of the spacing.
-struct Stroke {
-    @align(16) spacing: f32,
-    min_width: f32,
-    max_width: f32,
-    // A stroke ends where it would be narrower, px.
-    end_width: f32,
-    length: f32,
-    taper: f32,
-    gap: f32,
-    tone_by_count: f32,
-    randomness: f32,
-    pointedness: f32,
-    late_insertion: f32,
-    insertion_spread: f32,
-    variation: f32,
-    // 1 where strokes are ink or paper, 0 where they have soft rims.
-    crispness: f32,
-    // Which of the tables says what tone to ask for.
-    table: u32,
-}
+#import effects/hatching/style.wgsl
 
 // So many numbers of strokes there are before they begin again.
 const STROKES: u32 = 16u;
@@ -49,12 +28,19 @@ const OCTAVE_LENGTHS: u32 = 10u;
 const INK_STEPS: u32 = 64u;
 // The share of the length that is enough for a stroke below which it is none.
 const SHORT: f32 = 0.55;
+// A stroke ends where so small a share is left of its ink; but from the one share of ink to the other on strokes merge with those
+// beside them, and are no dots, however narrow what is dark: furrows stay.
+const FAINT: f32 = 0.6;
+const MERGING: f32 = 0.3;
+const MERGED: f32 = 0.5;
 // Strokes are followed so far at most, px, and so far from their edges: those of which a surface shows less would be rows of dots.
 const FOLLOWED: f32 = 8.0;
 const INSET: f32 = 1.0;
 
 // For each table, place in the octave of densities, in that of lengths, and share of ink the tone to ask for.
 var<storage, read> stripe_tones: array<f32>;
+// As effects/hatching/inks.wgsl draws it.
+var inks_tex: texture_storage_2d<rg32uint, read>;
 
 fn mixed(v: u32) -> u32 {
     let state = v * 747796405u + 2891336453u;
@@ -135,10 +121,12 @@ fn tone_for(table: u32, place: f32, length: f32, ink: f32) -> f32 {
     return mix(by_row.x, by_row.y, fract(column));
 }
 
-// Length that the surface leaves of a stroke, px; beyond `enough` it does not matter. `core`: from the pixel to what of the stroke is
-// followed.
-fn length_left(px: vec2<i32>, core: vec2<f32>, along: vec2<f32>, enough: f32) -> f32 {
-    let own = textureLoad(surface_id_tex, px, 0).x;
+// Length that the surface and its tone leave of a stroke, px; beyond `enough` it does not matter. `core`: from the pixel to what of
+// the stroke is followed; `along`: its direction.
+fn length_left(px: vec2<i32>, core: vec2<f32>, along: vec2<f32>, enough: f32, number: u32) -> f32 {
+    let own = textureLoad(inks_tex, px);
+    let ink = unpacked_inks(own.y).shares[number];
+    let least = FAINT * ink * (1.0 - smoothstep(MERGING, MERGED, ink));
     let most = vec2<i32>(frame.size) - 1;
     // From column to column or from row to row, so that all pixels of a stroke meet the same ones.
     let step = along / max(abs(along.x), abs(along.y));
@@ -147,7 +135,8 @@ fn length_left(px: vec2<i32>, core: vec2<f32>, along: vec2<f32>, enough: f32) ->
     for (var way = -1.0; way <= 1.0; way += 2.0) {
         for (var i = 1.0; left < enough; i += 1.0) {
             let q = px + vec2<i32>(round(core + i * way * step));
-            if textureLoad(surface_id_tex, clamp(q, vec2(0), most), 0).x != own {
+            let other = textureLoad(inks_tex, clamp(q, vec2(0), most));
+            if other.x != own.x || unpacked_inks(other.y).shares[number] < least {
                 break;
             }
             left += step_length;
@@ -395,10 +384,10 @@ fn stripe_ink(px: vec2<i32>, s: Stripes, number: u32, stroke: Stroke, ink: f32) 
     if !any_reach(near, nib) && !any_reach(wide, nib) {
         return 0.0;
     }
-    // What crosses a narrow facet would be a tooth of a comb.
+    // What crosses a narrow facet, or a dark edge, would be a tooth of a comb.
     let run = vec2(-family.screen.y, family.screen.x) / family.per_px;
     let enough = min(2.0 * stroke.spacing, FOLLOWED);
     let core = to_core(deeper(deeper(near.own, near.passing), deeper(wide.own, wide.passing)), family);
-    let left = smoothstep(SHORT, 1.0, length_left(px, core, run, enough) / enough);
+    let left = smoothstep(SHORT, 1.0, length_left(px, core, run, enough, number) / enough);
     return max(marks_ink(near, left, stroke, nib), marks_ink(wide, left, stroke, nib));
 }

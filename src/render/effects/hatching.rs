@@ -3,7 +3,7 @@
 //! ```text
 //! mesh ─► directions ─► stripes (once, in the background) ──┐
 //! layer ─► triangle of each pixel ──────────────────────────┼─► strokes of up to three directions ─► color
-//! layer, lights, shadows ─► tone ─► share of each direction ┘
+//! layer, lights, shadows ─► tone ─► ink of each direction ──┘
 //! ```
 
 mod calibration;
@@ -26,7 +26,7 @@ use self::requests::{recipe_of, request_of};
 use self::sets::{OwnMap, StrokeSets, TILE, built_in};
 pub use self::strokes::GpuStroke;
 use super::technique::{Shaded, Styled, SurfaceTechnique};
-use crate::gpu::{ArrayBuffer, Gpu, Inputs, Recorder, Target};
+use crate::gpu::{ArrayBuffer, Gpu, Inputs, Program, Recorder, Target, inputs};
 use crate::render::base::error::RenderError;
 use crate::render::base::gpu_scene::{GpuScene, Origin};
 use crate::render::base::ids::node_of;
@@ -39,7 +39,7 @@ use crate::render::passes::line_distance::nearest_lines;
 use crate::style::hatching::{Direction, Hatching, Mapping, Set};
 use crate::style::{Curve, Technique};
 
-/// Twin of `HatchingStyle` in `shaders/effects/hatching.wgsl`.
+/// Twin of `HatchingStyle` in `shaders/effects/hatching/style.wgsl`.
 #[derive(Debug, Clone, Copy, PartialEq, ShaderType, Default)]
 pub struct GpuHatchingStyle {
     local_from_view: Mat4,
@@ -77,7 +77,7 @@ pub struct GpuHatchingStyle {
     curve: [Vec4; 9],
 }
 
-// As in `shaders/effects/hatching.wgsl`.
+// As in `shaders/effects/hatching/style.wgsl`.
 const STRIPES: u32 = 1;
 const IN_IMAGE_SPACE: u32 = 2;
 const BY_UV: u32 = 3;
@@ -87,6 +87,8 @@ const SPACING_OF_TEXELS: f32 = 6.0;
 const GREATEST_OF_TILES: f32 = 0.76;
 /// Samples of a tone curve.
 const CURVE: usize = 33;
+/// A surface, and what each direction of strokes draws on it: see `shaders/effects/hatching/inks.wgsl`.
+const INKS: wgpu::TextureFormat = wgpu::TextureFormat::Rg32Uint;
 
 /// Strokes of one kind, with what they need to be as dark as asked.
 #[derive(Debug, Clone, PartialEq)]
@@ -168,6 +170,21 @@ impl Hatchings {
             self.own.len() - 1
         });
         (built_in() + known) as u32
+    }
+
+    /// Whether strokes of any lie so.
+    fn are_mapped(&self, mapping: u32) -> bool {
+        self.styles.iter().any(|style| style.mapping == mapping)
+    }
+
+    /// Whether any has fewer strokes away from details.
+    fn have_indication(&self) -> bool {
+        self.styles.iter().any(|style| style.indication.amount > 0.0)
+    }
+
+    /// Whether the detail that any gets is drawn instead of it.
+    fn show_detail(&self) -> bool {
+        self.styles.iter().any(|style| style.shows_detail == 1)
     }
 
     /// How far from edges strokes become fewer, px; 0: they do not.
@@ -272,10 +289,52 @@ pub struct HatchingShading {
     /// The triangles of the layer that is shaded, and the records of all; `None` where nobody asks.
     triangle_map: Option<Target>,
     records: Option<[Target; 3]>,
+    /// What strokes draw on that layer; `None` where nothing is hatched.
+    inks: Option<Target>,
     /// The nearest edge of each pixel of that layer, for indication.
     nearest_edges: Option<Target>,
     edges: Stage<(u64, u32), Target>,
     greatest_radius: ArrayBuffer,
+}
+
+impl HatchingShading {
+    /// What finding inks and drawing strokes both read.
+    fn bind_both<'a>(&'a self, inputs: &mut Inputs<'a>) {
+        inputs.set("hatching_styles", &self.styles);
+        inputs.set("triangle_map_tex", self.triangle_map.as_ref());
+        inputs.set("stripe_triangles", self.record(0));
+    }
+
+    fn record(&self, number: usize) -> Option<&Target> {
+        self.records.as_ref()?.get(number)
+    }
+
+    fn draw_inks(
+        &self,
+        rec: &mut Recorder<'_>,
+        hatchings: &Hatchings,
+        layer: &Shaded<'_>,
+    ) -> Result<Target, RenderError> {
+        let Shaded { gbuffer, shadow_mask, .. } = layer;
+        let mut inputs = inputs! {
+            geometry_tex: &gbuffer.geometry,
+            surface_id_tex: &gbuffer.surface_id,
+            base_color_tex: &gbuffer.base_color,
+            shadow_mask_tex: shadow_mask.map(|(mask, _)| mask),
+            nearest_edge_tex: self.nearest_edges.as_ref(),
+            flat_parts: self.record(2),
+        };
+        self.bind_both(&mut inputs);
+        let switches = vec![
+            ("WITH_SHADOWS", shadow_mask.is_some()),
+            ("WITH_INDICATION", hatchings.have_indication()),
+            ("SHOWS_DETAIL", hatchings.show_detail()),
+        ];
+        let program = Program { file: "effects/hatching/inks.wgsl", entry_point: "fs_main", switches };
+        let inks = rec.target("inks", INKS)?;
+        rec.fullscreen("inks", program, &inputs, &[&inks], Some(&gbuffer.depth))?;
+        Ok(inks)
+    }
 }
 
 impl SurfaceTechnique for HatchingShading {
@@ -299,6 +358,7 @@ impl SurfaceTechnique for HatchingShading {
             stage: Stage::default(),
             triangle_map: None,
             records: None,
+            inks: None,
             nearest_edges: None,
             edges: Stage::default(),
             greatest_radius: ArrayBuffer::new(gpu, "distance of edges"),
@@ -321,18 +381,16 @@ impl SurfaceTechnique for HatchingShading {
 
     fn switches(hatchings: &Hatchings) -> Vec<(&'static str, bool)> {
         let any = |directions| hatchings.styles.iter().any(|s| s.directions >= directions);
-        let is_mapped = |mapping| hatchings.styles.iter().any(|s| s.mapping == mapping);
         let blends = |tones| hatchings.styles.iter().any(|s| s.mapping != 0 && s.blends_tones == tones);
         vec![
             ("WITH_HATCHING", !hatchings.styles.is_empty()),
-            ("WITH_STRIPES", is_mapped(STRIPES)),
+            ("WITH_STRIPES", hatchings.are_mapped(STRIPES)),
             // Caps of sections too.
-            ("WITH_IMAGE_SPACE_STROKES", is_mapped(IN_IMAGE_SPACE) || hatchings.has_caps),
+            ("WITH_IMAGE_SPACE_STROKES", hatchings.are_mapped(IN_IMAGE_SPACE) || hatchings.has_caps),
             ("WITH_BLENDED_TONES", blends(1)),
             ("WITH_STROKES_ONE_BY_ONE", blends(0)),
-            ("WITH_STROKES_BY_UV", is_mapped(BY_UV)),
-            ("SHOWS_DETAIL", hatchings.styles.iter().any(|s| s.shows_detail == 1)),
-            ("WITH_INDICATION", hatchings.styles.iter().any(|s| s.indication.amount > 0.0)),
+            ("WITH_STROKES_BY_UV", hatchings.are_mapped(BY_UV)),
+            ("SHOWS_DETAIL", hatchings.show_detail()),
             ("WITH_SECOND", any(2)),
             ("WITH_THIRD", any(3)),
         ]
@@ -401,6 +459,8 @@ impl SurfaceTechnique for HatchingShading {
         if layer.revision.is_some() {
             rec.note("triangles", self.triangle_map.as_ref());
         }
+        let is_asked = !hatchings.styles.is_empty();
+        self.inks = if is_asked { Some(self.draw_inks(rec, hatchings, layer)?) } else { None };
         Ok(())
     }
 
@@ -408,16 +468,9 @@ impl SurfaceTechnique for HatchingShading {
         inputs.set("light_tones", shared.sets.tones.view());
         inputs.set("stroke_priorities", shared.sets.priorities.view());
         inputs.set("tile_of_strokes", &shared.sets.sampler);
-        let [triangles, vertices, patches] = match &self.records {
-            Some(records) => records.each_ref().map(Some),
-            None => [None; 3],
-        };
-        inputs.set("hatching_styles", &self.styles);
+        self.bind_both(inputs);
         inputs.set("stripe_tones", &self.tones);
-        inputs.set("triangle_map_tex", self.triangle_map.as_ref());
-        inputs.set("nearest_edge_tex", self.nearest_edges.as_ref());
-        inputs.set("stripe_triangles", triangles);
-        inputs.set("stripe_vertices", vertices);
-        inputs.set("flat_parts", patches);
+        inputs.set("stripe_vertices", self.record(1));
+        inputs.set("inks_tex", self.inks.as_ref());
     }
 }

@@ -4,7 +4,7 @@ use encase::ShaderType;
 
 use crate::style::indication::{DetailBy, Indication};
 
-/// Twin of `Indication` in `shaders/effects/hatching/indication.wgsl`. Lengths in px.
+/// Twin of `Indication` in `shaders/effects/hatching/style.wgsl`. Lengths in px.
 #[derive(Debug, Clone, Copy, PartialEq, ShaderType, Default)]
 pub struct GpuIndication {
     #[shader(align(16))]

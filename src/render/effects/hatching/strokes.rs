@@ -5,7 +5,7 @@ use encase::ShaderType;
 use super::smoothstep::smoothstep;
 use crate::style::hatching::Stroke;
 
-/// Twin of `Stroke` in `shaders/effects/hatching/strokes.wgsl`: lengths in px, widths as shares of the spacing.
+/// Twin of `Stroke` in `shaders/effects/hatching/style.wgsl`: lengths in px, widths as shares of the spacing.
 #[derive(Debug, Clone, Copy, PartialEq, ShaderType, Default)]
 pub struct GpuStroke {
     #[shader(align(16))]
