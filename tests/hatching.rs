@@ -519,6 +519,42 @@ fn whatever_a_mesh_is_like_it_gets_strokes() {
     }
 }
 
+/// A hollow molding along x of this length, with a profile of a quarter circle in rows of two triangles each.
+fn molding(length: f32, radius: f32) -> Mesh {
+    const ROWS: u32 = 8;
+    let normal = |row: u32| {
+        let (sin, cos) = (row as f32 / ROWS as f32 * std::f32::consts::FRAC_PI_2).sin_cos();
+        Vec3::new(0.0, cos, sin)
+    };
+    let ends = (0..=ROWS).flat_map(|row| [(row, -0.5), (row, 0.5)]);
+    let positions = ends.clone().map(|(row, end)| Vec3::X * length * end - normal(row) * radius);
+    let indices = (0..ROWS).flat_map(|row| [0, 1, 3, 0, 3, 2].map(|corner| 2 * row + corner));
+    let mut mesh = primitives::from_triangles(positions.collect(), indices.collect());
+    mesh.normals = ends.map(|(row, _)| normal(row)).collect();
+    mesh
+}
+
+/// Its triangles are a thousand times as long as they are wide.
+#[test]
+fn strokes_across_a_long_molding_are_not_torn_from_row_to_row() {
+    let mut session = session();
+    let mut thing = opened(molding(27.0, 0.2), DMat4::IDENTITY, 4.0);
+    let camera = thing.document.camera.as_mut().unwrap();
+    let middle = DVec3::new(3.0, -0.13, 0.0);
+    (camera.position, camera.focal_point) = (middle + 4.0 * DVec3::Z, middle);
+    camera.projection = Projection::Orthographic { view_height: 0.12 };
+    let hatching = preset::load("stroke-directions").unwrap().style.hatching;
+    thing.document.style = even(hatching, 0.4, SIDE);
+    session.set_scene(&thing).unwrap();
+    let inks = inks(&drawn(&mut session, &thing));
+    assert!(mean(&inks) > 0.25);
+    // Strokes run up and down in this picture.
+    let below = inks.iter().zip(&inks[5 * SIDE as usize..]);
+    let changes = below.filter_map(|(ink, below)| Some((ink.as_ref()? - below.as_ref()?).abs()));
+    let changed = mean(&changes.map(Some).collect::<Vec<_>>());
+    assert!(changed < 0.02, "{changed}");
+}
+
 fn scaled(mut mesh: Mesh, size: f32) -> Mesh {
     mesh.positions.iter_mut().for_each(|p| *p *= size);
     mesh

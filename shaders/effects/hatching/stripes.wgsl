@@ -44,17 +44,15 @@ struct Stripes {
     frequency: f32,
 }
 
-// How much each corner counts at a place in a triangle.
+// How much each corner counts at a place in a triangle. By areas, as squares of lengths leave nothing of needles.
 fn shares_at(place: vec3<f32>, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>) -> vec3<f32> {
     let u = b - a;
     let v = c - a;
     let w = place - a;
-    let uu = dot(u, u);
-    let uv = dot(u, v);
-    let vv = dot(v, v);
-    let area = max(uu * vv - uv * uv, 1e-36);
-    let s = clamp((vv * dot(w, u) - uv * dot(w, v)) / area, 0.0, 1.0);
-    let t = clamp((uu * dot(w, v) - uv * dot(w, u)) / area, 0.0, 1.0);
+    let area = cross(u, v);
+    let per_area = area / max(dot(area, area), 1e-36);
+    let s = clamp(dot(cross(w, v), per_area), 0.0, 1.0);
+    let t = clamp(dot(cross(u, w), per_area), 0.0, 1.0);
     return vec3(1.0 - s - t, s, t);
 }
 
