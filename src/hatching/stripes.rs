@@ -5,7 +5,7 @@ use crate::geometry::stripes::{StripeVertex, WORDS};
 use crate::geometry::{DirectionSource, FieldOptions, Mesh, StripeField};
 
 /// Raised whenever the same mesh gets other stripes.
-const VERSION: u32 = 8;
+const VERSION: u32 = 9;
 
 /// Smaller meshes are not kept: they take no longer than reading a file.
 const MIN_TRIANGLES: usize = 2000;

@@ -9,6 +9,7 @@ use rayon::prelude::*;
 use super::levels::{BASE_LEVEL, CYCLES_PER_EXTENT, FAMILIES, LEVELS, Phases};
 use super::rails::{Rail, Track, Wave};
 use crate::geometry::direction_field::graph::Graph;
+use crate::geometry::disjoint_sets::DisjointSets;
 
 /// Levels that are solved on coarse graphs first.
 const COARSE_LEVELS: usize = 5;
@@ -24,6 +25,12 @@ const INERTIA: f32 = 0.3;
 const PULL: f32 = 1.0;
 /// At most this much of the weight of all neighbors: large triangles must be free to end lines.
 const MAX_PULL: f32 = 0.3;
+/// Around a thin tube lines are a whole number, and the double of one that was rounded need not be the best: where so few lines lie
+/// on a part, and doubled phases strain it more than that, they are compared with others, which take their place if they strain it
+/// so much less.
+const FEW: f32 = 5.0;
+const STRAINED: f32 = 0.02;
+const LESS: f32 = 0.5;
 
 /// The phases of a surface, level by level.
 pub(super) struct Ladder<'a> {
@@ -31,13 +38,19 @@ pub(super) struct Ladder<'a> {
     /// The phases of the level before on each graph.
     waves: Vec<Vec<Wave>>,
     frequency: f32,
+    /// Which of the connected parts each patch of the finest graph belongs to.
+    part_of: Vec<u32>,
+    /// Of each of them, how wide it would be if it were as long as it can be, in extents: a tube as wide as it is around.
+    widths: Vec<f32>,
 }
 
 impl<'a> Ladder<'a> {
     /// For a hierarchy of graphs, and the directions of the finest.
     pub(super) fn new(graphs: &'a [Graph], directions: &[Vec3]) -> Self {
         let frequency = CYCLES_PER_EXTENT * (-(BASE_LEVEL as f32)).exp2();
-        Self { tracks: Track::hierarchy(graphs, directions, frequency), waves: Vec::new(), frequency }
+        let (part_of, widths) = graphs.first().map_or_else(Default::default, parts);
+        let tracks = Track::hierarchy(graphs, directions, frequency);
+        Self { tracks, waves: Vec::new(), frequency, part_of, widths }
     }
 
     /// The phases of every vertex. `None` when `progress` says so.
@@ -62,6 +75,53 @@ impl<'a> Ladder<'a> {
 
     /// The phases of one level on all graphs. `None` when `go_on` says no.
     fn solve_level(&mut self, level: usize, go_on: &dyn Fn() -> bool) -> Option<()> {
+        let mut waves = self.settled(level, &self.waves, go_on)?;
+        if let Some(track) = self.tracks.first().filter(|_| !self.waves.is_empty()) {
+            let is_thin: Vec<bool> = self.widths.iter().map(|width| width * self.frequency < FEW).collect();
+            let doubled = if is_thin.contains(&true) { self.strains(track, &waves) } else { Vec::new() };
+            let are_strained = |strains: &[f32; FAMILIES]| strains.iter().any(|strain| *strain > STRAINED);
+            if doubled.iter().zip(&is_thin).any(|(strains, is_thin)| *is_thin && are_strained(strains)) {
+                let anew = self.settled(level, &[], go_on)?;
+                let strains = self.strains(track, &anew);
+                for (v, wave) in waves.iter_mut().enumerate() {
+                    let part = self.part_of[v] as usize;
+                    for f in 0..FAMILIES {
+                        let before = doubled[part][f];
+                        if is_thin[part] && before > STRAINED && strains[part][f] < LESS * before {
+                            (wave.re[f], wave.im[f]) = (anew[v].re[f], anew[v].im[f]);
+                        }
+                    }
+                }
+            }
+        }
+        self.keep(waves);
+        Some(())
+    }
+
+    /// How far the phases of each part are from what its directions ask for: 0: nowhere, 2: as far as can be.
+    fn strains(&self, track: &Track<'_>, waves: &[Wave]) -> Vec<[f32; FAMILIES]> {
+        let mut strains = vec![[0.0; FAMILIES]; self.widths.len()];
+        let mut weights = vec![0.0_f32; self.widths.len()];
+        for (v, wave) in waves.iter().enumerate() {
+            let part = self.part_of[v] as usize;
+            let range = track.graph.range(v);
+            for (neighbor, rail) in track.graph.neighbors[range.clone()].iter().zip(&track.rails[range]) {
+                let other = rail.back(&waves[neighbor.to as usize]);
+                weights[part] += neighbor.weight;
+                for (f, strain) in strains[part].iter_mut().enumerate() {
+                    *strain += neighbor.weight * (1.0 - wave.re[f] * other.re[f] - wave.im[f] * other.im[f]);
+                }
+            }
+        }
+        for (strains, weight) in strains.iter_mut().zip(weights) {
+            *strains = strains.map(|strain| strain / weight.max(1e-30));
+        }
+        strains
+    }
+
+    /// The phases of one level on the finest graph, from those of the level before on each graph, or from nothing where there are
+    /// none. `None` when `go_on` says no.
+    fn settled(&self, level: usize, before: &[Vec<Wave>], go_on: &dyn Fn() -> bool) -> Option<Vec<Wave>> {
         let fits = |track: &Track<'_>| track.step * self.frequency <= LONGEST_STEP;
         let coarsest =
             if level < COARSE_LEVELS { self.tracks.iter().rposition(fits).unwrap_or(0) } else { 0 };
@@ -73,7 +133,7 @@ impl<'a> Ladder<'a> {
             }
             let track = self.tracks.get(g)?;
             let targets: Option<Vec<Wave>> =
-                self.waves.get(g).map(|before| before.par_iter().map(Wave::squared).collect());
+                before.get(g).map(|before| before.par_iter().map(Wave::squared).collect());
             let is_coarsest = g == coarsest;
             waves = match (&targets, is_coarsest) {
                 (Some(targets), true) => targets.clone(),
@@ -98,7 +158,11 @@ impl<'a> Ladder<'a> {
                 waves = swept(track, &waves, targets.as_deref(), pull);
             }
         }
-        // What the next level asks for on coarser graphs.
+        Some(waves)
+    }
+
+    /// What the next level asks for on coarser graphs.
+    fn keep(&mut self, waves: Vec<Wave>) {
         self.waves = vec![waves];
         for (fine, coarse) in self.tracks.iter().zip(self.tracks.iter().skip(1)) {
             let Some(of_fine) = self.waves.last() else {
@@ -113,8 +177,28 @@ impl<'a> Ladder<'a> {
             }
             self.waves.push(sums);
         }
-        Some(())
     }
+}
+
+/// Numbers of the connected parts of a graph, for each patch, and the width of each part.
+fn parts(graph: &Graph) -> (Vec<u32>, Vec<f32>) {
+    let sets = DisjointSets::new(graph.len());
+    for v in 0..graph.len() {
+        for neighbor in &graph.neighbors[graph.range(v)] {
+            sets.unite(v as u32, neighbor.to);
+        }
+    }
+    let (part_of, count) = sets.numbered();
+    let mut areas = vec![0.0; count];
+    let mut boxes = vec![(Vec3::INFINITY, Vec3::NEG_INFINITY); count];
+    for (v, part) in part_of.iter().map(|part| *part as usize).enumerate() {
+        areas[part] += graph.areas[v];
+        let (min, max) = boxes[part];
+        boxes[part] = (min.min(graph.positions[v]), max.max(graph.positions[v]));
+    }
+    let widths =
+        areas.iter().zip(boxes).map(|(area, (min, max))| area / min.distance(max).max(1e-30)).collect();
+    (part_of, widths)
 }
 
 /// Phases that agree along a tree through each connected part of a graph.

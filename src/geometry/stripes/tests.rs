@@ -212,6 +212,42 @@ fn a_coarse_cylinder_is_ringed_evenly() {
 }
 
 #[test]
+fn lines_around_thin_tubes_are_as_many_as_asked() {
+    const FACETS: u32 = 20;
+    for radius in [0.02_f32, 0.04, 0.08, 0.16] {
+        let at = |facet: u32, y: f32| {
+            let (sin, cos) = (std::f32::consts::TAU * facet as f32 / FACETS as f32).sin_cos();
+            Vec3::new(radius * cos, y, radius * sin)
+        };
+        let positions = (0..FACETS).flat_map(|facet| [at(facet, 0.0), at(facet, 4.0)]).collect();
+        let facet = |i: u32| {
+            let j = (i + 1) % FACETS;
+            [2 * i, 2 * i + 1, 2 * j + 1, 2 * i, 2 * j + 1, 2 * j]
+        };
+        let mesh = from_triangles(positions, (0..FACETS).flat_map(facet).collect());
+        let field = solve(&mesh, &FieldOptions { extent: 6.0, ..FieldOptions::default() });
+        for (family, level) in (1..FAMILIES).flat_map(|family| (0..LEVELS).map(move |l| (family, l))) {
+            // Along the lower end, which the second triangle of each facet has as its last side.
+            let (mut found, mut asked) = (0.0, 0.0);
+            for triangle in (1..2 * FACETS as usize).step_by(2) {
+                let corners = field.corners(&mesh, triangle).unwrap();
+                let lifted = lift(&corners, field.cycles_per_unit);
+                let [start, _, end] = lifted.phases[family][level];
+                let x =
+                    |k: usize| gradient(corners[k].direction, corners[k].normal, family) * lifted.signs[k];
+                let way = corners[2].position - corners[0].position;
+                // In one sense all around.
+                let sense = (x(0).y + 1e-6).signum();
+                found += sense * (end - start);
+                asked += sense * 0.5 * frequency(&field, level) * (x(0) + x(2)).dot(way);
+            }
+            let most = 0.6 + 0.25 * asked.abs();
+            assert!((found - asked).abs() < most, "{radius} {family} {level}: {found} of {asked}");
+        }
+    }
+}
+
+#[test]
 fn the_extent_sets_the_distance_of_lines() {
     let mesh = cube(2.0);
     let of = |extent| solve(&mesh, &FieldOptions { extent, ..FieldOptions::default() }).cycles_per_unit;
