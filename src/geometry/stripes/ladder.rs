@@ -76,32 +76,42 @@ impl<'a> Ladder<'a> {
     /// The phases of one level on all graphs. `None` when `go_on` says no.
     fn solve_level(&mut self, level: usize, go_on: &dyn Fn() -> bool) -> Option<()> {
         let mut waves = self.settled(level, &self.waves, go_on)?;
-        if let Some(track) = self.tracks.first().filter(|_| !self.waves.is_empty()) {
-            let is_thin: Vec<bool> = self.widths.iter().map(|width| width * self.frequency < FEW).collect();
-            let doubled = if is_thin.contains(&true) { self.strains(track, &waves) } else { Vec::new() };
-            let are_strained = |strains: &[f32; FAMILIES]| strains.iter().any(|strain| *strain > STRAINED);
-            if doubled.iter().zip(&is_thin).any(|(strains, is_thin)| *is_thin && are_strained(strains)) {
-                let anew = self.settled(level, &[], go_on)?;
-                let strains = self.strains(track, &anew);
-                for (v, wave) in waves.iter_mut().enumerate() {
-                    let part = self.part_of[v] as usize;
-                    for f in 0..FAMILIES {
-                        let before = doubled[part][f];
-                        if is_thin[part] && before > STRAINED && strains[part][f] < LESS * before {
-                            (wave.re[f], wave.im[f]) = (anew[v].re[f], anew[v].im[f]);
-                        }
-                    }
-                }
-            }
+        if !self.waves.is_empty() {
+            self.unwind(level, &mut waves, go_on)?;
         }
         self.keep(waves);
         Some(())
     }
 
+    /// Gives thin parts that doubled phases strain others, if those strain them less. `None` when `go_on` says no.
+    fn unwind(&self, level: usize, doubled: &mut [Wave], go_on: &dyn Fn() -> bool) -> Option<()> {
+        let is_thin: Vec<bool> = self.widths.iter().map(|width| width * self.frequency < FEW).collect();
+        if !is_thin.contains(&true) {
+            return Some(());
+        }
+        let strains = self.strains(doubled);
+        let is_strained = |part: usize, f: usize| is_thin[part] && strains[part][f] > STRAINED;
+        if !(0..strains.len()).any(|part| (0..FAMILIES).any(|f| is_strained(part, f))) {
+            return Some(());
+        }
+        let anew = self.settled(level, &[], go_on)?;
+        let strains_anew = self.strains(&anew);
+        for (v, (wave, anew)) in doubled.iter_mut().zip(&anew).enumerate() {
+            let part = self.part_of[v] as usize;
+            for f in 0..FAMILIES {
+                if is_strained(part, f) && strains_anew[part][f] < LESS * strains[part][f] {
+                    (wave.re[f], wave.im[f]) = (anew.re[f], anew.im[f]);
+                }
+            }
+        }
+        Some(())
+    }
+
     /// How far the phases of each part are from what its directions ask for: 0: nowhere, 2: as far as can be.
-    fn strains(&self, track: &Track<'_>, waves: &[Wave]) -> Vec<[f32; FAMILIES]> {
+    fn strains(&self, waves: &[Wave]) -> Vec<[f32; FAMILIES]> {
         let mut strains = vec![[0.0; FAMILIES]; self.widths.len()];
         let mut weights = vec![0.0_f32; self.widths.len()];
+        let Some(track) = self.tracks.first() else { return strains };
         for (v, wave) in waves.iter().enumerate() {
             let part = self.part_of[v] as usize;
             let range = track.graph.range(v);
