@@ -155,9 +155,9 @@ fn hatching(px: vec2<i32>, s: Surfel, base: vec3<f32>, pos_view: vec3<f32>) -> v
     let texel = textureLoad(triangle_map_tex, px);
     let mapping = hatching_styles[object].mapping;
     var ink = 0.0;
-    if WITH_STRIPES && mapping == STRIPES && crosses(object, texel) {
+    if WITH_STRIPES && mapping == STRIPES && lie_on_surface(object, texel) {
         ink = stripes_ink(px, texel, s, pos_view, inks.shares);
-    } else if WITH_STROKES_BY_UV && mapping == BY_UV && crosses(object, texel) {
+    } else if WITH_STROKES_BY_UV && mapping == BY_UV && lie_on_surface(object, texel) {
         ink = strokes_by_uv(texel, object, inks.shares, laid_at(object, inks.is_in_shadow));
     } else if WITH_IMAGE_SPACE_STROKES {
         ink = strokes_in_image_space(px, texel, s, pos_view, inks.shares.x, laid_at(object, inks.is_in_shadow));

@@ -17,7 +17,7 @@ fn inks_of(px: vec2<i32>, s: Surfel) -> Inks {
     }
     let base = textureLoad(base_color_tex, px, 0).rgb;
     let dark = indicated_dark_at(px, texel, s, base, pos_view_of(px, s.depth));
-    return Inks(select(vec3(dark.all, 0.0, 0.0), split(object, dark), crosses(object, texel)), dark.is_in_shadow);
+    return Inks(select(vec3(dark.all, 0.0, 0.0), split(object, dark), lie_on_surface(object, texel)), dark.is_in_shadow);
 }
 
 @fragment

@@ -106,8 +106,8 @@ var<storage, read> hatching_styles: array<HatchingStyle>;
 // See passes/triangle_map.wgsl, and passes/coordinates.wgsl for objects with strokes by texture coordinates.
 var triangle_map_tex: texture_storage_2d<rgba32uint, read>;
 
-// Whether strokes of several directions can cross where that is seen: not on the paper, where those lie that have no coordinates.
-fn crosses(object: u32, texel: vec4<u32>) -> bool {
+// Whether strokes lie on the surface at a pixel, in up to three directions; otherwise they lie on the paper, in one.
+fn lie_on_surface(object: u32, texel: vec4<u32>) -> bool {
     let mapping = hatching_styles[object].mapping;
     return (mapping == STRIPES && texel.x != 0u) || (mapping == BY_UV && any(texel != vec4(0u)));
 }

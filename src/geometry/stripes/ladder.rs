@@ -28,9 +28,9 @@ const MAX_PULL: f32 = 0.3;
 /// Around a thin tube lines are a whole number, and the double of one that was rounded need not be the best: where so few lines lie
 /// on a part, and doubled phases strain it more than that, they are compared with others, which take their place if they strain it
 /// so much less.
-const FEW: f32 = 5.0;
+const FEW_LINES: f32 = 5.0;
 const STRAINED: f32 = 0.02;
-const LESS: f32 = 0.5;
+const LESS_STRAINED: f32 = 0.5;
 
 /// The phases of a surface, level by level.
 pub(super) struct Ladder<'a> {
@@ -40,7 +40,7 @@ pub(super) struct Ladder<'a> {
     frequency: f32,
     /// Which of the connected parts each patch of the finest graph belongs to.
     part_of: Vec<u32>,
-    /// Of each of them, how wide it would be if it were as long as it can be, in extents: a tube as wide as it is around.
+    /// Area of each of them by the diagonal of its box, in extents: of a tube the way around it.
     widths: Vec<f32>,
 }
 
@@ -85,7 +85,7 @@ impl<'a> Ladder<'a> {
 
     /// Gives thin parts that doubled phases strain others, if those strain them less. `None` when `go_on` says no.
     fn unwind(&self, level: usize, doubled: &mut [Wave], go_on: &dyn Fn() -> bool) -> Option<()> {
-        let is_thin: Vec<bool> = self.widths.iter().map(|width| width * self.frequency < FEW).collect();
+        let is_thin: Vec<bool> = self.widths.iter().map(|width| width * self.frequency < FEW_LINES).collect();
         if !is_thin.contains(&true) {
             return Some(());
         }
@@ -99,7 +99,7 @@ impl<'a> Ladder<'a> {
         for (v, (wave, anew)) in doubled.iter_mut().zip(&anew).enumerate() {
             let part = self.part_of[v] as usize;
             for f in 0..FAMILIES {
-                if is_strained(part, f) && strains_anew[part][f] < LESS * strains[part][f] {
+                if is_strained(part, f) && strains_anew[part][f] < LESS_STRAINED * strains[part][f] {
                     (wave.re[f], wave.im[f]) = (anew.re[f], anew.im[f]);
                 }
             }

@@ -281,6 +281,13 @@ pub struct SharedHatching {
     coordinates: CoordinatesPass,
 }
 
+/// What is known of stripes, on the device.
+struct StripeRecords {
+    triangles: Target,
+    vertices: Target,
+    flat_parts: Target,
+}
+
 /// Hatching on the device.
 pub struct HatchingShading {
     styles: ArrayBuffer,
@@ -288,7 +295,7 @@ pub struct HatchingShading {
     stage: Stage<(u64, Vec<DrawCall>), Target>,
     /// The triangles of the layer that is shaded, and the records of all; `None` where nobody asks.
     triangle_map: Option<Target>,
-    records: Option<[Target; 3]>,
+    records: Option<StripeRecords>,
     /// What strokes draw on that layer; `None` where nothing is hatched.
     inks: Option<Target>,
     /// The nearest edge of each pixel of that layer, for indication.
@@ -302,11 +309,7 @@ impl HatchingShading {
     fn bind_both<'a>(&'a self, inputs: &mut Inputs<'a>) {
         inputs.set("hatching_styles", &self.styles);
         inputs.set("triangle_map_tex", self.triangle_map.as_ref());
-        inputs.set("stripe_triangles", self.record(0));
-    }
-
-    fn record(&self, number: usize) -> Option<&Target> {
-        self.records.as_ref()?.get(number)
+        inputs.set("stripe_triangles", self.records.as_ref().map(|records| &records.triangles));
     }
 
     fn draw_inks(
@@ -322,7 +325,7 @@ impl HatchingShading {
             base_color_tex: &gbuffer.base_color,
             shadow_mask_tex: shadow_mask.map(|(mask, _)| mask),
             nearest_edge_tex: self.nearest_edges.as_ref(),
-            flat_parts: self.record(2),
+            flat_parts: self.records.as_ref().map(|records| &records.flat_parts),
         };
         self.bind_both(&mut inputs);
         let switches = vec![
@@ -455,7 +458,11 @@ impl SurfaceTechnique for HatchingShading {
             }
             None => None,
         };
-        self.records = scene.stripes().map(|s| [s.triangles(), s.vertices(), s.patches()].map(Clone::clone));
+        self.records = scene.stripes().map(|stripes| StripeRecords {
+            triangles: stripes.triangles().clone(),
+            vertices: stripes.vertices().clone(),
+            flat_parts: stripes.patches().clone(),
+        });
         if layer.revision.is_some() {
             rec.note("triangles", self.triangle_map.as_ref());
         }
@@ -470,7 +477,7 @@ impl SurfaceTechnique for HatchingShading {
         inputs.set("tile_of_strokes", &shared.sets.sampler);
         self.bind_both(inputs);
         inputs.set("stripe_tones", &self.tones);
-        inputs.set("stripe_vertices", self.record(1));
+        inputs.set("stripe_vertices", self.records.as_ref().map(|records| &records.vertices));
         inputs.set("inks_tex", self.inks.as_ref());
     }
 }
