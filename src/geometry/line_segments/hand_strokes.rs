@@ -58,6 +58,15 @@ impl SegmentSet {
         self.tested.extend(missing.iter().map(Tested::at));
     }
 
+    /// Adds all of another one.
+    pub fn append(&mut self, other: &Self) {
+        if !other.tested.is_empty() {
+            self.complete();
+            self.tested.extend_from_slice(&other.tested);
+        }
+        self.segments.extend_from_slice(&other.segments);
+    }
+
     fn push(&mut self, segment: LineSegment, tested: Tested) {
         self.segments.push(segment);
         self.tested.push(tested);

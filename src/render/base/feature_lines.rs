@@ -1,8 +1,10 @@
 //! The lines that topology knows, for one view.
 
+use rayon::prelude::*;
+
 use super::edge_style::GpuEdgeStyle;
 use super::gpu_scene::GpuScene;
-use super::group::Group;
+use super::group::{Group, Visible};
 use super::ids::{object_id, surface_id};
 use super::intersections::Meeting;
 use super::stroke_style::StrokeStyle;
@@ -40,22 +42,58 @@ fn find(
         margin: f64::from(group.greatest_radius() + 2.0) + reach,
         clip_planes: view.clip_planes(),
     };
-    let mut all = SegmentSet::default();
     let mut shown = vec![false; scene.scene.meshes.len()];
     for mesh in group.visible().iter().filter_map(|object| scene.scene.nodes[object.node].mesh) {
         shown[mesh] = true;
     }
-    for object in group.visible() {
+    let finder = Finder { scene, group, view: &view, crease_angle, strokes, shown: &shown };
+    let found: Vec<SegmentSet> = group.visible().par_iter().map(|object| finder.find(object)).collect();
+    let mut all = SegmentSet::default();
+    all.segments.reserve(found.iter().map(|own| own.segments.len()).sum());
+    for own in &found {
+        all.append(own);
+    }
+    add_intersections(scene, group, &view, crease_angle, &mut all.segments);
+    if strokes.is_some() {
+        all.complete();
+    }
+    all
+}
+
+/// What looks for the lines of objects, each by itself.
+struct Finder<'a> {
+    scene: &'a GpuScene,
+    group: &'a Group,
+    view: &'a LineView,
+    crease_angle: f32,
+    strokes: Option<StrokeStyle>,
+    /// Which meshes are seen.
+    shown: &'a [bool],
+}
+
+impl Finder<'_> {
+    fn find(&self, object: &Visible) -> SegmentSet {
+        let mut found = SegmentSet::default();
+        self.add(object, &mut found);
+        let id = object_id(object.node);
+        for segment in &mut found.segments {
+            segment.surfaces = segment.surfaces.map(|surface| surface_id(id, surface));
+        }
+        found
+    }
+
+    fn add(&self, object: &Visible, out: &mut SegmentSet) {
+        let Self { scene, group, view, crease_angle, .. } = *self;
         let (node, enhanced) = (object.node, object.enhanced);
         let id = object_id(node);
         let Some(style) = group.edge_styles.get(id as usize).filter(|s| enhanced && s.is_exact()) else {
-            continue;
+            return;
         };
         let found = &scene.scene.nodes[node];
         let Some((index, mesh)) = found.mesh.and_then(|m| Some((m, scene.scene.meshes.get(m)?))) else {
-            continue;
+            return;
         };
-        let Some(edges) = scene.edges(index) else { continue };
+        let Some(edges) = scene.edges(index) else { return };
         let placed = PlacedEdges {
             edges,
             mesh,
@@ -63,15 +101,12 @@ fn find(
             object: id,
             // What a solid hides is left out.
             is_solid: scene.shows_no_inside(node) && object.is_whole() && !group.is_unculled,
-            shown: &shown,
+            shown: self.shown,
         };
-        let first = all.segments.len();
         let wanted = wanted(style, crease_angle);
-        match strokes {
-            Some(StrokeStyle(hand)) => {
-                draw_strokes(&placed, &view, &wanted, &hand, crease_angle, &mut all);
-            }
-            None => line_segments(&placed, &view, &wanted, &mut all.segments),
+        match self.strokes {
+            Some(StrokeStyle(hand)) => draw_strokes(&placed, view, &wanted, &hand, crease_angle, out),
+            None => line_segments(&placed, view, &wanted, &mut out.segments),
         }
         if let Some((section, sectioned)) = scene.section.as_ref().and_then(|s| Some((s, s.sectioned(node)?)))
         {
@@ -82,17 +117,9 @@ fn find(
                 object: id,
                 cap: sectioned.cap.map(|cap| cap.surface),
             };
-            contour_segments(&placed, &view, &wanted, &mut all.segments);
-        }
-        for segment in all.segments.iter_mut().skip(first) {
-            segment.surfaces = segment.surfaces.map(|surface| surface_id(id, surface));
+            contour_segments(&placed, view, &wanted, &mut out.segments);
         }
     }
-    add_intersections(scene, group, &view, crease_angle, &mut all.segments);
-    if strokes.is_some() {
-        all.complete();
-    }
-    all
 }
 
 /// An object of a group.
