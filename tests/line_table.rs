@@ -20,6 +20,7 @@ use common::line_truth::{Look, Measured, Stage, directions, modes};
 use common::session;
 use hachure::export::Session;
 use hachure::geometry::EdgeClass;
+use hachure::geometry::visible_edges::VisibleEdges;
 use image::{Rgb, RgbImage};
 
 const SIDE: u32 = 800;
@@ -63,7 +64,7 @@ impl Row {
         let (worst, view) = self.worst.unwrap();
         let classes: Vec<String> = self.classes.iter().map(|values| number(values)).collect();
         format!(
-            "{:5.3}  {}  {}  {worst:5.3} ({view:2})  {}  {}  {}",
+            "{:6.4}  {}  {}  {worst:5.3} ({view:2})  {}  {}  {}",
             self.mean_f1(),
             number(&self.f1[0]),
             number(&self.f1[1]),
@@ -87,7 +88,7 @@ fn pictures_of_lines_are_measured() {
     let names = EdgeClass::ALL.map(|class| <&str>::from(class).chars().take(5).collect::<String>());
     println!("F1, precision and recall within 1.5 px; worst with its view; recall per class");
     println!(
-        "{:<20} {:<6} mean   persp  ortho  worst       prec   recall {}",
+        "{:<20} {:<6} mean    persp  ortho  worst       prec   recall {}",
         "",
         "mode",
         names.map(|name| format!("{name:<6}")).join(" ")
@@ -185,7 +186,8 @@ fn measure(session: &mut Session, subject: &Subject, modes: &[&str], folder: Opt
         println!("{:<20} {mode:<6} {}  {:5.1} s", subject.name, row.line(), began.elapsed().as_secs_f64());
         if let (Some(folder), Some(worst)) = (folder, worst) {
             std::fs::create_dir_all(folder).unwrap();
-            for (what, picture) in [("errors", errors(worst)), ("classes", classes(worst))] {
+            for (what, picture) in [("errors", errors(worst)), ("classes", classes(&worst.truth, worst.side))]
+            {
                 picture.save(folder.join(format!("{} {mode} {what}.png", subject.name))).unwrap();
             }
         }
@@ -196,7 +198,9 @@ fn measure(session: &mut Session, subject: &Subject, modes: &[&str], folder: Opt
 /// Edges that were found (gray) and missed (red), and ink without an edge (blue); light: pixels that do not count.
 fn errors(measured: &Measured) -> RgbImage {
     let side = measured.side as usize;
-    let edges: Vec<bool> = classes(measured).pixels().map(|p| *p != Rgb([255; 3])).collect();
+    let [truth, edges] = [&measured.truth, &measured.edges].map(|edges| {
+        classes(edges, measured.side).pixels().map(|p| *p != Rgb([255; 3])).collect::<Vec<bool>>()
+    });
     // Within 1.5 pixels lie the eight neighbors.
     let is_near = |set: &[bool], x: usize, y: usize| {
         let rows = y.saturating_sub(1)..(y + 2).min(side);
@@ -207,7 +211,7 @@ fn errors(measured: &Measured) -> RgbImage {
         let at = y * side + x;
         Rgb(if measured.ignored[at] {
             [240, 235, 210]
-        } else if edges[at] {
+        } else if truth[at] {
             if is_near(&measured.lines, x, y) { [150; 3] } else { [230, 0, 0] }
         } else if measured.lines[at] && !is_near(&edges, x, y) {
             [0, 60, 255]
@@ -218,7 +222,7 @@ fn errors(measured: &Measured) -> RgbImage {
 }
 
 /// The edges in a color per class.
-fn classes(measured: &Measured) -> RgbImage {
+fn classes(edges: &VisibleEdges, side: u32) -> RgbImage {
     let colors = EdgeClass::ALL.map(|class| match class {
         EdgeClass::Silhouette => [0, 0, 0],
         EdgeClass::Border => [0, 150, 0],
@@ -230,8 +234,8 @@ fn classes(measured: &Measured) -> RgbImage {
         // The truth knows geometry only.
         EdgeClass::Texture | EdgeClass::Relief | EdgeClass::Shadow | EdgeClass::Section => [255; 3],
     });
-    let mut picture = RgbImage::from_pixel(measured.side, measured.side, Rgb([255; 3]));
-    for (samples, color) in measured.truth.samples.iter().zip(colors) {
+    let mut picture = RgbImage::from_pixel(side, side, Rgb([255; 3]));
+    for (samples, color) in edges.samples.iter().zip(colors) {
         for sample in samples {
             if let Some(pixel) =
                 picture.get_pixel_mut_checked(sample.position.x as u32, sample.position.y as u32)

@@ -10,6 +10,7 @@ use hachure::geometry::{Adjacency, Lens, Projector};
 use hachure::scene::{AlphaMode, Camera, Projection, Scene, Texture, TextureRef, Wrap};
 use hachure::style::{Color, Style, Technique};
 
+use super::curved::CurvedSurfaces;
 use super::line_scenes::Subject;
 
 /// The ways of finding edges that the program has, of those that are worth measuring.
@@ -38,6 +39,8 @@ pub fn directions(count: u32) -> impl Iterator<Item = DVec3> {
 pub struct Stage {
     opened: Opened,
     edges: EdgeScene,
+    /// Found when they are first asked for.
+    curved: Option<CurvedSurfaces>,
     /// The nodes that are objects, in the order of the edges' meshes.
     nodes: Vec<usize>,
 }
@@ -46,7 +49,10 @@ pub struct Stage {
 pub struct Measured {
     pub score: LineScore,
     pub side: u32,
+    /// The edges at which there has to be a line.
     pub truth: VisibleEdges,
+    /// Those at which there may be one.
+    pub edges: VisibleEdges,
     /// Whether there is a line, per pixel.
     pub lines: Vec<bool>,
     /// Pixels that count neither way.
@@ -77,7 +83,7 @@ impl Stage {
                 }
             })
             .collect();
-        Self { edges: EdgeScene::new(&placed), opened, nodes }
+        Self { edges: EdgeScene::new(&placed), curved: None, opened, nodes }
     }
 
     /// What is seen of the edges in a square picture, and the pixels of it in which they do not count.
@@ -104,7 +110,10 @@ impl Stage {
         let camera = Camera::looking_from(look.towards_viewer, up, &extent, 1.0)
             .with_orthographic(look.orthographic)
             .framing(&extent, 1.0);
-        let (truth, ignored) = self.visible(&projector(&camera, side));
+        let projector = projector(&camera, side);
+        let (edges, ignored) = self.visible(&projector);
+        let curved = self.curved.get_or_insert_with(|| CurvedSurfaces::new(&self.opened.scene));
+        let truth = curved.lines_of(&edges, &projector, &LineRules::default());
 
         self.opened.document.camera = Some(camera);
         // As wide as in a picture of 800 pixels: in smaller ones thin lines would not count as ink.
@@ -121,10 +130,12 @@ impl Stage {
                 picture.pixels().map(|p| 1.0 - f32::from(p.0[0].max(p.0[1]).max(p.0[2])) / 255.0).collect();
             let picture = InkImage::new(side as usize, side as usize, &ink).unwrap();
             let picture = picture.ignoring(&ignored).unwrap();
+            let precision = score(picture, &edges, TOLERANCE).precision;
             Measured {
-                score: score(picture, &truth, TOLERANCE),
+                score: LineScore { precision, ..score(picture, &truth, TOLERANCE) },
                 side,
                 truth: truth.clone(),
+                edges: edges.clone(),
                 lines: picture.lines(),
                 ignored: ignored.clone(),
             }

@@ -3,6 +3,7 @@
 #![allow(clippy::print_stdout, reason = "what is left out is said")]
 #![allow(dead_code, unreachable_pub, reason = "each test program uses a part of it")]
 
+pub mod curved;
 pub mod failures;
 pub mod hatched;
 pub mod line_drawing;

@@ -10,15 +10,20 @@ const SMOOTH: f32 = 0.96;
 // how far across the surface its sides may lie apart, in lengths of its edge.
 const FOLDED: f32 = 0.8;
 const GRAZING: f32 = 0.5;
-const LIFTED: f32 = 0.05;
+const LIFTED: f32 = 0.08;
 
 // Whether one smooth surface goes on under a spine, whatever topology thinks: at a seam that could not be mended, at needles
 // that are turned over, and where triangles fold to and fro around the contour of the surface that they stand for. The sides of
 // such a fold are seen aslant, agree in their normals and lie in one tangent plane, as far as triangles of that size can tell;
 // those of a contour do so only at its very end.
 fn goes_on_under(spine: Spine, own: u32, edge_length: f32) -> bool {
-    let one_px = texel_beside(spine, PLACES[0]);
-    let other_px = texel_beside(spine, PLACES[4]);
+    var one_px = texel_beside(spine, PLACES[0]);
+    var other_px = texel_beside(spine, PLACES[4]);
+    if textureLoad(surface_id_tex, one_px).x != textureLoad(surface_id_tex, other_px).x {
+        // Right beside an outline one of them lies beyond it.
+        one_px = texel_beside(spine, PLACES[1]);
+        other_px = texel_beside(spine, PLACES[3]);
+    }
     let surface_id = textureLoad(surface_id_tex, one_px).x;
     let one = unpack_surfel(textureLoad(geometry_tex, one_px));
     let other = unpack_surfel(textureLoad(geometry_tex, other_px));
