@@ -28,7 +28,6 @@ override WITH_PIECES: bool = true;
 // Whether this is the last round of deciding: lines are as they will be.
 override LAST_ROUND: bool = true;
 
-var spine_tex: texture_storage_2d<r32uint, read>;
 // See `pack_link`.
 var linking_tex: texture_storage_2d<r32uint, write>;
 // The class that each pixel is to have, if all changes are made; `NO_EDGE`: it is left out. Undefined where no line is.
@@ -202,7 +201,7 @@ fn cs_settle(@builtin(global_invocation_id) id: vec3<u32>) {
     let behind = followed(px, links, 1u);
     let class_of = settled(px, own.class_of, links, ahead, behind);
     textureStore(settling_tex, px, vec4(class_of));
-    if class_of != own.class_of {
+    if class_of != own.class_of || (!LAST_ROUND && classes_in(links) != bit_of(own.class_of)) {
         keep(px);
     }
     if LAST_ROUND && may_be_short(own, ahead, behind) {
@@ -230,6 +229,12 @@ fn cs_leave_out(@builtin(global_invocation_id) id: vec3<u32>) {
     }
 }
 
+fn spine_of_line(edge: vec4<u32>) -> u32 {
+    let class_of = class_of(edge);
+    let rank = select(0.0, 1.0, is_of_profile(class_of));
+    return spine_of(edge, halves_of(edge.y, class_of), rank, 1.0 - range_share(bitcast<f32>(edge.z)));
+}
+
 // The line of a pixel with another class, between the pixels that have it.
 fn replaced(px: vec2<i32>, own: Point, links: u32, class_of: u32) -> Change {
     let ahead = nearest_of(class_of, px, links, 0u);
@@ -249,8 +254,29 @@ fn replaced(px: vec2<i32>, own: Point, links: u32, class_of: u32) -> Change {
         bitcast<u32>(depth),
         (look.w & ~phase) | (own.texel.w & phase),
     );
-    let rank = select(0.0, 1.0, is_of_profile(class_of));
-    return Change(edge, spine_of(edge, halves_of(look.y, class_of), rank, 1.0 - range_share(depth)));
+    return Change(edge, spine_of_line(edge));
+}
+
+// Where two lines become one: that which is of this class stays, and has ink up to the spine of the other one unless it is thin
+// (thin lines are an even gray). The other one makes way unless the first changes too.
+fn beside_another(px: vec2<i32>, own: Point, class_of: u32) -> Change {
+    let stays = class_of == own.class_of;
+    let others = ALL_CLASSES & ~bit_of(class_of);
+    let beside = nearest_beside(px, own, select(bit_of(class_of), others, stays), -1.0, select(FAR, MERGING, stays));
+    let agrees = textureLoad(settled_tex, beside).x == class_of;
+    if !stays && agrees {
+        return Change(vec4(0u), 0u);
+    }
+    let other = point_at(beside);
+    let half = half_width_of(own.texel);
+    let towards = unpack_tangent(u32(own.tangent));
+    let left = vec2(towards.y, -towards.x);
+    let away = dot(other.at - own.at, left);
+    let more = select(0.0, 0.5 * max(abs(away) - half, 0.0), stays && agrees && half > THIN);
+    let offset = pack_offset(offset_of(own.texel) + sign(away) * more * left);
+    let width = pack2x16float(vec2(half + more, 0.0)) | (own.texel.w & ~0x7fffu);
+    let edge = vec4((own.texel.x & 0xffff0000u) | offset, own.texel.yz, width);
+    return Change(edge, spine_of_line(edge));
 }
 
 @compute @workgroup_size(GROUP)
@@ -265,11 +291,7 @@ fn cs_replace(@builtin(global_invocation_id) id: vec3<u32>) {
     if class_of == NO_EDGE {
         changes[id.x] = Change(vec4(0u), 0u);
     } else if (classes_in(links) & bit_of(class_of)) != 0u {
-        // It runs through another pixel here, and this one makes way unless that changes too.
-        let beside = nearest_beside(px, own, bit_of(class_of), -1.0, FAR);
-        let stays = textureLoad(settled_tex, beside).x == class_of;
-        let spine = textureLoad(spine_tex, px).x;
-        changes[id.x] = Change(select(own.texel, vec4(0u), stays), select(spine, 0u, stays));
+        changes[id.x] = beside_another(px, own, class_of);
     } else {
         changes[id.x] = replaced(px, own, links, class_of);
     }

@@ -76,7 +76,6 @@ impl LineClasses {
         let FoundPixels { list: lines, blocks } = pixels.list(rec, spines)?;
         let read = inputs! {
             block_tex: blocks,
-            spine_tex: spines,
             edge_map_tex: &edge_map.edges,
             link_tex: &links,
             settled_tex: &settled,
