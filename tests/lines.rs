@@ -6,12 +6,13 @@
 mod common;
 
 use common::line_scenes::{analytic, named};
-use common::line_truth::{Look, Stage};
+use common::line_truth::{Look, Stage, directions};
 use common::session;
 use glam::DVec3;
 use hachure::geometry::{Mesh, clean};
 
 const SIDE: u32 = 320;
+const VIEWS: u32 = 8;
 
 /// The bar of image-space mode is what it reaches in views that suit it: faces seen at a grazing angle are full of its ink.
 #[test]
@@ -40,6 +41,23 @@ fn simple_scenes_are_outlined_where_their_edges_are() {
             }
         }
     }
+}
+
+/// Where triangles fold to and fro around the contour of their surface, a line goes on beside the next one.
+#[test]
+fn coarse_surfaces_have_no_barbs() {
+    let mut session = session();
+    let mut stage = Stage::new(&mut session, &named("pebble"));
+    let (mut barbs, mut recall) = (0.0, 0.0);
+    for towards_viewer in directions(VIEWS) {
+        let look = Look { towards_viewer, orthographic: false };
+        for found in stage.measure(&mut session, look, SIDE, &["exact"]) {
+            barbs += found.barbs / f64::from(VIEWS);
+            recall += found.score.recall / f64::from(VIEWS);
+        }
+    }
+    println!("{:.2} % of the ink is of barbs; recall {recall:.4}", 100.0 * barbs);
+    assert!(barbs < 0.001 && recall > 0.99, "{barbs}, {recall}");
 }
 
 #[test]

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use glam::{DMat4, DVec3, EulerRot, Vec3};
 use hachure::geometry::Mesh;
+use hachure::geometry::normals::by_crease_angle;
 use hachure::geometry::primitives::{cube, cube_split, from_triangles, plane, sphere, torus};
 use hachure::import::{ImportOptions, Progress, load};
 use hachure::scene::{AlphaMode, Scene, Texture, TextureRef, UvTransform, Wrap};
@@ -26,6 +27,7 @@ pub fn analytic() -> Vec<Subject> {
         one("torus", torus(1.0, 0.35, 96, 48)),
         one("stairs", stairs(5)),
         one("open sheet", wave(1.0, 24)),
+        one("pebble", pebble()),
         one("seam-split", cube_split(2.0)),
         one("T-junctions", patched_box()),
         one("double wall", double_wall()),
@@ -155,6 +157,16 @@ fn stairs(steps: u32) -> Mesh {
     }
     outline.dedup();
     prism(&outline, 1.5)
+}
+
+/// A closed surface with bumps, coarse for how much it bends.
+fn pebble() -> Mesh {
+    let mut mesh = sphere(1.0, 28, 44);
+    for p in &mut mesh.positions {
+        let bumps = (5.0 * p.x).sin() * (4.0 * p.y + 1.0).cos() + (4.0 * p.z + 2.0 * p.x).sin();
+        *p *= 1.0 + 0.12 * bumps;
+    }
+    by_crease_angle(mesh, 180.0)
 }
 
 /// An open sheet over a square, with waves of that height.

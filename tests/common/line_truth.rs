@@ -48,6 +48,8 @@ pub struct Stage {
 /// What is there and what was drawn.
 pub struct Measured {
     pub score: LineScore,
+    /// The part of the inked pixels that only have edges of triangles near them, none of the surface that those stand for.
+    pub barbs: f64,
     pub side: u32,
     /// The edges at which there has to be a line.
     pub truth: VisibleEdges,
@@ -131,8 +133,10 @@ impl Stage {
             let picture = InkImage::new(side as usize, side as usize, &ink).unwrap();
             let picture = picture.ignoring(&ignored).unwrap();
             let precision = score(picture, &edges, TOLERANCE).precision;
+            let of_surface = score(picture, &truth, TOLERANCE);
             Measured {
-                score: LineScore { precision, ..score(picture, &truth, TOLERANCE) },
+                score: LineScore { precision, ..of_surface },
+                barbs: precision - of_surface.precision,
                 side,
                 truth: truth.clone(),
                 edges: edges.clone(),
