@@ -45,9 +45,6 @@ struct Edge {
     weight: f32,
 }
 
-// Half the width, px, up to which lines are thin: they have no ink beyond the pixels around their spine.
-const THIN: f32 = 1.0;
-
 const TAU: f32 = 6.283185307;
 
 // A direction as one of 512 angles.

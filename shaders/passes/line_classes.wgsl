@@ -47,6 +47,8 @@ struct Change {
     spine: u32,
 }
 
+// Half the width of a hairline, px.
+const HAIRLINE: f32 = 0.5;
 // Beside a line, px.
 const NEARBY: f32 = 2.5;
 
@@ -257,8 +259,8 @@ fn replaced(px: vec2<i32>, own: Point, links: u32, class_of: u32) -> Change {
     return Change(edge, spine_of_line(edge));
 }
 
-// Where two lines become one: that which is of this class stays, and has ink up to the spine of the other one unless it is thin
-// (thin lines are an even gray). The other one makes way unless the first changes too.
+// Where two lines become one: that which is of this class stays, and has ink up to the spine of the other one unless it is a
+// hairline: several of them are an even gray. The other one makes way unless the first changes too.
 fn beside_another(px: vec2<i32>, own: Point, class_of: u32) -> Change {
     let stays = class_of == own.class_of;
     let others = ALL_CLASSES & ~bit_of(class_of);
@@ -272,7 +274,8 @@ fn beside_another(px: vec2<i32>, own: Point, class_of: u32) -> Change {
     let towards = unpack_tangent(u32(own.tangent));
     let left = vec2(towards.y, -towards.x);
     let away = dot(other.at - own.at, left);
-    let more = select(0.0, 0.5 * max(abs(away) - half, 0.0), stays && agrees && half > THIN);
+    let wide = smoothstep(HAIRLINE, 1.5 * HAIRLINE, half);
+    let more = select(0.0, 0.5 * wide * max(abs(away) - half, 0.0), stays && agrees);
     let offset = pack_offset(offset_of(own.texel) + sign(away) * more * left);
     let width = pack2x16float(vec2(half + more, 0.0)) | (own.texel.w & ~0x7fffu);
     let edge = vec4((own.texel.x & 0xffff0000u) | offset, own.texel.yz, width);

@@ -229,6 +229,8 @@ fn found_nearby(px: vec2<i32>) -> u32 {
 // So far apart, px, are spines at least that are not of one line, and so far along it at most is looked.
 const APART: f32 = 0.9;
 const ALONG: f32 = 1.0;
+// Half the width, px, up to which lines are thin: they have no ink beyond the pixels around their spine.
+const THIN: f32 = 1.0;
 // Cosine of the angle up to which lines run side by side.
 const PARALLEL: f32 = 0.97;
 
