@@ -5,7 +5,7 @@
 //!
 //! With `HACHURE_LINES_ONLY` set to a part of a name, only scenes of such names are measured. With
 //! `HACHURE_LINES_DIR` set to a folder, the worst view of each is written there: what was found gray, what was missed
-//! red, ink without an edge blue; and the edges by class.
+//! red, ink without an edge blue, barbs orange; and the edges by class.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 #![allow(clippy::print_stdout, reason = "the numbers are what it is for")]
@@ -15,7 +15,7 @@ mod common;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use common::line_scenes::{Subject, analytic, models, models_in_patches};
+use common::line_scenes::{Subject, analytic, models, models_in_patches, pebble};
 use common::line_truth::{Look, Measured, Stage, directions, modes};
 use common::session;
 use hachure::export::Session;
@@ -33,6 +33,7 @@ struct Row {
     f1: [Vec<f64>; 2],
     precision: Vec<f64>,
     recall: Vec<f64>,
+    barbs: Vec<f64>,
     /// Recall where there is such an edge.
     classes: [Vec<f64>; EdgeClass::ALL.len()],
     worst: Option<(f64, usize)>,
@@ -45,6 +46,7 @@ impl Row {
         self.f1[usize::from(orthographic)].push(score.f1());
         self.precision.push(score.precision);
         self.recall.push(score.recall);
+        self.barbs.push(measured.barbs);
         for (all, one) in self.classes.iter_mut().zip(score.class_recall) {
             all.extend(one);
         }
@@ -64,12 +66,13 @@ impl Row {
         let (worst, view) = self.worst.unwrap();
         let classes: Vec<String> = self.classes.iter().map(|values| number(values)).collect();
         format!(
-            "{:6.4}  {}  {}  {worst:5.3} ({view:2})  {}  {}  {}",
+            "{:6.4}  {}  {}  {worst:5.3} ({view:2})  {}  {}  {}  {}",
             self.mean_f1(),
             number(&self.f1[0]),
             number(&self.f1[1]),
             number(&self.precision),
             number(&self.recall),
+            number(&self.barbs),
             classes.join("  "),
         )
     }
@@ -86,18 +89,25 @@ fn pictures_of_lines_are_measured() {
     let mut session = session();
     let modes = modes();
     let names = EdgeClass::ALL.map(|class| <&str>::from(class).chars().take(5).collect::<String>());
-    println!("F1, precision and recall within 1.5 px; worst with its view; recall per class");
     println!(
-        "{:<20} {:<6} mean    persp  ortho  worst       prec   recall {}",
+        "F1, precision and recall within 1.5 px; worst with its view; share of the ink that has no line of the surface near it, \
+         only edges of triangles; recall per class"
+    );
+    println!(
+        "{:<20} {:<6} mean    persp  ortho  worst       prec   recall barbs  {}",
         "",
         "mode",
         names.map(|name| format!("{name:<6}")).join(" ")
     );
     let only = std::env::var("HACHURE_LINES_ONLY").unwrap_or_default();
     let mut missed = Vec::new();
-    for (title, mut subjects) in
-        [("analytic", analytic()), ("models", models()), ("models in patches", models_in_patches())]
-    {
+    let all = [
+        ("analytic", analytic()),
+        ("coarse", vec![pebble()]),
+        ("models", models()),
+        ("models in patches", models_in_patches()),
+    ];
+    for (title, mut subjects) in all {
         subjects.retain(|subject| subject.name.contains(&only));
         if subjects.is_empty() {
             continue;
@@ -195,7 +205,8 @@ fn measure(session: &mut Session, subject: &Subject, modes: &[&str], folder: Opt
     rows
 }
 
-/// Edges that were found (gray) and missed (red), and ink without an edge (blue); light: pixels that do not count.
+/// Edges that were found (gray) and missed (red), ink without an edge (blue), and with edges of triangles alone (orange); light:
+/// pixels that do not count.
 fn errors(measured: &Measured) -> RgbImage {
     let side = measured.side as usize;
     let [truth, edges] = [&measured.truth, &measured.edges].map(|edges| {
@@ -215,6 +226,8 @@ fn errors(measured: &Measured) -> RgbImage {
             if is_near(&measured.lines, x, y) { [150; 3] } else { [230, 0, 0] }
         } else if measured.lines[at] && !is_near(&edges, x, y) {
             [0, 60, 255]
+        } else if measured.lines[at] && !is_near(&truth, x, y) {
+            [240, 140, 0]
         } else {
             [255; 3]
         })

@@ -5,7 +5,7 @@
 
 mod common;
 
-use common::line_scenes::{analytic, named};
+use common::line_scenes::{analytic, named, pebble};
 use common::line_truth::{Look, Stage, directions};
 use common::session;
 use glam::DVec3;
@@ -47,7 +47,7 @@ fn simple_scenes_are_outlined_where_their_edges_are() {
 #[test]
 fn coarse_surfaces_have_no_barbs() {
     let mut session = session();
-    let mut stage = Stage::new(&mut session, &named("pebble"));
+    let mut stage = Stage::new(&mut session, &pebble());
     let (mut barbs, mut recall) = (0.0, 0.0);
     for towards_viewer in directions(VIEWS) {
         let look = Look { towards_viewer, orthographic: false };

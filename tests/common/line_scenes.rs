@@ -27,7 +27,6 @@ pub fn analytic() -> Vec<Subject> {
         one("torus", torus(1.0, 0.35, 96, 48)),
         one("stairs", stairs(5)),
         one("open sheet", wave(1.0, 24)),
-        one("pebble", pebble()),
         one("seam-split", cube_split(2.0)),
         one("T-junctions", patched_box()),
         one("double wall", double_wall()),
@@ -43,6 +42,16 @@ pub fn analytic() -> Vec<Subject> {
         many("mirrored", mirrored()),
         perforated(),
     ]
+}
+
+/// A closed surface with bumps, of triangles that are coarse for how much it bends.
+pub fn pebble() -> Subject {
+    let mut mesh = sphere(1.0, 28, 44);
+    for p in &mut mesh.positions {
+        let bumps = (5.0 * p.x).sin() * (4.0 * p.y + 1.0).cos() + (4.0 * p.z + 2.0 * p.x).sin();
+        *p *= 1.0 + 0.12 * bumps;
+    }
+    one("pebble", by_crease_angle(mesh, 180.0))
 }
 
 /// The analytic scene of that name.
@@ -157,16 +166,6 @@ fn stairs(steps: u32) -> Mesh {
     }
     outline.dedup();
     prism(&outline, 1.5)
-}
-
-/// A closed surface with bumps, coarse for how much it bends.
-fn pebble() -> Mesh {
-    let mut mesh = sphere(1.0, 28, 44);
-    for p in &mut mesh.positions {
-        let bumps = (5.0 * p.x).sin() * (4.0 * p.y + 1.0).cos() + (4.0 * p.z + 2.0 * p.x).sin();
-        *p *= 1.0 + 0.12 * bumps;
-    }
-    by_crease_angle(mesh, 180.0)
 }
 
 /// An open sheet over a square, with waves of that height.
