@@ -236,6 +236,8 @@ impl OpaqueLayer {
             strokes: group.strokes,
         };
         let segments = self.segments.run(key, |_| {
+            // The device draws surfaces while lines are looked for.
+            rec.flush();
             Ok::<_, RenderError>(Arc::new(feature_lines(
                 scene_view.scene,
                 group,
