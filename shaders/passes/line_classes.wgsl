@@ -27,8 +27,6 @@ override WITH_DOTS: bool = true;
 override WITH_PIECES: bool = true;
 // Whether this is the last round of deciding: lines are as they will be.
 override LAST_ROUND: bool = true;
-// Whether of two lines that become one that which stays reaches the spine of the other.
-override WITH_REACH: bool = true;
 
 // See `pack_link`.
 var linking_tex: texture_storage_2d<r32uint, write>;
@@ -277,7 +275,7 @@ fn beside_another(px: vec2<i32>, own: Point, class_of: u32) -> Change {
     let left = vec2(towards.y, -towards.x);
     let away = dot(other.at - own.at, left);
     let wide = smoothstep(HAIRLINE, 1.5 * HAIRLINE, half);
-    let more = select(0.0, 0.5 * wide * max(abs(away) - half, 0.0), WITH_REACH && stays && agrees);
+    let more = select(0.0, 0.5 * wide * max(abs(away) - half, 0.0), stays && agrees);
     let offset = pack_offset(offset_of(own.texel) + sign(away) * more * left);
     let width = pack2x16float(vec2(half + more, 0.0)) | (own.texel.w & ~0x7fffu);
     let edge = vec4((own.texel.x & 0xffff0000u) | offset, own.texel.yz, width);

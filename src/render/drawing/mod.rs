@@ -275,5 +275,5 @@ impl Drawing {
 /// The opaque surfaces that lie in their place, as a camera sees them.
 fn surfaces_of<'a>(inputs: &DrawingInputs<'a>, uniform: &'a FrameUniform) -> OpaqueInputs<'a> {
     let DrawingInputs { scene_view, objects, shadow_maps, .. } = *inputs;
-    OpaqueInputs { scene_view, group: &objects.surfaces, uniform, shadow_maps, is_sketched: false }
+    OpaqueInputs { scene_view, group: &objects.surfaces, uniform, shadow_maps }
 }

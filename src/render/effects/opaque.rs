@@ -43,8 +43,6 @@ pub struct OpaqueInputs<'a> {
     pub uniform: &'a FrameUniform,
     /// The maps of the lights that throw shadows, by channel.
     pub shadow_maps: &'a [ShadowMap],
-    /// Whether lines are moved once they have been found.
-    pub is_sketched: bool,
 }
 
 /// The surfaces of a group of one layer.
@@ -224,7 +222,7 @@ impl OpaqueLayer {
         inputs: &OpaqueInputs<'_>,
         surfaces: &OpaqueSurfaces,
     ) -> Result<Output<EdgeMap>, RenderError> {
-        let OpaqueInputs { scene_view, group, uniform, is_sketched, .. } = *inputs;
+        let OpaqueInputs { scene_view, group, uniform, .. } = *inputs;
         let styles: Vec<_> = group.edge_styles.iter().map(GpuEdgeStyle::for_finding).collect();
         // Only widths that follow the light depend on more than the geometry.
         let light = styles.iter().any(|s| s.by_light > 0.0).then(|| uniform.without_background());
@@ -274,8 +272,7 @@ impl OpaqueLayer {
                     shadow_mask: shadow_mask.map(|mask| &mask.value),
                 },
             )?;
-            let reaches = !is_sketched;
-            let decisions = Decisions { reaches, ..Decisions::of(styles, group.strokes.is_some()) };
+            let decisions = Decisions::of(styles, group.strokes.is_some());
             let gbuffer = &surfaces.gbuffer.value;
             let Self { line_classes, line_pixels, edge_styles, .. } = self;
             line_pixels.forget();

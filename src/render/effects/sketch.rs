@@ -187,7 +187,7 @@ impl SketchState {
         let SketchInputs { scene_view, sketch, uniform, shadow_maps, .. } = *inputs;
         let Sketching { gbuffer: pass, techniques, shared } = with;
         let group = &sketch.group;
-        let own = OpaqueInputs { scene_view, group, uniform, shadow_maps, is_sketched: true };
+        let own = OpaqueInputs { scene_view, group, uniform, shadow_maps };
         let surfaces = self.layer.surfaces(rec, pass, &own)?;
         let edges = if group.have_lines() { Some(self.layer.edges(rec, &own, &surfaces)?) } else { None };
         let hidden = self.layer.hidden_lines(rec, pass, &own, &sketch.hidden, edges.as_ref())?;

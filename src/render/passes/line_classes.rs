@@ -106,7 +106,7 @@ impl LineClasses {
         self.changing.empty(rec);
         if decisions.classes {
             self.decide(rec, &decisions.program("cs_settle", false), &all, &self.meeting)?;
-            self.change(rec, &all, decisions.reaches)?;
+            self.change(rec, &all)?;
             // Neighbors that decided differently, at the ends of stretches, agree the second time.
             for listed in [&self.meeting, &self.short] {
                 let inputs = inputs! { list: listed.count(), listed_pixels: listed.buffer() };
@@ -118,7 +118,7 @@ impl LineClasses {
         if decisions.dots {
             self.decide(rec, &decisions.program("cs_leave_out", true), &all, &self.short)?;
         }
-        self.change(rec, &all, decisions.reaches)
+        self.change(rec, &all)
     }
 
     /// Adds those of the listed pixels that are to change.
@@ -141,16 +141,15 @@ impl LineClasses {
         Ok(())
     }
 
-    /// Gives the pixels that change what they are to be; `reaches`: see [`Decisions`].
-    fn change(&self, rec: &mut Recorder<'_>, inputs: &Inputs<'_>, reaches: bool) -> Result<(), RenderError> {
-        let replace = Program { switches: vec![("WITH_REACH", reaches)], ..program("cs_replace") };
+    /// Gives the pixels that change what they are to be.
+    fn change(&self, rec: &mut Recorder<'_>, inputs: &Inputs<'_>) -> Result<(), RenderError> {
         let lists = inputs! {
             list: self.changing.count(),
             listed_pixels: self.changing.buffer(),
             changes: self.changes.buffer(),
         };
         let all = lists.and(inputs);
-        rec.compute("change classes", &replace, &all, self.changing.count())?;
+        rec.compute("change classes", &program("cs_replace"), &all, self.changing.count())?;
         rec.compute("change classes", &program("cs_change"), &all, self.changing.count())?;
         Ok(())
     }
@@ -167,8 +166,6 @@ pub struct Decisions {
     pub dots: bool,
     /// Whether they are short pieces beside a longer line.
     pub pieces: bool,
-    /// Whether of two lines that become one that which stays reaches the spine of the other.
-    pub reaches: bool,
 }
 
 impl Decisions {
@@ -182,7 +179,6 @@ impl Decisions {
             wider_first: drawn.windows(2).any(|two| two[0].1.width != two[1].1.width),
             dots,
             pieces: !crossing && dots,
-            reaches: true,
         }
     }
 
