@@ -1,5 +1,5 @@
-//! Heavy measurements (`make quality`): how much dearer many styles are than one. Ratios of frames drawn beside each
-//! other hold on noisy machines too.
+//! Scenes of many objects: that what is hidden may be left out changes no picture; and, heavy (`make quality`), how much dearer
+//! many styles are than one. Ratios of frames drawn beside each other hold on noisy machines too.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 #![allow(clippy::print_stdout, reason = "the numbers are what it is for")]
@@ -9,12 +9,12 @@ mod common;
 use std::sync::Arc;
 use std::time::Instant;
 
-use common::{median, opened, scene, session};
-use glam::{DMat4, DVec3};
+use common::{draw, median, opened, scene, session, surfels};
+use glam::{DMat4, DVec3, Vec3};
 use hachure::document::Document;
 use hachure::export::Session;
 use hachure::export::session::Opened;
-use hachure::geometry::primitives;
+use hachure::geometry::{Mesh, primitives};
 use hachure::render::Request;
 use hachure::scene::{Camera, Scene};
 use hachure::style::toon::Smoothing;
@@ -123,5 +123,66 @@ fn twenty_styles_cost_little_more_than_one() {
         let ratio = ratio_to(&times[twenty], &times[one]);
         println!("  {}: × {ratio:.2} of {}", documents[twenty].0, documents[one].0);
         assert!(ratio <= 1.3);
+    }
+}
+
+/// Boxes at these places, with edges of these lengths.
+fn boxes(placed: &[(Vec3, Vec3)]) -> Mesh {
+    let cube = primitives::cube(1.0);
+    let positions = placed.iter().flat_map(|(at, size)| cube.positions.iter().map(|p| *at + *size * *p));
+    let corners = cube.positions.len() as u32;
+    let indices = (0..placed.len() as u32).flat_map(|i| cube.indices.iter().map(move |c| c + i * corners));
+    primitives::from_triangles(positions.collect(), indices.collect())
+}
+
+/// Walls with gaps between them, and small boxes before, behind and inside them.
+fn clutter() -> Vec<(Vec3, Vec3)> {
+    let walls = (0..4).map(|i| (Vec3::new(2.1 * i as f32 - 3.15, 1.5, 0.0), Vec3::new(2.0, 3.0, 0.3)));
+    let small = (0..400).map(|i: u32| {
+        // Spread evenly (Roberts 2018).
+        let share = |step: f32| (0.5 + step * i as f32).fract();
+        let at = Vec3::new(9.0 * share(0.8192) - 4.5, 3.4 * share(0.6711), 4.0 * share(0.5498) - 2.0);
+        (at, Vec3::splat(0.05 + 0.2 * share(0.4503)))
+    });
+    walls.chain(small).collect()
+}
+
+#[test]
+fn what_is_hidden_is_left_out_and_nothing_else() {
+    let placed = clutter();
+    let names: Vec<String> = (0..placed.len()).map(|i| format!("box.{i}")).collect();
+    let each = names.iter().zip(&placed);
+    let many = scene(
+        each.map(|(name, placed)| {
+            (name.as_str(), boxes(std::slice::from_ref(placed)), DMat4::IDENTITY, [1.0; 3])
+        })
+        .collect(),
+    );
+    // A single object is drawn whole.
+    let one = scene(vec![("boxes", boxes(&placed), DMat4::IDENTITY, [1.0; 3])]);
+    let [mut session_of_many, mut session_of_one] = [session(), session()];
+    let start = Camera::looking_from(DVec3::new(0.1, 0.2, 1.0), DVec3::Y, &many.extent(), 1.0);
+    for turn in 0..12 {
+        let camera = start.orbited(DVec3::Y, 30.0 * f64::from(turn), 5.0 * f64::from(turn));
+        // From amid the boxes too.
+        let away = start.focal_point - camera.position;
+        let amid = Camera { position: start.focal_point, focal_point: start.focal_point + away, ..camera };
+        for camera in [camera, camera.with_orthographic(true), amid] {
+            let depths =
+                [(&mut session_of_many, &many), (&mut session_of_one, &one)].map(|(session, scene)| {
+                    let mut opened = opened(scene, DVec3::Z);
+                    opened.document.camera = Some(camera);
+                    session.renderer().capture("geometry");
+                    let picture = draw(session, &opened, 150);
+                    let surfels = surfels(session, &picture);
+                    surfels
+                        .iter()
+                        .map(|s| if s.object == 0 { 0 } else { s.depth.to_bits() })
+                        .collect::<Vec<_>>()
+                });
+            assert!(depths[0].iter().any(|depth| *depth != 0), "turn {turn}: nothing is seen");
+            let lost = depths[0].iter().zip(&depths[1]).filter(|(many, one)| many != one).count();
+            assert_eq!(lost, 0, "turn {turn}: pixels that differ");
+        }
     }
 }

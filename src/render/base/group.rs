@@ -271,18 +271,15 @@ impl Group {
             if view.clip_plane.is_some() && scene.scene.facing_of(submesh.node).is_some() {
                 continue;
             }
-            if view.is_clipped()
-                && view.clips_away(
-                    &submesh.bounds.corners().map(|corner| view_from_local.transform_point3(corner)),
-                )
-            {
+            let corners = submesh.bounds.corners().map(|corner| view_from_local.transform_point3(corner));
+            if view.is_clipped() && view.clips_away(&corners) {
                 continue;
             }
             let material = scene.scene.materials.get(submesh.material);
             let alpha = scene.alpha(submesh.material);
             let has_images =
                 material.is_some_and(|m| m.base_color_texture.is_some() || m.normal_texture.is_some());
-            let depth = -submesh.bounds.transformed(&view_from_local).max.z;
+            let depth = corners.iter().map(|corner| -corner.z).fold(f64::INFINITY, f64::min);
             let call = DrawCall {
                 instance: instances.len() as u32,
                 origin: submesh.origin,
@@ -303,6 +300,7 @@ impl Group {
                 } else {
                     None
                 },
+                extent: view.extent_of(&corners),
             };
             calls.push((depth, call));
             let instance = Instance {

@@ -7,6 +7,7 @@ use glam::{Mat3, Mat4};
 use crate::gpu::material::MaterialUniform;
 use crate::gpu::{DynamicBuffer, Gpu, GpuError, RecordBuffer, Recorder};
 use crate::render::base::gpu_scene::Origin;
+use crate::render::base::view::Extent;
 
 /// One part of one object, as it is drawn.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -89,6 +90,8 @@ pub struct DrawCall {
     pub detail: Detail,
     /// The side of its triangles that is left out.
     pub culled_face: Option<wgpu::Face>,
+    /// What it covers of the picture at most; `None`: anything.
+    pub extent: Option<Extent>,
 }
 
 impl DrawCall {

@@ -1,6 +1,7 @@
 //! The camera as the passes need it: matrices, clip planes and the part of the picture that is wanted.
 
-use glam::{DMat4, DVec2, DVec3, DVec4, Mat4, UVec2, Vec2};
+use encase::ShaderType;
+use glam::{DMat4, DVec2, DVec3, DVec4, Mat4, UVec2, UVec4, Vec2};
 
 use crate::geometry::{Bounds, Lens, Plane, Projector};
 use crate::scene::additions::{Facing, LetterSize};
@@ -43,6 +44,26 @@ pub struct View {
     pub scissor_rect: Option<[u32; 4]>,
 }
 
+/// What a box covers of a picture at most. Twin of `Extent` in `shaders/passes/occlusion_culling.wgsl`.
+#[derive(Debug, Clone, Copy, PartialEq, ShaderType)]
+pub struct Extent {
+    /// Left, top, right and bottom edge, px.
+    pub rect: UVec4,
+    /// Reversed depth of its nearest point, with a margin for what rounding moves.
+    pub nearest: f32,
+}
+
+impl Extent {
+    /// Number of pixels.
+    pub fn area(&self) -> f32 {
+        let [left, top, right, bottom] = self.rect.to_array();
+        (right.saturating_sub(left) as f32) * (bottom.saturating_sub(top) as f32)
+    }
+}
+
+/// Share of a depth that rounding may move it.
+const DEPTH_MARGIN: f64 = 1e-5;
+
 /// Nearest and farthest depth of a box in view space; `None` when it is empty or wholly behind the eye.
 fn depth_range(bounds: &Bounds, view_from_world: &DMat4) -> Option<(f64, f64)> {
     let local = bounds.transformed(view_from_world);
@@ -84,6 +105,29 @@ impl View {
             edge(high.y.ceil(), height),
         ];
         (rect[0] < rect[2] && rect[1] < rect[3]).then_some(rect)
+    }
+
+    /// What a box covers of the picture at most; `None`: it reaches before the near plane, and so anywhere. `corners`: view space.
+    pub fn extent_of(&self, corners: &[DVec3; 8]) -> Option<Extent> {
+        let projector = self.projector();
+        let [near, far] = self.clip_range;
+        let nearest = corners.iter().map(|corner| -corner.z).fold(f64::INFINITY, f64::min);
+        let (low, high) = corners
+            .iter()
+            .map(|&corner| projector.pixel(corner))
+            .fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(low, high), px| (low.min(px), high.max(px)));
+        if nearest < near || !(nearest.is_finite() && low.is_finite() && high.is_finite()) {
+            return None;
+        }
+        // A pixel for the jitter, and one for rounding.
+        let edge = |at: DVec2| at.clamp(DVec2::ZERO, self.size.as_dvec2()).as_uvec2();
+        let (low, high) = (edge((low - 2.0).floor()), edge((high + 2.0).ceil()));
+        let nearest = if self.orthographic {
+            (far - nearest) / (far - near) + DEPTH_MARGIN
+        } else {
+            near / nearest * (1.0 + DEPTH_MARGIN)
+        };
+        Some(Extent { rect: UVec4::new(low.x, low.y, high.x, high.y), nearest: nearest as f32 })
     }
 
     /// The view of `camera` on a scene of which `visible` is the box around everything that is drawn.
@@ -301,6 +345,32 @@ mod tests {
                 * glam::DVec2::new(600.0, 400.0);
             let back = view.unproject(px.as_vec2(), -pos_view.z as f32);
             assert!((back - world).length() < 1e-4, "{back}");
+        }
+    }
+
+    #[test]
+    fn no_point_of_a_box_lies_beyond_its_extent() {
+        let all = Bounds { min: DVec3::splat(-1.0), max: DVec3::ONE };
+        let camera = Camera::looking_from(DVec3::new(1.0, 2.0, 3.0), DVec3::Y, &all.corners(), 1.5);
+        let own = Bounds { min: DVec3::new(-0.2, 0.1, -0.6), max: DVec3::new(0.3, 0.5, -0.1) };
+        for camera in [camera, camera.with_orthographic(true)] {
+            let view = View::new(&camera, &all, UVec2::new(600, 400)).moved(Vec2::new(0.5, -0.5));
+            let in_view = |point: DVec3| view.view_from_world.transform_point3(point);
+            let extent = view.extent_of(&own.corners().map(in_view)).unwrap();
+            let [left, top, right, bottom] = extent.rect.to_array().map(f64::from);
+            for i in 0..1000 {
+                let at = DVec3::new(f64::from(i % 10), f64::from(i / 10 % 10), f64::from(i / 100)) / 9.0;
+                let clip =
+                    view.clip_from_view.as_dmat4() * in_view(own.min + at * (own.max - own.min)).extend(1.0);
+                let ndc = clip.truncate() / clip.w;
+                let px = (ndc.truncate() * DVec2::new(0.5, -0.5) + 0.5) * DVec2::new(600.0, 400.0);
+                assert!(ndc.z <= f64::from(extent.nearest), "{ndc}");
+                assert!(left < px.x && px.x < right && top < px.y && px.y < bottom, "{px}");
+            }
+            assert!((right - left) * (bottom - top) < 0.1 * 600.0 * 400.0, "{extent:?}");
+            // Beside or around the eye anything may be covered.
+            let around = Bounds { min: DVec3::splat(-9.0), max: DVec3::splat(9.0) };
+            assert_eq!(view.extent_of(&around.corners().map(in_view)), None);
         }
     }
 

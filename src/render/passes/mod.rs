@@ -19,6 +19,7 @@ pub mod line_distance;
 pub mod line_pixels;
 pub mod lines;
 pub mod moved_edges;
+pub mod occlusion_culling;
 pub mod offset_field;
 pub mod operators;
 pub mod overlay;

@@ -6,13 +6,14 @@ use std::collections::HashMap;
 use super::count::LayerCount;
 use super::fragment_lists::FragmentLists;
 use super::gbuffer::{BASE_COLOR, DEPTH, GBuffer, GEOMETRY, SORT_KEYS, SURFACE_ID};
+use super::occlusion_culling::{Split, unoccluded};
 use super::peel::Peel;
 use crate::gpu::geometry::{Attributes, POSITIONS, SURFACES};
 use crate::gpu::recorder::Onto;
 use crate::gpu::{Gpu, MaterialBindings, Pipelines, Recorder, Target};
 use crate::render::base::error::RenderError;
 use crate::render::base::gpu_scene::GpuScene;
-use crate::render::base::instances::{Detail, DrawCall, INSTANCES, Instance, InstanceBuffer, batches};
+use crate::render::base::instances::{Batch, Detail, DrawCall, INSTANCES, Instance, InstanceBuffer, batches};
 
 /// The pipelines of the pass, made when first needed.
 pub struct GBufferPass {
@@ -260,20 +261,38 @@ impl GBufferPass {
             self.prepare(gpu, rec.pipelines, variant(call))?;
         }
         instance_buffer.write(gpu, instances, calls)?;
-        let materials = instance_buffer.material_group(gpu, &self.instance_layout);
-        let batches = batches(rec, calls);
-        let color = rec.attachments(Onto::Clear, color);
-        let depth = wgpu::RenderPassDepthStencilAttachment {
-            view: depth.view(),
-            depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Store }),
-            stencil_ops: None,
+        let split = match purpose {
+            Purpose::Surfaces => Split::new(rec, calls),
+            _ => Split { occluders: calls.to_vec(), rest: Vec::new() },
         };
-        let mut pass = rec.pass(label, &color, Some(depth));
-        if let Some(own) = &own {
+        let shared = Shared {
+            scene,
+            own: own.as_ref(),
+            instance_buffer,
+            materials: &instance_buffer.material_group(gpu, &self.instance_layout),
+            variant: &variant,
+        };
+        let drawn = batches(rec, &split.occluders);
+        let cleared = rec.attachments(Onto::Clear, color);
+        let pass = rec.pass(label, &cleared, Some(depth_attachment(depth, wgpu::LoadOp::Clear(0.0))));
+        self.draw(pass, &drawn, &shared);
+        if split.rest.is_empty() {
+            return Ok(());
+        }
+        let drawn = unoccluded(rec, &split.rest, depth)?;
+        let loaded = rec.attachments(Onto::Load, color);
+        let pass = rec.pass(label, &loaded, Some(depth_attachment(depth, wgpu::LoadOp::Load)));
+        self.draw(pass, &drawn, &shared);
+        Ok(())
+    }
+
+    fn draw(&self, mut pass: wgpu::RenderPass<'_>, batches: &[Batch], shared: &Shared<'_>) {
+        let Shared { scene, own, instance_buffer, materials, variant } = *shared;
+        if let Some(own) = own {
             pass.set_bind_group(1, own, &[]);
         }
         let (mut bound, mut images, mut origin) = (None, None, None);
-        for batch in &batches {
+        for batch in batches {
             let call = &batch.call;
             if origin != Some(call.origin) {
                 let geometry = scene.geometry(call.origin);
@@ -293,12 +312,28 @@ impl GBufferPass {
                     pass.set_bind_group(2, scene.materials.group(call.material_group), &[]);
                     images = Some(call.material_group);
                 }
-                pass.set_bind_group(3, &materials, &[instance_buffer.material_of(call)]);
+                pass.set_bind_group(3, materials, &[instance_buffer.material_of(call)]);
             }
             instance_buffer.draw(&mut pass, batch);
         }
-        drop(pass);
-        Ok(())
+    }
+}
+
+/// What the draws of a traversal share.
+struct Shared<'a> {
+    scene: &'a GpuScene,
+    /// Bind group 1.
+    own: Option<&'a wgpu::BindGroup>,
+    instance_buffer: &'a InstanceBuffer,
+    materials: &'a wgpu::BindGroup,
+    variant: &'a dyn Fn(&DrawCall) -> Variant,
+}
+
+fn depth_attachment(depth: &Target, load: wgpu::LoadOp<f32>) -> wgpu::RenderPassDepthStencilAttachment<'_> {
+    wgpu::RenderPassDepthStencilAttachment {
+        view: depth.view(),
+        depth_ops: Some(wgpu::Operations { load, store: wgpu::StoreOp::Store }),
+        stencil_ops: None,
     }
 }
 
