@@ -358,3 +358,56 @@ fn thin_lines_do_not_swallow_others_beside_them() {
         }
     }
 }
+
+/// Ink per pixel of length along the middle of a straight line between two places in the picture, px.
+fn width_along(ink: &Ink, [from, to]: [DVec2; 2]) -> f64 {
+    let (length, along) = (from.distance(to), (to - from).normalize());
+    let [width, height] = ink.size.map(|side| side as i32);
+    let pixels = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
+    let is_near = |&(x, y): &(i32, i32)| {
+        let away = DVec2::new(f64::from(x), f64::from(y)) + 0.5 - from;
+        let share = away.dot(along) / length;
+        share > 0.2 && share < 0.8 && away.perp_dot(along).abs() < 7.0
+    };
+    pixels.filter(is_near).map(|(x, y)| ink.at(x, y)).sum::<f64>() / (0.6 * length)
+}
+
+#[test]
+fn what_dips_into_a_surface_has_a_whole_line_at_its_foot() {
+    const SIDE: u32 = 300;
+    const WIDTH: f64 = 3.0;
+    let mut session = session();
+    let depths = [0.0, 0.2, 0.4, 0.7, 1.2, 2.0];
+    for (elevation, deep) in [5.0_f64, 10.0, 20.0, 45.0].into_iter().flat_map(|e| depths.map(|d| (e, d))) {
+        let plate = DMat4::from_scale_rotation_translation(
+            DVec3::new(600.0, 20.0, 600.0),
+            Default::default(),
+            DVec3::new(0.0, -10.0, 0.0),
+        );
+        let place = DMat4::from_translation(DVec3::new(0.0, 50.0 - deep, 0.0));
+        let scene = scene(vec![("plate", cube(1.0), plate, [0.7; 3]), ("box", cube(100.0), place, [0.7; 3])]);
+        let (azimuth, elevation) = (35.0_f64.to_radians(), elevation.to_radians());
+        let back =
+            DVec3::new(azimuth.sin() * elevation.cos(), elevation.sin(), azimuth.cos() * elevation.cos());
+        let seen = Camera { position: 1000.0 * back, ..camera(SIDE) };
+        let mut opened = line_drawing(&scene, seen);
+        set_width(&mut opened, WIDTH, SIDE);
+        session.set_scene(&opened).unwrap();
+        let ink = Ink::of(&mut session, &opened, [SIDE; 2]);
+        let right = DVec3::Y.cross(back).normalize();
+        let down = right.cross(back);
+        let middle = 0.5 * f64::from(SIDE);
+        let px = |x: f64, z: f64| {
+            let at = DVec3::new(x, 0.0, z);
+            DVec2::new(at.dot(right), at.dot(down)) + middle
+        };
+        for foot in [[px(-50.0, 50.0), px(50.0, 50.0)], [px(50.0, 50.0), px(50.0, -50.0)]] {
+            let found = width_along(&ink, foot);
+            assert!(
+                (found - WIDTH).abs() < 0.1 * WIDTH,
+                "from {:.0}°, {deep} px deep: {found:.2} px",
+                elevation.to_degrees()
+            );
+        }
+    }
+}
