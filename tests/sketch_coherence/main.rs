@@ -41,7 +41,7 @@ const MIN_OF_INK: f64 = 0.9;
 /// Where surfaces run through each other: a line there is now the end of one surface before another, now an intersection.
 const MIN_OF_CROSSINGS: f64 = 0.8;
 /// Greatest share of the pixels with ink that pop beyond those of a locked run: of all, and where surfaces run through each other.
-const MAX_POPS: f64 = 0.001;
+const MAX_POPS: f64 = 0.0012;
 const MAX_POPS_OF_CROSSINGS: f64 = 0.007;
 /// Greatest deviation of the root of the mean square on a dolly.
 const MAX_DEVIATION: f64 = 0.15;
