@@ -44,7 +44,7 @@ fn precedence_of(own: u32, class_of: u32, depth: f32, full_width: f32, stroke_pr
 // What is found at a pixel of a segment.
 fn point_at(v: Segment, number: u32, px: vec2<f32>) -> SegmentPoint {
     let spine = spine_at(v, px);
-    var depth = spine.depth;
+    let depth = spine.depth;
     let surface_ids = v.ids.zw;
     let tested = tested_spine(v, number, spine);
     let hand = stroke_weights_at(number);
@@ -83,10 +83,6 @@ fn point_at(v: Segment, number: u32, px: vec2<f32>) -> SegmentPoint {
         weight = 1.0;
     } else if class_of == MATERIAL || class_of == SECTION || class_of == INTERSECTION {
         weight = 1.0;
-    }
-    if class_of == OBJECT && step_behind < 0.0 {
-        // What dips into a surface ends where that is, or else the surface would hide half of the line.
-        depth = depth_of(select(right.nearness, left.nearness, left_is_outside));
     }
     let is_drawn = edge_styles[own].lines[index].opacity > 0.0 && weight > 0.0;
     let is_suppressed = (v.ids.x & SUPPRESSED) != 0u || !is_drawn;

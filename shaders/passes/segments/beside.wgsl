@@ -34,9 +34,7 @@ fn texel_beside(spine: Spine, along: f32) -> vec2<i32> {
 // What a pixel near the spine shows.
 struct Beside {
     surfel: Surfel,
-    // Nearness of its surface, continued to the spine.
-    nearness: f32,
-    // How far that lies before the spine, px.
+    // How far its surface, continued to the spine, lies before it, px.
     lead: f32,
     // The same at least: by less the steeper it is, as it may bend on the way.
     sure_lead: f32,
@@ -57,8 +55,7 @@ fn beside(spine: Spine, along: f32, surface_ids: vec2<u32>) -> Beside {
     }
     let s = unpack_surfel(texel);
     let plane = plane_of(px, s.depth, s.face_normal);
-    let nearness = nearness_at(plane, spine.at - vec2<f32>(px) - 0.5);
-    let lead = nearness - spine.nearness;
+    let lead = nearness_at(plane, spine.at - vec2<f32>(px) - 0.5) - spine.nearness;
     var carries = false;
     if IN_LAYER {
         let miss = abs(lead) - length(plane.slope);
@@ -66,7 +63,7 @@ fn beside(spine: Spine, along: f32, surface_ids: vec2<u32>) -> Beside {
     }
     let leads = vec2(step_px(lead, spine.depth), step_px(lead - 0.5 * length(plane.slope), spine.depth));
     let there = select(leads, vec2(-1e9), s.object == 0u);
-    return Beside(s, nearness, there.x, there.y, carries && s.object != 0u);
+    return Beside(s, there.x, there.y, carries && s.object != 0u);
 }
 
 // Whether one of these surfaces is seen on either side of a spine, or on it.
