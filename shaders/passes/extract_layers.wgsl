@@ -126,5 +126,5 @@ fn fs_layer(@builtin(position) position: vec4<f32>) -> Layer {
         color = colors[number - 1u];
     }
     let geometry = vec4(normal, payload.face, payload.depth, payload.object);
-    return Layer(geometry, payload.surface_id, unpack_color(color));
+    return Layer(geometry, payload.surface_id, unpack_layer_color(color));
 }

@@ -27,7 +27,7 @@ fn append(position: vec4<f32>, ids: vec4<u32>, drawn: GBuffer) {
         textureStore(node_tex, texel_of_record(index), texel_of_node(node));
         textureStore(payload_tex, texel_of_record(index), texel_of_payload(payload));
         if WITH_COLOR {
-            colors[index] = pack_color(drawn.base_color);
+            colors[index] = pack_layer_color(drawn.base_color);
         }
     }
 }
@@ -40,6 +40,11 @@ fn fs_lean_list(v: Lean) {
 @fragment
 fn fs_smooth_list(v: Smooth) {
     append(v.position, v.ids, smooth_surface(v));
+}
+
+@fragment
+fn fs_colored_list(v: Colored) {
+    append(v.position, v.ids, colored(v));
 }
 
 @fragment

@@ -4,6 +4,7 @@
 #import common/surface_id.wgsl
 #import common/material.wgsl
 #import common/instance.wgsl
+#import common/color.wgsl
 
 // Whether what lies behind a plane is left out: that of a mirror, that of the section, or either.
 override WITH_CLIP_PLANE: bool = false;
@@ -24,34 +25,45 @@ struct Lean {
     @builtin(position) @invariant position: vec4<f32>,
     // View-oriented, but about the object's own origin, so that derivatives keep their digits far from the eye; and linear depth.
     @location(0) pos_oriented_depth: vec4<f32>,
-    // Surface, object, order of its first surface, whether it is flat.
+    // Surface, object, order of its first surface, color (see `pack_color`).
     @location(1) @interpolate(flat, first) ids: vec4<u32>,
-    @location(2) @interpolate(flat, first) color: vec4<f32>,
     // How far it lies in front of the planes of `WITH_CLIP_PLANE`.
-    @location(3) before_planes: vec2<f32>,
+    @location(2) before_planes: vec2<f32>,
 }
 
 struct Smooth {
     @builtin(position) @invariant position: vec4<f32>,
     @location(0) pos_oriented_depth: vec4<f32>,
     @location(1) @interpolate(flat, first) ids: vec4<u32>,
-    // How far it lies in front of one plane, and of the other.
-    @location(2) color_before: vec4<f32>,
-    @location(3) normal_before: vec4<f32>,
+    // 0 where faces are flat.
+    @location(2) normal: vec3<f32>,
+    @location(3) before_planes: vec2<f32>,
+}
+
+// From here on colors are interpolated; they are linear.
+
+struct Colored {
+    @builtin(position) @invariant position: vec4<f32>,
+    @location(0) pos_oriented_depth: vec4<f32>,
+    @location(1) @interpolate(flat, first) ids: vec4<u32>,
+    @location(2) normal: vec3<f32>,
+    @location(3) color: vec3<f32>,
+    @location(4) before_planes: vec2<f32>,
 }
 
 struct Full {
     @builtin(position) @invariant position: vec4<f32>,
     @location(0) pos_oriented_depth: vec4<f32>,
     @location(1) @interpolate(flat, first) ids: vec4<u32>,
-    @location(2) color: vec4<f32>,
-    @location(3) normal: vec3<f32>,
+    @location(2) normal: vec3<f32>,
+    @location(3) color: vec4<f32>,
     @location(4) tangent: vec4<f32>,
     @location(5) uv_before: vec4<f32>,
 }
 
 struct GBuffer {
     @location(0) geometry: vec4<u32>,
+    // With the sRGB curve already: software devices apply it more slowly than shaders.
     @location(1) base_color: vec4<f32>,
     @location(2) surface_id: u32,
 }
@@ -65,8 +77,17 @@ fn pos_oriented_depth(pos_view: vec4<f32>, local: mat4x4<f32>) -> vec4<f32> {
     return vec4(pos_view.xyz - local[3].xyz, -pos_view.z);
 }
 
+// A linear color with the sRGB curve, and opacity, 8 bits each.
+fn pack_color(color: vec4<f32>) -> u32 {
+    return pack4x8unorm(vec4(srgb_from_linear(color.rgb), color.a));
+}
+
 fn ids(instance: Instance, surface: u32) -> vec4<u32> {
-    return vec4(surface, instance.ids.xyz);
+    return vec4(surface, instance.ids.xy, pack_color(instance.base_color));
+}
+
+fn normal_view(instance: Instance, normal: vec2<f32>) -> vec3<f32> {
+    return select(normal_from_local(instance) * octahedral_decode(normal), vec3(0.0), instance.ids.z == 1u);
 }
 
 // A vertex where it is drawn.
@@ -88,8 +109,7 @@ fn vs_lean(
     let local = view_from_local(instance);
     let pos_view = local * vec4(position, 1.0);
     return Lean(
-        frame.clip_from_view * pos_view, pos_oriented_depth(pos_view, local), ids(instance, surface),
-        instance.base_color, before_planes(pos_view),
+        frame.clip_from_view * pos_view, pos_oriented_depth(pos_view, local), ids(instance, surface), before_planes(pos_view),
     );
 }
 
@@ -99,15 +119,30 @@ fn vs_smooth(
     @location(0) position: vec3<f32>,
     @location(1) surface: u32,
     @location(2) normal: vec2<f32>,
-    @location(5) color: vec4<f32>,
 ) -> Smooth {
     let local = view_from_local(instance);
-    let normal_view = normal_from_local(instance) * octahedral_decode(normal);
+    let normal_view = normal_view(instance, normal);
     let pos_view = placed(instance, local * vec4(position, 1.0), normal_view);
-    let before = before_planes(pos_view);
     return Smooth(
         frame.clip_from_view * pos_view, pos_oriented_depth(pos_view, local), ids(instance, surface),
-        vec4(instance.base_color.rgb * color.rgb, before.x), vec4(normal_view, before.y),
+        normal_view, before_planes(pos_view),
+    );
+}
+
+@vertex
+fn vs_colored(
+    instance: Instance,
+    @location(0) position: vec3<f32>,
+    @location(1) surface: u32,
+    @location(2) normal: vec2<f32>,
+    @location(5) color: vec4<f32>,
+) -> Colored {
+    let local = view_from_local(instance);
+    let normal_view = normal_view(instance, normal);
+    let pos_view = placed(instance, local * vec4(position, 1.0), normal_view);
+    return Colored(
+        frame.clip_from_view * pos_view, pos_oriented_depth(pos_view, local), ids(instance, surface),
+        normal_view, instance.base_color.rgb * color.rgb, before_planes(pos_view),
     );
 }
 
@@ -122,12 +157,12 @@ fn vs_full(
     @location(5) color: vec4<f32>,
 ) -> Full {
     let local = view_from_local(instance);
-    let normal_view = normal_from_local(instance) * octahedral_decode(normal);
+    let normal_view = normal_view(instance, normal);
     let pos_view = placed(instance, local * vec4(position, 1.0), normal_view);
     let tangent_view = (local * vec4(octahedral_decode(tangent.xy), 0.0)).xyz;
     return Full(
         frame.clip_from_view * pos_view, pos_oriented_depth(pos_view, local), ids(instance, surface),
-        color, normal_view,
+        normal_view, color,
         vec4(tangent_view, sign(tangent.z)), vec4(uv, before_planes(pos_view)),
     );
 }
@@ -179,7 +214,8 @@ fn lean(v: Lean) -> GBuffer {
     if is_clipped_off(v.before_planes) {
         discard;
     }
-    return GBuffer(pack(face, face, v.pos_oriented_depth.w, v.ids.y), v.color, surface_id(v.ids));
+    let geometry = pack(face, face, v.pos_oriented_depth.w, v.ids.y);
+    return GBuffer(geometry, unpack4x8unorm(v.ids.w), surface_id(v.ids));
 }
 
 // Seen from behind, a surface is shaded as if it were two-sided.
@@ -192,19 +228,37 @@ fn fs_lean(v: Lean) -> GBuffer {
     return lean(v);
 }
 
+// The shading normal of a surface without images.
+fn shading_normal(face: vec3<f32>, normal: vec3<f32>) -> vec3<f32> {
+    return select(turned_to(face, normalize(normal)), face, all(normal == vec3(0.0)));
+}
+
 fn smooth_surface(v: Smooth) -> GBuffer {
     let face = face_normal(v.pos_oriented_depth.xyz);
-    if is_clipped_off(vec2(v.color_before.w, v.normal_before.w)) {
+    if is_clipped_off(v.before_planes) {
         discard;
     }
-    let normal = select(turned_to(face, normalize(v.normal_before.xyz)), face, v.ids.w == 1u);
-    let geometry = pack(normal, face, v.pos_oriented_depth.w, v.ids.y);
-    return GBuffer(geometry, vec4(v.color_before.rgb, 1.0), surface_id(v.ids));
+    let geometry = pack(shading_normal(face, v.normal), face, v.pos_oriented_depth.w, v.ids.y);
+    return GBuffer(geometry, unpack4x8unorm(v.ids.w), surface_id(v.ids));
 }
 
 @fragment
 fn fs_smooth(v: Smooth) -> GBuffer {
     return smooth_surface(v);
+}
+
+fn colored(v: Colored) -> GBuffer {
+    let face = face_normal(v.pos_oriented_depth.xyz);
+    if is_clipped_off(v.before_planes) {
+        discard;
+    }
+    let geometry = pack(shading_normal(face, v.normal), face, v.pos_oriented_depth.w, v.ids.y);
+    return GBuffer(geometry, vec4(srgb_from_linear(v.color), 1.0), surface_id(v.ids));
+}
+
+@fragment
+fn fs_colored(v: Colored) -> GBuffer {
+    return colored(v);
 }
 
 fn full(v: Full) -> GBuffer {
@@ -219,7 +273,7 @@ fn full(v: Full) -> GBuffer {
         discard;
     }
     var normal = face;
-    if v.ids.w == 0u {
+    if any(v.normal != vec3(0.0)) {
         normal = normalize(v.normal);
         if material.has_normal_texture == 1u && v.tangent.w != 0.0 {
             let tangent = normalize(v.tangent.xyz - normal * dot(normal, v.tangent.xyz));
@@ -229,7 +283,7 @@ fn full(v: Full) -> GBuffer {
         }
         normal = turned_to(face, normal);
     }
-    let base_color = vec4(color.rgb, select(1.0, color.a, material.blends == 1u));
+    let base_color = vec4(srgb_from_linear(color.rgb), select(1.0, color.a, material.blends == 1u));
     return GBuffer(pack(normal, face, v.pos_oriented_depth.w, v.ids.y), base_color, surface_id(v.ids));
 }
 

@@ -27,7 +27,7 @@ fn layer(position: vec4<f32>, ids: vec4<u32>, drawn: GBuffer) -> Layer {
     if !is_behind {
         discard;
     }
-    return Layer(drawn.geometry, drawn.surface_id, sort_key, unpack_color(pack_color(drawn.base_color)));
+    return Layer(drawn.geometry, drawn.surface_id, sort_key, unpack_layer_color(pack_layer_color(drawn.base_color)));
 }
 
 @fragment
@@ -38,6 +38,11 @@ fn fs_lean_layer(v: Lean) -> Layer {
 @fragment
 fn fs_smooth_layer(v: Smooth) -> Layer {
     return layer(v.position, v.ids, smooth_surface(v));
+}
+
+@fragment
+fn fs_colored_layer(v: Colored) -> Layer {
+    return layer(v.position, v.ids, colored(v));
 }
 
 @fragment
@@ -58,6 +63,11 @@ fn fs_smooth_counted(v: Smooth) -> @location(0) u32 {
 }
 
 @fragment
+fn fs_colored_counted(v: Colored) -> @location(0) u32 {
+    return layer(v.position, v.ids, colored(v)).surface_id;
+}
+
+@fragment
 fn fs_full_counted(v: Full) -> @location(0) u32 {
     return layer(v.position, v.ids, full(v)).surface_id;
 }
@@ -68,7 +78,7 @@ fn color(position: vec4<f32>, ids: vec4<u32>, drawn: GBuffer) -> vec4<f32> {
     if any(sort_key_of(position, ids) != textureLoad(last_key_tex, vec2<i32>(position.xy)).xy) {
         discard;
     }
-    return unpack_color(pack_color(drawn.base_color));
+    return unpack_layer_color(pack_layer_color(drawn.base_color));
 }
 
 @fragment
@@ -79,6 +89,11 @@ fn fs_lean_color(v: Lean) -> @location(0) vec4<f32> {
 @fragment
 fn fs_smooth_color(v: Smooth) -> @location(0) vec4<f32> {
     return color(v.position, v.ids, smooth_surface(v));
+}
+
+@fragment
+fn fs_colored_color(v: Colored) -> @location(0) vec4<f32> {
+    return color(v.position, v.ids, colored(v));
 }
 
 @fragment

@@ -36,7 +36,7 @@ pub use inputs::{Inputs, inputs};
 pub use integer_textures::IntegerTextures;
 pub use material::MaterialBindings;
 pub use pipelines::{Pipelines, Program};
-pub use pool::{Target, TargetPool};
+pub use pool::{Target, TargetPool, drawn_as};
 pub use predicate::Predicate;
 pub use record_list::RecordList;
 pub use record_texture::{RecordTexture, frame_records};

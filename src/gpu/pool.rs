@@ -13,12 +13,17 @@ pub struct Target(Arc<Inner>);
 struct Inner {
     texture: wgpu::Texture,
     view: wgpu::TextureView,
+    attachment: wgpu::TextureView,
 }
 
 impl Target {
     pub(super) fn new(texture: wgpu::Texture) -> Self {
         let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
-        Self(Arc::new(Inner { texture, view }))
+        let attachment = texture.create_view(&wgpu::TextureViewDescriptor {
+            format: Some(drawn_as(texture.format())),
+            ..Default::default()
+        });
+        Self(Arc::new(Inner { texture, view, attachment }))
     }
 
     /// The texture.
@@ -26,9 +31,14 @@ impl Target {
         &self.0.texture
     }
 
-    /// Its only view.
+    /// What shaders read.
     pub fn view(&self) -> &wgpu::TextureView {
         &self.0.view
+    }
+
+    /// What shaders draw into, see [`drawn_as`].
+    pub fn attachment(&self) -> &wgpu::TextureView {
+        &self.0.attachment
     }
 
     /// Its format.
@@ -73,7 +83,7 @@ impl TargetPool {
             dimension: wgpu::TextureDimension::D2,
             format,
             usage: usage(format),
-            view_formats: &[],
+            view_formats: if drawn_as(format) == format { &[] } else { &[drawn_as(format)] },
         };
         let texture = gpu.create_texture(&format!("the picture ({label})"), &descriptor)?;
         let target = Target::new(texture);
@@ -85,6 +95,12 @@ impl TargetPool {
     pub fn shrink_to(&mut self, sizes: &[[u32; 2]]) {
         self.targets.retain(|t| Arc::strong_count(&t.0) > 1 || sizes.contains(&t.size()));
     }
+}
+
+/// The format in which targets of this format are drawn into: shaders apply the sRGB curve themselves where what is read has
+/// it taken off. Mesa's software device does so more slowly, and reads again all that it writes with it.
+pub fn drawn_as(format: wgpu::TextureFormat) -> wgpu::TextureFormat {
+    format.remove_srgb_suffix()
 }
 
 /// Everything is drawn into, read and copied; integers are also written by compute shaders.

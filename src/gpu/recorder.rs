@@ -8,7 +8,7 @@ use super::bindings::INPUTS;
 use super::clears::cleared;
 use super::depth_rules::DepthRule;
 use super::pipelines::{Pipelines, Program, RasterKey};
-use super::{Gpu, GpuError, Inputs, Predicate, ShaderError, Target, TargetPool, Timers};
+use super::{Gpu, GpuError, Inputs, Predicate, ShaderError, Target, TargetPool, Timers, drawn_as};
 
 /// What a pass does with what its outputs hold.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -260,7 +260,7 @@ impl<'a> Recorder<'a> {
     pub fn draw(&mut self, draw: Draw<'_>) -> Result<(), ShaderError> {
         let key = RasterKey {
             program: draw.program,
-            outputs: draw.outputs.iter().map(|o| o.format()).collect(),
+            outputs: draw.outputs.iter().map(|o| drawn_as(o.format())).collect(),
             blend: draw.onto.blend(),
             writes: true,
             depth: draw.depth.map(|(target, rule)| (target.format(), rule.test())),
@@ -379,7 +379,7 @@ pub(super) fn color_attachment(
     load: wgpu::LoadOp<wgpu::Color>,
 ) -> wgpu::RenderPassColorAttachment<'_> {
     wgpu::RenderPassColorAttachment {
-        view: target.view(),
+        view: target.attachment(),
         depth_slice: None,
         resolve_target: None,
         ops: wgpu::Operations { load, store: wgpu::StoreOp::Store },

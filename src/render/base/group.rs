@@ -21,6 +21,8 @@ pub struct VisibleSubmesh {
     pub enhanced: bool,
     /// Whether its mesh has no normals, so that faces are flat.
     pub is_flat: bool,
+    /// Whether its vertices have colors.
+    pub has_colors: bool,
     /// The box around its mesh, local space.
     pub bounds: Bounds,
     /// Its surfaces have smaller numbers than this.
@@ -220,6 +222,7 @@ impl Group {
                         bounds: cap.bounds,
                         surfaces: cap.surface + 1,
                         is_flat: true,
+                        has_colors: false,
                         world_from_local: section.world_from_cap(sectioned),
                         material: usize::MAX,
                         is_whole: true,
@@ -247,6 +250,7 @@ impl Group {
                     bounds: scene.mesh_bounds(mesh),
                     surfaces: source.triangle_count() as u32,
                     is_flat: source.normals.is_empty(),
+                    has_colors: !source.colors.is_empty(),
                     world_from_local: node.world_from_local,
                     material: submesh.material,
                     is_whole: object.is_whole(),
@@ -292,6 +296,8 @@ impl Group {
                     Detail::Lean
                 } else if has_images || alpha != AlphaMode::Opaque {
                     Detail::Full
+                } else if submesh.has_colors {
+                    Detail::Colored
                 } else {
                     Detail::Smooth
                 },

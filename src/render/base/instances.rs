@@ -63,8 +63,10 @@ impl From<&Instance> for Record {
 pub enum Detail {
     /// Positions only: no mesh of the scene has anything more.
     Lean,
-    /// Normals and colors.
+    /// Normals too.
     Smooth,
+    /// Colors of vertices too.
+    Colored,
     /// Images too, and holes.
     Full,
 }
@@ -98,7 +100,7 @@ impl DrawCall {
     /// The same with no more than positions, where nobody asks for colors and shading normals. Holes need images.
     #[must_use]
     pub fn without_attributes(&self) -> Self {
-        let detail = if self.detail == Detail::Smooth { Detail::Lean } else { self.detail };
+        let detail = if self.detail == Detail::Full { Detail::Full } else { Detail::Lean };
         Self { detail, ..*self }
     }
 

@@ -10,7 +10,7 @@ use super::occlusion_culling::{Split, unoccluded};
 use super::peel::Peel;
 use crate::gpu::geometry::{Attributes, POSITIONS, SURFACES};
 use crate::gpu::recorder::Onto;
-use crate::gpu::{Gpu, MaterialBindings, Pipelines, Recorder, Target};
+use crate::gpu::{Gpu, MaterialBindings, Pipelines, Recorder, Target, drawn_as};
 use crate::render::base::error::RenderError;
 use crate::render::base::gpu_scene::GpuScene;
 use crate::render::base::instances::{Batch, Detail, DrawCall, INSTANCES, Instance, InstanceBuffer, batches};
@@ -74,6 +74,10 @@ impl Purpose {
             Detail::Smooth => (
                 "vs_smooth",
                 ["fs_smooth", "fs_smooth_layer", "fs_smooth_counted", "fs_smooth_list", "fs_smooth_color"],
+            ),
+            Detail::Colored => (
+                "vs_colored",
+                ["fs_colored", "fs_colored_layer", "fs_colored_counted", "fs_colored_list", "fs_colored_color"],
             ),
             Detail::Full => {
                 ("vs_full", ["fs_full", "fs_full_layer", "fs_full_counted", "fs_full_list", "fs_full_color"])
@@ -351,7 +355,7 @@ fn build(
     let buffers = [Some(INSTANCES), Some(POSITIONS), Some(SURFACES), Some(Attributes::LAYOUT)];
     let (vertex, fragment) = variant.purpose.entry_points(variant.detail);
     let targets: Vec<_> =
-        variant.purpose.outputs(variant.with_color).iter().map(|&format| Some(format.into())).collect();
+        variant.purpose.outputs(variant.with_color).iter().map(|&format| Some(drawn_as(format).into())).collect();
     let mut constants = vec![("WITH_CLIP_PLANE", variant.is_clipped)];
     match variant.purpose {
         Purpose::Surfaces => {}
