@@ -63,11 +63,11 @@ fn cs_links(@builtin(global_invocation_id) id: vec3<u32>) {
     let px = unpack_pixel(listed_pixels[id.x]);
     let own = point_at(px);
     let towards = unpack_tangent(u32(own.tangent));
-    var classes = 0u;
+    var classes = select(bit_of(own.class_of), 0u, own.class_of == NO_EDGE);
     var ahead = PixelLink(OWN, false, 0.0);
     var behind = ahead;
     var min_cost = vec2(1e9);
-    for (var places = lines_around(px); places != 0u; places &= places - 1u) {
+    for (var places = lines_around(px) & ~(1u << OWN); places != 0u; places &= places - 1u) {
         let place = countTrailingZeros(places);
         let point = point_at(px + away_of(place));
         let seen = seen_from(own, towards, point);

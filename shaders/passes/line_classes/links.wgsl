@@ -15,15 +15,10 @@ const ABREAST: f32 = 0.75;
 // Angle up to which two tangents belong to one line, of 512 for a full turn: 32 degrees.
 const PARALLEL: i32 = 45;
 
-// The class of a line in a texel of the edge map; `NO_EDGE`: there is no ink of one.
-fn line_class(texel: vec4<u32>) -> u32 {
-    let class_of = class_of(texel);
-    return select(NO_EDGE, class_of, (texel.w >> 26u) != 0u && class_of <= SECTION);
-}
-
-// The point of a line in a pixel.
+// The point of a line in a pixel that is listed.
 struct Point {
     texel: vec4<u32>,
+    // `NO_EDGE`: it made way.
     class_of: u32,
     // px.
     at: vec2<f32>,
@@ -33,9 +28,7 @@ struct Point {
 
 fn point_at(px: vec2<i32>) -> Point {
     let texel = textureLoad(edge_map_tex, px);
-    let is_inside = all(px >= vec2(0)) && all(px < vec2<i32>(frame.size));
-    let class_of = select(NO_EDGE, line_class(texel), is_inside);
-    return Point(texel, class_of, vec2<f32>(px) + 0.5 + offset_of(texel), i32((texel.x >> 16u) & 511u));
+    return Point(texel, class_of(texel), vec2<f32>(px) + 0.5 + offset_of(texel), i32((texel.x >> 16u) & 511u));
 }
 
 // The least angle from one tangent to another one, of 512 for a full turn, −256 to 255.
