@@ -37,3 +37,8 @@ fn plane_of(px: vec2<i32>, depth: f32, normal: vec3<f32>) -> Plane {
 fn nearness_at(plane: Plane, offset: vec2<f32>) -> f32 {
     return plane.center + dot(plane.slope, offset);
 }
+
+// How much nearer than a plane the surface may lie that it was found on, a pixel or so away: a steep one may bend on the way.
+fn bend_of(plane: Plane) -> f32 {
+    return 0.5 * length(plane.slope);
+}

@@ -60,9 +60,8 @@ fn hides(g: Surfel, px: vec2<i32>, depth: f32, to_spine: vec2<f32>, most: f32) -
 }
 
 fn is_occluded(g: Surfel, px: vec2<i32>, edge: Edge, spine: vec2<f32>) -> bool {
-    // As where lines are found, a steep surface may bend on the way to the spine.
-    let slope = plane_of(px, g.depth, g.face_normal).slope;
-    let bend = select(step_px(0.5 * length(slope), edge.depth), 0.0, AMONG_OTHERS);
+    // As where lines are found, see passes/segments/beside.wgsl.
+    let bend = select(step_px(bend_of(plane_of(px, g.depth, g.face_normal)), edge.depth), 0.0, AMONG_OTHERS);
     return g.object != edge.object && hides(g, px, edge.depth, spine - vec2<f32>(px) - 0.5, slack() + bend);
 }
 

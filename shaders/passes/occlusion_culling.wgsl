@@ -1,8 +1,6 @@
 // Leaves out draws that lie behind what has been drawn, by their boxes.
 #import common/frame.wgsl
-
-// Neither filters nor leaves the texture.
-@group(0) @binding(1) var nearest: sampler;
+#import gpu/neighbors.wgsl
 
 // Pixels per side of a block; twin of `BLOCK` in src/render/passes/occlusion_culling.rs.
 const BLOCK: i32 = 8;

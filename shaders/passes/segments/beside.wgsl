@@ -61,7 +61,7 @@ fn beside(spine: Spine, along: f32, surface_ids: vec2<u32>) -> Beside {
         let miss = abs(lead) - length(plane.slope);
         carries = any(surface_ids == vec2(surface_id)) && step_px(miss, spine.depth) <= 2.0;
     }
-    let leads = vec2(step_px(lead, spine.depth), step_px(lead - 0.5 * length(plane.slope), spine.depth));
+    let leads = vec2(step_px(lead, spine.depth), step_px(lead - bend_of(plane), spine.depth));
     let there = select(leads, vec2(-1e9), s.object == 0u);
     return Beside(s, there.x, there.y, carries && s.object != 0u);
 }

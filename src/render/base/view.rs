@@ -75,59 +75,45 @@ impl View {
     /// The part of the picture that a box covers at most, with a margin: left, top, right and bottom edge in pixels. `None`
     /// if it is empty. `corners`: world space, in the order of [`Bounds::corners`].
     pub fn rect_of(&self, corners: &[DVec3; 8], margin: f32) -> Option<[u32; 4]> {
-        let projector = self.projector();
         let [near, _] = self.clip_range;
         let in_view = corners.map(|corner| self.view_from_world.transform_point3(corner));
-        let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
-        for (i, &from) in in_view.iter().enumerate() {
-            for to in [1, 2, 4].map(|bit| in_view[i ^ bit]) {
-                // Of each edge that begins before the near plane, its beginning, or where it ends there.
-                let (lead, other) = (-from.z - near, -to.z - near);
-                if !self.orthographic && lead < 0.0 {
-                    continue;
-                }
-                let ends = !self.orthographic && other < 0.0;
-                let cut = if ends { from.lerp(to, lead / (lead - other)) } else { from };
-                for point in [from, cut] {
-                    let px = projector.pixel(point);
-                    (low, high) = (low.min(px), high.max(px));
-                }
-            }
-        }
-        let margin = f64::from(margin) + 2.0;
-        let (low, high) = (low - margin, high + margin);
-        let edge = |at: f64, size: u32| at.clamp(0.0, f64::from(size)) as u32;
-        let UVec2 { x: width, y: height } = self.size;
-        let rect = [
-            edge(low.x.floor(), width),
-            edge(low.y.floor(), height),
-            edge(high.x.ceil(), width),
-            edge(high.y.ceil(), height),
-        ];
-        (rect[0] < rect[2] && rect[1] < rect[3]).then_some(rect)
+        let edges = in_view.iter().enumerate().flat_map(|(i, from)| [1, 2, 4].map(|bit| (*from, in_view[i ^ bit])));
+        let points = edges.filter_map(|(from, to)| {
+            // Of each edge that begins before the near plane, its beginning, or where it ends there.
+            let (lead, other) = (-from.z - near, -to.z - near);
+            let ends = !self.orthographic && other < 0.0;
+            let cut = if ends { from.lerp(to, lead / (lead - other)) } else { from };
+            (self.orthographic || lead >= 0.0).then_some([from, cut])
+        });
+        let rect = self.rect_around(points.flatten(), f64::from(margin));
+        (rect.x < rect.z && rect.y < rect.w).then(|| rect.to_array())
     }
 
     /// What a box covers of the picture at most; `None`: it reaches before the near plane, and so anywhere. `corners`: view space.
     pub fn extent_of(&self, corners: &[DVec3; 8]) -> Option<Extent> {
-        let projector = self.projector();
         let [near, far] = self.clip_range;
         let nearest = corners.iter().map(|corner| -corner.z).fold(f64::INFINITY, f64::min);
-        let (low, high) = corners
-            .iter()
-            .map(|&corner| projector.pixel(corner))
-            .fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(low, high), px| (low.min(px), high.max(px)));
-        if nearest < near || !(nearest.is_finite() && low.is_finite() && high.is_finite()) {
+        if nearest < near || !nearest.is_finite() {
             return None;
         }
-        // A pixel for the jitter, and one for rounding.
-        let edge = |at: DVec2| at.clamp(DVec2::ZERO, self.size.as_dvec2()).as_uvec2();
-        let (low, high) = (edge((low - 2.0).floor()), edge((high + 2.0).ceil()));
-        let nearest = if self.orthographic {
+        let depth = if self.orthographic {
             (far - nearest) / (far - near) + DEPTH_MARGIN
         } else {
             near / nearest * (1.0 + DEPTH_MARGIN)
         };
-        Some(Extent { rect: UVec4::new(low.x, low.y, high.x, high.y), nearest: nearest as f32 })
+        Some(Extent { rect: self.rect_around(corners.iter().copied(), 0.0), nearest: depth as f32 })
+    }
+
+    /// Left, top, right and bottom edge, px, of what these points and a margin, px, cover of the picture: each pixel that one
+    /// touches, and one more for the jitter. `points`: view space.
+    fn rect_around(&self, points: impl Iterator<Item = DVec3>, margin: f64) -> UVec4 {
+        let projector = self.projector();
+        let (low, high) = points
+            .map(|point| projector.pixel(point))
+            .fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(low, high), px| (low.min(px), high.max(px)));
+        let edge = |at: DVec2| at.clamp(DVec2::ZERO, self.size.as_dvec2()).as_uvec2();
+        let (low, high) = (edge((low - margin - 2.0).floor()), edge((high + margin + 2.0).ceil()));
+        UVec4::new(low.x, low.y, high.x, high.y)
     }
 
     /// The view of `camera` on a scene of which `visible` is the box around everything that is drawn.

@@ -7,6 +7,8 @@
 //! Which objects are drawn first follows from the view alone, and nothing that is seen is left out: a picture does not depend on
 //! those before.
 
+use std::borrow::Cow;
+
 use crate::gpu::{ArrayBuffer, Predicate, Program, Recorder, Target, inputs};
 use crate::render::base::error::RenderError;
 use crate::render::base::instances::{Batch, DrawCall, batches};
@@ -27,25 +29,30 @@ const COLUMNS: u32 = 1024;
 const FARTHEST: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;
 
 /// Draw calls in two parts, each in their order.
-pub struct Split {
+pub struct Split<'a> {
     /// Those that hide most for their number of triangles.
-    pub occluders: Vec<DrawCall>,
+    pub occluders: Cow<'a, [DrawCall]>,
     /// All others.
     pub rest: Vec<DrawCall>,
 }
 
-impl Split {
+impl<'a> Split<'a> {
     /// Splits these calls; without a rest where culling does not pay or the device cannot do it.
-    pub fn new(rec: &Recorder<'_>, calls: &[DrawCall]) -> Self {
+    pub fn new(rec: &Recorder<'_>, calls: &'a [DrawCall]) -> Self {
         let can_cull = rec.gpu.device.features().contains(wgpu::Features::INDIRECT_FIRST_INSTANCE);
         // What may be left out already is not tested again.
         if calls.len() < LEAST_CALLS || !can_cull || rec.predicate.is_some() {
-            return Self { occluders: calls.to_vec(), rest: Vec::new() };
+            return Self::none(calls);
         }
         Self::by_extent(calls)
     }
 
-    fn by_extent(calls: &[DrawCall]) -> Self {
+    /// Without a rest.
+    pub fn none(calls: &'a [DrawCall]) -> Self {
+        Self { occluders: calls.into(), rest: Vec::new() }
+    }
+
+    fn by_extent(calls: &'a [DrawCall]) -> Self {
         let hidden_per_index = |call: &DrawCall| {
             call.extent.map_or(f32::INFINITY, |extent| extent.area() / call.index_count.max(1) as f32)
         };
@@ -60,11 +67,11 @@ impl Split {
             drawn += u64::from(calls[index].index_count);
             is_occluder[index] = is_anywhere || drawn as f64 <= OCCLUDERS * all as f64;
         }
-        let part = |wanted: bool| {
+        let part = |wanted: bool| -> Vec<DrawCall> {
             let own = calls.iter().zip(&is_occluder).filter(move |(_, is)| **is == wanted);
             own.map(|(call, _)| *call).collect()
         };
-        Self { occluders: part(true), rest: part(false) }
+        Self { occluders: part(true).into(), rest: part(false) }
     }
 }
 
@@ -134,7 +141,8 @@ mod tests {
         // 196 triangles are 15 %, and the one that may be anywhere has more.
         assert_eq!(instances(&occluders), [3]);
         assert_eq!(instances(&rest), [0, 1, 2, 4]);
-        let Split { occluders, rest } = Split::by_extent(&[&calls[..3], &calls[4..]].concat());
+        let others = [&calls[..3], &calls[4..]].concat();
+        let Split { occluders, rest } = Split::by_extent(&others);
         assert_eq!(instances(&occluders), [1, 4]);
         assert_eq!(instances(&rest), [0, 2]);
     }

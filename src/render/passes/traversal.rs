@@ -267,7 +267,7 @@ impl GBufferPass {
         instance_buffer.write(gpu, instances, calls)?;
         let split = match purpose {
             Purpose::Surfaces => Split::new(rec, calls),
-            _ => Split { occluders: calls.to_vec(), rest: Vec::new() },
+            _ => Split::none(calls),
         };
         let shared = Shared {
             scene,
