@@ -118,11 +118,12 @@ impl Segments {
         // What explains what is there comes first.
         let is_stroke = |number: u32| tested.get(number as usize).is_some_and(|t| t.is_stroke == 1);
         let steps = [false, true].map(|of_strokes| {
-            let mut steps: Vec<[u32; 2]> = (0..)
-                .zip(segments)
-                .filter(|(number, _)| is_stroke(*number) == of_strokes)
-                .flat_map(|(number, segment)| (0..steps_of(segment)).map(move |step| [number, step]))
-                .collect();
+            let mut steps: Vec<[u32; 2]> = Vec::new();
+            for (number, segment) in (0..).zip(segments) {
+                if is_stroke(number) == of_strokes {
+                    steps.extend((0..steps_of(segment)).map(|step| [number, step]));
+                }
+            }
             steps.resize(steps.len().next_multiple_of(GROUP as usize), NO_STEP);
             steps
         });
