@@ -19,10 +19,12 @@ struct Inner {
 impl Target {
     pub(super) fn new(texture: wgpu::Texture) -> Self {
         let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
-        let attachment = texture.create_view(&wgpu::TextureViewDescriptor {
-            format: Some(drawn_as(texture.format())),
-            ..Default::default()
-        });
+        let format = drawn_as(texture.format());
+        let attachment = if format == texture.format() {
+            view.clone()
+        } else {
+            texture.create_view(&wgpu::TextureViewDescriptor { format: Some(format), ..Default::default() })
+        };
         Self(Arc::new(Inner { texture, view, attachment }))
     }
 
