@@ -77,7 +77,8 @@ impl View {
     pub fn rect_of(&self, corners: &[DVec3; 8], margin: f32) -> Option<[u32; 4]> {
         let [near, _] = self.clip_range;
         let in_view = corners.map(|corner| self.view_from_world.transform_point3(corner));
-        let edges = in_view.iter().enumerate().flat_map(|(i, from)| [1, 2, 4].map(|bit| (*from, in_view[i ^ bit])));
+        let edges =
+            in_view.iter().enumerate().flat_map(|(i, from)| [1, 2, 4].map(|bit| (*from, in_view[i ^ bit])));
         let points = edges.filter_map(|(from, to)| {
             // Of each edge that begins before the near plane, its beginning, or where it ends there.
             let (lead, other) = (-from.z - near, -to.z - near);

@@ -77,7 +77,13 @@ impl Purpose {
             ),
             Detail::Colored => (
                 "vs_colored",
-                ["fs_colored", "fs_colored_layer", "fs_colored_counted", "fs_colored_list", "fs_colored_color"],
+                [
+                    "fs_colored",
+                    "fs_colored_layer",
+                    "fs_colored_counted",
+                    "fs_colored_list",
+                    "fs_colored_color",
+                ],
             ),
             Detail::Full => {
                 ("vs_full", ["fs_full", "fs_full_layer", "fs_full_counted", "fs_full_list", "fs_full_color"])
@@ -354,8 +360,8 @@ fn build(
     });
     let buffers = [Some(INSTANCES), Some(POSITIONS), Some(SURFACES), Some(Attributes::LAYOUT)];
     let (vertex, fragment) = variant.purpose.entry_points(variant.detail);
-    let targets: Vec<_> =
-        variant.purpose.outputs(variant.with_color).iter().map(|&format| Some(drawn_as(format).into())).collect();
+    let outputs = variant.purpose.outputs(variant.with_color).iter();
+    let targets: Vec<_> = outputs.map(|&format| Some(drawn_as(format).into())).collect();
     let mut constants = vec![("WITH_CLIP_PLANE", variant.is_clipped)];
     match variant.purpose {
         Purpose::Surfaces => {}
