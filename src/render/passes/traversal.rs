@@ -66,37 +66,22 @@ impl Purpose {
         }
     }
 
-    fn entry_points(self, detail: Detail) -> (&'static str, &'static str) {
-        let (vertex, fragments) = match detail {
-            Detail::Lean => {
-                ("vs_lean", ["fs_lean", "fs_lean_layer", "fs_lean_counted", "fs_lean_list", "fs_lean_color"])
-            }
-            Detail::Smooth => (
-                "vs_smooth",
-                ["fs_smooth", "fs_smooth_layer", "fs_smooth_counted", "fs_smooth_list", "fs_smooth_color"],
-            ),
-            Detail::Colored => (
-                "vs_colored",
-                [
-                    "fs_colored",
-                    "fs_colored_layer",
-                    "fs_colored_counted",
-                    "fs_colored_list",
-                    "fs_colored_color",
-                ],
-            ),
-            Detail::Full => {
-                ("vs_full", ["fs_full", "fs_full_layer", "fs_full_counted", "fs_full_list", "fs_full_color"])
-            }
+    /// Of its vertex and its fragment shader.
+    fn entry_points(self, detail: Detail) -> (String, String) {
+        let detail = match detail {
+            Detail::Lean => "lean",
+            Detail::Smooth => "smooth",
+            Detail::Colored => "colored",
+            Detail::Full => "full",
         };
-        let number = match self {
-            Self::Surfaces | Self::Enlarged => 0,
-            Self::Layer => 1,
-            Self::Counted => 2,
-            Self::Lists => 3,
-            Self::LayerColor => 4,
+        let suffix = match self {
+            Self::Surfaces | Self::Enlarged => "",
+            Self::Layer => "_layer",
+            Self::LayerColor => "_color",
+            Self::Counted => "_counted",
+            Self::Lists => "_list",
         };
-        (vertex, fragments[number])
+        (format!("vs_{detail}"), format!("fs_{detail}{suffix}"))
     }
 
     fn outputs(self, with_color: bool) -> &'static [wgpu::TextureFormat] {
@@ -379,7 +364,7 @@ fn build(
         layout: Some(&layout),
         vertex: wgpu::VertexState {
             module,
-            entry_point: Some(vertex),
+            entry_point: Some(&vertex),
             compilation_options: options.clone(),
             buffers: if variant.detail == Detail::Lean { &buffers[..3] } else { &buffers },
         },
@@ -395,7 +380,7 @@ fn build(
         multisample: wgpu::MultisampleState::default(),
         fragment: Some(wgpu::FragmentState {
             module,
-            entry_point: Some(fragment),
+            entry_point: Some(&fragment),
             compilation_options: options,
             targets: &targets,
         }),
