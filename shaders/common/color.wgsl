@@ -8,7 +8,3 @@ fn srgb_from_linear(linear: vec3<f32>) -> vec3<f32> {
     let power = root * (1.12268737 - 0.33550744 * fourth) + 0.19613353 * fourth + 0.08133212 * c - 0.06461121;
     return select(power, c * 12.92, c <= vec3(0.0031308));
 }
-
-fn linear_from_srgb(srgb: vec3<f32>) -> vec3<f32> {
-    return select(pow((srgb + 0.055) / 1.055, vec3(2.4)), srgb / 12.92, srgb <= vec3(0.04045));
-}
