@@ -63,7 +63,9 @@ impl Timers {
         }
     }
 
-    /// Waits for the frame and returns the milliseconds of each pass, in order; the next frame starts anew.
+    /// Waits for the frame and returns the milliseconds of each pass, in order, from the end of the one before it: copies and
+    /// waits that lie between belong to it, and software devices note when a compute pass begins only once it has run. The next
+    /// frame starts anew.
     ///
     /// # Errors
     /// [`GpuError::Lost`].
@@ -87,10 +89,9 @@ impl Timers {
         let view = copy.get_mapped_range(..).map_err(|e| GpuError::Lost(e.to_string()))?;
         let ticks: Vec<u64> = bytemuck::pod_collect_to_vec(&view);
         let scale = f64::from(self.nanoseconds_per_tick) * 1e-6;
-        Ok(labels
-            .into_iter()
-            .zip(ticks.chunks_exact(2))
-            .map(|(label, t)| (label, t[1].saturating_sub(t[0]) as f64 * scale))
-            .collect())
+        let begin = ticks.iter().copied().take(1);
+        let ends = || ticks.chunks_exact(2).map(|pass| pass[1]);
+        let times = begin.chain(ends()).zip(ends()).map(|(from, to)| to.saturating_sub(from) as f64 * scale);
+        Ok(labels.into_iter().zip(times).collect())
     }
 }
