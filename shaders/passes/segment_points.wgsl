@@ -1,12 +1,12 @@
 // Puts what passes/segments.wgsl found into the edge map. Of equal points of one pixel that of the first
 // segment counts, so that it does not matter in which order they are found.
 #import common/frame.wgsl
-#import common/list_head.wgsl
+#import gpu/record_list.wgsl
 #import common/segment_point.wgsl
 #import common/repeated.wgsl
 
+// As many as there are steps that were kept.
 var<storage, read> points: array<SegmentPoint>;
-var<storage, read> found: ListHead;
 // The greatest key of each pixel, and 0 again once it has been put.
 var<storage, read_write> keys: array<u32>;
 // For each pixel the inverted number of its point's segment; 0 again once it has been put.
@@ -32,16 +32,16 @@ fn index_of(point: SegmentPoint) -> u32 {
     return (point.px >> 16u) * u32(frame.size.x) + (point.px & 0xffffu);
 }
 
-@compute @workgroup_size(256)
+@compute @workgroup_size(GROUP)
 fn cs_compare(@builtin(global_invocation_id) id: vec3<u32>) {
     let point = points[id.x];
-    if id.x < found.count && point.key == keys[index_of(point)] {
+    if id.x < list.count && point.key != 0u && point.key == keys[index_of(point)] {
         atomicMax(&winners[index_of(point)], ~point.segment);
     }
 }
 
 fn is_winner(point: SegmentPoint, number: u32) -> bool {
-    return number < found.count && atomicLoad(&winners[index_of(point)]) == ~point.segment;
+    return number < list.count && point.key != 0u && atomicLoad(&winners[index_of(point)]) == ~point.segment;
 }
 
 fn put(point: SegmentPoint, px: vec2<i32>, spine: u32) {
@@ -56,7 +56,7 @@ fn put(point: SegmentPoint, px: vec2<i32>, spine: u32) {
     }
 }
 
-@compute @workgroup_size(256)
+@compute @workgroup_size(GROUP)
 fn cs_put(@builtin(global_invocation_id) id: vec3<u32>) {
     let point = points[id.x];
     if is_winner(point, id.x) {
@@ -64,7 +64,7 @@ fn cs_put(@builtin(global_invocation_id) id: vec3<u32>) {
     }
 }
 
-@compute @workgroup_size(256)
+@compute @workgroup_size(GROUP)
 fn cs_put_unrepeated(@builtin(global_invocation_id) id: vec3<u32>) {
     let point = points[id.x];
     if is_winner(point, id.x) {

@@ -7,7 +7,7 @@
 #import common/edge_map.wgsl
 #import common/edge_style.wgsl
 #import common/line_width.wgsl
-#import common/list_head.wgsl
+#import gpu/record_list.wgsl
 #import common/segment_point.wgsl
 #import passes/segments/segment.wgsl
 #import passes/segments/steps.wgsl
@@ -15,13 +15,11 @@
 #import passes/segments/goes_on.wgsl
 
 // The steps that were kept.
-var<storage, read> list: ListHead;
 var<storage, read> listed_steps: array<u32>;
-// What is found of them, in any order.
+// What is found of each.
 var<storage, read_write> points: array<SegmentPoint>;
 // The greatest key of each pixel.
 var<storage, read_write> keys: array<atomic<u32>>;
-var<storage, read_write> finding: Counting;
 
 // Where segments share a pixel the greatest counts, 0 to 1: the widest, for it would hide the others; profile edges before inner
 // ones; of inner ones the class that comes first, as where lines merge (`widest_of`), so that both agree where a fold is an
@@ -43,7 +41,7 @@ fn precedence_of(own: u32, class_of: u32, depth: f32, full_width: f32, stroke_pr
 
 // What is found at a pixel of a segment.
 fn point_at(v: Segment, number: u32, px: vec2<f32>) -> SegmentPoint {
-    let spine = spine_at(v, px);
+    let spine = spine_at(v, direction_of(v), px);
     let depth = spine.depth;
     let surface_ids = v.ids.zw;
     let tested = tested_spine(v, number, spine);
@@ -132,13 +130,9 @@ fn cs_points(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     let step = step_at(listed_steps[id.x]);
     let segment = segment_at(step.x);
-    let point = point_at(segment, step.x, step_pixel(segment.ends, step.y).px);
+    let point = point_at(segment, step.x, step_pixel(stepping_of(segment.ends), step.y).px);
+    points[id.x] = point;
     if point.key != 0u {
-        let index = atomicAdd(&finding.count, 1u);
-        points[index] = point;
-        if index % GROUP == 0u {
-            atomicAdd(&finding.groups[0], 1u);
-        }
         atomicMax(&keys[(point.px >> 16u) * u32(frame.size.x) + (point.px & 0xffffu)], point.key);
     }
 }

@@ -48,7 +48,7 @@ impl RecordList {
         self.records.buffer()
     }
 
-    /// How many they are, and the workgroups for them: `ListHead` in `shaders/common/list_head.wgsl`.
+    /// How many they are, and the workgroups for them: `ListHead` in `shaders/gpu/record_list.wgsl`.
     pub fn count(&self) -> &wgpu::Buffer {
         &self.count
     }

@@ -89,8 +89,8 @@ fn direction_of(v: Segment) -> vec3<f32> {
     return vec3(select(vec2(1.0, 0.0), d * inverse_length, inverse_length > 0.0), inverse_length);
 }
 
-fn spine_at(v: Segment, px: vec2<f32>) -> Spine {
-    let direction = direction_of(v);
+// `direction`: that of the segment.
+fn spine_at(v: Segment, direction: vec3<f32>, px: vec2<f32>) -> Spine {
     let t = clamp(dot(px + 0.5 - v.ends.xy, direction.xy) * direction.z, 0.0, 1.0);
     return spine_along(v, direction, t);
 }

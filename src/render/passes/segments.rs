@@ -2,8 +2,8 @@
 //! left is put into the edge map.
 //!
 //! ```text
-//! steps (─► places, for layers) ─► cull ─► points ─► compare ─► put ─► edge map, spines
-//!                                            └─► keys: which of the points of a pixel counts
+//! runs of steps (─► places, for layers) ─► cull ─► points ─► compare ─► put ─► edge map, spines
+//!                                                    └─► keys: which of the points of a pixel counts
 //! ```
 
 use super::gbuffer::GBuffer;
@@ -16,20 +16,22 @@ use crate::gpu::{
 };
 use crate::render::base::error::RenderError;
 
-/// Pixels of segments that are tested in one go; each takes 52 bytes while it is.
-const MAX_STEPS: usize = 1 << 20;
+/// Successive steps along a segment, a pixel each, that are culled by one invocation, as in `passes/segments/steps.wgsl`.
+const RUN: u32 = 4;
+/// Runs that are tested in one go; each takes 216 bytes while it is.
+const MAX_RUNS: usize = 1 << 18;
 /// Bytes of `SegmentPoint` in `shaders/common/segment_point.wgsl`.
 const POINT_BYTES: u64 = 32;
 /// What decides which steps are looked at closely.
 const CULL: &str = "passes/segments/cull.wgsl";
-/// Steps per workgroup, as in `passes/segments/steps.wgsl`.
+/// Runs per workgroup, as in `gpu/record_list.wgsl`.
 const GROUP: u32 = 256;
 
 /// What segments have in each pixel, see `shaders/common/segment_point.wgsl`.
 pub(super) const MARKS: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;
 
 /// Fills the last workgroup, as in `passes/segments/steps.wgsl`.
-const NO_STEP: [u32; 2] = [u32::MAX; 2];
+const NO_RUN: [u32; 2] = [u32::MAX; 2];
 
 /// Segments on the device, ready to be put into the edge maps of several G-buffers.
 pub struct Segments {
@@ -37,21 +39,22 @@ pub struct Segments {
     /// Where each is tested, if that is not where it is drawn.
     tested: RecordTexture,
     has_strokes: bool,
-    steps: Vec<Steps>,
+    parts: Vec<Part>,
     for_layers: bool,
     /// The steps that are looked at closely.
     listed_steps: RecordList,
     /// What is found of them.
-    points: RecordList,
+    points: RecordBuffer,
     /// 0 between frames, as winners are: who reads the last of them clears them.
     keys: RecordBuffer,
     winners: RecordBuffer,
 }
 
 /// Pixels of segments.
-struct Steps {
-    steps: RecordTexture,
-    /// At most [`MAX_STEPS`].
+struct Part {
+    /// Number of a segment and of the first step along it.
+    runs: RecordTexture,
+    /// At most [`MAX_RUNS`].
     count: u32,
     /// Whether all of them are of strokes, which explain nothing where they are drawn.
     of_strokes: bool,
@@ -59,10 +62,10 @@ struct Steps {
     places: Option<Target>,
 }
 
-impl Steps {
+impl Part {
     fn new(gpu: &Gpu) -> Self {
         Self {
-            steps: RecordTexture::new(gpu, "steps of segments"),
+            runs: RecordTexture::new(gpu, "runs of steps"),
             count: 0,
             of_strokes: false,
             places: None,
@@ -88,10 +91,10 @@ impl Segments {
             records: RecordTexture::new(gpu, "segments"),
             tested: RecordTexture::new(gpu, "where segments are tested"),
             has_strokes: false,
-            steps: Vec::new(),
+            parts: Vec::new(),
             for_layers: false,
             listed_steps: RecordList::new(gpu, "listed steps"),
-            points: RecordList::new(gpu, "points of segments"),
+            points: RecordBuffer::new(gpu, "points of segments"),
             keys: RecordBuffer::new(gpu, "keys of segments"),
             winners: RecordBuffer::new(gpu, "points of pixels"),
         }
@@ -117,25 +120,25 @@ impl Segments {
         }
         // What explains what is there comes first.
         let is_stroke = |number: u32| tested.get(number as usize).is_some_and(|t| t.is_stroke == 1);
-        let steps = [false, true].map(|of_strokes| {
-            let mut steps: Vec<[u32; 2]> = Vec::new();
+        let runs = [false, true].map(|of_strokes| {
+            let mut runs: Vec<[u32; 2]> = Vec::new();
             for (number, segment) in (0..).zip(segments) {
                 if is_stroke(number) == of_strokes {
-                    steps.extend((0..steps_of(segment)).map(|step| [number, step]));
+                    runs.extend((0..steps_of(segment)).step_by(RUN as usize).map(|first| [number, first]));
                 }
             }
-            steps.resize(steps.len().next_multiple_of(GROUP as usize), NO_STEP);
-            steps
+            runs.resize(runs.len().next_multiple_of(GROUP as usize), NO_RUN);
+            runs
         });
         let chunks =
-            || steps.iter().zip([false, true]).flat_map(|(s, is)| s.chunks(MAX_STEPS).map(move |c| (c, is)));
-        self.steps.resize_with(chunks().count(), || Steps::new(gpu));
-        for (part, (chunk, of_strokes)) in self.steps.iter_mut().zip(chunks()) {
+            || runs.iter().zip([false, true]).flat_map(|(s, is)| s.chunks(MAX_RUNS).map(move |c| (c, is)));
+        self.parts.resize_with(chunks().count(), || Part::new(gpu));
+        for (part, (chunk, of_strokes)) in self.parts.iter_mut().zip(chunks()) {
             part.count = chunk.len() as u32;
             part.of_strokes = of_strokes;
-            part.steps.write_pairs(gpu, chunk)?;
+            part.runs.write_pairs(gpu, chunk)?;
         }
-        let most = chunks().map(|(chunk, _)| chunk.len()).max().unwrap_or(0) as u64;
+        let most = chunks().map(|(chunk, _)| chunk.len()).max().unwrap_or(0) as u64 * u64::from(RUN);
         self.listed_steps.reserve(gpu, most * 4)?;
         self.points.reserve(gpu, most * POINT_BYTES)?;
         // Lines of images, as in image-space mode, need none.
@@ -145,19 +148,19 @@ impl Segments {
             self.keys.reserve(gpu, width * height * 4)?;
             self.winners.reserve(gpu, width * height * 4)?;
         }
-        for part in 0..self.steps.len() {
-            self.steps[part].places =
-                if for_layers { Some(self.place(rec, &self.steps[part])?) } else { None };
+        for part in 0..self.parts.len() {
+            self.parts[part].places =
+                if for_layers { Some(self.place(rec, &self.parts[part])?) } else { None };
         }
         Ok(())
     }
 
     /// Finds for each of these steps, once for all layers, what they are asked.
-    fn place(&self, rec: &mut Recorder<'_>, part: &Steps) -> Result<Target, RenderError> {
-        let places = frame_records(rec, "places of steps", part.count)?;
+    fn place(&self, rec: &mut Recorder<'_>, part: &Part) -> Result<Target, RenderError> {
+        let places = frame_records(rec, "places of steps", part.count * RUN)?;
         let inputs = inputs! {
             segment_tex: self.records.target(),
-            step_tex: part.steps.target(),
+            run_tex: part.runs.target(),
             placed_tex: &places,
         };
         rec.compute(
@@ -181,12 +184,12 @@ impl Segments {
         [edge_map, spines, marks]: [&Target; 3],
         nearer: Option<&NearerLines>,
     ) -> Result<(), RenderError> {
-        let has_chunks = self.steps.len() > 1;
-        for part in &self.steps {
+        let has_parts = self.parts.len() > 1;
+        for part in &self.parts {
             self.find(rec, inputs, part, nearer)?;
             let found = inputs! {
                 points: self.points.buffer(),
-                found: self.points.count(),
+                list: self.listed_steps.count(),
                 keys: self.keys.buffer(),
                 winners: self.winners.buffer(),
                 edge_tex: edge_map,
@@ -200,15 +203,15 @@ impl Segments {
                 entry_point,
                 switches: vec![
                     ("WITHOUT_REPEATED", nearer.is_some()),
-                    ("KEEP_KEYS", has_chunks),
+                    ("KEEP_KEYS", has_parts),
                     ("WITHOUT_MARKS", part.of_strokes),
                 ],
             };
-            rec.compute("compare points", &program("cs_compare"), &found, self.points.count())?;
+            rec.compute("compare points", &program("cs_compare"), &found, self.listed_steps.count())?;
             let put = if nearer.is_some() { "cs_put_unrepeated" } else { "cs_put" };
-            rec.compute("put points", &program(put), &found, self.points.count())?;
+            rec.compute("put points", &program(put), &found, self.listed_steps.count())?;
         }
-        if has_chunks {
+        if has_parts {
             rec.encoder.clear_buffer(self.keys.buffer(), 0, None);
         }
         Ok(())
@@ -219,7 +222,7 @@ impl Segments {
         &self,
         rec: &mut Recorder<'_>,
         inputs: &SegmentInputs<'_>,
-        part: &Steps,
+        part: &Part,
         nearer: Option<&NearerLines>,
     ) -> Result<(), RenderError> {
         let own = [("IN_LAYER", self.for_layers), ("WITH_STROKES", self.has_strokes)];
@@ -228,11 +231,10 @@ impl Segments {
             surface_id_tex: &inputs.gbuffer.surface_id,
             segment_tex: self.records.target(),
             tested_tex: self.has_strokes.then(|| self.tested.target()),
-            step_tex: part.steps.target(),
+            run_tex: part.runs.target(),
         };
         // Where the recorder's predicate is disabled nobody counts any.
         self.listed_steps.empty(rec);
-        self.points.empty(rec);
         let culling = inputs! {
             keeping: self.listed_steps.count(),
             keeping_steps: self.listed_steps.buffer(),
@@ -253,7 +255,6 @@ impl Segments {
             listed_steps: self.listed_steps.buffer(),
             points: self.points.buffer(),
             keys: self.keys.buffer(),
-            finding: self.points.count(),
         };
         let points = Program {
             file: "passes/segments.wgsl",
