@@ -58,6 +58,20 @@ struct EdgeStyle {
     min_length: f32,
 }
 
+// Of four objects, the numbers of their styles. Twin: `GpuStyleNumbers` in src/render/base/edge_styles.rs.
+struct StyleNumbers {
+    numbers: vec4<u32>,
+}
+
+// Each once, at its number; number 0 draws nothing. Single fields are read, never whole structs, which software devices would copy.
+var<storage, read> edge_styles: array<EdgeStyle>;
+var<storage, read> style_numbers: array<StyleNumbers>;
+
+// The number of an object's style.
+fn style_of(object: u32) -> u32 {
+    return style_numbers[object / 4u].numbers[object % 4u];
+}
+
 const EXACT_MODE: u32 = 1u;
 const IMAGE_SPACE: u32 = 2u;
 

@@ -3,10 +3,6 @@
 #import common/edge_map.wgsl
 #import common/edge_style.wgsl
 
-// Single fields are read, never whole structs, which software
-// devices would copy.
-var<storage, read> edge_styles: array<EdgeStyle>;
-
 // Whether any object's lines vary in width, and whether by hand pressure.
 override WITH_VARIATION: bool = true;
 override WITH_PRESSURE: bool = true;
@@ -36,22 +32,23 @@ fn noise3(p: vec3<f32>) -> f32 {
 
 // Half the width in px at a point of a surface with this normal.
 fn half_width(object: u32, class_of: u32, pos_view: vec3<f32>, normal: vec3<f32>) -> f32 {
-    let full = edge_styles[object].lines[class_of - 1u].width;
+    let style = style_of(object);
+    let full = edge_styles[style].lines[class_of - 1u].width;
     if !WITH_VARIATION {
         return 0.5 * full;
     }
-    var width = full * (1.0 - edge_styles[object].by_distance * range_share(-pos_view.z));
+    var width = full * (1.0 - edge_styles[style].by_distance * range_share(-pos_view.z));
     let lit = max(dot(normal, towards_light(frame.lights[0], pos_view)), 0.0);
-    width *= 1.0 - edge_styles[object].by_light * lit;
+    width *= 1.0 - edge_styles[style].by_light * lit;
     if WITH_PRESSURE {
         // Fixed to the world, so that strokes do not swim when the camera turns.
         let pixel = 2.0 * frame.half_extent.y / frame.size.y
             * select(frame.center_depth, 1.0, frame.orthographic == 1u);
         let pos_world = (frame.world_from_view * vec4(pos_view, 1.0)).xyz;
-        let p = pos_world / (edge_styles[object].pressure_scale * pixel);
+        let p = pos_world / (edge_styles[style].pressure_scale * pixel);
         let n = 0.7 * noise3(p) + 0.3 * noise3(p * 2.3 + 17.0);
         // The middle half of the noise's values is spread over the whole range.
-        width *= 1.0 - edge_styles[object].pressure * smoothstep(0.25, 0.75, n);
+        width *= 1.0 - edge_styles[style].pressure * smoothstep(0.25, 0.75, n);
     }
     // Never quite nothing: a line gets thin, it does not break.
     return 0.5 * max(width, 0.1 * full);
@@ -59,7 +56,7 @@ fn half_width(object: u32, class_of: u32, pos_view: vec3<f32>, normal: vec3<f32>
 
 // How many halves of its width a line of this object has on one side of its spine: inner edges have no outside.
 fn halves_of(object: u32, class_of: u32) -> f32 {
-    return select(1.0, 2.0, edge_styles[object].alignment != 0u && is_of_profile(class_of));
+    return select(1.0, 2.0, edge_styles[style_of(object)].alignment != 0u && is_of_profile(class_of));
 }
 
 // The share of a crease's ink by its dihedral angle (radians): the paper's 1 − cos, full at 41° as the operator's.
@@ -67,5 +64,5 @@ fn crease_weight(object: u32, angle: f32) -> f32 {
     if !WITH_ANGLES {
         return 1.0;
     }
-    return mix(1.0, clamp(4.0 * (1.0 - cos(angle)), 0.0, 1.0), edge_styles[object].by_angle);
+    return mix(1.0, clamp(4.0 * (1.0 - cos(angle)), 0.0, 1.0), edge_styles[style_of(object)].by_angle);
 }

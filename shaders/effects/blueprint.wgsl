@@ -102,7 +102,7 @@ fn fill_of(px: vec2<i32>, layer: Surfel) -> vec4<f32> {
     }
     let cap = caps[layer.object];
     let ink = select(hatched_share(cap, px), 1.0, cap.width <= 0.0);
-    let near = edge_styles[layer.object].lines[SECTION - 1u].color;
+    let near = edge_styles[style_of(layer.object)].lines[SECTION - 1u].color;
     let hatched = over(vec4(mix(near, blueprint.far, faded(layer.depth)), 1.0) * ink, fill);
     return beneath_opaque_ink(px, layer.depth, hatched);
 }

@@ -169,7 +169,7 @@ struct Out {
 }
 
 fn is_drawn(object: u32, class_of: u32) -> bool {
-    return edge_styles[object].lines[class_of - 1u].opacity > 0.0;
+    return edge_styles[style_of(object)].lines[class_of - 1u].opacity > 0.0;
 }
 
 // Whether a step is so near to the center that the pixel holds it.
@@ -191,7 +191,7 @@ fn fs_main(@builtin(position) position: vec4<f32>) -> Out {
     let has_relief = WITH_RELIEF && is_drawn(x.object, RELIEF) && geometry.x != geometry.y;
     let has_shadow = WITH_SHADOW && is_drawn(x.object, SHADOW);
     let has_details = has_texture || has_relief || has_shadow;
-    if !x.enhanced || edge_styles[x.object].mode != EXACT_MODE || !has_details {
+    if !x.enhanced || edge_styles[style_of(x.object)].mode != EXACT_MODE || !has_details {
         discard;
     }
     // Where a surface ends or folds, there is a line already.
@@ -212,7 +212,7 @@ fn fs_main(@builtin(position) position: vec4<f32>) -> Out {
     }
     if has_texture && class_of == NO_EDGE {
         let step = step_near(TEXTURE, x, px, own);
-        if step.contrast >= edge_styles[x.object].lines[TEXTURE - 1u].threshold && is_at(step) {
+        if step.contrast >= edge_styles[style_of(x.object)].lines[TEXTURE - 1u].threshold && is_at(step) {
             class_of = TEXTURE;
             found = step;
         }
@@ -221,7 +221,7 @@ fn fs_main(@builtin(position) position: vec4<f32>) -> Out {
         let step = step_near(RELIEF, x, px, own);
         // The chord between two normals.
         let angle = 2.0 * asin(min(0.5 * step.contrast, 1.0));
-        if angle >= edge_styles[x.object].lines[RELIEF - 1u].threshold && is_at(step) {
+        if angle >= edge_styles[style_of(x.object)].lines[RELIEF - 1u].threshold && is_at(step) {
             class_of = RELIEF;
             found = step;
         }
@@ -241,7 +241,7 @@ fn fs_main(@builtin(position) position: vec4<f32>) -> Out {
         0.5,
         x.depth,
         half_width(x.object, class_of, pos_view, x.normal),
-        arc / edge_styles[x.object].dash_period,
+        arc / edge_styles[style_of(x.object)].dash_period,
         1.0,
     ));
     let lines = nearer_lines_at(nearer_lines_tex, px, spine_of(texel, halves_of(x.object, class_of), 0.0, 1.0 - range_share(x.depth)));

@@ -151,14 +151,14 @@ fn between(px: vec2<i32>, x: Surfel, own: u32, plane: Plane, towards: vec2<i32>,
         }
         // The nearer surface draws.
         let class_of = select(OBJECT, SILHOUETTE, n.object == x.object);
-        if gap > 0.0 && gap >= edge_styles[x.object].lines[class_of - 1u].threshold {
+        if gap > 0.0 && gap >= edge_styles[style_of(x.object)].lines[class_of - 1u].threshold {
             return Spine(class_of, half, across, class_of == OBJECT);
         }
         return none;
     }
     let angle = angle_between(x.face_normal, n.face_normal);
-    let least = edge_styles[x.object].lines[INTERSECTION - 1u].threshold;
-    let other_draws = n.enhanced && edge_styles[n.object].lines[INTERSECTION - 1u].opacity > 0.0;
+    let least = edge_styles[style_of(x.object)].lines[INTERSECTION - 1u].threshold;
+    let other_draws = n.enhanced && edge_styles[style_of(n.object)].lines[INTERSECTION - 1u].opacity > 0.0;
     // One of the two draws it.
     if angle < least || (other_draws && surface_id < own) {
         return none;
@@ -210,7 +210,7 @@ fn fs_main(@builtin(position) position: vec4<f32>) -> Out {
     if !x.enhanced || x.depth < 1.5 * frame.near_clip_depth {
         discard;
     }
-    if edge_styles[x.object].mode != EXACT_MODE {
+    if edge_styles[style_of(x.object)].mode != EXACT_MODE {
         discard;
     }
     let plane = plane_of(px, x.depth, x.face_normal);
@@ -260,8 +260,8 @@ fn fs_main(@builtin(position) position: vec4<f32>) -> Out {
         0.5,
         depth,
         half_width(x.object, spine.class_of, pos_view, x.normal),
-        arc / edge_styles[x.object].dash_period,
-        select(0.0, 1.0, edge_styles[x.object].lines[spine.class_of - 1u].opacity > 0.0),
+        arc / edge_styles[style_of(x.object)].dash_period,
+        select(0.0, 1.0, edge_styles[style_of(x.object)].lines[spine.class_of - 1u].opacity > 0.0),
     ));
     let rank = select(0.0, 1.0, spine.class_of <= OBJECT);
     let lines = nearer_lines_at(nearer_lines_tex, px, spine_of(texel, halves_of(x.object, spine.class_of), rank, 1.0 - range_share(x.depth)));

@@ -93,7 +93,7 @@ fn cs_links(@builtin(global_invocation_id) id: vec3<u32>) {
 
 // Below this length, px, an object's pieces are dots.
 fn shortest_of(object: u32) -> f32 {
-    return min(edge_styles[object].min_length, f32(FARTHEST));
+    return min(edge_styles[style_of(object)].min_length, f32(FARTHEST));
 }
 
 // The greater side of the box around the last pixels of both stretches, px.

@@ -41,7 +41,6 @@ var nearest_tex: texture_storage_2d<r32uint, read>;
 var spine_tex: texture_2d<u32>;
 // See passes/moved_edges.wgsl.
 var source_tex: texture_storage_2d<r32uint, read>;
-var<storage, read> edge_styles: array<EdgeStyle>;
 
 // A surface so far before a line, in pixels, hides it: farther than `COVERS` in passes/segments/beside.wgsl, so that no line which
 // was found there is drawn in pieces.
@@ -100,7 +99,8 @@ fn with_object_color(own: vec3<f32>, object: u32, spine: vec2<f32>, inwards: vec
         let px = clamp(vec2<i32>(floor(spine + far * towards)), vec2(0), last);
         if (geometry_at(px).w & ~ENHANCED) == object {
             let base = textureLoad(base_color_tex, px, 0).rgb;
-            return mix(own, base * (1.0 - edge_styles[object].darken), edge_styles[object].object_color);
+            let style = style_of(object);
+            return mix(own, base * (1.0 - edge_styles[style].darken), edge_styles[style].object_color);
         }
     }
     return own;
@@ -124,6 +124,7 @@ fn line_at(at: vec2<f32>, g: Surfel, from_px: vec2<i32>, texel: vec4<u32>) -> Li
     let spine = vec2<f32>(from_px) + 0.5 + edge.offset;
     // It has been found that nothing lies before the edge that is drawn so.
     let is_tested = is_stroke(texel) && !AMONG_OTHERS;
+    let style = style_of(edge.object);
     let index = edge.class_of - 1u;
     let d = at - spine;
     let tangent = unpack_tangent(edge.tangent);
@@ -137,34 +138,34 @@ fn line_at(at: vec2<f32>, g: Surfel, from_px: vec2<i32>, texel: vec4<u32>) -> Li
     var low = -edge.half_width;
     var high = edge.half_width;
     var across = distance;
-    if edge_styles[edge.object].alignment != 0u && is_of_profile(edge.class_of) {
+    if edge_styles[style].alignment != 0u && is_of_profile(edge.class_of) {
         // All of the width on one side of the spine.
-        let outwards = select(-1.0, 1.0, edge_styles[edge.object].alignment == 1u) * edge.outside;
+        let outwards = select(-1.0, 1.0, edge_styles[style].alignment == 1u) * edge.outside;
         across = distance * select(-1.0, 1.0, dot(away, left) * outwards >= 0.0);
         low = 0.0;
         high = 2.0 * edge.half_width;
     }
     var coverage = strip_share(across, low, high, normal);
-    if WITH_DASHES && edge_styles[edge.object].lines[index].dashed == 1u {
-        let period = edge_styles[edge.object].dash_period;
-        let ink = edge_styles[edge.object].dash_share * period;
+    if WITH_DASHES && edge_styles[style].lines[index].dashed == 1u {
+        let period = edge_styles[style].dash_period;
+        let ink = edge_styles[style].dash_share * period;
         let arc = fract(edge.phase + along / period) * period;
         let inside = min(arc, ink - arc);
         let until_next = max(inside, arc - period);
         coverage *= clamp(until_next / frame.coverage_ramp + 0.5, 0.0, 1.0);
     }
-    let strength = edge_styles[edge.object].lines[index].opacity * edge.weight;
+    let strength = edge_styles[style].lines[index].opacity * edge.weight;
     coverage *= strength;
     // The round end of a fold that is wider than the outline there would stand out beyond it.
     let is_fold = edge.class_of == RIDGE || edge.class_of == VALLEY;
     let ends_with_object = ON_SURFACES && !NARROW && is_fold && !is_stroke(texel)
-        && edge_styles[edge.object].lines[SILHOUETTE - 1u].opacity > 0.0;
+        && edge_styles[style].lines[SILHOUETTE - 1u].opacity > 0.0;
     let at_source = vec2<i32>(floor(at + to_source));
     let is_cut = ends_with_object && ends_before(surface, at_source, edge, spine + to_source);
     if coverage <= 0.0 || is_cut || (!is_tested && is_occluded(surface, at_source, edge, spine + to_source)) {
         return Line(vec4(0.0), edge.depth, coverage > 0.0, 0.0, d, to_source);
     }
-    var color = edge_styles[edge.object].lines[index].color;
+    var color = edge_styles[style].lines[index].color;
     if WITH_OBJECT_COLOR {
         color = with_object_color(color, edge.object, spine + to_source, -left * edge.outside);
     }
@@ -341,10 +342,10 @@ fn with_operator_ink(lines: Line, texel: vec4<u32>, g: Surfel) -> Line {
         return lines;
     }
     // Edge-enhancement paper, section 5: inner edges first, then profile edges over them.
-    let object = texel.y;
-    let ink = operator_ink(texel) * vec2(edge_styles[object].inner_opacity, edge_styles[object].profile_opacity);
-    let inner = vec4(edge_styles[object].inner_color, 1.0) * ink.x;
-    let profile = vec4(edge_styles[object].profile_color, 1.0) * ink.y;
+    let style = style_of(texel.y);
+    let ink = operator_ink(texel) * vec2(edge_styles[style].inner_opacity, edge_styles[style].profile_opacity);
+    let inner = vec4(edge_styles[style].inner_color, 1.0) * ink.x;
+    let profile = vec4(edge_styles[style].profile_color, 1.0) * ink.y;
     let both = over(over(profile, inner), lines.ink);
     return Line(both, depth, false, both.a, vec2(0.0), vec2(0.0));
 }

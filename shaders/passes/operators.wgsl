@@ -153,10 +153,10 @@ fn is_edge(gradient: f32, threshold: f32) -> bool {
 
 // Inner and profile ink: 1 where there is an edge.
 fn sobel_ink(g: Gradients) -> vec2<f32> {
-    let owner = g.owner;
-    let turns = g.turns && edge_styles[owner].by_sign == 1u;
-    let profile = turns || is_edge(g.depth, edge_styles[owner].depth_gradient);
-    let inner = is_edge(g.normal, edge_styles[owner].normal_gradient) || is_edge(g.color, edge_styles[owner].color_gradient);
+    let style = style_of(g.owner);
+    let turns = g.turns && edge_styles[style].by_sign == 1u;
+    let profile = turns || is_edge(g.depth, edge_styles[style].depth_gradient);
+    let inner = is_edge(g.normal, edge_styles[style].normal_gradient) || is_edge(g.color, edge_styles[style].color_gradient);
     // One line is enough.
     return vec2(select(0.0, 1.0, inner && !profile), select(0.0, 1.0, profile));
 }
@@ -165,13 +165,13 @@ fn sobel_ink(g: Gradients) -> vec2<f32> {
 fn fs_main(@builtin(position) position: vec4<f32>) -> @location(0) vec4<u32> {
     let px = vec2<i32>(position.xy);
     let x = unpack_surfel(geometry_at(px));
-    // Single fields are read, never whole structs, which software devices would copy.
-    if !x.enhanced || edge_styles[x.object].mode != IMAGE_SPACE {
+    let own_style = style_of(x.object);
+    if !x.enhanced || edge_styles[own_style].mode != IMAGE_SPACE {
         discard;
     }
-    let found_by = edge_styles[x.object].found_by;
+    let found_by = edge_styles[own_style].found_by;
     if WITH_SOBEL && found_by == SOBEL_OPERATOR {
-        let g = gradients(px, x, edge_styles[x.object].sums_changes == 1u);
+        let g = gradients(px, x, edge_styles[own_style].sums_changes == 1u);
         let ink = sobel_ink(g);
         if all(ink <= vec2(0.0)) {
             discard;
@@ -180,17 +180,17 @@ fn fs_main(@builtin(position) position: vec4<f32>) -> @location(0) vec4<u32> {
     }
     let use_c1 = found_by == C1_OPERATOR;
     let o = operators(px, x, use_c1);
-    let owner = o.owner;
-    let profile = select(edge_styles[owner].gain_z * (1.0 - o.i_z), edge_styles[owner].gain_c1 * o.c1, use_c1);
-    let inner = edge_styles[owner].gain_n * (1.0 - o.i_n);
+    let style = style_of(o.owner);
+    let profile = select(edge_styles[style].gain_z * (1.0 - o.i_z), edge_styles[style].gain_c1 * o.c1, use_c1);
+    let inner = edge_styles[style].gain_n * (1.0 - o.i_n);
     let ink = vec2(
-        past(inner, edge_styles[owner].inner_threshold),
-        past(profile, edge_styles[owner].profile_threshold),
+        past(inner, edge_styles[style].inner_threshold),
+        past(profile, edge_styles[style].profile_threshold),
     );
     if all(ink <= vec2(0.0)) {
         discard;
     }
-    return pack_operator_ink(ink, owner, x.depth);
+    return pack_operator_ink(ink, o.owner, x.depth);
 }
 
 // I_N, I_Z and C1 themselves (no edge: 1, 1, 0), for a look at them and for tests.

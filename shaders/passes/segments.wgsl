@@ -49,6 +49,7 @@ fn point_at(v: Segment, number: u32, px: vec2<f32>) -> SegmentPoint {
     let left = beside(tested, PLACES[3], surface_ids);
     let right = beside(tested, PLACES[1], surface_ids);
     let own = v.ids.y;
+    let style = style_of(own);
     if min(left.lead, right.lead) > SLACK || !is_carried(tested, spine, left, right, surface_ids) {
         return NO_POINT;
     }
@@ -67,7 +68,7 @@ fn point_at(v: Segment, number: u32, px: vec2<f32>) -> SegmentPoint {
     var weight = crease_weight(own, v.angle);
     if class_of <= OBJECT {
         // Without a threshold, what stands on a surface (or slightly in it) has a line at its foot.
-        let threshold = edge_styles[own].lines[index].threshold;
+        let threshold = edge_styles[style].lines[index].threshold;
         if threshold > 0.0 && step_behind < threshold || goes_on_under(tested, own, length_of(v)) {
             return NO_POINT;
         }
@@ -82,7 +83,7 @@ fn point_at(v: Segment, number: u32, px: vec2<f32>) -> SegmentPoint {
     } else if class_of == MATERIAL || class_of == SECTION || class_of == INTERSECTION {
         weight = 1.0;
     }
-    let is_drawn = edge_styles[own].lines[index].opacity > 0.0 && weight > 0.0;
+    let is_drawn = edge_styles[style].lines[index].opacity > 0.0 && weight > 0.0;
     let is_suppressed = (v.ids.x & SUPPRESSED) != 0u || !is_drawn;
     let pos_view = pos_view_of(vec2<i32>(px), depth);
     let front = select(left.surfel.normal, right.surfel.normal, left_is_outside);
@@ -105,7 +106,7 @@ fn point_at(v: Segment, number: u32, px: vec2<f32>) -> SegmentPoint {
         clamp(0.5 / max(spine.inverse_length, 1e-6), 0.5, 0.75) * select(0.0, 1.0, spine.inverse_length > 0.0),
         depth,
         width,
-        arc / edge_styles[own].dash_period,
+        arc / edge_styles[style].dash_period,
         select(weight, 0.0, is_suppressed),
     );
     let ends_here = is_covered(left, own) || is_covered(right, own);

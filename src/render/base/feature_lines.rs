@@ -86,7 +86,7 @@ impl Finder<'_> {
         let Self { scene, group, view, crease_angle, .. } = *self;
         let (node, enhanced) = (object.node, object.enhanced);
         let id = object_id(node);
-        let Some(style) = group.edge_styles.get(id as usize).filter(|s| enhanced && s.is_exact()) else {
+        let Some(style) = group.edge_styles.of(id).filter(|s| enhanced && s.is_exact()) else {
             return;
         };
         let found = &scene.scene.nodes[node];
@@ -141,7 +141,7 @@ fn add_intersections(
     let Some(intersections) = scene.intersections() else { return };
     let mut members = vec![None; scene.model().nodes.len()];
     for object in group.visible() {
-        let style = group.edge_styles.get(object_id(object.node) as usize);
+        let style = group.edge_styles.of(object_id(object.node));
         let wanted = style.filter(|s| object.enhanced && s.is_exact()).map(|s| wanted(s, crease_angle));
         if let Some(member) = members.get_mut(object.node) {
             let drawn = wanted.filter(|wanted| wanted.classes.contains(EdgeClass::Intersection));

@@ -3,6 +3,7 @@
 use glam::{DMat4, Mat3, Mat4};
 
 use super::edge_style::GpuEdgeStyle;
+use super::edge_styles::EdgeStyles;
 use super::gpu_scene::{GpuScene, Origin};
 use super::ids::{ENHANCED, object_id};
 use super::instances::{Detail, DrawCall, Instance};
@@ -112,8 +113,8 @@ impl VisibleSubmesh {
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Group {
     visible: Vec<Visible>,
-    /// Edge parameters by object id; those of other objects draw nothing.
-    pub edge_styles: Vec<GpuEdgeStyle>,
+    /// How the lines of its objects look; others have none.
+    pub edge_styles: EdgeStyles,
     /// Whether any object with lines has holes by alpha.
     pub has_holes: bool,
     /// Whether what faces away from the eye or lies behind a solid's front is drawn too.
@@ -130,7 +131,7 @@ impl Group {
 
     /// Nothing of a scene with so many object ids.
     pub fn new(count: usize) -> Self {
-        Self { edge_styles: vec![GpuEdgeStyle::default(); count], ..Self::default() }
+        Self { edge_styles: EdgeStyles::new(count), ..Self::default() }
     }
 
     /// The same with straight lines drawn by a hand.
@@ -148,14 +149,14 @@ impl Group {
     pub fn add(&mut self, object: Visible, edges: GpuEdgeStyle, scene: &GpuScene) {
         self.visible.push(object);
         if object.enhanced {
-            self.edge_styles[object_id(object.node) as usize] = edges;
+            self.edge_styles.set(object_id(object.node), &edges);
             self.has_holes |= scene.has_holes(object.node);
         }
     }
 
     /// The same objects, nothing culled, with lines by object id.
-    pub fn unculled_with_lines(&self, edge_styles: &[GpuEdgeStyle]) -> Self {
-        Self { edge_styles: edge_styles.to_vec(), is_unculled: true, ..self.clone() }
+    pub fn unculled_with_lines(&self, edge_styles: &EdgeStyles) -> Self {
+        Self { edge_styles: edge_styles.clone(), is_unculled: true, ..self.clone() }
     }
 
     /// Whether there are none.
@@ -165,12 +166,12 @@ impl Group {
 
     /// Whether any of them has lines.
     pub fn have_lines(&self) -> bool {
-        self.edge_styles.iter().any(|s| s.is_exact() || s.is_image_space())
+        self.edge_styles.styles().iter().any(|s| s.is_exact() || s.is_image_space())
     }
 
     /// Greatest distance from its spine at which a line has ink, px.
     pub fn greatest_radius(&self) -> f32 {
-        self.edge_styles.iter().map(GpuEdgeStyle::greatest_radius).fold(0.0, f32::max)
+        self.edge_styles.greatest_radius()
     }
 
     /// Greatest distance from its edge at which a line has ink, px.

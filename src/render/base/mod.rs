@@ -1,6 +1,7 @@
 //! What all floors above share: the scene on the device, groups of its objects, what is drawn of them, and how a camera sees it.
 
 pub mod edge_style;
+pub mod edge_styles;
 pub mod error;
 pub mod feature_lines;
 pub mod frame_uniform;

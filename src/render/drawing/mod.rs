@@ -8,7 +8,8 @@ mod stages;
 use self::objects::Objects;
 use self::reflections::Reflection;
 use self::stages::{ColorKey, TogetherKey};
-use crate::gpu::{ArrayBuffer, Gpu, Recorder, Target, UniformBuffer};
+use crate::gpu::{Gpu, Recorder, Target, UniformBuffer};
+use crate::render::base::edge_styles::EdgeStylesBuffer;
 use crate::render::base::error::RenderError;
 use crate::render::base::frame_uniform::FrameUniform;
 use crate::render::base::scene_view::SceneView;
@@ -130,8 +131,8 @@ impl Drawing {
         &self.frame_group
     }
 
-    /// Edge styles by object id on the device.
-    pub fn edge_styles(&self) -> &ArrayBuffer {
+    /// Edge styles on the device.
+    pub fn edge_styles(&self) -> &EdgeStylesBuffer {
         self.surfaces.edge_styles()
     }
 

@@ -94,7 +94,7 @@ impl Objects {
         images: &StyleImages,
         as_picture: bool,
     ) {
-        let (scale, id, count) = (self.scale, object_id(node) as usize, scene.scene.nodes.len() + 1);
+        let (scale, id, count) = (self.scale, object_id(node), scene.scene.nodes.len() + 1);
         let has_layers = r.style.technique == Technique::Blueprint && as_picture;
         let is_blueprint = has_layers && !r.mask;
         let is_sketch = as_picture && !has_layers && !r.mirror && SketchGroup::moves(r.style);
@@ -125,14 +125,14 @@ impl Objects {
             sketch.add_alphas(scene.alphas(node));
             if r.enhanced {
                 let style = possible(GpuEdgeStyle::of_hidden_lines(&r.style.edges, scale));
-                sketch.hidden.add(count, id, style, &r.style.edges.hidden);
+                sketch.hidden.add(count, id, &style, &r.style.edges.hidden);
             }
         } else if is_opaque {
             let submeshes = if has_blended { Submeshes::Opaque } else { Submeshes::All };
             self.surfaces.add(Visible { submeshes, ..whole }, edges, scene);
             if r.enhanced && as_picture {
                 let style = possible(GpuEdgeStyle::of_hidden_lines(&r.style.edges, scale));
-                self.hidden.add(count, id, style, &r.style.edges.hidden);
+                self.hidden.add(count, id, &style, &r.style.edges.hidden);
             }
         }
         if has_blended {
@@ -147,7 +147,7 @@ impl Objects {
             && !scene.scene.is_added(node)
             && let Ok(plane) = scene.plane_of(node)
         {
-            self.mirrors.push(MirrorObject::new(id as u32, plane, scene.corners_of(node), &r.style.mirror));
+            self.mirrors.push(MirrorObject::new(id, plane, scene.corners_of(node), &r.style.mirror));
         }
         self.visible_bounds = self.visible_bounds.union(&scene.bounds_of(node));
     }

@@ -2,7 +2,7 @@
 
 use glam::Vec4;
 
-use crate::render::base::edge_style::GpuEdgeStyle;
+use crate::render::base::edge_styles::EdgeStyles;
 use crate::render::base::frame_uniform::FrameUniform;
 use crate::render::effects::mirror::MirrorUniform;
 use crate::render::effects::surface::Look;
@@ -17,7 +17,7 @@ pub(super) struct ColorKey {
     /// Where shading goes by lines.
     pub(super) shaded_by_lines: Option<u64>,
     pub(super) look: Look,
-    pub(super) edge_styles: Vec<GpuEdgeStyle>,
+    pub(super) edge_styles: EdgeStyles,
     /// `None` where there are no surfaces: that looks the same from everywhere.
     pub(super) uniform: Option<FrameUniform>,
     /// Of each mirror, the revision of what is seen in it, and how that is laid over it.

@@ -11,6 +11,7 @@ use super::layered::{LayerRequest, Layered, LayeredGroup, LineRequest, Visit, mi
 use super::section::GpuCap;
 use crate::gpu::{ArrayBuffer, Gpu, Inputs, Recorder, Target, UniformBuffer, inputs};
 use crate::render::base::edge_style::GpuEdgeStyle;
+use crate::render::base::edge_styles::{EdgeStyles, EdgeStylesBuffer};
 use crate::render::base::error::RenderError;
 use crate::render::base::group::Group;
 use crate::render::base::scene_view::SceneView;
@@ -179,9 +180,9 @@ pub fn place_blueprint(
             place.lines(rec, &mut pending, &lines, shader)?;
         }
         if params.fill_opacity > 0.0 || has_caps {
-            let inputs = own.and(&inputs! {
+            let edge_styles = visit.edge_styles(0).map(EdgeStylesBuffer::inputs).unwrap_or_default();
+            let inputs = own.and(&edge_styles).and(&inputs! {
                 surface_id_tex: &gbuffer.surface_id,
-                edge_styles: visit.edge_styles(0),
                 caps: has_caps.then_some(&buffers.caps),
             });
             let switches = [&[("WITH_CAPS", has_caps)][..], &switches].concat();
@@ -202,10 +203,10 @@ fn request_of<'a>(
     mask: Option<&'a DepthMask>,
     size: [u32; 2],
     is_captured: bool,
-    line_styles: &'a [&'a Vec<GpuEdgeStyle>],
+    line_styles: &'a [&'a EdgeStyles],
 ) -> LayerRequest<'a> {
     let params = &blueprint.style;
-    let any = |has: fn(&GpuEdgeStyle) -> bool| blueprint.group.edge_styles.iter().any(has);
+    let any = |has: fn(&GpuEdgeStyle) -> bool| blueprint.group.edge_styles.styles().iter().any(has);
     LayerRequest {
         max_layers: if mask.is_some() { blueprint.last() } else { blueprint.layers() },
         min_pixels: min_pixels(params.min_coverage, size),

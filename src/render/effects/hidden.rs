@@ -11,6 +11,7 @@ use super::layered::{LayerRequest, Layered, LayeredGroup, LineRequest, Visit, mi
 use crate::gpu::recorder::Onto;
 use crate::gpu::{Gpu, Recorder, Target, inputs};
 use crate::render::base::edge_style::GpuEdgeStyle;
+use crate::render::base::edge_styles::EdgeStyles;
 use crate::render::base::error::RenderError;
 use crate::render::base::frame_uniform::FrameUniform;
 use crate::render::base::group::Group;
@@ -25,8 +26,8 @@ use crate::style;
 /// Which surfaces have hidden lines: nothing as long as none has.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Hidden {
-    /// By object id, how its hidden lines look.
-    styles: Vec<GpuEdgeStyle>,
+    /// How hidden lines look.
+    styles: EdgeStyles,
     /// By object id, how many layers behind the visible one have lines of it.
     depths: Vec<u32>,
     /// The least share of the picture, percent, that any of them asks for.
@@ -37,44 +38,41 @@ pub struct Hidden {
 struct Band {
     /// The last layer, from 1 on; 0 is the visible one.
     last: u32,
-    /// By object id.
-    styles: Vec<GpuEdgeStyle>,
+    /// Of the objects that have lines there.
+    styles: EdgeStyles,
 }
 
 impl Hidden {
     /// Adds the hidden lines of an object, if it has any, in a scene with `count` object ids.
-    pub fn add(&mut self, count: usize, id: usize, style: GpuEdgeStyle, hidden: &style::Hidden) {
+    pub fn add(&mut self, count: usize, id: u32, style: &GpuEdgeStyle, hidden: &style::Hidden) {
         if !style.is_exact() && !style.is_image_space() {
             return;
         }
         let least = hidden.min_coverage;
-        self.least = if self.styles.is_empty() { least } else { self.least.min(least) };
-        self.styles.resize(count, GpuEdgeStyle::default());
-        self.depths.resize(count, 0);
-        self.styles[id] = style;
-        self.depths[id] = hidden.depth();
+        self.least = if self.is_empty() { least } else { self.least.min(least) };
+        if self.is_empty() {
+            (self.styles, self.depths) = (EdgeStyles::new(count), vec![0; count]);
+        }
+        self.styles.set(id, style);
+        self.depths[id as usize] = hidden.depth();
     }
 
     /// Whether no object has any.
     pub fn is_empty(&self) -> bool {
-        self.styles.is_empty()
+        self.depths.is_empty()
     }
 
     /// Greatest distance from its spine at which a line has ink, px.
     pub fn greatest_radius(&self) -> f32 {
-        self.styles.iter().map(GpuEdgeStyle::greatest_radius).fold(0.0, f32::max)
+        self.styles.greatest_radius()
     }
 
     fn bands(&self) -> Vec<Band> {
         let mut lasts: Vec<u32> = self.depths.iter().copied().filter(|depth| *depth > 0).collect();
         lasts.sort_unstable();
         lasts.dedup();
-        let of = |last: u32| {
-            let has_lines = self.styles.iter().zip(&self.depths);
-            let styles =
-                has_lines.map(|(style, depth)| if *depth >= last { *style } else { GpuEdgeStyle::default() });
-            Band { last, styles: styles.collect() }
-        };
+        let of =
+            |last| Band { last, styles: self.styles.only(|object| self.depths[object as usize] >= last) };
         lasts.into_iter().map(of).collect()
     }
 }
@@ -142,7 +140,9 @@ impl HiddenLines {
                 Some(edges) => Some(edges.value.all_lines(rec)?),
                 None => None,
             };
-            let any = |has: fn(&GpuEdgeStyle) -> bool| bands.iter().any(|band| band.styles.iter().any(has));
+            let any = |has: fn(&GpuEdgeStyle) -> bool| {
+                bands.iter().any(|band| band.styles.styles().iter().any(has))
+            };
             let line_styles: Vec<_> = bands.iter().map(|band| &band.styles).collect();
             let request = LayerRequest {
                 max_layers: bands.last().map_or(0, |band| band.last) + 1,

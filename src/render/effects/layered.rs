@@ -4,8 +4,8 @@
 use glam::Vec2;
 
 use crate::document::LayersBy;
-use crate::gpu::{ArrayBuffer, Gpu, Recorder, Target};
-use crate::render::base::edge_style::GpuEdgeStyle;
+use crate::gpu::{Gpu, Recorder, Target};
+use crate::render::base::edge_styles::{EdgeStyles, EdgeStylesBuffer};
 use crate::render::base::error::RenderError;
 use crate::render::base::feature_lines::plain_feature_lines;
 use crate::render::base::frame_uniform::FrameUniform;
@@ -75,8 +75,8 @@ pub struct LayerRequest<'a> {
     pub with_normals: bool,
     /// Whether their depths are.
     pub with_depth: bool,
-    /// How lines look, by object id; objects may differ from layer to layer, so there are as many as are told apart.
-    pub line_styles: &'a [&'a Vec<GpuEdgeStyle>],
+    /// How lines look; objects may differ from layer to layer, so there are as many as are told apart.
+    pub line_styles: &'a [&'a EdgeStyles],
     /// Lines before the first layer, which are not repeated.
     pub nearer: Option<&'a Target>,
 }
@@ -97,7 +97,7 @@ pub struct Visit<'w> {
     /// The layer.
     pub drawn: DrawnLayer<'w>,
     lines: &'w mut [LayerLines],
-    line_styles: &'w [&'w Vec<GpuEdgeStyle>],
+    line_styles: &'w [&'w EdgeStyles],
     segments: &'w Segments,
     has_holes: bool,
     is_clipped: bool,
@@ -120,7 +120,7 @@ impl Visit<'_> {
             return Ok(None);
         };
         let inputs = LayerLinesInputs {
-            styles,
+            styles: styles.styles(),
             segments: self.segments,
             has_holes: self.has_holes,
             is_clipped: self.is_clipped,
@@ -133,11 +133,11 @@ impl Visit<'_> {
     /// What draws them.
     pub fn lines<'a>(&'a self, edges: &'a LayerEdges, style: usize) -> Option<Lines<'a>> {
         let (lines, styles) = self.lines.get(style).zip(self.line_styles.get(style))?;
-        Some(edges.lines(self.drawn.layer, lines, styles))
+        Some(edges.lines(self.drawn.layer, lines, styles.styles()))
     }
 
-    /// Edge styles by object id on the device.
-    pub fn edge_styles(&self, style: usize) -> Option<&ArrayBuffer> {
+    /// Edge styles on the device.
+    pub fn edge_styles(&self, style: usize) -> Option<&EdgeStylesBuffer> {
         self.lines.get(style).map(LayerLines::edge_styles)
     }
 }

@@ -9,7 +9,7 @@ use super::hidden::{Hidden, HiddenLines};
 use crate::geometry::EdgeClass;
 use crate::geometry::line_segments::SegmentSet;
 use crate::gpu::{ArrayBuffer, Gpu, RecordList, Recorder, Target};
-use crate::render::base::edge_style::GpuEdgeStyle;
+use crate::render::base::edge_styles::{EdgeStyles, EdgeStylesBuffer};
 use crate::render::base::error::RenderError;
 use crate::render::base::feature_lines::feature_lines;
 use crate::render::base::frame_uniform::FrameUniform;
@@ -60,7 +60,7 @@ pub struct OpaqueLayer {
     line_pixels: LinePixels,
     line_classes: LineClasses,
     greatest_radius: ArrayBuffer,
-    edge_styles: ArrayBuffer,
+    edge_styles: EdgeStylesBuffer,
     gbuffer: Stage<GeometryKey, GBuffer>,
     segments: Stage<SegmentsKey, Arc<SegmentSet>>,
     edge_map: Stage<EdgeKey, EdgeMap>,
@@ -88,7 +88,7 @@ struct GeometryKey {
 struct SegmentsKey {
     scene_revision: u64,
     view: View,
-    styles: Vec<GpuEdgeStyle>,
+    styles: EdgeStyles,
     crease_angle: f32,
     strokes: Option<StrokeStyle>,
 }
@@ -98,7 +98,7 @@ struct SegmentsKey {
 struct EdgeKey {
     gbuffer: u64,
     shadows: Option<u64>,
-    styles: Vec<GpuEdgeStyle>,
+    styles: EdgeStyles,
     depth_range: Vec2,
     light: Option<FrameUniform>,
     strokes: Option<StrokeStyle>,
@@ -110,7 +110,7 @@ struct InkKey {
     gbuffer: u64,
     edges: u64,
     line_distance: Option<u64>,
-    edge_styles: Vec<GpuEdgeStyle>,
+    edge_styles: EdgeStyles,
     uniform: FrameUniform,
 }
 
@@ -123,7 +123,7 @@ impl OpaqueLayer {
             line_pixels: LinePixels::new(gpu),
             line_classes: LineClasses::new(gpu),
             greatest_radius: ArrayBuffer::new(gpu, "greatest radius"),
-            edge_styles: ArrayBuffer::new(gpu, "edge styles"),
+            edge_styles: EdgeStylesBuffer::new(gpu),
             gbuffer: Stage::default(),
             segments: Stage::default(),
             edge_map: Stage::default(),
@@ -134,8 +134,8 @@ impl OpaqueLayer {
         }
     }
 
-    /// Edge styles by object id on the device.
-    pub fn edge_styles(&self) -> &ArrayBuffer {
+    /// Edge styles on the device.
+    pub fn edge_styles(&self) -> &EdgeStylesBuffer {
         &self.edge_styles
     }
 
@@ -223,9 +223,9 @@ impl OpaqueLayer {
         surfaces: &OpaqueSurfaces,
     ) -> Result<Output<EdgeMap>, RenderError> {
         let OpaqueInputs { scene_view, group, uniform, .. } = *inputs;
-        let styles: Vec<_> = group.edge_styles.iter().map(GpuEdgeStyle::for_finding).collect();
+        let styles = group.edge_styles.for_finding();
         // Only widths that follow the light depend on more than the geometry.
-        let light = styles.iter().any(|s| s.by_light > 0.0).then(|| uniform.without_background());
+        let light = styles.styles().iter().any(|s| s.by_light > 0.0).then(|| uniform.without_background());
         // Which edges are lines does not change from sample to sample.
         let view = scene_view.view.moved(Vec2::ZERO);
         let key = SegmentsKey {
@@ -245,7 +245,7 @@ impl OpaqueLayer {
                 scene_view.crease_angle,
             )))
         })?;
-        let has_borders = styles.iter().any(|s| s.draws(EdgeClass::Shadow));
+        let has_borders = styles.styles().iter().any(|s| s.draws(EdgeClass::Shadow));
         let shadow_mask = surfaces.shadow_mask.as_ref().filter(|_| has_borders);
         let key = EdgeKey {
             gbuffer: surfaces.gbuffer.revision,
@@ -261,7 +261,7 @@ impl OpaqueLayer {
                 rec,
                 &EdgeInputs {
                     gbuffer: &surfaces.gbuffer.value,
-                    styles,
+                    styles: styles.styles(),
                     edge_styles: &self.edge_styles,
                     nearer: None,
                     marked: None,
@@ -272,7 +272,7 @@ impl OpaqueLayer {
                     shadow_mask: shadow_mask.map(|mask| &mask.value),
                 },
             )?;
-            let decisions = Decisions::of(styles, group.strokes.is_some());
+            let decisions = Decisions::of(styles.styles(), group.strokes.is_some());
             let gbuffer = &surfaces.gbuffer.value;
             let Self { line_classes, line_pixels, edge_styles, .. } = self;
             line_pixels.forget();
@@ -313,7 +313,7 @@ impl OpaqueLayer {
             self.line_distance.clear();
             return Ok(None);
         };
-        let (radius, widths) = (&mut self.greatest_radius, Widths::of(&group.edge_styles));
+        let (radius, widths) = (&mut self.greatest_radius, Widths::of(group.edge_styles.styles()));
         let blocks = self.line_pixels.blocks();
         self.line_distance.run(revision, |_| line_distance(rec, spines, blocks, widths, radius)).map(Some)
     }
@@ -330,7 +330,7 @@ impl OpaqueLayer {
             gbuffer: &surfaces.gbuffer.value,
             edge_map: edges,
             line_distance,
-            styles: &group.edge_styles,
+            styles: group.edge_styles.styles(),
             edge_styles: &self.edge_styles,
         }
     }
@@ -363,7 +363,7 @@ impl OpaqueLayer {
             gbuffer: &surfaces.gbuffer.value,
             edge_map: &edges.value,
             line_distance: line_distance.map(|line_distance| &line_distance.value),
-            styles: &group.edge_styles,
+            styles: group.edge_styles.styles(),
             edge_styles: &self.edge_styles,
         };
         self.ink.run(key, |_| ink(rec, &drawn)).map(Some)

@@ -28,7 +28,7 @@ use super::opaque::{OpaqueInputs, OpaqueLayer, OpaqueSurfaces};
 use super::surface::{Look, Shading};
 use super::techniques::SharedTechniques;
 use crate::gpu::{ArrayBuffer, Gpu, Recorder, Target, UniformBuffer, inputs};
-use crate::render::base::edge_style::GpuEdgeStyle;
+use crate::render::base::edge_styles::EdgeStyles;
 use crate::render::base::error::RenderError;
 use crate::render::base::frame_uniform::FrameUniform;
 use crate::render::base::instances::{Instance, InstanceBuffer};
@@ -110,7 +110,7 @@ struct PlaceKey {
     lays_ink: bool,
     sketch: SketchUniform,
     objects: Vec<SketchObject>,
-    styles: Vec<GpuEdgeStyle>,
+    styles: EdgeStyles,
     uniform: FrameUniform,
     images: u64,
     /// Says what is asked of the shader at all.

@@ -10,8 +10,9 @@ use super::repeated::{NearerLines, SPINES, add_ink};
 use super::segments::{MARKS, SegmentInputs, Segments};
 use crate::geometry::EdgeClass;
 use crate::gpu::recorder::{Draw, Onto};
-use crate::gpu::{ArrayBuffer, DepthRule, Inputs, Program, Recorder, Target, inputs};
+use crate::gpu::{DepthRule, Inputs, Program, Recorder, Target, inputs};
 use crate::render::base::edge_style::GpuEdgeStyle;
+use crate::render::base::edge_styles::EdgeStylesBuffer;
 use crate::render::base::error::RenderError;
 
 pub(super) const EDGE_MAP: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Uint;
@@ -47,10 +48,10 @@ impl EdgeMap {
 pub struct EdgeInputs<'a> {
     /// Per-pixel geometry.
     pub gbuffer: &'a GBuffer,
-    /// Edge styles by object id.
+    /// The edge styles of its objects.
     pub styles: &'a [GpuEdgeStyle],
     /// The same on the device.
-    pub edge_styles: &'a ArrayBuffer,
+    pub edge_styles: &'a EdgeStylesBuffer,
     /// What topology knows, for the view of the G-buffer.
     pub segments: &'a Segments,
     /// Whether any material of an object with lines has holes.
@@ -152,10 +153,10 @@ fn exact_edges(
     let found = inputs! {
         geometry_tex: &gbuffer.geometry,
         surface_id_tex: &gbuffer.surface_id,
-        edge_styles: edge_styles,
         mark_tex: &marks,
         nearer_lines_tex: nearer.map(|nearer| &nearer.before),
-    };
+    }
+    .and(&edge_styles.inputs());
     let switches =
         [("WITH_CLIP_PLANE", is_clipped), ("WITH_LAYERS_BEFORE", before.is_some()), without_repeated]
             .into_iter()

@@ -19,6 +19,7 @@ use self::budget::{Budget, Recorded};
 use crate::document::LayersBy;
 use crate::gpu::{ArrayBuffer, Gpu, Predicate, Recorder, Reports, Target};
 use crate::render::base::edge_style::GpuEdgeStyle;
+use crate::render::base::edge_styles::{EdgeStyles, EdgeStylesBuffer};
 use crate::render::base::error::RenderError;
 use crate::render::base::instances::{DrawCall, InstanceBuffer};
 use crate::render::passes::count::{Layer, LayerCount, MAX_LAYERS, report_from_bytes};
@@ -209,14 +210,14 @@ impl Layers {
 
 /// What of the lines of layers lives across frames.
 pub struct LayerLines {
-    edge_styles: ArrayBuffer,
+    edge_styles: EdgeStylesBuffer,
     greatest_radius: ArrayBuffer,
 }
 
 /// What the lines of the layers of one group depend on.
 #[derive(Clone, Copy)]
 pub struct LayerLinesInputs<'a> {
-    /// Edge styles by object id.
+    /// The edge styles of its objects.
     pub styles: &'a [GpuEdgeStyle],
     /// What topology knows, hidden edges included.
     pub segments: &'a Segments,
@@ -262,18 +263,18 @@ impl LayerLines {
     /// Nothing drawn yet.
     pub fn new(gpu: &Gpu) -> Self {
         Self {
-            edge_styles: ArrayBuffer::new(gpu, "edge styles of layers"),
+            edge_styles: EdgeStylesBuffer::new(gpu),
             greatest_radius: ArrayBuffer::new(gpu, "greatest radius"),
         }
     }
 
     /// Uploads the styles for what is recorded next.
-    pub fn begin(&mut self, gpu: &Gpu, styles: &Vec<GpuEdgeStyle>) {
+    pub fn begin(&mut self, gpu: &Gpu, styles: &EdgeStyles) {
         self.edge_styles.write(gpu, styles);
     }
 
-    /// Edge styles by object id on the device.
-    pub fn edge_styles(&self) -> &ArrayBuffer {
+    /// Edge styles on the device.
+    pub fn edge_styles(&self) -> &EdgeStylesBuffer {
         &self.edge_styles
     }
 

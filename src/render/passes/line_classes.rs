@@ -9,6 +9,7 @@ use super::gbuffer::GBuffer;
 use super::line_pixels::{FoundPixels, LinePixels};
 use crate::gpu::{ArrayBuffer, Gpu, Inputs, Program, RecordBuffer, RecordList, Recorder, inputs};
 use crate::render::base::edge_style::GpuEdgeStyle;
+use crate::render::base::edge_styles::EdgeStylesBuffer;
 use crate::render::base::error::RenderError;
 use crate::render::base::view::REFERENCE_HEIGHT;
 
@@ -58,7 +59,7 @@ impl LineClasses {
         rec: &mut Recorder<'_>,
         edge_map: &EdgeMap,
         gbuffer: &GBuffer,
-        edge_styles: &ArrayBuffer,
+        edge_styles: &EdgeStylesBuffer,
         decisions: Decisions,
         pixels: &mut LinePixels,
     ) -> Result<(), RenderError> {
@@ -80,9 +81,9 @@ impl LineClasses {
             link_tex: &links,
             settled_tex: &settled,
             geometry_tex: &gbuffer.geometry,
-            edge_styles: edge_styles,
             least: &self.least,
-        };
+        }
+        .and(&edge_styles.inputs());
         let written = inputs! {
             linking_tex: &links,
             settling_tex: &settled,

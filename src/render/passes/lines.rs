@@ -5,8 +5,9 @@ use super::gbuffer::GBuffer;
 use super::line_distance::LineDistance;
 use crate::gpu::inputs::NOTHING;
 use crate::gpu::recorder::{Draw, Onto};
-use crate::gpu::{ArrayBuffer, DepthRule, Inputs, Program, Recorder, STENCIL, Target, inputs};
+use crate::gpu::{DepthRule, Inputs, Program, Recorder, STENCIL, Target, inputs};
 use crate::render::base::edge_style::GpuEdgeStyle;
+use crate::render::base::edge_styles::EdgeStylesBuffer;
 use crate::render::base::error::RenderError;
 
 /// The lines of an edge map.
@@ -18,10 +19,10 @@ pub struct Lines<'a> {
     pub edge_map: &'a EdgeMap,
     /// Which line reaches each pixel; needed where any object is drawn in exact mode.
     pub line_distance: Option<&'a LineDistance>,
-    /// Edge styles by object id.
+    /// The edge styles of its objects.
     pub styles: &'a [GpuEdgeStyle],
     /// The same on the device.
-    pub edge_styles: &'a ArrayBuffer,
+    pub edge_styles: &'a EdgeStylesBuffer,
 }
 
 /// What draws lines: a shader that imports `passes/lines.wgsl`.
@@ -68,8 +69,8 @@ impl<'a> Lines<'a> {
             nearest_tex: nearest,
             // Lines that have been moved have some.
             source_tex: None::<&Target>,
-            edge_styles: edge_styles,
         }
+        .and(&edge_styles.inputs())
     }
 
     /// Its switches.

@@ -3,8 +3,9 @@
 
 use super::gbuffer::GBuffer;
 use crate::gpu::recorder::{Draw, Onto};
-use crate::gpu::{ArrayBuffer, DepthRule, Program, Recorder, Target, inputs};
+use crate::gpu::{DepthRule, Program, Recorder, Target, inputs};
 use crate::render::base::edge_style::GpuEdgeStyle;
+use crate::render::base::edge_styles::EdgeStylesBuffer;
 use crate::render::base::error::RenderError;
 
 fn program(entry_point: &'static str, styles: &[GpuEdgeStyle]) -> Program {
@@ -28,18 +29,15 @@ pub fn operator_edges(
     rec: &mut Recorder<'_>,
     gbuffer: &GBuffer,
     styles: &[GpuEdgeStyle],
-    edge_styles: &ArrayBuffer,
+    edge_styles: &EdgeStylesBuffer,
     edge_map: &Target,
     onto: Onto,
 ) -> Result<(), RenderError> {
     rec.draw(Draw {
         label: "operators",
         program: program("fs_main", styles),
-        inputs: &inputs! {
-            geometry_tex: &gbuffer.geometry,
-            base_color_tex: &gbuffer.base_color,
-            edge_styles: edge_styles,
-        },
+        inputs: &inputs! { geometry_tex: &gbuffer.geometry, base_color_tex: &gbuffer.base_color }
+            .and(&edge_styles.inputs()),
         outputs: &[edge_map],
         onto,
         depth: Some((&gbuffer.depth, DepthRule::Covered)),
@@ -54,10 +52,10 @@ pub fn operator_edges(
 pub fn operators(
     rec: &mut Recorder<'_>,
     gbuffer: &GBuffer,
-    edge_styles: &ArrayBuffer,
+    edge_styles: &EdgeStylesBuffer,
 ) -> Result<Target, RenderError> {
     let out = rec.target("operators", wgpu::TextureFormat::Rgba32Float)?;
-    let inputs = inputs! { geometry_tex: &gbuffer.geometry, edge_styles: edge_styles };
+    let inputs = inputs! { geometry_tex: &gbuffer.geometry }.and(&edge_styles.inputs());
     rec.fullscreen("operators", program(VALUES, &[]), &inputs, &[&out], None)?;
     Ok(out)
 }

@@ -11,9 +11,9 @@ use super::repeated::NearerLines;
 use crate::geometry::LineSegment;
 use crate::geometry::line_segments::SegmentSet;
 use crate::gpu::{
-    ArrayBuffer, Gpu, Program, RecordBuffer, RecordList, RecordTexture, Recorder, Target, frame_records,
-    inputs,
+    Gpu, Program, RecordBuffer, RecordList, RecordTexture, Recorder, Target, frame_records, inputs,
 };
+use crate::render::base::edge_styles::EdgeStylesBuffer;
 use crate::render::base::error::RenderError;
 
 /// Successive steps along a segment, a pixel each, that are culled by one invocation, as in `passes/segments/steps.wgsl`.
@@ -64,12 +64,7 @@ struct Part {
 
 impl Part {
     fn new(gpu: &Gpu) -> Self {
-        Self {
-            runs: RecordTexture::new(gpu, "runs of steps"),
-            count: 0,
-            of_strokes: false,
-            places: None,
-        }
+        Self { runs: RecordTexture::new(gpu, "runs of steps"), count: 0, of_strokes: false, places: None }
     }
 }
 
@@ -78,8 +73,8 @@ impl Part {
 pub struct SegmentInputs<'a> {
     /// Per-pixel geometry.
     pub gbuffer: &'a GBuffer,
-    /// Edge styles by object id.
-    pub edge_styles: &'a ArrayBuffer,
+    /// The edge styles of its objects.
+    pub edge_styles: &'a EdgeStylesBuffer,
     /// Switches of `passes/segments.wgsl`.
     pub switches: &'a [(&'static str, bool)],
 }
@@ -250,7 +245,6 @@ impl Segments {
         let groups = [part.count.div_ceil(GROUP), 1];
         rec.compute("cull segments", &cull, &culling.and(&tested), groups)?;
         let found = inputs! {
-            edge_styles: inputs.edge_styles,
             list: self.listed_steps.count(),
             listed_steps: self.listed_steps.buffer(),
             points: self.points.buffer(),
@@ -261,6 +255,7 @@ impl Segments {
             entry_point: "cs_points",
             switches: inputs.switches.iter().copied().chain(own).collect(),
         };
+        let found = found.and(&inputs.edge_styles.inputs());
         rec.compute("segments", &points, &tested.and(&found), self.listed_steps.count())?;
         Ok(())
     }

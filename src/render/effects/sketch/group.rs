@@ -126,7 +126,7 @@ impl SketchGroup {
 
     /// How noise is found for each of its objects, and where their middles are.
     pub(super) fn objects(&self, scene_view: &SceneView<'_>) -> (Vec<GpuFieldObject>, Vec<SketchObject>) {
-        let count = self.group.edge_styles.len();
+        let count = self.group.edge_styles.count();
         let mut fields = vec![GpuFieldObject::default(); count];
         let mut places = vec![SketchObject::default(); count];
         // The noise does not shake with the samples of a picture.
@@ -150,7 +150,7 @@ impl SketchGroup {
     /// How a pass moves lines, and how wide they are then; `component`: which noise of a texel it has.
     pub(super) fn movement(&self, number: usize, component: u32) -> (MovementUniform, Widths) {
         let movement = uniforms::movement(&self.style, number, self.scale, component);
-        let own = Widths::of(&self.group.edge_styles);
+        let own = Widths::of(self.group.edge_styles.styles());
         let greatest_radius = own.greatest_radius * movement.width + movement.margin;
         (movement, Widths { greatest_radius, are_moved: true, ..own })
     }
