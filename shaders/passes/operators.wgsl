@@ -11,7 +11,6 @@ override WITH_C1: bool = true;
 override WITH_SOBEL: bool = false;
 override WITH_COLOR: bool = false;
 
-var<storage, read> edge_styles: array<EdgeStyle>;
 // Linear.
 var base_color_tex: texture_2d<f32>;
 
