@@ -123,7 +123,9 @@ mod tests {
     use super::*;
 
     fn style(min_length: f32) -> GpuEdgeStyle {
-        GpuEdgeStyle { min_length, ..GpuEdgeStyle::default() }
+        let mut style = GpuEdgeStyle::default();
+        style.min_length = min_length;
+        style
     }
 
     #[test]
