@@ -108,7 +108,7 @@ fn own_length(ahead: Stretch, behind: Stretch) -> f32 {
 
 // Whether a piece that ends or runs into another line on both sides is shorter than a stretch.
 fn is_piece(ahead: Stretch, behind: Stretch) -> bool {
-    return own_length(ahead, behind) < least[0];
+    return own_length(ahead, behind) < shortest_stretch();
 }
 
 // Whether what is followed from a pixel is too short, and nothing else continues it.

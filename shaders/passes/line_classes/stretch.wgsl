@@ -1,4 +1,5 @@
 // What is met along a line, and the class that it has there.
+#import common/frame.wgsl
 #import common/edge_map.wgsl
 #import passes/line_classes/links.wgsl
 
@@ -6,11 +7,13 @@
 // place alike.
 override WIDER_FIRST: bool = true;
 
-// The shortest stretch, px.
-var<storage, read> least: array<f32>;
 // As `pack_link` packs links. Undefined where no line is.
 var link_tex: texture_storage_2d<r32uint, read>;
 
+// No stretch of a line between two of other classes is shorter, reference pixels.
+const SHORTEST: f32 = 8.0;
+// As in src/render/base/view.rs.
+const REFERENCE_HEIGHT: f32 = 1080.0;
 // Most steps of a stretch that are told apart: twice as many have to fit into the bits of a number.
 const MAX_STEPS: f32 = 15.0;
 // A class is found at one of so many steps at least; what is found less often is a line behind that peeps through.
@@ -65,8 +68,13 @@ struct Stretch {
     own_length: f32,
 }
 
+// The shortest stretch, px of this picture.
+fn shortest_stretch() -> f32 {
+    return SHORTEST * frame.size.y / REFERENCE_HEIGHT;
+}
+
 fn steps_per_px() -> f32 {
-    return min(1.0, MAX_STEPS / least[0]);
+    return min(1.0, MAX_STEPS / shortest_stretch());
 }
 
 fn step_at(distance: f32) -> u32 {
@@ -75,7 +83,7 @@ fn step_at(distance: f32) -> u32 {
 
 // Steps without a class that are no gap in it.
 fn longest_gap() -> i32 {
-    return i32(min(ceil(least[0]), MAX_STEPS));
+    return i32(min(ceil(shortest_stretch()), MAX_STEPS));
 }
 
 // How far it is to the end of the last step of a stretch, px.
@@ -85,7 +93,7 @@ fn stretch_length() -> f32 {
 
 // As far as a line decides anything here, px.
 fn farthest() -> f32 {
-    return 2.0 * min(least[0], MAX_STEPS / steps_per_px());
+    return 2.0 * min(shortest_stretch(), MAX_STEPS / steps_per_px());
 }
 
 fn followed(px: vec2<i32>, links: u32, first_side: u32) -> Stretch {

@@ -7,14 +7,11 @@
 use super::edge_map::EdgeMap;
 use super::gbuffer::GBuffer;
 use super::line_pixels::{FoundPixels, LinePixels};
-use crate::gpu::{ArrayBuffer, Gpu, Inputs, Program, RecordBuffer, RecordList, Recorder, inputs};
+use crate::gpu::{Gpu, Inputs, Program, RecordBuffer, RecordList, Recorder, inputs};
 use crate::render::base::edge_style::GpuEdgeStyle;
 use crate::render::base::edge_styles::EdgeStylesBuffer;
 use crate::render::base::error::RenderError;
-use crate::render::base::view::REFERENCE_HEIGHT;
 
-/// No stretch of a line between two of other classes is shorter, reference pixels.
-const LEAST: f32 = 8.0;
 /// Bytes of `Change` there.
 const CHANGE_BYTES: u64 = 32;
 /// Most changes, as a share of all pixels: lines are thin, and few of their pixels change.
@@ -33,7 +30,6 @@ pub struct LineClasses {
     changing: RecordList,
     /// What they become.
     changes: RecordBuffer,
-    least: ArrayBuffer,
 }
 
 impl LineClasses {
@@ -44,7 +40,6 @@ impl LineClasses {
             short: RecordList::new(gpu, "pixels of short lines"),
             changing: RecordList::new(gpu, "pixels of lines that change"),
             changes: RecordBuffer::new(gpu, "changes of lines"),
-            least: ArrayBuffer::new(gpu, "shortest stretch"),
         }
     }
 
@@ -71,7 +66,6 @@ impl LineClasses {
         // Each pixel may change its class or be too short.
         self.changing.reserve(rec.gpu, area * 8)?;
         self.changes.reserve(rec.gpu, area.div_ceil(CHANGED) * CHANGE_BYTES)?;
-        self.least.write(rec.gpu, &vec![LEAST * height as f32 / REFERENCE_HEIGHT as f32]);
         let links = rec.target("links of lines", LINKS)?;
         let settled = rec.target("settled classes", CLASSES)?;
         let FoundPixels { list: lines, blocks } = pixels.list(rec, spines)?;
@@ -81,7 +75,6 @@ impl LineClasses {
             link_tex: &links,
             settled_tex: &settled,
             geometry_tex: &gbuffer.geometry,
-            least: &self.least,
         }
         .and(&edge_styles.inputs());
         let written = inputs! {
