@@ -50,7 +50,7 @@ pub struct Segments {
     winners: RecordBuffer,
 }
 
-/// Pixels of segments.
+/// Runs that are tested in one go.
 struct Part {
     /// Number of a segment and of the first step along it.
     runs: RecordTexture,
