@@ -64,10 +64,7 @@ fn find_segments<'a>(
         return None;
     }
     let view_from_local = view.projector.view_from_world * placed.world_from_local;
-    let picture = PictureMap::new(view, &view_from_local);
-    if !picture.may_show(&placed.edges.bounds) {
-        return None;
-    }
+    let picture = PictureMap::new(view, &view_from_local).within(&placed.edges.bounds)?;
     let mut finder = Finder::new(placed, view, wanted, &view_from_local, picture);
     finder.is_traced |= is_traced;
     let first = out.len();

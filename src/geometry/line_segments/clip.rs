@@ -38,6 +38,8 @@ pub(super) struct PictureMap {
     /// Corners of the picture with its margin, in pixels.
     low: DVec2,
     high: DVec2,
+    /// Whether any of this may cut anything off.
+    cuts: bool,
 }
 
 impl PictureMap {
@@ -60,11 +62,33 @@ impl PictureMap {
             far: projector.far,
             low: DVec2::splat(-margin),
             high: size + *margin,
+            cuts: true,
         }
     }
 
+    /// For what lies in this box, which is in local space; `None`: the picture shows nothing of it.
+    pub(super) fn within(self, bounds: &Bounds) -> Option<Self> {
+        if bounds.is_empty() {
+            return None;
+        }
+        let (mut least, mut greatest) = ([f64::INFINITY; 8], [f64::NEG_INFINITY; 8]);
+        for corner in bounds.corners() {
+            let inside = self.inside(&self.map(corner));
+            for side in 0..8 {
+                least[side] = least[side].min(inside[side]);
+                greatest[side] = greatest[side].max(inside[side]);
+            }
+        }
+        let may_show = greatest.iter().all(|inside| *inside >= 0.0);
+        may_show.then(|| Self { cuts: least.iter().any(|inside| *inside < 0.0), ..self })
+    }
+
     /// The part of a segment in local space that the picture and its margin show, if any.
+    #[inline]
     pub(super) fn segment(&self, ends: [Vec3; 2]) -> Option<[PicturePoint; 2]> {
+        if !self.cuts {
+            return Some([self.map(ends[0].as_dvec3()).point(), self.map(ends[1].as_dvec3()).point()]);
+        }
         self.clip(ends, |p| self.inside(p))
     }
 
@@ -88,23 +112,16 @@ impl PictureMap {
         if along.is_finite() { along.clamp(0.0, 1.0) } else { 0.0 }
     }
 
-    /// Whether anything in this box, which is in local space, can be in the picture.
-    pub(super) fn may_show(&self, bounds: &Bounds) -> bool {
-        if bounds.is_empty() {
-            return false;
-        }
-        let corners = bounds.corners().map(|corner| self.inside(&self.map(corner)));
-        (0..8).all(|side| corners.iter().any(|inside| inside[side] >= 0.0))
-    }
-
     fn clip<const N: usize>(
         &self,
         ends: [Vec3; 2],
         inside: impl Fn(&Homogeneous) -> [f64; N],
     ) -> Option<[PicturePoint; 2]> {
-        let [a, b] = ends.map(|p| self.map(p.as_dvec3()));
+        let (a, b) = (self.map(ends[0].as_dvec3()), self.map(ends[1].as_dvec3()));
+        let (inside_a, inside_b) = (inside(&a), inside(&b));
         let (mut from, mut to) = (0.0_f64, 1.0_f64);
-        for (at_a, at_b) in inside(&a).into_iter().zip(inside(&b)) {
+        for side in 0..N {
+            let (at_a, at_b) = (inside_a[side], inside_b[side]);
             match (at_a < 0.0, at_b < 0.0) {
                 (true, true) => return None,
                 (true, false) => from = from.max(at_a / (at_a - at_b)),
@@ -120,13 +137,14 @@ impl PictureMap {
         Some([start.point(), end.point()])
     }
 
+    #[inline]
     fn map(&self, p: DVec3) -> Homogeneous {
         let p = p.extend(1.0);
         Homogeneous {
             px: DVec2::new(self.x.dot(p), self.y.dot(p)),
             w: self.w.dot(p),
             depth: self.depth.dot(p),
-            leads: DVec2::from_array(self.leads.map(|lead| lead.dot(p))),
+            leads: DVec2::new(self.leads[0].dot(p), self.leads[1].dot(p)),
         }
     }
 
@@ -157,5 +175,30 @@ pub(super) fn is_before_the_eye(bounds: &Bounds, view_from_local: &DMat4, lens: 
     match lens {
         Lens::Perspective { .. } => bounds.transformed(view_from_local).max.z < 0.0,
         Lens::Orthographic { .. } => true,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::{EYE, LENSES, look_from};
+    use super::*;
+    use crate::geometry::bounds::cube;
+
+    #[test]
+    fn only_what_may_be_cut_off_is_cut() {
+        for lens in LENSES {
+            let view = look_from(EYE, lens);
+            let picture = PictureMap::new(&view, &view.projector.view_from_world);
+            let part = |bounds: &Bounds| picture.within(bounds);
+            let (inside, across) = (cube([-0.1; 3], 0.2), cube([-50.0; 3], 100.0));
+            assert!(!part(&inside).unwrap().cuts && part(&across).unwrap().cuts);
+            assert!(part(&cube([1e4; 3], 1.0)).is_none() && part(&Bounds::EMPTY).is_none());
+            let diagonal = |bounds: &Bounds| [bounds.min.as_vec3(), bounds.max.as_vec3()];
+            for bounds in [inside, across] {
+                let found = part(&bounds).unwrap().segment(diagonal(&bounds));
+                assert_eq!(found, picture.segment(diagonal(&bounds)));
+                assert!(found.is_some());
+            }
+        }
     }
 }

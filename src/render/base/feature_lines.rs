@@ -47,7 +47,12 @@ fn find(
         shown[mesh] = true;
     }
     let finder = Finder { scene, group, view: &view, crease_angle, strokes, shown: &shown };
-    let found: Vec<SegmentSet> = group.visible().par_iter().map(|object| finder.find(object)).collect();
+    // Neighbors share their memory: most objects have few lines.
+    let added = |mut found, object| {
+        finder.add(object, &mut found);
+        found
+    };
+    let found: Vec<SegmentSet> = group.visible().par_iter().fold(SegmentSet::default, added).collect();
     let mut all = SegmentSet::default();
     all.segments.reserve(found.iter().map(|own| own.segments.len()).sum());
     for own in &found {
@@ -72,17 +77,19 @@ struct Finder<'a> {
 }
 
 impl Finder<'_> {
-    fn find(&self, object: &Visible) -> SegmentSet {
-        let mut found = SegmentSet::default();
-        self.add(object, &mut found);
+    /// Adds the lines of an object.
+    fn add(&self, object: &Visible, out: &mut SegmentSet) {
+        let first = out.segments.len();
+        self.add_of_mesh(object, out);
         let id = object_id(object.node);
-        for segment in &mut found.segments {
-            segment.surfaces = segment.surfaces.map(|surface| surface_id(id, surface));
+        for segment in &mut out.segments[first..] {
+            let [one, two] = segment.surfaces;
+            segment.surfaces = [surface_id(id, one), surface_id(id, two)];
         }
-        found
     }
 
-    fn add(&self, object: &Visible, out: &mut SegmentSet) {
+    /// The same with surfaces numbered as in its mesh.
+    fn add_of_mesh(&self, object: &Visible, out: &mut SegmentSet) {
         let Self { scene, group, view, crease_angle, .. } = *self;
         let (node, enhanced) = (object.node, object.enhanced);
         let id = object_id(node);
