@@ -8,8 +8,9 @@ const COLUMNS: u32 = 2048;
 
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Uint;
 const TEXEL_BYTES: usize = 16;
+const ROW_BYTES: usize = COLUMNS as usize * TEXEL_BYTES;
 
-/// Records of 32-bit words, each from a texel of its own on; grows with their number.
+/// Records of whole texels; grows with their number.
 pub struct RecordTexture {
     target: Target,
     label: &'static str,
@@ -21,32 +22,36 @@ impl RecordTexture {
         Self { target: create(gpu, label, 1), label }
     }
 
-    /// Writes all records.
+    /// Writes all records, each of whole texels.
     ///
     /// # Errors
     /// [`GpuError::TooLarge`].
     pub fn write<T: bytemuck::NoUninit>(&mut self, gpu: &Gpu, records: &[T]) -> Result<(), GpuError> {
-        let texels = size_of::<T>().div_ceil(TEXEL_BYTES);
-        let [_, rows] = size_of_texels(records.len() * texels);
-        self.reserve(gpu, records.len() * texels)?;
-        let size = COLUMNS as usize * rows as usize * TEXEL_BYTES;
-        let mut bytes = Vec::with_capacity(size);
-        for (number, record) in (1..).zip(records) {
-            bytes.extend_from_slice(bytemuck::bytes_of(record));
-            bytes.resize(number * texels * TEXEL_BYTES, 0);
+        const { assert!(size_of::<T>().is_multiple_of(TEXEL_BYTES)) };
+        let bytes: &[u8] = bytemuck::cast_slice(records);
+        self.reserve(gpu, bytes.len() / TEXEL_BYTES)?;
+        let (rows, rest) = bytes.as_chunks::<ROW_BYTES>();
+        self.write_rect(gpu, 0, [COLUMNS, rows.len() as u32], rows.as_flattened());
+        self.write_rect(gpu, rows.len() as u32, [(rest.len() / TEXEL_BYTES) as u32, 1], rest);
+        Ok(())
+    }
+
+    /// Writes so many columns and rows, from this row on.
+    fn write_rect(&self, gpu: &Gpu, first_row: u32, [width, height]: [u32; 2], bytes: &[u8]) {
+        if bytes.is_empty() {
+            return;
         }
-        bytes.resize(size, 0);
+        let origin = wgpu::Origin3d { x: 0, y: first_row, z: 0 };
         gpu.queue.write_texture(
-            self.target.texture().as_image_copy(),
-            &bytes,
+            wgpu::TexelCopyTextureInfo { origin, ..self.target.texture().as_image_copy() },
+            bytes,
             wgpu::TexelCopyBufferLayout {
                 offset: 0,
-                bytes_per_row: Some(COLUMNS * TEXEL_BYTES as u32),
-                rows_per_image: Some(rows),
+                bytes_per_row: Some(ROW_BYTES as u32),
+                rows_per_image: None,
             },
-            wgpu::Extent3d { width: COLUMNS, height: rows, depth_or_array_layers: 1 },
+            wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
         );
-        Ok(())
     }
 
     /// Writes records of two words, two of them to a texel; what is left of the last one is 0. Shaders read them by `pair_at`.

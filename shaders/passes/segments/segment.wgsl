@@ -6,7 +6,7 @@
 // Whether segments are drawn elsewhere than they are tested.
 override WITH_STROKES: bool = false;
 
-// `LineSegment` of src/geometry/line_segments.rs, four texels each.
+// `GpuSegment` of src/render/passes/segments.rs, three texels each.
 var segment_tex: texture_storage_2d<rgba32uint, read>;
 // With strokes: `Tested` of src/geometry/line_segments/hand_strokes.rs, two texels each.
 var tested_tex: texture_storage_2d<rgba32uint, read>;
@@ -15,6 +15,9 @@ var tested_tex: texture_storage_2d<rgba32uint, read>;
 const SUPPRESSED: u32 = 0x80000000u;
 // Set too in that of one which is drawn as strokes: it explains as much as if it were drawn.
 const ELSEWHERE: u32 = 0x40000000u;
+
+// The bits of the object, below those of the class; twin in src/render/passes/segments.rs.
+const CLASS_BITS: u32 = 26u;
 
 struct Segment {
     // Both ends, px.
@@ -28,14 +31,12 @@ struct Segment {
 }
 
 fn segment_at(index: u32) -> Segment {
-    let ends = bitcast<vec4<f32>>(texel_at(segment_tex, 4u * index));
-    let others = texel_at(segment_tex, 4u * index + 2u);
-    return Segment(
-        ends + frame.jitter.xyxy,
-        bitcast<vec4<f32>>(texel_at(segment_tex, 4u * index + 1u)),
-        bitcast<f32>(others.x),
-        vec4(others.yzw, texel_at(segment_tex, 4u * index + 3u).x),
-    );
+    let ends = bitcast<vec4<f32>>(texel_at(segment_tex, 3u * index));
+    let depths_arcs = bitcast<vec4<f32>>(texel_at(segment_tex, 3u * index + 1u));
+    let others = texel_at(segment_tex, 3u * index + 2u);
+    let class_of = extractBits(others.y, CLASS_BITS, 4u) | (others.y & (SUPPRESSED | ELSEWHERE));
+    let own = extractBits(others.y, 0u, CLASS_BITS);
+    return Segment(ends + frame.jitter.xyxy, depths_arcs, bitcast<f32>(others.x), vec4(class_of, own, others.zw));
 }
 
 // Where a segment is tested.

@@ -6,6 +6,8 @@
 //!                                                    └─► keys: which of the points of a pixel counts
 //! ```
 
+use bytemuck::{Pod, Zeroable};
+
 use super::gbuffer::GBuffer;
 use super::repeated::NearerLines;
 use crate::geometry::LineSegment;
@@ -48,6 +50,31 @@ pub struct Segments {
     /// 0 between frames, as winners are: who reads the last of them clears them.
     keys: RecordBuffer,
     winners: RecordBuffer,
+}
+
+/// A [`LineSegment`] as shaders read it; twin of `segment_at` in `shaders/passes/segments/segment.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Pod, Zeroable)]
+struct GpuSegment {
+    ends: [[f32; 2]; 2],
+    depths: [f32; 2],
+    arcs: [f32; 2],
+    angle: f32,
+    /// Flags of the class, the class in [`CLASS_BITS`], and the object.
+    class_and_object: u32,
+    surfaces: [u32; 2],
+}
+
+/// Where a class lies between its flags and the object: no scene has so many objects.
+const CLASS_BITS: u32 = 26;
+const FLAGS: u32 = LineSegment::SUPPRESSED | LineSegment::ELSEWHERE;
+
+impl From<&LineSegment> for GpuSegment {
+    fn from(segment: &LineSegment) -> Self {
+        let LineSegment { ends, depths, arcs, angle, class, object, surfaces } = *segment;
+        let class_and_object = class & FLAGS | (class & !FLAGS) << CLASS_BITS | object;
+        Self { ends, depths, arcs, angle, class_and_object, surfaces }
+    }
 }
 
 /// Runs that are tested in one go.
@@ -108,7 +135,7 @@ impl Segments {
     ) -> Result<(), RenderError> {
         let gpu = rec.gpu;
         self.for_layers = for_layers;
-        self.records.write(gpu, segments)?;
+        self.records.write(gpu, &segments.iter().map(GpuSegment::from).collect::<Vec<_>>())?;
         self.has_strokes = !tested.is_empty();
         if self.has_strokes {
             self.tested.write(gpu, tested)?;
