@@ -1,6 +1,7 @@
 // A pixel of a line that topology knows.
 #import common/edge_map.wgsl
 
+// Two texels of a texture of records, in this order.
 struct SegmentPoint {
     // See common/edge_map.wgsl.
     edge: vec4<u32>,
@@ -15,6 +16,14 @@ struct SegmentPoint {
 }
 
 const NO_POINT: SegmentPoint = SegmentPoint(vec4<u32>(0u, 0u, 0u, 0u), 0u, 0u, 0u, 0u);
+
+fn second_texel_of(point: SegmentPoint) -> vec4<u32> {
+    return vec4(point.spine, point.key, point.px, point.segment);
+}
+
+fn point_of(texel: vec4<u32>, second: vec4<u32>) -> SegmentPoint {
+    return SegmentPoint(texel, second.x, second.y, second.z, second.w);
+}
 
 // What segments have in a pixel: 0, or `EXPLAINED`, perhaps `DRAWN`, one of the last two, and above them the tangent as in the edge
 // map.

@@ -2,11 +2,12 @@
 // segment counts, so that it does not matter in which order they are found.
 #import common/frame.wgsl
 #import gpu/record_list.wgsl
+#import gpu/record_texture.wgsl
 #import common/segment_point.wgsl
 #import common/repeated.wgsl
 
 // As many as there are steps that were kept.
-var<storage, read> points: array<SegmentPoint>;
+var point_tex: texture_storage_2d<rgba32uint, read>;
 // The greatest key of each pixel, and 0 again once it has been put.
 var<storage, read_write> keys: array<u32>;
 // For each pixel the inverted number of its point's segment; 0 again once it has been put.
@@ -24,6 +25,10 @@ override KEEP_KEYS: bool = false;
 // Whether they are of strokes of a hand. These lie beside their edges, so no pixel is marked as explained by an edge.
 override WITHOUT_MARKS: bool = false;
 
+fn point_at(number: u32) -> SegmentPoint {
+    return point_of(texel_at(point_tex, 2u * number), texel_at(point_tex, 2u * number + 1u));
+}
+
 fn pixel_of(point: SegmentPoint) -> vec2<i32> {
     return vec2<i32>(vec2(point.px & 0xffffu, point.px >> 16u));
 }
@@ -34,7 +39,7 @@ fn index_of(point: SegmentPoint) -> u32 {
 
 @compute @workgroup_size(GROUP)
 fn cs_compare(@builtin(global_invocation_id) id: vec3<u32>) {
-    let point = points[id.x];
+    let point = point_at(id.x);
     if id.x < list.count && point.key != 0u && point.key == keys[index_of(point)] {
         atomicMax(&winners[index_of(point)], ~point.segment);
     }
@@ -58,7 +63,7 @@ fn put(point: SegmentPoint, px: vec2<i32>, spine: u32) {
 
 @compute @workgroup_size(GROUP)
 fn cs_put(@builtin(global_invocation_id) id: vec3<u32>) {
-    let point = points[id.x];
+    let point = point_at(id.x);
     if is_winner(point, id.x) {
         put(point, pixel_of(point), point.spine);
     }
@@ -66,7 +71,7 @@ fn cs_put(@builtin(global_invocation_id) id: vec3<u32>) {
 
 @compute @workgroup_size(GROUP)
 fn cs_put_unrepeated(@builtin(global_invocation_id) id: vec3<u32>) {
-    let point = points[id.x];
+    let point = point_at(id.x);
     if is_winner(point, id.x) {
         let px = pixel_of(point);
         let lines = nearer_lines_at(nearer_lines_tex, px, point.spine);

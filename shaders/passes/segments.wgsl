@@ -17,7 +17,7 @@
 // The steps that were kept.
 var<storage, read> listed_steps: array<u32>;
 // What is found of each.
-var<storage, read_write> points: array<SegmentPoint>;
+var point_tex: texture_storage_2d<rgba32uint, write>;
 // The greatest key of each pixel.
 var<storage, read_write> keys: array<atomic<u32>>;
 
@@ -132,7 +132,8 @@ fn cs_points(@builtin(global_invocation_id) id: vec3<u32>) {
     let step = step_at(listed_steps[id.x]);
     let segment = segment_at(step.x);
     let point = point_at(segment, step.x, step_pixel(stepping_of(segment.ends), step.y).px);
-    points[id.x] = point;
+    textureStore(point_tex, texel_of_record(2u * id.x), point.edge);
+    textureStore(point_tex, texel_of_record(2u * id.x + 1u), second_texel_of(point));
     if point.key != 0u {
         atomicMax(&keys[(point.px >> 16u) * u32(frame.size.x) + (point.px & 0xffffu)], point.key);
     }

@@ -22,8 +22,8 @@ use crate::render::base::error::RenderError;
 const RUN: u32 = 4;
 /// Runs that are tested in one go; each takes 216 bytes while it is.
 const MAX_RUNS: usize = 1 << 18;
-/// Bytes of `SegmentPoint` in `shaders/common/segment_point.wgsl`.
-const POINT_BYTES: u64 = 32;
+/// Texels of `SegmentPoint` in `shaders/common/segment_point.wgsl`.
+const POINT_TEXELS: u64 = 2;
 /// What decides which steps are looked at closely.
 const CULL: &str = "passes/segments/cull.wgsl";
 /// Runs per workgroup, as in `gpu/record_list.wgsl`.
@@ -46,7 +46,7 @@ pub struct Segments {
     /// The steps that are looked at closely.
     listed_steps: RecordList,
     /// What is found of them.
-    points: RecordBuffer,
+    points: RecordTexture,
     /// 0 between frames, as winners are: who reads the last of them clears them.
     keys: RecordBuffer,
     winners: RecordBuffer,
@@ -116,7 +116,7 @@ impl Segments {
             parts: Vec::new(),
             for_layers: false,
             listed_steps: RecordList::new(gpu, "listed steps"),
-            points: RecordBuffer::new(gpu, "points of segments"),
+            points: RecordTexture::new(gpu, "points of segments"),
             keys: RecordBuffer::new(gpu, "keys of segments"),
             winners: RecordBuffer::new(gpu, "points of pixels"),
         }
@@ -162,7 +162,7 @@ impl Segments {
         }
         let most = chunks().map(|(chunk, _)| chunk.len()).max().unwrap_or(0) as u64 * u64::from(RUN);
         self.listed_steps.reserve(gpu, most * 4)?;
-        self.points.reserve(gpu, most * POINT_BYTES)?;
+        self.points.reserve(gpu, (most * POINT_TEXELS) as usize)?;
         // Lines of images, as in image-space mode, need none.
         if most > 0 {
             gpu.check_bytes_of_pixels("with lines", rec.size(), 4)?;
@@ -210,7 +210,7 @@ impl Segments {
         for part in &self.parts {
             self.find(rec, inputs, part, nearer)?;
             let found = inputs! {
-                points: self.points.buffer(),
+                point_tex: self.points.target(),
                 list: self.listed_steps.count(),
                 keys: self.keys.buffer(),
                 winners: self.winners.buffer(),
@@ -274,7 +274,7 @@ impl Segments {
         let found = inputs! {
             list: self.listed_steps.count(),
             listed_steps: self.listed_steps.buffer(),
-            points: self.points.buffer(),
+            point_tex: self.points.target(),
             keys: self.keys.buffer(),
         };
         let points = Program {
