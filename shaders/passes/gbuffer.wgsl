@@ -25,7 +25,7 @@ struct Lean {
     @builtin(position) @invariant position: vec4<f32>,
     // View-oriented, but about the object's own origin, so that derivatives keep their digits far from the eye; and linear depth.
     @location(0) pos_oriented_depth: vec4<f32>,
-    // Surface, object, order of its first surface, color (see `pack_color`).
+    // Surface, object, order of its first surface, color (see `Instance`).
     @location(1) @interpolate(flat, first) ids: vec4<u32>,
     // How far it lies in front of the planes of `WITH_CLIP_PLANE`.
     @location(2) before_planes: vec2<f32>,
@@ -77,17 +77,12 @@ fn pos_oriented_depth(pos_view: vec4<f32>, local: mat4x4<f32>) -> vec4<f32> {
     return vec4(pos_view.xyz - local[3].xyz, -pos_view.z);
 }
 
-// A linear color with the sRGB curve, and opacity, 8 bits each.
-fn pack_color(color: vec4<f32>) -> u32 {
-    return pack4x8unorm(vec4(srgb_from_linear(color.rgb), color.a));
-}
-
 fn ids(instance: Instance, surface: u32) -> vec4<u32> {
-    return vec4(surface, instance.ids.xy, pack_color(instance.base_color));
+    return vec4(surface, instance.ids.xyz);
 }
 
 fn normal_view(instance: Instance, normal: vec2<f32>) -> vec3<f32> {
-    return select(normal_from_local(instance) * octahedral_decode(normal), vec3(0.0), instance.ids.z == 1u);
+    return normal_from_local(instance) * octahedral_decode(normal);
 }
 
 // A vertex where it is drawn.
