@@ -66,7 +66,7 @@ pub fn line_distance(
     if !by_two || (widths.greatest_radius <= NARROW_BY_TWO && widths.are_moved && !widths.differ) {
         let size = rec.size();
         let near = rec.target_of("near lines", INDEX, block_count(size))?;
-        let blocks = blocks.map_or_else(|| line_blocks(rec, spines), |blocks| Ok(blocks.clone()))?;
+        let blocks = blocks.map_or_else(|| line_blocks(rec, spines, None), |blocks| Ok(blocks.clone()))?;
         let program = Program {
             file: "passes/near_lines.wgsl",
             entry_point: "cs_main",

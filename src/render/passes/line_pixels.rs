@@ -1,7 +1,7 @@
 //! The pixels in which lines run: they are few, and whatever is done for each of them need not look for them in all the picture.
 
-use super::line_blocks::{block_groups, line_blocks};
-use crate::gpu::{Gpu, Program, RecordList, Recorder, Target, inputs};
+use super::line_blocks::line_blocks;
+use crate::gpu::{Gpu, RecordList, Recorder, Target};
 use crate::render::base::error::RenderError;
 
 /// The exact lines of an edge map.
@@ -64,18 +64,6 @@ impl LinePixels {
         rec.gpu.check_bytes_of_pixels("with lines", [width, height], 4)?;
         self.list.reserve(rec.gpu, u64::from(width) * u64::from(height) * 4)?;
         self.list.empty(rec);
-        let blocks = line_blocks(rec, spines)?;
-        let inputs = inputs! {
-            block_tex: &blocks,
-            keeping: self.list.count(),
-            kept_pixels: self.list.buffer(),
-        };
-        rec.compute(
-            "pixels of lines",
-            &Program::new("passes/line_pixels.wgsl", "cs_main"),
-            &inputs,
-            block_groups([width, height]),
-        )?;
-        Ok(blocks)
+        line_blocks(rec, spines, Some(&self.list))
     }
 }
