@@ -1,6 +1,5 @@
 //! What is asked for, and what is found: lines of a view as segments in the picture.
 
-use bytemuck::{Pod, Zeroable};
 use glam::{DMat4, DVec2, DVec4};
 
 use crate::geometry::{ClassSet, EdgeClass, FeatureEdges, Mesh, Projector};
@@ -9,8 +8,7 @@ use crate::geometry::{ClassSet, EdgeClass, FeatureEdges, Mesh, Projector};
 pub const NO_SURFACE: u32 = u32::MAX;
 
 /// A straight line in the picture.
-#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
-#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LineSegment {
     /// Both ends, in pixels: (0, 0) is the upper left corner of the picture, y runs down.
     pub ends: [[f32; 2]; 2],
