@@ -60,11 +60,7 @@ impl Texture {
             return self;
         }
         let (width, height) = (self.width.min(most), self.height.min(most));
-        let bytes = |mean: Vec4| {
-            let [r, g, b] = mean.truncate().to_array().map(color::srgb_from_linear);
-            [r, g, b, (mean.w * 255.0).round() as u8]
-        };
-        let rgba = self.averaged([width, height]).into_iter().flat_map(bytes).collect();
+        let rgba = self.averaged([width, height]).into_iter().flat_map(color::rgba_from_linear).collect();
         Self { name: self.name, width, height, rgba }
     }
 }

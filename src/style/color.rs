@@ -4,7 +4,7 @@ use std::fmt;
 use std::str::FromStr;
 use std::sync::LazyLock;
 
-use glam::Vec3;
+use glam::{Vec3, Vec4};
 
 /// An opaque sRGB color, 8 bits per channel, written `#rrggbb`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -49,6 +49,12 @@ pub fn srgb_from_linear(linear: f32) -> u8 {
     let c = linear.clamp(0.0, 1.0);
     let c = if c <= 0.003_130_8 { c * 12.92 } else { 1.055 * c.powf(1.0 / 2.4) - 0.055 };
     (c * 255.0).round() as u8
+}
+
+/// The nearest bytes for a linear color and its opacity, which has no curve.
+pub fn rgba_from_linear(color: Vec4) -> [u8; 4] {
+    let [r, g, b] = color.truncate().to_array().map(srgb_from_linear);
+    [r, g, b, (color.w.clamp(0.0, 1.0) * 255.0).round() as u8]
 }
 
 impl fmt::Display for Color {

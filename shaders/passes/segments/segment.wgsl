@@ -16,8 +16,8 @@ const SUPPRESSED: u32 = 0x80000000u;
 // Set too in that of one which is drawn as strokes: it explains as much as if it were drawn.
 const ELSEWHERE: u32 = 0x40000000u;
 
-// The bits of the object, below those of the class; twin in src/render/passes/segments.rs.
-const CLASS_BITS: u32 = 26u;
+// Bits of an object, below those of the class; twin in src/render/passes/segments.rs.
+const OBJECT_BITS: u32 = 26u;
 
 struct Segment {
     // Both ends, px.
@@ -34,8 +34,8 @@ fn segment_at(index: u32) -> Segment {
     let ends = bitcast<vec4<f32>>(texel_at(segment_tex, 3u * index));
     let depths_arcs = bitcast<vec4<f32>>(texel_at(segment_tex, 3u * index + 1u));
     let others = texel_at(segment_tex, 3u * index + 2u);
-    let class_of = extractBits(others.y, CLASS_BITS, 4u) | (others.y & (SUPPRESSED | ELSEWHERE));
-    let own = extractBits(others.y, 0u, CLASS_BITS);
+    let class_of = extractBits(others.y, OBJECT_BITS, 4u) | (others.y & (SUPPRESSED | ELSEWHERE));
+    let own = extractBits(others.y, 0u, OBJECT_BITS);
     return Segment(ends + frame.jitter.xyxy, depths_arcs, bitcast<f32>(others.x), vec4(class_of, own, others.zw));
 }
 

@@ -2,13 +2,13 @@
 //! one that the predicate may stop is recorded as one call, which software devices rasterize in one go.
 
 use bytemuck::{Pod, Zeroable};
-use glam::{Mat3, Mat4, Vec4};
+use glam::{Mat3, Mat4};
 
 use crate::gpu::material::MaterialUniform;
 use crate::gpu::{DynamicBuffer, Gpu, GpuError, RecordBuffer, Recorder};
 use crate::render::base::gpu_scene::Origin;
 use crate::render::base::view::Extent;
-use crate::style::color::srgb_from_linear;
+use crate::style::color::rgba_from_linear;
 
 /// One part of one object, as it is drawn.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -45,21 +45,16 @@ struct Record {
 impl From<&Instance> for Record {
     fn from(instance: &Instance) -> Self {
         let base_color = instance.material.base_color();
+        let color = u32::from_le_bytes(rgba_from_linear(base_color));
         let normal_from_local = if instance.is_flat { Mat3::ZERO } else { instance.normal_from_local };
         Self {
             view_from_local: instance.view_from_local.to_cols_array_2d(),
             normal_from_local: normal_from_local.to_cols_array_2d(),
             base_color: base_color.to_array(),
-            ids: [instance.object, instance.first_surface, packed(base_color), instance.first_triangle],
+            ids: [instance.object, instance.first_surface, color, instance.first_triangle],
             enlarged: instance.enlarged,
         }
     }
-}
-
-/// A linear color with the sRGB curve, and its opacity, 8 bits each.
-fn packed(color: Vec4) -> u32 {
-    let [r, g, b] = color.truncate().to_array().map(srgb_from_linear);
-    u32::from_le_bytes([r, g, b, (color.w.clamp(0.0, 1.0) * 255.0).round() as u8])
 }
 
 /// How much the shaders of a draw have to read; less is faster.

@@ -11,7 +11,7 @@ use crate::render::base::error::RenderError;
 use crate::render::base::style_images::StyleImages;
 use crate::scene::Texture;
 use crate::style::Technique;
-use crate::style::color::srgb_from_linear;
+use crate::style::color::rgba_from_linear;
 use crate::style::matcap::Sphere;
 
 /// Texels per side of a sphere.
@@ -152,8 +152,7 @@ fn sphere_of(image: &Texture) -> SpherePicture {
     let texel = |i: u32| {
         let (x, y) = (i % SIDE * columns / SIDE, i / SIDE * rows / SIDE);
         let color = linear.get((y * columns + x) as usize).copied().unwrap_or_default();
-        let [r, g, b] = [color.x, color.y, color.z].map(srgb_from_linear);
-        [r, g, b, u8::MAX]
+        rgba_from_linear(color.with_w(1.0))
     };
     SpherePicture((0..SIDE * SIDE).flat_map(texel).collect())
 }

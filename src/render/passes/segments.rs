@@ -60,19 +60,19 @@ struct GpuSegment {
     depths: [f32; 2],
     arcs: [f32; 2],
     angle: f32,
-    /// Flags of the class, the class in [`CLASS_BITS`], and the object.
+    /// Flags of the class, the class, and the object in the lowest [`OBJECT_BITS`].
     class_and_object: u32,
     surfaces: [u32; 2],
 }
 
-/// Where a class lies between its flags and the object: no scene has so many objects.
-const CLASS_BITS: u32 = 26;
+/// Bits of an object, below those of the class; twin in `shaders/passes/segments/segment.wgsl`. No scene has more objects.
+const OBJECT_BITS: u32 = 26;
 const FLAGS: u32 = LineSegment::SUPPRESSED | LineSegment::ELSEWHERE;
 
 impl From<&LineSegment> for GpuSegment {
     fn from(segment: &LineSegment) -> Self {
         let LineSegment { ends, depths, arcs, angle, class, object, surfaces } = *segment;
-        let class_and_object = class & FLAGS | (class & !FLAGS) << CLASS_BITS | object;
+        let class_and_object = class & FLAGS | (class & !FLAGS) << OBJECT_BITS | object;
         Self { ends, depths, arcs, angle, class_and_object, surfaces }
     }
 }
