@@ -1,7 +1,8 @@
 // Unit vectors in two numbers (Cigolle et al. 2014, "A Survey of Efficient Representations for Independent Unit Vectors").
 
+// Of vectors of any length.
 fn octahedral_encode(v: vec3<f32>) -> vec2<f32> {
-    let p = v.xy / (abs(v.x) + abs(v.y) + abs(v.z));
+    let p = v.xy * (1.0 / (abs(v.x) + abs(v.y) + abs(v.z)));
     let folded = (1.0 - abs(p.yx)) * select(vec2(-1.0), vec2(1.0), p >= vec2(0.0));
     return select(folded, p, v.z >= 0.0);
 }

@@ -90,9 +90,8 @@ fn placed(instance: Instance, pos_view: vec4<f32>, normal: vec3<f32>) -> vec4<f3
     if !ENLARGED {
         return pos_view;
     }
-    let pixel = 2.0 * frame.half_extent.y / frame.size.y * select(-pos_view.z, 1.0, frame.orthographic == 1u);
     let far = length(normal);
-    return pos_view + vec4(normal * select(0.0, instance.enlarged * pixel / far, far > 0.0), 0.0);
+    return pos_view + vec4(normal * select(0.0, instance.enlarged * pixel_at(-pos_view.z) / far, far > 0.0), 0.0);
 }
 
 @vertex
@@ -162,12 +161,11 @@ fn vs_full(
     );
 }
 
-// The geometric normal of the triangle, turned towards the eye whatever its winding.
+// The geometric normal of the triangle, of any length, turned towards the eye whatever its winding.
 fn face_normal(pos_oriented: vec3<f32>) -> vec3<f32> {
     // Screen y runs down, so this order makes the normal of a surface that faces the eye positive in z.
     let n = cross(dpdy(pos_oriented), dpdx(pos_oriented));
-    let l = length(n);
-    return select(vec3(0.0, 0.0, 1.0), n / l, l > 0.0);
+    return select(vec3(0.0, 0.0, 1.0), n, any(abs(n) > vec3(1e-36)));
 }
 
 // A pixel in texture space.
@@ -181,6 +179,7 @@ fn transformed(f: Footprint, m: mat3x3<f32>) -> Footprint {
     return Footprint((m * vec3(f.uv, 1.0)).xy, (m * vec3(f.dx, 0.0)).xy, (m * vec3(f.dy, 0.0)).xy);
 }
 
+// Normals of any length.
 fn pack(normal: vec3<f32>, face: vec3<f32>, depth: f32, object: u32) -> vec4<u32> {
     return vec4(
         pack2x16snorm(octahedral_encode(normal)),
@@ -223,9 +222,9 @@ fn fs_lean(v: Lean) -> GBuffer {
     return lean(v);
 }
 
-// The shading normal of a surface without images.
+// The shading normal of a surface without images, of any length.
 fn shading_normal(face: vec3<f32>, normal: vec3<f32>) -> vec3<f32> {
-    return select(turned_to(face, normalize(normal)), face, all(normal == vec3(0.0)));
+    return select(turned_to(face, normal), face, all(normal == vec3(0.0)));
 }
 
 fn smooth_surface(v: Smooth) -> GBuffer {
