@@ -15,8 +15,11 @@ struct Frame {
     world_from_view: mat4x4<f32>,
     // Picture in pixels.
     size: vec2<f32>,
-    // Half the picture at depth 1 (perspective) or at any depth (orthographic), in scene units.
-    half_extent: vec2<f32>,
+    // View space at depth 1 (perspective) or at any depth (orthographic): the way from a pixel to the next one on the right (x) and
+    // below (y), scene units; where the top left corner of the picture lies in this sample; and the inverse of the first.
+    view_per_px: vec2<f32>,
+    view_at_corner: vec2<f32>,
+    px_per_view: f32,
     // Linear depth of the nearest and farthest point of the enhanced objects.
     depth_range: vec2<f32>,
     // How far this sample of the picture is moved, right and down, in pixels.
@@ -53,9 +56,17 @@ fn pos_view_of(px: vec2<i32>, depth: f32) -> vec3<f32> {
 
 // The same of a place in the picture, px.
 fn pos_view_at(at: vec2<f32>, depth: f32) -> vec3<f32> {
-    let ndc = (at - frame.jitter) / frame.size * vec2(2.0, -2.0) + vec2(-1.0, 1.0);
-    let scale = select(depth, 1.0, frame.orthographic == 1u);
-    return vec3(ndc * frame.half_extent * scale, -depth);
+    return vec3((at * frame.view_per_px + frame.view_at_corner) * perspective_scale(depth), -depth);
+}
+
+// How many times as large a pixel is at this depth as at depth 1.
+fn perspective_scale(depth: f32) -> f32 {
+    return select(depth, 1.0, frame.orthographic == 1u);
+}
+
+// Width of a pixel at a depth, scene units.
+fn pixel_at(depth: f32) -> f32 {
+    return frame.view_per_px.x * perspective_scale(depth);
 }
 
 // Where a depth lies in the range of the enhanced objects: 0 near, 1 far.

@@ -42,8 +42,7 @@ fn half_width(object: u32, class_of: u32, pos_view: vec3<f32>, normal: vec3<f32>
     width *= 1.0 - edge_styles[style].by_light * lit;
     if WITH_PRESSURE {
         // Fixed to the world, so that strokes do not swim when the camera turns.
-        let pixel = 2.0 * frame.half_extent.y / frame.size.y
-            * select(frame.center_depth, 1.0, frame.orthographic == 1u);
+        let pixel = pixel_at(frame.center_depth);
         let pos_world = (frame.world_from_view * vec4(pos_view, 1.0)).xyz;
         let p = pos_world / (edge_styles[style].pressure_scale * pixel);
         let n = 0.7 * noise3(p) + 0.3 * noise3(p * 2.3 + 17.0);

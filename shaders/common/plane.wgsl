@@ -12,8 +12,7 @@ fn depth_of(nearness: f32) -> f32 {
 
 // A difference of nearness at a depth as a step in depth, in pixels' widths there.
 fn step_px(difference: f32, depth: f32) -> f32 {
-    let pixel = 2.0 * frame.half_extent.y / frame.size.y;
-    return difference * select(depth, 1.0, frame.orthographic == 1u) / pixel;
+    return difference * perspective_scale(depth) * frame.px_per_view;
 }
 
 // Nearness of a plane at a pixel's center, and its change per pixel in x and y.
@@ -23,15 +22,11 @@ struct Plane {
 }
 
 fn plane_of(px: vec2<i32>, depth: f32, normal: vec3<f32>) -> Plane {
-    let pos_view = pos_view_of(px, depth);
-    let per_px = vec2(2.0, -2.0) * frame.half_extent / frame.size;
-    let d = dot(normal, pos_view);
-    if frame.orthographic == 1u {
-        // Edge-on planes have no slope that could be trusted.
-        return Plane(-depth, -normal.xy * per_px / max(abs(normal.z), 1e-4) * sign(normal.z));
-    }
-    let safe = select(1.0, d, abs(d) > 1e-12 * depth);
-    return Plane(1.0 / depth, select(vec2(0.0), normal.xy * per_px / safe, abs(d) > 1e-12 * depth));
+    let is_parallel = frame.orthographic == 1u;
+    // Edge-on planes have no slope that could be trusted.
+    let d = select(dot(normal, pos_view_of(px, depth)), -sign(normal.z) * max(abs(normal.z), 1e-4), is_parallel);
+    let has_slope = abs(d) > select(1e-12 * depth, 0.0, is_parallel);
+    return Plane(nearness_of(depth), normal.xy * frame.view_per_px * select(0.0, 1.0 / d, has_slope));
 }
 
 fn nearness_at(plane: Plane, offset: vec2<f32>) -> f32 {

@@ -193,10 +193,9 @@ const FACING_POWER: f32 = 8.0;
 fn triplanar_ink(object: u32, s: Surfel, pos_view: vec3<f32>, tone: f32) -> f32 {
     let m = halftone_styles[object].pattern_from_view;
     let linear = mat3x3(m[0].xyz, m[1].xyz, m[2].xyz);
-    let per_px = 2.0 * frame.half_extent / frame.size;
     let p = (m * vec4(pos_view, 1.0)).xyz;
-    let dx = linear * pos_change(pos_view, s.normal, vec3(per_px.x, 0.0, 0.0));
-    let dy = linear * pos_change(pos_view, s.normal, vec3(0.0, -per_px.y, 0.0));
+    let dx = linear * pos_change(pos_view, s.normal, vec3(frame.view_per_px.x, 0.0, 0.0));
+    let dy = linear * pos_change(pos_view, s.normal, vec3(0.0, frame.view_per_px.y, 0.0));
     let facing = pow(abs(normalize(linear * s.normal)), vec3(FACING_POWER));
     // Without the least ones, which would cost as much as the others.
     let kept = max(facing / (facing.x + facing.y + facing.z) - 0.05, vec3(0.0));

@@ -24,9 +24,8 @@ override WITH_THIRD: bool = true;
 fn stripes_seen(object: u32, texel: vec4<u32>, s: Surfel, pos_view: vec3<f32>) -> Stripes {
     let m = hatching_styles[object].local_from_view;
     let linear = mat3x3(m[0].xyz, m[1].xyz, m[2].xyz);
-    let per_px = 2.0 * frame.half_extent / frame.size;
-    let dx = linear * pos_change(pos_view, s.face_normal, vec3(per_px.x, 0.0, 0.0));
-    let dy = linear * pos_change(pos_view, s.face_normal, vec3(0.0, -per_px.y, 0.0));
+    let dx = linear * pos_change(pos_view, s.face_normal, vec3(frame.view_per_px.x, 0.0, 0.0));
+    let dy = linear * pos_change(pos_view, s.face_normal, vec3(0.0, frame.view_per_px.y, 0.0));
     let triangle = hatching_styles[object].first_triangle + texel.x - 1u;
     let grid = Grid(hatching_styles[object].grid_origin, hatching_styles[object].grid_step);
     return stripes_of(triangle, grid, bitcast<vec3<f32>>(texel.yzw), dx, dy, hatching_styles[object].frequency);

@@ -68,11 +68,6 @@ var found_tex: texture_storage_2d<r32uint, write>;
 // Per block, noise of the colors (two halves), the pixel plus 1 that it is of, the object, and how far away that is, px.
 var fill_field_tex: texture_storage_2d<rgba32uint, write>;
 
-// Width of a pixel at a depth, scene units.
-fn pixel_at(depth: f32) -> f32 {
-    return 2.0 * frame.half_extent.y / frame.size.y * select(depth, 1.0, frame.orthographic == 1u);
-}
-
 // How much noise there is of what controls it: more where it is curved, or far.
 fn control_factor(px: vec2<i32>, s: Surfel) -> f32 {
     if field.control == DEPTH {

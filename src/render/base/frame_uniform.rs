@@ -22,7 +22,9 @@ pub struct FrameUniform {
     clip_from_view: Mat4,
     world_from_view: Mat4,
     size: Vec2,
-    half_extent: Vec2,
+    view_per_px: Vec2,
+    view_at_corner: Vec2,
+    px_per_view: f32,
     depth_range: Vec2,
     jitter: Vec2,
     coverage_ramp: f32,
@@ -42,6 +44,7 @@ impl FrameUniform {
     /// All that the shaders know of camera, lights and paper. `background`: linear color and opacity.
     pub fn new(view: &View, sample: Sample, depth_range: Vec2, lights: &Lights, background: Vec4) -> Self {
         let [clip_plane, section] = view.clip_planes();
+        let view_per_px = Vec2::new(2.0, -2.0) * view.half_extent / view.size.as_vec2();
         let mut uniforms = [LightUniform::default(); MAX_LIGHTS];
         for (uniform, light) in uniforms.iter_mut().zip(&lights.lights) {
             *uniform = light_uniform(light, &view.view_from_world);
@@ -56,7 +59,9 @@ impl FrameUniform {
             world_from_view: (DMat4::from_translation(-view.center) * view.view_from_world.inverse())
                 .as_mat4(),
             size: view.size.as_vec2(),
-            half_extent: view.half_extent,
+            view_per_px,
+            view_at_corner: view.half_extent * Vec2::new(-1.0, 1.0) - view.jitter * view_per_px,
+            px_per_view: view_per_px.x.recip(),
             depth_range,
             jitter: view.jitter,
             coverage_ramp: sample.coverage_ramp(),
