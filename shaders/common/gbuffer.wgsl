@@ -10,6 +10,8 @@ const ENHANCED: u32 = 0x80000000u;
 struct Surfel {
     normal: vec3<f32>,
     face_normal: vec3<f32>,
+    // The same of any length: planes need no more.
+    face_direction: vec3<f32>,
     // Distance from the eye along the viewing direction.
     depth: f32,
     // 0: background.
@@ -26,6 +28,7 @@ fn unpack_surfel(texel: vec4<u32>) -> Surfel {
     return Surfel(
         octahedral_decode(unpack2x16snorm(texel.x)),
         octahedral_decode(unpack2x16snorm(texel.y)),
+        octahedral_direction(unpack2x16snorm(texel.y)),
         bitcast<f32>(texel.z),
         texel.w & ~ENHANCED,
         (texel.w & ENHANCED) != 0u,

@@ -21,6 +21,7 @@ struct Plane {
     slope: vec2<f32>,
 }
 
+// `normal`: of any length.
 fn plane_of(px: vec2<i32>, depth: f32, normal: vec3<f32>) -> Plane {
     let is_parallel = frame.orthographic == 1u;
     // Edge-on planes have no slope that could be trusted.

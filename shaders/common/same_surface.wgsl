@@ -15,8 +15,8 @@ fn goes_on(px: vec2<i32>, s: Surfel, other_px: vec2<i32>, other: Surfel) -> bool
         return false;
     }
     let offset = vec2<f32>(other_px - px);
-    let here = plane_of(px, s.depth, s.face_normal);
-    let there = plane_of(other_px, other.depth, other.face_normal);
+    let here = plane_of(px, s.depth, s.face_direction);
+    let there = plane_of(other_px, other.depth, other.face_direction);
     let miss = min(
         abs(there.center - nearness_at(here, offset)),
         abs(here.center - nearness_at(there, -offset)),

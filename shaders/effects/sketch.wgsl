@@ -229,7 +229,7 @@ fn stroke_share(x: vec2<f32>, object: u32) -> f32 {
 fn tolerance(px: vec2<i32>, y: vec2<f32>, depth: f32, other: Surfel, least: f32) -> f32 {
     let off = y - vec2<f32>(px) - 0.5;
     let away = length(off);
-    let lower = step_px(-dot(plane_of(px, other.depth, other.face_normal).slope, off), depth);
+    let lower = step_px(-dot(plane_of(px, other.depth, other.face_direction).slope, off), depth);
     return clamp(lower, least * away, STEEPEST * away);
 }
 

@@ -139,7 +139,7 @@ fn between(px: vec2<i32>, x: Surfel, own: u32, plane: Plane, towards: vec2<i32>,
         }
         return Spine(SILHOUETTE, half, across, true);
     }
-    let other = plane_of(q, n.depth, n.face_normal);
+    let other = plane_of(q, n.depth, n.face_direction);
     let depth = min(x.depth, n.depth);
     let gap = step_px(nearness_at(plane, half) - nearness_at(other, -half), depth);
     // Steep surfaces may seem to touch only where they are continued, and may run through each other between the two.
@@ -213,7 +213,7 @@ fn fs_main(@builtin(position) position: vec4<f32>) -> Out {
     if edge_styles[style_of(x.object)].mode != EXACT_MODE {
         discard;
     }
-    let plane = plane_of(px, x.depth, x.face_normal);
+    let plane = plane_of(px, x.depth, x.face_direction);
     let right = between(px, x, own, plane, vec2(1, 0), surface_ids.right);
     let left = between(px, x, own, plane, vec2(-1, 0), surface_ids.left);
     let below = between(px, x, own, plane, vec2(0, 1), surface_ids.below);

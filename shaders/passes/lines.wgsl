@@ -51,7 +51,7 @@ fn slack() -> f32 {
 // Whether surface `g` of a pixel lies so much, px, before a line of this depth whose spine is so far from the pixel's center.
 fn hides(g: Surfel, px: vec2<i32>, depth: f32, to_spine: vec2<f32>, most: f32) -> bool {
     let line = nearness_of(depth);
-    let plane = plane_of(px, g.depth, g.face_normal);
+    let plane = plane_of(px, g.depth, g.face_direction);
     // Neither here nor where it is continued to the spine may the surface lie before the line: what an object stands
     // on does not hide the line at its foot.
     let lead = min(plane.center, nearness_at(plane, to_spine)) - line;
@@ -60,13 +60,13 @@ fn hides(g: Surfel, px: vec2<i32>, depth: f32, to_spine: vec2<f32>, most: f32) -
 
 fn is_occluded(g: Surfel, px: vec2<i32>, edge: Edge, spine: vec2<f32>) -> bool {
     // As where lines are found, see passes/segments/beside.wgsl.
-    let bend = select(step_px(bend_of(plane_of(px, g.depth, g.face_normal)), edge.depth), 0.0, AMONG_OTHERS);
+    let bend = select(step_px(bend_of(plane_of(px, g.depth, g.face_direction)), edge.depth), 0.0, AMONG_OTHERS);
     return g.object != edge.object && hides(g, px, edge.depth, spine - vec2<f32>(px) - 0.5, slack() + bend);
 }
 
 // Whether an edge ends before another object, or paper, that lies behind it here: what touches it there does not.
 fn ends_before(g: Surfel, px: vec2<i32>, edge: Edge, spine: vec2<f32>) -> bool {
-    let plane = plane_of(px, g.depth, g.face_normal);
+    let plane = plane_of(px, g.depth, g.face_direction);
     let farthest = max(plane.center, nearness_at(plane, spine - vec2<f32>(px) - 0.5));
     let is_behind = step_px(nearness_of(edge.depth) - farthest, edge.depth) > slack();
     return g.object == 0u || (g.object != edge.object && is_behind);

@@ -166,7 +166,7 @@ fn neighbor_of(px: vec2<i32>, edge: Edge, spine: vec2<f32>) -> Neighbor {
     let at = pos_view_at(spine, edge.depth);
     // The depth of a line may be that of the pixel's center, which on steep surfaces is another one.
     let own = unpack_surfel(geometry_at(px));
-    let depth = depth_of(nearness_at(plane_of(px, own.depth, own.face_normal), edge.offset));
+    let depth = depth_of(nearness_at(plane_of(px, own.depth, own.face_direction), edge.offset));
     let on_surface = pos_view_at(spine, select(edge.depth, depth, own.object == edge.object));
     var least = APART;
     var found = Neighbor(0u, vec3(0.0), 0.0);

@@ -49,7 +49,7 @@ fn is_apart(s: Surfel, plane: Plane, other: Surfel, offset: vec2<i32>, step: f32
 
 // w2.
 fn silhouette_field(px: vec2<i32>, s: Surfel, i: Indication) -> f32 {
-    let plane = plane_of(px, s.depth, s.face_normal);
+    let plane = plane_of(px, s.depth, s.face_direction);
     var count = 0u;
     for (var k = 0u; k < PIXELS_OF_QUARTER; k++) {
         let angle = f32(k) * 1.570796327 / f32(PIXELS_OF_QUARTER);

@@ -54,7 +54,7 @@ fn beside(spine: Spine, along: f32, surface_ids: vec2<u32>) -> Beside {
         texel = select(texel, vec4(0u), surface_id == 0u);
     }
     let s = unpack_surfel(texel);
-    let plane = plane_of(px, s.depth, s.face_normal);
+    let plane = plane_of(px, s.depth, s.face_direction);
     let lead = nearness_at(plane, spine.at - vec2<f32>(px) - 0.5) - spine.nearness;
     var carries = false;
     if IN_LAYER {

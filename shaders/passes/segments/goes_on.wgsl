@@ -45,8 +45,8 @@ fn goes_on_under(spine: Spine, own: u32, edge_length: f32) -> bool {
         return false;
     }
     // Both sides meet at the spine.
-    let here = plane_of(one_px, one.depth, one.face_normal);
-    let there = plane_of(other_px, other.depth, other.face_normal);
+    let here = plane_of(one_px, one.depth, one.face_direction);
+    let there = plane_of(other_px, other.depth, other.face_direction);
     let at_spine = spine.at - 0.5;
     let gap = nearness_at(here, at_spine - vec2<f32>(one_px)) - nearness_at(there, at_spine - vec2<f32>(other_px));
     var greatest = abs(step_px(gap, one.depth));
