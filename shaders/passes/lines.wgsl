@@ -172,6 +172,11 @@ fn line_at(at: vec2<f32>, g: Surfel, from_px: vec2<i32>, texel: vec4<u32>) -> Li
     return Line(vec4(color, 1.0) * coverage, edge.depth, false, strength, d, to_source);
 }
 
+// The pixel of a line that has been found.
+fn pixel_of(found: u32) -> vec2<i32> {
+    return vec2<i32>(vec2((found - 1u) & 0xffffu, (found - 1u) >> 16u));
+}
+
 // A pixel's own line.
 fn own_line(px: vec2<i32>) -> u32 {
     let own = vec2<u32>(px);
@@ -234,20 +239,22 @@ const APART: f32 = 0.9;
 const ALONG: f32 = 1.0;
 // Half the width, px, up to which lines are thin: they have no ink beyond the pixels around their spine.
 const THIN: f32 = 1.0;
-// Cosine of the angle up to which lines run side by side.
-const PARALLEL: f32 = 0.97;
+// Angle up to which lines run side by side, of 512 for a full turn: 14 degrees.
+const PARALLEL: u32 = 20u;
 
 // A line as far as those are compared with it that are beside it.
 struct Spine {
     // px.
     at: vec2<f32>,
     tangent: vec2<f32>,
+    // The same as in the edge map.
+    angle: u32,
     half_width: f32,
 }
 
 fn spine_at(px: vec2<i32>, texel: vec4<u32>) -> Spine {
     let edge = unpack_edge(texel);
-    return Spine(vec2<f32>(px) + edge.offset, unpack_tangent(edge.tangent), edge.half_width);
+    return Spine(vec2<f32>(px) + edge.offset, unpack_tangent(edge.tangent), edge.tangent, edge.half_width);
 }
 
 // How far a point lies across a line, px.
@@ -257,6 +264,12 @@ fn across(line: Spine, at: vec2<f32>) -> f32 {
 
 fn along(line: Spine, at: vec2<f32>) -> f32 {
     return abs(dot(at - line.at, line.tangent));
+}
+
+// Whether the line in a pixel runs along another one.
+fn runs_along(px: vec2<i32>, line: Spine) -> bool {
+    let turn = (unpack_edge(textureLoad(edge_map_tex, px)).tangent - line.angle) & 255u;
+    return min(turn, 256u - turn) <= PARALLEL;
 }
 
 // The line that runs beside a thin one that was found at a pixel; 0: none.
@@ -272,14 +285,14 @@ fn found_beside(px: vec2<i32>, found: u32, line: Spine) -> u32 {
             best = next;
         }
     }
-    return select(0u, best.found, found != 0u && line.half_width <= THIN);
+    let is_thin = found != 0u && line.half_width <= THIN;
+    return select(0u, best.found, best.found != 0u && is_thin && runs_along(pixel_of(best.found), line));
 }
 
 // Where several thin lines run through a pixel, each covers its share: their sum is an even gray, the nearest one alone is not.
 fn with_ink_beside(ink: vec4<f32>, first: Spine, beside: vec4<f32>, second: Spine) -> vec4<f32> {
-    let is_parallel = abs(dot(first.tangent, second.tangent)) > PARALLEL;
     let width = first.half_width + second.half_width;
-    let share = select(0.0, clamp(across(first, second.at) / max(width, 1e-6), 0.0, 1.0), is_parallel);
+    let share = clamp(across(first, second.at) / max(width, 1e-6), 0.0, 1.0);
     return ink + beside * min(share, (1.0 - ink.a) / max(beside.a, 1e-6));
 }
 
@@ -394,14 +407,14 @@ fn exact_lines_at(at: vec2<f32>, g: Surfel) -> Line {
     var lines = no_line();
     var thin = no_line();
     var thin_opacity = 1.0;
-    var first = Spine(vec2(0.0), vec2(0.0), 0.0);
+    var first = Spine(vec2(0.0), vec2(0.0), 0u, 0.0);
     var beside = 0u;
     var tried = farthest;
     var around = 0;
     var step = LOOK_FARTHEST;
     var found = farthest;
     loop {
-        let from_px = vec2<i32>(vec2((found - 1u) & 0xffffu, (found - 1u) >> 16u));
+        let from_px = pixel_of(found);
         let texel = textureLoad(edge_map_tex, from_px);
         let spine = spine_at(from_px, texel);
         var line = no_line();
