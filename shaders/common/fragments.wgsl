@@ -1,6 +1,6 @@
 // Fragment lists: all that the objects of a group cover, as linked lists, one per pixel. A fragment's number is its index
 // plus 1; 0 is none. Twin: `FragmentLists` in src/render/passes/fragment_lists.rs.
-#import common/frame.wgsl
+#import common/pixel.wgsl
 #import gpu/record_texture.wgsl
 
 // How fragments lie behind each other: what the order of their layers depends on.
@@ -38,9 +38,4 @@ fn node_of(texel: vec4<u32>) -> FragmentNode {
 
 fn payload_of(texel: vec4<u32>) -> Payload {
     return Payload(texel.x, texel.y, texel.z, texel.w);
-}
-
-// Index of a pixel among the lists.
-fn list_of(px: vec2<u32>) -> u32 {
-    return px.y * u32(frame.size.x) + px.x;
 }

@@ -339,7 +339,7 @@ fn fs_fill(@builtin(position) position: vec4<f32>) -> Filled {
         if WITH_SMUDGE {
             let found = textureLoad(near_line_tex, px).x;
             if found != 0u {
-                let near_px = vec2<i32>(vec2((found - 1u) & 0xffffu, (found - 1u) >> 16u));
+                let near_px = pixel_of(found);
                 let away = distance(vec2<f32>(near_px) + 0.5, x) / (9.0 * sketch.pixels_per_reference);
                 let smudged = sketch.smudge * exp(-away * away);
                 pigment = mix(pigment, sketch.smudge_color, smudged / max(smudged + density, 1e-4));

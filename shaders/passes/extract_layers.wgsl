@@ -32,7 +32,7 @@ struct Depth {
 // Covers pixels that have any fragments.
 @fragment
 fn fs_listed(@builtin(position) position: vec4<f32>) -> Depth {
-    if heads[list_of(vec2<u32>(position.xy))] == 0u {
+    if heads[index_of_pixel(vec2<i32>(position.xy))] == 0u {
         discard;
     }
     return Depth(1.0);
@@ -54,7 +54,7 @@ struct Numbers {
 // once, as it was drawn first. Reversed depth 0 is the far plane itself, which is not drawn.
 fn sorted(position: vec4<f32>, last: Sorted) -> Numbers {
     var first = EMPTY;
-    var number = heads[list_of(vec2<u32>(position.xy))];
+    var number = heads[index_of_pixel(vec2<i32>(position.xy))];
     while number != 0u {
         let node = node_at(number);
         var own = Sorted(~node.depth, node.order, number);
@@ -93,7 +93,7 @@ fn fs_sort_behind(@builtin(position) position: vec4<f32>) -> Numbers {
 @fragment
 fn fs_depth(@builtin(position) position: vec4<f32>) -> Depth {
     let number = number_at(position);
-    if heads[list_of(vec2<u32>(position.xy))] == 0u || number == 0u {
+    if heads[index_of_pixel(vec2<i32>(position.xy))] == 0u || number == 0u {
         discard;
     }
     return Depth(bitcast<f32>(node_at(number).depth));

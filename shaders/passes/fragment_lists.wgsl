@@ -21,7 +21,7 @@ fn append(position: vec4<f32>, ids: vec4<u32>, drawn: GBuffer) {
     let index = next_index(vec2<u32>(position.xy));
     let capacity = textureDimensions(node_tex);
     if index < capacity.x * capacity.y {
-        let next = atomicExchange(&heads[list_of(vec2<u32>(position.xy))], index + 1u);
+        let next = atomicExchange(&heads[index_of_pixel(vec2<i32>(position.xy))], index + 1u);
         let node = FragmentNode(next, bitcast<u32>(position.z), order_of(ids), drawn.geometry.x);
         let payload = Payload(drawn.geometry.y, drawn.geometry.z, drawn.geometry.w, drawn.surface_id);
         textureStore(node_tex, texel_of_record(index), texel_of_node(node));

@@ -2,6 +2,7 @@
 #import common/first_eight.wgsl
 #import common/frame.wgsl
 #import common/fullscreen.wgsl
+#import common/pixel.wgsl
 #import common/placed.wgsl
 #import gpu/record_texture.wgsl
 
@@ -101,8 +102,7 @@ fn beneath(front: vec4<f32>, entry: Sorted) -> vec4<f32> {
 // Eight entries at a time, the nearest ones first; of those that are equally deep what was appended first.
 @fragment
 fn fs_blend(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
-    let px = vec2<u32>(position.xy);
-    let head = listed[px.y * u32(frame.size.x) + px.x];
+    let head = listed[index_of_pixel(vec2<i32>(position.xy))];
     var color = vec4(0.0);
     var last = NONE;
     var is_first = true;

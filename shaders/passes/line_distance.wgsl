@@ -5,6 +5,7 @@
 // points are parabolas whose lower envelope is found in one sweep (Felzenszwalb and Huttenlocher, "Distance Transforms
 // of Sampled Functions", 2012, section 2).
 #import common/frame.wgsl
+#import common/pixel.wgsl
 
 // All lines count as equally wide, with `greatest_radius`: finds the nearest spine instead of the one that reaches
 // farthest.
@@ -163,7 +164,7 @@ fn cs_rows(@builtin(global_invocation_id) id: vec3<u32>) {
         var found = 0u;
         if d * d + current.height < 0.0 {
             let row = textureLoad(column_tex, vec2(i32(column), y)).x - 1u;
-            found = ((row << 16u) | column) + 1u;
+            found = found_at(vec2<i32>(vec2(column, row)));
         }
         textureStore(found_tex, vec2(x, y), vec4(found, 0u, 0u, 0u));
     }

@@ -7,6 +7,7 @@
 #import common/edge_style.wgsl
 #import common/coverage.wgsl
 #import common/line_block.wgsl
+#import common/pixel.wgsl
 #import gpu/neighbors.wgsl
 #import common/placed.wgsl
 
@@ -117,7 +118,7 @@ fn line_at(at: vec2<f32>, g: Surfel, from_px: vec2<i32>, texel: vec4<u32>) -> Li
     var surface = g;
     if MOVED {
         let source = textureLoad(source_tex, from_px).x;
-        to_source = vec2<f32>(vec2<i32>(vec2(source & 0xffffu, source >> 16u)) - from_px);
+        to_source = vec2<f32>(unpack_pixel(source) - from_px);
         surface = unpack_surfel(geometry_at(vec2<i32>(floor(at + to_source))));
     }
     let edge = unpack_edge(texel);
@@ -172,15 +173,9 @@ fn line_at(at: vec2<f32>, g: Surfel, from_px: vec2<i32>, texel: vec4<u32>) -> Li
     return Line(vec4(color, 1.0) * coverage, edge.depth, false, strength, d, to_source);
 }
 
-// The pixel of a line that has been found.
-fn pixel_of(found: u32) -> vec2<i32> {
-    return vec2<i32>(vec2((found - 1u) & 0xffffu, (found - 1u) >> 16u));
-}
-
 // A pixel's own line.
 fn own_line(px: vec2<i32>) -> u32 {
-    let own = vec2<u32>(px);
-    return select(0u, ((own.y << 16u) | own.x) + 1u, textureLoad(spine_tex, px, 0).x != 0u);
+    return select(0u, found_at(px), textureLoad(spine_tex, px, 0).x != 0u);
 }
 
 // How many of the lines around a pixel are looked at.
@@ -205,12 +200,12 @@ struct Nearby {
 }
 
 fn nearer_of(best: Nearby, spine: u32, px: vec2<i32>, away: vec2<i32>) -> Nearby {
-    let q = vec2<u32>(px + away);
+    let q = px + away;
     let r = unpack2x16float(spine >> 16u).x + 1.25;
     let d = vec2<f32>(away) + vec2(f32((spine >> 8u) & 255u), f32(spine & 255u)) / 127.0 - 1.0;
-    let is_there = spine != 0u && all(q < vec2<u32>(frame.size));
+    let is_there = spine != 0u && all(vec2<u32>(q) < vec2<u32>(frame.size));
     let power = select(0.0, dot(d, d) - r * r, is_there);
-    return Nearby(select(best.found, ((q.y << 16u) | q.x) + 1u, power < best.power), min(best.power, power));
+    return Nearby(select(best.found, found_at(q), power < best.power), min(best.power, power));
 }
 
 // As `cs_rows` in passes/line_distance.wgsl finds it, among the neighbors.

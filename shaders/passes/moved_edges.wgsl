@@ -129,10 +129,6 @@ fn moved(source: Source, number: u32) -> Moved {
     return Moved(texel, found, vec2<i32>(to), key_of(e.depth), rank, source.number, is_there);
 }
 
-fn index_of(px: vec2<i32>) -> u32 {
-    return u32(px.y) * u32(frame.size.x) + u32(px.x);
-}
-
 @compute @workgroup_size(GROUP)
 fn cs_move(@builtin(global_invocation_id) id: vec3<u32>) {
     if id.x >= list.count || !is_line(listed_pixels[id.x]) {
@@ -142,7 +138,7 @@ fn cs_move(@builtin(global_invocation_id) id: vec3<u32>) {
     for (var i = 0u; i < POINTS; i++) {
         let point = moved(source, i);
         if point.is_there {
-            atomicMax(&keys[index_of(point.px)], point.key);
+            atomicMax(&keys[index_of_pixel(point.px)], point.key);
         }
     }
 }
@@ -155,8 +151,8 @@ fn cs_compare(@builtin(global_invocation_id) id: vec3<u32>) {
     let source = source_at(listed_pixels[id.x]);
     for (var i = 0u; i < POINTS; i++) {
         let point = moved(source, i);
-        if point.is_there && atomicLoad(&keys[index_of(point.px)]) == point.key {
-            atomicMax(&winners[index_of(point.px)], point.rank + 1u);
+        if point.is_there && atomicLoad(&keys[index_of_pixel(point.px)]) == point.key {
+            atomicMax(&winners[index_of_pixel(point.px)], point.rank + 1u);
         }
     }
 }
@@ -169,10 +165,10 @@ fn cs_put(@builtin(global_invocation_id) id: vec3<u32>) {
     let source = source_at(listed_pixels[id.x]);
     for (var i = 0u; i < POINTS; i++) {
         let point = moved(source, i);
-        if point.is_there && atomicLoad(&winners[index_of(point.px)]) == point.rank + 1u {
+        if point.is_there && atomicLoad(&winners[index_of_pixel(point.px)]) == point.rank + 1u {
             // Nobody else asks any more: only one has this rank.
-            atomicStore(&keys[index_of(point.px)], 0u);
-            atomicStore(&winners[index_of(point.px)], 0u);
+            atomicStore(&keys[index_of_pixel(point.px)], 0u);
+            atomicStore(&winners[index_of_pixel(point.px)], 0u);
             textureStore(moved_edge_tex, point.px, point.edge);
             textureStore(moved_spine_tex, point.px, vec4(point.spine, 0u, 0u, 0u));
             textureStore(source_tex, point.px, vec4(point.source, 0u, 0u, 0u));

@@ -279,13 +279,9 @@ fn cs_blocks(@builtin(global_invocation_id) id: vec3<u32>) {
         // The middle, then the corners.
         let offset = select(3 * vec2(i & 1, (i >> 1u) & 1), vec2(2), i == 4);
         let px = first + offset;
-        found = select(found, ((u32(px.y) << 16u) | u32(px.x)) + 1u, is_surface(px));
+        found = select(found, found_at(px), is_surface(px));
     }
     textureStore(found_tex, block, vec4(found, 0u, 0u, 0u));
-}
-
-fn pixel_of(found: u32) -> vec2<i32> {
-    return vec2<i32>(vec2((found - 1u) & 0xffffu, (found - 1u) >> 16u));
 }
 
 // Jump flooding: of the surfaces that blocks around have found, the nearest.

@@ -1,6 +1,7 @@
 // Puts what passes/segments.wgsl found into the edge map. Of equal points of one pixel that of the first
 // segment counts, so that it does not matter in which order they are found.
 #import common/frame.wgsl
+#import common/pixel.wgsl
 #import gpu/record_list.wgsl
 #import gpu/record_texture.wgsl
 #import common/segment_point.wgsl
@@ -29,31 +30,24 @@ fn point_at(number: u32) -> SegmentPoint {
     return point_of(texel_at(point_tex, 2u * number), texel_at(point_tex, 2u * number + 1u));
 }
 
-fn pixel_of(point: SegmentPoint) -> vec2<i32> {
-    return vec2<i32>(vec2(point.px & 0xffffu, point.px >> 16u));
-}
-
-fn index_of(point: SegmentPoint) -> u32 {
-    return (point.px >> 16u) * u32(frame.size.x) + (point.px & 0xffffu);
-}
-
 @compute @workgroup_size(GROUP)
 fn cs_compare(@builtin(global_invocation_id) id: vec3<u32>) {
     let point = point_at(id.x);
-    if id.x < list.count && point.key != 0u && point.key == keys[index_of(point)] {
-        atomicMax(&winners[index_of(point)], ~point.segment);
+    let index = index_of_pixel(unpack_pixel(point.px));
+    if id.x < list.count && point.key != 0u && point.key == keys[index] {
+        atomicMax(&winners[index], ~point.segment);
     }
 }
 
 fn is_winner(point: SegmentPoint, number: u32) -> bool {
-    return number < list.count && point.key != 0u && atomicLoad(&winners[index_of(point)]) == ~point.segment;
+    return number < list.count && point.key != 0u && atomicLoad(&winners[index_of_pixel(unpack_pixel(point.px))]) == ~point.segment;
 }
 
 fn put(point: SegmentPoint, px: vec2<i32>, spine: u32) {
     if !KEEP_KEYS {
-        keys[index_of(point)] = 0u;
+        keys[index_of_pixel(px)] = 0u;
     }
-    atomicStore(&winners[index_of(point)], 0u);
+    atomicStore(&winners[index_of_pixel(px)], 0u);
     textureStore(edge_tex, px, point.edge);
     textureStore(spine_tex, px, vec4(spine, 0u, 0u, 0u));
     if !WITHOUT_MARKS {
@@ -65,7 +59,7 @@ fn put(point: SegmentPoint, px: vec2<i32>, spine: u32) {
 fn cs_put(@builtin(global_invocation_id) id: vec3<u32>) {
     let point = point_at(id.x);
     if is_winner(point, id.x) {
-        put(point, pixel_of(point), point.spine);
+        put(point, unpack_pixel(point.px), point.spine);
     }
 }
 
@@ -73,7 +67,7 @@ fn cs_put(@builtin(global_invocation_id) id: vec3<u32>) {
 fn cs_put_unrepeated(@builtin(global_invocation_id) id: vec3<u32>) {
     let point = point_at(id.x);
     if is_winner(point, id.x) {
-        let px = pixel_of(point);
+        let px = unpack_pixel(point.px);
         let lines = nearer_lines_at(nearer_lines_tex, px, point.spine);
         put(point, px, lines.own);
         textureStore(accumulated_lines_tex, px, vec4(lines.now, 0u, 0u, 0u));

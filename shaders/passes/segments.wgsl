@@ -7,6 +7,7 @@
 #import common/edge_map.wgsl
 #import common/edge_style.wgsl
 #import common/line_width.wgsl
+#import common/pixel.wgsl
 #import gpu/record_list.wgsl
 #import common/segment_point.wgsl
 #import passes/segments/segment.wgsl
@@ -121,7 +122,7 @@ fn point_at(v: Segment, number: u32, px: vec2<f32>) -> SegmentPoint {
     let packed = spine_of(texel, halves_of(own, class_of), select(0.0, 1.0, is_profile && !WITH_STROKES), nearness);
     let mark = select(0u, 1u, is_outline || !is_suppressed || (is_drawn && (v.ids.x & ELSEWHERE) != 0u));
     // Positive numbers have the order of their bits, and those below 1 leave two of them.
-    return SegmentPoint(texel, packed, (bitcast<u32>(order) << 1u) | mark, u32(px.x) | (u32(px.y) << 16u), number);
+    return SegmentPoint(texel, packed, (bitcast<u32>(order) << 1u) | mark, pack_pixel(vec2<i32>(px)), number);
 }
 
 @compute @workgroup_size(GROUP)
@@ -135,6 +136,6 @@ fn cs_points(@builtin(global_invocation_id) id: vec3<u32>) {
     textureStore(point_tex, texel_of_record(2u * id.x), point.edge);
     textureStore(point_tex, texel_of_record(2u * id.x + 1u), second_texel_of(point));
     if point.key != 0u {
-        atomicMax(&keys[(point.px >> 16u) * u32(frame.size.x) + (point.px & 0xffffu)], point.key);
+        atomicMax(&keys[index_of_pixel(unpack_pixel(point.px))], point.key);
     }
 }

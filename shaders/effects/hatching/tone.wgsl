@@ -2,6 +2,7 @@
 #import common/frame.wgsl
 #import common/gbuffer.wgsl
 #import common/light.wgsl
+#import common/pixel.wgsl
 #import effects/hatching/indication.wgsl
 #import effects/hatching/stripes.wgsl
 #import effects/hatching/style.wgsl
@@ -101,7 +102,7 @@ fn detail_at(px: vec2<i32>, texel: vec4<u32>, s: Surfel) -> f32 {
         return 1.0;
     }
     let found = textureLoad(nearest_edge_tex, px).x;
-    let edge = vec2<i32>(vec2((found - 1u) & 0xffffu, (found - 1u) >> 16u));
+    let edge = pixel_of(found);
     // No farther has been looked.
     let most = 8.0 * indication.distance;
     let away = select(distance(vec2<f32>(edge), vec2<f32>(px)), most, found == 0u);

@@ -1,4 +1,5 @@
 // Which steps of segments are worth a close look: passes/segments.wgsl takes it.
+#import common/pixel.wgsl
 #import common/repeated.wgsl
 #import gpu/record_list.wgsl
 #import gpu/record_texture.wgsl
@@ -33,7 +34,7 @@ fn cs_place(@builtin(global_invocation_id) id: vec3<u32>) {
             let away = vec2<u32>(texel_beside(spine, PLACES[i]) - vec2<i32>(pixel.px) + 4);
             around |= ((away.x & 7u) | ((away.y & 7u) << 3u)) << (6u * i);
         }
-        let px = select(NOWHERE, u32(pixel.px.x) | (u32(pixel.px.y) << 16u), run.x != NO_RUN && pixel.is_on);
+        let px = select(NOWHERE, pack_pixel(vec2<i32>(pixel.px)), run.x != NO_RUN && pixel.is_on);
         textureStore(placed_tex, texel_of_record(RUN * id.x + step), vec4(px, around, segment.ids.zw));
     }
 }
@@ -57,7 +58,7 @@ fn cs_cull_layer(@builtin(global_invocation_id) id: vec3<u32>) {
     var steps = 0u;
     for (var step = 0u; step < RUN; step++) {
         let place = texel_at(place_tex, RUN * id.x + step);
-        let px = vec2<i32>(vec2(place.x & 0xffffu, place.x >> 16u));
+        let px = unpack_pixel(place.x);
         var is_seen = false;
         for (var i = 0u; i < 5u; i++) {
             let away = vec2<i32>(vec2(place.y >> (6u * i), place.y >> (6u * i + 3u)) & vec2(7u)) - 4;
