@@ -273,7 +273,7 @@ fn full(v: Full) -> GBuffer {
             let tangent = normalize(v.tangent.xyz - normal * dot(normal, v.tangent.xyz));
             let bitangent = cross(normal, tangent) * sign(v.tangent.w);
             let scale = material.normal_scale;
-            normal = normalize(mat3x3(tangent, bitangent, normal) * (bump * vec3(scale, scale, 1.0)));
+            normal = mat3x3(tangent, bitangent, normal) * (bump * vec3(scale, scale, 1.0));
         }
         normal = turned_to(face, normal);
     }
