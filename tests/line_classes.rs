@@ -305,3 +305,40 @@ fn a_wide_line_covers_what_lies_behind_it_and_nothing_before_it() {
         assert!(seen[0] > 5 && seen[3] > 5, "{seen:?}");
     }
 }
+
+/// The foot of a wall that runs away from the eye and dips into the ground by more pixels at its near end than at its far one.
+#[test]
+fn the_foot_of_what_dips_into_a_surface_is_of_one_class() {
+    let mut session = session();
+    let ground = DMat4::from_translation(DVec3::Y * -1.0) * DMat4::from_scale(DVec3::new(80.0, 2.0, 80.0));
+    for dip in [0.06, 0.07, 0.08] {
+        let wall = DMat4::from_translation(DVec3::new(0.0, 2.0 - dip, 0.0))
+            * DMat4::from_scale(DVec3::new(1.0, 4.0, 30.0));
+        let scene = scene(vec![("ground", cube(1.0), ground, [0.7; 3]), ("wall", cube(1.0), wall, [0.7; 3])]);
+        let seen = Camera {
+            position: DVec3::new(10.0, 8.0, 26.0),
+            focal_point: DVec3::new(0.0, 0.0, 4.0),
+            ..camera(&scene, DVec3::Z)
+        };
+        let opened = line_drawing(&scene, seen);
+        session.set_scene(&opened).unwrap();
+        let picture = session.draw(&opened, [SIDE; 2], true).unwrap();
+        let classes = edge_classes(&mut session, &picture);
+        let ends = [DVec3::new(0.5, 0.0, -13.0), DVec3::new(0.5, 0.0, 13.0)];
+        let ends = projected(&opened, [SIDE; 2], &ends);
+        let mut found = [0; EdgeClass::ALL.len()];
+        for step in 0..=100 {
+            let at = ends[0].lerp(ends[1], f64::from(step) / 100.0);
+            let near = (-2..=2).flat_map(|y| (-2..=2).map(move |x| [at.x as i64 + x, at.y as i64 + y]));
+            for [x, y] in near.filter(|px| px.iter().all(|v| (0..i64::from(SIDE)).contains(v))) {
+                if let Some((class, _)) = classes[(y * i64::from(SIDE) + x) as usize] {
+                    found[class as usize] += 1;
+                }
+            }
+        }
+        println!("dips by {dip}: {found:?}");
+        let all: usize = found.iter().sum();
+        assert!(all > 100, "{found:?}");
+        assert_eq!(found[EdgeClass::Intersection as usize], all, "dips by {dip}: {found:?}");
+    }
+}

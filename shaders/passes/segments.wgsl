@@ -59,6 +59,7 @@ fn point_at(v: Segment, number: u32, px: vec2<f32>) -> SegmentPoint {
     let left_is_outside = select(left.lead < right.lead, !left_is_own, left_is_own != (right.surfel.object == own));
     let behind = select(right.surfel.object, left.surfel.object, left_is_outside);
     let is_outside_covered = select(is_covered(right, own), is_covered(left, own), left_is_outside);
+    let meets_outside = select(meets(left, right, own), meets(right, left, own), left_is_outside);
     let step_behind = -select(right.lead, left.lead, left_is_outside);
 
     var class_of = (v.ids.x & 15u) + 1u;
@@ -75,6 +76,10 @@ fn point_at(v: Segment, number: u32, px: vec2<f32>) -> SegmentPoint {
         }
         // An outline beyond which another object is nearer lies inside that object: their intersection is seen there instead.
         if is_outside_covered {
+            return NO_POINT;
+        }
+        // What dips into another object, however little, ends where the two meet.
+        if meets_outside && edge_styles[style].lines[INTERSECTION - 1u].opacity > 0.0 {
             return NO_POINT;
         }
         if class_of == BORDER && sinks(tested, left, right, own, surface_ids) {

@@ -15,6 +15,8 @@ var surface_id_tex: texture_storage_2d<r32uint, read>;
 const SLACK: f32 = 0.4;
 // So far, in pixels, lies a surface of another object before a line whose ink it hides.
 const COVERS: f32 = 2.0;
+// So far before a line, in pixels, lies a surface of another object into which its own dips.
+const DIPS: f32 = 0.2;
 // So far before a border, in pixels, lies another surface of its object into which it sinks.
 const SINKS: f32 = 0.2;
 // How far beside the spine is looked, px: just far enough that the pixel lies wholly on that side.
@@ -33,7 +35,10 @@ fn texel_beside(spine: Spine, along: f32) -> vec2<i32> {
 
 // What a pixel near the spine shows.
 struct Beside {
+    px: vec2<i32>,
     surfel: Surfel,
+    // Of its surface.
+    plane: Plane,
     // How far its surface, continued to the spine, lies before it, px.
     lead: f32,
     // The same at least: by less the steeper it is, as it may bend on the way.
@@ -63,7 +68,7 @@ fn beside(spine: Spine, along: f32, surface_ids: vec2<u32>) -> Beside {
     }
     let leads = vec2(step_px(lead, spine.depth), step_px(lead - bend_of(plane), spine.depth));
     let there = select(leads, vec2(-1e9), s.object == 0u);
-    return Beside(s, there.x, there.y, carries && s.object != 0u);
+    return Beside(px, s, plane, there.x, there.y, carries && s.object != 0u);
 }
 
 // Whether one of these surfaces is seen on either side of a spine, or on it.
@@ -78,6 +83,13 @@ fn is_carried_beside(spine: Spine, surface_ids: vec2<u32>) -> bool {
 // Whether another object hides the ink of a line there.
 fn is_covered(there: Beside, own: u32) -> bool {
     return there.surfel.object != own && there.sure_lead > COVERS;
+}
+
+// Whether a line's object ends there because it meets another one, which lies before the line but behind the object's own surface
+// inside.
+fn meets(inside: Beside, outside: Beside, own: u32) -> bool {
+    return inside.surfel.object == own && outside.surfel.object != own && outside.sure_lead > DIPS
+        && nearness_at(outside.plane, vec2<f32>(inside.px - outside.px)) < inside.plane.center;
 }
 
 // Whether a border sinks into another surface of its object, seen on one side while its own is seen on the other: their
