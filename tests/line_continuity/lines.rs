@@ -3,7 +3,8 @@
 use glam::DVec2;
 use hachure::export::Session;
 use hachure::export::session::Opened;
-use hachure::geometry::EdgeClass;
+use hachure::geometry::visible_edges::VisibleEdges;
+use hachure::geometry::{EdgeClass, Projector};
 
 use crate::common::{captured, texels};
 
@@ -64,6 +65,33 @@ impl Lines {
         let side = side as usize;
         let point = |(i, texel)| Point::new(texel, DVec2::new((i % side) as f64, (i / side) as f64));
         let points = texels::<[u32; 4]>(session, &edge_map).into_iter().enumerate().map(point).collect();
+        Self { side, points }
+    }
+
+    /// As exact visible edges would be drawn: each pixel has the first class of its edges.
+    pub(crate) fn of_edges(edges: &VisibleEdges, projector: &Projector) -> Self {
+        let side = projector.size[0] as usize;
+        let mut points: Vec<Option<Point>> = vec![None; side * side];
+        for segment in &edges.segments {
+            let [start, end] = segment.ends;
+            let Some(tangent) = (end - start).try_normalize() else { continue };
+            let views = segment.places.map(|place| projector.view_from_world.transform_point3(place));
+            let steps = (2.0 * start.distance(end)).ceil() as usize;
+            for step in 0..=steps {
+                let along = step as f64 / steps as f64;
+                let at = start.lerp(end, along);
+                let is_inside = at.min_element() >= 0.0 && at.max_element() < side as f64;
+                if !is_inside {
+                    continue;
+                }
+                let view = views[0].lerp(views[1], projector.along_segment(views, along));
+                let point = Point { class: segment.class, at, tangent, depth: -view.z, weight: 1.0 };
+                let pixel = &mut points[at.y as usize * side + at.x as usize];
+                if pixel.is_none_or(|other| point.class < other.class) {
+                    *pixel = Some(point);
+                }
+            }
+        }
         Self { side, points }
     }
 

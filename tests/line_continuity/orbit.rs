@@ -72,9 +72,11 @@ impl Changes {
         }
     }
 
-    /// The share of a number of points, in percent.
-    pub(crate) fn percent(&self, of: usize) -> f64 {
-        100.0 * of as f64 / self.points.max(1) as f64
+    /// In percent of the points: those that change their class, those of them that had no line of the other class near them, and
+    /// inner ones whose ink changes.
+    pub(crate) fn percents(&self) -> [f64; 3] {
+        [self.classes, self.classes - self.merges, self.strengths]
+            .map(|count| 100.0 * count as f64 / self.points.max(1) as f64)
     }
 }
 
