@@ -1,6 +1,8 @@
 //! How lines change while the camera goes round the model in small steps: each point of a line is taken to where it lies in the
 //! next picture.
 
+use std::fmt;
+
 use glam::DVec2;
 use hachure::geometry::visible_edges::VisibleEdges;
 use hachure::geometry::{EdgeClass, Projector};
@@ -72,11 +74,28 @@ impl Changes {
         }
     }
 
-    /// In percent of the points: those that change their class, those of them that had no line of the other class near them, and
-    /// inner ones whose ink changes.
-    pub(crate) fn percents(&self) -> [f64; 3] {
-        [self.classes, self.classes - self.merges, self.strengths]
-            .map(|count| 100.0 * count as f64 / self.points.max(1) as f64)
+    pub(crate) fn shares(&self) -> Shares {
+        let percent = |count| 100.0 * count as f64 / self.points.max(1) as f64;
+        Shares {
+            classes: percent(self.classes),
+            unmerged: percent(self.classes - self.merges),
+            strengths: percent(self.strengths),
+        }
+    }
+}
+
+/// [`Changes`] in percent of the points.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Shares {
+    pub(crate) classes: f64,
+    /// Changes of class that are no merges.
+    pub(crate) unmerged: f64,
+    pub(crate) strengths: f64,
+}
+
+impl fmt::Display for Shares {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:6.3}  {:6.3}  {:6.3}", self.classes, self.unmerged, self.strengths)
     }
 }
 
