@@ -9,10 +9,9 @@
 //
 // 1. `cs_links` finds for each pixel of a line the next one in both directions, and which classes run there.
 // 2. `cs_sift` follows these links, and lists the few pixels about which there is something to decide.
-// 3. `cs_settle` decides about classes, `cs_leave_out` about what is too short.
+// 3. `cs_settle` decides about classes.
 // 4. `cs_replace` finds what the pixels become that change, and `cs_change` writes it: until then lines are as they were.
-//
-// Links, classes and changes take a second round: only then is it known what is too short.
+// 5. `cs_find_short` lists what is too short, and `cs_leave_out` leaves it out.
 #import common/frame.wgsl
 #import common/edge_map.wgsl
 #import common/line_width.wgsl
@@ -25,12 +24,10 @@
 override WITH_CLASSES: bool = true;
 override WITH_DOTS: bool = true;
 override WITH_PIECES: bool = true;
-// Whether this is the last round of deciding: lines are as they will be.
-override LAST_ROUND: bool = true;
 
 // See `pack_link`.
 var linking_tex: texture_storage_2d<r32uint, write>;
-// The class that each pixel is to have, if all changes are made; `NO_EDGE`: it is left out. Undefined where no line is.
+// The class that each pixel is to have, if all changes are made. Undefined where no line is.
 var settling_tex: texture_storage_2d<r32uint, write>;
 // Afterwards the same.
 var settled_tex: texture_storage_2d<r32uint, read>;
@@ -194,40 +191,16 @@ fn cs_settle(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     let px = unpack_pixel(listed_pixels[id.x]);
     let own = point_at(px);
-    if own.class_of == NO_EDGE {
-        // It made way the first time.
-        return;
-    }
     let links = textureLoad(link_tex, px).x;
     let ahead = followed(px, links, 0u);
     let behind = followed(px, links, 1u);
     let class_of = settled(px, own.class_of, links, ahead, behind);
     textureStore(settling_tex, px, vec4(class_of));
-    if class_of != own.class_of || (!LAST_ROUND && classes_in(links) != bit_of(own.class_of)) {
+    if class_of != own.class_of || classes_in(links) != bit_of(own.class_of) {
         keep(px);
     }
-    if LAST_ROUND && may_be_short(own, ahead, behind) {
+    if may_be_short(own, ahead, behind) {
         keep_short(px);
-    }
-}
-
-@compute @workgroup_size(GROUP)
-fn cs_leave_out(@builtin(global_invocation_id) id: vec3<u32>) {
-    if id.x >= list.count {
-        return;
-    }
-    let px = unpack_pixel(listed_pixels[id.x]);
-    let own = point_at(px);
-    if own.class_of == NO_EDGE {
-        return;
-    }
-    let links = textureLoad(link_tex, px).x;
-    let ahead = follow(px, links, 0u, stretch_length());
-    let behind = follow(px, links, 1u, stretch_length());
-    if (WITH_DOTS && is_dot(px, own.texel.y, ahead, behind))
-        || (WITH_PIECES && is_piece(ahead, behind) && is_beside_longer(px, own, own_length(ahead, behind))) {
-        textureStore(settling_tex, px, vec4(NO_EDGE));
-        keep(px);
     }
 }
 
@@ -260,7 +233,7 @@ fn replaced(px: vec2<i32>, own: Point, links: u32, class_of: u32) -> Change {
 }
 
 // Where two lines become one: that which is of this class stays, and has ink up to the spine of the other one unless it is a
-// hairline: several of them are an even gray. The other one makes way unless the first changes too.
+// hairline: several of them are an even gray. The other one makes way, or takes on the class if the first gives it up.
 fn beside_another(px: vec2<i32>, own: Point, class_of: u32) -> Change {
     let stays = class_of == own.class_of;
     let others = ALL_CLASSES & ~bit_of(class_of);
@@ -270,7 +243,7 @@ fn beside_another(px: vec2<i32>, own: Point, class_of: u32) -> Change {
         return Change(vec4(0u), 0u);
     }
     let other = point_at(beside);
-    let half = half_width_of(own.texel);
+    let half = half_width_of(select(other.texel, own.texel, vec4(stays)));
     let towards = unpack_tangent(u32(own.tangent));
     let left = vec2(towards.y, -towards.x);
     let away = dot(other.at - own.at, left);
@@ -278,7 +251,7 @@ fn beside_another(px: vec2<i32>, own: Point, class_of: u32) -> Change {
     let more = select(0.0, 0.5 * wide * max(abs(away) - half, 0.0), stays && agrees);
     let offset = pack_offset(offset_of(own.texel) + sign(away) * more * left);
     let width = pack2x16float(vec2(half + more, 0.0)) | (own.texel.w & ~0x7fffu);
-    let edge = vec4((own.texel.x & 0xffff0000u) | offset, own.texel.yz, width);
+    let edge = vec4((class_of << 28u) | (own.texel.x & 0x0fff0000u) | offset, own.texel.yz, width);
     return Change(edge, spine_of_line(edge));
 }
 
@@ -291,9 +264,7 @@ fn cs_replace(@builtin(global_invocation_id) id: vec3<u32>) {
     let own = point_at(px);
     let links = textureLoad(link_tex, px).x;
     let class_of = textureLoad(settled_tex, px).x;
-    if class_of == NO_EDGE {
-        changes[id.x] = Change(vec4(0u), 0u);
-    } else if (classes_in(links) & bit_of(class_of)) != 0u {
+    if (classes_in(links) & bit_of(class_of)) != 0u {
         changes[id.x] = beside_another(px, own, class_of);
     } else {
         changes[id.x] = replaced(px, own, links, class_of);
@@ -306,6 +277,40 @@ fn cs_change(@builtin(global_invocation_id) id: vec3<u32>) {
         return;
     }
     let px = unpack_pixel(listed_pixels[id.x]);
-    textureStore(edge_tex, px, changes[id.x].edge);
-    textureStore(changed_spine_tex, px, vec4(changes[id.x].spine, 0u, 0u, 0u));
+    let change = changes[id.x];
+    textureStore(edge_tex, px, change.edge);
+    textureStore(changed_spine_tex, px, vec4(change.spine, 0u, 0u, 0u));
+    if class_of(change.edge) == NO_EDGE {
+        textureStore(linking_tex, px, vec4(NO_LINKS));
+    }
+}
+
+@compute @workgroup_size(GROUP)
+fn cs_find_short(@builtin(global_invocation_id) id: vec3<u32>) {
+    if id.x >= list.count {
+        return;
+    }
+    let px = unpack_pixel(listed_pixels[id.x]);
+    let own = point_at(px);
+    if own.class_of == NO_EDGE {
+        // It made way.
+        return;
+    }
+    let links = textureLoad(link_tex, px).x;
+    let ahead = follow(px, links, 0u, stretch_length());
+    let behind = follow(px, links, 1u, stretch_length());
+    if (WITH_DOTS && is_dot(px, own.texel.y, ahead, behind))
+        || (WITH_PIECES && is_piece(ahead, behind) && is_beside_longer(px, own, own_length(ahead, behind))) {
+        keep(px);
+    }
+}
+
+@compute @workgroup_size(GROUP)
+fn cs_leave_out(@builtin(global_invocation_id) id: vec3<u32>) {
+    if id.x >= list.count {
+        return;
+    }
+    let px = unpack_pixel(listed_pixels[id.x]);
+    textureStore(edge_tex, px, vec4(0u));
+    textureStore(changed_spine_tex, px, vec4(0u));
 }

@@ -225,9 +225,9 @@ fn settled(px: vec2<i32>, own: u32, links: u32, ahead: Stretch, behind: Stretch)
     let ends = vec2(ahead.end, behind.end);
     // Those that have a stretch here.
     var running = 0u;
-    // The nearest other class on either side.
-    var nearest = vec2<i32>(ENDLESS);
-    var beside = vec2<u32>(NO_EDGE);
+    // That which most of the line has here.
+    var most = 0;
+    var usual = own;
     for (var left = ahead.classes | behind.classes; left != 0u && (WIDER_FIRST || running == 0u); left &= left - 1u) {
         let class_of = countTrailingZeros(left) + 1u;
         let steps = steps_of(ahead, behind, class_of);
@@ -239,15 +239,12 @@ fn settled(px: vec2<i32>, own: u32, links: u32, ahead: Stretch, behind: Stretch)
                 running |= bit_of(class_of);
             }
         }
-        if class_of != own {
-            beside = select(beside, vec2(class_of), first < nearest);
-            nearest = min(nearest, first);
-        }
+        let count = count_up_to(steps, min(vec2(longest), ends));
+        usual = select(usual, class_of, count > most);
+        most = max(most, count);
     }
-    if running != 0u {
-        return widest_of(running, px, links, ahead, behind);
+    if running == 0u {
+        return usual;
     }
-    // No class has a stretch here: the line is as beside it.
-    let is_between = all(beside != vec2(NO_EDGE)) && all(nearest <= vec2(longest));
-    return select(own, min(beside.x, beside.y), is_between);
+    return widest_of(running, px, links, ahead, behind);
 }

@@ -1,7 +1,7 @@
 //! Lines followed over stretches, which decides their class and leaves out dots: see `shaders/passes/line_classes.wgsl`.
 //!
 //! ```text
-//! pixels of lines ─► links ─► sift ─► settle, leave out ─► replace ─► change ─► edge map, spines
+//! pixels of lines ─► links ─► sift ─► settle ─► replace ─► change ─► find short ─► leave out ─► edge map, spines
 //! ```
 
 use super::edge_map::EdgeMap;
@@ -63,8 +63,7 @@ impl LineClasses {
         let area = u64::from(width) * u64::from(height);
         self.meeting.reserve(rec.gpu, area * 4)?;
         self.short.reserve(rec.gpu, area * 4)?;
-        // Each pixel may change its class or be too short.
-        self.changing.reserve(rec.gpu, area * 8)?;
+        self.changing.reserve(rec.gpu, area * 4)?;
         self.changes.reserve(rec.gpu, area.div_ceil(CHANGED) * CHANGE_BYTES)?;
         let links = rec.target("links of lines", LINKS)?;
         let settled = rec.target("settled classes", CLASSES)?;
@@ -96,26 +95,26 @@ impl LineClasses {
         self.meeting.empty(rec);
         self.short.empty(rec);
         rec.compute("links of lines", &program("cs_links"), &sifting, lines.count())?;
-        rec.compute("sift lines", &decisions.program("cs_sift", true), &sifting, lines.count())?;
-        self.changing.empty(rec);
+        rec.compute("sift lines", &decisions.program("cs_sift"), &sifting, lines.count())?;
+        let changing = inputs! {
+            list: self.changing.count(),
+            listed_pixels: self.changing.buffer(),
+            changes: self.changes.buffer(),
+        };
+        let changing = changing.and(&all);
         if decisions.classes {
-            self.decide(rec, &decisions.program("cs_settle", false), &all, &self.meeting)?;
-            self.change(rec, &all)?;
-            // Neighbors that decided differently, at the ends of stretches, agree the second time.
-            for listed in [&self.meeting, &self.short] {
-                let inputs = inputs! { list: listed.count(), listed_pixels: listed.buffer() };
-                rec.compute("links of lines", &program("cs_links"), &inputs.and(&all), listed.count())?;
-            }
-            self.changing.empty(rec);
-            self.decide(rec, &decisions.program("cs_settle", true), &all, &self.meeting)?;
+            self.decide(rec, &decisions.program("cs_settle"), &all, &self.meeting)?;
+            rec.compute("change classes", &program("cs_replace"), &changing, self.changing.count())?;
+            rec.compute("change classes", &program("cs_change"), &changing, self.changing.count())?;
         }
         if decisions.dots {
-            self.decide(rec, &decisions.program("cs_leave_out", true), &all, &self.short)?;
+            self.decide(rec, &decisions.program("cs_find_short"), &all, &self.short)?;
+            rec.compute("leave out lines", &program("cs_leave_out"), &changing, self.changing.count())?;
         }
-        self.change(rec, &all)
+        Ok(())
     }
 
-    /// Adds those of the listed pixels that are to change.
+    /// Lists those of the listed pixels that are to change.
     fn decide(
         &self,
         rec: &mut Recorder<'_>,
@@ -123,6 +122,7 @@ impl LineClasses {
         inputs: &Inputs<'_>,
         listed: &RecordList,
     ) -> Result<(), RenderError> {
+        self.changing.empty(rec);
         let lists = inputs! {
             list: listed.count(),
             listed_pixels: listed.buffer(),
@@ -132,19 +132,6 @@ impl LineClasses {
             short_pixels: self.short.buffer(),
         };
         rec.compute("classes of lines", program, &lists.and(inputs), listed.count())?;
-        Ok(())
-    }
-
-    /// Gives the pixels that change what they are to be.
-    fn change(&self, rec: &mut Recorder<'_>, inputs: &Inputs<'_>) -> Result<(), RenderError> {
-        let lists = inputs! {
-            list: self.changing.count(),
-            listed_pixels: self.changing.buffer(),
-            changes: self.changes.buffer(),
-        };
-        let all = lists.and(inputs);
-        rec.compute("change classes", &program("cs_replace"), &all, self.changing.count())?;
-        rec.compute("change classes", &program("cs_change"), &all, self.changing.count())?;
         Ok(())
     }
 }
@@ -180,13 +167,12 @@ impl Decisions {
         self.classes || self.dots
     }
 
-    fn program(self, entry_point: &'static str, is_last: bool) -> Program {
+    fn program(self, entry_point: &'static str) -> Program {
         let switches = vec![
             ("WITH_CLASSES", self.classes),
             ("WIDER_FIRST", self.wider_first),
             ("WITH_DOTS", self.dots),
             ("WITH_PIECES", self.pieces),
-            ("LAST_ROUND", is_last),
         ];
         Program { switches, ..program(entry_point) }
     }
