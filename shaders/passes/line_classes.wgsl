@@ -210,10 +210,18 @@ fn spine_of_line(edge: vec4<u32>) -> u32 {
     return spine_of(edge, halves_of(edge.y, class_of), rank, 1.0 - range_share(bitcast<f32>(edge.z)));
 }
 
-// The line of a pixel with another class, between the pixels that have it.
+// Whether a line that was found stays of this class.
+fn stays(found: Nearest, class_of: u32) -> bool {
+    return found.distance < FAR && textureLoad(settled_tex, found.px).x == class_of;
+}
+
+// The line of a pixel with another class, between the pixels that have it; as it was if they change too.
 fn replaced(px: vec2<i32>, own: Point, links: u32, class_of: u32) -> Change {
     let ahead = nearest_of(class_of, px, links, 0u);
     let behind = nearest_of(class_of, px, links, 1u);
+    if !stays(ahead, class_of) && !stays(behind, class_of) {
+        return Change(own.texel, spine_of_line(own.texel));
+    }
     var share = ahead.distance / (ahead.distance + behind.distance);
     share = select(share, 1.0, ahead.distance >= FAR);
     share = select(share, 0.0, behind.distance >= FAR);
@@ -233,25 +241,25 @@ fn replaced(px: vec2<i32>, own: Point, links: u32, class_of: u32) -> Change {
 }
 
 // Where two lines become one: that which is of this class stays, and has ink up to the spine of the other one unless it is a
-// hairline: several of them are an even gray. The other one makes way, or takes on the class if the first gives it up.
+// hairline: several of them are an even gray. The other one makes way unless the first changes too.
 fn beside_another(px: vec2<i32>, own: Point, class_of: u32) -> Change {
-    let stays = class_of == own.class_of;
+    let is_own = class_of == own.class_of;
     let others = ALL_CLASSES & ~bit_of(class_of);
-    let beside = nearest_beside(px, own, select(bit_of(class_of), others, stays), -1.0, select(FAR, MERGING, stays));
+    let beside = nearest_beside(px, own, select(bit_of(class_of), others, is_own), -1.0, select(FAR, MERGING, is_own));
     let agrees = textureLoad(settled_tex, beside).x == class_of;
-    if !stays && agrees {
+    if !is_own && agrees {
         return Change(vec4(0u), 0u);
     }
     let other = point_at(beside);
-    let half = half_width_of(select(other.texel, own.texel, vec4(stays)));
+    let half = half_width_of(own.texel);
     let towards = unpack_tangent(u32(own.tangent));
     let left = vec2(towards.y, -towards.x);
     let away = dot(other.at - own.at, left);
     let wide = smoothstep(HAIRLINE, 1.5 * HAIRLINE, half);
-    let more = select(0.0, 0.5 * wide * max(abs(away) - half, 0.0), stays && agrees);
+    let more = select(0.0, 0.5 * wide * max(abs(away) - half, 0.0), is_own && agrees);
     let offset = pack_offset(offset_of(own.texel) + sign(away) * more * left);
     let width = pack2x16float(vec2(half + more, 0.0)) | (own.texel.w & ~0x7fffu);
-    let edge = vec4((class_of << 28u) | (own.texel.x & 0x0fff0000u) | offset, own.texel.yz, width);
+    let edge = vec4((own.texel.x & 0xffff0000u) | offset, own.texel.yz, width);
     return Change(edge, spine_of_line(edge));
 }
 

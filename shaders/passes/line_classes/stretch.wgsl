@@ -162,6 +162,7 @@ fn first_of(steps: vec2<u32>) -> vec2<i32> {
 
 // Where a class runs nearest along a line, in one direction.
 struct Nearest {
+    px: vec2<i32>,
     // Of the edge map.
     texel: vec4<u32>,
     // From the line to the left of it there, px.
@@ -182,15 +183,16 @@ fn nearest_of(class_of: u32, px: vec2<i32>, links: u32, first_side: u32) -> Near
     let line = point_at(walk.px);
     let towards = unpack_tangent(u32(line.tangent));
     let left = vec2(towards.y, -towards.x) * select(-1.0, 1.0, walk.side == first_side);
-    var nearest = Nearest(line.texel, 0.0, distance);
+    var nearest = Nearest(walk.px, line.texel, 0.0, distance);
     var min_distance = 1e9;
     for (var places = lines_around(walk.px); places != 0u; places &= places - 1u) {
-        let point = point_at(walk.px + away_of(countTrailingZeros(places)));
+        let other = walk.px + away_of(countTrailingZeros(places));
+        let point = point_at(other);
         let seen = seen_from(line, towards, point);
         let from_line = abs(seen.x) + seen.y;
         if point.class_of == class_of && seen.y < MERGING && abs(seen.x) <= ABREAST && from_line < min_distance {
             min_distance = from_line;
-            nearest = Nearest(point.texel, dot(point.at - line.at, left), distance);
+            nearest = Nearest(other, point.texel, dot(point.at - line.at, left), distance);
         }
     }
     return nearest;
