@@ -342,3 +342,48 @@ fn the_foot_of_what_dips_into_a_surface_is_of_one_class() {
         assert_eq!(found[EdgeClass::Intersection as usize], all, "dips by {dip}: {found:?}");
     }
 }
+
+/// A board's upper edge, the line in which a tilted strip comes out of its front, and the outline of that strip below.
+#[test]
+fn of_three_lines_side_by_side_both_outer_ones_are_whole() {
+    let mut session = session();
+    for height in [0.1, 0.105, 0.11] {
+        let front = DMat4::from_translation(DVec3::Z * 0.5);
+        let board = DMat4::from_scale(DVec3::new(6.0, height, 1.0));
+        let strip = front
+            * DMat4::from_rotation_x(-0.4)
+            * DMat4::from_translation(DVec3::Z * -0.01)
+            * DMat4::from_scale(DVec3::new(6.2, height, 0.02));
+        let scene = scene(vec![("board", cube(1.0), board, [0.7; 3]), ("strip", cube(1.0), strip, [0.7; 3])]);
+        let mut opened = line_drawing(&scene, camera(&scene, DVec3::new(0.3, 0.35, 1.0)));
+        session.set_scene(&opened).unwrap();
+        only(
+            &mut opened,
+            &[EdgeClass::Silhouette, EdgeClass::Object, EdgeClass::Ridge, EdgeClass::Intersection],
+        );
+        set_width(&mut opened, 2.0, SIDE);
+        set(&mut opened, "edges.ridge.width", &format!("{}", 1080.0 / f64::from(SIDE)));
+        let picture = session.draw(&opened, [SIDE; 2], true).unwrap();
+        let classes = edge_classes(&mut session, &picture);
+        let half = DVec3::new(2.8, height / 2.0, 0.5);
+        let ends = projected(&opened, [SIDE; 2], &[half * DVec3::new(-1.0, 1.0, 1.0), half]);
+        let steps = ends[0].distance(ends[1]) as u32 * 2;
+        // Places without the ridge, and without the outline.
+        let mut missing = [0; 2];
+        let mut intersections = 0;
+        for step in 0..=steps {
+            let at = ends[0].lerp(ends[1], f64::from(step) / f64::from(steps));
+            let near = |above: i64, below: i64| {
+                let rows =
+                    (-above..=below).flat_map(|y| (-1..=1).map(move |x| [at.x as i64 + x, at.y as i64 + y]));
+                rows.filter_map(|[x, y]| classes[(y * i64::from(SIDE) + x) as usize]).map(|(class, _)| class)
+            };
+            missing[0] += u32::from(near(1, 1).all(|class| class != EdgeClass::Ridge));
+            missing[1] += u32::from(near(0, 5).all(|class| class != EdgeClass::Silhouette));
+            intersections += near(1, 1).filter(|class| *class == EdgeClass::Intersection).count();
+        }
+        println!("{height}: {missing:?} of {steps} missing, {intersections} px of intersections");
+        assert!(intersections > 100, "{height}: nothing runs between");
+        assert_eq!(missing, [0; 2], "{height}");
+    }
+}
