@@ -11,7 +11,7 @@
 // 2. `cs_sift` follows these links, and lists the few pixels about which there is something to decide.
 // 3. `cs_settle` decides about classes.
 // 4. `cs_replace` finds what the pixels become that change, and `cs_change` writes it: until then lines are as they were.
-// 5. `cs_find_short` lists what is too short, and `cs_leave_out` leaves it out.
+// 5. `cs_find_short` lists what is too short, once links no longer lead to what made way, and `cs_leave_out` leaves it out.
 #import common/frame.wgsl
 #import common/edge_map.wgsl
 #import common/line_width.wgsl
@@ -288,9 +288,6 @@ fn cs_change(@builtin(global_invocation_id) id: vec3<u32>) {
     let change = changes[id.x];
     textureStore(edge_tex, px, change.edge);
     textureStore(changed_spine_tex, px, vec4(change.spine, 0u, 0u, 0u));
-    if class_of(change.edge) == NO_EDGE {
-        textureStore(linking_tex, px, vec4(NO_LINKS));
-    }
 }
 
 @compute @workgroup_size(GROUP)

@@ -99,8 +99,6 @@ struct PixelLink {
 // here.
 const LINK_BITS: u32 = 10u;
 const CLASS_BITS: u32 = 11u;
-// Where a line made way: those of others end there.
-const NO_LINKS: u32 = (OWN | (OWN << LINK_BITS)) << CLASS_BITS;
 
 fn pack_link(link: PixelLink) -> u32 {
     return link.place | (select(0u, 1u, link.is_turned) << 5u) | (u32(round(6.0 * link.distance)) << 6u);

@@ -108,6 +108,11 @@ impl LineClasses {
             rec.compute("change classes", &program("cs_change"), &changing, self.changing.count())?;
         }
         if decisions.dots {
+            if decisions.classes {
+                // What these were linked to may have made way.
+                let short = inputs! { list: self.short.count(), listed_pixels: self.short.buffer() };
+                rec.compute("links of lines", &program("cs_links"), &short.and(&all), self.short.count())?;
+            }
             self.decide(rec, &decisions.program("cs_find_short"), &all, &self.short)?;
             rec.compute("leave out lines", &program("cs_leave_out"), &changing, self.changing.count())?;
         }
